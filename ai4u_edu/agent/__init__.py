@@ -1,0 +1,7 @@
+"""The agent: a body, its blocks, its brain, its events and its rewards."""
+
+from ai4u_edu.agent.agent import BasicAgent
+from ai4u_edu.agent.events import EVENTS, Event
+from ai4u_edu.agent.ledger import Ledger
+
+__all__ = ["EVENTS", "BasicAgent", "Event", "Ledger"]

@@ -1,0 +1,58 @@
+"""The moments of an agent's life that others can listen to."""
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from ai4u_edu.agent.agent import BasicAgent
+
+Handler = Callable[["BasicAgent"], None]
+
+EVENTS = (
+    "agent_start",
+    "before_the_reset",
+    "begin_of_episode",
+    "begin_of_update_state",
+    "end_of_update_state",
+    "begin_of_step",
+    "begin_of_apply_action",
+    "end_of_apply_action",
+    "end_of_step",
+    "end_of_episode",
+)
+"""All events, by the names that AI4U's guide gives them (``agent_start`` came later)."""
+
+
+class Event:
+    """One moment; its handlers are called with the agent, in the order in which they came.
+
+    >>> event = Event("end_of_step")
+    >>> @event.connect
+    ... def told(agent):
+    ...     print("a step ended")
+    >>> event.fire(None)
+    a step ended
+    >>> event.disconnect(told)
+    """
+
+    def __init__(self, name: str) -> None:
+        self.name = name
+        self.handlers: list[Handler] = []
+        """Empty for most events: whoever fires looks here first, so that silence costs nothing."""
+
+    def connect(self, handler: Handler) -> Handler:
+        """Calls the handler at this moment from now on; also a decorator."""
+        self.handlers.append(handler)
+        return handler
+
+    def disconnect(self, handler: Handler) -> None:
+        """Stops calling the handler."""
+        self.handlers.remove(handler)
+
+    def fire(self, agent: "BasicAgent") -> None:
+        """Calls all handlers."""
+        for handler in tuple(self.handlers):
+            handler(agent)
+
+    def __repr__(self) -> str:
+        return f"<Event {self.name}, {len(self.handlers)} handlers>"

@@ -1,0 +1,116 @@
+"""What every actuator has: a name, a space, and the way from numbers to an effect."""
+
+import math
+from collections.abc import Sequence
+from typing import Any, ClassVar
+
+import numpy as np
+from gymnasium import spaces
+
+from ai4u_edu.blocks.block import Block, default_name
+from ai4u_edu.errors import ActionError, BlockError
+from ai4u_edu.world import Body
+
+
+class Actuator(Block):
+    """The base of all actuators: fill :meth:`space` and :meth:`act`.
+
+    >>> from gymnasium.spaces import Box
+    >>> class Thruster(Actuator):
+    ...     '''Pushes forward with some force.'''
+    ...     newtons: float = 10.0
+    ...     def space(self): return Box(0.0, 1.0, (1,))
+    ...     def act(self, body, action): body.apply_force(action[0] * self.newtons, 0.0)
+    >>> from ai4u_edu import BasicAgent, CircleShape, ControlRequestor, LocalBrain, World
+    >>> world = World()
+    >>> robot = world.add_body("robot", CircleShape(radius=0.5))
+    >>> agent = BasicAgent(
+    ...     body="robot",
+    ...     actuators=[Thruster(newtons=20)],
+    ...     brains=[LocalBrain(controller=lambda percept: {"thruster": [1.0]})],
+    ... )
+    >>> sim = ControlRequestor(world, [agent])
+    >>> sim.reset()
+    >>> percept = sim.step()
+    >>> robot.velocity[0] > 0
+    True
+    """
+
+    action_name: str = ""
+    """The action's name; left out: from the class's name."""
+    is_active: bool = True
+    is_output: bool = True
+    """Whether a policy has to give it an action."""
+
+    is_continuous: ClassVar[bool] = True
+
+    def __post_init__(self) -> None:
+        self.action_name = self.action_name or default_name(type(self), "Actuator")
+
+    def space(self) -> spaces.Space[Any]:
+        """A Box of shape (n,), or a Discrete space: what an action of this actuator may be."""
+        raise BlockError(f"{self!r} has no space(): it must say what action it takes, as a Box")
+
+    def act(self, body: Body, action: tuple[float, ...]) -> None:
+        """Carries an action out, for one tick.
+
+        Args:
+            body: the agent's body.
+            action: n finite numbers within :meth:`space`.
+        """
+        raise BlockError(f"{self!r} has no act(self, body, action)")
+
+    def limits(self) -> tuple[list[float], list[float]]:
+        """Lowest and highest value of each number of an action."""
+        space = self.space()
+        if isinstance(space, spaces.Box):
+            return space.low.ravel().tolist(), space.high.ravel().tolist()
+        if isinstance(space, spaces.Discrete):
+            start = float(space.start)
+            return [start], [start + float(space.n) - 1.0]
+        raise BlockError(f"{self!r}: expected space() to be a Box or Discrete, got {space}")
+
+    def prepare(self) -> None:
+        """Works the limits out once, at setup."""
+        low, high = self.limits()
+        self._limits = list(zip(low, high, strict=True))
+        self.clipped = 0
+        """How many numbers were outside their range, and cut, so far."""
+
+    def accept(self, values: Any) -> tuple[float, ...]:
+        """Checks the numbers of an action; what is out of range is cut and counted.
+
+        Raises:
+            ActionError: not n finite numbers.
+        """
+        numbers = self._numbers(values)
+        if len(numbers) != len(self._limits):
+            raise ActionError(
+                f"action {self.action_name!r}: expected {len(self._limits)} numbers, "
+                f"got {len(numbers)}: {values!r}"
+            )
+        if not math.isfinite(sum(numbers)):
+            raise ActionError(
+                f"action {self.action_name!r}: expected finite numbers, got {values!r}"
+            )
+        cut = tuple(
+            low if number < low else high if number > high else number
+            for number, (low, high) in zip(numbers, self._limits, strict=True)
+        )
+        if cut != numbers:
+            self.clipped += sum(a != b for a, b in zip(cut, numbers, strict=True))
+        return cut
+
+    def _numbers(self, values: Any) -> tuple[float, ...]:
+        try:
+            if isinstance(values, np.ndarray | np.generic):
+                values = values.tolist()
+            if isinstance(values, int | float):
+                return (float(values),)
+            if isinstance(values, Sequence) and not isinstance(values, str | bytes):
+                return tuple(map(float, values))
+        except (TypeError, ValueError):
+            pass
+        raise ActionError(
+            f"action {self.action_name!r}: expected {len(self._limits)} numbers, got {values!r}"
+        )

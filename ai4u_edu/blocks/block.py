@@ -1,0 +1,34 @@
+"""What every block has: declared parameters, a name, a setup and a reset."""
+
+import re
+from typing import Any, ClassVar
+
+from ai4u_edu.blocks.agent_view import AgentView
+from ai4u_edu.blocks.declared import Declared
+from ai4u_edu.world import WorldView
+
+
+class Block(Declared):
+    """The base of sensors, actuators, reward functions, brains and controllers."""
+
+    types: ClassVar[dict[str, type["Block"]]] = {}
+    """Every kind of block there is, by the name of its class; scene files name them so."""
+
+    def __init_subclass__(cls, **options: Any) -> None:
+        super().__init_subclass__(**options)
+        Block.types[cls.__name__] = cls
+
+    def on_setup(self, agent: AgentView, view: WorldView) -> None:
+        """Called once, when the agent is set up: check targets here, prepare what is costly."""
+
+    def on_reset(self, agent: AgentView, view: WorldView) -> None:
+        """Called at every reset, before the first reading of the episode."""
+
+
+def default_name(cls: type[Block], *endings: str) -> str:
+    """A name from a class: ``RayCastingSensor`` -> ``ray_casting``."""
+    name = cls.__name__
+    for ending in endings:
+        if name != ending:
+            name = name.removesuffix(ending)
+    return re.sub(r"(?<=[a-z0-9])(?=[A-Z])|(?<=[A-Z])(?=[A-Z][a-z])", "_", name).lower()

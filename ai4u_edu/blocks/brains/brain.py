@@ -1,0 +1,32 @@
+"""What every brain has: how often it decides, and the one door to acting."""
+
+from typing import Annotated
+
+from pydantic import Field
+
+from ai4u_edu.blocks.block import Block
+from ai4u_edu.blocks.brains.command import Answer
+from ai4u_edu.blocks.percept import Percept
+from ai4u_edu.errors import BlockError
+
+
+class Brain(Block):
+    """The base of all brains. An agent has exactly one that is enabled."""
+
+    enabled: bool = True
+    skip_frame: Annotated[int, Field(ge=0, le=10_000)] = 4
+    """Ticks skipped between two decisions: it decides every ``skip_frame + 1`` ticks."""
+    repeat_action: bool = True
+    """Whether the action is applied on every tick until the next decision, or on the first only."""
+
+    def decide(self, percept: Percept) -> Answer:
+        """An action by the actuator's name, or a command.
+
+        Args:
+            percept: what the agent senses now; all that a brain ever sees.
+        """
+        raise BlockError(f"{self!r} has no decide(self, percept): it must return an action")
+
+    def title(self) -> str:
+        """What a person calls it."""
+        return type(self).__name__

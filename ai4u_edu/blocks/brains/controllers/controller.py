@@ -1,0 +1,29 @@
+"""What a LocalBrain asks for an action."""
+
+from ai4u_edu.blocks.block import Block
+from ai4u_edu.blocks.brains.command import Answer
+from ai4u_edu.blocks.percept import Percept
+from ai4u_edu.errors import BlockError
+
+
+class Controller(Block):
+    """The base of all controllers: fill :meth:`get_action`. Source: AI4U's Controller.
+
+    >>> class Forward(Controller):
+    ...     '''Always drives ahead.'''
+    ...     speed: float = 1.0
+    ...     def get_action(self, percept): return {"move": [self.speed, 0, 0, 0]}
+    >>> Forward(speed=0.5).get_action({})
+    {'move': [0.5, 0, 0, 0]}
+    """
+
+    def get_action(self, percept: Percept) -> Answer:
+        """An action by the actuator's name, or a command.
+
+        Args:
+            percept: what the agent senses now.
+        """
+        raise BlockError(f"{self!r} has no get_action(self, percept): it must return an action")
+
+    def new_state_event(self, percept: Percept) -> None:
+        """Called with each new percept, before :meth:`get_action`."""

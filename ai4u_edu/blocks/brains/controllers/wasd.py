@@ -1,0 +1,62 @@
+"""Drive with W, A, S, D."""
+
+from typing import Annotated
+
+from pydantic import Field
+
+from ai4u_edu.blocks.agent_view import AgentView
+from ai4u_edu.blocks.brains.command import Answer, Command
+from ai4u_edu.blocks.brains.controllers.controller import Controller
+from ai4u_edu.blocks.percept import Percept
+from ai4u_edu.parameters import quantity
+from ai4u_edu.world import WorldView
+
+Keys = Annotated[list[str], Field(max_length=8)]
+Amount = Annotated[float, quantity("1", ge=0, le=1)]
+
+
+class WASDRBMoveController(Controller):
+    """W forward, S backward, A left, D right, Space or U jump, J jump forward, R restart.
+
+    The arrow keys drive too. Keys are places on the keyboard (``KeyboardEvent.code``), so W is
+    where it is on an English keyboard whatever is printed there. Opposite keys cancel out. A key
+    that is released stops its part of the action at once.
+
+    Source: AI4U's WASDRBMoveController.
+    """
+
+    actuator_name: str = "move"
+    speed: Amount = 1.0
+    turn_amount: Amount = 1.0
+    jump_power: Amount = 1.0
+    forward: Keys = Field(default_factory=lambda: ["KeyW", "ArrowUp"])
+    backward: Keys = Field(default_factory=lambda: ["KeyS", "ArrowDown"])
+    left: Keys = Field(default_factory=lambda: ["KeyA", "ArrowLeft"])
+    right: Keys = Field(default_factory=lambda: ["KeyD", "ArrowRight"])
+    jump: Keys = Field(default_factory=lambda: ["Space", "KeyU"])
+    jump_forward: Keys = Field(default_factory=lambda: ["KeyJ"])
+    restart: Keys = Field(default_factory=lambda: ["KeyR"])
+
+    def on_setup(self, agent: AgentView, view: WorldView) -> None:
+        """Takes the agent's keyboard."""
+        self._keyboard = agent.keyboard
+        self._before: frozenset[str] = frozenset()
+
+    def get_action(self, percept: Percept) -> Answer:
+        """[forward, turn, jump, forward jump] from the keys held now."""
+        keys = self._keyboard.read()
+        fresh, self._before = keys - self._before, keys
+        if not fresh.isdisjoint(self.restart):
+            return Command.RESTART
+        ahead = (not keys.isdisjoint(self.forward)) - (not keys.isdisjoint(self.backward))
+        turn = (not keys.isdisjoint(self.right)) - (not keys.isdisjoint(self.left))
+        jump = not keys.isdisjoint(self.jump)
+        leap = not keys.isdisjoint(self.jump_forward)
+        return {
+            self.actuator_name: (
+                ahead * self.speed,
+                turn * self.turn_amount,
+                jump * self.jump_power,
+                leap * self.jump_power,
+            )
+        }

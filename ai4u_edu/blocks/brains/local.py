@@ -1,0 +1,55 @@
+"""A brain in this process."""
+
+from collections.abc import Callable
+from typing import Any, cast
+
+from pydantic import field_validator
+
+from ai4u_edu.blocks.agent_view import AgentView
+from ai4u_edu.blocks.brains.brain import Brain
+from ai4u_edu.blocks.brains.command import Answer
+from ai4u_edu.blocks.brains.controllers.controller import Controller
+from ai4u_edu.blocks.brains.controllers.script import ScriptController
+from ai4u_edu.blocks.percept import Percept
+from ai4u_edu.world import WorldView
+
+
+class LocalBrain(Brain):
+    """Asks its controller: a keyboard, a Python function, a network.
+
+    A plain function from percept to action may stand in the controller's place.
+
+    >>> LocalBrain(controller=lambda percept: {"move": [1, 0, 0, 0]}).skip_frame
+    4
+    """
+
+    controller: Controller | Callable[[Percept], Answer]
+
+    @field_validator("controller")
+    @classmethod
+    def _wrapped(cls, controller: Any) -> Controller:
+        if isinstance(controller, Controller):
+            return controller
+        return ScriptController(function=controller)
+
+    def on_setup(self, agent: AgentView, view: WorldView) -> None:
+        """Sets the controller up."""
+        self._controller.on_setup(agent, view)
+
+    def on_reset(self, agent: AgentView, view: WorldView) -> None:
+        """Resets the controller."""
+        self._controller.on_reset(agent, view)
+
+    def decide(self, percept: Percept) -> Answer:
+        """What the controller says."""
+        controller = self._controller
+        controller.new_state_event(percept)
+        return controller.get_action(percept)
+
+    def title(self) -> str:
+        """Its own name and its controller's."""
+        return f"{type(self).__name__}({type(self.controller).__name__})"
+
+    @property
+    def _controller(self) -> Controller:
+        return cast(Controller, self.controller)  # the validator wrapped whatever is not one

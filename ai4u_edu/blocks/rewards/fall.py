@@ -1,0 +1,35 @@
+"""Pays for falling."""
+
+from typing import Annotated
+
+from pydantic import Field
+
+from ai4u_edu.blocks.agent_view import AgentView
+from ai4u_edu.blocks.rewards.reward_func import RewardFunc
+from ai4u_edu.parameters import Metres, quantity
+from ai4u_edu.world import BodyView, WorldView
+
+
+class FallReward(RewardFunc):
+    """Pays ``success_reward`` for each decision after which the agent is below ``threshold``.
+
+    At most ``max_rewards`` times an episode; ``fail_reward`` for every other decision.
+
+    Source: AI4U's FallReward.
+    """
+
+    threshold: Metres = 0.0
+    success_reward: Annotated[float, quantity("")] = -1.0
+    fail_reward: Annotated[float, quantity("")] = 0.0
+    max_rewards: Annotated[int, Field(ge=1)] = 1
+
+    def on_reset(self, agent: AgentView, view: WorldView) -> None:
+        """Forgets what was paid."""
+        self._paid = 0
+
+    def on_update(self, body: BodyView, view: WorldView) -> float:
+        """The reward for having fallen, or for not."""
+        if body.z < self.threshold and self._paid < self.max_rewards:
+            self._paid += 1
+            return self.success_reward
+        return self.fail_reward

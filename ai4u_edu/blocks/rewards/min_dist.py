@@ -1,0 +1,40 @@
+"""Pays for coming closer than ever."""
+
+import math
+from typing import Annotated
+
+from ai4u_edu.blocks.agent_view import AgentView
+from ai4u_edu.blocks.rewards.reward_func import RewardFunc
+from ai4u_edu.parameters import quantity
+from ai4u_edu.world import BodyView, WorldView
+
+
+class MinDistReward(RewardFunc):
+    """Pays ``success_reward`` for a decision that brought the agent closer to the target than ever.
+
+    Closer than ever in this episode; every other decision costs ``step_reward``. The first one is
+    free.
+
+    Source: AI4U's MinDistReward.
+    """
+
+    target: str
+    success_reward: Annotated[float, quantity("")] = 0.01
+    step_reward: Annotated[float, quantity("")] = -0.001
+
+    def on_setup(self, agent: AgentView, view: WorldView) -> None:
+        """Looks the target up."""
+        _ = view[self.target]
+
+    def on_reset(self, agent: AgentView, view: WorldView) -> None:
+        """Forgets the best distance."""
+        self._best = math.inf
+
+    def on_update(self, body: BodyView, view: WorldView) -> float:
+        """The reward for a new best, or the cost of a step."""
+        distance = body.distance(view[self.target])
+        first = self._best == math.inf
+        if distance < self._best:
+            self._best = distance
+            return 0.0 if first else self.success_reward
+        return self.step_reward

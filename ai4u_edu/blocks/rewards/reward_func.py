@@ -1,0 +1,50 @@
+"""What every reward function has: a name, and the amount that it pays for each decision."""
+
+from ai4u_edu.blocks.block import Block, default_name
+from ai4u_edu.errors import BlockError
+from ai4u_edu.world import BodyView, WorldView
+
+
+class RewardFunc(Block):
+    """The base of all reward functions: fill :meth:`on_update`.
+
+    >>> from ai4u_edu import BasicAgent, CircleShape, ControlRequestor, LocalBrain, World
+    >>> class StayNear(RewardFunc):
+    ...     '''Costs a point for each metre to a body.'''
+    ...     target: str
+    ...     def on_update(self, body, view): return -body.distance(view[self.target])
+    >>> world = World()
+    >>> robot = world.add_body("robot", CircleShape(radius=0.5))
+    >>> box = world.add_body("box", CircleShape(radius=0.5), position=(3, 4))
+    >>> agent = BasicAgent(
+    ...     body="robot",
+    ...     rewards=[StayNear(target="box")],
+    ...     brains=[LocalBrain(controller=lambda percept: {})],
+    ... )
+    >>> sim = ControlRequestor(world, [agent])
+    >>> sim.reset()
+    >>> percept = sim.step()
+    >>> agent.reward_terms
+    {'stay_near': -5.0}
+    """
+
+    name: str = ""
+    """The term's name in the breakdown of rewards; left out: from the class's name."""
+    cause_episode_to_end: bool = False
+    """Whether the episode ends when this pays something."""
+    is_active: bool = True
+
+    def __post_init__(self) -> None:
+        self.name = self.name or default_name(type(self), "RewardFunc", "Reward", "Func")
+
+    def on_update(self, body: BodyView, view: WorldView) -> float:
+        """What the decision that just ended is worth.
+
+        Args:
+            body: the agent's body.
+            view: the world, to be asked.
+        """
+        raise BlockError(f"{self!r} has no on_update(self, body, view): it must return a number")
+
+    def on_tick(self, body: BodyView, view: WorldView) -> None:
+        """Called after every tick of a decision; only where a subclass fills it."""

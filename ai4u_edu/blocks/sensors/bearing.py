@@ -1,0 +1,34 @@
+"""In which direction a target is."""
+
+import math
+
+from gymnasium.spaces import Box
+
+from ai4u_edu.blocks.agent_view import AgentView
+from ai4u_edu.blocks.sensors.sensor import Sensor
+from ai4u_edu.world import BodyView, WorldView
+
+
+class BearingSensor(Sensor):
+    """[sine, cosine] of the angle to the target, counter-clockwise from the heading.
+
+    The sine is positive where the target is to the left, negative to the right: two numbers tell
+    all directions apart, where one cosine can't.
+
+    Reading: (2,), each -1..1. Source: ours.
+    """
+
+    target: str
+
+    def space(self) -> Box:
+        """[sine, cosine]."""
+        return Box(-1.0, 1.0, (2,))
+
+    def on_setup(self, agent: AgentView, view: WorldView) -> None:
+        """Looks the target up."""
+        _ = view[self.target]
+
+    def read(self, body: BodyView, view: WorldView) -> tuple[float, float]:
+        """One reading."""
+        angle = body.bearing(view[self.target])
+        return math.sin(angle), math.cos(angle)

@@ -1,0 +1,96 @@
+"""Several sensors in one array."""
+
+import math
+from typing import Annotated
+
+import numpy as np
+from gymnasium.spaces import Box
+from pydantic import Field
+
+from ai4u_edu.blocks.agent_view import AgentView
+from ai4u_edu.blocks.percept import DTYPES
+from ai4u_edu.blocks.sensors.sensor import Array, Sensor
+from ai4u_edu.errors import BlockError
+from ai4u_edu.parameters import quantity
+from ai4u_edu.world import BodyView, WorldView
+
+
+class FloatArrayCompositeSensor(Sensor):
+    """The readings of its children, one after another, as one array of floats.
+
+    The children may be of any kind that is made of numbers; a bool reads as ``range_max`` or
+    ``range_min``. They are flattened, and the whole is stacked. With ``normalize`` every number v
+    becomes ``(v - min_value) / (max_value - min_value)``. A child that is off when the agent is
+    set up takes no part.
+
+    Reading: (n,), within range_min..range_max; what lies beyond at the first reading is an error,
+    later it is cut. Source: AI4U.
+    """
+
+    perception_key: str = "array"
+    sensors: Annotated[list[Sensor], Field(min_length=1)]
+    range_min: Annotated[float, quantity("")] = -1.0
+    range_max: Annotated[float, quantity("")] = 1.0
+    normalize: bool = False
+    min_value: Annotated[float, quantity("")] = -1.0
+    max_value: Annotated[float, quantity("")] = 1.0
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        self._children = [child for child in self.sensors if child.is_active]
+        if self.max_value <= self.min_value or self.range_max <= self.range_min:
+            raise BlockError(
+                f"{type(self).__name__} {self.perception_key!r}: expected a max above its min, "
+                f"got range {self.range_min}..{self.range_max} "
+                f"and values {self.min_value}..{self.max_value}"
+            )
+
+    def on_setup(self, agent: AgentView, view: WorldView) -> None:
+        """Sets the children up and gives each a place of its own."""
+        self._children = [child for child in self.sensors if child.is_active]
+        self._places: list[Array] = []
+        for child in self._children:
+            child.on_setup(agent, view)
+            kind = child.reading_kind()
+            if kind not in DTYPES:
+                raise BlockError(
+                    f"{type(child).__name__} {child.perception_key!r} reads text; a composite "
+                    "takes numbers only"
+                )
+            place = np.zeros(child.observation_space().shape or (), DTYPES[kind])
+            child.attach(place, view.random(self._name_of(child)))
+            self._places.append(place)
+
+    def on_reset(self, agent: AgentView, view: WorldView) -> None:
+        """Resets the children."""
+        for child in self._children:
+            child.on_reset(agent, view)
+            child.restart(view.random(self._name_of(child)))
+
+    def space(self) -> Box:
+        """As many numbers as all children read together."""
+        shapes = [child.observation_space().shape or () for child in self._children]
+        size = sum(math.prod(shape) for shape in shapes)
+        return Box(self.range_min, self.range_max, (size,))
+
+    def write(self, out: Array, body: BodyView, view: WorldView) -> None:
+        """Reads all children."""
+        start = 0
+        for child, place in zip(self._children, self._places, strict=True):
+            if child.is_active:
+                child.sense(body, view)
+            else:
+                child.blank()
+            part = out[start : start + place.size]
+            start += place.size
+            if place.dtype == np.bool_:
+                part[...] = np.where(place, self.range_max, self.range_min).ravel()
+            elif self.normalize:
+                part[...] = (place.ravel() - self.min_value) / (self.max_value - self.min_value)
+            else:
+                part[...] = place.ravel()
+        if self._ever_read:
+            np.clip(out, self.range_min, self.range_max, out=out)
+
+    def _name_of(self, child: Sensor) -> str:
+        return f"{self.perception_key}/{child.perception_key}"

@@ -1,0 +1,59 @@
+"""Where something is."""
+
+from typing import Literal
+
+import numpy as np
+from gymnasium.spaces import Box
+
+from ai4u_edu.blocks.agent_view import AgentView
+from ai4u_edu.blocks.sensors.sensor import Sensor
+from ai4u_edu.world import BodyView, WorldView
+
+MARGIN = 5.0
+"""How far beyond the world's bounds a position is still told (metres)."""
+
+
+class PositionSensor(Sensor):
+    """[x, y, z] of the agent, or of a target, in metres.
+
+    ``frame="global"`` counts from the world's origin; ``"local"`` from the agent: forward, left,
+    up.
+
+    Reading: (3,). Normalised, it is divided by the world's bounds. Source: AI4U's PositionSensor
+    (which divides by 500 in every world).
+    """
+
+    target: str = ""
+    """A body's name; left out: the agent's own."""
+    frame: Literal["global", "local"] = "global"
+    normalized: bool = True
+    unit = "m"
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        self._far = np.full(3, 1e4, np.float32)
+
+    def space(self) -> Box:
+        """As far as the world reaches, and a little more."""
+        return Box(-self._far, self._far)
+
+    def on_setup(self, agent: AgentView, view: WorldView) -> None:
+        """Looks the target up and measures the world."""
+        if self.target:
+            _ = view[self.target]
+        (left, low), (right, high) = view.bounds()
+        if self.frame == "local":
+            across = view.diagonal() + MARGIN
+            self._far = np.full(3, across, np.float32)
+        else:
+            x, y = max(abs(left), abs(right)) + MARGIN, max(abs(low), abs(high)) + MARGIN
+            self._far = np.array([x, y, max(x, y)], np.float32)
+
+    def read(self, body: BodyView, view: WorldView) -> tuple[float, ...]:
+        """One reading."""
+        target = view[self.target] if self.target else body
+        x, y = target.position
+        place = (x, y, target.z)
+        if self.frame == "local":
+            place = (*body.to_local(x, y), target.z - body.z)
+        return tuple(np.clip(place, -self._far, self._far))

@@ -1,0 +1,92 @@
+"""A grid of rays in perspective."""
+
+from typing import Annotated, Any
+
+import numpy as np
+from gymnasium.spaces import Box
+from pydantic import Field
+
+from ai4u_edu.blocks.agent_view import AgentView
+from ai4u_edu.blocks.sensors.ray_sensor import RayPicture, RaySensor, spread
+from ai4u_edu.blocks.sensors.sensor import Array
+from ai4u_edu.parameters import Degrees, quantity
+from ai4u_edu.world import BodyView, WorldView
+
+
+class RayCastingSensor(RaySensor):
+    """What lies in each direction: a small picture made of rays, row 0 on top, column 0 left.
+
+    Each ray reads the code of what it meets. A ray that goes down meets the floor, or the void
+    beyond its edge: so an agent can see a cliff.
+
+    Reading: (rows, columns) codes; with ``return_distance`` (2, rows, columns), codes first, then
+    distances along the rays; 0 where nothing was met. ``flattened`` makes one row of numbers.
+
+    Source: AI4U's RayCastingSensor. Column angles are ``fov * ((i + 1) / (n + 1) - 1/2)``; AI4U's
+    ``fieldOfView`` of 45 means 45 to each side, ours is the whole angle.
+    """
+
+    rows: Annotated[int, Field(ge=1, le=256)] = 10
+    columns: Annotated[int, Field(ge=1, le=256)] = 10
+    vertical_field_of_view: Annotated[float, quantity("deg", gt=0, lt=180)] = 45.0
+    vertical_shift: Degrees = 30.0
+    """How far the middle row looks down."""
+    flattened: bool = False
+
+    def space(self) -> Box:
+        """Codes, and distances in metres (or 0..1 with normalize_distance)."""
+        codes = np.full((self.rows, self.columns), self.largest_code, np.float32)
+        high = np.stack([codes, np.full_like(codes, self.farthest)])
+        if not self.return_distance:
+            high = codes
+        if self.flattened:
+            high = high.ravel()
+        return Box(np.zeros_like(high), high)
+
+    def scale(self) -> Any:
+        """Codes by the largest one; distances have normalize_distance."""
+        codes = np.full((self.rows, self.columns), self.largest_code)
+        by = np.stack([codes, np.ones_like(codes)]) if self.return_distance else codes
+        return by.ravel() if self.flattened else by
+
+    def on_setup(self, agent: AgentView, view: WorldView) -> None:
+        """Prepares the rays."""
+        shift = np.radians(self.horizontal_shift)
+        angles = -spread(self.columns, self.field_of_view) - shift
+        pitches = -spread(self.rows, self.vertical_field_of_view)
+        pitches -= np.radians(self.vertical_shift)
+        self._grid = view.ray_grid(
+            angles.tolist(),
+            pitches.tolist(),
+            self.vision_max_distance,
+            self.code_of,
+            **self._options(),
+        )
+
+    def write(self, out: Array, body: BodyView, view: WorldView) -> None:
+        """Casts the grid."""
+        grid = self._grid
+        grid.cast(body)
+        planes = out.reshape(-1, self.rows, self.columns)
+        planes[0] = grid.codes
+        if self.return_distance:
+            far = self.vision_max_distance / self.farthest
+            np.divide(grid.distances, far, out=planes[1], casting="unsafe")
+
+    def picture(self) -> RayPicture:
+        """The rays of the last reading, row by row."""
+        grid = self._grid
+        hit = grid.distances > 0
+        length = np.where(hit, grid.distances, self.vision_max_distance)
+        along = length * np.cos(grid.pitches)[:, None]
+        x, y, z = grid.origin
+        ends = np.stack(
+            [
+                x + along * grid.directions[:, 0],
+                y + along * grid.directions[:, 1],
+                z + length * np.sin(grid.pitches)[:, None],
+            ],
+            axis=-1,
+        )
+        groups = self._groups(grid.codes.ravel(), hit.ravel())
+        return RayPicture(grid.origin, ends.reshape(-1, 3), groups)

@@ -1,0 +1,93 @@
+"""What the ray sensors share: codes of groups, and a picture of the last cast for the viewer."""
+
+from collections.abc import Sequence
+from typing import Annotated, Any, NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+from pydantic import Field
+
+from ai4u_edu.blocks.sensors.sensor import Sensor
+from ai4u_edu.parameters import Bits, Degrees, Metres, Name, PositiveMetres, quantity
+
+Code = Annotated[int, Field(ge=0, le=255)]
+
+
+class RayPicture(NamedTuple):
+    """The rays of the last reading, to be drawn."""
+
+    origin: tuple[float, float, float]
+    """The eye, world frame, metres."""
+    ends: npt.NDArray[np.float64]
+    """(n, 3) where each ray ends: at what it met, or at its full length."""
+    groups: tuple[str, ...]
+    """What each ray met: a key of ``group_code``; empty for nothing, ``?`` for something else."""
+
+
+class RaySensor(Sensor):
+    """The parameters that both ray sensors have."""
+
+    field_of_view: Annotated[float, quantity("deg", gt=0, le=360)] = 90.0
+    """The whole horizontal angle."""
+    horizontal_shift: Degrees = 0.0
+    """Turns the whole fan clockwise."""
+    eye: tuple[Metres, Metres, Metres] = (0.0, 0.0, 0.5)
+    """Where the eye sits on the body: (forward, left, up)."""
+    vision_max_distance: PositiveMetres = 30.0
+    group_code: dict[Name, Code] = Field(default_factory=dict)
+    """The code of each group (tag); of a body with several, the first one counts."""
+    no_object_code: Code = 0
+    """What a ray reads that meets nothing, or something that has no code."""
+    return_distance: bool = False
+    normalize_distance: bool = True
+    """Whether distances are divided by vision_max_distance."""
+    self_exclude: bool = True
+    collision_mask: Bits = 0xFFFFFFFF
+    normalized: bool = True
+    """Whether codes are divided by the largest one in use."""
+
+    def code_of(self, tags: Sequence[str]) -> float:
+        """The code of something with these tags."""
+        for tag in tags:
+            if tag in self.group_code:
+                return float(self.group_code[tag])
+        return float(self.no_object_code)
+
+    @property
+    def largest_code(self) -> float:
+        """The largest code that a ray can read; at least 1."""
+        return float(max(1, self.no_object_code, *self.group_code.values()))
+
+    @property
+    def farthest(self) -> float:
+        """The largest distance that can be read."""
+        return 1.0 if self.normalize_distance else self.vision_max_distance
+
+    def picture(self) -> RayPicture:
+        """The rays of the last reading."""
+        raise NotImplementedError  # each ray sensor has its own
+
+    def _options(self) -> dict[str, Any]:
+        return {
+            "eye": self.eye,
+            "mask": self.collision_mask,
+            "exclude_self": self.self_exclude,
+        }
+
+    def _groups(self, codes: npt.NDArray[np.float64], hit: npt.NDArray[np.bool_]) -> Any:
+        names = {float(code): name for name, code in reversed(self.group_code.items())}
+        return tuple(
+            names.get(code, "?") if met else ""
+            for code, met in zip(codes.tolist(), hit.tolist(), strict=True)
+        )
+
+
+def spread(count: int, field_of_view: float) -> npt.NDArray[np.float64]:
+    """Angles (radians) of ``count`` rays, evenly inside a field of view (degrees), rising.
+
+    >>> np.degrees(spread(3, 120)).round().tolist()
+    [-30.0, 0.0, 30.0]
+    """
+    steps = np.arange(1, count + 1) / (count + 1)
+    angles: npt.NDArray[np.float64] = np.radians(field_of_view) * (steps - 0.5)
+    return angles

@@ -1,0 +1,240 @@
+"""What every sensor has: a key, a space, and the path from a reading to the percept."""
+
+import math
+from collections import deque
+from typing import Annotated, Any, ClassVar
+
+import numpy as np
+import numpy.typing as npt
+from gymnasium import spaces
+from pydantic import Field
+
+from ai4u_edu.blocks.block import Block, default_name
+from ai4u_edu.errors import BlockError, ReadingError
+from ai4u_edu.parameters import quantity
+from ai4u_edu.world import BodyView, WorldView
+
+Array = npt.NDArray[Any]
+
+
+class Sensor(Block):
+    """The base of all sensors: fill :meth:`space` and :meth:`read`.
+
+    Stacking, normalising, noise, delay, dropout and on/off happen here, for every sensor alike.
+    A reading passes them in this order: dropout, noise, delay, normalising, stacking.
+
+    >>> from gymnasium.spaces import Box
+    >>> from ai4u_edu import BasicAgent, CircleShape, ControlRequestor, LocalBrain, World
+    >>> class DistanceTo(Sensor):
+    ...     '''Distance from the agent's centre to a named body, in metres.'''
+    ...     target: str
+    ...     reach: float = 20.0
+    ...     unit = "m"
+    ...     def space(self): return Box(0.0, self.reach, (1,))
+    ...     def read(self, body, view): return min(view[self.target].distance(body), self.reach)
+    >>> world = World()
+    >>> robot = world.add_body("robot", CircleShape(radius=0.5))
+    >>> box = world.add_body("box", CircleShape(radius=0.5), position=(3, 4))
+    >>> agent = BasicAgent(
+    ...     body="robot",
+    ...     sensors=[DistanceTo(target="box")],
+    ...     brains=[LocalBrain(controller=lambda percept: {})],
+    ... )
+    >>> sim = ControlRequestor(world, [agent])
+    >>> sim.reset()
+    >>> agent.percept["distance_to"].tolist()
+    [5.0]
+    """
+
+    perception_key: str = ""
+    """The reading's name in the percept; left out: from the class's name."""
+    stacked_observations: Annotated[int, Field(ge=1, le=1000)] = 1
+    """How many of the latest readings are shown together, oldest first."""
+    is_active: bool = True
+    normalized: bool = False
+    """Whether the reading is divided by the largest number that it can be."""
+    resetable: bool = True
+    """Whether stack and delay are forgotten at a reset."""
+    is_input: bool = True
+    """Whether a policy gets it as part of its observation."""
+    noise: Annotated[float, quantity("the reading's", ge=0)] = 0.0
+    """Standard deviation of Gaussian noise."""
+    delay: Annotated[int, quantity("decisions", ge=0, le=1000)] = 0
+    dropout: Annotated[float, quantity("1", ge=0, le=1)] = 0.0
+    """Chance that a reading is lost; the one before stays."""
+
+    unit: ClassVar[str] = ""
+    kind: ClassVar[str] = ""
+    """AI4U's type of the reading; left out, it follows from the space."""
+    stackable: ClassVar[bool] = True
+
+    def __post_init__(self) -> None:
+        self.perception_key = self.perception_key or default_name(type(self), "Sensor")
+
+    # -- what a sensor fills ---------------------------------------------------------------------
+
+    def space(self) -> spaces.Space[Any]:
+        """The space of one raw reading, in the sensor's unit."""
+        raise BlockError(f"{self!r} has no space(): it must say what it can read, as a Box")
+
+    def read(self, body: BodyView, view: WorldView) -> Any:
+        """One raw reading, inside :meth:`space`.
+
+        Args:
+            body: the agent's body.
+            view: the world, to be asked.
+        """
+        raise BlockError(f"{self!r} has no read(self, body, view): it must return its reading")
+
+    def write(self, out: Array, body: BodyView, view: WorldView) -> None:
+        """Writes one raw reading into ``out``; a built-in fills it in place, faster than read."""
+        out[...] = self._checked(self.read(body, view))
+
+    def scale(self) -> Any:
+        """What a normalised reading is divided by; by default the largest |bound| of the space."""
+        space = self.space()
+        if not isinstance(space, spaces.Box):
+            return 1.0
+        largest = np.maximum(np.abs(space.low), np.abs(space.high)).astype(np.float64)
+        return np.where(np.isfinite(largest) & (largest > 0), largest, 1.0)
+
+    # -- what the base does with it --------------------------------------------------------------
+
+    def reading_kind(self) -> str:
+        """AI4U's type of the reading: sfloat, sfloatarray, sbool, sint, sstring, ..."""
+        if self.kind:
+            return self.kind
+        space = self.space()
+        if isinstance(space, spaces.Box) and self.normalized:
+            return "sfloatarray"
+        if isinstance(space, spaces.Text):
+            return "sstring"
+        if isinstance(space, spaces.Discrete):
+            return "sint"
+        if space.dtype == np.uint8:
+            return "sbytearray"
+        whole = space.dtype is not None and np.issubdtype(space.dtype, np.integer)
+        return "sintarray" if whole else "sfloatarray"
+
+    def observation_space(self) -> spaces.Space[Any]:
+        """The space of what stands in the percept: normalised and stacked."""
+        space = self.space()
+        if not isinstance(space, spaces.Box):
+            return space
+        low, high = space.low, space.high
+        if self.normalized:
+            low, high = self.normalise(low), self.normalise(high)
+        if self.stacked_observations > 1:
+            times = (self.stacked_observations, *([1] * low.ndim))
+            low, high = np.tile(low, times), np.tile(high, times)
+        dtype: Any = np.float32 if self.normalized else space.dtype
+        return spaces.Box(low.astype(dtype), high.astype(dtype), dtype=dtype)
+
+    def attach(self, out: Array, chance: np.random.Generator) -> None:
+        """Prepares for an agent.
+
+        Args:
+            out: the reading's place in the agent's memory; every reading is written there.
+            chance: for noise and dropout.
+        """
+        if self.stacked_observations > 1 and not self.stackable:
+            raise BlockError(
+                f"{type(self).__name__} {self.perception_key!r}: expected stacked_observations 1 "
+                f"(its readings don't stack), got {self.stacked_observations}"
+            )
+        space = self.space()
+        self._out, self._chance, self._declared = out, chance, space
+        shape = space.shape or ()
+        self._raw = np.zeros(shape, np.float64 if out.dtype == np.float32 else out.dtype)
+        self._past: deque[Array] = deque(maxlen=self.delay + 1)
+        self._fresh = True
+        self._ever_read = False
+        self._direct = not (
+            self.stacked_observations > 1
+            or self.normalized
+            or self.noise
+            or self.delay
+            or self.dropout
+        )
+
+    def restart(self, chance: np.random.Generator) -> None:
+        """Begins an episode: the next reading fills stack and delay."""
+        self._chance = chance
+        self._fresh = self.resetable or not self._ever_read
+
+    def sense(self, body: BodyView, view: WorldView) -> None:
+        """Takes one reading and puts it into the agent's memory."""
+        if self._direct:
+            self.write(self._out, body, view)
+        else:
+            self._sense_through(body, view)
+        if not self._ever_read:
+            self._ever_read = True
+            self._check_range()
+        self._fresh = False
+
+    def blank(self) -> None:
+        """Puts zeros in place of a reading: the sensor is switched off."""
+        self._out[...] = 0
+
+    def _sense_through(self, body: BodyView, view: WorldView) -> None:
+        lost = self.dropout and not self._fresh and self._chance.random() < self.dropout
+        if not lost:
+            self.write(self._raw, body, view)
+        reading = self._raw
+        if self.noise:
+            space = self._declared
+            reading = reading + self._chance.normal(0.0, self.noise, reading.shape)
+            if isinstance(space, spaces.Box):
+                reading = np.clip(reading, space.low, space.high)
+        if self.delay:
+            if self._fresh:
+                self._past.clear()
+            self._past.append(reading.copy())
+            reading = self._past[0]
+        if self.normalized:
+            reading = self.normalise(reading)
+        self._stack(reading)
+
+    def normalise(self, reading: Array) -> Array:
+        """A raw reading divided by :meth:`scale`."""
+        return np.asarray(reading / self.scale())
+
+    def _stack(self, reading: Array) -> None:
+        out = self._out
+        if self.stacked_observations == 1:
+            out[...] = reading
+        elif self._fresh:
+            out[:] = reading
+        else:
+            out[:-1] = out[1:]
+            out[-1] = reading
+
+    def _checked(self, reading: Any) -> Array:
+        shape = self._declared.shape or ()
+        try:
+            array = np.asarray(reading, self._raw.dtype)
+        except (TypeError, ValueError):
+            self._refuse(f"numbers of shape {shape}", repr(reading))
+        if array.shape != shape and array.size == self._raw.size:
+            array = array.reshape(shape)  # a plain number for (1,), a list for (m, n)
+        if array.shape != shape:
+            self._refuse(f"shape {shape} as its space() says", f"shape {array.shape}")
+        if not math.isfinite(array.sum()):
+            self._refuse("finite numbers", str(array.tolist()))
+        return array
+
+    def _check_range(self) -> None:
+        space = self.observation_space()
+        if isinstance(space, spaces.Box):
+            slack = 1e-5 * (1 + np.abs(self._out))
+            if (self._out < space.low - slack).any() or (self._out > space.high + slack).any():
+                self._refuse(
+                    f"numbers from {space.low.min():g} to {space.high.max():g} as its space() says",
+                    str(self._out.tolist()),
+                )
+
+    def _refuse(self, expected: str, got: str) -> None:
+        raise ReadingError(
+            f"{type(self).__name__} {self.perception_key!r}: expected {expected}, got {got}"
+        )

@@ -1,0 +1,134 @@
+"""What the agent knows about its own episode: done, id, steps, reward, last action."""
+
+from typing import Annotated
+
+import numpy as np
+from gymnasium.spaces import Box, Discrete, Text
+from pydantic import Field
+
+from ai4u_edu.blocks.agent_view import AgentView
+from ai4u_edu.blocks.sensors.sensor import Array, Sensor
+from ai4u_edu.errors import BlockError, suggest
+from ai4u_edu.parameters import quantity
+from ai4u_edu.world import BodyView, WorldView
+
+LARGEST = 2**31 - 1
+
+
+class StatusSensor(Sensor):
+    """A sensor that looks at its agent; it doesn't stack and is no input of a policy."""
+
+    is_input: bool = False
+    stackable = False
+
+    def on_setup(self, agent: AgentView, view: WorldView) -> None:
+        """Remembers the agent."""
+        self._agent = agent
+
+
+class DoneSensor(StatusSensor):
+    """Whether the episode is over. On every agent. Source: AI4U."""
+
+    perception_key: str = "done"
+    kind = "sbool"
+
+    def space(self) -> Discrete:
+        """0 or 1."""
+        return Discrete(2)
+
+    def write(self, out: Array, body: BodyView, view: WorldView) -> None:
+        """One reading."""
+        out[...] = self._agent.done
+
+
+class IDSensor(StatusSensor):
+    """The agent's id, as text. On every agent. Source: AI4U."""
+
+    perception_key: str = "id"
+
+    def space(self) -> Text:
+        """Up to 80 characters."""
+        return Text(80)
+
+    def read(self, body: BodyView, view: WorldView) -> str:
+        """The id."""
+        return self._agent.id
+
+
+class StepSensor(StatusSensor):
+    """How many decisions the agent has taken in this episode.
+
+    Normalised, it is divided by ``max_size``. Source: AI4U.
+    """
+
+    perception_key: str = "steps"
+    max_size: Annotated[int, Field(ge=1)] = 300
+
+    @property
+    def kind(self) -> str:  # type: ignore[override]  # depends on a parameter here
+        """A whole number, or a share of max_size."""
+        return "sfloat" if self.normalized else "sint"
+
+    def space(self) -> Box:
+        """From 0 on."""
+        return Box(0, LARGEST, (), np.int32)
+
+    def scale(self) -> float:
+        """The number of steps that reads as 1."""
+        return float(self.max_size)
+
+    def write(self, out: Array, body: BodyView, view: WorldView) -> None:
+        """One reading."""
+        out[...] = self._agent.steps
+
+
+class RewardSensor(StatusSensor):
+    """The reward of the last decision, times ``reward_scale``. Source: AI4U."""
+
+    perception_key: str = "reward"
+    reward_scale: Annotated[float, quantity("1")] = 1.0
+    kind = "sfloat"
+
+    def space(self) -> Box:
+        """Any number."""
+        return Box(-np.inf, np.inf, ())
+
+    def write(self, out: Array, body: BodyView, view: WorldView) -> None:
+        """One reading."""
+        out[...] = self._agent.reward * self.reward_scale
+
+
+class ActionSensor(Sensor):
+    """The last action of one actuator; zeros before the first. Stackable.
+
+    Reading: (action_size,), within the actuator's ranges. Source: AI4U.
+    """
+
+    action_name: str = "move"
+    action_size: Annotated[int, Field(ge=1, le=1024)] | None = None
+    """How many numbers; left out: as many as the actuator takes."""
+
+    def on_setup(self, agent: AgentView, view: WorldView) -> None:
+        """Looks the actuator up."""
+        actuators = {actuator.action_name: actuator for actuator in agent.actuators}
+        if self.action_name not in actuators:
+            raise BlockError(
+                f"no actuator is called {self.action_name!r}; "
+                f"{suggest(self.action_name, actuators)}"
+            )
+        self._agent = agent
+        low, high = actuators[self.action_name].limits()
+        if self.action_size not in (None, len(low)):
+            raise BlockError(
+                f"action_size: expected {len(low)}, as actuator {self.action_name!r} takes, "
+                f"got {self.action_size}"
+            )
+        self._low, self._high = np.array(low, np.float32), np.array(high, np.float32)
+
+    def space(self) -> Box:
+        """The actuator's own ranges, and zero."""
+        return Box(np.minimum(self._low, 0), np.maximum(self._high, 0))
+
+    def write(self, out: Array, body: BodyView, view: WorldView) -> None:
+        """One reading."""
+        out[...] = self._agent.last_action.get(self.action_name, 0.0)

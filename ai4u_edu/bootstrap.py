@@ -1,0 +1,180 @@
+"""Makes `.venv` beside pyproject.toml and installs the project into it.
+
+Standard library only, in a syntax that even Python 3.8 reads: this is the file that tells the owner
+of an old Python what to do.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+OLDEST = (3, 11)
+
+
+class SetupError(Exception):
+    """The environment can't be made; the text says why and how to mend it."""
+
+
+def is_checkout(root: Path) -> bool:
+    """Tell whether `root` is our source tree; a stray pyproject.toml in site-packages isn't."""
+    try:
+        return 'name = "ai4u-edu"' in (root / "pyproject.toml").read_text(encoding="utf-8")
+    except OSError:
+        return False
+
+
+def ensure(root: Path, extras: Sequence[str] = ()) -> Path:
+    """Make or mend `root/.venv` with the project and its `extras` inside, and return its Python.
+
+    Extras add up: one that was installed earlier stays. When nothing changed, this costs one start
+    of Python.
+
+    Raises:
+        SetupError: something stands in the way.
+    """
+    if not is_checkout(root):
+        raise SetupError(
+            f"Expected AI4U Edu's pyproject.toml in {root}, and it isn't there.\n"
+            "Run the command in the folder that `git clone` made."
+        )
+    venv = root / ".venv"
+    python = venv / ("Scripts/python.exe" if os.name == "nt" else "bin/python")
+    stamp = venv / "ai4u-edu.json"
+    version = _version(venv, python)
+    before = _read(stamp)
+    wanted: dict[str, Any] = {
+        "root": str(root.resolve()),
+        "pyproject": hashlib.sha256((root / "pyproject.toml").read_bytes()).hexdigest(),
+        "extras": sorted({*extras, *before.get("extras", [])}),
+        "python": version,
+    }
+    if version and before == wanted:
+        return python
+
+    _check_age(version)
+    _say("Setting up AI4U Edu in .venv (about a minute, once) ...")
+    _begin(venv, stamp, before)
+    _give_pip(venv, python, version)
+    _install(root, python, wanted["extras"])
+    wanted["python"] = _version(venv, python)
+    if not wanted["python"]:
+        raise SetupError(
+            f"Expected {python} to start, and it doesn't; start it by hand to see why."
+        )
+    stamp.write_text(json.dumps(wanted), encoding="utf-8")
+    _say("Done.")
+    return python
+
+
+def _say(text: str) -> None:
+    sys.stderr.write(text + "\n")
+    sys.stderr.flush()
+
+
+def _read(stamp: Path) -> dict[str, Any]:
+    try:
+        found = json.loads(stamp.read_text(encoding="utf-8"))
+    except (OSError, ValueError):
+        return {}
+    return found if isinstance(found, dict) else {}
+
+
+def _version(venv: Path, python: Path) -> list[int]:
+    """Return the version of the Python in `venv`, or nothing if it doesn't work there."""
+    # Without its pyvenv.cfg it would start, and would install into the system's Python.
+    here = "import os, sys; os.path.samefile(sys.prefix, sys.argv[1]) or sys.exit(1); "
+    done = _run(python, "-I", "-c", here + "print(*sys.version_info[:3])", str(venv))
+    return [] if done.returncode else [int(part) for part in done.stdout.split()[-3:]]
+
+
+def _check_age(version: list[int]) -> None:
+    need = "AI4U Edu needs Python {}.{} or newer".format(*OLDEST)
+    if version and tuple(version[:2]) < OLDEST:
+        raise SetupError(
+            "{}; the folder .venv holds Python {}.{}.{}.\n".format(need, *version)
+            + "Delete .venv, then run the same command with a newer Python."
+        )
+    if not version and sys.version_info[:2] < OLDEST:
+        raise SetupError(
+            "{}; this is Python {}.{}.{} ({}).\n".format(
+                need, *sys.version_info[:3], sys.executable
+            )
+            + "Install a newer one (python.org has them for every system), then run the same "
+            "command with it, for example with `python3.12` in place of `python3`."
+        )
+
+
+def _begin(venv: Path, stamp: Path, before: dict[str, Any]) -> None:
+    """Make the folder, and a stamp that fits nothing until the work is done."""
+    try:
+        venv.mkdir(exist_ok=True)
+        stamp.write_text(json.dumps({"extras": before.get("extras", [])}), encoding="utf-8")
+    except OSError as error:
+        raise SetupError(
+            f"Expected to write into {venv}, and couldn't: {error.strerror}.\n"
+            "Move AI4U Edu into a folder of your own. If .venv is somebody else's, delete it."
+        ) from error
+
+
+def _give_pip(venv: Path, python: Path, version: list[int]) -> None:
+    """Bring the environment to where pip runs; a Python that works is never replaced."""
+    if version and not _run(python, "-m", "pip", "--version").returncode:
+        return
+    maker = python if version else Path(sys.executable)
+    if _run(maker, "-c", "import ensurepip, venv").returncode:
+        raise SetupError(
+            f"Expected Python's own modules venv and ensurepip, and {maker} comes without them.\n"
+            "On Debian and Ubuntu: sudo apt install python3-venv\n"
+            "Elsewhere: install Python from python.org. Then run the same command again."
+        )
+    if version:  # made by a tool that leaves pip out, or killed before pip came
+        done = _run(python, "-m", "ensurepip", "--upgrade")
+    else:
+        clear = ["--clear"] if (venv / "pyvenv.cfg").exists() else []
+        done = _run(maker, "-m", "venv", *clear, str(venv))
+    _check(done, "Making .venv failed.", "Delete .venv, then run the same command again.")
+
+
+def _install(root: Path, python: Path, extras: list[str]) -> None:
+    project = "." + ("[{}]".format(",".join(extras)) if extras else "")
+    done = _run(python, "-m", "pip", "install", "--quiet", "--no-input", "-e", project, cwd=root)
+    _check(
+        done,
+        "pip couldn't install AI4U Edu's packages.",
+        "They come over the network: see that it works, then run the same command again. "
+        "If that doesn't help, delete .venv first.",
+    )
+
+
+def _run(python: Path, *args: str, cwd: Path | None = None) -> subprocess.CompletedProcess[str]:
+    """Run Python with both of its outputs in one text; one that can't start has failed."""
+    command = [str(python), *args]
+    try:
+        return subprocess.run(  # noqa: S603 - our own words and a path in the checkout, no shell
+            command,
+            cwd=cwd,
+            env={**os.environ, "PIP_DISABLE_PIP_VERSION_CHECK": "1"},
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            text=True,
+            errors="replace",
+            check=False,
+        )
+    except OSError as error:
+        return subprocess.CompletedProcess(command, 1, str(error))
+
+
+def _check(done: subprocess.CompletedProcess[str], what: str, mend: str) -> None:
+    if done.returncode:
+        lines = done.stdout.strip().splitlines()[-15:]
+        raise SetupError("\n".join([what, *("  " + line for line in lines), mend]))

@@ -1,0 +1,232 @@
+"""The wall clock: lets a world run in real time, and lets others look and ask.
+
+Whoever wants something changed submits a command; it is carried out between two decisions, in the
+runner's thread. Whoever wants to look takes the latest snapshot, without a lock.
+"""
+
+import math
+import threading
+import time
+from collections import deque
+from collections.abc import Callable
+from concurrent.futures import Future
+from typing import TypeVar
+
+from ai4u_edu.cycle import ControlRequestor
+from ai4u_edu.snapshot import Snapshot, Stage, agent_state, body_states, set_stage
+
+T = TypeVar("T")
+
+LATE = 0.25
+"""A runner that is further behind than this (s) gives up catching up."""
+PATIENCE = 0.25
+"""Where agents decide at different times there may be no moment between all decisions; a command
+waits this long (s) for one, and then takes any moment between two ticks."""
+
+
+class Runner:
+    """Ticks a world against the wall clock, in a thread of its own.
+
+    Args:
+        sim: the world and its agents.
+        seed: of the first episode.
+        time_scale: how fast the time runs; left out, as the sim says. ``math.inf`` for as fast as
+            it goes.
+        clock: seconds; to be replaced in tests.
+    """
+
+    def __init__(
+        self,
+        sim: ControlRequestor,
+        *,
+        seed: int | None = None,
+        time_scale: float | None = None,
+        clock: Callable[[], float] = time.perf_counter,
+    ) -> None:
+        self.sim = sim
+        self.paused = False
+        self.error = ""
+        self.time_scale = sim.default_time_scale
+        if time_scale is not None:
+            self.set_time_scale(time_scale)
+        self._clock = clock
+        self._commands: deque[tuple[float, Callable[[], None]]] = deque()
+        self._wake = threading.Condition()
+        self._published = threading.Condition()
+        self._stopping = False
+        self._thread: threading.Thread | None = None
+        self._due = 0.0
+        self._window: deque[tuple[float, int]] = deque(maxlen=60)
+        self._ticked = 0
+        sim.reset(seed)
+        self._generation = -1
+        self._stage: Stage
+        self.latest = self._picture()
+        """What everything looked like after the last tick; replaced, never changed."""
+
+    # -- for those who look ----------------------------------------------------------------------
+
+    def wait(self, seen: Snapshot, timeout: float) -> Snapshot:
+        """The latest snapshot, as soon as it is another one than ``seen`` (or after timeout s)."""
+        with self._published:
+            self._published.wait_for(lambda: self.latest is not seen, timeout)
+        return self.latest
+
+    # -- for those who ask -----------------------------------------------------------------------
+
+    def submit(self, command: Callable[[], T]) -> "Future[T]":
+        """Has a command carried out in the runner's thread, between two decisions."""
+        future: Future[T] = Future()
+
+        def carry_out() -> None:
+            if not future.set_running_or_notify_cancel():
+                return
+            try:
+                future.set_result(command())
+            except Exception as error:  # it belongs to whoever asked
+                future.set_exception(error)
+
+        with self._wake:
+            self._commands.append((self._clock(), carry_out))
+            self._wake.notify()
+        return future
+
+    def pause(self) -> "Future[None]":
+        """Stops the time; held keys are let go."""
+        return self.submit(lambda: self._set_paused(True))
+
+    def resume(self) -> "Future[None]":
+        """Lets the time go on."""
+        return self.submit(lambda: self._set_paused(False))
+
+    def reset(self, seed: int | None = None) -> "Future[None]":
+        """Begins a new episode, and clears an error."""
+
+        def carry_out() -> None:
+            self.sim.reset(seed)
+            self.error = ""
+
+        return self.submit(carry_out)
+
+    def step(self, ticks: int = 1) -> "Future[None]":
+        """Lets a paused world go on by some ticks."""
+
+        def carry_out() -> None:
+            for _ in range(ticks):
+                self._tick()
+
+        return self.submit(carry_out)
+
+    def scale_time(self, time_scale: float) -> "Future[None]":
+        """Lets the time run faster or slower."""
+        return self.submit(lambda: self.set_time_scale(time_scale))
+
+    # -- the thread ------------------------------------------------------------------------------
+
+    def start(self) -> None:
+        """Begins to tick."""
+        self._thread = threading.Thread(target=self._run, name="runner", daemon=True)
+        self._due = self._clock()
+        self._thread.start()
+
+    def stop(self) -> None:
+        """Ends the thread; commands that still wait are cancelled."""
+        self._stopping = True
+        with self._wake:
+            self._wake.notify()
+        if self._thread is not None:
+            self._thread.join()
+        while self._commands:
+            self._commands.popleft()
+
+    def set_time_scale(self, time_scale: float) -> None:
+        """Sets the time scale at once; only for the runner's thread, or before it starts."""
+        if not time_scale > 0:
+            raise ValueError(f"time scale: expected a number above 0, got {time_scale}")
+        self.time_scale = time_scale
+
+    def _run(self) -> None:
+        while not self._stopping:
+            self._carry_out_commands()
+            if self.paused or self.error:
+                self._rest()
+                continue
+            self._tick()
+            self._keep_time()
+
+    def _rest(self) -> None:
+        self._window.clear()
+        with self._wake:
+            self._wake.wait_for(lambda: self._commands or self._stopping, 0.1)
+        self._publish()  # keys that are held, and the like, go on
+        self._due = self._clock()
+
+    def _tick(self) -> None:
+        try:
+            self.sim.tick()
+        except Exception as error:  # a student's block may raise anything; the page shows it
+            self.error = _sentence(error)
+        self._ticked += 1
+        self._publish()
+
+    def _keep_time(self) -> None:
+        now = self._clock()
+        self._window.append((now, self._ticked))
+        self._due = max(self._due + self.sim.world.dt / self.time_scale, now - LATE)
+        if self._due > now:
+            time.sleep(self._due - now)
+
+    def _carry_out_commands(self) -> None:
+        while self._commands:
+            asked, command = self._commands[0]
+            standing = self.paused or self.error or self.sim.between_decisions()
+            if not standing and self._clock() - asked < PATIENCE:
+                return
+            self._commands.popleft()
+            command()
+            self._publish()
+
+    def _set_paused(self, paused: bool) -> None:
+        self.paused = paused
+        if paused:
+            for agent in self.sim.agents:
+                agent.keyboard.release()
+
+    def _publish(self) -> None:
+        self.latest = self._picture()
+        with self._published:
+            self._published.notify_all()
+
+    def _picture(self) -> Snapshot:
+        sim, world = self.sim, self.sim.world
+        if world.generation != self._generation:
+            self._generation = world.generation
+            stage = set_stage(sim)
+            if getattr(self, "_stage", None) != stage:
+                self._stage = stage
+        return Snapshot(
+            stage=self._stage,
+            tick=world.ticks,
+            time=world.time,
+            seed=world.seeds.seed,
+            episode=sim.episode,
+            paused=self.paused,
+            time_scale=self.time_scale,
+            real_time_factor=self._real_time_factor(),
+            error=self.error,
+            bodies=body_states(sim),
+            agents=tuple(agent_state(agent) for agent in sim.agents),
+        )
+
+    def _real_time_factor(self) -> float:
+        if len(self._window) < 2:
+            return (
+                0.0 if self.paused else self.time_scale if math.isfinite(self.time_scale) else 1.0
+            )
+        (began, first), (ended, last) = self._window[0], self._window[-1]
+        return (last - first) * self.sim.world.dt / max(ended - began, 1e-9)
+
+
+def _sentence(error: Exception) -> str:
+    notes = "".join(f" ({note})" for note in getattr(error, "__notes__", ()))
+    return f"{type(error).__name__}: {error}{notes}"

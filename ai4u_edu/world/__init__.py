@@ -1,0 +1,43 @@
+"""The physics: the only room in which pymunk lives."""
+
+from ai4u_edu.world.body import Body, BodyView
+from ai4u_edu.world.descriptions import (
+    AreaDescription,
+    BodyDescription,
+    FloorDescription,
+    RegionDescription,
+    WorldSettings,
+)
+from ai4u_edu.world.rays import RayFan, RayGrid
+from ai4u_edu.world.region import Region
+from ai4u_edu.world.shapes import (
+    BoxShape,
+    CapsuleShape,
+    CircleShape,
+    PolygonShape,
+    RingShape,
+    SegmentShape,
+)
+from ai4u_edu.world.view import WorldView
+from ai4u_edu.world.world import World
+
+__all__ = [
+    "AreaDescription",
+    "Body",
+    "BodyDescription",
+    "BodyView",
+    "BoxShape",
+    "CapsuleShape",
+    "CircleShape",
+    "FloorDescription",
+    "PolygonShape",
+    "RayFan",
+    "RayGrid",
+    "Region",
+    "RegionDescription",
+    "RingShape",
+    "SegmentShape",
+    "World",
+    "WorldSettings",
+    "WorldView",
+]

@@ -1,0 +1,142 @@
+"""Who touches whom, kept up to date by the physics' own begin and separate signals.
+
+Only bodies somebody watches (agents' bodies) and bodies off their ground level are followed, so a
+pile of boxes that nobody asks about costs nothing.
+"""
+
+from collections.abc import Callable
+from typing import Any
+
+import pymunk
+
+from ai4u_edu.world.body import Body
+
+PLAIN, WATCHED, ALOFT = 0, 1, 2
+"""Collision types: no signals; begin and separate; and one more every tick, to compare heights."""
+
+TOUCH = 1e-6
+"""Bodies closer than this above one another (metres) touch."""
+
+
+class Contacts:
+    """The contacts of one world, and which pairs pass each other at different heights."""
+
+    def __init__(self) -> None:
+        self.tick = 0
+        self.error: BaseException | None = None
+        self._owners: dict[pymunk.Shape, Body] = {}
+        self._watched: dict[str, None] = {}
+        self._touching: dict[str, dict[str, None]] = {}
+        self._last: dict[tuple[str, str], int] = {}
+        self._passing: dict[Body, dict[Body, None]] = {}
+
+    def attach(self, space: pymunk.Space, owners: dict[pymunk.Shape, Body]) -> None:
+        """Starts over, on a space that was built anew."""
+        self.tick, self.error, self._owners, self._space = 0, None, owners, space
+        self._touching.clear()
+        self._last.clear()
+        self._passing.clear()
+        space.on_collision(
+            WATCHED, None, begin=self._guard(self._begin), separate=self._guard(self._separate)
+        )
+        space.on_collision(
+            ALOFT,
+            None,
+            begin=self._guard(self._compare),
+            pre_solve=self._guard(self._compare),
+            separate=self._guard(self._separate),
+        )
+
+    def watch(self, body: Body) -> None:
+        """From now on the contacts of this body are known."""
+        self._watched[body.name] = None
+        self.classify(body)
+
+    def classify(self, body: Body) -> None:
+        """Gives the body's shapes the collision type that its place asks for."""
+        if body.z != 0.0 or not body.on_ground or self._passing.get(body):
+            kind = ALOFT
+        else:
+            kind = WATCHED if body.name in self._watched else PLAIN
+        for shape in body._shapes:
+            if shape.collision_type != kind:
+                shape.collision_type = kind
+
+    def of(self, name: str) -> tuple[str, ...]:
+        """The names of all that a watched body touches now, in the order of first touch."""
+        return tuple(self._touching.get(name, ()))
+
+    def touched_after(self, name: str, other: str, tick: int) -> bool:
+        """Whether the two touch now, or touched at any tick after the given one."""
+        return other in self._touching.get(name, ()) or self._last.get((name, other), -1) > tick
+
+    def passes(self, body: Body) -> tuple[Body, ...]:
+        """The bodies that this one is right above or below of now."""
+        return tuple(self._passing.get(body, ()))
+
+    def forget(self, body: Body) -> None:
+        """Drops the contacts of a body that left the world."""
+        self._passing.pop(body, None)
+        for other in self._passing.values():
+            other.pop(body, None)
+        for other_name in self._touching.pop(body.name, {}):
+            self._end(other_name, body.name)
+        for name in list(self._touching):
+            self._end(name, body.name)
+
+    def _begin(self, arbiter: pymunk.Arbiter) -> None:
+        a, b = self._pair(arbiter)
+        self._touch(a, b)
+
+    def _compare(self, arbiter: pymunk.Arbiter) -> None:
+        a, b = self._pair(arbiter)
+        gap = max(b.z - (a.z + a.height), a.z - (b.z + b.height))
+        apart = gap >= -TOUCH
+        # the arbiter remembers this from tick to tick, so it is said both ways
+        arbiter.process_collision = not apart
+        for one, other in ((a, b), (b, a)):
+            if apart:
+                self._passing.setdefault(one, {})[other] = None
+            elif one in self._passing:
+                self._passing[one].pop(other, None)
+        if gap <= TOUCH:
+            self._touch(a, b)
+        else:
+            self._end(a.name, b.name)
+            self._end(b.name, a.name)
+
+    def _separate(self, arbiter: pymunk.Arbiter) -> None:
+        a, b = self._pair(arbiter)
+        for one, other in ((a, b), (b, a)):
+            self._end(one.name, other.name)
+            if one in self._passing:
+                self._passing[one].pop(other, None)
+
+    def _pair(self, arbiter: pymunk.Arbiter) -> tuple[Body, Body]:
+        a, b = arbiter.shapes
+        return self._owners[a], self._owners[b]
+
+    def _touch(self, a: Body, b: Body) -> None:
+        for one, other in ((a.name, b.name), (b.name, a.name)):
+            if one in self._watched:
+                self._touching.setdefault(one, {})[other] = None
+
+    def _end(self, name: str, other: str) -> None:
+        touching = self._touching.get(name)
+        if touching is not None and other in touching:
+            del touching[other]
+            self._last[name, other] = self.tick
+
+    def _guard(
+        self, handle: Callable[[pymunk.Arbiter], None]
+    ) -> Callable[[pymunk.Arbiter, pymunk.Space, Any], None]:
+        # pymunk prints and swallows what is raised in here; kept, it is raised after the tick
+        def guarded(arbiter: pymunk.Arbiter, space: pymunk.Space, _data: Any) -> None:
+            if space is not self._space:
+                return  # a space of an earlier episode, which says goodbye when it is freed
+            try:
+                handle(arbiter)
+            except Exception as error:  # whatever it is, World.tick raises it
+                self.error = self.error or error
+
+        return guarded

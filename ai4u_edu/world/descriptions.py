@@ -1,0 +1,80 @@
+"""What a world is made of, as descriptions: settings, bodies, floors, areas.
+
+Angles in degrees, as people write them; inside the world all is radians.
+"""
+
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from ai4u_edu.palette import Colour
+from ai4u_edu.parameters import Bits, Degrees, Metres, Name, Point, PositiveMetres, quantity
+from ai4u_edu.world.shapes import BodyShape, CircleShape, Description, RegionShape
+
+Tags = tuple[Name, ...]
+
+
+class WorldSettings(Description):
+    """What holds for a whole world."""
+
+    ticks_per_second: Annotated[int, quantity("1/s", ge=1, le=1000)] = 60
+    damping: Annotated[float, quantity("1", gt=0, le=1)] = 0.05
+    """The share of its speed that a body on the ground keeps for a second (pymunk's damping)."""
+    gravity: Annotated[float, quantity("m/s^2", ge=0, le=1000)] = 9.81
+    """Downwards, along -z; nothing pulls in the plane."""
+    fall_threshold: Metres = -2.0
+    """A body that falls below this height is out of the world."""
+
+
+class BodyDescription(Description):
+    """A thing in the world: an agent's body, a box, a wall.
+
+    Seen from above it has a shape; upwards it reaches from ``z`` to ``z + height``.
+    """
+
+    name: Name
+    shape: BodyShape = CircleShape()
+    kind: Literal["static", "dynamic", "kinematic"] = "dynamic"
+    position: Point = (0.0, 0.0)
+    heading_deg: Degrees = 0.0
+    z: Metres | None = None
+    """Height of the underside; left out: it stands on the highest floor there."""
+    height: PositiveMetres = 1.0
+    mass: Annotated[float, quantity("kg", gt=0, le=1e6)] = 1.0
+    friction: Annotated[float, quantity("1", ge=0, le=10)] = 0.5
+    elasticity: Annotated[float, quantity("1", ge=0, le=1)] = 0.0
+    velocity: Point = (0.0, 0.0)
+    angular_velocity_deg: Annotated[float, quantity("deg/s", ge=-1e5, le=1e5)] = 0.0
+    colour: Colour | None = None
+    label: Annotated[str, Field(max_length=40)] = ""
+    tags: Tags = ()
+    """The groups it belongs to."""
+    collision_layer: Bits = 1
+    collision_mask: Bits = 0xFFFFFFFF
+
+
+class RegionDescription(Description):
+    """A part of the plane, from above."""
+
+    name: Name
+    shape: RegionShape
+    position: Point = (0.0, 0.0)
+    heading_deg: Degrees = 0.0
+    tags: Tags = ()
+    colour: Colour | None = None
+    label: Annotated[str, Field(max_length=40)] = ""
+
+
+class FloorDescription(RegionDescription):
+    """Ground to stand on: a thin sheet at height ``top``.
+
+    It bears what is on or above it; what is lower passes under it. For a step that stands in the
+    way, use a static body with a height. A world without any floor has endless ground at height 0.
+    """
+
+    top: Metres = 0.0
+    tags: Tags = ("floor",)
+
+
+class AreaDescription(RegionDescription):
+    """A place that can be asked about (a goal, a trigger); nothing collides with it."""

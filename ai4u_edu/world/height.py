@@ -1,0 +1,147 @@
+"""Height in a plane: floors, falling, jumping, landing, passing over and under.
+
+The physics is flat; z is kept here. A body on the ground stands on what is under its centre: a
+floor, or the top of another body. Over nothing it falls; between take-off and landing it follows
+the exact parabola, tick by tick, and keeps its speed in the plane.
+"""
+
+from typing import TYPE_CHECKING, Any
+
+import pymunk
+
+from ai4u_edu.world.region import Region
+
+if TYPE_CHECKING:
+    from ai4u_edu.world.body import Body
+    from ai4u_edu.world.world import World
+
+SAME = 1e-9
+"""Heights closer than this (metres) are the same."""
+
+
+class Height:
+    """The vertical part of a world.
+
+    ``movers`` holds the bodies that need a look each tick: all that can move where there are
+    floors to fall off, else only those in the air or on top of something. Where it is empty, the
+    world's tick does not come here at all.
+    """
+
+    def __init__(self, world: "World") -> None:
+        self._world = world
+        self._floors: list[tuple[float, Region]] = []
+        self.movers: list[Body] = []
+
+    def rebuild(self) -> None:
+        """Starts over with the world's floors and bodies as they are now."""
+        self._floors = sorted(
+            ((floor.top, region) for floor, region in self._world._floor_regions()),
+            key=lambda pair: -pair[0],
+        )
+        self.movers = []
+        for body in self._world.bodies.values():
+            if self._floors and body.moves:
+                self.movers.append(body)
+
+    def ground(self, x: float, y: float, below: float = float("inf")) -> float | None:
+        """The highest floor at a place that is not above ``below``; None over the void."""
+        if not self._floors:
+            return 0.0 if below >= -SAME else None
+        for top, region in self._floors:
+            if top <= below + SAME and region.contains(x, y):
+                return top
+        return None
+
+    def settle(self, body: "Body", z: float | None) -> None:
+        """Gives a body that was put somewhere its height: on the floor there, or the given one."""
+        x, y = body.position
+        body.z = (self.ground(x, y) or 0.0) if z is None else z
+        body.vz = 0.0
+
+    def rest(self, body: "Body") -> None:
+        """Finds out whether a body that was put somewhere stands there, or is in the air."""
+        x, y = body.position
+        body.on_ground = not body.moves or body.z == self._support(body, x, y, body.z)
+        body._pm.velocity_func = pymunk.Body.update_velocity if body.on_ground else _fly
+        if body.moves and (body.z != 0.0 or not body.on_ground):
+            self._attend(body)
+        self._world.contacts.classify(body)
+
+    def launch(self, body: "Body", speed: float) -> None:
+        """Gives a body an upward speed; on the ground one that points down does nothing."""
+        if body.on_ground:
+            if speed <= 0.0 or body.fallen:
+                return
+            self._leave(body)
+        body.vz = speed
+
+    def step(self, dt: float) -> None:
+        """Moves everything vertically by one tick; called after the plane's own step."""
+        for body in tuple(self.movers):
+            if body.on_ground:
+                self._stand(body, dt)
+            else:
+                self._fly_on(body, dt)
+
+    def _stand(self, body: "Body", dt: float) -> None:
+        x, y = body._pm.position
+        if body.z == (self._support(body, x, y, body.z) if body.z else self.ground(x, y, 0.0)):
+            return
+        self._leave(body)
+        self._fly_on(body, dt)
+
+    def _fly_on(self, body: "Body", dt: float) -> None:
+        gravity = self._world.settings.gravity
+        x, y = body._pm.position
+        before, z = body.z, body.z + body.vz * dt - 0.5 * gravity * dt * dt
+        body.vz -= gravity * dt
+        if z > before:
+            z = self._below_ceiling(body, before, z)
+        support = self._support(body, x, y, max(before, z))
+        if support is not None and z <= support:
+            self._land(body, support)
+            return
+        body.z = z
+        if z < self._world.settings.fall_threshold:
+            self._world._drop(body)
+
+    def _support(self, body: "Body", x: float, y: float, below: float) -> float | None:
+        """The highest top under a centre, of floors and bodies, that is not above ``below``."""
+        best = self.ground(x, y, below)
+        accept = self._world.filter_for(body, body.description.collision_mask)
+        for hit in self._world.space.point_query((x, y), 0.0, accept):
+            other = self._world.owners[hit.shape]
+            top = other.z + other.height
+            if top <= below + SAME and (best is None or top > best):
+                best = top
+        return best
+
+    def _below_ceiling(self, body: "Body", before: float, z: float) -> float:
+        """Where a rising body stops under what hangs above it."""
+        for other in self._world.contacts.passes(body):
+            room = other.z - body.height
+            if before <= room + SAME and z > room:
+                z, body.vz = room, 0.0
+        return z
+
+    def _leave(self, body: "Body") -> None:
+        body.on_ground = False
+        body._pm.velocity_func = _fly
+        self._attend(body)
+        self._world.contacts.classify(body)
+
+    def _land(self, body: "Body", support: float) -> None:
+        body.z, body.vz, body.on_ground = support, 0.0, True
+        body._pm.velocity_func = pymunk.Body.update_velocity
+        if not self._floors and support == 0.0:
+            self.movers.remove(body)
+        self._world.contacts.classify(body)
+
+    def _attend(self, body: "Body") -> None:
+        if body not in self.movers:
+            self.movers.append(body)
+
+
+def _fly(body: pymunk.Body, gravity: Any, _damping: float, dt: float) -> None:
+    # damping is the ground's friction: in the air there is none
+    pymunk.Body.update_velocity(body, gravity, 1.0, dt)

@@ -1,0 +1,47 @@
+"""A region put in its place: which points of the world lie in it."""
+
+import math
+
+from ai4u_edu.world.descriptions import RegionDescription
+from ai4u_edu.world.shapes import BoxShape
+
+
+class Region:
+    """A floor or an area in world coordinates.
+
+    Args:
+        description: what the region is; kept as ``description``.
+    """
+
+    def __init__(self, description: RegionDescription) -> None:
+        self.description = description
+        self.name = description.name
+        self.tags = description.tags
+        self.x, self.y = description.position
+        heading = math.radians(description.heading_deg)
+        self._cos, self._sin = math.cos(heading), math.sin(heading)
+        self._contains = description.shape.contains
+        shape = description.shape
+        self._box = shape.size if isinstance(shape, BoxShape) and heading == 0.0 else None
+
+    def contains(self, x: float, y: float) -> bool:
+        """Whether a point of the world (metres) lies in the region; its rim belongs to it."""
+        if self._box is not None:
+            # most floors are upright boxes, and every mover asks its floor every tick
+            return 2 * abs(x - self.x) <= self._box[0] and 2 * abs(y - self.y) <= self._box[1]
+        dx, dy = x - self.x, y - self.y
+        return self._contains(
+            self._cos * dx + self._sin * dy,
+            self._cos * dy - self._sin * dx,
+        )
+
+    def outline(self) -> list[tuple[float, float]]:
+        """The rim in world coordinates, counter-clockwise."""
+        return self.placed(self.description.shape.outline())
+
+    def placed(self, points: list[tuple[float, float]]) -> list[tuple[float, float]]:
+        """Points of the region's own frame in world coordinates."""
+        return [
+            (self.x + self._cos * x - self._sin * y, self.y + self._sin * x + self._cos * y)
+            for x, y in points
+        ]

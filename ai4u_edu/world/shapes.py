@@ -1,0 +1,211 @@
+"""Shapes as descriptions: what a body, a floor or an area looks like from above.
+
+All lengths in metres, in the frame of what carries the shape (x forward, y left).
+"""
+
+import math
+from typing import Annotated, Literal, Self
+
+from pydantic import BaseModel, ConfigDict, Field, model_validator
+
+from ai4u_edu.parameters import Point, PositiveMetres
+
+OUTLINE_CORNERS = 48
+
+
+class Description(BaseModel):
+    """The base of all that a scene file can say: frozen, nothing unknown, nothing infinite."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
+
+
+class CircleShape(Description):
+    """A disc around the origin."""
+
+    type: Literal["circle"] = "circle"
+    radius: PositiveMetres = 0.5
+
+    @property
+    def reach(self) -> float:
+        """Distance from the origin to the farthest point."""
+        return self.radius
+
+    def contains(self, x: float, y: float) -> bool:
+        """Whether a point of the shape's own frame lies in it."""
+        return x * x + y * y <= self.radius * self.radius
+
+    def outline(self) -> list[tuple[float, float]]:
+        """Corners of a polygon that looks like the shape, counter-clockwise."""
+        return _arc(self.radius, 0, 2 * math.pi, OUTLINE_CORNERS)
+
+
+class BoxShape(Description):
+    """A rectangle around the origin: ``size`` is (along x, along y)."""
+
+    type: Literal["box"] = "box"
+    size: tuple[PositiveMetres, PositiveMetres] = (1.0, 1.0)
+
+    @property
+    def reach(self) -> float:
+        """Distance from the origin to the farthest point."""
+        return math.hypot(*self.size) / 2
+
+    def contains(self, x: float, y: float) -> bool:
+        """Whether a point of the shape's own frame lies in it."""
+        return 2 * abs(x) <= self.size[0] and 2 * abs(y) <= self.size[1]
+
+    def outline(self) -> list[tuple[float, float]]:
+        """The four corners, counter-clockwise."""
+        a, b = self.size[0] / 2, self.size[1] / 2
+        return [(a, b), (-a, b), (-a, -b), (a, -b)]
+
+
+class PolygonShape(Description):
+    """A convex polygon by its corners, counter-clockwise."""
+
+    type: Literal["polygon"] = "polygon"
+    vertices: Annotated[tuple[Point, ...], Field(min_length=3, max_length=64)]
+
+    @model_validator(mode="after")
+    def _convex(self) -> Self:
+        corners = self.vertices
+        total = 0.0
+        for i, (x, y) in enumerate(corners):
+            (x1, y1), (x2, y2) = corners[(i + 1) % len(corners)], corners[(i + 2) % len(corners)]
+            dx, dy, ex, ey = x1 - x, y1 - y, x2 - x1, y2 - y1
+            turn = math.atan2(dx * ey - dy * ex, dx * ex + dy * ey)
+            if turn <= 0:
+                raise ValueError(
+                    "expected the corners of a convex polygon, counter-clockwise; "
+                    f"it turns the other way (or not at all) at corner {(i + 1) % len(corners)} "
+                    f"{(x1, y1)}; build a hollow shape from several bodies"
+                )
+            total += turn
+        if total > 3 * math.pi:
+            raise ValueError("expected corners that go round once; they cross themselves")
+        return self
+
+    @property
+    def reach(self) -> float:
+        """Distance from the origin to the farthest point."""
+        return max(math.hypot(*corner) for corner in self.vertices)
+
+    def contains(self, x: float, y: float) -> bool:
+        """Whether a point of the shape's own frame lies in it."""
+        ax, ay = self.vertices[-1]
+        for bx, by in self.vertices:
+            if (bx - ax) * (y - ay) - (by - ay) * (x - ax) < 0:
+                return False
+            ax, ay = bx, by
+        return True
+
+    def outline(self) -> list[tuple[float, float]]:
+        """The corners, counter-clockwise."""
+        return list(self.vertices)
+
+
+class CapsuleShape(Description):
+    """A stick with round ends along x: ``length`` between the centres of the ends."""
+
+    type: Literal["capsule"] = "capsule"
+    length: PositiveMetres = 1.0
+    radius: PositiveMetres = 0.25
+
+    @property
+    def reach(self) -> float:
+        """Distance from the origin to the farthest point."""
+        return self.length / 2 + self.radius
+
+    def contains(self, x: float, y: float) -> bool:
+        """Whether a point of the shape's own frame lies in it."""
+        along = max(-self.length / 2, min(self.length / 2, x))
+        return math.hypot(x - along, y) <= self.radius
+
+    def outline(self) -> list[tuple[float, float]]:
+        """Corners of a polygon that looks like the shape, counter-clockwise."""
+        half, n = self.length / 2, OUTLINE_CORNERS // 2
+        right = _arc(self.radius, -math.pi / 2, math.pi / 2, n)
+        left = _arc(self.radius, math.pi / 2, 3 * math.pi / 2, n)
+        return [(x + half, y) for x, y in right] + [(x - half, y) for x, y in left]
+
+
+class SegmentShape(Description):
+    """A straight wall from ``a`` to ``b`` with round ends."""
+
+    type: Literal["segment"] = "segment"
+    a: Point
+    b: Point
+    thickness: PositiveMetres = 0.2
+
+    @model_validator(mode="after")
+    def _has_length(self) -> Self:
+        if self.a == self.b:
+            raise ValueError(f"expected two different ends, got {self.a} twice")
+        return self
+
+    @property
+    def reach(self) -> float:
+        """Distance from the origin to the farthest point."""
+        return max(math.hypot(*self.a), math.hypot(*self.b)) + self.thickness / 2
+
+    def contains(self, x: float, y: float) -> bool:
+        """Whether a point of the shape's own frame lies in it."""
+        (ax, ay), (bx, by) = self.a, self.b
+        dx, dy = bx - ax, by - ay
+        t = max(0.0, min(1.0, ((x - ax) * dx + (y - ay) * dy) / (dx * dx + dy * dy)))
+        return math.hypot(x - ax - t * dx, y - ay - t * dy) <= self.thickness / 2
+
+    def outline(self) -> list[tuple[float, float]]:
+        """Corners of a polygon that looks like the shape, counter-clockwise."""
+        (ax, ay), (bx, by) = self.a, self.b
+        heading, radius, n = math.atan2(by - ay, bx - ax), self.thickness / 2, 8
+        front = _arc(radius, heading - math.pi / 2, heading + math.pi / 2, n)
+        back = _arc(radius, heading + math.pi / 2, heading + 3 * math.pi / 2, n)
+        return [(x + bx, y + by) for x, y in front] + [(x + ax, y + ay) for x, y in back]
+
+
+class RingShape(Description):
+    """The band between two circles around the origin. For floors and areas only."""
+
+    type: Literal["ring"] = "ring"
+    inner: PositiveMetres
+    outer: PositiveMetres
+
+    @model_validator(mode="after")
+    def _has_width(self) -> Self:
+        if self.outer <= self.inner:
+            raise ValueError(f"outer: expected more than inner ({self.inner}), got {self.outer}")
+        return self
+
+    @property
+    def reach(self) -> float:
+        """Distance from the origin to the farthest point."""
+        return self.outer
+
+    def contains(self, x: float, y: float) -> bool:
+        """Whether a point of the shape's own frame lies in it."""
+        return self.inner <= math.hypot(x, y) <= self.outer
+
+    def outline(self) -> list[tuple[float, float]]:
+        """The outer rim, counter-clockwise; the hole is :meth:`hole`."""
+        return _arc(self.outer, 0, 2 * math.pi, 2 * OUTLINE_CORNERS)
+
+    def hole(self) -> list[tuple[float, float]]:
+        """The inner rim, counter-clockwise."""
+        return _arc(self.inner, 0, 2 * math.pi, 2 * OUTLINE_CORNERS)
+
+
+def _arc(radius: float, start: float, stop: float, steps: int) -> list[tuple[float, float]]:
+    full = math.isclose(stop - start, 2 * math.pi)
+    angles = [start + (stop - start) * i / (steps if full else steps - 1) for i in range(steps)]
+    return [(radius * math.cos(angle), radius * math.sin(angle)) for angle in angles]
+
+
+BodyShape = Annotated[
+    CircleShape | BoxShape | PolygonShape | CapsuleShape | SegmentShape,
+    Field(discriminator="type"),
+]
+RegionShape = Annotated[
+    CircleShape | BoxShape | PolygonShape | CapsuleShape | RingShape,
+    Field(discriminator="type"),
+]

@@ -1,0 +1,133 @@
+"""What a block may ask of the world; to be read, not to be changed."""
+
+import math
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ai4u_edu.errors import NameNotFoundError, suggest
+from ai4u_edu.world.body import BodyView
+from ai4u_edu.world.rays import CodeOf, RayFan, RayGrid
+from ai4u_edu.world.sight import line_of_sight
+
+if TYPE_CHECKING:
+    from ai4u_edu.world.world import World
+
+
+class WorldView:
+    """The world as sensors and rewards see it.
+
+    >>> from ai4u_edu.world import CircleShape, World
+    >>> world = World()
+    >>> _ = world.add_body("robot", CircleShape())
+    >>> _ = world.add_body("box", CircleShape(), position=(3, 4), tags=("target",))
+    >>> view = WorldView(world)
+    >>> view["robot"].distance(view["box"])
+    5.0
+    >>> view.named("target")
+    ('box',)
+    """
+
+    def __init__(self, world: "World") -> None:
+        self._world = world
+
+    def __getitem__(self, name: str) -> BodyView:
+        """The body of that name.
+
+        Raises:
+            NameNotFoundError: there is none; the message suggests the nearest name.
+        """
+        return self._world[name]
+
+    def __contains__(self, name: str) -> bool:
+        return name in self._world.bodies or name in self._world.areas
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._world.bodies)
+
+    @property
+    def ticks(self) -> int:
+        """Ticks since the reset."""
+        return self._world.ticks
+
+    @property
+    def dt(self) -> float:
+        """A tick's length in seconds."""
+        return self._world.dt
+
+    @property
+    def time(self) -> float:
+        """Seconds since the reset."""
+        return self._world.time
+
+    def named(self, tag: str) -> tuple[str, ...]:
+        """The names of all bodies that carry a tag."""
+        return tuple(name for name, body in self._world.bodies.items() if tag in body.tags)
+
+    def check_target(self, name: str) -> None:
+        """Raises NameNotFoundError, with a suggestion, unless a body or an area has that name."""
+        if name not in self:
+            known = [*self._world.bodies, *self._world.areas]
+            raise NameNotFoundError(f"no body or area is named {name!r}; {suggest(name, known)}")
+
+    def ground(self, x: float, y: float) -> float | None:
+        """The height of the highest floor at a place (metres); None over the void."""
+        return self._world.ground(x, y)
+
+    def touching(self, body: BodyView, target: str) -> bool:
+        """Whether an agent's body touches another body now, or its centre is in an area."""
+        area = self._world.areas.get(target)
+        if area is not None:
+            return area.contains(*body.position)
+        return target in self._world.contacts.of(body.name)
+
+    def touched_after(self, body: BodyView, target: str, tick: int) -> bool:
+        """Whether they touch now, or touched at any tick after the given one."""
+        if target in self._world.areas:
+            return self.touching(body, target)
+        return self._world.contacts.touched_after(body.name, target, tick)
+
+    def contacts(self, body: BodyView) -> tuple[str, ...]:
+        """The names of all bodies that an agent's body touches now."""
+        return self._world.contacts.of(body.name)
+
+    def bounds(self) -> tuple[tuple[float, float], tuple[float, float]]:
+        """A rectangle ((x0, y0), (x1, y1)) around all floors and all bodies as described."""
+        return self._world.bounds()
+
+    def diagonal(self) -> float:
+        """The longest way across :meth:`bounds`, metres."""
+        (left, low), (right, high) = self._world.bounds()
+        return math.hypot(right - left, high - low)
+
+    def sees(self, looker: BodyView, target: BodyView, up: float = 0.5) -> bool:
+        """Whether nothing stands between two bodies.
+
+        Args:
+            looker: whose eye it is.
+            target: what is looked at.
+            up: how far above its underside each has its eye, metres.
+        """
+        return line_of_sight(self._world, looker, target, up)
+
+    def random(self, name: str) -> np.random.Generator:
+        """The generator that belongs to a block's name, from the world's seed."""
+        return self._world.seeds.child(name)
+
+    def ray_fan(
+        self, angles: Sequence[float], reach: float, code_of: CodeOf, **options: Any
+    ) -> RayFan:
+        """A fan of level rays; angles in radians from the heading, counter-clockwise."""
+        return RayFan(self._world, angles, reach, code_of, **options)
+
+    def ray_grid(
+        self,
+        angles: Sequence[float],
+        pitches: Sequence[float],
+        reach: float,
+        code_of: CodeOf,
+        **options: Any,
+    ) -> RayGrid:
+        """A grid of rays in perspective; pitches in radians, upwards positive."""
+        return RayGrid(self._world, angles, pitches, reach, code_of, **options)
