@@ -37,6 +37,9 @@ class SetupError(AI4UError):
 class ParameterError(SetupError):
     """A parameter is missing, unknown, out of range or of another type."""
 
+    details: Exception | None = None
+    """The finding, parameter by parameter, of the library that checked."""
+
 
 class BlockError(SetupError):
     """A block does not fit its agent or its world."""

@@ -7,9 +7,9 @@ construction, the JSON Schema, forms and tables are derived from it::
 """
 
 from collections.abc import Iterable, Mapping, Sequence
-from typing import Annotated, Any, NamedTuple
+from typing import Annotated, Any, NamedTuple, get_args
 
-from pydantic import Field, StringConstraints
+from pydantic import BaseModel, Field, StringConstraints
 from pydantic_core import ErrorDetails
 
 from ai4u_edu.errors import suggest
@@ -60,34 +60,86 @@ def dotted(path: Sequence[str | int]) -> str:
     return text.removeprefix(".")
 
 
-def explain(errors: Iterable[ErrorDetails], known: Iterable[str] = ()) -> list[Problem]:
-    """Pydantic's findings in our words: expected, got, how to mend it."""
-    known = list(known)
-    return [Problem(_clean(error["loc"]), _sentence(error, known)) for error in errors]
+def explain(
+    errors: Iterable[ErrorDetails], known: type[BaseModel] | Iterable[str]
+) -> list[Problem]:
+    """Pydantic's findings in our words: expected, got, how to mend it.
+
+    Args:
+        errors: what pydantic found.
+        known: the model that was asked for, or the names of its parameters.
+    """
+    names = known if isinstance(known, type) else list(known)
+    problems = []
+    for error in errors:
+        path, names_there = _walk(error["loc"], names)
+        problems.append(Problem(path, _sentence(error, names_there)))
+    return problems
 
 
-def _clean(location: tuple[int | str, ...]) -> tuple[str | int, ...]:
-    # pydantic puts names of union members into the path ("box", "function-wrap[...]"); a person
-    # never wrote those
-    return tuple(part for part in location if isinstance(part, int) or not part.endswith("]"))
+def _walk(
+    location: tuple[int | str, ...], known: type[BaseModel] | list[str]
+) -> tuple[tuple[str | int, ...], list[str]]:
+    """A finding's path as a person wrote it, and the names that are known in its place.
+
+    Pydantic puts the tag of a union's member into the path ("circle"); nobody wrote that there.
+    """
+    if isinstance(known, list):
+        return location, known
+    path: list[str | int] = []
+    here: list[type[BaseModel]] = [known]
+    for part in location:
+        tagged = [model for model in here if _tag(model) == part]
+        if tagged and not any(part in model.model_fields for model in here):
+            here = tagged
+            continue
+        path.append(part)
+        if isinstance(part, str):
+            fields = [model.model_fields[part] for model in here if part in model.model_fields]
+            if not fields:
+                break
+            here = [each for field in fields for each in _models(field.annotation)]
+    return tuple(path), [name for model in here for name in model.model_fields]
+
+
+def _tag(model: type[BaseModel]) -> object:
+    field = model.model_fields.get("type")
+    return field.default if field else None
+
+
+def _models(annotation: Any) -> list[type[BaseModel]]:
+    if isinstance(annotation, type) and issubclass(annotation, BaseModel):
+        return [annotation]
+    return [model for part in get_args(annotation) for model in _models(part)]
+
+
+BOUNDS = {
+    "greater_than": ("more than", "gt"),
+    "greater_than_equal": ("at least", "ge"),
+    "less_than": ("less than", "lt"),
+    "less_than_equal": ("at most", "le"),
+}
 
 
 def _sentence(error: ErrorDetails, known: Sequence[str]) -> str:
     kind, got = error["type"], error.get("input")
+    context: Mapping[str, Any] = error.get("ctx", {})
+    shown = repr(got) if len(repr(got)) <= 60 else repr(got)[:57] + "..."
     if kind in {"missing", "missing_argument", "missing_keyword_only_argument"}:
         return "is missing and has no default"
     if kind == "unexpected_positional_argument":
-        return f"parameters are given by name, as in {next(iter(known), 'size')}=...; got {got!r}"
+        return f"parameters are given by name, as in {next(iter(known), 'size')}=...; got {shown}"
     if kind in {"extra_forbidden", "unexpected_keyword_argument"}:
         return "unknown parameter; " + suggest(str(error["loc"][-1]), known)
     if kind == "union_tag_invalid":
-        context: Mapping[str, Any] = error.get("ctx", {})
         tags = [tag.strip().strip("'") for tag in str(context["expected_tags"]).split(",")]
         return f"unknown type {context['tag']!r}; {suggest(str(context['tag']), tags)}"
     if kind == "union_tag_not_found":
         return "needs a 'type'"
     if kind == "value_error":
         return error["msg"].removeprefix("Value error, ")
+    if kind in BOUNDS:
+        words, key = BOUNDS[kind]
+        return f"expected {words} {context[key]:g}, got {shown}"
     message = error["msg"].replace("Input should be ", "expected ").replace("valid ", "")
-    shown = repr(got) if len(repr(got)) <= 60 else repr(got)[:57] + "..."
     return f"{message}, got {shown}"

@@ -14,6 +14,9 @@ class Block(Declared):
     types: ClassVar[dict[str, type["Block"]]] = {}
     """Every kind of block there is, by the name of its class; scene files name them so."""
 
+    abstract: ClassVar[bool] = False
+    """Whether a class is only the base of others; said in its own body."""
+
     def __init_subclass__(cls, **options: Any) -> None:
         super().__init_subclass__(**options)
         Block.types[cls.__name__] = cls

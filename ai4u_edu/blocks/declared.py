@@ -15,7 +15,12 @@ from pydantic.fields import FieldInfo
 from ai4u_edu.errors import ParameterError
 from ai4u_edu.parameters import explain
 
-_CONFIG = ConfigDict(extra="forbid", allow_inf_nan=False, arbitrary_types_allowed=True)
+_CONFIG = ConfigDict(
+    extra="forbid",
+    allow_inf_nan=False,
+    arbitrary_types_allowed=True,
+    use_attribute_docstrings=True,
+)
 
 
 @dataclass_transform(kw_only_default=True, eq_default=False, field_specifiers=(Field,))
@@ -85,7 +90,9 @@ def _explained(construct: Callable[..., None], cls: type[Declared]) -> Callable[
             inner(self, *args, **values)
         except ValidationError as error:
             problems = "; ".join(map(str, explain(error.errors(), cls.parameters())))
-            raise ParameterError(f"{type(self).__name__}: {problems}") from None
+            told = ParameterError(f"{type(self).__name__}: {problems}")
+            told.details = error
+            raise told from None
 
     explained._inner = inner  # type: ignore[attr-defined]  # a subclass wraps its own, once
     return explained

@@ -27,6 +27,8 @@ class RayPicture(NamedTuple):
 class RaySensor(Sensor):
     """The parameters that both ray sensors have."""
 
+    abstract = True
+
     field_of_view: Annotated[float, quantity("deg", gt=0, le=360)] = 90.0
     """The whole horizontal angle."""
     horizontal_shift: Degrees = 0.0

@@ -18,6 +18,8 @@ LARGEST = 2**31 - 1
 class StatusSensor(Sensor):
     """A sensor that looks at its agent; it doesn't stack and is no input of a policy."""
 
+    abstract = True
+
     is_input: bool = False
     stackable = False
 

@@ -1,0 +1,122 @@
+"""The command line; each command is a few lines around what the package offers."""
+
+import json
+import sys
+import webbrowser
+from pathlib import Path
+from typing import Annotated
+
+import typer
+from rich.console import Console
+from rich.table import Table
+
+from ai4u_edu.errors import AI4UError
+from ai4u_edu.version import __version__
+
+app = typer.Typer(
+    name="ai4u-edu",
+    help="A top-down sandbox to learn how agents sense, decide and act.",
+    no_args_is_help=True,
+    pretty_exceptions_enable=False,
+    context_settings={"help_option_names": ["-h", "--help"]},
+)
+
+
+def main() -> None:
+    """Runs the command line; an error of ours is told in a sentence, without a traceback."""
+    try:
+        app()
+    except AI4UError as error:
+        typer.secho(f"error: {error}", err=True, fg=typer.colors.RED)
+        sys.exit(1)
+
+
+def _version(wanted: bool) -> None:
+    if wanted:
+        typer.echo(__version__)
+        raise typer.Exit
+
+
+@app.callback()
+def options(
+    version: Annotated[
+        bool, typer.Option("--version", callback=_version, is_eager=True, help="Show the version.")
+    ] = False,
+) -> None:
+    """A top-down sandbox to learn how agents sense, decide and act."""
+
+
+@app.command()
+def play(
+    scene: Annotated[str, typer.Argument(help="A scene of the library, or a YAML file.")] = (
+        "box_chase"
+    ),
+    host: Annotated[str, typer.Option(help="The address to listen on.")] = "127.0.0.1",
+    port: Annotated[int, typer.Option(help="The port; 0 for any free one.", min=0, max=65535)] = (
+        8080
+    ),
+    open_page: Annotated[
+        bool, typer.Option("--open/--no-open", help="Open the page in the browser.")
+    ] = True,
+    seed: Annotated[int | None, typer.Option(help="Seed of the first episode.", min=0)] = None,
+    time_scale: Annotated[
+        float | None, typer.Option(help="How fast the time runs; 1 is real time.", min=0.01)
+    ] = None,
+) -> None:
+    """Serve a scene in the browser; drive with W, A, S, D."""
+    from ai4u_edu.runner import Runner
+    from ai4u_edu.scenes import Scene
+    from ai4u_edu.server import room_app, serve
+    from ai4u_edu.viewer import Viewer
+
+    loaded = Scene.load(scene)
+    title = loaded.description.title or loaded.description.name
+    runner = Runner(loaded.build(), seed=seed, time_scale=time_scale)
+    viewer = Viewer(runner, title=title)
+
+    def ready(url: str) -> None:
+        typer.echo(f"{title} is served at {url}  (Ctrl-C ends it)")
+        if open_page:
+            webbrowser.open(url)
+
+    runner.start()
+    viewer.start()
+    try:
+        serve(room_app(runner, viser_port=viewer.port, title=title), host, port, on_ready=ready)
+    finally:
+        viewer.stop()
+        runner.stop()
+
+
+@app.command()
+def scenes() -> None:
+    """List the scenes of the library."""
+    from ai4u_edu.scenes import Scene
+
+    table = Table(box=None, pad_edge=False)
+    for heading in ("scene", "goal", "controls"):
+        table.add_column(heading, overflow="fold", no_wrap=heading == "scene")
+    for name in Scene.names():
+        described = Scene.load(name).description
+        table.add_row(name, described.goal, described.controls)
+    Console().print(table)
+
+
+@app.command()
+def check(file: Annotated[Path, typer.Argument(help="A scene file.")]) -> None:
+    """Say what is wrong in a scene file."""
+    from ai4u_edu.scenes import Scene
+
+    described = Scene.load(file).description
+    typer.echo(
+        f"{file}: fine: {len(described.bodies)} bodies, {len(described.floors)} floors, "
+        f"{len(described.agents)} agents"
+    )
+
+
+@app.command()
+def schema() -> None:
+    """Print the JSON Schema of scene files, for an editor to complete them."""
+    from ai4u_edu.scenes.schema import scene_schema
+
+    typer.echo(json.dumps(scene_schema(), indent=2))

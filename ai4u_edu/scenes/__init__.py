@@ -1,0 +1,6 @@
+"""Scenes: worlds and agents in files."""
+
+from ai4u_edu.scenes.description import SceneDescription
+from ai4u_edu.scenes.scene import Scene
+
+__all__ = ["Scene", "SceneDescription"]

@@ -1,0 +1,50 @@
+"""What a scene file says."""
+
+from collections.abc import Mapping
+from typing import Annotated, Any
+
+from pydantic import Field
+
+from ai4u_edu.agent import BasicAgent
+from ai4u_edu.parameters import Name, Problem, quantity
+from ai4u_edu.scenes.plain import PlainError, make
+from ai4u_edu.world import AreaDescription, BodyDescription, FloorDescription, WorldSettings
+from ai4u_edu.world.shapes import Description
+
+Text = Annotated[str, Field(max_length=2000)]
+
+
+class SceneDescription(Description):
+    """A world and its agents, as data."""
+
+    name: Name
+    title: Text = ""
+    goal: Text = ""
+    controls: Text = ""
+    rewards: Text = ""
+    """What is paid for what, in words."""
+    time_scale: Annotated[float, quantity("1", gt=0, le=100)] = 1.0
+    world: WorldSettings = WorldSettings()
+    floors: tuple[FloorDescription, ...] = ()
+    areas: tuple[AreaDescription, ...] = ()
+    bodies: tuple[BodyDescription, ...] = ()
+    agents: Annotated[tuple[Mapping[str, Any], ...], Field(min_length=1, max_length=64)]
+    """The parameters of each agent, blocks as mappings with a ``type``."""
+
+
+def make_agents(scene: SceneDescription) -> list[BasicAgent]:
+    """New agents with new blocks, as a scene says.
+
+    Raises:
+        PlainError: some parameters are wrong; all of them are told.
+    """
+    problems: list[Problem] = []
+    agents = []
+    for index, given in enumerate(scene.agents):
+        try:
+            agents.append(make(BasicAgent, given, ("agents", index)))
+        except PlainError as error:
+            problems += error.problems
+    if problems:
+        raise PlainError(problems)
+    return [agent for agent in agents if isinstance(agent, BasicAgent)]

@@ -1,0 +1,140 @@
+"""A scene: a file in, a world with agents out."""
+
+import os
+import tempfile
+from pathlib import Path
+from typing import Any, Self
+
+from pydantic import ValidationError
+
+from ai4u_edu.cycle import ControlRequestor
+from ai4u_edu.errors import AI4UError, SceneError, suggest
+from ai4u_edu.parameters import Problem, explain
+from ai4u_edu.scenes.description import SceneDescription, make_agents
+from ai4u_edu.scenes.plain import PlainError
+from ai4u_edu.scenes.yaml_file import YamlFile, write_yaml
+from ai4u_edu.world import World
+
+LIBRARY = Path(__file__).parent / "library"
+
+
+class Scene:
+    """A world and its agents as data; :meth:`build` makes them.
+
+    >>> scene = Scene.load("box_chase")
+    >>> sim = scene.build(seed=1)
+    >>> sim.reset(seed=1)
+    >>> percept = sim.step()
+    >>> percept["done"]
+    False
+    """
+
+    def __init__(self, description: SceneDescription) -> None:
+        self.description = description
+
+    @classmethod
+    def load(cls, source: str | Path) -> Self:
+        """Reads a scene.
+
+        Args:
+            source: a name out of the library, or the path of a YAML file.
+
+        Raises:
+            SceneError: there is none, or something in it is wrong; names file, path and line.
+        """
+        path = Path(source)
+        if path.suffix not in {".yaml", ".yml"}:
+            path = LIBRARY / f"{source}.yaml"
+            if not path.is_file() or path.parent != LIBRARY:
+                raise SceneError(
+                    f"no scene is called {str(source)!r}; {suggest(str(source), cls.names())}; "
+                    "a file's name ends in .yaml"
+                )
+        try:
+            text = path.read_text(encoding="utf-8")
+        except (OSError, UnicodeDecodeError) as error:
+            raise SceneError(f"{path}: can't be read: {error}") from None
+        return cls.loads(text, name=path.name)
+
+    @classmethod
+    def loads(cls, text: str, *, name: str = "scene") -> Self:
+        """Reads a scene from YAML text; ``name`` stands in messages."""
+        file = YamlFile(text, name)
+        try:
+            description = SceneDescription.model_validate(file.data)
+            scene = cls(description)
+            scene.build()
+        except ValidationError as error:
+            problems = explain(error.errors(), SceneDescription)
+            raise _told(file, problems) from None
+        except PlainError as error:
+            raise _told(file, error.problems) from None
+        except AI4UError as error:
+            raise SceneError(f"{name}: {error}") from None
+        return scene
+
+    @staticmethod
+    def names() -> list[str]:
+        """The names of all scenes in the library."""
+        return sorted(path.stem for path in LIBRARY.glob("*.yaml"))
+
+    def build(self, seed: int = 0) -> ControlRequestor:
+        """Makes the world and the agents, each time new ones."""
+        description = self.description
+        world = World(seed=seed, **dict(description.world))
+        for floor in description.floors:
+            world.add_region(floor)
+        for area in description.areas:
+            world.add_region(area)
+        for body in description.bodies:
+            world.add(body)
+        agents = make_agents(description)
+        return ControlRequestor(world, agents, default_time_scale=description.time_scale)
+
+    def plain(self) -> dict[str, Any]:
+        """The scene as plain data; what is as by default is left out."""
+        return {"name": self.description.name} | self.description.model_dump(
+            mode="json", exclude_defaults=True
+        )
+
+    def dumps(self) -> str:
+        """The scene as YAML text."""
+        return write_yaml(_with_types(self.plain(), self.description))
+
+    def save(self, path: str | Path) -> None:
+        """Writes the scene to a file; a file that was there is replaced whole, or not at all."""
+        path = Path(path)
+        handle, beside = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}-")
+        try:
+            with os.fdopen(handle, "w", encoding="utf-8") as out:
+                out.write(self.dumps())
+                out.flush()
+                os.fsync(out.fileno())
+            Path(beside).replace(path)
+        except BaseException:
+            Path(beside).unlink(missing_ok=True)
+            raise
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Scene):
+            return NotImplemented
+        return self.description == other.description
+
+    __hash__ = None  # type: ignore[assignment]  # compared by content
+
+    def __repr__(self) -> str:
+        return f"<Scene {self.description.name!r}>"
+
+
+def _with_types(plain: dict[str, Any], description: SceneDescription) -> dict[str, Any]:
+    """Puts back the shapes' types: they are defaults, but a file needs them."""
+    for key in ("floors", "areas", "bodies"):
+        for entry, described in zip(plain.get(key, []), getattr(description, key), strict=False):
+            shape = {"type": described.shape.type} | entry.get("shape", {})
+            entry["shape"] = shape
+    return plain
+
+
+def _told(file: YamlFile, problems: "list[Problem] | tuple[Problem, ...]") -> SceneError:
+    lines = [f"{file.name}, line {file.line(each.path)}: {each}" for each in problems]
+    return SceneError("\n".join(lines))
