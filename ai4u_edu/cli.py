@@ -3,6 +3,7 @@
 import json
 import sys
 import webbrowser
+from collections.abc import Sized
 from pathlib import Path
 from typing import Annotated
 
@@ -109,9 +110,14 @@ def check(file: Annotated[Path, typer.Argument(help="A scene file.")]) -> None:
 
     described = Scene.load(file).description
     typer.echo(
-        f"{file}: fine: {len(described.bodies)} bodies, {len(described.floors)} floors, "
-        f"{len(described.agents)} agents"
+        f"{file}: fine: {_count(described.bodies, 'body', 'bodies')}, "
+        f"{_count(described.floors, 'floor', 'floors')}, "
+        f"{_count(described.agents, 'agent', 'agents')}"
     )
+
+
+def _count(things: Sized, one: str, many: str) -> str:
+    return f"{len(things)} {one if len(things) == 1 else many}"
 
 
 @app.command()

@@ -70,11 +70,16 @@ def explain(
         known: the model that was asked for, or the names of its parameters.
     """
     names = known if isinstance(known, type) else list(known)
-    problems = []
-    for error in errors:
-        path, names_there = _walk(error["loc"], names)
-        problems.append(Problem(path, _sentence(error, names_there)))
-    return problems
+    found = [(error, *_walk(error["loc"], names)) for error in errors]
+    return [
+        Problem(path, _sentence(error, names_there))
+        for error, path, names_there in found
+        # a list whose entries are wrong counts as too short as well; the entries say it better
+        if not (
+            error["type"] == "too_short"
+            and any(other[: len(path)] == path != other for _, other, _ in found)
+        )
+    ]
 
 
 def _walk(
@@ -113,6 +118,31 @@ def _models(annotation: Any) -> list[type[BaseModel]]:
     return [model for part in get_args(annotation) for model in _models(part)]
 
 
+EXPECTED = {
+    "int_type": "a whole number",
+    "int_parsing": "a whole number",
+    "int_from_float": "a whole number",
+    "float_type": "a number",
+    "float_parsing": "a number",
+    "finite_number": "a finite number",
+    "string_type": "text",
+    "bool_type": "true or false",
+    "bool_parsing": "true or false",
+    "list_type": "a list",
+    "tuple_type": "a list",
+    "dict_type": "a mapping",
+    "mapping_type": "a mapping",
+    "model_type": "a mapping",
+    "model_attributes_type": "a mapping",
+    "literal_error": "{expected}",
+    "too_short": "at least {min_length} entries",
+    "too_long": "at most {max_length} entries",
+    "string_too_short": "at least {min_length} characters",
+    "string_too_long": "at most {max_length} characters",
+    "string_pattern_mismatch": "text that matches {pattern}",
+}
+"""What was expected, by pydantic's kind of finding."""
+
 BOUNDS = {
     "greater_than": ("more than", "gt"),
     "greater_than_equal": ("at least", "ge"),
@@ -141,5 +171,7 @@ def _sentence(error: ErrorDetails, known: Sequence[str]) -> str:
     if kind in BOUNDS:
         words, key = BOUNDS[kind]
         return f"expected {words} {context[key]:g}, got {shown}"
+    if kind in EXPECTED:
+        return f"expected {EXPECTED[kind].format(**context)}, got {shown}"
     message = error["msg"].replace("Input should be ", "expected ").replace("valid ", "")
     return f"{message}, got {shown}"

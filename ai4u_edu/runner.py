@@ -10,7 +10,7 @@ import time
 from collections import deque
 from collections.abc import Callable
 from concurrent.futures import Future
-from typing import TypeVar
+from typing import Any, TypeVar
 
 from ai4u_edu.cycle import ControlRequestor
 from ai4u_edu.snapshot import Snapshot, Stage, agent_state, body_states, set_stage
@@ -50,7 +50,7 @@ class Runner:
         if time_scale is not None:
             self.set_time_scale(time_scale)
         self._clock = clock
-        self._commands: deque[tuple[float, Callable[[], None]]] = deque()
+        self._commands: deque[tuple[float, Callable[[], None], Future[Any]]] = deque()
         self._wake = threading.Condition()
         self._published = threading.Condition()
         self._stopping = False
@@ -87,8 +87,11 @@ class Runner:
                 future.set_exception(error)
 
         with self._wake:
-            self._commands.append((self._clock(), carry_out))
-            self._wake.notify()
+            if self._stopping:
+                future.cancel()
+            else:
+                self._commands.append((self._clock(), carry_out, future))
+                self._wake.notify()
         return future
 
     def pause(self) -> "Future[None]":
@@ -131,13 +134,13 @@ class Runner:
 
     def stop(self) -> None:
         """Ends the thread; commands that still wait are cancelled."""
-        self._stopping = True
         with self._wake:
+            self._stopping = True
             self._wake.notify()
         if self._thread is not None:
             self._thread.join()
         while self._commands:
-            self._commands.popleft()
+            self._commands.popleft()[2].cancel()
 
     def set_time_scale(self, time_scale: float) -> None:
         """Sets the time scale at once; only for the runner's thread, or before it starts."""
@@ -178,7 +181,7 @@ class Runner:
 
     def _carry_out_commands(self) -> None:
         while self._commands:
-            asked, command = self._commands[0]
+            asked, command, _ = self._commands[0]
             standing = self.paused or self.error or self.sim.between_decisions()
             if not standing and self._clock() - asked < PATIENCE:
                 return

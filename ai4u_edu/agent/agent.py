@@ -175,8 +175,11 @@ class BasicAgent(Declared):
         return [pair for pair in accepted if pair[0].is_active]
 
     def begin_step(self) -> None:
-        """A decision was taken: nothing is paid yet."""
-        self.ledger.open()
+        """A decision was taken: nothing is paid for it yet."""
+        if self.steps:
+            self.ledger.open()
+        else:
+            self.ledger.clear()  # what was added before the first decision belongs to none
         if self.begin_of_step.handlers:
             self.begin_of_step.fire(self)
 
@@ -190,7 +193,6 @@ class BasicAgent(Declared):
                     self._done_requested = True
         if self.end_of_step.handlers:
             self.end_of_step.fire(self)
-        self.ledger.close()
         self.steps += 1
         total = self.ledger.total
         self.terminated = (

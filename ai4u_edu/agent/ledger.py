@@ -17,7 +17,7 @@ class Ledger:
     >>> ledger.pay("touch", 100.0); ledger.pay("step", -0.5)
     >>> ledger.total, ledger.terms
     (99.5, {'touch': 100.0, 'step': -0.5})
-    >>> ledger.close(); ledger.open()
+    >>> ledger.open()
     >>> ledger.total, ledger.episode_total
     (0.0, 99.5)
     """
@@ -29,20 +29,16 @@ class Ledger:
         self.episode_total = 0.0
 
     def open(self) -> None:
-        """A decision begins: nothing is paid yet."""
+        """A decision begins: nothing is paid for it yet."""
         self.terms = {}
         self.total = 0.0
 
     def pay(self, name: str, amount: float) -> None:
         """Books an amount under a name."""
         self.terms[name] = self.terms.get(name, 0.0) + amount
+        self.episode_terms[name] = self.episode_terms.get(name, 0.0) + amount
         self.total += amount
-
-    def close(self) -> None:
-        """A decision ends: what was paid belongs to the episode."""
-        for name, amount in self.terms.items():
-            self.episode_terms[name] = self.episode_terms.get(name, 0.0) + amount
-        self.episode_total += self.total
+        self.episode_total += amount
 
     def clear(self) -> None:
         """An episode begins."""

@@ -12,6 +12,7 @@ from pydantic import ConfigDict, Field, TypeAdapter, ValidationError
 from pydantic.dataclasses import dataclass
 from pydantic.fields import FieldInfo
 
+from ai4u_edu.blocks.field_docs import field_docs
 from ai4u_edu.errors import ParameterError
 from ai4u_edu.parameters import explain
 
@@ -19,7 +20,6 @@ _CONFIG = ConfigDict(
     extra="forbid",
     allow_inf_nan=False,
     arbitrary_types_allowed=True,
-    use_attribute_docstrings=True,
 )
 
 
@@ -55,8 +55,12 @@ class Declared:
 
     @classmethod
     def json_schema(cls) -> dict[str, Any]:
-        """The JSON Schema of the parameters."""
-        return TypeAdapter(cls).json_schema()
+        """The JSON Schema of the parameters; what is written under a field is its description."""
+        schema = TypeAdapter(cls).json_schema()
+        for name, text in field_docs(cls).items():
+            if name in schema.get("properties", {}):
+                schema["properties"][name].setdefault("description", text)
+        return schema
 
     def values(self) -> dict[str, Any]:
         """The parameters' values by name, as they are now."""

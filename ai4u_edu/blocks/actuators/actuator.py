@@ -49,7 +49,9 @@ class Actuator(Block):
 
     def space(self) -> spaces.Space[Any]:
         """A Box of shape (n,), or a Discrete space: what an action of this actuator may be."""
-        raise BlockError(f"{self!r} has no space(): it must say what action it takes, as a Box")
+        raise BlockError(
+            f"{type(self).__name__} has no space(self): it must say what action it takes, as a Box"
+        )
 
     def act(self, body: Body, action: tuple[float, ...]) -> None:
         """Carries an action out, for one tick.
@@ -58,7 +60,7 @@ class Actuator(Block):
             body: the agent's body.
             action: n finite numbers within :meth:`space`.
         """
-        raise BlockError(f"{self!r} has no act(self, body, action)")
+        raise BlockError(f"{type(self).__name__} has no act(self, body, action)")
 
     def limits(self) -> tuple[list[float], list[float]]:
         """Lowest and highest value of each number of an action."""

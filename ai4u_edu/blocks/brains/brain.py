@@ -25,7 +25,9 @@ class Brain(Block):
         Args:
             percept: what the agent senses now; all that a brain ever sees.
         """
-        raise BlockError(f"{self!r} has no decide(self, percept): it must return an action")
+        raise BlockError(
+            f"{type(self).__name__} has no decide(self, percept): it must return an action"
+        )
 
     def title(self) -> str:
         """What a person calls it."""

@@ -44,7 +44,9 @@ class RewardFunc(Block):
             body: the agent's body.
             view: the world, to be asked.
         """
-        raise BlockError(f"{self!r} has no on_update(self, body, view): it must return a number")
+        raise BlockError(
+            f"{type(self).__name__} has no on_update(self, body, view): it must return a number"
+        )
 
     def on_tick(self, body: BodyView, view: WorldView) -> None:
         """Called after every tick of a decision; only where a subclass fills it."""

@@ -75,7 +75,9 @@ class Sensor(Block):
 
     def space(self) -> spaces.Space[Any]:
         """The space of one raw reading, in the sensor's unit."""
-        raise BlockError(f"{self!r} has no space(): it must say what it can read, as a Box")
+        raise BlockError(
+            f"{type(self).__name__} has no space(self): it must say what it can read, as a Box"
+        )
 
     def read(self, body: BodyView, view: WorldView) -> Any:
         """One raw reading, inside :meth:`space`.
@@ -84,7 +86,9 @@ class Sensor(Block):
             body: the agent's body.
             view: the world, to be asked.
         """
-        raise BlockError(f"{self!r} has no read(self, body, view): it must return its reading")
+        raise BlockError(
+            f"{type(self).__name__} has no read(self, body, view): it must return its reading"
+        )
 
     def write(self, out: Array, body: BodyView, view: WorldView) -> None:
         """Writes one raw reading into ``out``; a built-in fills it in place, faster than read."""
@@ -139,8 +143,8 @@ class Sensor(Block):
         """
         if self.stacked_observations > 1 and not self.stackable:
             raise BlockError(
-                f"{type(self).__name__} {self.perception_key!r}: expected stacked_observations 1 "
-                f"(its readings don't stack), got {self.stacked_observations}"
+                "expected stacked_observations 1 (its readings don't stack), "
+                f"got {self.stacked_observations}"
             )
         space = self.space()
         self._out, self._chance, self._declared = out, chance, space
@@ -213,7 +217,8 @@ class Sensor(Block):
     def _checked(self, reading: Any) -> Array:
         shape = self._declared.shape or ()
         try:
-            array = np.asarray(reading, self._raw.dtype)
+            # numpy would make nan of None
+            array = np.asarray("" if reading is None else reading, self._raw.dtype)
         except (TypeError, ValueError):
             self._refuse(f"numbers of shape {shape}", repr(reading))
         if array.shape != shape and array.size == self._raw.size:

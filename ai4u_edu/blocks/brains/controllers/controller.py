@@ -23,7 +23,9 @@ class Controller(Block):
         Args:
             percept: what the agent senses now.
         """
-        raise BlockError(f"{self!r} has no get_action(self, percept): it must return an action")
+        raise BlockError(
+            f"{type(self).__name__} has no get_action(self, percept): it must return an action"
+        )
 
     def new_state_event(self, percept: Percept) -> None:
         """Called with each new percept, before :meth:`get_action`."""

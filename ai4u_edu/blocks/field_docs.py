@@ -1,0 +1,32 @@
+"""What is written under each parameter, as its description."""
+
+import ast
+import inspect
+import textwrap
+from functools import cache
+from itertools import pairwise
+
+
+@cache
+def field_docs(cls: type) -> dict[str, str]:
+    """The text under each annotated field of a class and its bases; empty where there is no source.
+
+    Read when somebody asks, not when a class is made: most runs never ask.
+    """
+    docs: dict[str, str] = {}
+    for each in reversed(cls.__mro__[:-1]):
+        try:
+            tree = ast.parse(textwrap.dedent(inspect.getsource(each)))
+        except (OSError, TypeError, SyntaxError):
+            continue  # made in a console, or built in
+        body = tree.body[0].body if isinstance(tree.body[0], ast.ClassDef) else []
+        for field, text in pairwise(body):
+            if (
+                isinstance(field, ast.AnnAssign)
+                and isinstance(field.target, ast.Name)
+                and isinstance(text, ast.Expr)
+                and isinstance(text.value, ast.Constant)
+                and isinstance(text.value.value, str)
+            ):
+                docs[field.target.id] = " ".join(text.value.value.split())
+    return docs

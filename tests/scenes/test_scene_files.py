@@ -1,0 +1,243 @@
+"""Scene files: read, written back, and refused with the line that is wrong."""
+
+import textwrap
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from ai4u_edu import Scene
+from ai4u_edu.errors import SceneError
+
+GOOD = """
+name: small
+bodies:
+  - name: robot
+    shape: {type: circle, radius: 0.4}
+agents:
+  - body: robot
+    brains:
+      - type: LocalBrain
+        controller: {type: WASDRBMoveController}
+"""
+
+
+def error_of(text: str) -> str:
+    with pytest.raises(SceneError) as caught:
+        Scene.loads(textwrap.dedent(text).lstrip("\n"), name="my.yaml")
+    return str(caught.value)
+
+
+def changed(old: str, new: str) -> str:
+    text = GOOD.lstrip("\n")
+    assert old in text
+    return text.replace(old, new)
+
+
+@pytest.mark.parametrize("name", Scene.names())
+def test_round_trip(name: str, tmp_path: Path) -> None:
+    scene = Scene.load(name)
+    path = tmp_path / "copy.yaml"
+    scene.save(path)
+    again = Scene.load(path)
+    assert again == scene
+    assert again.dumps() == scene.dumps()
+    assert [str(agent) for agent in again.build().agents] == [
+        str(agent) for agent in scene.build().agents
+    ]
+    assert list(tmp_path.iterdir()) == [path]
+
+
+@pytest.mark.parametrize("name", Scene.names())
+def test_every_scene_tells_what_to_do(name: str) -> None:
+    described = Scene.load(name).description
+    assert described.name == name
+    for text in (described.title, described.goal, described.controls, described.rewards):
+        assert text
+
+
+def test_the_parity_table_of_box_chase() -> None:
+    sim = Scene.load("box_chase").build()
+    agent = sim.agents[0]
+    assert sim.world["box"].position == pytest.approx((-2.39, 0))
+    assert len(agent.actuators[1].values()["poses"]) == 8
+    move = agent.actuators[0].values()
+    amounts = ("move_amount", "turn_amount", "jump_power", "jump_forward_power")
+    assert [move[name] for name in amounts] == [5, 5, 0, 0]
+    assert agent.max_steps_per_episode == 3000
+    sim.reset(seed=0)
+    assert agent.percept["vision"].shape == (4, 2, 3, 5)
+
+
+def test_spawn_poses_come_from_the_seed() -> None:
+    sim = Scene.load("box_chase").build()
+    agent = sim.agents[0]
+
+    def spawn(seed: int) -> tuple[float, float]:
+        sim.reset(seed)
+        return agent.body.position
+
+    assert [spawn(seed) for seed in range(20)] == [spawn(seed) for seed in range(20)]
+    assert len({spawn(seed) for seed in range(100)}) == 8
+
+
+def test_no_such_scene() -> None:
+    with pytest.raises(SceneError) as caught:
+        Scene.load("box_chse")
+    assert str(caught.value) == (
+        "no scene is called 'box_chse'; did you mean 'box_chase'?; a file's name ends in .yaml"
+    )
+
+
+def test_names_do_not_lead_out_of_the_library() -> None:
+    with pytest.raises(SceneError, match="no scene is called"):
+        Scene.load("../library/box_chase")
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "text"),
+    [
+        (
+            "type: LocalBrain",
+            "type: LocalBrian",
+            "my.yaml, line 8: agents[0].brains[0].type: unknown type of brain 'LocalBrian'; "
+            "did you mean 'LocalBrain'?",
+        ),
+        (
+            "type: WASDRBMoveController",
+            "type: WASDRBMoveControler",
+            "my.yaml, line 9: agents[0].brains[0].controller.type: unknown type of controller "
+            "'WASDRBMoveControler'; did you mean 'WASDRBMoveController'?",
+        ),
+        (
+            "{type: WASDRBMoveController}",
+            "{type: WASDRBMoveController, sped: 1}",
+            "my.yaml, line 9: agents[0].brains[0].controller.sped: unknown parameter; "
+            "did you mean 'speed'?",
+        ),
+        (
+            "radius: 0.4",
+            "radius: -0.4",
+            "my.yaml, line 4: bodies[0].shape.radius: expected more than 0, got -0.4",
+        ),
+        (
+            "type: circle",
+            "type: sphere",
+            "my.yaml, line 4: bodies[0].shape: unknown type 'sphere'; known are 'box', 'capsule', "
+            "'circle', 'polygon', 'segment'",
+        ),
+        (
+            "radius: 0.4}",
+            "radius: 0.4}\n    colour: oragne",
+            "my.yaml, line 5: bodies[0].colour: expected '#rrggbb' or a colour's name, got "
+            "'oragne'; did you mean 'orange'?",
+        ),
+        (
+            "radius: 0.4}",
+            "radius: 0.4}\n    mas: 3",
+            "my.yaml, line 5: bodies[0].mas: unknown parameter; did you mean 'mass'?",
+        ),
+        (
+            "body: robot",
+            "body: robt",
+            "my.yaml: agent '0': no body is named 'robt'; did you mean 'robot'?",
+        ),
+        (
+            "  - body: robot\n",
+            "  - body: robot\n    priorty: 1\n",
+            "my.yaml, line 7: agents[0].priorty: unknown parameter; did you mean 'priority'?",
+        ),
+        ("name: small", "name: ''",
+         "my.yaml, line 1: name: expected at least 1 characters, got ''"),
+        ("name: small", "name: small\nfloor: []", "my.yaml, line 2: floor: unknown parameter; "
+         "did you mean 'floors'?"),
+        ("name: small", "name: small\nname: big", "my.yaml, line 2: not YAML: found duplicate key "
+         "\"name\" with value \"big\" (original value: \"small\")"),
+        ("name: small", "name: [small", "my.yaml, line 2: not YAML: expected ',' or ']', but got "
+         "':'"),
+        ("name: small", "name: &a small", "my.yaml, line 1: expected plain values; anchors (&), "
+         "aliases (*) and tags (!) are not used in scene files"),
+        ("name: small", "name: !!python/object:os.system small", "my.yaml, line 1: expected plain "
+         "values; anchors (&), aliases (*) and tags (!) are not used in scene files"),
+    ],
+)  # fmt: skip
+def test_what_is_wrong_is_told_with_its_line(old: str, new: str, text: str) -> None:
+    assert error_of(changed(old, new)) == text
+
+
+def test_all_problems_of_a_kind_are_told_at_once() -> None:
+    lines = error_of(
+        """
+        name: bad
+        bodies:
+          - {name: a, shape: {type: circle, radius: 0}}
+          - {name: b, shape: {type: box, size: [1, 2, 3]}}
+        agents:
+          - body: a
+        """
+    ).splitlines()
+    assert lines == [
+        "my.yaml, line 3: bodies[0].shape.radius: expected more than 0, got 0",
+        "my.yaml, line 4: bodies[1].shape.size: expected at most 2 entries, got [1, 2, 3]",
+    ]
+
+
+@pytest.mark.parametrize(
+    ("text", "part"),
+    [
+        ("", "expected a mapping (name: ..., bodies: ..., agents: ...), got NoneType"),
+        ("- a", "expected a mapping (name: ..., bodies: ..., agents: ...), got CommentedSeq"),
+        ("name: x", "my.yaml, line 1: agents: is missing and has no default"),
+        ("name: x\nagents: []", "my.yaml, line 2: agents: expected at least 1 entries, got []"),
+        ("name: x\nagents: [5]", "my.yaml, line 2: agents[0]: expected a mapping, got 5"),
+        ("x" * 1_000_001, "expected at most 1000000 characters, got 1000001"),
+        ("a: " + "[" * 100 + "]" * 100, "nested more than 24 deep"),
+    ],
+)
+def test_what_is_no_scene_at_all(text: str, part: str) -> None:
+    assert part in error_of(text)
+
+
+def test_a_deep_nest_is_no_crash() -> None:
+    assert "my.yaml" in error_of("a: " + "[" * 5000)
+
+
+def test_a_missing_file() -> None:
+    with pytest.raises(SceneError, match=r"^nowhere\.yaml: can't be read: "):
+        Scene.load("nowhere.yaml")
+
+
+def test_comments_and_short_forms_are_fine() -> None:
+    sim = Scene.loads("# mine\n" + GOOD).build()
+    assert sim.world["robot"].description.shape.reach == 0.4
+
+
+def test_a_students_own_block_is_known_by_its_name() -> None:
+    from gymnasium.spaces import Box
+
+    from ai4u_edu import Sensor
+
+    class HowHigh(Sensor):
+        """Reads z."""
+
+        def space(self) -> Box:
+            return Box(-10, 10, (1,))
+
+        def read(self, body: Any, view: Any) -> float:
+            return float(body.z)
+
+    text = changed("  - body: robot\n", "  - body: robot\n    sensors: [{type: HowHigh}]\n")
+    sim = Scene.loads(text).build()
+    sim.reset()
+    assert sim.agents[0].percept["how_high"].tolist() == [0.0]
+    assert HowHigh.__name__ in str(sim.agents[0])
+
+
+def test_a_failed_save_leaves_the_old_file(tmp_path: Path, monkeypatch: Any) -> None:
+    path = tmp_path / "mine.yaml"
+    path.write_text("old")
+    monkeypatch.setattr("os.fsync", lambda _handle: 1 / 0)
+    with pytest.raises(ZeroDivisionError):
+        Scene.load("box_chase").save(path)
+    assert path.read_text() == "old"
+    assert list(tmp_path.iterdir()) == [path]

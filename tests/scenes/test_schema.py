@@ -1,0 +1,59 @@
+"""The JSON Schema of scene files says what the loader says."""
+
+from typing import Any
+
+import jsonschema
+import pytest
+
+from ai4u_edu import Block, Scene
+from ai4u_edu.scenes.plain import fits_a_file
+from ai4u_edu.scenes.schema import scene_schema
+
+SCHEMA = scene_schema()
+
+
+def errors_in(scene: dict[str, Any]) -> list[str]:
+    validator = jsonschema.Draft202012Validator(SCHEMA)
+    return [error.json_path for error in validator.iter_errors(scene)]
+
+
+def test_it_is_a_schema() -> None:
+    jsonschema.Draft202012Validator.check_schema(SCHEMA)
+
+
+@pytest.mark.parametrize("name", Scene.names())
+def test_every_scene_of_the_library_fits(name: str) -> None:
+    from ai4u_edu.scenes.scene import LIBRARY
+    from ai4u_edu.scenes.yaml_file import YamlFile
+
+    file = LIBRARY / f"{name}.yaml"
+    assert errors_in(YamlFile(file.read_text(), file.name).data) == []
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        {"nme": 1},
+        {"bodies": [{"name": "a", "shape": {"type": "sphere"}}]},
+        {"agents": [{"body": "a", "sensors": [{"type": "NoSensor"}]}]},
+        {"agents": [{"body": "a", "sensors": [{"type": "VelocitySensor", "max_speed": -1}]}]},
+        {"agents": [{"body": "a", "sensors": [{"type": "RBMoveActuator"}]}]},
+    ],
+)
+def test_what_is_wrong_does_not_fit(change: dict[str, Any]) -> None:
+    assert errors_in({"name": "x", "agents": [{"body": "a"}]}) == []
+    assert errors_in({"name": "x", "agents": [{"body": "a"}]} | change)
+
+
+def test_every_block_has_a_definition_with_a_description() -> None:
+    blocks = [
+        name
+        for name, cls in Block.types.items()
+        if cls.__module__.startswith("ai4u_edu.") and fits_a_file(cls)
+    ]
+    assert len(blocks) > 15
+    for name in blocks:
+        definition = SCHEMA["$defs"][name]
+        assert definition["description"]
+        assert ">>>" not in definition["description"]
+        assert definition["properties"]["type"] == {"const": name}
