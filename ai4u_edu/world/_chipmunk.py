@@ -48,6 +48,8 @@ class Segments:
             self._hits = np.frombuffer(ffi.buffer(self._hit_memory), _HIT)
             self.alpha = self._hits["alpha"]
             self._start = ffi.new("cpVect *")
+            self._filter = ffi.new("cpShapeFilter *")
+            self._accept: pymunk.ShapeFilter | None = None
             self._pairs = [(self._end_memory[i], self._hit_memory + i) for i in range(count)]
         else:
             self.ends = np.zeros((count, 2))
@@ -58,11 +60,14 @@ class Segments:
         if not self._fast:
             self._cast_publicly(space, x, y, accept)
             return
-        start, handle = self._start[0], space._space
+        if accept is not self._accept:  # turned into Chipmunk's form once, not for each ray
+            self._accept = accept
+            self._filter[0] = tuple(accept)
+        start, handle, chosen = self._start[0], space._space, self._filter[0]
         start.x, start.y = x, y
         first = lib.cpSpaceSegmentQueryFirst
         for end, hit in self._pairs:
-            first(handle, start, end, 0.0, accept, hit)
+            first(handle, start, end, 0.0, chosen, hit)
         self.shapes = self._hits["shape"].tolist()
 
     def _cast_publicly(

@@ -6,7 +6,19 @@ import pymunk
 
 from ai4u_edu.world.body import Body
 from ai4u_edu.world.descriptions import BodyDescription
-from ai4u_edu.world.shapes import BodyShape, BoxShape, CapsuleShape, CircleShape, PolygonShape
+from ai4u_edu.world.shapes import (
+    BodyShape,
+    BoxShape,
+    CapsuleShape,
+    CircleShape,
+    PolygonShape,
+    SegmentShape,
+)
+
+Corner = tuple[float, float]
+
+HAIR = 1e-9
+"""Half the thickness of the core of a stick, metres; what it is rounded with makes up the rest."""
 
 KINDS = {
     "static": pymunk.Body.STATIC,
@@ -32,6 +44,8 @@ def build(body: Body, space: pymunk.Space, group: int) -> None:
         pm.angular_velocity = math.radians(description.angular_velocity_deg)
     shape = make_shape(description.shape, pm)
     dress(shape, description, group)
+    if description.kind == "dynamic":
+        _give_mass(pm, shape, description)
     space.add(pm, shape)
     body._pm, body._shapes = pm, (shape,)
 
@@ -45,17 +59,40 @@ def make_shape(shape: BodyShape, pm: pymunk.Body | None) -> pymunk.Shape:
             return pymunk.Poly(pm, shape.outline())
         case PolygonShape():
             return pymunk.Poly(pm, shape.vertices)
-        case CapsuleShape():
-            half = shape.length / 2
-            return pymunk.Segment(pm, (-half, 0), (half, 0), shape.radius)
         case _:
-            return pymunk.Segment(pm, shape.a, shape.b, shape.thickness / 2)
+            # a polygon with a radius, not a Segment: of a ray that comes in through a Segment's
+            # round end and leaves through its side, pymunk tells where it leaves; as thin as a
+            # hair, not of two corners: those would hold every point in line with them
+            a, b, radius = _ends(shape)
+            length = math.dist(a, b)
+            x, y = HAIR * (a[1] - b[1]) / length, HAIR * (b[0] - a[0]) / length
+            corners = [(px + s * x, py + s * y) for (px, py) in (a, b) for s in (1, -1)]
+            return pymunk.Poly(pm, corners, radius=max(radius - HAIR, 0.0))
+
+
+def _ends(shape: CapsuleShape | SegmentShape) -> tuple[Corner, Corner, float]:
+    if isinstance(shape, CapsuleShape):
+        return (-shape.length / 2, 0.0), (shape.length / 2, 0.0), shape.radius
+    return shape.a, shape.b, shape.thickness / 2
+
+
+def _give_mass(pm: pymunk.Body, shape: pymunk.Shape, description: BodyDescription) -> None:
+    form = description.shape
+    if not isinstance(form, CapsuleShape | SegmentShape):
+        shape.mass = description.mass
+        return
+    # the mass is spread over the stick, not over the hair in it
+    a, b, radius = _ends(form)
+    pm.mass = description.mass
+    place = pm.position
+    pm.center_of_gravity = ((a[0] + b[0]) / 2, (a[1] + b[1]) / 2)
+    pm.position = place  # the centre of gravity was there until now
+    half = ((b[0] - a[0]) / 2, (b[1] - a[1]) / 2)
+    pm.moment = pymunk.moment_for_segment(description.mass, (-half[0], -half[1]), half, radius)
 
 
 def dress(shape: pymunk.Shape, description: BodyDescription, group: int) -> None:
     """Gives a shape its material and its filter."""
-    if description.kind == "dynamic":
-        shape.mass = description.mass
     shape.friction = description.friction
     shape.elasticity = description.elasticity
     shape.filter = pymunk.ShapeFilter(

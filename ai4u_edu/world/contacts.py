@@ -24,6 +24,7 @@ class Contacts:
     def __init__(self) -> None:
         self.tick = 0
         self.error: BaseException | None = None
+        self._space: pymunk.Space | None = None
         self._owners: dict[pymunk.Shape, Body] = {}
         self._watched: dict[str, None] = {}
         self._touching: dict[str, dict[str, None]] = {}
@@ -32,29 +33,25 @@ class Contacts:
 
     def attach(self, space: pymunk.Space, owners: dict[pymunk.Shape, Body]) -> None:
         """Starts over, on a space that was built anew."""
-        self.tick, self.error, self._owners, self._space = 0, None, owners, space
+        self.tick, self.error = 0, None
+        self._space, self._owners = space, owners
         self._touching.clear()
         self._last.clear()
         self._passing.clear()
-        space.on_collision(
-            WATCHED, None, begin=self._guard(self._begin), separate=self._guard(self._separate)
-        )
-        space.on_collision(
-            ALOFT,
-            None,
-            begin=self._guard(self._compare),
-            pre_solve=self._guard(self._compare),
-            separate=self._guard(self._separate),
-        )
+        compare, separate = self._guard(self._compare), self._guard(self._separate)
+        space.on_collision(WATCHED, None, begin=compare, separate=separate)
+        space.on_collision(ALOFT, None, begin=compare, pre_solve=compare, separate=separate)
 
     def watch(self, body: Body) -> None:
         """From now on the contacts of this body are known."""
         self._watched[body.name] = None
         self.classify(body)
+        # what it touches already does not begin again
+        body._pm.each_arbiter(lambda arbiter: self._touch(*self._pair(arbiter)))
 
     def classify(self, body: Body) -> None:
         """Gives the body's shapes the collision type that its place asks for."""
-        if body.z != 0.0 or not body.on_ground or self._passing.get(body):
+        if body.z != 0.0 or not body.on_ground or body in self._passing:
             kind = ALOFT
         else:
             kind = WATCHED if body.name in self._watched else PLAIN
@@ -77,16 +74,12 @@ class Contacts:
     def forget(self, body: Body) -> None:
         """Drops the contacts of a body that left the world."""
         self._passing.pop(body, None)
-        for other in self._passing.values():
-            other.pop(body, None)
-        for other_name in self._touching.pop(body.name, {}):
-            self._end(other_name, body.name)
+        for other in list(self._passing):
+            self._meet_again(other, body)
         for name in list(self._touching):
-            self._end(name, body.name)
-
-    def _begin(self, arbiter: pymunk.Arbiter) -> None:
-        a, b = self._pair(arbiter)
-        self._touch(a, b)
+            self._end(name, body.name, self.tick)
+        for name in self.of(body.name):
+            self._end(body.name, name, self.tick)
 
     def _compare(self, arbiter: pymunk.Arbiter) -> None:
         a, b = self._pair(arbiter)
@@ -94,23 +87,32 @@ class Contacts:
         apart = gap >= -TOUCH
         # the arbiter remembers this from tick to tick, so it is said both ways
         arbiter.process_collision = not apart
+        if gap <= TOUCH:
+            self._touch(a, b)
         for one, other in ((a, b), (b, a)):
             if apart:
                 self._passing.setdefault(one, {})[other] = None
-            elif one in self._passing:
-                self._passing[one].pop(other, None)
-        if gap <= TOUCH:
-            self._touch(a, b)
-        else:
-            self._end(a.name, b.name)
-            self._end(b.name, a.name)
+            else:
+                self._meet_again(one, other)
+            if gap > TOUCH:
+                self._end(one.name, other.name, self.tick - 1)
 
     def _separate(self, arbiter: pymunk.Arbiter) -> None:
         a, b = self._pair(arbiter)
+        # what is taken out of the space was touched until now, else it was until the last tick
+        last = self.tick if arbiter.is_removal else self.tick - 1
         for one, other in ((a, b), (b, a)):
-            self._end(one.name, other.name)
-            if one in self._passing:
-                self._passing[one].pop(other, None)
+            self._meet_again(one, other)
+            self._end(one.name, other.name, last)
+
+    def _meet_again(self, one: Body, other: Body) -> None:
+        """Forgets that one passes the other; on the ground and past all, it needs no more looks."""
+        passing = self._passing.get(one)
+        if passing is not None and other in passing:
+            del passing[other]
+            if not passing:
+                del self._passing[one]
+                self.classify(one)
 
     def _pair(self, arbiter: pymunk.Arbiter) -> tuple[Body, Body]:
         a, b = arbiter.shapes
@@ -121,11 +123,11 @@ class Contacts:
             if one in self._watched:
                 self._touching.setdefault(one, {})[other] = None
 
-    def _end(self, name: str, other: str) -> None:
+    def _end(self, name: str, other: str, last: int) -> None:
         touching = self._touching.get(name)
         if touching is not None and other in touching:
             del touching[other]
-            self._last[name, other] = self.tick
+            self._last[name, other] = last
 
     def _guard(
         self, handle: Callable[[pymunk.Arbiter], None]

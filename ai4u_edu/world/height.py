@@ -30,18 +30,15 @@ class Height:
     def __init__(self, world: "World") -> None:
         self._world = world
         self._floors: list[tuple[float, Region]] = []
-        self.movers: list[Body] = []
+        self.movers: dict[Body, None] = {}
 
     def rebuild(self) -> None:
-        """Starts over with the world's floors and bodies as they are now."""
+        """Starts over with the world's floors as they are now."""
         self._floors = sorted(
             ((floor.top, region) for floor, region in self._world._floor_regions()),
             key=lambda pair: -pair[0],
         )
-        self.movers = []
-        for body in self._world.bodies.values():
-            if self._floors and body.moves:
-                self.movers.append(body)
+        self.movers.clear()
 
     def ground(self, x: float, y: float, below: float = float("inf")) -> float | None:
         """The highest floor at a place that is not above ``below``; None over the void."""
@@ -60,56 +57,63 @@ class Height:
 
     def rest(self, body: "Body") -> None:
         """Finds out whether a body that was put somewhere stands there, or is in the air."""
-        x, y = body.position
-        body.on_ground = not body.moves or body.z == self._support(body, x, y, body.z)
-        body._pm.velocity_func = pymunk.Body.update_velocity if body.on_ground else _fly
-        if body.moves and (body.z != 0.0 or not body.on_ground):
-            self._attend(body)
-        self._world.contacts.classify(body)
+        self._mark(body, not body.moves or self._stands(body))
 
     def launch(self, body: "Body", speed: float) -> None:
         """Gives a body an upward speed; on the ground one that points down does nothing."""
+        if body.fallen or not body.moves:
+            return
         if body.on_ground:
-            if speed <= 0.0 or body.fallen:
+            if speed <= 0.0:
                 return
-            self._leave(body)
+            self._mark(body, False)
         body.vz = speed
 
     def step(self, dt: float) -> None:
         """Moves everything vertically by one tick; called after the plane's own step."""
         for body in tuple(self.movers):
             if body.on_ground:
-                self._stand(body, dt)
-            else:
-                self._fly_on(body, dt)
+                if self._stands(body):
+                    continue
+                self._mark(body, False)
+            self._fly_on(body, dt)
 
-    def _stand(self, body: "Body", dt: float) -> None:
-        x, y = body._pm.position
-        if body.z == (self._support(body, x, y, body.z) if body.z else self.ground(x, y, 0.0)):
-            return
-        self._leave(body)
-        self._fly_on(body, dt)
+    def _mark(self, body: "Body", on_ground: bool) -> None:
+        """Puts a body on the ground or into the air, and among those to look at if need be."""
+        body.on_ground = on_ground
+        body._pm.velocity_func = pymunk.Body.update_velocity if on_ground else _fly
+        if body.moves and (self._floors or body.z != 0.0 or not on_ground):
+            self.movers[body] = None
+        else:
+            self.movers.pop(body, None)
+        self._world.contacts.classify(body)
 
     def _fly_on(self, body: "Body", dt: float) -> None:
         gravity = self._world.settings.gravity
-        x, y = body._pm.position
         before, z = body.z, body.z + body.vz * dt - 0.5 * gravity * dt * dt
         body.vz -= gravity * dt
         if z > before:
-            z = self._below_ceiling(body, before, z)
-        support = self._support(body, x, y, max(before, z))
+            body.z = self._below_ceiling(body, before, z)
+            return
+        support = self._support(body, before)
         if support is not None and z <= support:
-            self._land(body, support)
+            body.z, body.vz = support, 0.0
+            self._mark(body, True)
             return
         body.z = z
         if z < self._world.settings.fall_threshold:
             self._world._drop(body)
 
-    def _support(self, body: "Body", x: float, y: float, below: float) -> float | None:
+    def _stands(self, body: "Body") -> bool:
+        """Whether something bears a body right below its centre; the floor is asked first."""
+        z = body.z
+        return self.ground(*body._pm.position, z) == z or self._support(body, z) == z
+
+    def _support(self, body: "Body", below: float) -> float | None:
         """The highest top under a centre, of floors and bodies, that is not above ``below``."""
-        best = self.ground(x, y, below)
-        accept = self._world.filter_for(body, body.description.collision_mask)
-        for hit in self._world.space.point_query((x, y), 0.0, accept):
+        place = body._pm.position
+        best = self.ground(*place, below)
+        for hit in self._world.space.point_query(place, 0.0, body._shapes[0].filter):
             other = self._world.owners[hit.shape]
             top = other.z + other.height
             if top <= below + SAME and (best is None or top > best):
@@ -123,23 +127,6 @@ class Height:
             if before <= room + SAME and z > room:
                 z, body.vz = room, 0.0
         return z
-
-    def _leave(self, body: "Body") -> None:
-        body.on_ground = False
-        body._pm.velocity_func = _fly
-        self._attend(body)
-        self._world.contacts.classify(body)
-
-    def _land(self, body: "Body", support: float) -> None:
-        body.z, body.vz, body.on_ground = support, 0.0, True
-        body._pm.velocity_func = pymunk.Body.update_velocity
-        if not self._floors and support == 0.0:
-            self.movers.remove(body)
-        self._world.contacts.classify(body)
-
-    def _attend(self, body: "Body") -> None:
-        if body not in self.movers:
-            self.movers.append(body)
 
 
 def _fly(body: pymunk.Body, gravity: Any, _damping: float, dt: float) -> None:

@@ -15,6 +15,7 @@ import pymunk
 
 from ai4u_edu.world._chipmunk import Segments, shape_key
 from ai4u_edu.world.body import BodyView
+from ai4u_edu.world.region import Region
 
 if TYPE_CHECKING:
     from ai4u_edu.world.world import World
@@ -26,6 +27,12 @@ CodeOf = Callable[[Sequence[str]], float]
 
 GROUND_TAGS = ("floor",)
 """The tags of the endless ground of a world without floors."""
+
+LEVEL = 1e-9
+"""A slope less than this meets no floor within any reach."""
+
+NOWHERE = math.inf, -math.inf
+"""From where to where nothing reaches upwards."""
 
 
 class Obstacle(NamedTuple):
@@ -59,11 +66,13 @@ class _Caster:
         self._code_of = code_of
         self._miss = code_of(())
         self._segments = Segments(len(self.angles))
-        self._generation = -1
+        self._learnt: tuple[int, BodyView | None] = (-1, None)
         self._codes: dict[int, float] = {}
-        self._shapes: dict[int, pymunk.Shape] = {}
-        self._grounds: list[tuple[float, Callable[[float, float], bool], float]] = []
-        self._level = True
+        self._bodies: dict[int, BodyView] = {}
+        self._body_codes: dict[BodyView, float] = {}
+        self._grounds: list[tuple[float, Region | None, float]] = []
+        self._flat = True
+        self._lowest_top = self._highest_top = 0.0
         self._filter = pymunk.ShapeFilter()
         self.origin = (0.0, 0.0, 0.0)
         """Where the eye was at the last cast: world frame, metres."""
@@ -72,7 +81,7 @@ class _Caster:
 
     def _aim(self, body: BodyView, reach: float) -> None:
         """Turns the directions with the body and finds what each meets first in the plane."""
-        if self._generation != self._world.generation:
+        if self._learnt != (self._world.generation, body):
             self._learn(body)
         forward, left, up = self.eye
         x, y = body.position
@@ -92,57 +101,51 @@ class _Caster:
     def _learn(self, body: BodyView) -> None:
         """Looks up the codes of everything, once for each build of the world."""
         world = self._world
-        self._generation = world.generation
-        self._codes = {0: self._miss}
-        self._shapes.clear()
-        for shape, owner in world.owners.items():
-            key = shape_key(shape)
-            self._codes[key] = self._code_of(owner.tags)
-            self._shapes[key] = shape
+        self._learnt = world.generation, body
+        self._bodies = {shape_key(shape): owner for shape, owner in world.owners.items()}
+        self._body_codes = {owner: self._code_of(owner.tags) for owner in self._bodies.values()}
+        self._codes = {key: self._body_codes[owner] for key, owner in self._bodies.items()}
+        self._codes[0] = self._miss
         self._grounds = [
-            (floor.top, region.contains, self._code_of(floor.tags))
+            (floor.top, region, self._code_of(floor.tags))
             for floor, region in world._floor_regions()
-        ] or [(0.0, _everywhere, self._code_of(GROUND_TAGS))]
-        up = self.eye[2]
-        self._level = all(
-            owner.description.z in (None, 0.0) and up <= owner.height
-            for owner in world.bodies.values()
-        )
+        ] or [(0.0, None, self._code_of(GROUND_TAGS))]
+        seen = [
+            other for other in world.bodies.values() if other is not body or not self._exclude_self
+        ]
+        tops = [other.height for other in seen] or [math.inf]
+        self._lowest_top, self._highest_top = min(tops), max(tops)
+        # what moves can leave the ground at any time, and is looked at in each cast
+        self._flat = all(other.moves or other.z == 0.0 for other in seen)
         self._filter = world.filter_for(body if self._exclude_self else None, self._mask)
 
     def _simple(self) -> bool:
-        """Whether whatever a level ray meets is as high as the eye: no need to look at heights."""
-        return self._level and not any(
-            mover.z or not mover.on_ground for mover in self._world._height.movers
+        """Whether everything stands at height 0 and is as high as the eye."""
+        return (
+            self._flat
+            and 0.0 <= self.origin[2] <= self._lowest_top
+            and not any(mover.z for mover in self._world._height.movers)
         )
 
-    def _around(self) -> list[pymunk.Shape]:
-        """The shapes that the eye is right above or below of."""
-        x, y, _ = self.origin
-        hits = self._world.space.point_query((x, y), 0.0, self._filter)
-        return [hit.shape for hit in hits]
-
-    def _cut(self, column: int, reach: float, around: Sequence[pymunk.Shape]) -> list[Obstacle]:
+    def _cut(self, column: int, reach: float) -> list[Obstacle]:
         """Everything in one column within reach, whatever its height, nearest first."""
         x, y, _ = self.origin
         end_x, end_y = self._segments.ends[column].tolist()
-        space, owners = self._world.space, self._world.owners
-        found: list[tuple[float, pymunk.Shape]] = [
-            (hit.alpha * reach, hit.shape)
-            for hit in space.segment_query((x, y), (end_x, end_y), 0.0, self._filter)
-        ]
-        # a segment that starts inside a shape does not report it
-        seen = {shape for _, shape in found}
-        found += [(0.0, shape) for shape in around if shape not in seen]
-        found.sort(key=lambda pair: pair[0])
         obstacles = []
-        for near, shape in found:
-            owner = owners[shape]
-            back = shape.segment_query((end_x, end_y), (x, y))
-            far = reach if back is None else reach * (1.0 - back.alpha)
-            code = self._codes[shape_key(shape)]
-            obstacles.append(Obstacle(near, far, owner.z, owner.z + owner.height, code))
-        return obstacles
+        for hit in self._world.space.segment_query((x, y), (end_x, end_y), 0.0, self._filter):
+            owner = self._world.owners[hit.shape]
+            back = hit.shape.segment_query((end_x, end_y), (x, y))
+            share = hit.alpha if back is None else 1.0 - back.alpha
+            obstacles.append(
+                Obstacle(
+                    near=hit.alpha * reach,
+                    far=share * reach,
+                    low=owner.z,
+                    high=owner.z + owner.height,
+                    code=self._body_codes[owner],
+                )
+            )
+        return sorted(obstacles)
 
 
 class RayFan(_Caster):
@@ -184,16 +187,15 @@ class RayFan(_Caster):
             self._look_at_heights(keys)
 
     def _look_at_heights(self, keys: Sequence[int]) -> None:
-        level, around = self.origin[2], self._around()
-        owners = self._world.owners
+        level = self.origin[2]
         for column, key in enumerate(keys):
-            if not key and not around:
+            if not key:
                 continue
-            owner = owners[self._shapes[key]] if key else None
-            if owner and not around and owner.z <= level <= owner.z + owner.height:
+            first = self._bodies[key]
+            if first.z <= level <= first.z + first.height:
                 continue
             self.codes[column], self.distances[column] = self._miss, 0.0
-            for obstacle in self._cut(column, self.reach, around):
+            for obstacle in self._cut(column, self.reach):
                 if obstacle.low <= level <= obstacle.high:
                     self.codes[column], self.distances[column] = obstacle.code, obstacle.near
                     break
@@ -221,9 +223,13 @@ class RayGrid(_Caster):
     ) -> None:
         super().__init__(world, angles, reach, code_of, eye, mask, exclude_self)
         self.pitches = np.asarray(pitches, np.float64)
-        self._rows = [(math.tan(pitch), math.cos(pitch)) for pitch in pitches]
-        self._flat_reach = reach * max(cos for _, cos in self._rows)
-        self.codes: Floats = np.zeros((len(self._rows), len(self.angles)))
+        self._slopes = np.tan(self.pitches)
+        steep = np.where(np.abs(self._slopes) > LEVEL, self._slopes, math.nan)
+        self._runs = 1.0 / steep
+        self._cos = np.cos(self.pitches)[:, None]
+        self._reaches = reach * self._cos[:, 0]
+        self._flat_reach = float(self._reaches.max())
+        self.codes: Floats = np.zeros((len(self.pitches), len(self.angles)))
         self.distances: Floats = np.zeros_like(self.codes)
 
     def cast(self, body: BodyView) -> None:
@@ -233,56 +239,63 @@ class RayGrid(_Caster):
             body: where the eye sits; it turns with it.
         """
         self._aim(body, self._flat_reach)
-        around = self._around()
-        for column, key in enumerate(self._segments.shapes):
-            first = self._first(column, key)
-            all_of_it: list[Obstacle] | None = None if first or around else []
-            for row, (slope, cos) in enumerate(self._rows):
-                nearest, code = self._ground_hit(column, slope)
-                if first and not around and self._ends_at(first, slope, nearest):
-                    met: Sequence[Obstacle] = (first,)
-                elif all_of_it is None:
-                    met = all_of_it = self._cut(column, self._flat_reach, around)
-                else:
-                    met = all_of_it
-                for obstacle in met:
+        # until the end, the distances are those in the plane, and infinite for nothing
+        codes, flat = self.codes, self.distances
+        codes.fill(self._miss)
+        flat.fill(math.inf)
+        self._look_at_grounds()
+        undecided = self._look_at_firsts()
+        for column in np.flatnonzero(undecided.any(axis=0)).tolist():
+            obstacles = self._cut(column, self._flat_reach)
+            for row in np.flatnonzero(undecided[:, column]).tolist():
+                slope = float(self._slopes[row])
+                for obstacle in obstacles:
                     at = _meet(obstacle, self.origin[2], slope)
-                    if at < nearest:
-                        nearest, code = at, obstacle.code
-                within = nearest <= self.reach * cos
-                self.codes[row, column] = code if within else self._miss
-                self.distances[row, column] = nearest / cos if within else 0.0
+                    if at < flat[row, column]:
+                        codes[row, column], flat[row, column] = obstacle.code, at
+        beyond = flat > self._reaches[:, None]
+        codes[beyond], flat[beyond] = self._miss, 0.0
+        flat /= self._cos
 
-    def _first(self, column: int, key: int) -> Obstacle | None:
-        """What stands first in a column; where it ends behind is not asked yet."""
-        if not key:
-            return None
-        owner = self._world.owners[self._shapes[key]]
-        near = float(self._segments.alpha[column]) * self._flat_reach
-        return Obstacle(near, near, owner.z, owner.z + owner.height, self._codes[key])
-
-    def _ends_at(self, first: Obstacle, slope: float, ground: float) -> bool:
-        """Whether a row ends at the first obstacle's side, or on the ground in front of it."""
-        return ground <= first.near or (
-            first.low <= self.origin[2] + slope * first.near <= first.high
-        )
-
-    def _ground_hit(self, column: int, slope: float) -> tuple[float, float]:
-        """How far away in the plane a ray meets a floor (infinite: never), and its code."""
-        nearest, code = math.inf, self._miss
-        if slope == 0.0:
-            return nearest, code
+    def _look_at_grounds(self) -> None:
+        """Enters the floors that the rays meet."""
         x, y, up = self.origin
-        dx, dy = self.directions[column].tolist()
-        for top, contains, floor_code in self._grounds:
-            at = (top - up) / slope
-            if 0.0 < at < nearest and contains(x + at * dx, y + at * dy):
-                nearest, code = at, floor_code
-        return nearest, code
+        for top, region, code in self._grounds:
+            at = (top - up) * self._runs
+            rows = np.flatnonzero((at > 0.0) & (at <= self._reaches))
+            if not len(rows):
+                continue
+            far = at[rows, None]
+            met = far < self.distances[rows]
+            if region is not None:
+                met &= region.contains_each(
+                    x + far * self.directions[:, 0], y + far * self.directions[:, 1]
+                )
+            self.distances[rows] = np.where(met, far, self.distances[rows])
+            self.codes[rows] = np.where(met, code, self.codes[rows])
 
+    def _look_at_firsts(self) -> npt.NDArray[np.bool_]:
+        """Enters the rays that end on the side of what stands first in their column.
 
-def _everywhere(_x: float, _y: float) -> bool:
-    return True
+        Returns:
+            Which rays may meet something else: a top, or what stands behind.
+        """
+        alpha, keys = self._segments.alpha, self._segments.shapes
+        firsts = [self._bodies.get(key) for key in keys]
+        low, high = np.array(
+            [(first.z, first.z + first.height) if first else NOWHERE for first in firsts]
+        ).T
+        near = alpha * self._flat_reach
+        at_near = self.origin[2] + self._slopes[:, None] * near
+        reached = (near < self.distances) & (alpha < 1.0)
+        on_side = reached & (low <= at_near) & (at_near <= high)
+        self.distances[:] = np.where(on_side, near, self.distances)
+        self.codes[:] = np.where(on_side, [self._codes[key] for key in keys], self.codes)
+        undecided: npt.NDArray[np.bool_] = reached & ~on_side
+        if self._simple():
+            # below the ground there is nothing, and nothing above the highest top
+            undecided &= (at_near > 0.0) & (at_near <= self._highest_top)
+        return undecided
 
 
 def _meet(obstacle: Obstacle, up: float, slope: float) -> float:

@@ -1,6 +1,11 @@
 """A region put in its place: which points of the world lie in it."""
 
 import math
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
 
 from ai4u_edu.world.descriptions import RegionDescription
 from ai4u_edu.world.shapes import BoxShape
@@ -20,7 +25,7 @@ class Region:
         self.x, self.y = description.position
         heading = math.radians(description.heading_deg)
         self._cos, self._sin = math.cos(heading), math.sin(heading)
-        self._contains = description.shape.contains
+        self._contains: Callable[[Any, Any], Any] = description.shape.contains
         shape = description.shape
         self._box = shape.size if isinstance(shape, BoxShape) and heading == 0.0 else None
 
@@ -29,11 +34,15 @@ class Region:
         if self._box is not None:
             # most floors are upright boxes, and every mover asks its floor every tick
             return 2 * abs(x - self.x) <= self._box[0] and 2 * abs(y - self.y) <= self._box[1]
-        dx, dy = x - self.x, y - self.y
-        return self._contains(
-            self._cos * dx + self._sin * dy,
-            self._cos * dy - self._sin * dx,
-        )
+        inside: bool = self._contains(*self._to_local(x, y))
+        return inside
+
+    def contains_each(
+        self, x: npt.NDArray[np.float64], y: npt.NDArray[np.float64]
+    ) -> npt.NDArray[np.bool_]:
+        """The same for many points of the world, given as arrays of one form."""
+        inside: npt.NDArray[np.bool_] = self._contains(*self._to_local(x, y))
+        return inside
 
     def outline(self) -> list[tuple[float, float]]:
         """The rim in world coordinates, counter-clockwise."""
@@ -45,3 +54,7 @@ class Region:
             (self.x + self._cos * x - self._sin * y, self.y + self._sin * x + self._cos * y)
             for x, y in points
         ]
+
+    def _to_local(self, x: Any, y: Any) -> tuple[Any, Any]:
+        dx, dy = x - self.x, y - self.y
+        return self._cos * dx + self._sin * dy, self._cos * dy - self._sin * dx

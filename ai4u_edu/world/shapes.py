@@ -1,14 +1,16 @@
 """Shapes as descriptions: what a body, a floor or an area looks like from above.
 
-All lengths in metres, in the frame of what carries the shape (x forward, y left).
+All lengths in metres, in the frame of what carries the shape (x forward, y left). What can be a
+region says ``contains`` in plain arithmetic, so that it answers for arrays as well as for numbers.
 """
 
 import math
-from typing import Annotated, Literal, Self
+from typing import Annotated, Any, Literal, Self
 
-from pydantic import BaseModel, ConfigDict, Field, model_validator
+from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
 
-from ai4u_edu.parameters import Point, PositiveMetres
+from ai4u_edu.errors import ParameterError
+from ai4u_edu.parameters import Point, PositiveMetres, explain
 
 OUTLINE_CORNERS = 48
 
@@ -16,7 +18,21 @@ OUTLINE_CORNERS = 48
 class Description(BaseModel):
     """The base of all that a scene file can say: frozen, nothing unknown, nothing infinite."""
 
-    model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
+    model_config = ConfigDict(
+        frozen=True, extra="forbid", allow_inf_nan=False, use_attribute_docstrings=True
+    )
+
+    def __init__(self, **fields: Any) -> None:
+        try:
+            super().__init__(**fields)
+        except ValidationError as error:
+            problems = "; ".join(map(str, explain(error.errors(), type(self))))
+            told = ParameterError(f"{type(self).__name__}: {problems}")
+            told.details = error
+            raise told from None
+
+    # a description inside another one is no call of the constructor, and reports with its path
+    __init__.__pydantic_base_init__ = True  # type: ignore[attr-defined]
 
 
 class CircleShape(Description):
@@ -52,7 +68,7 @@ class BoxShape(Description):
 
     def contains(self, x: float, y: float) -> bool:
         """Whether a point of the shape's own frame lies in it."""
-        return 2 * abs(x) <= self.size[0] and 2 * abs(y) <= self.size[1]
+        return (2 * abs(x) <= self.size[0]) & (2 * abs(y) <= self.size[1])
 
     def outline(self) -> list[tuple[float, float]]:
         """The four corners, counter-clockwise."""
@@ -69,19 +85,23 @@ class PolygonShape(Description):
     @model_validator(mode="after")
     def _convex(self) -> Self:
         corners = self.vertices
-        total = 0.0
+        turns = []
         for i, (x, y) in enumerate(corners):
             (x1, y1), (x2, y2) = corners[(i + 1) % len(corners)], corners[(i + 2) % len(corners)]
             dx, dy, ex, ey = x1 - x, y1 - y, x2 - x1, y2 - y1
-            turn = math.atan2(dx * ey - dy * ex, dx * ex + dy * ey)
+            turns.append(math.atan2(dx * ey - dy * ex, dx * ex + dy * ey))
+        if all(turn < 0 for turn in turns):
+            raise ValueError(
+                "expected the corners counter-clockwise, got them clockwise; reverse them"
+            )
+        for i, turn in enumerate(turns, start=1):
             if turn <= 0:
                 raise ValueError(
-                    "expected the corners of a convex polygon, counter-clockwise; "
-                    f"it turns the other way (or not at all) at corner {(i + 1) % len(corners)} "
-                    f"{(x1, y1)}; build a hollow shape from several bodies"
+                    "expected the corners of a convex polygon, counter-clockwise; it turns the "
+                    f"other way (or not at all) at corner {i % len(corners)} "
+                    f"{corners[i % len(corners)]}; build a hollow shape from several bodies"
                 )
-            total += turn
-        if total > 3 * math.pi:
+        if sum(turns) > 3 * math.pi:
             raise ValueError("expected corners that go round once; they cross themselves")
         return self
 
@@ -92,12 +112,12 @@ class PolygonShape(Description):
 
     def contains(self, x: float, y: float) -> bool:
         """Whether a point of the shape's own frame lies in it."""
+        inside = True
         ax, ay = self.vertices[-1]
         for bx, by in self.vertices:
-            if (bx - ax) * (y - ay) - (by - ay) * (x - ax) < 0:
-                return False
+            inside &= (bx - ax) * (y - ay) - (by - ay) * (x - ax) >= 0
             ax, ay = bx, by
-        return True
+        return inside
 
     def outline(self) -> list[tuple[float, float]]:
         """The corners, counter-clockwise."""
@@ -118,8 +138,9 @@ class CapsuleShape(Description):
 
     def contains(self, x: float, y: float) -> bool:
         """Whether a point of the shape's own frame lies in it."""
-        along = max(-self.length / 2, min(self.length / 2, x))
-        return math.hypot(x - along, y) <= self.radius
+        past = abs(x) - self.length / 2
+        past *= past > 0
+        return past * past + y * y <= self.radius * self.radius
 
     def outline(self) -> list[tuple[float, float]]:
         """Corners of a polygon that looks like the shape, counter-clockwise."""
@@ -184,7 +205,8 @@ class RingShape(Description):
 
     def contains(self, x: float, y: float) -> bool:
         """Whether a point of the shape's own frame lies in it."""
-        return self.inner <= math.hypot(x, y) <= self.outer
+        far = x * x + y * y
+        return (self.inner * self.inner <= far) & (far <= self.outer * self.outer)
 
     def outline(self) -> list[tuple[float, float]]:
         """The outer rim, counter-clockwise; the hole is :meth:`hole`."""

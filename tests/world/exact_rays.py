@@ -6,6 +6,7 @@ sides: where that changes what a ray meets, the ray only just hits or just misse
 """
 
 import math
+from collections.abc import Sequence
 from typing import NamedTuple
 
 from ai4u_edu.world import (
@@ -36,9 +37,9 @@ class Ray(NamedTuple):
 
 
 class Met(NamedTuple):
-    """What a ray meets: 0 and 0 for nothing."""
+    """What a ray meets, one or several at once; 0 and 0 for nothing."""
 
-    code: float
+    codes: frozenset[float]
     distance: float
 
 
@@ -47,26 +48,19 @@ def meets(world: World, ray: Ray, reach: float, skip: str, mask: int) -> Met | N
     fits = [_first(world, ray, reach, skip, mask, margin) for margin in (0.0, MARGIN, -MARGIN)]
     exact = fits[0]
     for other in fits:
-        if (
-            other is None
-            or exact is None
-            or other.code != exact.code
-            or abs(other.distance - exact.distance) > 1e3 * MARGIN
-        ):
+        if other.codes != exact.codes or abs(other.distance - exact.distance) > 1e3 * MARGIN:
             return None
     return exact
 
 
-def code_of(tags: tuple[str, ...]) -> float:
+def code_of(tags: Sequence[str]) -> float:
     """The number in the first tag; 0 without tags."""
     if not tags:
         return 0.0
-    return GROUND if tags == ("floor",) else float(tags[0].removeprefix("n"))
+    return GROUND if tags[0] == "floor" else float(tags[0].removeprefix("n"))
 
 
-def _first(
-    world: World, ray: Ray, reach: float, skip: str, mask: int, margin: float
-) -> Met | None:
+def _first(world: World, ray: Ray, reach: float, skip: str, mask: int, margin: float) -> Met:
     hits = []
     for name, body in world.bodies.items():
         if name == skip or body.fallen or not body.description.collision_layer & mask:
@@ -82,10 +76,9 @@ def _first(
         hits.append((-ray.start[2] / ray.step[2], GROUND))
     hits.sort()
     if not hits or hits[0][0] > reach + margin:
-        return Met(0.0, 0.0)
-    if len(hits) > 1 and hits[1][0] - hits[0][0] < MARGIN and hits[1][1] != hits[0][1]:
-        return None
-    return Met(hits[0][1], hits[0][0])
+        return Met(frozenset({0.0}), 0.0)
+    nearest = hits[0][0]
+    return Met(frozenset(code for at, code in hits if at - nearest < MARGIN), nearest)
 
 
 def _through(body: BodyView, ray: Ray, margin: float) -> Interval:

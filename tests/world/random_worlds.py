@@ -17,12 +17,12 @@ from ai4u_edu.world import (
 )
 from ai4u_edu.world.shapes import BodyShape, RegionShape
 
-SIDE = 6.0
+SIDE = 5.0
 TOPS = (-1.0, 0.0, 0.0, 0.4, 1.0, 2.5)
 
 
-def make_world(chance: random.Random) -> World:
-    """Up to 14 bodies of all shapes and kinds at all heights, with and without floors."""
+def make_world(chance: random.Random, *, sticks: bool) -> World:
+    """Up to 20 bodies of all shapes and kinds at all heights, with and without floors."""
     world = World()
     flat = chance.random() < 0.3
     for i in range(0 if flat else chance.choice((0, 1, 3, 6))):
@@ -35,19 +35,19 @@ def make_world(chance: random.Random) -> World:
             tags=(f"n{100 + i}",),
         )
     world.add_body("eye", CircleShape(radius=0.3), height=0.8, tags=("n1",))
-    for i in range(2, chance.randint(2, 15)):
+    for i in range(2, chance.randint(4, 22)):
         z: dict[str, Any] = {}
         if not flat and chance.random() < 0.5:
-            z = {"z": chance.uniform(-1, 2)}
+            z = {"z": chance.uniform(-0.5, 1.5)}
         # what moves must not overlap; where it would, the world has one body fewer
         try:
             world.add_body(
                 f"body {i}",
-                _body_shape(chance),
+                _body_shape(chance, sticks),
                 kind=chance.choice(("static", "static", "kinematic", "dynamic")),
                 position=_place(chance),
                 heading_deg=chance.uniform(-180, 180),
-                height=1.0 if flat and chance.random() < 0.5 else chance.uniform(0.1, 2.0),
+                height=1.0 if flat and chance.random() < 0.5 else chance.uniform(0.2, 3.0),
                 collision_layer=chance.choice((1, 2)),
                 tags=(f"n{i}",),
                 **z,
@@ -64,8 +64,8 @@ def shuffle(world: World, chance: random.Random) -> None:
         bodies.append(chance.choice(list(world.bodies.values())))
     for body in bodies:
         x, y = _place(chance)
-        on_floor = chance.random() < 0.5
-        z = None if on_floor else chance.uniform(-1.5, 3.0)
+        on_floor = chance.random() < 0.7
+        z = None if on_floor else chance.uniform(-1.0, 2.5)
         body.move_to(x, y, heading=chance.uniform(-4, 4), z=z)
 
 
@@ -73,30 +73,32 @@ def _place(chance: random.Random) -> tuple[float, float]:
     return chance.uniform(-SIDE, SIDE), chance.uniform(-SIDE, SIDE)
 
 
-def _body_shape(chance: random.Random) -> BodyShape:
+def _body_shape(chance: random.Random, sticks: bool) -> BodyShape:
     def length() -> float:
         return chance.uniform(0.2, 2.5)
 
-    return chance.choice(
-        (
-            CircleShape(radius=length() / 2),
-            BoxShape(size=(length(), length())),
-            _polygon(chance),
+    shapes: list[BodyShape] = [
+        CircleShape(radius=length() / 2),
+        BoxShape(size=(length(), length())),
+        _polygon(chance),
+    ]
+    if sticks:
+        shapes += [
             CapsuleShape(length=length(), radius=length() / 3),
             SegmentShape(a=(-length(), length()), b=(length(), length()), thickness=length() / 3),
-        )
-    )
+        ]
+    return chance.choice(shapes)
 
 
 def _region_shape(chance: random.Random) -> RegionShape:
     def length() -> float:
-        return chance.uniform(1.0, 9.0)
+        return chance.uniform(3.0, 12.0)
 
     return chance.choice(
         (
             CircleShape(radius=length()),
             BoxShape(size=(length(), length())),
-            _polygon(chance, 4.0),
+            _polygon(chance, 6.0),
             CapsuleShape(length=length(), radius=length() / 2),
             RingShape(inner=1.0, outer=1.0 + length()),
         )

@@ -1,0 +1,126 @@
+"""Rays ask the physics no more than they need, and the quick way gives what the public one does."""
+
+import math
+import random
+from collections.abc import Sequence
+from typing import Any
+
+import pymunk
+import pytest
+
+from ai4u_edu.world import BoxShape, CircleShape, RayFan, RayGrid, World, _chipmunk
+from ai4u_edu.world._chipmunk import Segments, shape_key
+from tests.world.random_worlds import SIDE, make_world, shuffle
+
+
+class Queries:
+    """How often the physics was asked, by kind of question."""
+
+    first = every = point = 0
+
+
+@pytest.fixture
+def queries(monkeypatch: pytest.MonkeyPatch) -> Queries:
+    counted = Queries()
+    every, point = pymunk.Space.segment_query, pymunk.Space.point_query
+
+    def counting_first(*args: Any) -> Any:
+        counted.first += 1
+        return real.cpSpaceSegmentQueryFirst(*args)
+
+    def counting_every(*args: Any) -> Any:
+        counted.every += 1
+        return every(*args)
+
+    def counting_point(*args: Any) -> Any:
+        counted.point += 1
+        return point(*args)
+
+    real = vars(_chipmunk)["lib"]
+    library = type("Library", (), {"cpSpaceSegmentQueryFirst": staticmethod(counting_first)})
+    monkeypatch.setattr(_chipmunk, "lib", library)
+    monkeypatch.setattr(pymunk.Space, "segment_query", counting_every)
+    monkeypatch.setattr(pymunk.Space, "point_query", counting_point)
+    return counted
+
+
+def code_of(tags: Sequence[str]) -> float:
+    return float(len(tags))
+
+
+def flat_world(*heights: float) -> World:
+    """A robot with balls all around it."""
+    world = World()
+    world.add_body("robot", CircleShape(radius=0.3), tags=("robot",))
+    for i, height in enumerate(heights):
+        angle = 2 * math.pi * i / len(heights)
+        place = 3 * math.cos(angle), 3 * math.sin(angle)
+        world.add_body(f"ball {i}", CircleShape(), position=place, height=height, tags=("ball",))
+    return world
+
+
+def test_a_flat_scene_takes_one_first_hit_query_a_column(queries: Queries) -> None:
+    world = flat_world(*[1.0] * 8)
+    angles = [2 * math.pi * i / 24 for i in range(24)]
+    pitches = [0.4 - 0.1 * i for i in range(12)]
+    fan = RayFan(world, angles, 10.0, code_of)
+    grid = RayGrid(world, angles, pitches, 10.0, code_of)
+    world.tick()
+    for caster in (fan, grid):
+        queries.first = queries.every = queries.point = 0
+        caster.cast(world["robot"])
+        assert (queries.first, queries.every, queries.point) == (24, 0, 0)
+    # the balls are met, and some rays pass above them
+    balls = (grid.codes == 1.0) & (grid.distances > 2.4)
+    assert balls[4].any()
+    assert not balls[0].any()
+
+
+def test_flat_floors_cost_no_query_either(queries: Queries) -> None:
+    world = flat_world(*[1.0] * 8)
+    world.add_floor("table", BoxShape(size=(20, 20)))
+    grid = RayGrid(world, [0.0, 0.1, 0.5], [0.3, 0.0, -0.3], 10.0, code_of)
+    world.tick()
+    queries.first = queries.every = queries.point = 0
+    grid.cast(world["robot"])
+    assert (queries.first, queries.every, queries.point) == (3, 0, 0)
+
+
+def test_only_rays_above_the_first_obstacle_ask_what_is_behind(queries: Queries) -> None:
+    world = flat_world(1.0, 1.0, 1.0, 1.0)
+    world.add_body("tower", BoxShape(), kind="static", height=9.0, position=(6, 0), tags=("a", "b"))
+    # the first column looks at a ball with the tower behind, the second between two balls
+    grid = RayGrid(world, [0.0, math.pi / 4], [0.4, 0.0, -0.4], 10.0, code_of)
+    world.tick()
+    queries.first = queries.every = 0
+    grid.cast(world["robot"])
+    assert (queries.first, queries.every) == (2, 1)
+    assert grid.codes.tolist() == [[2.0, 0.0], [1.0, 0.0], [1.0, 1.0]]
+
+
+def test_the_quick_way_gives_exactly_what_the_public_one_gives() -> None:
+    chance = random.Random(5)
+    met = 0
+    for _ in range(40):
+        world = make_world(chance, sticks=True)
+        quick, public = Segments(20), Segments(20, fast=False)
+        names = {shape_key(shape): shape_key(shape, fast=False) for shape in world.owners}
+        for _ in range(25):
+            shuffle(world, chance)
+            x, y = chance.uniform(-SIDE, SIDE), chance.uniform(-SIDE, SIDE)
+            mask = chance.choice((0xFFFFFFFF, 1, 2))
+            accept = world.filter_for(world["eye"], mask)
+            public.ends[:] = quick.ends[:] = [
+                (chance.uniform(-8, 8), chance.uniform(-8, 8)) for _ in range(20)
+            ]
+            quick.cast(world.space, x, y, accept)
+            public.cast(world.space, x, y, accept)
+            assert quick.alpha.tobytes() == public.alpha.tobytes()
+            assert [names.get(key, 0) for key in quick.shapes] == public.shapes
+            met += sum(map(bool, public.shapes))
+    assert met > 5000, "of 20,000"
+
+
+def test_the_quick_way_is_there() -> None:
+    """Where it is not, with another pymunk, all goes on more slowly; here we want to know."""
+    assert Segments(1)._fast
