@@ -1,0 +1,19 @@
+"""One port for everything: the page, viser behind it, the keys, and an API to look."""
+
+from ai4u_edu.server.address import AddressError, PortTakenError
+from ai4u_edu.server.app import RoomMount, room_app
+from ai4u_edu.server.door import LOOPBACK, hosts_for
+from ai4u_edu.server.serve import ServerThread, serve
+from ai4u_edu.server.side_door import shut_side_door
+
+__all__ = [
+    "LOOPBACK",
+    "AddressError",
+    "PortTakenError",
+    "RoomMount",
+    "ServerThread",
+    "hosts_for",
+    "room_app",
+    "serve",
+    "shut_side_door",
+]

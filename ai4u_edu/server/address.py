@@ -1,0 +1,68 @@
+"""An address to listen at."""
+
+import errno
+import os
+import socket
+
+from ai4u_edu.errors import AI4UError
+
+
+class AddressError(AI4UError):
+    """There is no listening at this address."""
+
+
+class PortTakenError(AddressError):
+    """Another program listens at this port."""
+
+
+def listen(host: str, port: int) -> socket.socket:
+    """A socket that listens, bound before anything else starts.
+
+    Args:
+        host: a name or an address of this machine.
+        port: 0 for a free one.
+
+    Raises:
+        PortTakenError: another program listens there.
+        AddressError: there is no listening there, for another reason.
+    """
+    try:
+        family, kind, _, _, address = socket.getaddrinfo(
+            host, port, type=socket.SOCK_STREAM, flags=socket.AI_PASSIVE
+        )[0]
+    except (OSError, UnicodeError) as error:
+        raise AddressError(
+            f"expected an address of this machine, got --host {host!r} ({error}); "
+            "use --host 127.0.0.1"
+        ) from None
+    listener = socket.socket(family, kind)
+    try:
+        if os.name == "posix":  # elsewhere it would let two programs share a port
+            listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        listener.bind(address)
+        listener.listen()
+    except OSError as error:
+        listener.close()
+        raise _explained(error, host, port) from None
+    return listener
+
+
+def url_of(host: str, listener: socket.socket) -> str:
+    """Where a browser on this machine finds it."""
+    everywhere = {"": "127.0.0.1", "0.0.0.0": "127.0.0.1", "::": "::1"}  # noqa: S104 - read, not bound
+    host = everywhere.get(host, host)
+    shown = f"[{host}]" if ":" in host else host
+    return f"http://{shown}:{listener.getsockname()[1]}/"
+
+
+def _explained(error: OSError, host: str, port: int) -> AddressError:
+    if error.errno == errno.EADDRINUSE:
+        return PortTakenError(
+            f"port {port} is taken by another program (or another AI4U Edu); "
+            f"use --port 0 for a free one, or --port {port + 1}"
+        )
+    if error.errno == errno.EACCES:
+        return AddressError(f"port {port} is not allowed to you ({error}); use --port 0")
+    return AddressError(
+        f"expected an address of this machine, got --host {host!r} ({error}); use --host 127.0.0.1"
+    )

@@ -1,0 +1,150 @@
+"""What the API answers, as models: the JSON and its description both come from them."""
+
+import math
+from collections.abc import Mapping
+from typing import Annotated, Any, Literal
+
+import numpy as np
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field
+from typing_extensions import TypeAliasType
+
+from ai4u_edu.snapshot import AgentState, BodyState, Snapshot
+from ai4u_edu.version import __version__
+
+
+def finite(value: float) -> float | None:
+    """A number, or nothing where JSON has no word for it."""
+    return value if math.isfinite(value) else None
+
+
+Number = Annotated[float | None, BeforeValidator(finite)]
+Pose = Annotated[
+    tuple[Number, Number, Number, Number],
+    Field(description="x, y, z in metres; heading in radians, counter-clockwise from +x"),
+]
+Velocity = Annotated[tuple[Number, Number, Number], Field(description="x, y, z in m/s")]
+Spin = Annotated[Number, Field(description="rad/s, counter-clockwise")]
+Reading = TypeAliasType("Reading", "bool | int | float | str | list[Reading] | None")
+
+
+class _View(BaseModel):
+    model_config = ConfigDict(extra="forbid")  # so that the schema says that this is all
+
+
+class BodyView(_View):
+    """Where a body is."""
+
+    name: str
+    pose: Pose
+    velocity: Velocity
+    angular_velocity: Spin
+    fallen: bool
+
+    @classmethod
+    def of(cls, body: BodyState) -> "BodyView":
+        """The view of a body's state."""
+        return cls(name=body.name, fallen=body.fallen, **_motion(body))
+
+
+class AgentView(_View):
+    """What an agent sensed, did and got in its last decision, and where it is now."""
+
+    id: str
+    body: str
+    brain: str
+    pose: Pose
+    velocity: Velocity
+    angular_velocity: Spin
+    percept: dict[str, Reading]
+    action: dict[str, list[Number]]
+    reward: Number
+    reward_terms: Mapping[str, Number]
+    episode_reward: Number
+    episode_terms: Mapping[str, Number]
+    steps: int = Field(description="decisions in this episode")
+    terminated: bool
+    truncated: bool
+
+    @classmethod
+    def of(cls, agent: AgentState, body: BodyState) -> "AgentView":
+        """The view of an agent's state."""
+        return cls(
+            id=agent.id,
+            body=agent.body,
+            brain=agent.brain,
+            **_motion(body),
+            percept={key: _reading(agent.percept[key]) for key in agent.percept},
+            action={name: list(numbers) for name, numbers in agent.action.items()},
+            reward=agent.reward,
+            reward_terms=agent.reward_terms,
+            episode_reward=agent.episode_reward,
+            episode_terms=agent.episode_terms,
+            steps=agent.steps,
+            terminated=agent.terminated,
+            truncated=agent.truncated,
+        )
+
+
+class SnapshotView(_View):
+    """Everything at one tick."""
+
+    tick: int
+    time: Number = Field(description="seconds of the world's time since the reset")
+    seed: int
+    episode: int
+    paused: bool
+    time_scale: Number = Field(description="1 is real time; null: as fast as it goes")
+    real_time_factor: Number
+    error: str = Field(description="what stopped the world; empty while all is well")
+    agents: list[AgentView]
+    bodies: list[BodyView]
+
+    @classmethod
+    def of(cls, picture: Snapshot) -> "SnapshotView":
+        """The view of a snapshot."""
+        bodies = {body.name: body for body in picture.bodies}
+        return cls(
+            tick=picture.tick,
+            time=picture.time,
+            seed=picture.seed,
+            episode=picture.episode,
+            paused=picture.paused,
+            time_scale=picture.time_scale,
+            real_time_factor=picture.real_time_factor,
+            error=picture.error,
+            agents=[AgentView.of(agent, bodies[agent.body]) for agent in picture.agents],
+            bodies=[BodyView.of(body) for body in picture.bodies],
+        )
+
+
+class Health(_View):
+    """Whether the room is well."""
+
+    status: Literal["ok", "paused", "error"] = Field(description="of the world in the room")
+    version: str
+    scene: str
+    uptime: float = Field(description="seconds", ge=0)
+
+    @classmethod
+    def of(cls, picture: Snapshot, scene: str, uptime: float) -> "Health":
+        """The health of a room whose world looks like this."""
+        status: Literal["ok", "paused", "error"] = (
+            "error" if picture.error else "paused" if picture.paused else "ok"
+        )
+        return cls(status=status, version=__version__, scene=scene, uptime=round(uptime, 3))
+
+
+def _motion(body: BodyState) -> dict[str, Any]:
+    return {
+        "pose": (body.x, body.y, body.z, body.heading),
+        "velocity": (body.vx, body.vy, body.vz),
+        "angular_velocity": body.angular_velocity,
+    }
+
+
+def _reading(value: Any) -> Any:
+    if isinstance(value, np.ndarray):
+        return _reading(value.tolist())
+    if isinstance(value, list):
+        return [_reading(each) for each in value]
+    return finite(value) if isinstance(value, float) else value

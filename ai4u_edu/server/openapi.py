@@ -1,0 +1,46 @@
+"""The API's own description, out of the models that it answers with."""
+
+from typing import Any
+
+from pydantic import BaseModel
+from pydantic.json_schema import models_json_schema
+
+from ai4u_edu.server.api import Health, SnapshotView
+from ai4u_edu.version import __version__
+
+_ANSWERS: dict[str, tuple[str, type[BaseModel]]] = {
+    "/healthz": ("Whether the room is well.", Health),
+    "/api/snapshot": ("Everything at the last tick.", SnapshotView),
+}
+
+
+def openapi() -> dict[str, Any]:
+    """The OpenAPI 3.1 document."""
+    _, schemas = models_json_schema(
+        [(model, "serialization") for _, model in _ANSWERS.values()],
+        ref_template="#/components/schemas/{model}",
+    )
+    paths = {
+        path: _get(summary, {"$ref": f"#/components/schemas/{model.__name__}"})
+        for path, (summary, model) in _ANSWERS.items()
+    }
+    paths["/api/openapi.json"] = _get("This document.", {"type": "object"})
+    return {
+        "openapi": "3.1.0",
+        "info": {"title": "AI4U Edu", "version": __version__},
+        # relative to this document's own address, so that it holds under a path prefix too
+        "servers": [{"url": ".."}],
+        "paths": paths,
+        "components": {"schemas": schemas["$defs"]},
+    }
+
+
+def _get(summary: str, schema: dict[str, Any]) -> dict[str, Any]:
+    content = {"application/json": {"schema": schema}}
+    refused = {"description": "Asked for under a name that is not allowed."}
+    return {
+        "get": {
+            "summary": summary,
+            "responses": {"200": {"description": "OK", "content": content}, "403": refused},
+        }
+    }

@@ -1,0 +1,96 @@
+"""viser's page with our script and style inside: one document, so the keys never go astray."""
+
+import hashlib
+import html
+from importlib.util import find_spec
+from pathlib import Path
+
+from starlette.requests import Request
+from starlette.responses import FileResponse, PlainTextResponse, Response
+
+from ai4u_edu.errors import SetupError
+
+_PLACE = "<title>Viser</title>"
+_OURS = """<title>{title}</title>
+    <link rel="stylesheet" href="./web/page.css" />
+    <script type="module" src="./web/main.js"></script>"""
+# what a system says about endings can't be relied on: some call a .js plain text
+_KINDS = {".css": "text/css", ".js": "text/javascript", ".svg": "image/svg+xml"}
+_FRESH = {"Cache-Control": "no-cache"}
+
+
+class Page:
+    """The page and its files.
+
+    Args:
+        title: of the page; any text.
+
+    Raises:
+        SetupError: viser's page or our files are not where they should be.
+    """
+
+    def __init__(self, title: str) -> None:
+        self._folder = web_folder()
+        self._index = _index(title)
+        self._etag = f'"{hashlib.sha256(self._index).hexdigest()[:32]}"'
+
+    def index(self, request: Request) -> Response:
+        """The page itself."""
+        headers = _FRESH | {
+            "ETag": self._etag,
+            "Content-Security-Policy": _policy(request.headers["host"]),
+        }
+        if request.headers.get("if-none-match") == self._etag:
+            return Response(status_code=304, headers=headers)
+        return Response(self._index, media_type="text/html", headers=headers)
+
+    def file(self, request: Request) -> Response:
+        """One of our files; nothing outside their folder has a name here."""
+        wanted = request.path_params["file"]
+        for path in self._folder.iterdir():
+            if path.name == wanted and path.suffix in _KINDS and path.is_file():
+                return FileResponse(path, media_type=_KINDS[path.suffix], headers=_FRESH)
+        return PlainTextResponse(f"no file is called {wanted!r}\n", 404)
+
+
+def web_folder() -> Path:
+    """Where our scripts and styles are: in the package, or beside it in a checkout."""
+    package = Path(__file__).resolve().parent.parent
+    for folder in (package / "web", package.parent / "web"):
+        if (folder / "main.js").is_file():
+            return folder
+    raise SetupError(
+        f"expected the page's files in {package / 'web'}, found none; install ai4u-edu anew"
+    )
+
+
+def _index(title: str) -> bytes:
+    spec = find_spec("viser")
+    if spec is None or spec.origin is None:
+        raise SetupError("expected the package viser, found none; install ai4u-edu anew")
+    path = Path(spec.origin).parent / "client" / "build" / "index.html"
+    text = path.read_text(encoding="utf-8") if path.is_file() else ""
+    if text.count(_PLACE) != 1:
+        raise SetupError(
+            f"expected viser's page with {_PLACE} in {path}; install the viser that ai4u-edu asks "
+            "for (pip install --force-reinstall ai4u-edu)"
+        )
+    return text.replace(_PLACE, _OURS.format(title=html.escape(title))).encode()
+
+
+def _policy(host: str) -> str:
+    # viser takes ?websocket= and ?playbackPath= from the page's address, and whoever answers there
+    # may run scripts in the page: so it may talk to nobody but us. Its own code is inline,
+    # and starts workers and WebAssembly out of itself.
+    return "; ".join(
+        [
+            "default-src 'self' data: blob:",
+            "script-src 'self' 'unsafe-inline' 'unsafe-eval' blob:",
+            "style-src 'self' 'unsafe-inline'",
+            f"connect-src 'self' data: blob: ws://{host} wss://{host}",
+            "object-src 'none'",
+            "base-uri 'none'",
+            "form-action 'none'",
+            "frame-ancestors 'self' http://localhost:* http://127.0.0.1:*",  # notebooks
+        ]
+    )

@@ -1,0 +1,83 @@
+"""viser's WebSocket, passed through our port."""
+
+import asyncio
+from contextlib import suppress
+
+from starlette.types import Receive, Scope, Send
+from starlette.websockets import WebSocket, WebSocketDisconnect
+from websockets.asyncio.client import ClientConnection, connect
+from websockets.exceptions import ConnectionClosed, InvalidHandshake
+from websockets.typing import Subprotocol
+
+from ai4u_edu.server.rate import Rate
+
+UPWARD = 500
+"""Messages a second that viser gets from one page; a page that sends more is slowed down. Dragging
+something sends about a hundred."""
+# Whoever sends these asks viser to open a tunnel from the internet to this machine. A message that
+# only mentions them is lost too, which costs less than two readers of one message who may disagree.
+_BARRED = (b"ShareUrlRequest", b"ShareUrlDisconnect")
+
+_SAYABLE = range(1000, 1004)  # other codes of a close can't be passed on
+
+
+class ViserProxy:
+    """Connects each page to viser; an ASGI app.
+
+    Each direction waits until the other side has taken a frame: a slow page slows its own stream
+    down, and nothing piles up here.
+
+    Args:
+        port: where viser listens, on 127.0.0.1.
+    """
+
+    def __init__(self, port: int) -> None:
+        self._url = f"ws://127.0.0.1:{port}"
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        """One page's connection, until one side closes it."""
+        page = WebSocket(scope, receive, send)
+        try:
+            viser = await connect(
+                self._url,
+                subprotocols=[Subprotocol(name) for name in scope["subprotocols"]] or None,
+                compression=None,  # viser compresses by itself
+                max_size=None,
+                ping_interval=None,  # the page is asked for signs of life, that's enough
+                proxy=None,
+            )
+        except (OSError, InvalidHandshake):
+            await page.close(1013, "the viewer does not answer; reload the page in a moment")
+            return
+        upward = asyncio.create_task(_upward(page, viser))
+        try:
+            await _downward(viser, page)
+        finally:
+            upward.cancel()
+            viser.transport.abort()  # a farewell would have to wait behind frames nobody reads
+            with suppress(asyncio.CancelledError):
+                await upward
+
+
+async def _downward(viser: ClientConnection, page: WebSocket) -> None:
+    with suppress(WebSocketDisconnect):
+        await page.accept(viser.subprotocol)
+        with suppress(ConnectionClosed):
+            while True:
+                await page.send_bytes(await viser.recv(decode=False))
+        code = viser.close_code or 1001
+        await page.close(code if code in _SAYABLE else 1001, viser.close_reason)
+
+
+async def _upward(page: WebSocket, viser: ClientConnection) -> None:
+    rate = Rate(UPWARD)
+    with suppress(ConnectionClosed):
+        while (message := await page.receive())["type"] == "websocket.receive":
+            frame = message.get("bytes")
+            if frame is None:  # viser speaks in bytes only
+                break
+            if not any(kind in frame for kind in _BARRED):
+                await viser.send(frame)
+            if wait := rate.take():
+                await asyncio.sleep(wait)
+    await viser.close()

@@ -1,0 +1,62 @@
+"""A real Chromium, and a room that it looks at."""
+
+import os
+import shutil
+from collections.abc import Iterator
+
+import pytest
+import viser
+from playwright.sync_api import Browser, sync_playwright
+
+from ai4u_edu import CircleShape, ControlRequestor, RBMoveActuator, WASDRBMoveController, World
+from ai4u_edu.server import shut_side_door
+from tests.browser.theatre import FLAGS, SPEED, TURN, Theatre
+from tests.builders import small_sim
+from tests.server.rooms import served
+
+
+@pytest.fixture(scope="session")
+def chromium() -> Iterator[Browser]:
+    path = os.environ.get("AI4U_CHROMIUM") or shutil.which("chromium")
+    with sync_playwright() as playwright:
+        browser = playwright.chromium.launch(executable_path=path, args=FLAGS)
+        yield browser
+        browser.close()
+
+
+@pytest.fixture
+def inner() -> Iterator[viser.ViserServer]:
+    server = viser.ViserServer(host="127.0.0.1", port=0, verbose=False)
+    shut_side_door(server)
+    server.gui.configure_theme(show_logo=False, show_share_button=False)
+    server.scene.add_grid("/grid")
+    yield server
+    server.stop()
+
+
+@pytest.fixture
+def sim() -> ControlRequestor:
+    world = World()
+    world.add_body("robot", CircleShape(radius=0.5))
+    return small_sim(
+        world=world,
+        controller=WASDRBMoveController(),
+        actuators=[RBMoveActuator(move_amount=SPEED, turn_amount=TURN, jump_power=4)],
+        skip_frame=4,
+    )
+
+
+@pytest.fixture
+def theatre(
+    chromium: Browser, inner: viser.ViserServer, sim: ControlRequestor
+) -> Iterator[Theatre]:
+    clicks: list[str] = []
+    name = inner.gui.add_text("Name", initial_value="")
+    button = inner.gui.add_button("Press me")
+    button.on_click(lambda _: clicks.append("click"))
+    with served(sim, viser_port=inner.get_port()) as room:
+        theatre = Theatre(room, inner, name, clicks, chromium)
+        yield theatre
+        for context in theatre.contexts:
+            context.close()
+    assert theatre.complaints == []

@@ -1,0 +1,113 @@
+"""The page finds its room under any path, comes back after a loss, and talks to nobody else."""
+
+import time
+from collections.abc import Iterator
+
+import pytest
+import viser
+from playwright.sync_api import Browser, expect
+from starlette.applications import Starlette
+
+from ai4u_edu import ControlRequestor
+from ai4u_edu.runner import Runner
+from ai4u_edu.server import RoomMount, ServerThread, room_app
+from tests.browser.theatre import Theatre, ready, seat
+from tests.server.rooms import Room, free_port, served, until
+
+pytestmark = pytest.mark.browser
+
+
+@pytest.mark.parametrize("end", ["/", "", "/?agent=0"])
+def test_a_room_under_a_path(
+    chromium: Browser, inner: viser.ViserServer, sim: ControlRequestor, end: str
+) -> None:
+    name = inner.gui.add_text("Name", initial_value="")
+    with served(
+        sim,
+        viser_port=inner.get_port(),
+        wrap=lambda app: Starlette(routes=[RoomMount("/user/ann/room", app)]),
+    ) as room:
+        page = chromium.new_page()
+        page.goto(f"{room.url}user/ann/room{end}")
+        ready(page)
+        page.keyboard.down("KeyW")
+        expect(seat(page)).to_have_text("You drive")
+        until(lambda: room.held == ["KeyW"])
+        page.keyboard.up("KeyW")
+        page.get_by_role("textbox").first.fill("hello")
+        until(lambda: name.value == "hello")
+        page.close()
+
+
+def test_a_page_comes_back_after_the_server_did(
+    chromium: Browser, inner: viser.ViserServer, sim: ControlRequestor
+) -> None:
+    runner = Runner(sim)
+    runner.start()
+    room = Room(runner, "")
+    port = free_port()
+    app = room_app(runner, viser_port=inner.get_port(), title="A room")
+    page = chromium.new_page()
+    with ServerThread(app, port=port) as server:
+        page.goto(server.url)
+        ready(page)
+        page.keyboard.down("KeyW")
+        until(lambda: room.held == ["KeyW"])
+    expect(seat(page)).to_have_text("Connecting …")
+    until(lambda: room.held == [])
+    with ServerThread(app, port=port):
+        expect(seat(page)).to_have_text("Press a key to drive", timeout=10_000)
+        time.sleep(0.3)
+        assert room.held == [], "a key that was lost has to be pressed anew"
+        page.keyboard.up("KeyW")
+        page.keyboard.down("KeyW")
+        until(lambda: room.held == ["KeyW"])
+        page.close()
+    runner.stop()
+
+
+@pytest.fixture
+def other() -> Iterator[viser.ViserServer]:
+    """A viser that nobody guards."""
+    server = viser.ViserServer(host="127.0.0.1", port=0, verbose=False)
+    yield server
+    server.stop()
+
+
+@pytest.mark.parametrize("guarded", [True, False])
+def test_a_link_cannot_send_the_page_to_another_viser(
+    theatre: Theatre, other: viser.ViserServer, guarded: bool
+) -> None:
+    context = theatre.chromium.new_context(bypass_csp=not guarded)
+    page = context.new_page()
+    page.goto(f"{theatre.room.url}?websocket=ws://127.0.0.1:{other.get_port()}")
+    ready(page)
+    if guarded:
+        page.wait_for_timeout(1000)
+        assert other.get_clients() == {}
+    else:
+        until(other.get_clients)
+    context.close()
+
+
+def test_a_foreign_page_neither_drives_nor_reads(
+    theatre: Theatre, other: viser.ViserServer
+) -> None:
+    page = theatre.chromium.new_page()
+    page.route("http://evil.example/", lambda route: route.fulfill(body="<p>evil</p>"))
+    page.goto("http://evil.example/")
+    listen = """([url, protocols]) => new Promise((done) => {
+        const socket = new WebSocket(url, protocols);
+        socket.onmessage = () => done("heard");
+        socket.onclose = () => done("refused");
+    })"""
+    version = [f"viser-v{viser.__version__}"]
+    address = theatre.room.url.replace("http", "ws", 1)
+    inner = f"ws://127.0.0.1:{theatre.inner.get_port()}"
+    for url, protocols in [(address, version), (address + "ws/input", []), (inner, version)]:
+        assert page.evaluate(listen, [url, protocols]) == "refused"
+    unguarded = f"ws://127.0.0.1:{other.get_port()}"
+    assert page.evaluate(listen, [unguarded, version]) == "heard", "the browser forbids nothing"
+    read = "url => fetch(url).then(() => 'read', () => 'refused')"
+    assert page.evaluate(read, theatre.room.url + "api/snapshot") == "refused"
+    page.close()

@@ -1,0 +1,51 @@
+"""How long it takes from a key to the first tick that obeys it. Measured and told, not judged."""
+
+import statistics
+import time
+
+import pytest
+
+from ai4u_edu import BasicAgent
+from tests.browser.theatre import Theatre
+from tests.server.rooms import until
+
+pytestmark = pytest.mark.browser
+
+PRESSES = 30
+
+
+def test_from_a_key_to_the_tick_that_obeys(
+    theatre: Theatre, capsys: pytest.CaptureFixture[str]
+) -> None:
+    agent = theatre.room.sim.agents[0]
+    agent.brain.skip_frame = 0
+    obeyed: list[float] = []
+    before = [0.0]
+
+    def note(agent: BasicAgent) -> None:
+        ahead = agent.last_action["move"][0]
+        if ahead and not before[0]:
+            obeyed.append(time.time())
+        before[0] = ahead
+
+    agent.begin_of_apply_action.connect(note)
+    page = theatre.page()
+    page.evaluate(
+        """() => {
+            window.pressed = [];
+            window.addEventListener("keydown", (event) => {
+                window.pressed.push(performance.timeOrigin + event.timeStamp);
+            }, {capture: true});
+        }"""
+    )
+    for number in range(1, PRESSES + 1):
+        page.keyboard.down("KeyW")
+        until(lambda number=number: len(obeyed) == number)  # type: ignore[misc]
+        page.keyboard.up("KeyW")
+        until(lambda: before[0] == 0)
+        page.wait_for_timeout(20 + 7 * number % 40)
+    pressed = page.evaluate("window.pressed")
+    waits = [1000 * end - begin for begin, end in zip(pressed, obeyed, strict=True)]
+    middle, worst = statistics.median(waits), max(waits)
+    with capsys.disabled():
+        print(f"\nkey to tick, {PRESSES} presses: median {middle:.1f} ms, worst {worst:.1f} ms")

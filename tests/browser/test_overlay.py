@@ -1,0 +1,189 @@
+"""The keys on the screen, the seat and the banners."""
+
+import re
+
+import pytest
+from playwright.sync_api import Locator, Page, expect
+
+from ai4u_edu import ArrowController, BasicAgent, LocalBrain, WASDRBMoveController
+from tests.browser.theatre import Theatre, seat
+from tests.builders import still
+from tests.server.rooms import until
+
+pytestmark = pytest.mark.browser
+
+
+def cap(page: Page, name: str) -> Locator:
+    return page.get_by_role("button", name=re.compile(rf"^{name} "))
+
+
+def centre(page: Page, name: str) -> tuple[float, float]:
+    box = cap(page, name).bounding_box()
+    assert box is not None
+    return box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+
+
+def test_a_cap_lights_up_while_its_key_is_held_here_and_elsewhere(theatre: Theatre) -> None:
+    page, watcher = theatre.page(), theatre.page()
+    for each in (page, watcher):
+        expect(cap(each, "forward")).not_to_have_attribute("data-held", "")
+    page.keyboard.down("ArrowUp")
+    for each in (page, watcher):
+        expect(cap(each, "forward")).to_have_attribute("data-held", "")
+        expect(cap(each, "left")).not_to_have_attribute("data-held", "")
+    page.keyboard.up("ArrowUp")
+    for each in (page, watcher):
+        expect(cap(each, "forward")).not_to_have_attribute("data-held", "")
+
+
+def test_two_pages_and_one_seat(theatre: Theatre) -> None:
+    first, second = theatre.page(), theatre.page()
+    expect(seat(first)).to_have_text("Press a key to drive")
+    first.keyboard.down("KeyW")
+    expect(seat(first)).to_have_text("You drive (page 1)")
+    expect(seat(second)).to_have_text("Page 1 drives")
+    second.keyboard.press("KeyS")
+    expect(seat(first)).to_have_text("You drive (page 1)")
+    second.get_by_role("button", name="Take over").click()
+    expect(seat(second)).to_have_text("You drive (page 2)")
+    expect(seat(first)).to_have_text("Page 2 drives")
+    until(lambda: theatre.room.held == [])
+    second.keyboard.down("KeyD")
+    until(lambda: theatre.room.held == ["KeyD"])
+    second.context.close()
+    theatre.contexts.remove(second.context)
+    expect(seat(first)).to_have_text("Press a key to drive")
+
+
+def test_a_cap_can_be_pressed_with_the_mouse(theatre: Theatre) -> None:
+    page = theatre.page()
+    page.mouse.move(*centre(page, "forward"))
+    page.mouse.down()
+    until(lambda: theatre.room.held == ["KeyW"])
+    expect(cap(page, "forward")).to_have_attribute("data-held", "")
+    page.mouse.up()
+    until(lambda: theatre.room.held == [])
+    page.mouse.down()
+    until(lambda: theatre.room.held == ["KeyW"])
+    page.mouse.move(640, 400)
+    until(lambda: theatre.room.held == [])
+    page.mouse.up()
+
+
+def test_fingers_press_several_caps_and_slide_between_them(theatre: Theatre) -> None:
+    page = theatre.page(width=390, height=844, touch=True)
+    session = page.context.new_cdp_session(page)
+
+    def touch(kind: str, **fingers: tuple[float, float]) -> None:
+        points = [{"x": x, "y": y, "id": ord(name)} for name, (x, y) in fingers.items()]
+        session.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": points})
+
+    w, d, jump = (centre(page, name) for name in ("forward", "right", "jump"))
+    touch("touchStart", a=w)
+    until(lambda: theatre.room.held == ["KeyW"])
+    touch("touchStart", a=w, b=jump)
+    until(lambda: theatre.room.held == ["KeyW", "Space"])
+    touch("touchMove", a=d, b=jump)
+    until(lambda: theatre.room.held == ["KeyD", "Space"])
+    touch("touchEnd", b=jump)
+    until(lambda: theatre.room.held == ["KeyD"])
+    touch("touchCancel")
+    until(lambda: theatre.room.held == [])
+
+
+def test_a_cap_is_a_button_for_whoever_uses_no_pointer(theatre: Theatre) -> None:
+    page = theatre.page()
+    cap(page, "forward").focus()
+    page.keyboard.press("Enter")
+    until(lambda: theatre.pose()[0] > 0)
+    until(lambda: theatre.room.held == [])
+
+
+def test_caps_show_what_is_printed_on_this_keyboard(theatre: Theatre) -> None:
+    azerty = "navigator.keyboard.getLayoutMap = async () => new Map([['KeyW', 'z'], ['KeyA', 'q']])"
+    page = theatre.page(prepare=lambda page: page.add_init_script(azerty))
+    assert cap(page, "forward").locator("kbd").inner_text() == "Z"
+    assert cap(page, "left").locator("kbd").inner_text() == "Q"
+    assert cap(page, "right").locator("kbd").inner_text() == "D"
+
+
+def test_another_brain_takes_the_keys_away(theatre: Theatre) -> None:
+    page = theatre.page()
+    agent = theatre.room.sim.agents[0]
+    theatre.room.runner.submit(lambda: agent.use_brain(LocalBrain(controller=still)))
+    expect(seat(page)).to_have_text("Driven by LocalBrain(ScriptController)")
+    expect(page.locator(".ai4u-cap")).to_have_count(0)
+
+
+def test_the_caps_lie_as_the_keys_do(theatre: Theatre) -> None:
+    page = theatre.page()
+    agent = theatre.room.sim.agents[0]
+    for controller, left in ((WASDRBMoveController(), "A"), (ArrowController(), "←")):
+        brain = LocalBrain(controller=controller)
+        theatre.room.runner.submit(lambda brain=brain: agent.use_brain(brain))  # type: ignore[misc]
+        expect(cap(page, "left").locator("kbd")).to_have_text(left)
+        forward, back, left_one, right = (
+            centre(page, name) for name in ("forward", "back", "left", "right")
+        )
+        assert forward[0] == pytest.approx(back[0], abs=1)
+        assert forward[1] < back[1]
+        assert left_one[0] < back[0] < right[0]
+        assert centre(page, "jump")[0] > right[0]
+
+
+def test_the_end_of_an_episode_and_a_new_one(theatre: Theatre) -> None:
+    page = theatre.page()
+    agent = theatre.room.sim.agents[0]
+
+    def pay(amount: float) -> None:
+        theatre.room.runner.submit(
+            lambda: agent.add_reward(amount, request_done=True, name="goal")
+        ).result(5)
+
+    banner = page.locator(".ai4u-banner")
+    pay(100)
+    expect(banner).to_contain_text("Reached the goal! +100 \u2013 press R to try again")
+    page.keyboard.press("KeyR")
+    expect(banner).to_have_count(0)
+    pay(-1)
+    expect(banner).to_contain_text("Episode over. \u22121 \u2013 press R to try again")
+    page.get_by_role("button", name="Try again").click()
+    expect(banner).to_have_count(0)
+
+
+def test_an_error_is_told_as_text_and_can_be_reset(theatre: Theatre) -> None:
+    page = theatre.page()
+
+    def broken(_: BasicAgent) -> None:
+        raise RuntimeError("<img src=x onerror=alert(1)> is no number")
+
+    event = theatre.room.sim.agents[0].end_of_step
+    event.connect(broken)
+    alert = page.locator(".ai4u-banners[role=alert]")
+    expect(alert).to_contain_text("RuntimeError: <img src=x onerror=alert(1)> is no number")
+    event.disconnect(broken)
+    alert.get_by_role("button", name="Reset").click()
+    expect(alert).to_be_empty()
+    event.connect(broken)
+    expect(alert).to_contain_text("is no number")
+    event.disconnect(broken)
+    page.keyboard.press("KeyR")
+    expect(alert).to_be_empty()
+
+
+def test_an_agent_that_is_not_there_is_told(theatre: Theatre) -> None:
+    page = theatre.page("?agent=7", wait=False)
+    expect(page.locator(".ai4u-banners[role=alert]")).to_contain_text("there is no such agent")
+
+
+@pytest.mark.parametrize(("width", "height"), [(390, 844), (844, 390), (1280, 800)])
+def test_the_caps_are_free_and_the_middle_is_too(theatre: Theatre, width: int, height: int) -> None:
+    page = theatre.page(width=width, height=height)
+    page.wait_for_timeout(600)
+    inside = "([x, y]) => document.elementFromPoint(x, y)?.closest('.ai4u-cap')?.dataset.action"
+    for name, action in (("forward", "forward"), ("back", "backward"), ("restart", "restart")):
+        assert page.evaluate(inside, centre(page, name)) == action
+    tag = page.evaluate(
+        "([x, y]) => document.elementFromPoint(x, y).tagName", [width / 2, height / 2]
+    )
+    assert tag == "CANVAS"

@@ -1,0 +1,101 @@
+"""The whole thing as a person has it: the command, its page, and the keys."""
+
+import signal
+import time
+from collections.abc import Callable, Iterator
+from typing import Any
+
+import pytest
+from playwright.sync_api import Browser, Page
+
+from tests.browser.theatre import ready
+from tests.playing import Played, played
+
+pytestmark = pytest.mark.browser
+
+MIDDLE = "5"
+"""A seed with which box_chase puts the robot into the middle, looking along +x."""
+
+
+@pytest.fixture
+def server() -> Iterator[Played]:
+    with played("box_chase", "--seed", MIDDLE) as server:
+        yield server
+
+
+@pytest.fixture
+def page(server: Played, chromium: Browser) -> Iterator[Page]:
+    page = chromium.new_page(viewport={"width": 1280, "height": 800})
+    page.goto(server.url)
+    ready(page)
+    yield page
+    page.context.close()
+
+
+def agent(server: Played) -> dict[str, Any]:
+    found: dict[str, Any] = server.snapshot()["agents"][0]
+    return found
+
+
+def until(met: Callable[[], bool], timeout: float = 20.0) -> None:
+    deadline = time.monotonic() + timeout
+    while not met():
+        assert time.monotonic() < deadline
+        time.sleep(0.02)
+
+
+def hold(page: Page, key: str, met: Callable[[], bool]) -> None:
+    page.keyboard.down(key)
+    until(met)
+    page.keyboard.up(key)
+
+
+def test_off_the_plate_it_falls_and_r_restarts(server: Played, page: Page) -> None:
+    assert agent(server)["pose"] == [0, 0, 0, 0]
+    hold(page, "KeyW", lambda: agent(server)["terminated"])
+    state = agent(server)
+    assert state["reward_terms"]["fall"] == -1
+    assert state["pose"][0] > 5
+    assert state["pose"][1:2] == [0]
+    page.get_by_text("Fell").wait_for()
+    until(lambda: agent(server)["pose"][2] < -1.5)  # and it goes on falling while one looks
+    page.keyboard.press("KeyR")
+    until(lambda: not agent(server)["terminated"])
+    assert server.snapshot()["episode"] == 2
+    assert agent(server)["pose"][2] == 0
+
+
+def test_to_the_box_it_is_a_hundred_and_the_end(server: Played, page: Page) -> None:
+    hold(page, "KeyS", lambda: agent(server)["terminated"])  # the box is right behind
+    state = agent(server)
+    assert state["reward_terms"]["touch"] == 100
+    assert state["pose"][0] == pytest.approx(-1.39, abs=0.3)
+    page.get_by_text("Reached the goal!").wait_for()
+
+
+def test_the_page_shows_what_the_agent_senses(server: Played, page: Page) -> None:
+    for text in ("Box chase", "vision", "orientation", "last_action", "Reward"):
+        page.get_by_text(text, exact=False).first.wait_for()
+    assert page.evaluate(
+        "performance.getEntriesByType('resource').every(each => "
+        "new URL(each.name).host === location.host || "
+        "/^(blob|data):/.test(each.name))"
+    )
+
+
+def test_ctrl_c_ends_it_cleanly(server: Played, page: Page) -> None:
+    server.process.send_signal(signal.SIGINT)
+    assert server.process.wait(10) == 0
+    assert "Traceback" not in "".join(server.told)
+
+
+def test_a_taken_port_is_said(server: Played) -> None:
+    import subprocess
+    import sys
+
+    port = server.url.rstrip("/").rsplit(":", 1)[1]
+    command = [sys.executable, "-m", "ai4u_edu", "play", "--no-open", "--port", port]
+    told = subprocess.run(command, capture_output=True, text=True, timeout=60, check=False)
+    assert told.returncode == 1
+    assert told.stderr.startswith(f"error: port {port} is taken")
+    assert "--port 0" in told.stderr

@@ -1,0 +1,108 @@
+"""A room with a viser, and pages that look at it."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+import viser
+from playwright.sync_api import Browser, BrowserContext, Locator, Page
+
+from tests.server.rooms import Room, until
+
+FLAGS = [
+    "--no-sandbox",
+    # viser draws with WebGL; there may be no graphics card here
+    "--use-angle=swiftshader",
+    "--enable-unsafe-swiftshader",
+    "--ignore-gpu-blocklist",
+    "--disable-quic",
+    "--no-first-run",
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--disable-sync",
+    # newer ones guard this machine against foreign pages; here it is we who have to
+    "--disable-features=LocalNetworkAccessChecks,LocalNetworkAccessChecksWebSockets",
+]
+SPEED, TURN = 5.0, 2.0
+"""What W and D mean in these rooms, in m/s and rad/s."""
+
+
+@dataclass
+class Theatre:
+    """A room with a viser, and pages that look at it."""
+
+    room: Room
+    inner: viser.ViserServer
+    name: viser.GuiInputHandle[str]
+    clicks: list[str]
+    chromium: Browser
+    contexts: list[BrowserContext] = field(default_factory=list)
+    complaints: list[str] = field(default_factory=list)
+
+    def page(
+        self,
+        query: str = "",
+        *,
+        width: int = 800,
+        height: int = 600,
+        touch: bool = False,
+        prepare: Callable[[Page], object] = lambda page: None,
+        wait: bool = True,
+    ) -> Page:
+        """Opens a page in a window of its own; it may ask nobody but the room for anything."""
+        viewport = {"width": width, "height": height}
+        context = self.chromium.new_context(viewport=viewport, has_touch=touch)  # type: ignore[arg-type]
+        self.contexts.append(context)
+        page = context.new_page()
+        page.on("pageerror", lambda error: self.complaints.append(f"error: {error}"))
+        page.on("request", lambda request: self._check(request.url))
+        page.on("websocket", lambda socket: self._check(socket.url))
+        prepare(page)
+        page.goto(self.room.url + query)
+        if wait:
+            page.get_by_text("Name", exact=True).wait_for(state="attached")
+            ready(page)
+        return page
+
+    def pose(self) -> tuple[float, float, float, int]:
+        """The robot's x, y and heading, and the tick at which it had them."""
+        latest = self.room.runner.latest
+        robot = latest.bodies[0]
+        return robot.x, robot.y, robot.heading, latest.tick
+
+    def camera(self) -> tuple[float, ...]:
+        """Where viser's camera of the only page is."""
+        until(lambda: len(self.inner.get_clients()) == 1)
+        (client,) = self.inner.get_clients().values()
+        return (*client.camera.position.tolist(), *client.camera.wxyz.tolist())
+
+    def _check(self, url: str) -> None:
+        if not url.startswith((*self._places(), "blob:", "data:")):
+            self.complaints.append(f"asked elsewhere: {url}")
+
+    def _places(self) -> tuple[str, str]:
+        place = self.room.url.rstrip("/")
+        return place, place.replace("http", "ws", 1)
+
+
+CALM = """() => new Promise((done) => {
+    let calm = 0, last = performance.now();
+    const frame = (now) => {
+        calm = now - last < 50 ? calm + 1 : 0;
+        last = now;
+        if (calm < 10) requestAnimationFrame(frame);
+        else done();
+    };
+    requestAnimationFrame(frame);
+})"""
+
+
+def ready(page: Page) -> None:
+    """Waits until a page is connected, shows its keys, and has done its first, heavy drawing."""
+    page.locator(".ai4u-seat", has_not_text="Connecting").wait_for()
+    page.locator(".ai4u-cap").first.wait_for()
+    page.evaluate(CALM)
+
+
+def seat(page: Page) -> Locator:
+    """Where a page says who drives."""
+    return page.locator(".ai4u-seat [role=status]")

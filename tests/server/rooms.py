@@ -1,0 +1,141 @@
+"""Rooms that really listen, and pages that really connect to them."""
+
+import json
+import socket
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from typing import Any, Self
+from urllib.parse import urlsplit
+
+from starlette.types import ASGIApp
+from websockets.exceptions import ConnectionClosed
+from websockets.sync.client import connect
+
+from ai4u_edu import ControlRequestor, WASDRBMoveController
+from ai4u_edu.runner import Runner
+from ai4u_edu.server import ServerThread, room_app
+from tests.builders import small_sim
+
+NOWHERE = 9
+"""A port at which no viser listens."""
+
+
+@dataclass
+class Room:
+    """A room that is served."""
+
+    runner: Runner
+    url: str
+
+    @property
+    def sim(self) -> ControlRequestor:
+        return self.runner.sim
+
+    @property
+    def held(self) -> list[str]:
+        """The keys that the first agent's world sees now."""
+        return sorted(self.sim.agents[0].keyboard.held())
+
+    def page(self, query: str = "") -> "Page":
+        return Page(self.url + "ws/input" + query)
+
+
+@contextmanager
+def served(
+    sim: ControlRequestor | None = None,
+    *,
+    viser_port: int = NOWHERE,
+    title: str = "A room",
+    wrap: Callable[[ASGIApp], ASGIApp] = lambda app: app,
+    **options: Any,
+) -> Iterator[Room]:
+    """A room at a free port; ``wrap`` may put something around its app."""
+    runner = Runner(sim or small_sim(controller=WASDRBMoveController()), seed=1)
+    app = room_app(runner, viser_port=viser_port, title=title, **options)
+    runner.start()
+    try:
+        with ServerThread(wrap(app)) as server:
+            yield Room(runner, server.url)
+    finally:
+        runner.stop()
+
+
+class Page:
+    """A page's input socket."""
+
+    def __init__(self, url: str, **options: Any) -> None:
+        self.socket = connect(url.replace("http", "ws", 1), proxy=None, **options)
+        self.last: dict[str, dict[str, Any]] = {}
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.socket.close()
+
+    def say(self, kind: str, **rest: Any) -> None:
+        self.socket.send(json.dumps({"type": kind, **rest}))
+
+    def hold(self, *codes: str) -> None:
+        self.say("keys", held=list(codes))
+
+    def hear(self, kind: str, **wanted: Any) -> dict[str, Any]:
+        """The next frame of a kind that says what is wanted."""
+        deadline = time.monotonic() + 5
+        while True:
+            frame = json.loads(self.socket.recv(deadline - time.monotonic()))
+            self.last[frame["type"]] = frame
+            if frame["type"] == kind and wanted.items() <= frame.items():
+                return dict(frame)
+
+    def end(self) -> tuple[int, str]:
+        """How the server closes the connection."""
+        deadline = time.monotonic() + 5
+        while True:
+            try:
+                self.socket.recv(deadline - time.monotonic())
+            except ConnectionClosed as closed:
+                return (closed.rcvd.code, closed.rcvd.reason) if closed.rcvd else (1006, "")
+
+
+def until(condition: Callable[[], object], timeout: float = 5) -> None:
+    """Waits for something to become true."""
+    deadline = time.monotonic() + timeout
+    while not condition():
+        assert time.monotonic() < deadline, "it did not happen in time"
+        time.sleep(0.005)
+
+
+def free_port() -> int:
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        port: int = probe.getsockname()[1]
+        return port
+
+
+def raw_request(url: str, *lines: str) -> socket.socket:
+    """A connection on which a request was sent, with exactly these headers."""
+    parts = urlsplit(url)
+    connection = socket.create_connection((parts.hostname, parts.port or 80), timeout=5)
+    connection.sendall("\r\n".join([f"GET {parts.path} HTTP/1.1", *lines, "", ""]).encode())
+    return connection
+
+
+UPGRADE = (
+    "Connection: Upgrade",
+    "Upgrade: websocket",
+    "Sec-WebSocket-Version: 13",
+    "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==",
+)
+
+
+def raw_answer(url: str, *lines: str) -> tuple[int, str]:
+    """Status and text of what such a request is answered with."""
+    with raw_request(url, *lines) as connection:
+        answer = b""
+        while b"\r\n\r\n" not in answer:
+            answer += connection.recv(65536)
+        head, _, body = answer.partition(b"\r\n\r\n")
+        return int(head.split()[1]), body.decode(errors="replace")

@@ -1,0 +1,119 @@
+"""The API says what its own description says."""
+
+import json
+import math
+from collections.abc import Iterator
+from typing import Any
+
+import httpx
+import jsonschema
+import numpy as np
+import pytest
+
+from ai4u_edu import BasicAgent, MinDistReward, RayCastingSensor, WASDRBMoveController
+from ai4u_edu.runner import Runner
+from ai4u_edu.server.api import SnapshotView, finite
+from ai4u_edu.version import __version__
+from tests.builders import small_sim
+from tests.server.rooms import Room, served, until
+
+
+@pytest.fixture
+def room() -> Iterator[Room]:
+    sim = small_sim(
+        [RayCastingSensor(perception_key="eyes", rows=2, columns=3, group_code={"target": 2})],
+        controller=WASDRBMoveController(),
+        rewards=[MinDistReward(target="box")],
+    )
+    with served(sim, title="Box <chase>") as room:
+        yield room
+
+
+def checker(document: dict[str, Any], schema: dict[str, Any]) -> jsonschema.Draft202012Validator:
+    """What says whether something fits a schema of a document."""
+    jsonschema.Draft202012Validator.check_schema(schema)
+    return jsonschema.Draft202012Validator({"components": document["components"], **schema})
+
+
+def get(room: Room, path: str) -> Any:
+    answer = httpx.get(room.url + path)
+    assert answer.status_code == 200
+    assert answer.headers["Content-Type"] == "application/json"
+    return json.loads(answer.text, parse_constant=lambda name: pytest.fail(f"{name} is no JSON"))
+
+
+@pytest.mark.parametrize("path", ["healthz", "api/snapshot"])
+def test_an_answer_fits_its_description(room: Room, path: str) -> None:
+    document = get(room, "api/openapi.json")
+    described = document["paths"]["/" + path]["get"]["responses"]["200"]["content"]
+    checker(document, described["application/json"]["schema"]).validate(get(room, path))
+
+
+def test_the_check_would_notice_a_misfit(room: Room) -> None:
+    check = checker(get(room, "api/openapi.json"), {"$ref": "#/components/schemas/SnapshotView"})
+    seen = get(room, "api/snapshot")
+    for name, wrong in [("tick", "3"), ("paused", 1), ("agents", [{}]), ("time", []), ("x", 1)]:
+        assert not check.is_valid(seen | {name: wrong})
+    assert not check.is_valid({})
+
+
+def test_the_description_is_complete(room: Room) -> None:
+    document = get(room, "api/openapi.json")
+    assert document["openapi"] == "3.1.0"
+    assert document["info"]["version"] == __version__
+    assert set(document["paths"]) == {"/healthz", "/api/snapshot", "/api/openapi.json"}
+    for path in document["paths"]:
+        get(room, path[1:])
+    assert "$defs" not in json.dumps(document)
+
+
+def test_a_snapshot_tells_what_the_world_is_like(room: Room) -> None:
+    with room.page() as page:
+        page.hold("KeyW")
+        until(lambda: get(room, "api/snapshot")["agents"][0]["action"]["move"][0] == 1)
+    room.runner.pause().result(5)
+    seen, latest = get(room, "api/snapshot"), room.runner.latest
+    assert (seen["tick"], seen["episode"], seen["seed"]) == (latest.tick, latest.episode, 1)
+    assert seen["paused"] is True
+    agent, state = seen["agents"][0], latest.agents[0]
+    body = next(body for body in latest.bodies if body.name == "robot")
+    assert agent["pose"] == [body.x, body.y, body.z, body.heading]
+    assert agent["velocity"] == [body.vx, body.vy, body.vz]
+    assert np.array_equal(agent["percept"]["eyes"], state.percept["eyes"])
+    assert agent["reward_terms"] == state.reward_terms
+    assert agent["episode_terms"] == state.episode_terms
+    assert agent["steps"] == state.steps
+    assert {each["name"] for each in seen["bodies"]} == {"robot", "box"}
+
+
+def test_health_follows_the_world(room: Room) -> None:
+    health = get(room, "healthz")
+    assert health == {
+        "status": "ok",
+        "version": __version__,
+        "scene": "Box <chase>",
+        "uptime": health["uptime"],
+    }
+    assert health["uptime"] >= 0
+    room.runner.pause().result(5)
+    assert get(room, "healthz")["status"] == "paused"
+
+    def broken(_: BasicAgent) -> None:
+        raise RuntimeError("odd")
+
+    room.sim.agents[0].end_of_step.connect(broken)
+    room.runner.step().result(5)
+    assert get(room, "healthz")["status"] == "error"
+    assert get(room, "api/snapshot")["error"] == "RuntimeError: odd"
+
+
+def test_what_json_has_no_word_for_becomes_null() -> None:
+    runner = Runner(small_sim(rewards=[MinDistReward(target="box")]), time_scale=math.inf)
+    seen = json.loads(SnapshotView.of(runner.latest).model_dump_json())
+    assert seen["time_scale"] is None
+    assert [finite(each) for each in (math.inf, -math.inf, math.nan, 0.5)] == [None] * 3 + [0.5]
+
+
+def test_the_api_only_looks(room: Room) -> None:
+    for path in ("healthz", "api/snapshot", "api/openapi.json", ""):
+        assert httpx.post(room.url + path).status_code == 405

@@ -1,0 +1,126 @@
+"""What is no message: said what was expected, and not listened to for ever."""
+
+import json
+import re
+from contextlib import suppress
+from typing import Any
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from websockets.exceptions import ConnectionClosed
+
+from ai4u_edu.server import messages
+from ai4u_edu.server.input import LARGEST, MISTAKES, PER_SECOND
+from tests.server.rooms import served, until
+
+MALFORMED = [
+    ("", "expected JSON, got ''"),
+    ("W", "expected JSON, got 'W'"),
+    ("[]", "expected"),
+    ("null", "expected"),
+    ('{"held": []}', "needs a 'type'"),
+    ('{"type": "kyes", "held": []}', "unknown type 'kyes'; did you mean 'keys'?"),
+    ('{"type": "keys"}', "held: is missing"),
+    ('{"type": "keys", "held": "KeyW"}', "held: expected a list, got 'KeyW'"),
+    ('{"type": "keys", "held": [1]}', "held[0]: expected text, got 1"),
+    ('{"type": "keys", "held": ["Key W"]}', "Key W"),
+    ('{"type": "keys", "held": [""]}', "got ''"),
+    ('{"type": "keys", "held": ["' + "W" * 25 + '"]}', "WWW"),
+    (json.dumps({"type": "keys", "held": ["KeyW"] * 17}), "at most 16 entries"),
+    ('{"type": "keys", "held": [], "extra": 1}', "unknown parameter; known are 'held', 'type'"),
+    ('{"type": "take", "by": "force"}', "unknown parameter"),
+    ('{"type": "command", "name": "explode"}', "expected 'reset', 'pause' or 'resume'"),
+    ('{"type": "command", "name": "reset", "seed": -1}', "seed: expected at least 0, got -1"),
+    ('{"type": "command", "name": "reset", "seed": 1.5}', "expected a whole number, got 1.5"),
+    ('{"type": "command", "name": "reset", "seed": NaN}', "expected"),
+    ('{"type": "command", "name": "reset", "seed": ' + "9" * 30 + "}", "less than"),
+]
+
+
+@pytest.mark.parametrize(("text", "explained"), MALFORMED)
+def test_a_malformed_message_is_explained(text: str, explained: str) -> None:
+    with pytest.raises(ValueError, match=re.escape(explained)):
+        messages.read(text)
+
+
+@given(st.text() | st.binary())
+def test_whatever_comes_is_a_message_or_a_value_error(said: str | bytes) -> None:
+    with suppress(ValueError):
+        messages.read(said)
+
+
+JSON = st.recursive(
+    st.none() | st.booleans() | st.integers() | st.floats() | st.text(),
+    lambda inner: st.lists(inner) | st.dictionaries(st.text(), inner),
+)
+
+
+NEARLY = st.fixed_dictionaries(
+    {"type": st.sampled_from(["keys", "take", "command"]) | JSON},
+    optional={
+        "held": st.lists(st.from_regex(messages.CODE, fullmatch=True) | JSON) | JSON,
+        "name": st.sampled_from(["reset", "pause"]) | JSON,
+        "seed": st.integers(min_value=0) | JSON,
+    },
+)
+
+
+@given(NEARLY)
+def test_what_is_read_is_what_was_said(said: dict[str, Any]) -> None:
+    with suppress(ValueError):
+        read = messages.read(json.dumps(said))
+        assert {"seed": None} | said == {"seed": None} | read.model_dump()
+
+
+def test_a_message_of_bytes_is_read_like_text() -> None:
+    with served() as room, room.page() as page:
+        page.socket.send(b'{"type": "keys", "held": ["KeyW"]}')
+        until(lambda: room.held == ["KeyW"])
+
+
+def test_single_mistakes_are_forgiven_but_not_five_in_a_row() -> None:
+    with served() as room, room.page() as page:
+        for _ in range(MISTAKES - 1):
+            page.say("kyes")
+            assert page.hear("error")["text"] == "unknown type 'kyes'; did you mean 'keys'?"
+        page.hold("KeyW")
+        until(lambda: room.held == ["KeyW"])
+        for _ in range(MISTAKES):
+            page.say("kyes")
+        assert page.end() == (1008, "5 malformed messages in a row")
+        until(lambda: room.held == [])
+
+
+def test_a_message_that_is_too_large_ends_the_connection() -> None:
+    with served() as room, room.page() as page:
+        page.socket.send("x" * (LARGEST + 1))
+        assert page.hear("error")["text"] == "expected at most 4096 bytes, got 4097"
+        code, reason = page.end()
+        assert code == 1009
+        assert "4096" in reason
+
+
+def test_the_largest_message_of_keys_fits() -> None:
+    text = json.dumps({"type": "keys", "held": ["A" * 24] * 16})
+    assert len(text) < LARGEST
+    assert messages.read(text) == messages.Keys(type="keys", held=["A" * 24] * 16)
+
+
+def test_a_flood_ends_the_connection_and_leaves_others_alone() -> None:
+    with served() as room, room.page() as driver, room.page() as flooder:
+        driver.hold("KeyW")
+        with suppress(ConnectionClosed):
+            for _ in range(2 * PER_SECOND):
+                flooder.socket.send('{"type": "keys", "held": []}')
+        assert flooder.end() == (1008, "expected at most 200 messages a second")
+        driver.hold("KeyD")
+        until(lambda: room.held == ["KeyD"])
+
+
+def test_a_busy_driver_is_no_flood() -> None:
+    with served() as room, room.page() as page:
+        for index in range(PER_SECOND - 20):
+            page.hold("KeyW") if index % 2 else page.hold("KeyA")
+        page.hold("KeyS")
+        until(lambda: room.held == ["KeyS"])

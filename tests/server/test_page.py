@@ -1,0 +1,88 @@
+"""viser's page with ours inside, and our files."""
+
+import re
+from collections.abc import Iterator
+
+import httpx
+import pytest
+
+from ai4u_edu.server.page import web_folder
+from tests.server.rooms import Room, raw_answer, served
+
+
+@pytest.fixture(scope="module")
+def room() -> Iterator[Room]:
+    with served(title='<script>alert("x")</script>') as room:
+        yield room
+
+
+def test_the_page_is_visers_with_our_script_and_style(room: Room) -> None:
+    text = httpx.get(room.url).text
+    assert '<link rel="stylesheet" href="./web/page.css" />' in text
+    assert '<script type="module" src="./web/main.js"></script>' in text
+    assert '<div id="root"></div>' in text
+    assert "<iframe" not in text
+
+
+def test_a_title_is_text(room: Room) -> None:
+    text = httpx.get(room.url).text
+    assert "<title>&lt;script&gt;alert(&quot;x&quot;)&lt;/script&gt;</title>" in text
+    assert 'alert("x")' not in text
+
+
+def test_the_page_may_talk_to_nobody_but_us(room: Room) -> None:
+    policy = httpx.get(room.url).headers["Content-Security-Policy"]
+    host = room.url.removeprefix("http://").rstrip("/")
+    assert f"connect-src 'self' data: blob: ws://{host} wss://{host};" in policy
+    assert "https:" not in policy
+
+
+def test_a_page_that_is_known_is_not_sent_again(room: Room) -> None:
+    tag = httpx.get(room.url).headers["ETag"]
+    again = httpx.get(room.url, headers={"If-None-Match": tag})
+    assert again.status_code == 304
+    assert again.content == b""
+
+
+@pytest.mark.parametrize("name", [path.name for path in web_folder().iterdir()])
+def test_each_file_is_served_as_what_it_is(room: Room, name: str) -> None:
+    answer = httpx.get(f"{room.url}web/{name}")
+    kinds = {"js": "text/javascript", "css": "text/css"}
+    assert answer.status_code == 200
+    assert answer.headers["Content-Type"].startswith(kinds[name.rpartition(".")[2]])
+    assert answer.content == (web_folder() / name).read_bytes()
+
+
+@pytest.mark.parametrize("name", [path.name for path in web_folder().iterdir()])
+def test_no_file_asks_for_anything_elsewhere_or_makes_html_of_text(name: str) -> None:
+    text = (web_folder() / name).read_text()
+    found = re.findall(
+        r"https?://|@import|innerHTML|outerHTML|insertAdjacent|document\.write|eval\(", text
+    )
+    assert found == []
+
+
+@pytest.mark.parametrize(
+    "path",
+    [
+        "web/",
+        "web",
+        "web/nothing.js",
+        "web/..",
+        "web/../pyproject.toml",
+        "web/%2e%2e/pyproject.toml",
+        "web/..%2fpyproject.toml",
+        "web/..%5cpyproject.toml",
+        "web/%2fetc%2fpasswd",
+        "web//etc/passwd",
+        "web/main.js%00",
+        "web/.",
+        "web/MAIN.JS",
+        "web/....//pyproject.toml",
+    ],
+)
+def test_nothing_else_has_a_name(room: Room, path: str) -> None:
+    status, text = raw_answer(room.url + path, "Host: localhost")
+    assert status in (404, 400)
+    assert "[project]" not in text
+    assert "root:" not in text

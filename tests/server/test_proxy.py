@@ -1,0 +1,233 @@
+"""viser behind our port: a real one, and stand-ins that misbehave."""
+
+import asyncio
+import socket
+import threading
+import time
+from collections.abc import Awaitable, Callable, Iterator
+from contextlib import contextmanager, suppress
+
+import msgspec
+import pytest
+import viser
+from websockets.asyncio.server import ServerConnection, serve
+from websockets.exceptions import ConnectionClosed, InvalidStatus
+from websockets.sync.client import ClientConnection, connect
+from websockets.typing import Subprotocol
+from zstandard import ZstdDecompressor
+
+from ai4u_edu.server.proxy import UPWARD
+from tests.server.rooms import UPGRADE, Room, raw_request, served, until
+
+PROTOCOL = Subprotocol(f"viser-v{viser.__version__}")
+
+
+def client(room: Room, protocol: str = PROTOCOL) -> ClientConnection:
+    return connect(
+        room.url.rstrip("/").replace("http", "ws", 1),
+        subprotocols=[Subprotocol(protocol)],
+        compression=None,
+        max_size=None,
+        proxy=None,
+    )
+
+
+@pytest.fixture
+def inner() -> Iterator[viser.ViserServer]:
+    server = viser.ViserServer(host="127.0.0.1", port=0, verbose=False)
+    yield server
+    server.stop()
+
+
+@pytest.fixture
+def room(inner: viser.ViserServer) -> Iterator[Room]:
+    with served(viser_port=inner.get_port()) as room:
+        yield room
+
+
+def told(frame: object) -> list[dict[str, object]]:
+    """The messages in a frame of viser's."""
+    assert isinstance(frame, bytes)
+    size = int.from_bytes(frame[8:16], "little")
+    inside = ZstdDecompressor().decompress(frame[16 : 16 + size])
+    messages: list[dict[str, object]] = msgspec.msgpack.decode(inside)["messages"]
+    return messages
+
+
+def test_visers_frames_come_through_and_go_back(room: Room, inner: viser.ViserServer) -> None:
+    field = inner.gui.add_text("Name", initial_value="before")
+    with client(room) as page:
+        assert page.subprotocol == PROTOCOL
+        uuid = None
+        while uuid is None:
+            for message in told(page.recv(5)):
+                if message["type"] == "GuiTextMessage":
+                    uuid = message["uuid"]
+        update = {"type": "GuiUpdateMessage", "uuid": uuid, "updates": {"value": "after"}}
+        page.send(msgspec.msgpack.encode(update))
+        until(lambda: field.value == "after")
+        inner.gui.add_markdown("from below")
+        while not any("from below" in str(message) for message in told(page.recv(5))):
+            pass
+
+
+def test_another_version_is_told_why_it_is_sent_away(room: Room) -> None:
+    with client(room, "viser-v0.0.1") as page:
+        assert page.subprotocol == "viser-v0.0.1"
+        with pytest.raises(ConnectionClosed) as closed:
+            page.recv(5)
+        assert closed.value.rcvd is not None
+        assert closed.value.rcvd.code == 1002
+        assert "Version mismatch" in closed.value.rcvd.reason
+
+
+def test_a_page_that_goes_is_gone_for_viser_too(room: Room, inner: viser.ViserServer) -> None:
+    with client(room) as page:
+        page.recv(5)
+        until(lambda: inner._websock_server._live_connections)
+    until(lambda: not inner._websock_server._live_connections)
+
+
+@pytest.mark.parametrize("kind", ["ShareUrlRequest", "ShareUrlDisconnect"])
+def test_no_page_can_open_a_tunnel(
+    room: Room, inner: viser.ViserServer, kind: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    asked: list[str] = []
+    monkeypatch.setattr(inner, "request_share_url", lambda: asked.append("request"))
+    monkeypatch.setattr(inner, "disconnect_share_url", lambda: asked.append("disconnect"))
+    field = inner.gui.add_text("Name", initial_value="before")
+    with client(room) as page:
+        page.recv(5)
+        page.send(msgspec.msgpack.encode({"type": kind}))
+        update = {"type": "GuiUpdateMessage", "uuid": field._impl.uuid, "updates": {"value": "x"}}
+        page.send(msgspec.msgpack.encode(update))
+        until(lambda: field.value == "x")
+    assert asked == []
+
+
+def test_text_is_not_visers_language(room: Room) -> None:
+    with client(room) as page:
+        page.recv(5)
+        page.send("hello")
+        with pytest.raises(ConnectionClosed):  # noqa: PT012 - frames may come before
+            while True:
+                page.recv(5)
+
+
+Behaviour = Callable[[ServerConnection], Awaitable[None]]
+
+
+@contextmanager
+def stand_in(behave: Behaviour) -> Iterator[int]:
+    """Something in viser's place that behaves as told; its port."""
+    ports: list[int] = []
+    ready = threading.Event()
+    loop = asyncio.new_event_loop()
+    end = asyncio.Event()
+
+    async def run() -> None:
+        async with serve(behave, "127.0.0.1", 0, compression=None, max_size=None) as server:
+            ports.append(next(iter(server.sockets)).getsockname()[1])
+            ready.set()
+            await end.wait()
+
+    thread = threading.Thread(target=lambda: loop.run_until_complete(run()))
+    thread.start()
+    ready.wait()
+    try:
+        yield ports[0]
+    finally:
+        loop.call_soon_threadsafe(end.set)
+        thread.join()
+        loop.close()
+
+
+def test_large_frames_come_through_whole_in_both_directions() -> None:
+    async def echo(connection: ServerConnection) -> None:
+        async for frame in connection:
+            await connection.send(frame)
+
+    with stand_in(echo) as port, served(viser_port=port) as room, client(room) as page:
+        for size in (0, 1, 125, 126, 65536, 20_000_000):
+            frame = b"\x07" * size
+            page.send(frame)
+            assert page.recv(20) == frame
+
+
+def test_viser_closing_closes_the_page_with_its_words() -> None:
+    async def dismiss(connection: ServerConnection) -> None:
+        await connection.close(1000, "enough for today")
+
+    with stand_in(dismiss) as port, served(viser_port=port) as room, client(room) as page:
+        with pytest.raises(ConnectionClosed) as closed:
+            page.recv(5)
+        assert closed.value.rcvd is not None
+        assert (closed.value.rcvd.code, closed.value.rcvd.reason) == (1000, "enough for today")
+
+
+def test_a_viser_that_breaks_off_closes_the_page() -> None:
+    async def break_off(connection: ServerConnection) -> None:
+        connection.transport.abort()
+
+    with stand_in(break_off) as port, served(viser_port=port) as room, client(room) as page:
+        with pytest.raises(ConnectionClosed) as closed:
+            page.recv(5)
+        assert closed.value.rcvd is not None
+        assert closed.value.rcvd.code == 1001
+
+
+def test_no_viser_is_no_connection() -> None:
+    with served() as room, pytest.raises(InvalidStatus):
+        client(room)
+
+
+def test_a_slow_page_slows_its_stream_down_and_nothing_piles_up(
+    caplog: pytest.LogCaptureFixture,
+) -> None:
+    chunk, sent = b"\x00" * 100_000, 0
+
+    async def pour(connection: ServerConnection) -> None:
+        nonlocal sent
+        with suppress(ConnectionClosed):
+            while True:
+                await connection.send(chunk)
+                sent += len(chunk)
+
+    with stand_in(pour) as port, served(viser_port=port) as room:
+        slow = raw_request(room.url, "Host: localhost", *UPGRADE)
+        until(lambda: sent)
+        before = -1
+        while before != sent:
+            before = sent
+            time.sleep(0.3)
+        assert sent < 20_000_000, "what lies in the buffers of the system, and no more"
+        with client(room) as quick:
+            assert quick.recv(5) == chunk
+        stopping = time.monotonic()
+    assert time.monotonic() - stopping < 3, "nobody waits for it at the end"
+    slow.close()
+    assert caplog.records == []
+
+
+def test_a_page_that_floods_viser_is_slowed_down() -> None:
+    heard = 0
+
+    async def listen(connection: ServerConnection) -> None:
+        nonlocal heard
+        async for _ in connection:
+            heard += 1
+
+    def flood(page: ClientConnection) -> None:
+        with suppress(ConnectionClosed, OSError):
+            while True:
+                page.send(b"x" * 1000)
+
+    with stand_in(listen) as port, served(viser_port=port) as room, client(room) as page:
+        began = time.monotonic()
+        thread = threading.Thread(target=flood, args=(page,))
+        thread.start()
+        until(lambda: heard > UPWARD)
+        time.sleep(0.5)
+        assert heard < UPWARD * (time.monotonic() - began + 1) + 50
+        page.socket.shutdown(socket.SHUT_RDWR)
+        thread.join()

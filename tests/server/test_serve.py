@@ -1,0 +1,153 @@
+"""Listening and ending, in real processes."""
+
+import os
+import signal
+import socket
+import subprocess
+import sys
+import threading
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+import httpx
+import pytest
+
+from ai4u_edu.errors import AI4UError
+from ai4u_edu.server import AddressError, PortTakenError, ServerThread, serve
+from tests.server.rooms import UPGRADE, Page, free_port, raw_request, served, until
+
+PROGRAM = """
+import sys
+import viser
+from ai4u_edu import WASDRBMoveController
+from ai4u_edu.runner import Runner
+from ai4u_edu.server import room_app, serve
+from tests.builders import small_sim
+
+runner = Runner(small_sim(controller=WASDRBMoveController()))
+runner.start()
+inner = viser.ViserServer(host="127.0.0.1", port=0, verbose=False)
+app = room_app(runner, viser_port=inner.get_port(), title="A room")
+serve(app, "127.0.0.1", int(sys.argv[1]), lambda url: print("READY", url, flush=True))
+runner.stop()
+print("ENDED", flush=True)
+"""
+
+
+@contextmanager
+def program() -> Iterator[tuple[subprocess.Popen[str], str]]:
+    """A server in a process of its own, and its address."""
+    process = subprocess.Popen(
+        [sys.executable, "-X", "dev", "-c", PROGRAM, "0"],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+    )
+    try:
+        assert process.stdout is not None
+        for line in process.stdout:
+            if line.startswith("READY"):
+                yield process, line.split()[1]
+                break
+        else:
+            raise AssertionError(process.communicate()[1])
+    finally:
+        process.kill()
+        process.communicate()
+
+
+posix = pytest.mark.skipif(os.name != "posix", reason="sends signals as POSIX has them")
+
+
+@posix
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_a_signal_ends_it_cleanly_with_pages_open(number: signal.Signals) -> None:
+    with program() as (process, url):
+        with Page(url + "ws/input") as page, raw_request(url, "Host: localhost", *UPGRADE):
+            page.hear("hello")
+            page.hold("KeyW")
+            page.hear("state", held=["KeyW"])
+            began = time.monotonic()
+            process.send_signal(number)
+            code, _ = page.end()
+            assert code == 1012, "as a server that will be back"
+            out, err = process.communicate(timeout=10)
+        assert process.returncode == 0
+        assert "ENDED" in out
+        assert err == ""
+        assert time.monotonic() - began < 5
+
+
+def test_a_taken_port_is_told_with_what_to_do() -> None:
+    with ServerThread(_nothing) as server:
+        port = int(server.url.rstrip("/").rpartition(":")[2])
+        with pytest.raises(PortTakenError) as raised:
+            serve(_nothing, "127.0.0.1", port)
+        assert isinstance(raised.value, AI4UError)
+        assert str(raised.value) == (
+            f"port {port} is taken by another program (or another AI4U Edu); "
+            f"use --port 0 for a free one, or --port {port + 1}"
+        )
+
+
+def test_a_port_that_is_bound_but_silent_is_taken_too() -> None:
+    with socket.socket() as other:
+        other.bind(("127.0.0.1", 0))
+        other.listen()
+        with pytest.raises(PortTakenError):
+            ServerThread(_nothing, port=other.getsockname()[1])
+
+
+@pytest.mark.parametrize("host", ["203.0.113.7", "no such host", "x" * 300])
+def test_an_address_that_is_not_ours_is_told(host: str) -> None:
+    with pytest.raises(AddressError, match="expected an address of this machine"):
+        serve(_nothing, host, 0)
+
+
+def test_a_port_is_free_again_at_once() -> None:
+    port = free_port()
+    for _ in range(3):
+        with ServerThread(_nothing, port=port) as server:
+            assert server.url == f"http://127.0.0.1:{port}/"
+            assert httpx.get(server.url).status_code == 200
+
+
+def test_the_address_can_be_opened_wherever_it_listens() -> None:
+    for host, shown in [
+        ("127.0.0.1", "127.0.0.1"),
+        ("localhost", "localhost"),
+        ("0.0.0.0", "127.0.0.1"),  # noqa: S104 - what is tested here
+    ]:
+        with ServerThread(_nothing, host) as server:
+            assert server.url.startswith(f"http://{shown}:")
+            assert httpx.get(server.url).status_code == 200
+
+
+@pytest.mark.skipif(not socket.has_ipv6, reason="no IPv6")
+def test_ipv6_is_written_in_brackets() -> None:
+    try:
+        server = ServerThread(_nothing, "::1")
+    except AddressError:
+        pytest.skip("no IPv6 here")
+    with server:
+        assert server.url.startswith("http://[::1]:")
+        assert httpx.get(server.url).status_code == 200
+
+
+def test_stopping_with_pages_open_takes_little_time_and_frees_the_seat() -> None:
+    with served() as room:
+        page = room.page()
+        page.hold("KeyW")
+        page.hear("seat", driver=1)
+        stopping = time.monotonic()
+    assert time.monotonic() - stopping < 3
+    assert room.held == []
+    assert page.end()[0] == 1012
+    until(lambda: not any(thread.name == "server" for thread in threading.enumerate()))
+
+
+async def _nothing(scope: object, receive: object, send: object) -> None:
+    from starlette.responses import PlainTextResponse
+
+    await PlainTextResponse("fine")(scope, receive, send)  # type: ignore[arg-type]

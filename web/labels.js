@@ -1,0 +1,34 @@
+/** What is printed on a key, and what it does. */
+
+const NAMES = {
+  ArrowUp: "↑",
+  ArrowDown: "↓",
+  ArrowLeft: "←",
+  ArrowRight: "→",
+  Space: "Space",
+  Enter: "Enter",
+};
+const CAPTIONS = { backward: "back", jump_forward: "leap", turn_left: "left", turn_right: "right" };
+
+let layout = new Map();
+
+/** Asks the browser for the keyboard's layout; only some tell. */
+export async function learnLayout() {
+  try {
+    layout = (await navigator.keyboard?.getLayoutMap()) ?? layout;
+  } catch {
+    // not allowed in this frame: the letters of an English keyboard then
+  }
+}
+
+/** What is printed on the key of a code. */
+export function label(code) {
+  const printed = layout.get(code);
+  if (printed?.trim()) return printed.toLocaleUpperCase();
+  return NAMES[code] ?? code.replace(/^(Key|Digit|Numpad)/, "");
+}
+
+/** What an action is called under its key. */
+export function caption(action) {
+  return CAPTIONS[action] ?? action.replaceAll("_", " ");
+}
