@@ -1,0 +1,50 @@
+"""A part of the picture, drawn at its own pace; what goes wrong in it stays in it."""
+
+import time
+from typing import Protocol
+
+from ai4u_edu.snapshot import Snapshot, Stage
+from ai4u_edu.viewer.complaints import Complaints
+
+
+class Part(Protocol):
+    """Something that is drawn."""
+
+    def build(self, stage: Stage) -> None:
+        """Gets ready for a stage; called for every new one."""
+
+    def draw(self, snapshot: Snapshot) -> None:
+        """Shows a snapshot."""
+
+
+class Paced:
+    """Draws a part so many times a second at most. A picture that lacks it is better than none.
+
+    Args:
+        part: what is drawn.
+        rate: how many times a second.
+        complaints: gets to know what went wrong.
+    """
+
+    def __init__(self, part: Part, rate: float, complaints: Complaints) -> None:
+        self._part = part
+        self._period = 1 / rate
+        self._complaints = complaints
+        self._drawn_at = 0.0
+        self._ready = False
+
+    def build(self, stage: Stage) -> None:
+        """Gets the part ready for a stage; its next picture is due at once."""
+        self._drawn_at, self._ready = 0.0, False
+        with self._complaints.caught():
+            self._part.build(stage)
+            self._ready = True
+
+    def draw(self, snapshot: Snapshot) -> None:
+        """Shows a snapshot, if that is due."""
+        now = time.monotonic()
+        # pictures come when the world has ticked: a bit early is better than a tick late
+        if self._ready and now - self._drawn_at >= 0.8 * self._period:
+            self._drawn_at = now
+            with self._complaints.caught():
+                self._part.draw(snapshot)

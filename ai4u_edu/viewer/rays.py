@@ -1,0 +1,93 @@
+"""What the ray sensors saw: a line for each ray, a dot where it met something."""
+
+import numpy as np
+import numpy.typing as npt
+
+from ai4u_edu.blocks import RayPicture
+from ai4u_edu.snapshot import Snapshot, Stage
+from ai4u_edu.viewer.brush import Brush
+from ai4u_edu.viewer.colours import NOTHING, UNKNOWN, group_colours
+from ai4u_edu.viewer.geometry import Array, cap, circle
+from ai4u_edu.viewer.layers import Layers
+from ai4u_edu.viewer.light import strokes, surfaces
+from ai4u_edu.viewer.local_server import LocalServer
+from ai4u_edu.viewer.placing import size
+from ai4u_edu.viewer.root import Root
+
+Points = npt.NDArray[np.float32]
+DOT = 0.0055
+"""A dot's radius, as a share of the arena's size."""
+
+
+class Rays:
+    """Draws the rays of all agents' last readings."""
+
+    def __init__(self, server: LocalServer) -> None:
+        self.shown = True
+        self._scene = server.scene
+        self._root = Root(server.scene, "rays")
+        self._count = 0
+
+    def build(self, stage: Stage) -> None:
+        """Learns the colours of a stage's groups."""
+        colours = {"?": UNKNOWN, "": NOTHING} | group_colours(stage)
+        self._numbers = {group: number for number, group in enumerate(colours)}
+        self._strokes = strokes(list(colours.values()))
+        self._fills = surfaces(list(colours.values()))
+        self._layers, self._dot = Layers.of(stage), DOT * size(stage)
+        self._count = 0
+
+    def draw(self, snapshot: Snapshot) -> None:
+        """Draws the rays as they are."""
+        gone = {body.name for body in snapshot.bodies if body.fallen}
+        pictures = [
+            picture
+            for agent in snapshot.agents
+            if agent.body not in gone and self.shown
+            for picture in agent.rays.values()
+        ]
+        groups = [group for picture in pictures for group in picture.groups]
+        if len(groups) != self._count:
+            self._make(len(groups))
+        if not groups:
+            return
+        lines = np.concatenate([ray_lines(picture) for picture in pictures], dtype=np.float32)
+        lines[..., 2] += self._layers.body
+        numbers = np.array([self._numbers.get(group, 0) for group in groups])
+        met = np.array([group != "" for group in groups])
+        self._lines.points = lines
+        self._lines.colors = self._strokes[numbers][:, None].repeat(2, axis=1)
+        self._dots.batched_positions = ray_dots(lines, self._dot)
+        self._dots.batched_scales = met.astype(np.float32)
+        # a point cloud would do, but the page compiles its shader anew for every change of colour
+        self._dots.batched_colors = self._fills[numbers]
+
+    def _make(self, count: int) -> None:
+        with self._root.rebuilt() as root:
+            if count:
+                brush = Brush(self._scene, root)
+                self._lines = brush.moving_lines("lines", count)
+                dot = cap(circle(self._dot, corners=12))
+                self._dots = brush.batch("dots", dot, count * [NOTHING])
+        self._count = count
+
+
+def ray_lines(picture: RayPicture) -> Array:
+    """A picture's rays as (n, 2, 3) line segments."""
+    origins = np.broadcast_to(np.array(picture.origin), picture.ends.shape)
+    return np.stack([origins, picture.ends], axis=1)
+
+
+def ray_dots(lines: Points, radius: float) -> Points:
+    """The centres of the dots, (n, 3).
+
+    A dot touches what the ray met from outside, so that what it met doesn't cover it.
+
+    Args:
+        lines: (n, 2, 3) from the eye to the end.
+        radius: of a dot.
+    """
+    back = lines[:, 0] - lines[:, 1]
+    lengths = np.maximum(np.linalg.norm(back, axis=1, keepdims=True), 1e-9)
+    dots: Points = lines[:, 1] + back * np.minimum(radius / lengths, 1.0)
+    return dots

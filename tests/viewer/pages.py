@@ -1,0 +1,80 @@
+"""A page without a browser: speaks viser's protocol."""
+
+import contextlib
+import threading
+import time
+from collections.abc import Callable, Iterator
+from typing import Any
+
+import msgspec
+import viser
+from websockets.exceptions import ConnectionClosed
+from websockets.sync.client import connect
+from websockets.sync.connection import Connection
+from websockets.typing import Subprotocol
+
+from ai4u_edu.viewer import Viewer
+
+
+class Page:
+    """Reads whatever viser sends, and says what a test wants said."""
+
+    def __init__(self, connection: Connection) -> None:
+        self._connection = connection
+        self.received = 0
+        """Bytes."""
+        self._reader = threading.Thread(target=self._read, daemon=True)
+        self._reader.start()
+
+    def say(self, kind: str, **fields: Any) -> None:
+        self._connection.send(msgspec.msgpack.encode({"type": kind, **fields}))
+
+    def report_camera(
+        self,
+        position: tuple[float, float, float] = (3.0, 3.0, 3.0),
+        size: tuple[int, int] = (960, 800),
+    ) -> None:
+        self.say(
+            "ViewerCameraMessage",
+            wxyz=(0.0, 1.0, 0.0, 0.0),
+            position=position,
+            fov=1.0,
+            near=0.1,
+            far=1000.0,
+            image_height=size[1],
+            image_width=size[0],
+            look_at=(position[0], position[1], 0.0),
+            up_direction=(0.0, 1.0, 0.0),
+        )
+
+    def change(self, handle: Any, value: Any) -> None:
+        """Changes a widget of the panel, or clicks on a button of a group."""
+        self.say("GuiUpdateMessage", uuid=handle._impl.uuid, updates={"value": value})
+
+    def submit(self, form: Any) -> None:
+        self.say("GuiFormSubmitMessage", uuid=form._impl.uuid)
+
+    def _read(self) -> None:
+        with contextlib.suppress(ConnectionClosed):
+            for message in self._connection:
+                self.received += len(message)
+
+
+@contextlib.contextmanager
+def page(viewer: Viewer) -> Iterator[Page]:
+    protocol = Subprotocol(f"viser-v{viser.__version__}")
+    with connect(
+        f"ws://127.0.0.1:{viewer.port}", subprotocols=[protocol], max_size=None, compression=None
+    ) as connection:
+        here = Page(connection)
+        here.report_camera()
+        until(lambda: viewer.server.get_clients())
+        yield here
+
+
+def until(condition: Callable[[], Any], patience: float = 10.0) -> None:
+    """Waits until something holds."""
+    end = time.monotonic() + patience
+    while not condition():
+        assert time.monotonic() < end, "it never came to that"
+        time.sleep(0.01)

@@ -1,0 +1,71 @@
+"""viser's own page in a real browser."""
+
+import shutil
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+import imageio.v3
+import numpy as np
+import pytest
+
+from ai4u_edu.runner import Runner
+from ai4u_edu.viewer import Viewer
+from ai4u_edu.viewer.colours import FLOOR, VOID
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Page
+
+pytestmark = pytest.mark.browser
+
+ARGUMENTS = (
+    "--no-sandbox --use-angle=swiftshader --enable-unsafe-swiftshader --ignore-gpu-blocklist "
+    "--disable-quic --no-first-run --disable-background-networking --disable-component-update "
+    "--disable-sync"
+)
+READY = "() => window.__viserMutable?.camera?.fov < 3 && !window.__viserMutable.firstMessageBatch"
+"""The camera has its long lens: the scene has come, and it is framed."""
+
+
+@pytest.fixture
+def tab(viewer: Viewer, runner: Runner) -> "Iterator[Page]":
+    sync_api = pytest.importorskip("playwright.sync_api")
+    chromium = shutil.which("chromium")
+    if chromium is None:
+        pytest.skip("there is no Chromium")
+    runner.start()
+    viewer.start()
+    with sync_api.sync_playwright() as playwright:
+        browser = playwright.chromium.launch(executable_path=chromium, args=ARGUMENTS.split())
+        tab = browser.new_page(viewport={"width": 900, "height": 560})
+        tab.goto(f"http://127.0.0.1:{viewer.port}")
+        tab.wait_for_function(READY, timeout=60_000)
+        yield tab
+        browser.close()
+    runner.stop()
+
+
+def colours(tab: "Page") -> np.ndarray:
+    """The page as (height, width, 3) numbers 0..255."""
+    return np.asarray(imageio.v3.imread(tab.screenshot()))[..., :3].astype(int)
+
+
+def share(pixels: np.ndarray, colour: tuple[int, int, int]) -> float:
+    """The share of the page that has a colour, or one that the eye can't tell from it."""
+    return float((np.abs(pixels - colour).max(axis=2) <= 4).mean())
+
+
+def test_the_page_shows_the_arena(tab: "Page") -> None:
+    errors: list[str] = []
+    tab.on("pageerror", lambda error: errors.append(str(error)))
+    tab.get_by_text("Agent 0: robot").wait_for(timeout=30_000)
+    for _ in range(40):
+        tab.wait_for_timeout(500)
+        pixels = colours(tab)
+        if share(pixels, FLOOR) > 0.1 and share(pixels, VOID) > 0.1:
+            break
+    assert share(pixels, FLOOR) > 0.1
+    assert share(pixels, VOID) > 0.1
+    assert len(np.unique(pixels.reshape(-1, 3), axis=0)) > 100
+    tab.get_by_role("button", name="Pause").click()
+    tab.get_by_role("button", name="Resume").wait_for(timeout=30_000)
+    assert errors == []

@@ -1,0 +1,160 @@
+from collections.abc import Iterator
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from viser import CameraHandle
+
+from ai4u_edu.runner import Runner
+from ai4u_edu.snapshot import Snapshot
+from ai4u_edu.viewer import Viewer
+from ai4u_edu.viewer.framing import Frame, frame
+from ai4u_edu.viewer.placing import seen_bounds
+from ai4u_edu.viewer.view import FOLLOWED, View
+from tests.viewer.pages import Page, page, until
+
+PLACE = (1.0, -2.0, 80.0)
+"""Somewhere a person might move the camera."""
+
+
+class Watched:
+    """A page, its camera as viser has it, and the view that moves it."""
+
+    def __init__(self, viewer: Viewer, here: Page) -> None:
+        (client,) = viewer.server.get_clients().values()
+        self.page, self.client, self.view = here, client, View(client)
+
+    @property
+    def camera(self) -> CameraHandle:
+        return self.client.camera
+
+    def report(self, place: tuple[float, float, float], size: tuple[int, int] = (960, 800)) -> None:
+        """The page reports where its camera is."""
+        before = self.camera.update_timestamp
+        self.page.report_camera(place, size)
+        until(lambda: self.camera.update_timestamp > before)
+
+    def sent(self) -> int:
+        """How many messages were meant for this page alone."""
+        return self.client._websock_connection.get_message_buffer().message_counter
+
+
+@pytest.fixture
+def watched(viewer: Viewer) -> Iterator[Watched]:
+    with page(viewer) as here:
+        yield Watched(viewer, here)
+
+
+def whole(snapshot: Snapshot, aspect: float = 1.2) -> Frame:
+    return frame(seen_bounds(snapshot.stage), aspect)
+
+
+def place(shown: Frame) -> tuple[float, float, float]:
+    return shown.x, shown.y, shown.distance
+
+
+def with_robot_at(snapshot: Snapshot, x: float, y: float) -> Snapshot:
+    first, *others = snapshot.bodies
+    return replace(snapshot, bodies=(replace(first, x=x, y=y), *others))
+
+
+def test_a_page_sees_the_whole_arena_from_above(watched: Watched, runner: Runner) -> None:
+    watched.view.update(runner.latest)
+    shown, camera = whole(runner.latest), watched.camera
+    assert camera.position == pytest.approx(place(shown))
+    assert camera.look_at == pytest.approx([shown.x, shown.y, 0.0])
+    assert camera.up_direction == pytest.approx([0.0, 1.0, 0.0])
+    assert camera.near < shown.distance < camera.far
+
+
+def test_a_camera_is_left_alone_while_nothing_changes(watched: Watched, runner: Runner) -> None:
+    watched.view.update(runner.latest)
+    before = watched.sent()
+    for _ in range(3):
+        watched.view.update(runner.latest)
+    assert watched.sent() == before
+
+
+def test_another_window_is_framed_anew(watched: Watched, runner: Runner) -> None:
+    watched.view.update(runner.latest)
+    watched.report(place(whole(runner.latest)))
+    watched.report(place(whole(runner.latest)), size=(390, 844))
+    watched.view.update(runner.latest)
+    assert watched.camera.position == pytest.approx(place(whole(runner.latest, 390 / 844)))
+
+
+def test_a_camera_that_a_person_moved_is_theirs(watched: Watched, runner: Runner) -> None:
+    watched.view.update(runner.latest)
+    watched.report(place(whole(runner.latest)))
+    watched.report(PLACE)
+    watched.report(PLACE, size=(500, 800))
+    watched.view.update(runner.latest)
+    assert watched.camera.position == pytest.approx(PLACE)
+
+
+def test_until_a_page_has_followed_its_old_place_counts_for_nothing(
+    watched: Watched, runner: Runner
+) -> None:
+    watched.view.update(runner.latest)
+    watched.report((3.0, 3.0, 3.0), size=(500, 800))  # from before our message came
+    watched.view.update(runner.latest)
+    assert watched.camera.position == pytest.approx(place(whole(runner.latest, 500 / 800)))
+
+
+def test_another_arena_is_shown_whole_whoever_moved_the_camera(
+    watched: Watched, runner: Runner
+) -> None:
+    watched.view.update(runner.latest)
+    watched.report(place(whole(runner.latest)))
+    watched.report(PLACE)
+    stage = replace(runner.latest.stage, bounds=((0.0, 0.0), (40.0, 40.0)))
+    other = replace(runner.latest, stage=stage)
+    watched.view.update(other)
+    assert watched.camera.position == pytest.approx(place(whole(other)))
+
+
+def test_a_followed_agent_comes_to_the_middle_smoothly(
+    watched: Watched, runner: Runner, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    now = 100.0
+    monkeypatch.setattr("ai4u_edu.viewer.view.time.monotonic", lambda: now)
+    view = watched.view
+    view.update(runner.latest)
+    view.follow_next(["robot"])
+    view.update(runner.latest)
+    assert watched.camera.look_at == pytest.approx([0.0, 0.0, 0.0])
+    assert watched.camera.position[2] == pytest.approx(Frame(0, 0, 0.4 * FOLLOWED).distance)
+    ways = []
+    for _ in range(60):
+        now += 1 / 60
+        view.update(with_robot_at(runner.latest, 2.0, -1.0))
+        ways.append(float(watched.camera.look_at[0]))
+    assert np.diff([0.0, *ways]).min() >= 0.0
+    assert ways[0] < 0.25
+    assert ways[-1] == pytest.approx(2.0, abs=0.02)
+    before = watched.sent()
+    now += 1.0
+    view.update(with_robot_at(runner.latest, ways[-1], -1.0))
+    view.update(with_robot_at(runner.latest, ways[-1], -1.0))
+    assert watched.sent() - before <= 4  # it has arrived: nothing more is sent
+
+
+def test_who_follows_may_zoom(watched: Watched, runner: Runner) -> None:
+    view = watched.view
+    view.follow_next(["robot"])
+    view.update(runner.latest)
+    watched.report((0.0, 0.0, 60.0))
+    view.update(with_robot_at(runner.latest, 2.0, 0.0))
+    assert watched.camera.position[2] == pytest.approx(60.0)
+
+
+def test_following_goes_on_to_the_next_agent_and_ends(watched: Watched, runner: Runner) -> None:
+    view = watched.view
+    for expected in ("robot", "box", "robot"):
+        view.follow_next(["robot", "box"])
+        view.update(runner.latest)
+        body = next(body for body in runner.latest.bodies if body.name == expected)
+        assert watched.camera.look_at == pytest.approx([body.x, body.y, 0.0])
+    view.show_all()
+    view.update(runner.latest)
+    assert watched.camera.position == pytest.approx(place(whole(runner.latest)))

@@ -1,0 +1,172 @@
+import threading
+import time
+from collections import Counter
+from typing import Any
+
+import pytest
+
+from ai4u_edu import BoxShape
+from ai4u_edu.runner import Runner
+from ai4u_edu.snapshot import Snapshot
+from ai4u_edu.viewer import Viewer
+from ai4u_edu.viewer.bodies import Bodies
+from tests.viewer.pages import page, until
+from tests.viewer.worlds import busy_sim
+
+
+def nodes(viewer: Viewer) -> list[str]:
+    """The names of the scene's nodes, without the number of the turn in which they were built."""
+    return sorted(viewer.server.scene._handle_from_node_name)
+
+
+def buffered(viewer: Viewer) -> Counter[str]:
+    """What a page that connects now is sent, by type of message."""
+    buffer = viewer.server._websock_server._broadcast_buffer
+    return Counter(type(message).__name__ for message in buffer.message_from_id.values())
+
+
+def pushed(viewer: Viewer) -> int:
+    """How many messages were sent to all pages so far."""
+    return viewer.server._websock_server._broadcast_buffer.message_counter
+
+
+def test_the_scene_is_complete_before_anybody_watches(viewer: Viewer) -> None:
+    names = nodes(viewer)
+    for expected in (
+        "/ground1/void",
+        "/ground1/floor plate/top",
+        "/ground1/floor ring/cliff",
+        "/ground1/area goal/fill",
+        "/ground1/lines",
+        "/bodies1/0/body",
+        "/bodies1/0/face",
+        "/bodies1/0/shadow",
+        "/bodies1/1/rings",
+        "/rays1/lines",
+        "/rays1/dots",
+        "/actions",
+        "/labels1/0",
+    ):
+        assert expected in names
+
+
+def test_bodies_that_look_alike_share_a_batch(viewer: Viewer) -> None:
+    twins: Any = viewer.server.scene.get_handle_by_name("/bodies1/2/body")
+    assert twins.batched_positions[:, :2].tolist() == [[-3.0, -1.0], [-3.0, 1.0]]
+    assert twins.batched_colors[0].tolist() != twins.batched_colors[1].tolist()
+
+
+def test_only_what_changed_is_sent(viewer: Viewer, runner: Runner) -> None:
+    before = pushed(viewer)
+    for part in viewer._parts:
+        part._drawn_at = 0.0
+        part.draw(runner.latest)
+    assert pushed(viewer) == before
+
+
+def test_what_is_kept_for_later_pages_does_not_grow(viewer: Viewer) -> None:
+    sim = busy_sim(controller=lambda _percept: {"move": [0.5, 0.3, 0.0, 0.0]})
+    runner = Runner(sim, seed=1)
+
+    def play() -> int:
+        for _ in range(30):
+            runner._tick()
+            for part in viewer._parts:
+                part._drawn_at = 0.0
+            viewer._draw(runner.latest)
+        return sum(buffered(viewer).values())
+
+    play()
+    assert play() == play()
+
+
+def test_a_changed_stage_is_built_anew_and_the_old_one_goes(viewer: Viewer, runner: Runner) -> None:
+    kept = [name for name in nodes(viewer) if name.startswith("/ground")]
+    world = runner.sim.world
+    world.add_body("late", BoxShape(size=(1, 2)), position=(-3, 3), label="late")
+    runner._publish()
+    viewer._draw(runner.latest)
+    names = nodes(viewer)
+    assert "/bodies2/0/body" not in names  # two names are used by turns
+    assert not [name for name in names if name.startswith(("/bodies1", "/labels1"))]
+    assert len([name for name in names if name.startswith("/labels0/")]) == 3
+    assert [name for name in names if name.startswith("/ground")] == kept
+
+
+def test_a_reset_builds_nothing_anew(viewer: Viewer, runner: Runner) -> None:
+    before = nodes(viewer)
+    runner.sim.reset(2)
+    runner._publish()
+    viewer._draw(runner.latest)
+    assert nodes(viewer) == before
+
+
+def test_an_error_is_told_once_and_drawing_goes_on(
+    viewer: Viewer,
+    runner: Runner,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    drawn = threading.Event()
+
+    def fail(_self: Bodies, snapshot: Snapshot) -> None:
+        if snapshot.tick > 3:
+            drawn.set()
+        raise ValueError(f"no bodies at tick {snapshot.tick}")
+
+    monkeypatch.setattr(Bodies, "draw", fail)
+    runner.start()
+    viewer.start()
+    with page(viewer):
+        assert drawn.wait(10)
+        assert viewer._thread.is_alive()
+    runner.stop()
+    told = capsys.readouterr().err
+    assert told.count("ValueError: no bodies at tick") == 1
+    assert told.count("Traceback") == 1
+
+
+def test_an_error_beside_the_parts_does_not_end_the_thread(
+    viewer: Viewer, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    failed = threading.Event()
+
+    def fail() -> None:
+        failed.set()
+        raise OSError("no clients")
+
+    monkeypatch.setattr(viewer, "_meet_clients", fail)
+    viewer.start()
+    assert failed.wait(5)
+    failed.clear()
+    assert failed.wait(5)
+    viewer.stop()
+    assert capsys.readouterr().err.count("OSError: no clients") == 1
+
+
+def test_while_nobody_watches_nothing_is_sent(viewer: Viewer, runner: Runner) -> None:
+    runner.start()
+    viewer.start()
+    time.sleep(0.3)
+    before = pushed(viewer)
+    tick = runner.latest.tick
+    time.sleep(0.3)
+    assert runner.latest.tick > tick
+    assert pushed(viewer) == before
+    runner.stop()
+
+
+def test_pages_come_and_go(viewer: Viewer, runner: Runner) -> None:
+    runner.start()
+    viewer.start()
+    for _ in range(3):
+        with page(viewer) as first, page(viewer) as second:
+            until(lambda: len(viewer._views) == 2)
+            until(lambda: min(first.received, second.received) > 1000)
+        until(lambda: not viewer._views)
+        assert not viewer.server.get_clients()
+    runner.stop()
+
+
+def test_a_viewer_that_was_never_started_can_be_stopped(runner: Runner) -> None:
+    Viewer(runner).stop()
