@@ -35,7 +35,7 @@ def test_check_says_fine_or_what_is_wrong(tmp_path: Path) -> None:
     assert (told.returncode, told.stdout, told.stderr) == (
         1,
         "",
-        "error: mine.yaml, line 12: bodies[0].shape.radius: expected a number, got 'big'\n",
+        "error: mine.yaml, line 13: bodies[0].shape.radius: expected a number, got 'big'\n",
     )
 
 

@@ -1,0 +1,87 @@
+"""A served scene in a process of its own, and a browser to look at it; for scripts."""
+
+import contextlib
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
+import threading
+import time
+import urllib.request
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from typing import Any
+
+from playwright.sync_api import Browser, sync_playwright
+
+FLAGS = [
+    "--no-sandbox",
+    "--use-angle=swiftshader",
+    "--enable-unsafe-swiftshader",
+    "--ignore-gpu-blocklist",
+    "--disable-quic",
+    "--no-first-run",
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--disable-sync",
+]
+
+
+@dataclass
+class Played:
+    """A running ``ai4u-edu play``."""
+
+    process: subprocess.Popen[str]
+    url: str
+    told: list[str] = field(default_factory=list)
+    """Every line that it wrote."""
+
+    def snapshot(self) -> dict[str, Any]:
+        """What ``/api/snapshot`` answers."""
+        with urllib.request.urlopen(f"{self.url}api/snapshot", timeout=5) as answer:  # noqa: S310
+            found: dict[str, Any] = json.load(answer)
+            return found
+
+
+@contextlib.contextmanager
+def played(*args: str) -> Iterator[Played]:
+    """Serves a scene: ``played("box_chase", "--seed", "1")``."""
+    command = [sys.executable, "-m", "ai4u_edu", "play", *args, "--port", "0", "--no-open"]
+    process = subprocess.Popen(
+        command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, bufsize=1
+    )
+    told: list[str] = []
+
+    def listen() -> None:
+        with process:  # closes its output, and waits for its end
+            told.extend(process.stdout or ())  # line by line, as they come
+
+    listener = threading.Thread(target=listen)
+    listener.start()
+    try:
+        yield Played(process, _url(process, told), told)
+    finally:
+        process.terminate()
+        listener.join(10)
+
+
+def _url(process: subprocess.Popen[str], told: list[str]) -> str:
+    deadline = time.monotonic() + 30
+    while time.monotonic() < deadline and process.poll() is None:
+        found = re.search(r"http://\S+", "".join(told))
+        if found:
+            return found[0].rstrip("/") + "/"
+        time.sleep(0.05)
+    raise RuntimeError("the scene was not served: " + "".join(told))
+
+
+@contextlib.contextmanager
+def browser() -> Iterator[Browser]:
+    """Headless Chromium."""
+    path = os.environ.get("AI4U_CHROMIUM") or shutil.which("chromium")
+    with sync_playwright() as playwright:
+        chromium = playwright.chromium.launch(executable_path=path, args=FLAGS)
+        yield chromium
+        chromium.close()

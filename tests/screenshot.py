@@ -1,0 +1,39 @@
+"""Takes the README's picture: ``python -m tests.screenshot``."""
+
+import argparse
+from pathlib import Path
+
+from tests.playing import browser, played
+
+PICTURES = Path(__file__).parent / "pictures"
+
+
+def main() -> None:
+    """Drives a little, and takes a picture while W and D are held."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--scene", default="sample_scene")
+    parser.add_argument("--size", default="1280x800")
+    parser.add_argument("--out", type=Path, default=PICTURES / "page.png")
+    parser.add_argument("--dark", action="store_true")
+    options = parser.parse_args()
+    width, height = map(int, options.size.split("x"))
+    with played(options.scene, "--seed", "4") as server, browser() as chromium:
+        page = chromium.new_page(
+            viewport={"width": width, "height": height},
+            color_scheme="dark" if options.dark else "light",
+        )
+        page.goto(server.url)
+        page.wait_for_timeout(6000)
+        for notice in page.locator(".mantine-Notification-closeButton").all():
+            notice.click()  # viser's word that there is no graphics card here
+        page.keyboard.down("KeyW")
+        page.wait_for_timeout(700)
+        page.keyboard.down("KeyD")
+        page.wait_for_timeout(400)
+        options.out.parent.mkdir(exist_ok=True)
+        page.screenshot(path=options.out)
+    print(options.out)
+
+
+if __name__ == "__main__":
+    main()
