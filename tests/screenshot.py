@@ -17,7 +17,7 @@ def main() -> None:
     parser.add_argument("--dark", action="store_true")
     options = parser.parse_args()
     width, height = map(int, options.size.split("x"))
-    with played(options.scene, "--seed", "4") as server, browser() as chromium:
+    with played(options.scene, "--seed", "1") as server, browser() as chromium:
         page = chromium.new_page(
             viewport={"width": width, "height": height},
             color_scheme="dark" if options.dark else "light",
@@ -27,9 +27,9 @@ def main() -> None:
         for notice in page.locator(".mantine-Notification-closeButton").all():
             notice.click()  # viser's word that there is no graphics card here
         page.keyboard.down("KeyW")
-        page.wait_for_timeout(700)
+        page.wait_for_timeout(500)
         page.keyboard.down("KeyD")
-        page.wait_for_timeout(400)
+        page.wait_for_timeout(300)
         options.out.parent.mkdir(exist_ok=True)
         page.screenshot(path=options.out)
     print(options.out)
