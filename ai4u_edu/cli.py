@@ -1,6 +1,7 @@
 """The command line; each command is a few lines around what the package offers."""
 
 import json
+import os
 import sys
 import webbrowser
 from collections.abc import Sized
@@ -63,30 +64,44 @@ def play(
     time_scale: Annotated[
         float | None, typer.Option(help="How fast the time runs; 1 is real time.", min=0.01)
     ] = None,
+    allow_host: Annotated[
+        list[str] | None,
+        typer.Option(help="A name under which the page is asked for, behind a proxy."),
+    ] = None,
 ) -> None:
     """Serve a scene in the browser; drive with W, A, S, D."""
     from ai4u_edu.runner import Runner
     from ai4u_edu.scenes import Scene
-    from ai4u_edu.server import room_app, serve
+    from ai4u_edu.server import hosts_for, room_app, serve, shut_side_door
     from ai4u_edu.viewer import Viewer
 
     loaded = Scene.load(scene)
     title = loaded.description.title or loaded.description.name
     runner = Runner(loaded.build(), seed=seed, time_scale=time_scale)
     viewer = Viewer(runner, title=title)
+    shut_side_door(viewer.server)
+    hosts = (*hosts_for(host), *(allow_host or ()))
+    room = room_app(runner, viser_port=viewer.port, title=title, allowed_hosts=hosts)
 
     def ready(url: str) -> None:
         typer.echo(f"{title} is served at {url}  (Ctrl-C ends it)")
-        if open_page:
+        if open_page and _has_desktop():
             webbrowser.open(url)
 
     runner.start()
     viewer.start()
     try:
-        serve(room_app(runner, viser_port=viewer.port, title=title), host, port, on_ready=ready)
+        serve(room, host, port, on_ready=ready)
     finally:
         viewer.stop()
         runner.stop()
+
+
+def _has_desktop() -> bool:
+    # elsewhere a browser for the terminal might open, and take it over
+    return sys.platform in {"win32", "darwin"} or any(
+        os.environ.get(name) for name in ("DISPLAY", "WAYLAND_DISPLAY")
+    )
 
 
 @app.command()

@@ -10,7 +10,9 @@
     │   └── SceneError         a scene file is wrong; names file, path and line
     ├── WorldError             the world can't do this (too many bodies, a place is taken)
     ├── ReadingError           a sensor gave something that it had not declared
-    └── ActionError            an action that no actuator can carry out
+    ├── ActionError            an action that no actuator can carry out
+    └── AddressError           the page can't be served there (in ai4u_edu.server)
+        └── PortTakenError     somebody else listens on that port
 
 Every message says what was expected, what came, and how to mend it.
 """

@@ -5,8 +5,8 @@ import math
 import numpy as np
 from viser import LineSegmentsHandle
 
+from ai4u_edu.look import ACTION
 from ai4u_edu.snapshot import AgentState, BodyState, Snapshot, Stage
-from ai4u_edu.viewer.colours import ACTION
 from ai4u_edu.viewer.geometry import Array, circle, half_width, segments, turn
 from ai4u_edu.viewer.layers import Layers
 from ai4u_edu.viewer.light import strokes

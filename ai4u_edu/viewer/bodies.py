@@ -5,9 +5,9 @@ from collections import defaultdict
 import numpy as np
 import numpy.typing as npt
 
+from ai4u_edu.look import VOID, Rgb, body_colour, mixed
 from ai4u_edu.snapshot import Snapshot, Stage
 from ai4u_edu.viewer.brush import Brush
-from ai4u_edu.viewer.colours import VOID, Rgb, body_colour, mixed
 from ai4u_edu.viewer.face import face, pupils, rings
 from ai4u_edu.viewer.geometry import cap, half_width, joined, prism, soft
 from ai4u_edu.viewer.layers import Layers

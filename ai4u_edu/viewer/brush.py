@@ -5,7 +5,7 @@ from typing import Literal
 import numpy as np
 from viser import BatchedMeshHandle, LabelHandle, LineSegmentsHandle, SceneApi
 
-from ai4u_edu.viewer.colours import Rgb
+from ai4u_edu.look import Rgb
 from ai4u_edu.viewer.geometry import Array, Mesh
 from ai4u_edu.viewer.light import strokes, surface, surfaces
 

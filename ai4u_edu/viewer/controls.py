@@ -71,7 +71,9 @@ class Controls:
             self._seed_shown = snapshot.seed
             _show(self._seed, snapshot.seed)
 
-    def _on_time(self, event: GuiEvent[GuiButtonGroupHandle]) -> None:
+    # these run in viser's event loop, one after the other: a click is never taken for the next one
+
+    async def _on_time(self, event: GuiEvent[GuiButtonGroupHandle]) -> None:
         runner = self._runner
         match event.target.value:
             case "Pause":
@@ -84,18 +86,18 @@ class Controls:
             case "Reset":
                 self._ask(event.client, runner.reset())
 
-    def _on_speed(self, event: GuiEvent[GuiDropdownHandle[str]]) -> None:
+    async def _on_speed(self, event: GuiEvent[GuiDropdownHandle[str]]) -> None:
         speed = SPEEDS.get(event.target.value)
         if event.client is not None and speed is not None:
             self._ask(event.client, self._runner.scale_time(speed))
 
-    def _on_seed(self, event: GuiEvent[Any]) -> None:
+    async def _on_seed(self, event: GuiEvent[Any]) -> None:
         self._ask(event.client, self._runner.reset(int(self._seed.value)))
 
-    def _on_rays(self, _event: GuiEvent[Any]) -> None:
+    async def _on_rays(self, _event: GuiEvent[Any]) -> None:
         self._rays.shown = bool(self._shown.value)
 
-    def _on_camera(self, event: GuiEvent[GuiButtonGroupHandle]) -> None:
+    async def _on_camera(self, event: GuiEvent[GuiButtonGroupHandle]) -> None:
         view = self._views.get(-1 if event.client_id is None else event.client_id)
         bodies = list(self._runner.latest.stage.agent_of)
         if view is None:

@@ -1,8 +1,8 @@
 """What does not move: the void, the floors with their edges, the areas."""
 
+from ai4u_edu.look import FLOOR, GRID, VOID, Rgb, area_colour, floor_colour, mixed
 from ai4u_edu.snapshot import Snapshot, Stage
 from ai4u_edu.viewer.brush import Brush
-from ai4u_edu.viewer.colours import FLOOR, GRID, VOID, Rgb, area_colour, floor_colour, mixed
 from ai4u_edu.viewer.geometry import Array, Mesh, grow, half_width, joined, segments, sheet, soft
 from ai4u_edu.viewer.grid import grid_in
 from ai4u_edu.viewer.layers import Layers

@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 from viser import SceneApi
 
-from ai4u_edu.viewer.colours import Rgb
+from ai4u_edu.look import Rgb
 
 GAIN = 2.0
 """What a white surface that faces up sends out; more than 1, as the curve dims what is bright."""

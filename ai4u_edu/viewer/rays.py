@@ -4,9 +4,9 @@ import numpy as np
 import numpy.typing as npt
 
 from ai4u_edu.blocks import RayPicture
+from ai4u_edu.look import NOTHING, UNKNOWN, group_colours
 from ai4u_edu.snapshot import Snapshot, Stage
 from ai4u_edu.viewer.brush import Brush
-from ai4u_edu.viewer.colours import NOTHING, UNKNOWN, group_colours
 from ai4u_edu.viewer.geometry import Array, cap, circle
 from ai4u_edu.viewer.layers import Layers
 from ai4u_edu.viewer.light import strokes, surfaces

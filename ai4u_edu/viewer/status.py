@@ -2,8 +2,8 @@
 
 from html import escape
 
+from ai4u_edu.look import NOTHING, UNKNOWN, group_colours
 from ai4u_edu.snapshot import Snapshot, Stage
-from ai4u_edu.viewer.colours import NOTHING, UNKNOWN, group_colours
 from ai4u_edu.viewer.readings import block, number
 
 MOST_GROUPS = 12

@@ -88,9 +88,8 @@ class View:
 
     def _follow(self, body: BodyState, aspect: float) -> None:
         camera, now = self._client.camera, time.monotonic()
-        offset: Array = (
-            camera.position - camera.look_at
-        )  # from where to look is the person's choice
+        # from how far and from which side is the person's choice
+        offset: Array = camera.position - camera.look_at
         goal = centred(body.x, body.y, visible_height(float(np.linalg.norm(offset))), aspect)
         share = 1.0 - math.exp((self._moved_at - now) / LAG)
         dx, dy = share * (goal.x - self._frame.x), share * (goal.y - self._frame.y)

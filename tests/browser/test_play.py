@@ -69,7 +69,7 @@ def test_to_the_box_it_is_a_hundred_and_the_end(server: Played, page: Page) -> N
     hold(page, "KeyS", lambda: agent(server)["terminated"])  # the box is right behind
     state = agent(server)
     assert state["reward_terms"]["touch"] == 100
-    assert state["pose"][0] == pytest.approx(-1.39, abs=0.3)
+    assert -3 < state["pose"][0] < -1.3  # where it touched, and as far as it coasted since
     page.get_by_text("Reached the goal!").wait_for()
 
 

@@ -1,5 +1,6 @@
 """What a page asks for reaches the runner; what a page makes up does not."""
 
+import asyncio
 import math
 from collections.abc import Iterator
 from typing import Any
@@ -117,4 +118,4 @@ def test_follow_and_back(here: Page, controls: Controls, viewer: Viewer) -> None
 
 def test_a_command_of_nobody_is_no_error(controls: Controls) -> None:
     event: Any = type("Event", (), {"client": None, "client_id": None, "target": controls._camera})
-    controls._on_camera(event)
+    asyncio.run(controls._on_camera(event))

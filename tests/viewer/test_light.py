@@ -1,8 +1,8 @@
 import numpy as np
 import pytest
 
+from ai4u_edu.look import FLOOR, VOID, WALL, Rgb
 from ai4u_edu.palette import PALETTE, rgb
-from ai4u_edu.viewer.colours import FLOOR, VOID, WALL, Rgb
 from ai4u_edu.viewer.light import film, lit, strokes, surface, surfaces
 
 GREYS = {"floor": FLOOR, "void": VOID, "wall": WALL}

@@ -8,9 +8,9 @@ import imageio.v3
 import numpy as np
 import pytest
 
+from ai4u_edu.look import FLOOR, VOID
 from ai4u_edu.runner import Runner
 from ai4u_edu.viewer import Viewer
-from ai4u_edu.viewer.colours import FLOOR, VOID
 
 if TYPE_CHECKING:
     from playwright.sync_api import Page

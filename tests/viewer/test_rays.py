@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from ai4u_edu.blocks import RayPicture
+from ai4u_edu.look import NOTHING, WALL, group_colours
 from ai4u_edu.palette import rgb
 from ai4u_edu.viewer import Viewer
-from ai4u_edu.viewer.colours import NOTHING, WALL, group_colours
 from ai4u_edu.viewer.light import strokes, surfaces
 from ai4u_edu.viewer.rays import Rays, ray_dots, ray_lines
 from tests.viewer.worlds import busy_sim, picture

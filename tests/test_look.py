@@ -1,5 +1,5 @@
+from ai4u_edu.look import WALL, body_colour, group_colours, mixed
 from ai4u_edu.palette import rgb
-from ai4u_edu.viewer.colours import WALL, body_colour, group_colours, mixed
 from ai4u_edu.world import BodyDescription
 from tests.viewer.worlds import busy_world, stage_of
 
