@@ -13,7 +13,7 @@ from concurrent.futures import Future
 from typing import Any, TypeVar
 
 from ai4u_edu.cycle import ControlRequestor
-from ai4u_edu.snapshot import Snapshot, Stage, agent_state, body_states, set_stage
+from ai4u_edu.snapshot import Snapshot, Stage, picture_of, set_stage
 
 T = TypeVar("T")
 
@@ -148,14 +148,21 @@ class Runner:
             raise ValueError(f"time scale: expected a number above 0, got {time_scale}")
         self.time_scale = time_scale
 
-    def _run(self) -> None:
-        while not self._stopping:
-            self._carry_out_commands()
-            if self.paused or self.error:
-                self._rest()
-                continue
+    def advance(self) -> None:
+        """Carries out what was asked, and lets one tick pass unless the time stands still.
+
+        The runner's own thread does nothing else; who has none may call it instead.
+        """
+        self._carry_out_commands()
+        if self.paused or self.error:
+            self._rest()
+        else:
             self._tick()
             self._keep_time()
+
+    def _run(self) -> None:
+        while not self._stopping:
+            self.advance()
 
     def _rest(self) -> None:
         self._window.clear()
@@ -201,24 +208,19 @@ class Runner:
             self._published.notify_all()
 
     def _picture(self) -> Snapshot:
-        sim, world = self.sim, self.sim.world
-        if world.generation != self._generation:
-            self._generation = world.generation
+        sim = self.sim
+        if sim.world.generation != self._generation:
+            self._generation = sim.world.generation
             stage = set_stage(sim)
             if getattr(self, "_stage", None) != stage:
                 self._stage = stage
-        return Snapshot(
-            stage=self._stage,
-            tick=world.ticks,
-            time=world.time,
-            seed=world.seeds.seed,
-            episode=sim.episode,
+        return picture_of(
+            sim,
+            self._stage,
             paused=self.paused,
             time_scale=self.time_scale,
             real_time_factor=self._real_time_factor(),
             error=self.error,
-            bodies=body_states(sim),
-            agents=tuple(agent_state(agent) for agent in sim.agents),
         )
 
     def _real_time_factor(self) -> float:

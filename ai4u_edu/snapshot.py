@@ -84,6 +84,41 @@ class Snapshot:
     agents: tuple[AgentState, ...]
 
 
+def picture_of(
+    sim: ControlRequestor,
+    stage: Stage | None = None,
+    *,
+    paused: bool = False,
+    time_scale: float = 1.0,
+    real_time_factor: float = 1.0,
+    error: str = "",
+) -> Snapshot:
+    """Everything as it is now.
+
+    Args:
+        sim: the world and its agents.
+        stage: what :func:`set_stage` gave, if nothing was built since.
+        paused: whether the time stands still.
+        time_scale: how fast it should run.
+        real_time_factor: how fast it ran lately.
+        error: what stopped the world.
+    """
+    world = sim.world
+    return Snapshot(
+        stage=stage or set_stage(sim),
+        tick=world.ticks,
+        time=world.time,
+        seed=world.seeds.seed,
+        episode=sim.episode,
+        paused=paused,
+        time_scale=time_scale,
+        real_time_factor=real_time_factor,
+        error=error,
+        bodies=body_states(sim),
+        agents=tuple(agent_state(agent) for agent in sim.agents),
+    )
+
+
 def set_stage(sim: ControlRequestor) -> Stage:
     """What does not move in a world."""
     world = sim.world

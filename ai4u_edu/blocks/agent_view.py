@@ -1,13 +1,22 @@
 """What a block may ask of the agent that it belongs to."""
 
-from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Protocol
+from collections.abc import Callable, Mapping, Sequence
+from typing import TYPE_CHECKING, Any, Protocol
 
 if TYPE_CHECKING:
     from ai4u_edu.blocks.actuators.actuator import Actuator
     from ai4u_edu.blocks.brains.controllers.keyboard import Keyboard
+    from ai4u_edu.blocks.percept import Percept
+    from ai4u_edu.blocks.rewards.reward_func import RewardFunc
     from ai4u_edu.blocks.sensors.sensor import Sensor
     from ai4u_edu.world import BodyView
+
+
+class Moment(Protocol):
+    """A moment of an agent's life that a block may listen to."""
+
+    def connect(self, handler: Callable[[Any], None]) -> Any:
+        """Calls the handler with the agent at this moment from now on."""
 
 
 class AgentView(Protocol):
@@ -16,6 +25,11 @@ class AgentView(Protocol):
     id: str
     actuators: list["Actuator"]
     sensors: list["Sensor"]
+    rewards: list["RewardFunc"]
+
+    @property
+    def begin_of_episode(self) -> Moment:
+        """When a reset is over and the first percept is there."""
 
     @property
     def body(self) -> "BodyView":
@@ -26,12 +40,20 @@ class AgentView(Protocol):
         """The keys that a person holds for this agent."""
 
     @property
+    def percept(self) -> "Percept":
+        """What was sensed last."""
+
+    @property
     def steps(self) -> int:
         """Decisions taken in this episode."""
 
     @property
     def done(self) -> bool:
         """Whether the episode is over."""
+
+    @property
+    def truncated(self) -> bool:
+        """Whether the episode was cut off by the step limit."""
 
     @property
     def reward(self) -> float:

@@ -1,6 +1,7 @@
 """What every block has: declared parameters, a name, a setup and a reset."""
 
 import re
+import sys
 from typing import Any, ClassVar
 
 from ai4u_edu.blocks.agent_view import AgentView
@@ -26,6 +27,13 @@ class Block(Declared):
 
     def on_reset(self, agent: AgentView, view: WorldView) -> None:
         """Called at every reset, before the first reading of the episode."""
+
+
+def is_built_in(cls: type[Block]) -> bool:
+    """Whether a class is one of this package's own, not one that was made somewhere else."""
+    module = sys.modules.get(cls.__module__)
+    own = cls.__module__.startswith("ai4u_edu.")
+    return own and getattr(module, cls.__name__, None) is cls
 
 
 def default_name(cls: type[Block], *endings: str) -> str:

@@ -57,7 +57,8 @@ class Declared:
     def json_schema(cls) -> dict[str, Any]:
         """The JSON Schema of the parameters; what is written under a field is its description."""
         schema = TypeAdapter(cls).json_schema()
-        for name, text in field_docs(cls).items():
+        plain_type: type = cls  # mypy takes a class that says __hash__ for one that has no hash
+        for name, text in field_docs(plain_type).items():
             if name in schema.get("properties", {}):
                 schema["properties"][name].setdefault("description", text)
         return schema

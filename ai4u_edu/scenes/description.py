@@ -23,6 +23,8 @@ class SceneDescription(Description):
     controls: Text = ""
     rewards: Text = ""
     """What is paid for what, in words."""
+    success: Name | None = None
+    """The reward term that is paid when the goal is reached."""
     time_scale: Annotated[float, quantity("1", gt=0, le=100)] = 1.0
     world: WorldSettings = WorldSettings()
     floors: tuple[FloorDescription, ...] = ()

@@ -93,13 +93,14 @@ class Scene:
 
     def plain(self) -> dict[str, Any]:
         """The scene as plain data; what is as by default is left out."""
-        return {"name": self.description.name} | self.description.model_dump(
+        plain = {"name": self.description.name} | self.description.model_dump(
             mode="json", exclude_defaults=True
         )
+        return _with_types(plain, self.description)
 
     def dumps(self) -> str:
         """The scene as YAML text."""
-        return write_yaml(_with_types(self.plain(), self.description))
+        return write_yaml(self.plain())
 
     def save(self, path: str | Path) -> None:
         """Writes the scene to a file; a file that was there is replaced whole, or not at all."""
@@ -127,7 +128,7 @@ class Scene:
 
 
 def _with_types(plain: dict[str, Any], description: SceneDescription) -> dict[str, Any]:
-    """Puts back the shapes' types: they are defaults, but a file needs them."""
+    """Puts back the shapes' types: they are defaults, but whoever reads needs them."""
     for key in ("floors", "areas", "bodies"):
         for entry, described in zip(plain.get(key, []), getattr(description, key), strict=False):
             shape = {"type": described.shape.type} | entry.get("shape", {})

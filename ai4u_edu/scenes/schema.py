@@ -4,6 +4,7 @@ from typing import Any
 
 from ai4u_edu.agent import BasicAgent
 from ai4u_edu.blocks import Block
+from ai4u_edu.blocks.block import is_built_in
 from ai4u_edu.scenes.description import SceneDescription
 from ai4u_edu.scenes.plain import KINDS, fits_a_file
 
@@ -14,9 +15,7 @@ def scene_schema() -> dict[str, Any]:
     agent = BasicAgent.json_schema()
     definitions: dict[str, Any] = {**schema.pop("$defs", {}), **agent.pop("$defs", {})}
     blocks = {
-        name: cls
-        for name, cls in Block.types.items()
-        if cls.__module__.startswith("ai4u_edu.") and fits_a_file(cls)
+        name: cls for name, cls in Block.types.items() if is_built_in(cls) and fits_a_file(cls)
     }
     for name, cls in blocks.items():
         definitions[name] = _block_schema(cls)

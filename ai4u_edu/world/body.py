@@ -7,6 +7,7 @@ import pymunk
 
 from ai4u_edu.errors import WorldError
 from ai4u_edu.world.descriptions import BodyDescription
+from ai4u_edu.world.grip import held_by, hold, let_go
 
 if TYPE_CHECKING:
     from ai4u_edu.world.world import World
@@ -69,6 +70,11 @@ class BodyView:
         x, y = self._pm.position
         return x, y, self.z, self.heading
 
+    @property
+    def held(self) -> "BodyView | None":
+        """The body that this one holds."""
+        return held_by(self._world, self)
+
     def distance(self, other: "BodyView") -> float:
         """Metres between the two centres, height included."""
         x, y = self._pm.position
@@ -115,6 +121,20 @@ class Body(BodyView):
         """Sets an upward speed in m/s and leaves the ground."""
         self._check("jump speed", (speed,))
         self._world._height.launch(self, speed)
+
+    def hold(self, other: BodyView) -> None:
+        """Fixes another body to this one, where it is now, until :meth:`release`.
+
+        A fall, a new place for one of the two or a reset ends it too.
+
+        Raises:
+            WorldError: this one holds something already, or the other one can't move.
+        """
+        hold(self._world, self, other)
+
+    def release(self) -> None:
+        """Lets go of what this body holds."""
+        let_go(self._world, self)
 
     def move_to(
         self, x: float, y: float, *, heading: float | None = None, z: float | None = None

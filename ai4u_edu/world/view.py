@@ -1,14 +1,16 @@
 """What a block may ask of the world; to be read, not to be changed."""
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ai4u_edu.errors import NameNotFoundError, suggest
 from ai4u_edu.world.body import BodyView
+from ai4u_edu.world.descriptions import FloorDescription
 from ai4u_edu.world.rays import CodeOf, RayFan, RayGrid
+from ai4u_edu.world.region import Region
 from ai4u_edu.world.sight import line_of_sight
 
 if TYPE_CHECKING:
@@ -61,6 +63,21 @@ class WorldView:
         """Seconds since the reset."""
         return self._world.time
 
+    @property
+    def generation(self) -> int:
+        """Grows whenever bodies, floors or areas come or go: what was learnt of them is old."""
+        return self._world.generation
+
+    @property
+    def floors(self) -> tuple[FloorDescription, ...]:
+        """All floors; none means endless ground at height 0."""
+        return self._world.floors
+
+    @property
+    def areas(self) -> Mapping[str, Region]:
+        """All areas by name."""
+        return self._world.areas
+
     def named(self, tag: str) -> tuple[str, ...]:
         """The names of all bodies that carry a tag."""
         return tuple(name for name, body in self._world.bodies.items() if tag in body.tags)
@@ -70,6 +87,12 @@ class WorldView:
         if name not in self:
             known = [*self._world.bodies, *self._world.areas]
             raise NameNotFoundError(f"no body or area is named {name!r}; {suggest(name, known)}")
+
+    def check_group(self, tag: str) -> None:
+        """Raises NameNotFoundError, with a suggestion, unless some body carries that tag."""
+        known = {each for body in self._world.bodies.values() for each in body.tags}
+        if tag not in known:
+            raise NameNotFoundError(f"no body carries the tag {tag!r}; {suggest(tag, known)}")
 
     def ground(self, x: float, y: float) -> float | None:
         """The height of the highest floor at a place (metres); None over the void."""

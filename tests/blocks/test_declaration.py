@@ -16,6 +16,7 @@ from ai4u_edu import (
     WASDRBMoveController,
 )
 from ai4u_edu.blocks import Brain
+from ai4u_edu.blocks.block import is_built_in
 from ai4u_edu.errors import AI4UError, ParameterError
 
 
@@ -85,7 +86,7 @@ def test_blocks_may_carry_attributes_of_their_own() -> None:
 
 def test_every_built_in_block_has_a_docstring_and_a_registered_name() -> None:
     for name, cls in Block.types.items():
-        if cls.__module__.startswith("ai4u_edu."):
+        if is_built_in(cls):
             assert cls.__name__ == name
             assert cls.__doc__, name
 

@@ -6,6 +6,7 @@ import jsonschema
 import pytest
 
 from ai4u_edu import Block, Scene
+from ai4u_edu.blocks.block import is_built_in
 from ai4u_edu.scenes.plain import fits_a_file
 from ai4u_edu.scenes.schema import scene_schema
 
@@ -46,11 +47,7 @@ def test_what_is_wrong_does_not_fit(change: dict[str, Any]) -> None:
 
 
 def test_every_block_has_a_definition_with_a_description() -> None:
-    blocks = [
-        name
-        for name, cls in Block.types.items()
-        if cls.__module__.startswith("ai4u_edu.") and fits_a_file(cls)
-    ]
+    blocks = [name for name, cls in Block.types.items() if is_built_in(cls) and fits_a_file(cls)]
     assert len(blocks) > 15
     for name in blocks:
         definition = SCHEMA["$defs"][name]

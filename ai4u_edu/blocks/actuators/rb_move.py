@@ -1,20 +1,13 @@
 """Moves a body on the ground and makes it jump."""
 
-import math
-from typing import Annotated
-
 import numpy as np
 from gymnasium.spaces import Box
 
-from ai4u_edu.blocks.actuators.actuator import Actuator
-from ai4u_edu.parameters import quantity
+from ai4u_edu.blocks.actuators.ground_motion import GroundMotion, quiet
 from ai4u_edu.world import Body
 
-SMALLEST = 0.001
-"""A number closer to 0 than this counts as 0."""
 
-
-class RBMoveActuator(Actuator):
+class RBMoveActuator(GroundMotion):
     """Drives with four numbers: [forward, turn, jump, forward jump].
 
     - forward: -1..1, times ``move_amount`` is the speed along the heading in m/s; < 0 is backward.
@@ -29,12 +22,6 @@ class RBMoveActuator(Actuator):
     Source: AI4U's RBMoveActuator; its speeds carry a factor of 100/60 that ours leave out.
     """
 
-    action_name: str = "move"
-    move_amount: Annotated[float, quantity("m/s", ge=0, le=100)] = 1.0
-    turn_amount: Annotated[float, quantity("rad/s", ge=0, le=100)] = 1.0
-    jump_power: Annotated[float, quantity("m/s", ge=0, le=100)] = 1.0
-    jump_forward_power: Annotated[float, quantity("m/s", ge=0, le=100)] = 1.0
-
     def space(self) -> Box:
         """[forward, turn, jump, forward jump]."""
         low = np.array([-1, -1, 0, 0], np.float32)
@@ -42,12 +29,5 @@ class RBMoveActuator(Actuator):
 
     def act(self, body: Body, action: tuple[float, ...]) -> None:
         """Sets the body's speeds, if it stands on the ground."""
-        if not body.on_ground:
-            return
-        forward, turn, jump, leap = (0.0 if abs(x) < SMALLEST else x for x in action)
-        speed = forward * self.move_amount + leap * self.jump_forward_power
-        heading = body.heading
-        body.set_velocity(speed * math.cos(heading), speed * math.sin(heading))
-        body.set_angular_velocity(-turn * self.turn_amount)
-        if jump or leap:
-            body.jump((jump + leap) * self.jump_power)
+        if body.on_ground:
+            self.drive(body, *quiet(action))

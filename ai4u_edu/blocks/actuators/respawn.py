@@ -1,6 +1,7 @@
 """Puts a body at a random pose at each reset."""
 
-from typing import Annotated
+import math
+from typing import Annotated, Any
 
 import numpy as np
 from gymnasium.spaces import Box
@@ -17,27 +18,58 @@ Pose = tuple[Metres, Metres, Degrees]
 class RespawnActuator(Actuator):
     """Puts the agent at one of several poses at each reset, at rest, by the world's seed.
 
-    It takes no action of its own.
+    It takes no action of its own. ``early`` is right nearly always: the agent is in its place
+    before it senses anything. Late, its first percept still shows the place where the scene puts
+    its body, as in an AI4U project that has ``early`` off.
 
-    Source: AI4U's RespawnActuator.
+    Source: AI4U's RespawnActuator. There early means before the other blocks' reset; here the
+    world is built anew before any block is reset, and no block looks at the world until all are.
     """
 
     action_name: str = "respawn"
     is_output: bool = False
     poses: Annotated[list[Pose], Field(min_length=1)]
     """(x, y, heading in degrees) of each place."""
+    early: bool = True
+    """Whether it happens before the first reading of the episode, or after it."""
+    randomise_heading: bool = False
+    """Whether the heading is drawn as well, from all there are, in place of the pose's own."""
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        self.last_selected = -1
+        """Which of the poses the last one was, counted from 0."""
+        self._told_by: AgentView | None = None
 
     def space(self) -> Box:
         """Nothing."""
         return Box(0.0, 1.0, (0,))
 
+    def on_setup(self, agent: AgentView, view: WorldView) -> None:
+        """Listens for the beginning of the episode, if that is its moment."""
+        if not self.early and self._told_by is not agent:
+            agent.begin_of_episode.connect(self._on_begin)
+            self._told_by = agent
+
     def on_reset(self, agent: AgentView, view: WorldView) -> None:
         """Chooses a pose."""
-        index = int(view.random(f"actuator/{self.action_name}").integers(len(self.poses)))
-        x, y, heading = self.poses[index]
-        body = agent.body
-        if isinstance(body, Body):
-            body.move_to(x, y, heading=float(np.radians(heading)))
+        if self.early:
+            self._put(agent, view)
 
     def act(self, body: Body, action: tuple[float, ...]) -> None:
         """Does nothing."""
+
+    def _on_begin(self, agent: Any) -> None:
+        if self.is_active and any(each is self for each in agent.actuators):  # still on the agent
+            self._put(agent, agent.view)
+
+    def _put(self, agent: AgentView, view: WorldView) -> None:
+        chance = view.random(f"actuator/{self.action_name}")
+        self.last_selected = int(chance.integers(len(self.poses)))
+        x, y, degrees = self.poses[self.last_selected]
+        heading = float(np.radians(degrees))
+        if self.randomise_heading:
+            heading = float(chance.uniform(-math.pi, math.pi))
+        body = agent.body
+        if isinstance(body, Body):
+            body.move_to(x, y, heading=heading)

@@ -15,7 +15,8 @@ class FallReward(RewardFunc):
 
     At most ``max_rewards`` times an episode; ``fail_reward`` for every other decision.
 
-    Source: AI4U's FallReward.
+    Source: AI4U's FallReward. Its ``axis`` and ``isLocal`` have no place here: bodies fall along
+    the world's z and never tip over.
     """
 
     threshold: Metres = 0.0
@@ -29,7 +30,11 @@ class FallReward(RewardFunc):
 
     def on_update(self, body: BodyView, view: WorldView) -> float:
         """The reward for having fallen, or for not."""
-        if body.z < self.threshold and self._paid < self.max_rewards:
+        if self.is_below(body, view) and self._paid < self.max_rewards:
             self._paid += 1
             return self.success_reward
         return self.fail_reward
+
+    def is_below(self, body: BodyView, view: WorldView) -> bool:
+        """Whether the agent is so low that it counts as fallen."""
+        return body.z < self.threshold

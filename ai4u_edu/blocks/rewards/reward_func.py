@@ -48,5 +48,15 @@ class RewardFunc(Block):
             f"{type(self).__name__} has no on_update(self, body, view): it must return a number"
         )
 
+    def holds(self, paid: float, body: BodyView, view: WorldView) -> bool:
+        """Whether what it watches for is the case: And and Or ask, after on_update.
+
+        Args:
+            paid: what on_update returned just now; by default it holds where that is not 0.
+            body: the agent's body.
+            view: the world, to be asked.
+        """
+        return paid != 0.0
+
     def on_tick(self, body: BodyView, view: WorldView) -> None:
         """Called after every tick of a decision; only where a subclass fills it."""

@@ -1,8 +1,15 @@
 """The sensors: one idea a file."""
 
+from ai4u_edu.blocks.sensors.agent_array import AgentArraySensor
+from ai4u_edu.blocks.sensors.area_orientation import AreaOrientationSensor
 from ai4u_edu.blocks.sensors.bearing import BearingSensor
 from ai4u_edu.blocks.sensors.composite import FloatArrayCompositeSensor
+from ai4u_edu.blocks.sensors.ground_status import GroundStatusSensor
+from ai4u_edu.blocks.sensors.group_touch import GroupTouchSensor
+from ai4u_edu.blocks.sensors.heading import HeadingSensor
+from ai4u_edu.blocks.sensors.homeostatic import HomeostaticSensor
 from ai4u_edu.blocks.sensors.linear_ray_casting import LinearRayCastingSensor
+from ai4u_edu.blocks.sensors.local_grid import LocalGridSensor
 from ai4u_edu.blocks.sensors.orientation import OrientationSensor
 from ai4u_edu.blocks.sensors.position import PositionSensor
 from ai4u_edu.blocks.sensors.ray_casting import RayCastingSensor
@@ -14,16 +21,25 @@ from ai4u_edu.blocks.sensors.status import (
     IDSensor,
     RewardSensor,
     StepSensor,
+    TruncatedSensor,
 )
+from ai4u_edu.blocks.sensors.touch import TouchSensor
 from ai4u_edu.blocks.sensors.velocity import VelocitySensor
 
 __all__ = [
     "ActionSensor",
+    "AgentArraySensor",
+    "AreaOrientationSensor",
     "BearingSensor",
     "DoneSensor",
     "FloatArrayCompositeSensor",
+    "GroundStatusSensor",
+    "GroupTouchSensor",
+    "HeadingSensor",
+    "HomeostaticSensor",
     "IDSensor",
     "LinearRayCastingSensor",
+    "LocalGridSensor",
     "OrientationSensor",
     "PositionSensor",
     "RayCastingSensor",
@@ -32,5 +48,7 @@ __all__ = [
     "RewardSensor",
     "Sensor",
     "StepSensor",
+    "TouchSensor",
+    "TruncatedSensor",
     "VelocitySensor",
 ]

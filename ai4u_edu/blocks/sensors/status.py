@@ -1,4 +1,4 @@
-"""What the agent knows about its own episode: done, id, steps, reward, last action."""
+"""What the agent knows about its own episode: done, truncated, id, steps, reward, last action."""
 
 from typing import Annotated
 
@@ -41,6 +41,25 @@ class DoneSensor(StatusSensor):
     def write(self, out: Array, body: BodyView, view: WorldView) -> None:
         """One reading."""
         out[...] = self._agent.done
+
+
+class TruncatedSensor(StatusSensor):
+    """Whether the episode was cut off by the step limit.
+
+    ``done`` is true at every end; this one tells a cut from an end that the agent earned (a goal,
+    a fall). Source: AI4U.
+    """
+
+    perception_key: str = "truncated"
+    kind = "sbool"
+
+    def space(self) -> Discrete:
+        """0 or 1."""
+        return Discrete(2)
+
+    def write(self, out: Array, body: BodyView, view: WorldView) -> None:
+        """One reading."""
+        out[...] = self._agent.truncated
 
 
 class IDSensor(StatusSensor):

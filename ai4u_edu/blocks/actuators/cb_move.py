@@ -1,0 +1,62 @@
+"""Moves a body in any direction, not quite as it was told."""
+
+from typing import Annotated
+
+import numpy as np
+from gymnasium.spaces import Box
+
+from ai4u_edu.blocks.actuators.ground_motion import SMALLEST, GroundMotion, quiet
+from ai4u_edu.blocks.agent_view import AgentView
+from ai4u_edu.parameters import quantity
+from ai4u_edu.world import Body, WorldView
+
+Deviation = Annotated[float, quantity("1", ge=0, le=10)]
+
+
+class CBMoveActuator(GroundMotion):
+    """Drives with five numbers: [forward, strafe, turn, jump, forward jump].
+
+    As RBMoveActuator, and sideways too: strafe -1..1, times ``move_amount`` is the speed to the
+    right in m/s. It goes anywhere without turning, like a robot on omni wheels.
+
+    Real motors miss what they are told. With ``move_noise`` 0.1, "forward 0.5" is another number
+    at every tick, around 0.5 with a standard deviation of 0.1; the same for ``turn_noise``, and for
+    ``jump_noise`` (which never makes a jump point down). What is 0 stays 0: a body at rest stays
+    at rest. The noise comes from the world's seed, so the same seed errs in the same way.
+
+    Source: AI4U's CBMoveActuator (which drives neither sideways nor back unless told to).
+    """
+
+    dead_zone: Annotated[float, quantity("1", ge=0, le=1)] = SMALLEST
+    """A number closer to 0 than this counts as 0."""
+    move_noise: Deviation = 0.0
+    turn_noise: Deviation = 0.0
+    jump_noise: Deviation = 0.0
+
+    def space(self) -> Box:
+        """[forward, strafe, turn, jump, forward jump]."""
+        low = np.array([-1, -1, -1, 0, 0], np.float32)
+        return Box(low, np.ones(5, np.float32))
+
+    def on_reset(self, agent: AgentView, view: WorldView) -> None:
+        """Takes the episode's chance."""
+        self._chance = view.random(f"{agent.id}/actuator/{self.action_name}")
+
+    def act(self, body: Body, action: tuple[float, ...]) -> None:
+        """Sets the body's speeds, if it stands on the ground."""
+        if not body.on_ground:
+            return
+        forward, strafe, turn, jump, leap = quiet(action, self.dead_zone)
+        self.drive(
+            body,
+            self._missed(forward, self.move_noise),
+            self._missed(turn, self.turn_noise),
+            max(0.0, self._missed(jump, self.jump_noise)),
+            max(0.0, self._missed(leap, self.jump_noise)),
+            self._missed(strafe, self.move_noise),
+        )
+
+    def _missed(self, number: float, deviation: float) -> float:
+        if not (number and deviation):
+            return number
+        return number + float(self._chance.normal(0.0, deviation))

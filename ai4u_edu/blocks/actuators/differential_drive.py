@@ -1,0 +1,43 @@
+"""Two wheels."""
+
+from typing import Annotated
+
+import numpy as np
+from gymnasium.spaces import Box
+
+from ai4u_edu.blocks.actuators.actuator import Actuator
+from ai4u_edu.blocks.actuators.ground_motion import quiet, roll
+from ai4u_edu.parameters import PositiveMetres, quantity
+from ai4u_edu.world import Body
+
+
+class DifferentialDriveActuator(Actuator):
+    """Drives with two wheels: [left, right], each -1..1, times ``max_wheel_speed`` in m/s.
+
+    Seen from above, the wheels sit left and right of the centre, ``axle_width`` apart. Both equal:
+    straight ahead at that speed. Opposite: it turns on the spot. The faster wheel runs on the
+    outside of the curve:
+
+    - speed = (left + right) / 2, along the heading (m/s);
+    - turning speed = (right - left) / axle_width, counter-clockwise (rad/s).
+
+    Wire a light sensor to each wheel, straight or crossed, and you have Braitenberg's vehicles. It
+    acts only on the ground; wheels don't slip.
+
+    Source: ours; after V. Braitenberg, "Vehicles: Experiments in Synthetic Psychology" (1984).
+    """
+
+    action_name: str = "move"
+    max_wheel_speed: Annotated[float, quantity("m/s", gt=0, le=100)] = 1.0
+    axle_width: PositiveMetres = 0.5
+
+    def space(self) -> Box:
+        """[left, right]."""
+        return Box(-1.0, 1.0, (2,), np.float32)
+
+    def act(self, body: Body, action: tuple[float, ...]) -> None:
+        """Sets the body's speeds, if it stands on the ground."""
+        if not body.on_ground:
+            return
+        left, right = (wheel * self.max_wheel_speed for wheel in quiet(action))
+        roll(body, (left + right) / 2, 0.0, (right - left) / self.axle_width)

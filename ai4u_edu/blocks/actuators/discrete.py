@@ -1,0 +1,84 @@
+"""One choice out of a few."""
+
+from collections.abc import Callable
+from typing import Annotated, Any
+
+from gymnasium.spaces import Discrete
+from pydantic import Field
+
+from ai4u_edu.blocks.actuators.ground_motion import GroundMotion
+from ai4u_edu.blocks.agent_view import AgentView
+from ai4u_edu.errors import ActionError, BlockError
+from ai4u_edu.parameters import quantity
+from ai4u_edu.world import Body, WorldView
+
+Signed = Annotated[float, quantity("1", ge=-1, le=1)]
+Share = Annotated[float, quantity("1", ge=0, le=1)]
+Row = tuple[Signed, Signed, Share, Share]
+
+ARROWS: list[Row] = [(0, 0, 0, 0), (0, 1, 0, 0), (0, -1, 0, 0), (1, 0, 0, 0), (-1, 0, 0, 0)]
+"""Nothing, turn right, turn left, ahead, back: as DiscreteArrowController counts them."""
+
+
+class DiscreteActuator(GroundMotion):
+    """Takes a whole number from 0 to size - 1 and looks it up in a table of motions.
+
+    A row of the table is [forward, turn, jump, forward jump], as RBMoveActuator takes them (-1..1,
+    -1..1, 0..1, 0..1), and moves the body in the same way. Without a table, the rows are:
+    0 nothing, 1 turn right, 2 turn left, 3 ahead, 4 back.
+
+    A script may take the choice in the table's place: ``actuator.handler = f``, and ``f(body,
+    index)`` is called for every tick of the decision, on the ground or not.
+
+    Action: Discrete(size), as an int. What is no choice is refused, not cut to the nearest one.
+    Source: AI4U's DiscretActuator.
+    """
+
+    is_continuous = False
+
+    size: Annotated[int, Field(ge=1, le=1024)] | None = None
+    """How many choices; left out: as many as the table has rows."""
+    table: Annotated[list[Row], Field(min_length=1)] = Field(default_factory=lambda: list(ARROWS))
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        self.handler: Callable[[Body, int], None] | None = None
+
+    def space(self) -> Discrete:
+        """One of ``size``."""
+        return Discrete(self.size or len(self.table))
+
+    def on_reset(self, agent: AgentView, view: WorldView) -> None:
+        """Looks whether there is something to do for every choice."""
+        # not before: until now a script had time to set a handler
+        if self.handler is None and (self.size or 0) > len(self.table):
+            raise BlockError(
+                f"expected a row of the table for each of {self.size} choices, "
+                f"got {len(self.table)} rows; add some, or set a handler"
+            )
+
+    def act(self, body: Body, action: tuple[float, ...]) -> None:
+        """Does what the table (or the handler) says."""
+        index = int(action[0])
+        if self.handler is not None:
+            self.handler(body, index)
+        elif body.on_ground:
+            self.drive(body, *self.table[index])
+
+    def accept(self, values: Any) -> tuple[float, ...]:
+        """Checks a choice.
+
+        Raises:
+            ActionError: not one of them.
+        """
+        last = int(self._limits[0][1])
+        try:
+            numbers = self._numbers(values)
+        except ActionError:
+            numbers = ()
+        if len(numbers) != 1 or numbers[0] not in range(last + 1):
+            raise ActionError(
+                f"action {self.action_name!r}: expected a whole number from 0 to {last}, "
+                f"got {values!r}"
+            )
+        return numbers

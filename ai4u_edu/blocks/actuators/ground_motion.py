@@ -1,0 +1,68 @@
+"""What the actuators share that drive a body over the ground and let it jump."""
+
+import math
+from typing import Annotated
+
+from ai4u_edu.blocks.actuators.actuator import Actuator
+from ai4u_edu.parameters import quantity
+from ai4u_edu.world import Body
+
+SMALLEST = 0.001
+"""A number closer to 0 than this counts as 0."""
+
+
+class GroundMotion(Actuator):
+    """A body that drives and jumps: how fast it does so at full power.
+
+    Speeds are set, not pushed to: all zeros stop the body. It acts only on the ground; in the air
+    nothing steers. A jump of upward speed v rises v² / 2g high and lasts 2 v / g seconds.
+    """
+
+    abstract = True
+
+    action_name: str = "move"
+    move_amount: Annotated[float, quantity("m/s", ge=0, le=100)] = 1.0
+    turn_amount: Annotated[float, quantity("rad/s", ge=0, le=100)] = 1.0
+    jump_power: Annotated[float, quantity("m/s", ge=0, le=100)] = 1.0
+    jump_forward_power: Annotated[float, quantity("m/s", ge=0, le=100)] = 1.0
+
+    def drive(
+        self,
+        body: Body,
+        forward: float,
+        turn: float,
+        jump: float,
+        leap: float,
+        strafe: float = 0.0,
+    ) -> None:
+        """Sets the speeds of a body that stands on the ground.
+
+        Args:
+            body: what drives.
+            forward: share of ``move_amount``; below 0 backward.
+            turn: share of ``turn_amount``; above 0 to the right (clockwise seen from above).
+            jump: share of ``jump_power``.
+            leap: share of ``jump_forward_power`` forward and of ``jump_power`` upward.
+            strafe: share of ``move_amount``; above 0 to the right.
+        """
+        ahead = forward * self.move_amount + leap * self.jump_forward_power
+        roll(body, ahead, -strafe * self.move_amount, -turn * self.turn_amount)
+        if jump or leap:
+            body.jump((jump + leap) * self.jump_power)
+
+
+def roll(body: Body, forward: float, left: float, turning: float) -> None:
+    """Sets a body's speeds in its own frame: m/s, m/s, rad/s (counter-clockwise positive)."""
+    heading = body.heading
+    cos, sin = math.cos(heading), math.sin(heading)
+    body.set_velocity(forward * cos - left * sin, forward * sin + left * cos)
+    body.set_angular_velocity(turning)
+
+
+def quiet(numbers: tuple[float, ...], dead_zone: float = SMALLEST) -> tuple[float, ...]:
+    """The numbers of an action, with 0 for those that are next to nothing.
+
+    >>> quiet((0.5, -0.0005))
+    (0.5, 0.0)
+    """
+    return tuple(0.0 if abs(number) < dead_zone else number for number in numbers)

@@ -1,0 +1,143 @@
+"""Drive with the arrow keys, whatever the body is."""
+
+from collections.abc import Iterable
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from ai4u_edu.blocks.agent_view import AgentView
+from ai4u_edu.blocks.brains.command import Answer, Command
+from ai4u_edu.blocks.brains.controllers.controller import Controller
+from ai4u_edu.blocks.brains.controllers.wasd import Amount, Keys
+from ai4u_edu.blocks.percept import Percept
+from ai4u_edu.errors import BlockError, suggest
+from ai4u_edu.parameters import Name, Number
+from ai4u_edu.world import WorldView
+
+Component = Literal[
+    "forward", "strafe", "turn", "jump", "jump_forward", "left_wheel", "right_wheel", "none"
+]
+
+RB_MOVE: list[Component] = ["forward", "turn", "jump", "jump_forward"]
+CB_MOVE: list[Component] = ["forward", "strafe", "turn", "jump", "jump_forward"]
+WHEELS: list[Component] = ["left_wheel", "right_wheel"]
+
+
+class ArrowController(Controller):
+    """The arrow keys drive and turn, Space jumps, Enter jumps forward, R restarts.
+
+    Any key can be given any part: of each part the keys are listed (``KeyboardEvent.code``, places
+    on the keyboard); strafing to the side has none until you give it some. Opposite keys cancel
+    out.
+
+    ``components`` says what each number of the action is. Left out, it is as the actuator takes
+    them: two wheels (the inner one slows down), RBMoveActuator's four or CBMoveActuator's five;
+    numbers beyond those are 0.
+
+    Extra actions: while a key of ``extra_keys[i]`` is held, the number that
+    ``extra_actions_index[i]`` counts (from 0) is ``extra_actions_value[i]``. Other actuators of one
+    number have ``switches``: ``{"grab": ["KeyG"]}`` gives the actuator "grab" a 1 while G is held,
+    else a 0.
+
+    Source: AI4U's ArrowPhysicsMoveController.
+    """
+
+    actuator_name: str = "move"
+    speed: Amount = 0.5
+    turn_amount: Amount = 1.0
+    jump_power: Amount = 1.0
+    forward: Keys = Field(default_factory=lambda: ["ArrowUp"])
+    backward: Keys = Field(default_factory=lambda: ["ArrowDown"])
+    left: Keys = Field(default_factory=list)
+    right: Keys = Field(default_factory=list)
+    turn_left: Keys = Field(default_factory=lambda: ["ArrowLeft"])
+    turn_right: Keys = Field(default_factory=lambda: ["ArrowRight"])
+    jump: Keys = Field(default_factory=lambda: ["Space"])
+    jump_forward: Keys = Field(default_factory=lambda: ["Enter"])
+    restart: Keys = Field(default_factory=lambda: ["KeyR"])
+    components: list[Component] | None = None
+    extra_keys: list[Keys] = Field(default_factory=list)
+    extra_actions_index: list[Annotated[int, Field(ge=0)]] = Field(default_factory=list)
+    extra_actions_value: list[Number] = Field(default_factory=list)
+    switches: dict[Name, Keys] = Field(default_factory=dict)
+    """By the name of an actuator: the keys that switch it on."""
+
+    def on_setup(self, agent: AgentView, view: WorldView) -> None:
+        """Takes the agent's keyboard, and looks how many numbers the actuator wants."""
+        self._keyboard = agent.keyboard
+        self._before: frozenset[str] = frozenset()
+        size = len(limits_of(self.actuator_name, agent)[0])
+        self._components = self._laid_out(size)
+        self._check_extras(size)
+        for name in self.switches:
+            limits_of(name, agent)
+
+    def get_action(self, percept: Percept) -> Answer:
+        """One number a component, from the keys held now."""
+        keys = self._keyboard.read()
+        fresh, self._before = keys - self._before, keys
+        if not fresh.isdisjoint(self.restart):
+            return Command.RESTART
+        ahead = self.speed * (_any(keys, self.forward) - _any(keys, self.backward))
+        turn = self.turn_amount * (_any(keys, self.turn_right) - _any(keys, self.turn_left))
+        parts: dict[str, float] = {
+            "forward": ahead,
+            "strafe": self.speed * (_any(keys, self.right) - _any(keys, self.left)),
+            "turn": turn,
+            "jump": self.jump_power * _any(keys, self.jump),
+            "jump_forward": self.jump_power * _any(keys, self.jump_forward),
+            "left_wheel": max(-1.0, min(1.0, ahead + turn)),
+            "right_wheel": max(-1.0, min(1.0, ahead - turn)),
+            "none": 0.0,
+        }
+        action = [parts[component] for component in self._components]
+        for held, index, value in zip(
+            self.extra_keys, self.extra_actions_index, self.extra_actions_value, strict=True
+        ):
+            if _any(keys, held):
+                action[index] = value
+        switched = {name: float(_any(keys, held)) for name, held in self.switches.items()}
+        return {self.actuator_name: tuple(action), **switched}
+
+    def _laid_out(self, size: int) -> list[Component]:
+        if self.components is not None:
+            if len(self.components) != size:
+                raise BlockError(
+                    f"components: expected {size}, as actuator {self.actuator_name!r} takes, "
+                    f"got {len(self.components)}"
+                )
+            return self.components
+        known = next((each for each in (CB_MOVE, RB_MOVE, WHEELS) if size >= len(each)), [])
+        rest: list[Component] = ["none"] * (size - len(known))
+        return known + rest
+
+    def _check_extras(self, size: int) -> None:
+        keys, places = len(self.extra_keys), len(self.extra_actions_index)
+        values = len(self.extra_actions_value)
+        if not keys == places == values:
+            raise BlockError(
+                "expected as many extra_keys as extra_actions_index and extra_actions_value, got "
+                f"{keys}, {places} and {values}"
+            )
+        for index in self.extra_actions_index:
+            if index >= size:
+                raise BlockError(
+                    f"extra_actions_index: expected indices up to {size - 1}, as actuator "
+                    f"{self.actuator_name!r} takes {size} numbers, got {index}"
+                )
+
+
+def limits_of(name: str, agent: AgentView) -> tuple[list[float], list[float]]:
+    """The ranges of an agent's actuator.
+
+    Raises:
+        BlockError: the agent has none of that name.
+    """
+    actuators = {each.action_name: each for each in agent.actuators if each.is_active}
+    if name not in actuators:
+        raise BlockError(f"no actuator is called {name!r}; {suggest(name, actuators)}")
+    return actuators[name].limits()
+
+
+def _any(held: frozenset[str], keys: Iterable[str]) -> bool:
+    return not held.isdisjoint(keys)

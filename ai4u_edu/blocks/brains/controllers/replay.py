@@ -1,0 +1,46 @@
+"""Does again what was done before."""
+
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from ai4u_edu.blocks.agent_view import AgentView
+from ai4u_edu.blocks.brains.command import Answer, Command
+from ai4u_edu.blocks.brains.controllers.controller import Controller
+from ai4u_edu.blocks.percept import Percept
+from ai4u_edu.parameters import Name, Number
+from ai4u_edu.world import WorldView
+
+
+class ReplayController(Controller):
+    """Gives a list of recorded actions, one a decision, from the first one on after each reset.
+
+    Each is an action by the actuator's name, as ``agent.last_action`` has it. After the last one
+    comes the ``ending``: ``stop`` (no more decisions until the next reset) or ``repeat`` (from the
+    first one again). From the same seed the same actions lead to the same places, bit for bit.
+
+    Source: ours.
+
+    >>> replay = ReplayController(actions=[{"move": [1, 0, 0, 0]}, {"move": [0, 1, 0, 0]}])
+    >>> [replay.get_action({}) for _ in range(3)]
+    [{'move': [1.0, 0.0, 0.0, 0.0]}, {'move': [0.0, 1.0, 0.0, 0.0]}, <Command.STOP: 'stop'>]
+    """
+
+    actions: Annotated[list[dict[Name, list[Number]]], Field(min_length=1)]
+    ending: Literal["stop", "repeat"] = "stop"
+
+    def __post_init__(self) -> None:
+        self._turn = 0
+
+    def on_reset(self, agent: AgentView, view: WorldView) -> None:
+        """Begins with the first one."""
+        self._turn = 0
+
+    def get_action(self, percept: Percept) -> Answer:
+        """The next action, or the end."""
+        if self._turn == len(self.actions):
+            if self.ending == "stop":
+                return Command.STOP
+            self._turn = 0
+        self._turn += 1
+        return self.actions[self._turn - 1]

@@ -1,0 +1,95 @@
+"""Pays when several things are the case at once, or when any of them is."""
+
+from typing import Annotated
+
+from pydantic import Field
+
+from ai4u_edu.blocks.agent_view import AgentView
+from ai4u_edu.blocks.rewards.eval_value import EvalValue
+from ai4u_edu.blocks.rewards.reward_func import RewardFunc
+from ai4u_edu.parameters import Number
+from ai4u_edu.world import BodyView, WorldView
+
+
+class CombinedRewardFunc(RewardFunc):
+    """What AndRewardFunc and OrRewardFunc share: children that are asked at every decision.
+
+    A condition (EvalBoolValue and its like) holds where its property is as it should be; any other
+    reward function holds in the decisions for which it pays something.
+    """
+
+    abstract = True
+
+    children: Annotated[list[RewardFunc], Field(min_length=1)]
+    reward: Number = 1.0
+    update_children: bool = False
+    """Whether what the children pay is paid as well, under this one's name."""
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        self._children = list(self.children)
+
+    def on_setup(self, agent: AgentView, view: WorldView) -> None:
+        """Sets the children up that are active."""
+        self._children = [child for child in self.children if child.is_active]
+        for child in self._children:
+            child.on_setup(agent, view)
+
+    def on_reset(self, agent: AgentView, view: WorldView) -> None:
+        """Resets the children."""
+        self._held = False
+        for child in self._children:
+            child.on_reset(agent, view)
+
+    def on_tick(self, body: BodyView, view: WorldView) -> None:
+        """Passes the tick on."""
+        for child in self._children:
+            child.on_tick(body, view)
+
+    def on_update(self, body: BodyView, view: WorldView) -> float:
+        """The reward, where the children hold; and theirs, if they are to be paid."""
+        held, extra = [], 0.0
+        for child in self._children:
+            paid = child.on_update(body, view)
+            held.append(child.holds(paid, body, view))
+            extra += child.reward * held[-1] if isinstance(child, EvalValue) else paid
+        self._held = self.combine(held)
+        return self.reward * self._held + (extra if self.update_children else 0.0)
+
+    def holds(self, paid: float, body: BodyView, view: WorldView) -> bool:
+        """Whether the children held: so one And can stand in another, whatever it pays."""
+        return self._held
+
+    def combine(self, held: list[bool]) -> bool:
+        """Whether all of it holds, from whether each child does."""
+        raise NotImplementedError  # And and Or have their own
+
+
+class AndRewardFunc(CombinedRewardFunc):
+    """Pays ``reward`` for each decision after which all of its children hold.
+
+    A condition (EvalBoolValue and its like) holds where its property is as it should be; any other
+    reward function where it pays something. Only this one's ``cause_episode_to_end`` counts, not
+    the children's. Example: paid in the air above the goal = And(touch the goal, on_ground false).
+
+    Source: AI4U's AndRewardFunc.
+    """
+
+    def combine(self, held: list[bool]) -> bool:
+        """Whether all do; none at all do not."""
+        return bool(held) and all(held)
+
+
+class OrRewardFunc(CombinedRewardFunc):
+    """Pays ``reward`` for each decision after which any of its children holds, once however many.
+
+    A condition (EvalBoolValue and its like) holds where its property is as it should be; any other
+    reward function where it pays something. Only this one's ``cause_episode_to_end`` counts, not
+    the children's. Example: an end with -10 = Or(touch a spike, energy at 0).
+
+    Source: AI4U's ORRewardFunc.
+    """
+
+    def combine(self, held: list[bool]) -> bool:
+        """Whether one does."""
+        return any(held)

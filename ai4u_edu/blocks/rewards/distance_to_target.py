@@ -1,0 +1,34 @@
+"""Pays for being near."""
+
+from ai4u_edu.blocks.agent_view import AgentView
+from ai4u_edu.blocks.rewards.reward_func import RewardFunc
+from ai4u_edu.parameters import Number, PositiveMetres
+from ai4u_edu.world import BodyView, WorldView
+
+
+class DistanceToTargetRewardFunc(RewardFunc):
+    """Pays ``max_reward`` within ``min_distance`` of the target, and less the farther away it is.
+
+    At distance d beyond, it pays max_reward * (min_distance / d)², or max_reward * min_distance / d
+    without ``square_inverse``: a hill with a flat top, and a slope that is felt from far away. With
+    the defaults that is 1 within 1 m, then 1 / d² (1 / d). It is paid at every decision, so the
+    agent earns most that comes quickly and stays.
+
+    Source: AI4U's DistanceToTargetRewardFunc, which leaves min_distance out of the slope (so that
+    it jumps at the rim unless that is 1) and without the square pays more the farther away it is.
+    """
+
+    target: str
+    max_reward: Number = 1.0
+    min_distance: PositiveMetres = 1.0
+    square_inverse: bool = True
+
+    def on_setup(self, agent: AgentView, view: WorldView) -> None:
+        """Looks the target up."""
+        _ = view[self.target]
+
+    def on_update(self, body: BodyView, view: WorldView) -> float:
+        """The reward for the distance now."""
+        distance = max(body.distance(view[self.target]), self.min_distance)
+        share = self.min_distance / distance
+        return self.max_reward * (share * share if self.square_inverse else share)

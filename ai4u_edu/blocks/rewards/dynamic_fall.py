@@ -1,0 +1,31 @@
+"""Pays for falling behind in height."""
+
+from ai4u_edu.blocks.agent_view import AgentView
+from ai4u_edu.blocks.rewards.fall import FallReward
+from ai4u_edu.parameters import Metres
+from ai4u_edu.world import BodyView, WorldView
+
+
+class DynamicFallReward(FallReward):
+    """Pays ``success_reward`` for each decision after which the agent is far below a reference.
+
+    Far is ``threshold`` metres below the reference body, wherever that is now: for worlds in which
+    the ground itself goes up or down. An agent that has fallen out of the world is below anything.
+
+    At most ``max_rewards`` times an episode; ``fail_reward`` for every other decision.
+
+    Source: AI4U's DynamicFallReward.
+    """
+
+    reference: str
+    """The body whose height counts."""
+    threshold: Metres = 10.0
+    """How far below it the agent has to be."""
+
+    def on_setup(self, agent: AgentView, view: WorldView) -> None:
+        """Looks the reference up."""
+        _ = view[self.reference]
+
+    def is_below(self, body: BodyView, view: WorldView) -> bool:
+        """Whether the agent is far below the reference."""
+        return body.fallen or body.z < view[self.reference].z - self.threshold

@@ -1,0 +1,105 @@
+"""Conditions for And and Or: whether a property has a value."""
+
+from ai4u_edu.blocks.agent_view import AgentView
+from ai4u_edu.blocks.rewards.properties import find_property
+from ai4u_edu.blocks.rewards.reward_func import RewardFunc
+from ai4u_edu.errors import BlockError
+from ai4u_edu.parameters import Number
+from ai4u_edu.world import BodyView, WorldView
+
+
+class EvalValue(RewardFunc):
+    """A condition; it pays nothing on its own, but AndRewardFunc and OrRewardFunc ask it.
+
+    ``property`` is one of
+
+    - x, y, z (m), heading_deg, speed (m/s), vz (m/s), turning_speed (rad/s), on_ground, fallen:
+      of the agent's body, or of the ``target``, as it is when the decision is over;
+    - steps: the decisions that the agent took in this episode before this one;
+    - the perception key of one of the agent's sensors (``key[2]``: the third number of a longer
+      reading): what the agent sensed when it took the decision.
+    """
+
+    abstract = True
+
+    property: str
+    target: str = ""
+    """A body's name; left out: the agent itself."""
+    reward: Number = 1.0
+    """What And and Or pay for it where they have ``update_children``."""
+
+    def on_setup(self, agent: AgentView, view: WorldView) -> None:
+        """Looks the property up."""
+        self._look = find_property(self.property, self.target, agent, view)
+
+    def on_update(self, body: BodyView, view: WorldView) -> float:
+        """Nothing."""
+        return 0.0
+
+    def holds(self, paid: float, body: BodyView, view: WorldView) -> bool:
+        """Whether the property is as it should be."""
+        return self.fits(self._look(body, view))
+
+    def fits(self, number: float) -> bool:
+        """Whether a number is as it should be."""
+        raise NotImplementedError  # each condition has its own
+
+
+class EvalBoolValue(EvalValue):
+    """Whether a property is true (or, with ``value=False``, is not); a number is true above 0.
+
+    So a TouchSensor's key will do: +1 is true, -1 is false. Like any condition it pays nothing on
+    its own: give it to AndRewardFunc or OrRewardFunc. Properties: see EvalValue. Source: AI4U.
+    """
+
+    value: bool = True
+
+    def fits(self, number: float) -> bool:
+        """Whether it is true as it should be, or false."""
+        return (number > 0) == self.value
+
+
+class EvalIntValue(EvalValue):
+    """Whether a property is a whole number from ``min_value`` to ``max_value``, ends included.
+
+    Like any condition it pays nothing on its own: give it to AndRewardFunc or OrRewardFunc.
+    Properties: see EvalValue. Source: AI4U.
+    """
+
+    min_value: int
+    max_value: int
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        _check_order(self, self.min_value, self.max_value)
+
+    def fits(self, number: float) -> bool:
+        """Whether it is whole and within."""
+        return number == int(number) and self.min_value <= number <= self.max_value
+
+
+class EvalFloatValue(EvalValue):
+    """Whether a property is a number from ``min_value`` to ``max_value``, ends included.
+
+    Like any condition it pays nothing on its own: give it to AndRewardFunc or OrRewardFunc.
+    Properties: see EvalValue. Source: AI4U.
+    """
+
+    min_value: Number
+    max_value: Number
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        _check_order(self, self.min_value, self.max_value)
+
+    def fits(self, number: float) -> bool:
+        """Whether it is within."""
+        return self.min_value <= number <= self.max_value
+
+
+def _check_order(block: EvalValue, low: float, high: float) -> None:
+    if low > high:
+        raise BlockError(
+            f"{type(block).__name__} {block.name!r}: expected min_value <= max_value, "
+            f"got {low:g}..{high:g}"
+        )

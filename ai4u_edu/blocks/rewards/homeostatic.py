@@ -1,0 +1,78 @@
+"""Pays for staying in balance."""
+
+from typing import Annotated
+
+from pydantic import Field
+
+from ai4u_edu.blocks.agent_view import AgentView
+from ai4u_edu.blocks.homeostasis import HomeostaticVariable
+from ai4u_edu.blocks.rewards.reward_func import RewardFunc
+from ai4u_edu.errors import BlockError, NameNotFoundError, suggest
+from ai4u_edu.parameters import Number
+from ai4u_edu.world import BodyView, WorldView
+
+
+class HomeostaticReward(RewardFunc):
+    """Keeps the agent's internal variables, and pays for every bit of discomfort that goes away.
+
+    A variable's discomfort is 0 in its comfort zone; outside it is the distance to that zone as a
+    share of the variable's range. The agent's discomfort is the sum of all of them. A decision
+    earns ``reward`` times what the discomfort shrank by in it, and loses as much where it grew: so
+    hunger costs as it comes, and a meal pays it back. Over an episode all that is paid adds up to
+    ``reward`` times (discomfort at the start - discomfort at the end): going in circles earns
+    nothing.
+
+    Every tick the variables drift. Scripts change them:
+    ``reward.variable("energy").add_value(20)``; HomeostaticSensor reads them.
+
+    Source: ours, after Keramati and Gutkin, "Homeostatic reinforcement learning for integrating
+    reward collection and physiological stability", eLife 3 (2014): reward as reduction of drive.
+    """
+
+    variables: Annotated[list[HomeostaticVariable], Field(min_length=1)]
+    reward: Number = 1.0
+    """What a whole unit of discomfort is worth."""
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        names = [variable.name for variable in self.variables]
+        for index, name in enumerate(names):
+            if name in names[:index]:
+                raise BlockError(
+                    f"{type(self).__name__} {self.name!r}: expected variables of different names, "
+                    f"got {name!r} twice"
+                )
+
+    def variable(self, name: str) -> HomeostaticVariable:
+        """The variable of that name.
+
+        Raises:
+            NameNotFoundError: there is none; the message suggests the nearest name.
+        """
+        known = {variable.name: variable for variable in self.variables}
+        if name not in known:
+            raise NameNotFoundError(f"no variable is named {name!r}; {suggest(name, known)}")
+        return known[name]
+
+    def discomfort(self) -> float:
+        """How uncomfortable the agent is now: 0 where all variables are in their zones."""
+        return sum(
+            variable.discomfort() / (variable.range_max - variable.range_min)
+            for variable in self.variables
+        )
+
+    def on_reset(self, agent: AgentView, view: WorldView) -> None:
+        """Puts the variables back."""
+        for variable in self.variables:
+            variable.on_reset(agent, view)
+        self._before = self.discomfort()
+
+    def on_tick(self, body: BodyView, view: WorldView) -> None:
+        """Lets the variables drift."""
+        for variable in self.variables:
+            variable.add_value(variable.drift_per_second * view.dt)
+
+    def on_update(self, body: BodyView, view: WorldView) -> float:
+        """What the change of discomfort is worth."""
+        before, self._before = self._before, self.discomfort()
+        return self.reward * (before - self._before)

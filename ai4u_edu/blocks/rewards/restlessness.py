@@ -1,0 +1,38 @@
+"""Costs for standing still."""
+
+import math
+from typing import Literal
+
+from ai4u_edu.blocks.agent_view import AgentView
+from ai4u_edu.blocks.rewards.reward_func import RewardFunc
+from ai4u_edu.parameters import NonNegativeMetres, Number
+from ai4u_edu.world import BodyView, WorldView
+
+
+class RestlessnessRewardFunc(RewardFunc):
+    """Pays ``reward`` (a cost) for each decision in which the agent moved less than ``min_dist``.
+
+    What counts is how far it is from where it was after the decision before, height included;
+    turning on the spot is standing still. The first decision of an episode is free.
+
+    Source: AI4U's RestlessnessRewardFunc2D; its 3D version punishes moving.
+    """
+
+    min_dist: NonNegativeMetres = 0.001
+    reward: Number = -0.001
+    ignored_axis: Literal[-1, 0, 1] = -1
+    """0: moving along the world's x doesn't count; 1: along y; -1: all moving counts."""
+
+    def on_reset(self, agent: AgentView, view: WorldView) -> None:
+        """Forgets where it was."""
+        self._place: tuple[float, ...] | None = None
+
+    def on_update(self, body: BodyView, view: WorldView) -> float:
+        """The cost of standing still, or 0."""
+        before, self._place = self._place, body.pose[:3]
+        if before is None:
+            return 0.0
+        moved = [now - then for now, then in zip(self._place, before, strict=True)]
+        if self.ignored_axis >= 0:
+            moved[self.ignored_axis] = 0.0
+        return self.reward if math.hypot(*moved) < self.min_dist else 0.0

@@ -1,0 +1,94 @@
+"""Numbers that a script hands to the agent."""
+
+from collections.abc import Sequence
+from typing import Annotated
+
+import numpy as np
+from gymnasium.spaces import Box
+from pydantic import Field
+
+from ai4u_edu.blocks.agent_view import AgentView
+from ai4u_edu.blocks.sensors.sensor import Array, Sensor
+from ai4u_edu.errors import BlockError, ReadingError
+from ai4u_edu.parameters import Number
+from ai4u_edu.world import BodyView, WorldView
+
+
+class AgentArraySensor(Sensor):
+    """A row of numbers that a script sets, so that it can tell the agent something.
+
+    What the script sets stays until it sets it anew; a reset zeroes all. Set a value in a handler
+    of ``begin_of_update_state`` and it is in the very percept that follows.
+
+    Reading: (size,), each within range_min..range_max (zero counts as within). Source: AI4U's
+    AgentArraySensor.
+
+    >>> message = AgentArraySensor(size=3)
+    >>> message.set_value(1, 0.5)
+    >>> message.numbers.tolist()
+    [0.0, 0.5, 0.0]
+    """
+
+    perception_key: str = "__initial_input__"
+    size: Annotated[int, Field(ge=1, le=1024)] = 1
+    range_min: Number = 0.0
+    range_max: Number = 1.0
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if self.range_max <= self.range_min:
+            raise BlockError(
+                f"{self._title()}: expected range_max above range_min, "
+                f"got {self.range_min:g}..{self.range_max:g}"
+            )
+        self.numbers = np.zeros(self.size)
+        """What is read now."""
+
+    def space(self) -> Box:
+        """The range, and zero."""
+        low, high = min(self.range_min, 0.0), max(self.range_max, 0.0)
+        return Box(low, high, (self.size,))
+
+    def set_value(self, index: int, value: float) -> None:
+        """Sets one number, from now on.
+
+        Raises:
+            ReadingError: there is no such place, or the number is out of range.
+        """
+        if not 0 <= index < self.size:
+            raise ReadingError(
+                f"{self._title()}: expected an index from 0 to {self.size - 1}, got {index}"
+            )
+        self._check(value)
+        self.numbers[index] = value
+
+    def set_values(self, values: Sequence[float]) -> None:
+        """Sets all numbers, from now on.
+
+        Raises:
+            ReadingError: they are not as many as there are places, or one is out of range.
+        """
+        if len(values) != self.size:
+            raise ReadingError(f"{self._title()}: expected {self.size} values, got {len(values)}")
+        for value in values:
+            self._check(value)
+        self.numbers[:] = values
+
+    def on_reset(self, agent: AgentView, view: WorldView) -> None:
+        """Zeroes all."""
+        self.numbers[:] = 0.0
+
+    def write(self, out: Array, body: BodyView, view: WorldView) -> None:
+        """One reading."""
+        out[...] = self.numbers
+
+    def _check(self, value: float) -> None:
+        # asked this way round, nan is refused as well
+        if not self.range_min <= value <= self.range_max:
+            raise ReadingError(
+                f"{self._title()}: expected values from {self.range_min:g} to "
+                f"{self.range_max:g}, got {value!r}"
+            )
+
+    def _title(self) -> str:
+        return f"{type(self).__name__} {self.perception_key!r}"

@@ -1,0 +1,106 @@
+"""What is around: kind, direction and nearness of the nearest things."""
+
+import math
+from typing import Annotated
+
+import numpy as np
+from gymnasium.spaces import Box
+from pydantic import Field
+
+from ai4u_edu.blocks.agent_view import AgentView
+from ai4u_edu.blocks.sensors.ray_sensor import Code
+from ai4u_edu.blocks.sensors.sensor import Array, Sensor
+from ai4u_edu.errors import BlockError, NameNotFoundError, suggest
+from ai4u_edu.parameters import Name, PositiveMetres
+from ai4u_edu.world import BodyView, WorldView
+
+
+class AreaOrientationSensor(Sensor):
+    """[kind, cosine, nearness] of each of the nearest bodies around: like a sense of smell.
+
+    Only bodies that carry ``target_group`` are reported, and only those whose centre is in the
+    ``area`` and within ``radius`` of the one that looks; without either, the whole world counts.
+
+    - kind: the body's code out of ``group_code``, divided by ``max_code_value``: 0..1.
+    - cosine: of the angle between the heading and the direction to it: -1..1.
+    - nearness: 1 up to ``min_distance``, from there on min_distance / distance: 0..1.
+
+    The nearest comes first; of two that are equally near, the one whose name comes first in the
+    alphabet. Zeros stand after the last one (a body's nearness is never 0).
+
+    Reading: (3 * max_detection_reported,). Source: AI4U's AreaOrientationSensor.
+    """
+
+    perception_key: str = "areasensor"
+    area: str = ""
+    radius: PositiveMetres | None = None
+    reference: str = ""
+    """The body that looks; left out: the agent's own."""
+    max_detection_reported: Annotated[int, Field(ge=1, le=500)] = 20
+    min_distance: PositiveMetres = 1.0
+    target_group: str = "EMITTER"
+    group_code: dict[Name, Code] = Field(default_factory=dict)
+    """The code of each group (tag); of a body with several, the first one counts; else it is 0."""
+    max_code_value: Annotated[int, Field(ge=1)] = 100
+    visibility_test: bool = True
+    """Whether something in between hides a body."""
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        for group, code in self.group_code.items():
+            if code > self.max_code_value:
+                raise BlockError(
+                    f"{type(self).__name__} {self.perception_key!r}: group_code: expected codes "
+                    f"up to max_code_value ({self.max_code_value}), got {code} for {group!r}"
+                )
+
+    def space(self) -> Box:
+        """[kind, cosine, nearness] for each body that can be reported."""
+        low = np.tile(np.array([0.0, -1.0, 0.0], np.float32), self.max_detection_reported)
+        return Box(low, np.ones_like(low))
+
+    def on_setup(self, agent: AgentView, view: WorldView) -> None:
+        """Looks area, reference and group up."""
+        if self.area and self.area not in view.areas:
+            raise NameNotFoundError(
+                f"no area is named {self.area!r}; {suggest(self.area, view.areas)}"
+            )
+        if self.reference:
+            _ = view[self.reference]
+        view.check_group(self.target_group)
+
+    def write(self, out: Array, body: BodyView, view: WorldView) -> None:
+        """One reading."""
+        looker = view[self.reference] if self.reference else body
+        found: list[float] = []
+        for distance, other in self._around(looker, body, view):
+            if self.visibility_test and not view.sees(looker, other):
+                continue
+            near = max(distance, self.min_distance)
+            found += self._kind(other), math.cos(looker.bearing(other)), self.min_distance / near
+            if len(found) == len(out):
+                break
+        out[: len(found)] = found
+        out[len(found) :] = 0.0
+
+    def _around(
+        self, looker: BodyView, body: BodyView, view: WorldView
+    ) -> list[tuple[float, BodyView]]:
+        """(distance, body) of all that may be reported, nearest first."""
+        area = view.areas[self.area] if self.area else None
+        reach = math.inf if self.radius is None else self.radius
+        found = []
+        for name in view.named(self.target_group):
+            other = view[name]
+            if other is looker or other is body or other.fallen:
+                continue
+            distance = looker.distance(other)
+            if distance <= reach and (area is None or area.contains(*other.position)):
+                found.append((distance, other))
+        return sorted(found, key=lambda each: (each[0], each[1].name))
+
+    def _kind(self, other: BodyView) -> float:
+        for tag in other.tags:
+            if tag in self.group_code:
+                return self.group_code[tag] / self.max_code_value
+        return 0.0

@@ -1,0 +1,44 @@
+"""What the agent feels inside."""
+
+import numpy as np
+from gymnasium.spaces import Box
+
+from ai4u_edu.blocks.agent_view import AgentView
+from ai4u_edu.blocks.rewards import HomeostaticReward
+from ai4u_edu.blocks.sensors.sensor import Array, Sensor
+from ai4u_edu.errors import BlockError, suggest
+from ai4u_edu.world import BodyView, WorldView
+
+
+class HomeostaticSensor(Sensor):
+    """The agent's internal variables: how full each one is.
+
+    0 is the bottom of a variable's range, 1 its top. The variables live in the HomeostaticReward
+    called ``source``, and are read in its order.
+
+    Reading: (number of variables,), each 0..1. Source: ours.
+    """
+
+    source: str = "homeostatic"
+    """The name of the reward function that keeps the variables."""
+
+    def on_setup(self, agent: AgentView, view: WorldView) -> None:
+        """Looks the source up."""
+        keepers = {
+            reward.name: reward
+            for reward in agent.rewards
+            if isinstance(reward, HomeostaticReward) and reward.is_active
+        }
+        if self.source not in keepers:
+            raise BlockError(
+                f"no HomeostaticReward is called {self.source!r}; {suggest(self.source, keepers)}"
+            )
+        self._variables = keepers[self.source].variables
+
+    def space(self) -> Box:
+        """One number a variable."""
+        return Box(0.0, 1.0, (len(self._variables),))
+
+    def write(self, out: Array, body: BodyView, view: WorldView) -> None:
+        """One reading."""
+        out[:] = np.array([variable.normalised() for variable in self._variables])

@@ -1,0 +1,120 @@
+"""Whether a scene keeps its promises."""
+
+from typing import Any
+
+import numpy as np
+
+from ai4u_edu.check.exam import DECISIONS, Exam, Options, frozen, short
+from ai4u_edu.check.report import Outcome, Report
+from ai4u_edu.check.sensors import not_in
+from ai4u_edu.check.trial import Record, Script, Trial
+from ai4u_edu.errors import AI4UError
+from ai4u_edu.scenes import Scene
+
+TEXTS = ("title", "goal", "controls", "rewards")
+
+
+def check_scene(
+    scene: Scene | str,
+    *,
+    script: Script | None = None,
+    seed: int = 0,
+    decisions: int = DECISIONS,
+) -> Report:
+    """Drives all agents of a scene about at random, and tells what is wrong with it.
+
+    It has to say what it is about; come back from its file as it was; give finite readings, inside
+    the sensors' spaces; go the same way from the same seed, also after a reset; and leave the
+    global generators alone. Sensors that always read the same, and rewards that nobody got, are
+    told as warnings.
+
+    Args:
+        scene: a Scene, or the name of one.
+        script: what a script does besides, called before each decision with the first agent and
+            the decision's number.
+        seed: of the drive and the world.
+        decisions: how long each run is.
+
+    >>> check_scene("box_chase", decisions=20).ok
+    True
+    """
+    options = Options(scene, script, seed, decisions)
+    the_scene = options.the_scene()
+    report = Report(the_scene.description.name)
+    missing = [text for text in TEXTS if not getattr(the_scene.description, text)]
+    report.add(
+        "documented",
+        f"expected a title, a goal, controls and rewards in words, got no {', no '.join(missing)}"
+        if missing
+        else "",
+        outcome=Outcome.WARNING if missing else None,
+    )
+    report.add("scene file", _lost(the_scene))
+    trials: list[Trial] = []
+
+    def make() -> Trial:
+        trials.append(Trial(the_scene, script=script))
+        return trials[-1]
+
+    exam = Exam(report, make, options, of=_all_of, words="world")
+    if exam.run():
+        _look_at_sensors(report, trials[0], exam.records)
+        _look_at_rewards(report, trials[0], exam.records)
+    return report
+
+
+def _lost(scene: Scene) -> str:
+    try:
+        again = Scene.loads(scene.dumps())
+    except AI4UError as error:
+        return f"expected the same scene back from its file, got {error}"
+    return "" if again == scene else "expected the same scene back from its file, got another one"
+
+
+def _all_of(record: Record) -> Any:
+    percepts = [(percept.data, percept.texts) for percept in record.percepts.values()]
+    return record.poses, percepts, record.terms
+
+
+def _look_at_sensors(report: Report, trial: Trial, records: list[Record]) -> None:
+    wrong, still = [], []
+    for agent in trial.sim.agents:
+        for sensor in agent.fitting.sensors:
+            key, space = sensor.perception_key, sensor.observation_space()
+            values = [record.percepts[agent.id][key] for record in records]
+            for value in values:
+                finite = isinstance(value, str) or np.isfinite(value).all()
+                expected = not_in(space, value) if finite else "finite numbers"
+                if expected:
+                    wrong.append(f"agent {agent.id!r}, {key!r}: {expected}, got {short(value)}")
+                    break
+            if sensor.is_input and all(frozen(each) == frozen(values[0]) for each in values):
+                still.append(f"{key!r} of agent {agent.id!r}")
+    report.add(
+        "in its space",
+        f"expected readings as the sensors' spaces say: {'; '.join(wrong)}" if wrong else "",
+    )
+    report.add(
+        "changes",
+        f"expected readings that change, got always the same from {', '.join(still)}"
+        if still
+        else "",
+        outcome=Outcome.WARNING if still else None,
+    )
+
+
+def _look_at_rewards(report: Report, trial: Trial, records: list[Record]) -> None:
+    never = [
+        f"{reward.name!r} of agent {agent.id!r}"
+        for agent in trial.sim.agents
+        for reward in agent.fitting.rewards
+        if not any(record.terms[agent.id].get(reward.name) for record in records)
+    ]
+    report.add(
+        "pays",
+        f"expected every reward to be paid at some time, got nothing from {', '.join(never)}; a "
+        "random drive may just not have got there"
+        if never
+        else "",
+        outcome=Outcome.WARNING if never else None,
+    )

@@ -1,0 +1,190 @@
+"""A block, on an agent in a world, driven about."""
+
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ai4u_edu.agent import BasicAgent
+from ai4u_edu.blocks import (
+    Actuator,
+    Answer,
+    Block,
+    Keyboard,
+    LocalBrain,
+    Percept,
+    RewardFunc,
+    Sensor,
+)
+from ai4u_edu.check.drive import RandomDrive
+from ai4u_edu.scenes import Scene
+
+Script = Callable[[BasicAgent, int], None]
+"""What a person does besides, before each decision: gets the agent and the decision's number."""
+
+Pose = tuple[float, float, float, float]
+
+KEYS = np.array(
+    [
+        *("ArrowUp", "ArrowDown", "ArrowLeft", "ArrowRight", "Space", "Enter"),
+        *("KeyW", "KeyA", "KeyS", "KeyD", "KeyU", "KeyJ", "KeyG", "KeyR"),
+    ]
+)
+PRESSED = 0.1
+"""The chance that a key is held in a decision."""
+
+NAMES = {Sensor: "perception_key", Actuator: "action_name", RewardFunc: "name"}
+
+SCRIPTED = ("handler",)
+"""What a script sets on a block, and a copy has to have too."""
+
+
+class Record(NamedTuple):
+    """What there was after one decision."""
+
+    percepts: dict[str, Percept]
+    """By the agent's id."""
+    terms: dict[str, dict[str, float]]
+    """The rewards by the agent's id and the term's name."""
+    poses: dict[str, Pose]
+    """By the body's name."""
+    answer: Answer | None
+    """The first agent's brain's, that led there."""
+    done: bool
+    """Whether the first agent's episode is over."""
+
+
+class Trial:
+    """A scene whose agents are driven at random, with one more block on the first one.
+
+    Args:
+        scene: where it lives.
+        block: is put on the agent, in place of one of the same name; a brain in place of the
+            driver.
+        actuators: put on the agent as well.
+        without: a block whose namesake is taken off the agent.
+        script: called before every decision.
+    """
+
+    def __init__(
+        self,
+        scene: Scene,
+        block: Block | None = None,
+        *,
+        actuators: Sequence[Actuator] = (),
+        without: Block | None = None,
+        script: Script | None = None,
+    ) -> None:
+        self.sim = scene.build()
+        self.agent = self.sim.agents[0]
+        self._script = script
+        self._answer: Answer | None = None
+        if without is not None:
+            take_off(self.agent, without)
+        for each in actuators:
+            put_on(self.agent, each)
+        self._drives = [RandomDrive(agent) for agent in self.sim.agents]
+        for agent, drive in zip(self.sim.agents, self._drives, strict=True):
+            # a clock that stands still: no key is let go because the check is slow
+            agent.keyboard = Keyboard(clock=lambda: 0.0)
+            agent.brains[:] = [LocalBrain(controller=drive)]
+        if block is not None:
+            put_on(self.agent, block)
+        for agent in self.sim.agents:
+            agent.setup(self.sim.world)
+        self._listen(self.agent.brain)
+
+    def run(self, seed: int, decisions: int) -> list[Record]:
+        """Drives, from a reset with this seed on; whenever an episode ends the next one begins."""
+        agent, sim = self.agent, self.sim
+        sim.reset(seed)
+        for number, drive in enumerate(self._drives):
+            drive.restart(seed + number)
+        keys = np.random.default_rng([seed, 1])
+        self._answer = None
+        records = [self._record()]
+        for number in range(decisions):
+            if self._script is not None:
+                self._script(agent, number)
+            agent.keyboard.hold(KEYS[keys.random(len(KEYS)) < PRESSED].tolist())
+            sim.step()
+            records.append(self._record())
+            if agent.done or agent.stopped:
+                sim.reset()
+                records.append(self._record())
+        return records
+
+    def _record(self) -> Record:
+        agents = self.sim.agents
+        return Record(
+            percepts={agent.id: agent.percept for agent in agents},
+            terms={agent.id: agent.reward_terms for agent in agents},
+            poses={name: body.pose for name, body in self.sim.world.bodies.items()},
+            answer=self._answer,
+            done=self.agent.done,
+        )
+
+    def _listen(self, brain: Any) -> None:
+        decide = brain.decide
+
+        def listened(percept: Percept) -> Answer:
+            answer: Answer = decide(percept)
+            self._answer = answer
+            return answer
+
+        brain.decide = listened
+
+
+def standard_scene() -> Scene:
+    """The small world in which blocks are checked."""
+    return Scene.load(Path(__file__).with_name("standard_world.yaml"))
+
+
+def fresh(value: Any) -> Any:
+    """A new block with the same parameters, and new blocks inside it; other things as they are."""
+    if isinstance(value, Block):
+        new = type(value)(**{name: fresh(each) for name, each in value.values().items()})
+        for name in SCRIPTED:
+            if name in vars(value):
+                setattr(new, name, vars(value)[name])
+        return new
+    if isinstance(value, Mapping):
+        return {name: fresh(each) for name, each in value.items()}
+    if isinstance(value, list | tuple):
+        return type(value)(fresh(each) for each in value)
+    return value
+
+
+def put_on(agent: BasicAgent, block: Block) -> None:
+    """Gives an agent a block, in place of one of the same name."""
+    take_off(agent, block)
+    _row_for(agent, block).append(block)
+
+
+def take_off(agent: BasicAgent, block: Block) -> None:
+    """Takes an agent's blocks off that are called like a block; for a brain all brains."""
+    row = _row_for(agent, block)
+    row[:] = [each for each in row if name_of(each) != name_of(block)]
+
+
+def name_of(block: Block) -> str:
+    """A block's own name; empty for what has none."""
+    for kind, field in NAMES.items():
+        if isinstance(block, kind):
+            return str(getattr(block, field))
+    return ""
+
+
+def title_of(block: Block) -> str:
+    """A block's class and name."""
+    name = name_of(block)
+    return f"{type(block).__name__} {name!r}" if name else type(block).__name__
+
+
+def _row_for(agent: BasicAgent, block: Block) -> list[Any]:
+    if isinstance(block, Sensor):
+        return agent.sensors
+    if isinstance(block, Actuator):
+        return agent.actuators
+    return agent.rewards if isinstance(block, RewardFunc) else agent.brains

@@ -1,0 +1,24 @@
+"""Scenes as environments of the Python learning world."""
+
+from typing import TYPE_CHECKING, Any
+
+from ai4u_edu.envs.held_brain import HeldBrain
+from ai4u_edu.envs.scene_env import SceneEnv, SceneLike
+from ai4u_edu.envs.scene_vector_env import SceneVectorEnv
+
+if TYPE_CHECKING:
+    from ai4u_edu.envs.scene_parallel_env import SceneParallelEnv
+
+__all__ = ["HeldBrain", "SceneEnv", "SceneVectorEnv", "parallel_env"]
+
+
+def parallel_env(scene: SceneLike, **options: Any) -> "SceneParallelEnv":
+    """A scene as a PettingZoo ParallelEnv; needs ``pip install ai4u-edu[multi]``.
+
+    Args:
+        scene: a name out of the library, a YAML file, or a Scene.
+        options: those of :class:`~ai4u_edu.envs.scene_parallel_env.SceneParallelEnv`.
+    """
+    from ai4u_edu.envs.scene_parallel_env import SceneParallelEnv
+
+    return SceneParallelEnv(scene, **options)

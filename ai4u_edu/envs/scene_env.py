@@ -1,0 +1,126 @@
+"""A scene as a Gymnasium environment: one agent learns, the others do as their brains say."""
+
+from pathlib import Path
+from typing import Any
+
+import gymnasium
+
+from ai4u_edu.cycle import ControlRequestor
+from ai4u_edu.drawing import draw
+from ai4u_edu.envs.held_brain import take_over
+from ai4u_edu.envs.spaces_of import Observer, action_space_of, outputs_of
+from ai4u_edu.errors import SetupError
+from ai4u_edu.scenes import Scene
+from ai4u_edu.snapshot import picture_of
+
+SceneLike = Scene | str | Path
+
+
+def load_scene(scene: SceneLike) -> Scene:
+    """A scene by itself, by its name in the library, or by its file."""
+    return scene if isinstance(scene, Scene) else Scene.load(scene)
+
+
+class SceneEnv(gymnasium.Env[Any, Any]):
+    """One agent of a scene.
+
+    A step puts its action into a brain that hands it on, and then runs the same decision cycle as
+    the page does. ``info`` has ``reward_terms`` (by name) and ``success`` (whether the scene's goal
+    was reached in this episode).
+
+    Args:
+        scene: a name out of the library, a YAML file, or a :class:`Scene`.
+        observation: ``"dict"``: by perception key; ``"flat"``: one float32 array.
+        agent: the id of the agent that learns; left out, the one that acts first.
+        render_mode: ``"rgb_array"``: drawn without a browser; ``"human"``: opens the page.
+
+    >>> import gymnasium, ai4u_edu
+    >>> env = gymnasium.make("ai4u_edu/BoxChase-v0", observation="flat")
+    >>> observation, info = env.reset(seed=1)
+    >>> observation.shape
+    (126,)
+    >>> observation, reward, terminated, truncated, info = env.step(env.action_space.sample() * 0)
+    >>> terminated, info["success"], sorted(info["reward_terms"])
+    (False, False, ['fall', 'min_dist', 'touch'])
+    """
+
+    metadata: dict[str, Any] = {"render_modes": ["rgb_array", "human"], "render_fps": 12}
+
+    def __init__(
+        self,
+        scene: SceneLike = "box_chase",
+        *,
+        observation: str = "dict",
+        agent: str | None = None,
+        render_mode: str | None = None,
+    ) -> None:
+        if render_mode not in (None, *self.metadata["render_modes"]):
+            raise SetupError(
+                f"render_mode: expected one of {self.metadata['render_modes']}, got {render_mode!r}"
+            )
+        self.scene = load_scene(scene)
+        self.sim: ControlRequestor = self.scene.build()
+        self.agent = self.sim.agents[0] if agent is None else self.sim.agent(agent)
+        self._brain = take_over(self.agent)
+        self._observer = Observer(self.agent, observation)
+        self.observation_space = self._observer.space
+        self.action_space = action_space_of(self.agent)
+        self._output = next(iter(outputs_of(self.agent)))
+        self._one_output = not isinstance(self.action_space, gymnasium.spaces.Dict)
+        self._goal = self.scene.description.success
+        self.render_mode = render_mode
+        ticks = self.sim.world.settings.ticks_per_second
+        fps = max(1, round(ticks / (self._brain.skip_frame + 1)))
+        self.metadata = {**self.metadata, "render_fps": fps}
+        self._page: Any = None
+        self._share_chance()
+
+    def reset(
+        self, *, seed: int | None = None, options: dict[str, Any] | None = None
+    ) -> tuple[Any, dict[str, Any]]:
+        """Begins an episode.
+
+        Args:
+            seed: fixes everything in it; left out, it follows from the last one's.
+            options: none are known.
+        """
+        if self._page is not None:
+            self._page.locked(lambda: self.sim.reset(seed))
+        else:
+            self.sim.reset(seed)
+        self._share_chance()
+        return self._observer.observe(self.agent.percept), self._info()
+
+    def step(self, action: Any) -> tuple[Any, float, bool, bool, dict[str, Any]]:
+        """One decision."""
+        agent = self.agent
+        self._brain.action = {self._output: action} if self._one_output else action
+        percept = self.sim.step(agent)
+        return (
+            self._observer.observe(percept),
+            agent.reward,
+            agent.terminated,
+            agent.truncated,
+            self._info(),
+        )
+
+    def render(self) -> Any:
+        """The world from above, (height, width, 3) uint8; None in mode ``"human"``."""
+        if self.render_mode == "rgb_array":
+            return draw(picture_of(self.sim))
+        return None
+
+    def close(self) -> None:
+        """Ends the page, if one was opened."""
+
+    def _share_chance(self) -> None:
+        # Gymnasium's np_random is the world's own generator
+        seeds = self.sim.world.seeds
+        self._np_random, self._np_random_seed = seeds.generator, seeds.seed
+
+    def _info(self) -> dict[str, Any]:
+        paid = self.agent.ledger.episode_terms
+        return {
+            "reward_terms": self.agent.reward_terms,
+            "success": bool(self._goal and paid.get(self._goal, 0.0) > 0),
+        }

@@ -1,0 +1,100 @@
+"""An agent's spaces in Gymnasium's terms, and the way of numbers through them."""
+
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+from gymnasium import spaces
+
+from ai4u_edu.agent import BasicAgent
+from ai4u_edu.blocks import Actuator, Percept, Sensor
+from ai4u_edu.errors import SetupError
+
+Observation = Any
+
+
+class Observer:
+    """Makes observations of percepts.
+
+    Args:
+        agent: whose sensors; those with ``is_input`` are observed.
+        form: ``"dict"`` for one entry a sensor, ``"flat"`` for one array of float32.
+    """
+
+    def __init__(self, agent: BasicAgent, form: str) -> None:
+        if form not in ("dict", "flat"):
+            raise SetupError(f"observation: expected 'dict' or 'flat', got {form!r}")
+        sensors = [sensor for sensor in agent.fitting.sensors if sensor.is_input]
+        if not sensors:
+            raise SetupError(
+                f"agent {agent.id!r} has no sensor that a policy could observe (is_input)"
+            )
+        self.flat = form == "flat"
+        self._keys = [sensor.perception_key for sensor in sensors]
+        each = {sensor.perception_key: _space_of(sensor) for sensor in sensors}
+        self.space: spaces.Space[Any] = _flattened(each) if self.flat else spaces.Dict(each)
+        slots = [agent.fitting.layout.slots.get(key) for key in self._keys]
+        floats = all(slot is not None and slot.dtype == np.float32 for slot in slots)
+        # inputs lie first and side by side in a percept, so all-float ones are one run of bytes
+        self._run = sum(slot.size for slot in slots if slot is not None) if floats else 0
+
+    def observe(self, percept: Percept) -> Observation:
+        """A new observation; nothing in it is shared with the percept."""
+        if not self.flat:
+            return {key: _own(percept[key]) for key in self._keys}
+        if self._run:
+            return np.frombuffer(percept.data, np.float32, self._run).copy()
+        parts = [np.asarray(percept[key], np.float32).ravel() for key in self._keys]
+        return np.concatenate(parts)
+
+
+def action_space_of(agent: BasicAgent) -> spaces.Space[Any]:
+    """The space of its one actuator that a policy drives (is_output), or a Dict of several."""
+    each = {name: actuator.space() for name, actuator in outputs_of(agent).items()}
+    return next(iter(each.values())) if len(each) == 1 else spaces.Dict(each)
+
+
+def outputs_of(agent: BasicAgent) -> dict[str, Actuator]:
+    """The actuators that a policy drives."""
+    found = {
+        name: actuator for name, actuator in agent.fitting.actuators.items() if actuator.is_output
+    }
+    if not found:
+        raise SetupError(f"agent {agent.id!r} has no actuator for a policy to drive (is_output)")
+    return found
+
+
+def _space_of(sensor: Sensor) -> spaces.Space[Any]:
+    space = sensor.observation_space()
+    if isinstance(space, spaces.Box) and sensor.reading_kind() in ("sfloat", "sfloatarray"):
+        return spaces.Box(space.low.astype(np.float32), space.high.astype(np.float32))
+    return space
+
+
+def _flattened(each: dict[str, spaces.Space[Any]]) -> spaces.Box:
+    low: list[npt.NDArray[Any]] = []
+    high: list[npt.NDArray[Any]] = []
+    for key, space in each.items():
+        if isinstance(space, spaces.Box):
+            low.append(space.low.ravel())
+            high.append(space.high.ravel())
+        elif isinstance(space, spaces.Discrete):
+            low.append(np.array([space.start]))
+            high.append(np.array([space.start + space.n - 1]))
+        else:
+            raise SetupError(
+                f"observation='flat': sensor {key!r} reads {space}, which is no number; "
+                "set its is_input to False, or use observation='dict'"
+            )
+    flat_low, flat_high = np.concatenate(low), np.concatenate(high)
+    return spaces.Box(flat_low.astype(np.float32), flat_high.astype(np.float32))
+
+
+def _own(value: Any) -> Any:
+    if isinstance(value, np.ndarray):
+        return value.copy()
+    if isinstance(value, str):
+        return value
+    if isinstance(value, bool | int):
+        return np.int64(value)
+    return np.asarray(value, np.float32)
