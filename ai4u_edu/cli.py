@@ -1,9 +1,8 @@
 """The command line; each command is a few lines around what the package offers."""
 
+import gc
 import json
-import os
 import sys
-import webbrowser
 from collections.abc import Sized
 from pathlib import Path
 from typing import Annotated
@@ -72,7 +71,7 @@ def play(
     """Serve a scene in the browser; drive with W, A, S, D."""
     from ai4u_edu.runner import Runner
     from ai4u_edu.scenes import Scene
-    from ai4u_edu.server import hosts_for, room_app, serve, shut_side_door
+    from ai4u_edu.server import hosts_for, open_on_desktop, room_app, serve, shut_side_door
     from ai4u_edu.viewer import Viewer
 
     loaded = Scene.load(scene)
@@ -85,9 +84,13 @@ def play(
 
     def ready(url: str) -> None:
         typer.echo(f"{title} is served at {url}  (Ctrl-C ends it)")
-        if open_page and _has_desktop():
-            webbrowser.open(url)
+        if open_page:
+            open_on_desktop(url)
 
+    # what is there now stays; looking through it again and again, the garbage collector would stop
+    # the world for a tenth of a second at a time
+    gc.collect()
+    gc.freeze()
     runner.start()
     viewer.start()
     try:
@@ -95,13 +98,6 @@ def play(
     finally:
         viewer.stop()
         runner.stop()
-
-
-def _has_desktop() -> bool:
-    # elsewhere a browser for the terminal might open, and take it over
-    return sys.platform in {"win32", "darwin"} or any(
-        os.environ.get(name) for name in ("DISPLAY", "WAYLAND_DISPLAY")
-    )
 
 
 @app.command()
@@ -133,6 +129,22 @@ def check(file: Annotated[Path, typer.Argument(help="A scene file.")]) -> None:
 
 def _count(things: Sized, one: str, many: str) -> str:
     return f"{len(things)} {one if len(things) == 1 else many}"
+
+
+@app.command()
+def blocks(
+    name: Annotated[str, typer.Argument(help="A block, to have it explained.")] = "",
+) -> None:
+    """List the blocks that agents are built from, or explain one."""
+    from ai4u_edu.blocks.lesson_page import built_in_blocks, lesson_page, summary
+
+    if name:
+        typer.echo(lesson_page(name))
+        return
+    for kind, members in built_in_blocks().items():
+        typer.secho(kind, bold=True)
+        for cls in members:
+            typer.echo(f"  {cls.__name__:<28}{summary(cls)}")
 
 
 @app.command()

@@ -81,6 +81,17 @@ class Segments:
         self.shapes = keys
 
 
+def let_go(space: pymunk.Space) -> None:
+    """Lets a space that nobody needs any more be freed at once.
+
+    Its collision handlers point back at it, so it would wait for the garbage collector; and where
+    episodes are short, hundreds of spaces would wait.
+    """
+    for handler in getattr(space, "_handlers", {}).values():
+        handler.separate = None  # it would still be called for whoever touches at the end
+        handler._space = None
+
+
 def shape_key(shape: pymunk.Shape, *, fast: bool | None = None) -> int:
     """The number by which :class:`Segments` names a shape."""
     if _FAST if fast is None else fast:

@@ -9,6 +9,7 @@ import pymunk
 
 from ai4u_edu.errors import NameNotFoundError, WorldError, suggest
 from ai4u_edu.seeding import Seeds
+from ai4u_edu.world._chipmunk import let_go
 from ai4u_edu.world.body import Body, BodyView
 from ai4u_edu.world.build import build
 from ai4u_edu.world.contacts import Contacts
@@ -173,6 +174,7 @@ class World:
 
     def rebuild(self) -> None:
         """Builds the physics anew: one that is only put back remembers old contacts."""
+        let_go(self.space)
         self.space = pymunk.Space()
         self.space.damping = self.settings.damping
         self.space.collision_slop, self.space.collision_bias = SLOP, BIAS

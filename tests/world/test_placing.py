@@ -1,5 +1,8 @@
 """Where a body may be put: not into another one, not under a taken name, not into a full world."""
 
+import gc
+import weakref
+
 import pytest
 
 from ai4u_edu.errors import NameNotFoundError, WorldError
@@ -101,3 +104,19 @@ def test_an_unknown_name_suggests_the_nearest() -> None:
         with pytest.raises(NameNotFoundError) as info:
             ask("redbox")
         assert str(info.value) == "no body is named 'redbox'; did you mean 'red box'?"
+
+
+def test_an_episodes_physics_is_freed_as_soon_as_the_next_one_begins() -> None:
+    world = World()
+    robot = world.add_body("robot", CircleShape())
+    world.add_body("box", CircleShape(), position=(1, 0))
+    world.contacts.watch(robot)
+    world.tick()
+    gc.disable()
+    try:
+        before = weakref.ref(world.space)
+        world.reset()
+        assert before() is None
+    finally:
+        gc.enable()
+    world.tick()
