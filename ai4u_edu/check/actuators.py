@@ -43,9 +43,15 @@ def check_actuator(
     options = Options(scene, script, seed, decisions)
     the_scene = options.the_scene()
     report = Report(title_of(actuator))
+    copies: list[Actuator] = []
+
+    def make() -> Trial:
+        copies.append(fresh(actuator))
+        return Trial(the_scene, copies[-1], script=script)
+
     exam = Exam(
         report,
-        lambda: Trial(the_scene, fresh(actuator), script=script),
+        make,
         options,
         of=lambda record: record.poses,
         words="places of all bodies",
@@ -53,7 +59,7 @@ def check_actuator(
     check_papers(report, actuator, "what it does")
     if exam.run():
         report.add("finite", _not_finite(exam.values()))
-        _refuses(report, fresh(actuator))
+        _refuses(report, copies[0])
         without = exam.drive(Trial(the_scene, without=actuator, script=script))
         _has_effect(report, exam.values(), [record.poses for record in without])
     return report
@@ -71,7 +77,6 @@ def _not_finite(values: list[dict[str, Pose]]) -> str:
 
 
 def _refuses(report: Report, actuator: Actuator) -> None:
-    actuator.prepare()
     size = len(actuator.limits()[0])
     if not size:
         report.add("refuses", "it takes no numbers", outcome=Outcome.NOT_APPLICABLE)

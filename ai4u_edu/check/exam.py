@@ -106,13 +106,14 @@ class Exam:
         Args:
             warning: whether that is no failure.
         """
-        values = [value for value in self.values() if value is not None]  # no answer as yet
+        # at a reset nothing is paid or answered
+        values = [value for value in self.values() if value is not None]
         same = all(frozen(value) == frozen(values[0]) for value in values)
+        got = f"{short(values[0])} all {len(values)} times" if values else "none"
         self.report.add(
             "changes",
-            f"expected {self._words} that change while the agent drives about, got "
-            f"{short(values[0])} all {len(values)} times; if there is nothing here to make them "
-            "change, check it in another scene, by scene=..."
+            f"expected {self._words} that change while the agent drives about, got {got}; "
+            "if there is nothing here to make them change, check it in another scene, by scene=..."
             if same
             else "",
             outcome=Outcome.WARNING if same and warning else None,

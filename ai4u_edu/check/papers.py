@@ -22,14 +22,12 @@ def check_papers(report: Report, block: Block, says: str) -> None:
         says: what its docstring should say.
     """
     cls = type(block)
-    doc = cls.__dict__.get("__doc__") or ""
-    # a dataclass without a docstring gets its signature for one
-    missing = not doc.strip() or doc.startswith(f"{cls.__name__}(")
+    written = (cls.__dict__.get("__doc__") or "").strip()
     report.add(
         "documented",
-        f"expected a docstring that says {says}, got none; write one right under the class line"
-        if missing
-        else "",
+        ""
+        if written
+        else f"expected a docstring that says {says}, got none; write one under the class line",
     )
     plain = to_plain(block)
     if not fits_a_file(cls) or _holds_a_function(plain):

@@ -43,7 +43,7 @@ def check_reward(
         report,
         lambda: Trial(the_scene, fresh(reward), script=script),
         options,
-        of=lambda record: next(iter(record.terms.values())).get(name, 0.0),
+        of=lambda record: next(iter(record.terms.values())).get(name),
         words="rewards",
     )
     check_papers(report, reward, "what it pays for")

@@ -1,7 +1,7 @@
 """A scene as a Gymnasium environment: one agent learns, the others do as their brains say."""
 
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import gymnasium
 
@@ -12,6 +12,9 @@ from ai4u_edu.envs.spaces_of import Observer, action_space_of, outputs_of
 from ai4u_edu.errors import SetupError
 from ai4u_edu.scenes import Scene
 from ai4u_edu.snapshot import picture_of
+
+if TYPE_CHECKING:
+    from ai4u_edu.envs.live_page import LivePage
 
 SceneLike = Scene | str | Path
 
@@ -32,7 +35,8 @@ class SceneEnv(gymnasium.Env[Any, Any]):
         scene: a name out of the library, a YAML file, or a :class:`Scene`.
         observation: ``"dict"``: by perception key; ``"flat"``: one float32 array.
         agent: the id of the agent that learns; left out, the one that acts first.
-        render_mode: ``"rgb_array"``: drawn without a browser; ``"human"``: opens the page.
+        render_mode: ``"rgb_array"``: drawn without a browser; ``"human"``: serves the page
+            (``page_url``), at the pace of the wall clock.
 
     >>> import gymnasium, ai4u_edu
     >>> env = gymnasium.make("ai4u_edu/BoxChase-v0", observation="flat")
@@ -72,8 +76,18 @@ class SceneEnv(gymnasium.Env[Any, Any]):
         ticks = self.sim.world.settings.ticks_per_second
         fps = max(1, round(ticks / (self._brain.skip_frame + 1)))
         self.metadata = {**self.metadata, "render_fps": fps}
-        self._page: Any = None
+        self._page: LivePage | None = None
+        if render_mode == "human":
+            # only who wants the page loads it
+            from ai4u_edu.envs import live_page
+
+            self._page = live_page.LivePage(self.sim, self.scene.description.title)
         self._share_chance()
+
+    @property
+    def page_url(self) -> str:
+        """Where the page of mode ``"human"`` is; empty in other modes."""
+        return self._page.url if self._page else ""
 
     def reset(
         self, *, seed: int | None = None, options: dict[str, Any] | None = None
@@ -84,10 +98,7 @@ class SceneEnv(gymnasium.Env[Any, Any]):
             seed: fixes everything in it; left out, it follows from the last one's.
             options: none are known.
         """
-        if self._page is not None:
-            self._page.locked(lambda: self.sim.reset(seed))
-        else:
-            self.sim.reset(seed)
+        self.sim.reset(seed)
         self._share_chance()
         return self._observer.observe(self.agent.percept), self._info()
 
@@ -95,7 +106,7 @@ class SceneEnv(gymnasium.Env[Any, Any]):
         """One decision."""
         agent = self.agent
         self._brain.action = {self._output: action} if self._one_output else action
-        percept = self.sim.step(agent)
+        percept = self._page.step(agent) if self._page else self.sim.step(agent)
         return (
             self._observer.observe(percept),
             agent.reward,
@@ -111,7 +122,10 @@ class SceneEnv(gymnasium.Env[Any, Any]):
         return None
 
     def close(self) -> None:
-        """Ends the page, if one was opened."""
+        """Ends the page, if there is one."""
+        if self._page:
+            self._page.close()
+            self._page = None
 
     def _share_chance(self) -> None:
         # Gymnasium's np_random is the world's own generator

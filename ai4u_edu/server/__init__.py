@@ -2,6 +2,7 @@
 
 from ai4u_edu.server.address import AddressError, PortTakenError
 from ai4u_edu.server.app import RoomMount, room_app
+from ai4u_edu.server.desktop import open_on_desktop
 from ai4u_edu.server.door import LOOPBACK, hosts_for
 from ai4u_edu.server.serve import ServerThread, serve
 from ai4u_edu.server.side_door import shut_side_door
@@ -13,6 +14,7 @@ __all__ = [
     "RoomMount",
     "ServerThread",
     "hosts_for",
+    "open_on_desktop",
     "room_app",
     "serve",
     "shut_side_door",

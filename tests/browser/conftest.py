@@ -1,27 +1,23 @@
 """A real Chromium, and a room that it looks at."""
 
-import os
-import shutil
 from collections.abc import Iterator
 
 import pytest
 import viser
-from playwright.sync_api import Browser, sync_playwright
+from playwright.sync_api import Browser
 
 from ai4u_edu import CircleShape, ControlRequestor, RBMoveActuator, WASDRBMoveController, World
 from ai4u_edu.server import shut_side_door
-from tests.browser.theatre import FLAGS, SPEED, TURN, Theatre
+from tests.browser.theatre import SPEED, TURN, Theatre
 from tests.builders import small_sim
+from tests.playing import browser
 from tests.server.rooms import served
 
 
 @pytest.fixture(scope="session")
 def chromium() -> Iterator[Browser]:
-    path = os.environ.get("AI4U_CHROMIUM") or shutil.which("chromium")
-    with sync_playwright() as playwright:
-        browser = playwright.chromium.launch(executable_path=path, args=FLAGS)
-        yield browser
-        browser.close()
+    with browser() as chromium:
+        yield chromium
 
 
 @pytest.fixture

@@ -8,20 +8,6 @@ from playwright.sync_api import Browser, BrowserContext, Locator, Page
 
 from tests.server.rooms import Room, until
 
-FLAGS = [
-    "--no-sandbox",
-    # viser draws with WebGL; there may be no graphics card here
-    "--use-angle=swiftshader",
-    "--enable-unsafe-swiftshader",
-    "--ignore-gpu-blocklist",
-    "--disable-quic",
-    "--no-first-run",
-    "--disable-background-networking",
-    "--disable-component-update",
-    "--disable-sync",
-    # newer ones guard this machine against foreign pages; here it is we who have to
-    "--disable-features=LocalNetworkAccessChecks,LocalNetworkAccessChecksWebSockets",
-]
 SPEED, TURN = 5.0, 2.0
 """What W and D mean in these rooms, in m/s and rad/s."""
 

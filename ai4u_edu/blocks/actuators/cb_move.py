@@ -21,8 +21,8 @@ class CBMoveActuator(GroundMotion):
 
     Real motors miss what they are told. With ``move_noise`` 0.1, "forward 0.5" is another number
     at every tick, around 0.5 with a standard deviation of 0.1; the same for ``turn_noise``, and for
-    ``jump_noise`` (which never makes a jump point down). What is 0 stays 0: a body at rest stays
-    at rest. The noise comes from the world's seed, so the same seed errs in the same way.
+    ``jump_noise`` (which never makes a jump point down or back). What is 0 stays 0: a body at rest
+    stays at rest. The noise comes from the world's seed, so the same seed errs in the same way.
 
     Source: AI4U's CBMoveActuator (which drives neither sideways nor back unless told to).
     """
@@ -51,7 +51,7 @@ class CBMoveActuator(GroundMotion):
             body,
             self._missed(forward, self.move_noise),
             self._missed(turn, self.turn_noise),
-            max(0.0, self._missed(jump, self.jump_noise)),
+            self._missed(jump, self.jump_noise),
             max(0.0, self._missed(leap, self.jump_noise)),
             self._missed(strafe, self.move_noise),
         )

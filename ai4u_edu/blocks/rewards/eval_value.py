@@ -9,20 +9,15 @@ from ai4u_edu.world import BodyView, WorldView
 
 
 class EvalValue(RewardFunc):
-    """A condition; it pays nothing on its own, but AndRewardFunc and OrRewardFunc ask it.
-
-    ``property`` is one of
-
-    - x, y, z (m), heading_deg, speed (m/s), vz (m/s), turning_speed (rad/s), on_ground, fallen:
-      of the agent's body, or of the ``target``, as it is when the decision is over;
-    - steps: the decisions that the agent took in this episode before this one;
-    - the perception key of one of the agent's sensors (``key[2]``: the third number of a longer
-      reading): what the agent sensed when it took the decision.
-    """
+    """A condition; it pays nothing on its own, but AndRewardFunc and OrRewardFunc ask it."""
 
     abstract = True
 
     property: str
+    """Of the agent's body or the target's, when the decision is over: x, y, z (m), heading_deg,
+    speed (m/s), vz (m/s), turning_speed (rad/s), on_ground or fallen. Of the agent: steps, its
+    decisions in this episode before this one; or the perception key of one of its sensors (key[2]
+    for the third number of a longer reading), as it was sensed when the decision was taken."""
     target: str = ""
     """A body's name; left out: the agent itself."""
     reward: Number = 1.0
@@ -49,7 +44,10 @@ class EvalBoolValue(EvalValue):
     """Whether a property is true (or, with ``value=False``, is not); a number is true above 0.
 
     So a TouchSensor's key will do: +1 is true, -1 is false. Like any condition it pays nothing on
-    its own: give it to AndRewardFunc or OrRewardFunc. Properties: see EvalValue. Source: AI4U.
+    its own: give it to AndRewardFunc or OrRewardFunc. Example: not on the ground =
+    ``EvalBoolValue(property="on_ground", value=False)``.
+
+    Source: AI4U's EvalBoolValue, which looks any property up that a Godot node has.
     """
 
     value: bool = True
@@ -63,7 +61,9 @@ class EvalIntValue(EvalValue):
     """Whether a property is a whole number from ``min_value`` to ``max_value``, ends included.
 
     Like any condition it pays nothing on its own: give it to AndRewardFunc or OrRewardFunc.
-    Properties: see EvalValue. Source: AI4U.
+    Example: the first ten decisions = ``EvalIntValue(property="steps", min_value=0, max_value=9)``.
+
+    Source: AI4U's EvalIntValue.
     """
 
     min_value: int
@@ -82,7 +82,10 @@ class EvalFloatValue(EvalValue):
     """Whether a property is a number from ``min_value`` to ``max_value``, ends included.
 
     Like any condition it pays nothing on its own: give it to AndRewardFunc or OrRewardFunc.
-    Properties: see EvalValue. Source: AI4U.
+    Example: out of energy = ``EvalFloatValue(property="homeostatic", min_value=0, max_value=0.01)``
+    with a HomeostaticSensor of one variable.
+
+    Source: AI4U's EvalFloatValue.
     """
 
     min_value: Number

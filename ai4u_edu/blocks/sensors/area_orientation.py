@@ -73,7 +73,7 @@ class AreaOrientationSensor(Sensor):
         """One reading."""
         looker = view[self.reference] if self.reference else body
         found: list[float] = []
-        for distance, other in self._around(looker, body, view):
+        for distance, other in self._around(looker, view):
             if self.visibility_test and not view.sees(looker, other):
                 continue
             near = max(distance, self.min_distance)
@@ -83,16 +83,14 @@ class AreaOrientationSensor(Sensor):
         out[: len(found)] = found
         out[len(found) :] = 0.0
 
-    def _around(
-        self, looker: BodyView, body: BodyView, view: WorldView
-    ) -> list[tuple[float, BodyView]]:
+    def _around(self, looker: BodyView, view: WorldView) -> list[tuple[float, BodyView]]:
         """(distance, body) of all that may be reported, nearest first."""
         area = view.areas[self.area] if self.area else None
         reach = math.inf if self.radius is None else self.radius
         found = []
         for name in view.named(self.target_group):
             other = view[name]
-            if other is looker or other is body or other.fallen:
+            if other is looker or other.fallen:
                 continue
             distance = looker.distance(other)
             if distance <= reach and (area is None or area.contains(*other.position)):

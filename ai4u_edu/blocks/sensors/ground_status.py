@@ -21,4 +21,4 @@ class GroundStatusSensor(Sensor):
 
     def read(self, body: BodyView, view: WorldView) -> float:
         """One reading."""
-        return 1.0 if body.on_ground and not body.fallen else -1.0
+        return 1.0 if body.on_ground else -1.0

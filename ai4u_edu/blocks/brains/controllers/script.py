@@ -1,6 +1,9 @@
 """A Python function as a controller."""
 
 from collections.abc import Callable
+from typing import Annotated
+
+from pydantic import WithJsonSchema
 
 from ai4u_edu.blocks.brains.command import Answer
 from ai4u_edu.blocks.brains.controllers.controller import Controller
@@ -8,13 +11,13 @@ from ai4u_edu.blocks.percept import Percept
 
 
 class ScriptController(Controller):
-    """Asks a function.
+    """Asks a Python function from percept to action.
 
     >>> ScriptController(function=lambda percept: {"move": [1, 0, 0, 0]}).get_action({})
     {'move': [1, 0, 0, 0]}
     """
 
-    function: Callable[[Percept], Answer]
+    function: Annotated[Callable[[Percept], Answer], WithJsonSchema({"type": "a Python function"})]
 
     def get_action(self, percept: Percept) -> Answer:
         """What the function returns."""

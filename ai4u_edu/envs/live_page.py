@@ -1,0 +1,46 @@
+"""The page of an environment: it shows the world that a learner's steps move."""
+
+from ai4u_edu.agent import BasicAgent
+from ai4u_edu.blocks import Percept
+from ai4u_edu.cycle import ControlRequestor
+from ai4u_edu.errors import AI4UError
+from ai4u_edu.runner import Runner
+from ai4u_edu.server import ServerThread, open_on_desktop, room_app, shut_side_door
+from ai4u_edu.viewer import Viewer
+
+
+class LivePage:
+    """Serves a world that somebody else steps, at the pace of the wall clock.
+
+    What a person asks for in the page (pause, speed, reset) is carried out between the steps.
+
+    Args:
+        sim: the world and its agents.
+        title: the page's title.
+    """
+
+    def __init__(self, sim: ControlRequestor, title: str) -> None:
+        self._runner = Runner(sim)
+        self._viewer = Viewer(self._runner, title=title)
+        shut_side_door(self._viewer.server)
+        self._viewer.start()
+        room = room_app(self._runner, viser_port=self._viewer.port, title=title)
+        self._server = ServerThread(room).start()
+        self.url = self._server.url
+        """Where the page is."""
+        open_on_desktop(self.url)
+
+    def step(self, agent: BasicAgent) -> Percept:
+        """Lets the time pass until an agent's decision is over."""
+        runner, before = self._runner, agent.steps
+        while not agent.done and agent.steps == before:
+            runner.advance()
+            if runner.error:
+                raise AI4UError(runner.error)
+        return agent.percept
+
+    def close(self) -> None:
+        """Ends the page."""
+        self._server.stop()
+        self._viewer.stop()
+        self._runner.stop()

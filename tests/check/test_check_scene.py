@@ -1,0 +1,174 @@
+"""A scene is checked as a whole."""
+
+from typing import Any
+
+import numpy as np
+import pytest
+from gymnasium.spaces import Box
+
+from ai4u_edu import Scene, Sensor, VelocitySensor, check_scene, check_sensor
+from ai4u_edu.check import Outcome
+from ai4u_edu.check.trial import standard_scene
+from ai4u_edu.errors import SceneError
+
+SCENE = """
+name: tiny
+title: Tiny
+goal: None.
+controls: None.
+rewards: None.
+bodies:
+  - name: robot
+    shape: {type: circle}
+  - name: box
+    shape: {type: box}
+    position: [3, 0]
+agents:
+  - body: robot
+    sensors: [{type: SENSOR}]
+    actuators: [{type: RBMoveActuator}]
+    rewards: [{type: TouchRewardFunc, target: box, reward: 1}]
+    brains: [{type: LocalBrain, controller: {type: WASDRBMoveController}}]
+"""
+
+
+class Leaving(Sensor):
+    """Leaves its space after a while."""
+
+    def space(self) -> Box:
+        return Box(0.0, 3.0, (1,))
+
+    def on_reset(self, agent: Any, view: Any) -> None:
+        self.count = -1
+
+    def read(self, body: Any, view: Any) -> float:
+        self.count += 1
+        return self.count
+
+
+class Vanishing(Leaving):
+    """Is not a number after a while."""
+
+    def write(self, out: Any, body: Any, view: Any) -> None:
+        self.count += 1
+        out[0] = self.count if self.count < 3 else np.nan
+
+
+class Still(Leaving):
+    """Always reads 1."""
+
+    def read(self, body: Any, view: Any) -> float:
+        return 1.0
+
+
+class Keeping(Leaving):
+    """Forgets nothing."""
+
+    def on_setup(self, agent: Any, view: Any) -> None:
+        self.count = -1
+
+    def on_reset(self, agent: Any, view: Any) -> None:
+        pass
+
+    def read(self, body: Any, view: Any) -> float:
+        self.count += 1
+        return self.count / 100
+
+
+def found(sensor: str, **fields: Any) -> dict[str, tuple[str, str]]:
+    scene = Scene.loads(SCENE.replace("SENSOR", sensor))
+    report = check_scene(scene, decisions=10, **fields)
+    return {each.check: (each.outcome.value, each.text) for each in report.findings}
+
+
+def test_a_good_scene() -> None:
+    report = found("VelocitySensor")
+    assert {outcome for outcome, _ in report.values()} == {"passed", "warning"}
+    assert report["pays"] == (
+        "warning",
+        "expected every reward to be paid at some time, got nothing from 'touch' of agent '0'; a "
+        "random drive may just not have got there",
+    )
+
+
+@pytest.mark.parametrize(
+    ("sensor", "check", "expected"),
+    [
+        (
+            "Leaving",
+            "in its space",
+            (
+                "FAILED",
+                "expected readings as the sensors' spaces say: agent '0', 'leaving': numbers from "
+                "0 to 3, got [4.0]",
+            ),
+        ),
+        (
+            "Vanishing",
+            "in its space",
+            (
+                "FAILED",
+                "expected readings as the sensors' spaces say: agent '0', 'vanishing': finite "
+                "numbers, got [nan]",
+            ),
+        ),
+        (
+            "Still",
+            "changes",
+            (
+                "warning",
+                "expected readings that change, got always the same from 'still' of agent '0'",
+            ),
+        ),
+    ],
+)
+def test_bad_sensors_are_found(sensor: str, check: str, expected: tuple[str, str]) -> None:
+    assert found(sensor)[check] == expected
+
+
+def test_a_scene_that_does_not_forget() -> None:
+    report = found("Keeping")
+    assert {name for name, (outcome, _) in report.items() if outcome == "FAILED"} == {"forgets"}
+    assert report["forgets"][1].startswith("expected the same world again after a reset, got (")
+
+
+def test_a_scene_without_words_is_a_warning() -> None:
+    scene = Scene.loads(
+        SCENE.replace("SENSOR", "VelocitySensor").replace("goal: None.\ncontrols: None.\n", "")
+    )
+    (finding,) = (
+        each for each in check_scene(scene, decisions=2).findings if each.check == "documented"
+    )
+    assert (finding.outcome, finding.text) == (
+        Outcome.WARNING,
+        "expected a title, a goal, controls and rewards in words, got no goal, no controls",
+    )
+
+
+def test_an_unknown_scene() -> None:
+    with pytest.raises(SceneError, match="no scene is called 'box_chse'; did you mean"):
+        check_scene("box_chse")
+
+
+def test_the_standard_world_is_in_order() -> None:
+    assert check_scene(standard_scene()).ok
+
+
+def test_blocks_can_be_checked_in_a_scene_of_ones_own() -> None:
+    scene = Scene.loads(SCENE.replace("SENSOR", "Still"))
+    assert check_sensor(VelocitySensor(), scene=scene, decisions=10).ok
+    assert check_sensor(VelocitySensor(), scene="box_chase", decisions=10).ok
+
+
+def test_two_agents_are_driven() -> None:
+    second = """
+  - id: "1"
+    body: box
+    sensors: [{type: Still}]
+    brains: [{type: LocalBrain, controller: {type: WASDRBMoveController}}]
+"""
+    scene = Scene.loads(SCENE.replace("SENSOR", "VelocitySensor").rstrip("\n") + second)
+    text = next(
+        each.text for each in check_scene(scene, decisions=5).findings if each.check == "changes"
+    )
+    assert text == "expected readings that change, got always the same from 'still' of agent '1'"
