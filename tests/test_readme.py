@@ -6,6 +6,9 @@ from typing import Any
 
 import pytest
 
+from ai4u_edu.blocks.lesson_page import coming_from_ai4u
+from tests.readme_table import between_marks
+
 README = (Path(__file__).parents[1] / "README.md").read_text()
 
 
@@ -17,6 +20,10 @@ def test_python_blocks_run(capsys: pytest.CaptureFixture[str]) -> None:
     assert len(blocks) == 2
     assert "'touch': 1.0" in capsys.readouterr().out
     assert names["DistanceTo"](target="box").reach == 20.0
+
+
+def test_the_table_for_those_who_come_from_ai4u_is_the_codes_own() -> None:
+    assert between_marks(README) == coming_from_ai4u()
 
 
 def test_pictures_are_there() -> None:

@@ -2,6 +2,7 @@
 
 import inspect
 import json
+import re
 from typing import Any
 
 from ai4u_edu.blocks.actuators.actuator import Actuator
@@ -34,6 +35,17 @@ def built_in_blocks() -> dict[str, list[type[Block]]]:
 def summary(cls: type[Block]) -> str:
     """The first line of a block's description."""
     return (inspect.getdoc(cls) or "").split("\n", 1)[0]
+
+
+def coming_from_ai4u() -> str:
+    """AI4U's name and ours of each block that both have, as a Markdown table."""
+    rows = ["| AI4U | here | what it is |", "|---|---|---|"]
+    for cls in (cls for members in built_in_blocks().values() for cls in members):
+        source = re.search(r"Source:\s+AI4U(?:'s\s+(\w+))?", inspect.getdoc(cls) or "")
+        if source:
+            what = summary(cls).split(" Source:")[0]
+            rows.append(f"| `{source[1] or cls.__name__}` | `{cls.__name__}` | {what} |")
+    return "\n".join(rows)
 
 
 def lesson_page(name: str) -> str:

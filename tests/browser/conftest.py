@@ -14,7 +14,7 @@ from tests.playing import browser
 from tests.server.rooms import served
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="package")
 def chromium() -> Iterator[Browser]:
     with browser() as chromium:
         yield chromium
