@@ -6,7 +6,7 @@ import numpy as np
 
 from ai4u_edu.snapshot import Stage
 from ai4u_edu.viewer.geometry import Array, turn
-from ai4u_edu.world import RegionDescription, RingShape
+from ai4u_edu.world import Region, RegionDescription, RingShape
 
 
 def placed(region: RegionDescription) -> tuple[Array, Array | None]:
@@ -24,7 +24,9 @@ def floor_under(stage: Stage, x: float, y: float, below: float = math.inf) -> fl
     if not stage.floors:
         return 0.0
     tops = [
-        floor.top for floor in stage.floors if floor.top <= below + 1e-6 and _holds(floor, x, y)
+        floor.top
+        for floor in stage.floors
+        if floor.top <= below + 1e-6 and Region(floor).contains(x, y)
     ]
     return max(tops, default=None)
 
@@ -45,10 +47,3 @@ def seen_bounds(stage: Stage) -> tuple[tuple[float, float], tuple[float, float]]
     (left, low), (right, high) = stage.bounds
     more = 0.0 if stage.floors else max(3.0, 0.4 * size(stage))
     return (left - more, low - more), (right + more, high + more)
-
-
-def _holds(region: RegionDescription, x: float, y: float) -> bool:
-    dx, dy = x - region.position[0], y - region.position[1]
-    angle = math.radians(region.heading_deg)
-    c, s = math.cos(angle), math.sin(angle)
-    return region.shape.contains(c * dx + s * dy, c * dy - s * dx)
