@@ -11,6 +11,10 @@
     ├── WorldError             the world can't do this (too many bodies, a place is taken)
     ├── ReadingError           a sensor gave something that it had not declared
     ├── ActionError            an action that no actuator can carry out
+    ├── WireError              what came over a network is no message (in ai4u_edu.wire)
+    ├── RemoteError            a robot that is somewhere else (in ai4u_edu.remote)
+    │   ├── RefusedError       the world does not give it to this script
+    │   └── LostError          the connection is lost, or was ended, for good
     └── AddressError           the page can't be served there (in ai4u_edu.server)
         └── PortTakenError     somebody else listens on that port
 
@@ -53,6 +57,11 @@ class SceneError(SetupError):
 
 class WorldError(AI4UError):
     """The world can't do what was asked of it."""
+
+    def __init__(self, message: str, *, thing: str = "") -> None:
+        super().__init__(message)
+        self.thing = thing
+        """The name of the body, floor or area that it is about, if it is one."""
 
 
 class ReadingError(AI4UError):

@@ -7,7 +7,7 @@ from pydantic import Field
 
 from ai4u_edu.agent import BasicAgent
 from ai4u_edu.parameters import Name, Problem, quantity
-from ai4u_edu.scenes.plain import PlainError, make
+from ai4u_edu.scenes.plain import Path, PlainError, make
 from ai4u_edu.world import AreaDescription, BodyDescription, FloorDescription, WorldSettings
 from ai4u_edu.world.shapes import Description
 
@@ -32,6 +32,20 @@ class SceneDescription(Description):
     bodies: tuple[BodyDescription, ...] = ()
     agents: Annotated[tuple[Mapping[str, Any], ...], Field(min_length=1, max_length=64)]
     """The parameters of each agent, blocks as mappings with a ``type``."""
+
+    @property
+    def things(self) -> tuple[FloorDescription | AreaDescription | BodyDescription, ...]:
+        """All that is in the world."""
+        return (*self.floors, *self.areas, *self.bodies)
+
+    def where_is(self, name: str) -> Path:
+        """The path of the floor, area or body of that name; of several, the last one's."""
+        found: Path = ()
+        for kind in ("floors", "areas", "bodies"):
+            for index, thing in enumerate(getattr(self, kind)):
+                if thing.name == name:
+                    found = (kind, index)
+        return found
 
 
 def make_agents(scene: SceneDescription) -> list[BasicAgent]:

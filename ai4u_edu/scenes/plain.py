@@ -15,6 +15,9 @@ Path = tuple[str | int, ...]
 
 KINDS: tuple[type[Block], ...] = (Sensor, Actuator, RewardFunc, Brain, Controller)
 
+OWN = "a block of your own is known once its file is imported, or named with --blocks FILE.py"
+"""What to do about a type that is not built in."""
+
 
 def fits_a_file(cls: type[Block]) -> bool:
     """Whether a scene file can name a class: not one that is only the base of others."""
@@ -61,9 +64,8 @@ def from_plain(kind: type[Block], data: Any, path: Path = ()) -> Block:
     if name is None:
         raise PlainError([Problem(path, f"needs a 'type'; {suggest('', known)}")])
     if not isinstance(name, str) or name not in known:
-        hint = suggest(str(name), known)
-        what = kind.__name__.lower()
-        raise PlainError([Problem((*path, "type"), f"unknown type of {what} {name!r}; {hint}")])
+        text = f"unknown type of {kind.__name__.lower()} {name!r}; {suggest(str(name), known)}"
+        raise PlainError([Problem((*path, "type"), f"{text}; {OWN}")])
     given = {str(key): value for key, value in data.items() if key != "type"}
     made = make(known[name], given, path)
     if not isinstance(made, Block):  # pragma: no cover - known holds blocks only

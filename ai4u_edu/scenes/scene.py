@@ -7,8 +7,9 @@ from typing import Any, Self
 
 from pydantic import ValidationError
 
+from ai4u_edu.blocks.brains.network import files_in
 from ai4u_edu.cycle import ControlRequestor
-from ai4u_edu.errors import AI4UError, SceneError, suggest
+from ai4u_edu.errors import AI4UError, SceneError, WorldError, suggest
 from ai4u_edu.parameters import Problem, explain
 from ai4u_edu.scenes.description import SceneDescription, make_agents
 from ai4u_edu.scenes.plain import PlainError
@@ -16,6 +17,9 @@ from ai4u_edu.scenes.yaml_file import YamlFile, write_yaml
 from ai4u_edu.world import World
 
 LIBRARY = Path(__file__).parent / "library"
+
+EPISODES = 20
+"""So many are set up when a file is read, where some of it is random: in each must be room."""
 
 
 class Scene:
@@ -29,8 +33,10 @@ class Scene:
     False
     """
 
-    def __init__(self, description: SceneDescription) -> None:
+    def __init__(self, description: SceneDescription, folder: Path | None = None) -> None:
         self.description = description
+        self.folder = folder
+        """Where its file is: paths in it begin there."""
 
     @classmethod
     def load(cls, source: str | Path) -> Self:
@@ -54,21 +60,26 @@ class Scene:
             text = path.read_text(encoding="utf-8")
         except (OSError, UnicodeDecodeError) as error:
             raise SceneError(f"{path}: can't be read: {error}") from None
-        return cls.loads(text, name=path.name)
+        return cls.loads(text, name=path.name, folder=path.absolute().parent)
 
     @classmethod
-    def loads(cls, text: str, *, name: str = "scene") -> Self:
-        """Reads a scene from YAML text; ``name`` stands in messages."""
+    def loads(cls, text: str, *, name: str = "scene", folder: Path | None = None) -> Self:
+        """Reads a scene from YAML text; ``name`` stands in messages, paths begin in ``folder``."""
         file = YamlFile(text, name)
         try:
             description = SceneDescription.model_validate(file.data)
-            scene = cls(description)
-            scene.build()
+            scene = cls(description, folder)
+            world = scene.build().world
+            if any(thing.random for thing in description.things):
+                for seed in range(1, EPISODES):
+                    world.reset(seed)
         except ValidationError as error:
             problems = explain(error.errors(), SceneDescription)
             raise _told(file, problems) from None
         except PlainError as error:
             raise _told(file, error.problems) from None
+        except WorldError as error:
+            raise _told(file, [Problem(description.where_is(error.thing), str(error))]) from None
         except AI4UError as error:
             raise SceneError(f"{name}: {error}") from None
         return scene
@@ -82,14 +93,16 @@ class Scene:
         """Makes the world and the agents, each time new ones."""
         description = self.description
         world = World(seed=seed, **dict(description.world))
-        for floor in description.floors:
-            world.add_region(floor)
-        for area in description.areas:
-            world.add_region(area)
-        for body in description.bodies:
-            world.add(body)
-        agents = make_agents(description)
-        return ControlRequestor(world, agents, default_time_scale=description.time_scale)
+        world.add_all(description.things)
+        with files_in(self.folder):
+            agents = make_agents(description)
+        return ControlRequestor(
+            world,
+            agents,
+            default_time_scale=description.time_scale,
+            goal=description.goal,
+            success=description.success or "",
+        )
 
     def plain(self) -> dict[str, Any]:
         """The scene as plain data; what is as by default is left out."""

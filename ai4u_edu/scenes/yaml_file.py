@@ -6,13 +6,32 @@ from typing import Any
 from ruamel.yaml import YAML
 from ruamel.yaml.comments import CommentedMap, CommentedSeq
 from ruamel.yaml.error import MarkedYAMLError, YAMLError
-from ruamel.yaml.tokens import AliasToken, AnchorToken, TagToken
+from ruamel.yaml.tokens import (
+    AliasToken,
+    AnchorToken,
+    BlockEndToken,
+    BlockMappingStartToken,
+    BlockSequenceStartToken,
+    FlowMappingEndToken,
+    FlowMappingStartToken,
+    FlowSequenceEndToken,
+    FlowSequenceStartToken,
+    TagToken,
+)
 
 from ai4u_edu.errors import SceneError
 
 MAX_SIZE = 1_000_000
 """Characters that a scene file may have."""
 MAX_DEPTH = 24
+
+OPENING = (
+    BlockMappingStartToken,
+    BlockSequenceStartToken,
+    FlowMappingStartToken,
+    FlowSequenceStartToken,
+)
+CLOSING = (BlockEndToken, FlowMappingEndToken, FlowSequenceEndToken)
 
 Path = tuple[str | int, ...]
 
@@ -69,16 +88,23 @@ class YamlFile:
 
     def _refuse_tricks(self, text: str) -> None:
         # aliases blow a small file up to a huge one, tags ask for objects; a scene needs neither
+        depth = 0
         for token in YAML(typ="rt", pure=True).scan(io.StringIO(text)):
+            depth += isinstance(token, OPENING) - isinstance(token, CLOSING)
+            if depth > MAX_DEPTH + 1:  # told before the parser gets lost in it
+                raise SceneError(self._too_deep())
             if isinstance(token, AliasToken | AnchorToken | TagToken):
                 raise SceneError(
                     f"{self.name}, line {token.start_mark.line + 1}: expected plain values; "
                     "anchors (&), aliases (*) and tags (!) are not used in scene files"
                 )
 
+    def _too_deep(self) -> str:
+        return f"{self.name}: nested more than {MAX_DEPTH} deep"
+
     def _plain(self, node: Any, depth: int) -> Any:
         if depth > MAX_DEPTH:
-            raise SceneError(f"{self.name}: nested more than {MAX_DEPTH} deep")
+            raise SceneError(self._too_deep())
         if isinstance(node, CommentedMap):
             return {str(key): self._plain(value, depth + 1) for key, value in node.items()}
         if isinstance(node, CommentedSeq):

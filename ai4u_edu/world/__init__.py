@@ -18,6 +18,7 @@ from ai4u_edu.world.shapes import (
     RingShape,
     SegmentShape,
 )
+from ai4u_edu.world.variation import Variation
 from ai4u_edu.world.view import WorldView
 from ai4u_edu.world.world import World
 
@@ -37,6 +38,7 @@ __all__ = [
     "RegionDescription",
     "RingShape",
     "SegmentShape",
+    "Variation",
     "World",
     "WorldSettings",
     "WorldView",

@@ -1,10 +1,13 @@
-"""The one place that touches pymunk's private parts: rays without an object for each.
+"""The one place that touches pymunk's private parts: rays, motion and ticks without an object each.
 
 Everything here has a twin in pymunk's public interface, which is used where the private one is
 not as expected, and gives exactly the same numbers.
 """
 
-from typing import Any
+from collections.abc import Callable
+from functools import partial
+from operator import attrgetter
+from typing import Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -13,7 +16,10 @@ import pymunk
 try:
     from pymunk._chipmunk_cffi import ffi, lib
 
-    _FAST = hasattr(lib, "cpSpaceSegmentQueryFirst") and ffi.sizeof("cpSegmentQueryInfo") == 48
+    _FAST = (
+        all(hasattr(lib, name) for name in ("cpSpaceSegmentQueryFirst", "cpSpaceStep"))
+        and ffi.sizeof("cpSegmentQueryInfo") == 48
+    )
 except ImportError:  # pragma: no cover - another pymunk than the pinned one
     ffi = lib = None
     _FAST = False
@@ -33,12 +39,11 @@ class Segments:
     Attributes:
         ends: (n, 2) float64, where each segment ends; written by the caller, metres.
         alpha: (n,) float64, the share of each segment up to what it meets; 1 for nothing.
-        shapes: n keys as :func:`shape_key` gives them; 0 where nothing was met.
     """
 
     def __init__(self, count: int, *, fast: bool | None = None) -> None:
         self._fast = _FAST if fast is None else fast
-        self.shapes: list[int] = [0] * count
+        self._shapes: list[int] = [0] * count
         self.ends: npt.NDArray[np.float64]
         self.alpha: npt.NDArray[np.float64]
         if self._fast:
@@ -47,28 +52,32 @@ class Segments:
             self.ends = np.frombuffer(ffi.buffer(self._end_memory), np.float64).reshape(count, 2)
             self._hits = np.frombuffer(ffi.buffer(self._hit_memory), _HIT)
             self.alpha = self._hits["alpha"]
-            self._start = ffi.new("cpVect *")
-            self._filter = ffi.new("cpShapeFilter *")
+            self._start = ffi.new("cpVect *")[0]
+            self._filter = ffi.new("cpShapeFilter *")[0]
             self._accept: pymunk.ShapeFilter | None = None
+            self._first = lib.cpSpaceSegmentQueryFirst
             self._pairs = [(self._end_memory[i], self._hit_memory + i) for i in range(count)]
         else:
             self.ends = np.zeros((count, 2))
             self.alpha = np.ones(count)
 
     def cast(self, space: pymunk.Space, x: float, y: float, accept: pymunk.ShapeFilter) -> None:
-        """Fills ``alpha`` and ``shapes``."""
+        """Fills ``alpha``, and what :meth:`shapes` tells."""
         if not self._fast:
             self._cast_publicly(space, x, y, accept)
             return
+        chosen = self._filter
         if accept is not self._accept:  # turned into Chipmunk's form once, not for each ray
             self._accept = accept
-            self._filter[0] = tuple(accept)
-        start, handle, chosen = self._start[0], space._space, self._filter[0]
+            chosen.group, chosen.categories, chosen.mask = accept
+        start, handle, first = self._start, space._space, self._first
         start.x, start.y = x, y
-        first = lib.cpSpaceSegmentQueryFirst
         for end, hit in self._pairs:
             first(handle, start, end, 0.0, chosen, hit)
-        self.shapes = self._hits["shape"].tolist()
+
+    def shapes(self) -> list[int]:
+        """What each met at the last cast, as :func:`shape_key` names it; 0 for nothing."""
+        return self._hits["shape"].tolist() if self._fast else self._shapes
 
     def _cast_publicly(
         self, space: pymunk.Space, x: float, y: float, accept: pymunk.ShapeFilter
@@ -78,7 +87,77 @@ class Segments:
             hit = space.segment_query_first((x, y), (end_x, end_y), 0.0, accept)
             self.alpha[i] = 1.0 if hit is None else hit.alpha
             keys.append(0 if hit is None else shape_key(hit.shape, fast=False))
-        self.shapes = keys
+        self._shapes = keys
+
+
+class _Vector:
+    """Two numbers, where Chipmunk's own vector is not to be had."""
+
+    x = y = 0.0
+
+
+class Motion(NamedTuple):
+    """How bodies are asked and moved, many times a tick: functions of a body's ``handle``."""
+
+    handle: Callable[[pymunk.Body], Any]
+    vector: Callable[[], Any]
+    """Makes something with an ``x`` and a ``y``, to be filled."""
+    place: Callable[[Any], Any]
+    """(handle): its centre, with ``x`` and ``y``, metres."""
+    angle: Callable[[Any], float]
+    """(handle): radians, not wrapped."""
+    set_velocity: Callable[[Any, Any], None]
+    """(handle, vector): in the world's frame, m/s."""
+    set_angular_velocity: Callable[[Any, float], None]
+    """(handle, omega): radians per second."""
+    push: Callable[[Any, Any, Any], None]
+    """(handle, vector, where): adds a force in its own frame, newtons."""
+
+
+def _set_velocity(pm: pymunk.Body, vector: Any) -> None:
+    pm.velocity = vector.x, vector.y
+
+
+def _set_angular_velocity(pm: pymunk.Body, omega: float) -> None:
+    pm.angular_velocity = omega
+
+
+def _push(pm: pymunk.Body, vector: Any, where: Any) -> None:
+    pm.apply_force_at_local_point((vector.x, vector.y), (where.x, where.y))
+
+
+PUBLIC = Motion(
+    handle=lambda pm: pm,
+    vector=_Vector,
+    place=attrgetter("position"),
+    angle=attrgetter("angle"),
+    set_velocity=_set_velocity,
+    set_angular_velocity=_set_angular_velocity,
+    push=_push,
+)
+QUICK = (
+    Motion(
+        handle=attrgetter("_body"),
+        vector=lambda: ffi.new("cpVect *")[0],
+        place=lib.cpBodyGetPosition,
+        angle=lib.cpBodyGetAngle,
+        set_velocity=lib.cpBodySetVelocity,
+        set_angular_velocity=lib.cpBodySetAngularVelocity,
+        push=lib.cpBodyApplyForceAtLocalPoint,
+    )
+    if _FAST
+    else PUBLIC
+)
+"""The fastest way there is."""
+
+
+def stepper(space: pymunk.Space, dt: float) -> Callable[[], None]:
+    """What moves a space on by one tick, for as long as it is there.
+
+    pymunk's own also checks masses, which descriptions have done, and lets collision handlers add
+    and remove things, which ours don't.
+    """
+    return partial(lib.cpSpaceStep, space._space, dt) if _FAST else partial(space.step, dt)
 
 
 def let_go(space: pymunk.Space) -> None:

@@ -1,11 +1,12 @@
 """A body that lives in a world: what can be asked of it, and how it is moved."""
 
 import math
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NoReturn
 
 import pymunk
 
 from ai4u_edu.errors import WorldError
+from ai4u_edu.world._chipmunk import QUICK
 from ai4u_edu.world.descriptions import BodyDescription
 from ai4u_edu.world.grip import held_by, hold, let_go
 
@@ -13,6 +14,11 @@ if TYPE_CHECKING:
     from ai4u_edu.world.world import World
 
 TAU = 2 * math.pi
+
+# looked up once: these are asked several times a tick
+_place, _angle, _push = QUICK.place, QUICK.angle, QUICK.push
+_set_velocity, _set_angular_velocity = QUICK.set_velocity, QUICK.set_angular_velocity
+_CENTRE = QUICK.vector()
 
 
 class BodyView:
@@ -25,6 +31,9 @@ class BodyView:
     def __init__(self, world: "World", description: BodyDescription) -> None:
         self._world = world
         self.description = description
+        """What was said of it: by a scene file, or when it was added."""
+        self.drawn = description
+        """What holds in this episode: the description, with what is random in it drawn."""
         self.name = description.name
         self.tags = description.tags
         self.height = description.height
@@ -35,9 +44,18 @@ class BodyView:
         self.on_ground = True
         """Whether it stands on a floor or on another body."""
         self.fallen = False
-        """Whether it fell below the world's fall threshold and is out."""
+        """Whether it is out of the world: it fell below the fall threshold, or had to leave."""
         self._pm = pymunk.Body()
         self._shapes: tuple[pymunk.Shape, ...] = ()
+
+    @property
+    def _pm(self) -> pymunk.Body:
+        return self._pymunk
+
+    @_pm.setter
+    def _pm(self, pm: pymunk.Body) -> None:
+        self._pymunk = pm
+        self._handle, self._vector = QUICK.handle(pm), QUICK.vector()
 
     @property
     def moves(self) -> bool:
@@ -47,12 +65,13 @@ class BodyView:
     @property
     def position(self) -> tuple[float, float]:
         """Centre (x, y) in metres."""
-        return self._pm.position
+        place = _place(self._handle)
+        return place.x, place.y
 
     @property
     def heading(self) -> float:
         """Radians, in [-pi, pi)."""
-        return (self._pm.angle + math.pi) % TAU - math.pi
+        return (_angle(self._handle) + math.pi) % TAU - math.pi
 
     @property
     def velocity(self) -> tuple[float, float]:
@@ -67,8 +86,8 @@ class BodyView:
     @property
     def pose(self) -> tuple[float, float, float, float]:
         """(x, y, z, heading)."""
-        x, y = self._pm.position
-        return x, y, self.z, self.heading
+        place = _place(self._handle)
+        return place.x, place.y, self.z, self.heading
 
     @property
     def held(self) -> "BodyView | None":
@@ -77,25 +96,24 @@ class BodyView:
 
     def distance(self, other: "BodyView") -> float:
         """Metres between the two centres, height included."""
-        x, y = self._pm.position
-        ox, oy = other._pm.position
-        return math.hypot(ox - x, oy - y, other.z - self.z)
+        here, there = _place(self._handle), _place(other._handle)
+        return math.hypot(there.x - here.x, there.y - here.y, other.z - self.z)
 
     def bearing(self, other: "BodyView") -> float:
         """Where the other one is, seen from here: 0 ahead, positive to the left, radians."""
-        x, y = self._pm.position
-        ox, oy = other._pm.position
-        return (math.atan2(oy - y, ox - x) - self._pm.angle + math.pi) % TAU - math.pi
+        here, there = _place(self._handle), _place(other._handle)
+        direction = math.atan2(there.y - here.y, there.x - here.x)
+        return (direction - _angle(self._handle) + math.pi) % TAU - math.pi
 
     def to_local(self, x: float, y: float) -> tuple[float, float]:
         """A point of the world in this body's frame: (forward, left) in metres."""
-        cx, cy = self._pm.position
-        cos, sin = math.cos(self._pm.angle), math.sin(self._pm.angle)
-        dx, dy = x - cx, y - cy
+        place, angle = _place(self._handle), _angle(self._handle)
+        cos, sin = math.cos(angle), math.sin(angle)
+        dx, dy = x - place.x, y - place.y
         return cos * dx + sin * dy, cos * dy - sin * dx
 
     def __repr__(self) -> str:
-        x, y = self._pm.position
+        x, y = self.position
         return f"<{type(self).__name__} {self.name!r} at ({x:.2f}, {y:.2f}, {self.z:.2f})>"
 
 
@@ -104,22 +122,30 @@ class Body(BodyView):
 
     def set_velocity(self, vx: float, vy: float) -> None:
         """Sets the velocity in the world's frame, m/s."""
-        self._check("velocity", (vx, vy))
-        self._pm.velocity = vx, vy
+        if not math.isfinite(vx + vy):
+            self._refuse("velocity", (vx, vy))
+        vector = self._vector
+        vector.x, vector.y = vx, vy
+        _set_velocity(self._handle, vector)
 
     def set_angular_velocity(self, omega: float) -> None:
         """Sets the turning speed, radians per second, counter-clockwise positive."""
-        self._check("angular velocity", (omega,))
-        self._pm.angular_velocity = omega
+        if not math.isfinite(omega):
+            self._refuse("angular velocity", (omega,))
+        _set_angular_velocity(self._handle, omega)
 
     def apply_force(self, forward: float, left: float) -> None:
         """Pushes at the centre for one tick; newtons, in the body's own frame."""
-        self._check("force", (forward, left))
-        self._pm.apply_force_at_local_point((forward, left))
+        if not math.isfinite(forward + left):
+            self._refuse("force", (forward, left))
+        vector = self._vector
+        vector.x, vector.y = forward, left
+        _push(self._handle, vector, _CENTRE)
 
     def jump(self, speed: float) -> None:
         """Sets an upward speed in m/s and leaves the ground."""
-        self._check("jump speed", (speed,))
+        if not math.isfinite(speed):
+            self._refuse("jump speed", (speed,))
         self._world._height.launch(self, speed)
 
     def hold(self, other: BodyView) -> None:
@@ -148,12 +174,23 @@ class Body(BodyView):
             z: metres; left out: on the highest floor there.
         """
         angle = self._pm.angle if heading is None else heading
-        self._check("place", (x, y, angle, z or 0.0))
+        if not math.isfinite(x + y + angle + (z or 0.0)):
+            self._refuse("place", (x, y, angle, z or 0.0))
         self._world._place(self, x, y, angle, z)
 
-    def _check(self, what: str, numbers: tuple[Any, ...]) -> None:
+    def leave(self) -> None:
+        """Takes the body out of the world, as if it had fallen out, until it is put somewhere."""
+        if not self.fallen:
+            self._world._drop(self)
+
+    def come_back(self) -> None:
+        """Puts the body where its description says; what is random in that is drawn anew.
+
+        Raises:
+            WorldError: there is no room for it; then it stays where it is, or out of the world.
+        """
+        self._world.put_back(self.name)
+
+    def _refuse(self, what: str, numbers: tuple[Any, ...]) -> NoReturn:
         # one number that is not finite would silently turn every body it touches into NaN
-        if not math.isfinite(sum(numbers)):
-            raise WorldError(
-                f"{what} of body {self.name!r}: expected finite numbers, got {numbers}"
-            )
+        raise WorldError(f"{what} of body {self.name!r}: expected finite numbers, got {numbers}")

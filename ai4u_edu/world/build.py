@@ -35,7 +35,7 @@ def build(body: Body, space: pymunk.Space, group: int) -> None:
         space: where they are added.
         group: a number of the body's own (not 0), so that its own rays don't meet it.
     """
-    description = body.description
+    description = body.drawn
     pm = pymunk.Body(body_type=KINDS[description.kind])
     pm.position = description.position
     pm.angle = math.radians(description.heading_deg)
@@ -50,15 +50,17 @@ def build(body: Body, space: pymunk.Space, group: int) -> None:
     body._pm, body._shapes = pm, (shape,)
 
 
-def make_shape(shape: BodyShape, pm: pymunk.Body | None) -> pymunk.Shape:
-    """The pymunk shape of a description."""
+def make_shape(
+    shape: BodyShape, pm: pymunk.Body | None, more: float = 0.0
+) -> pymunk.Circle | pymunk.Poly:
+    """The pymunk shape of a description, with ``more`` metres all around it."""
     match shape:
         case CircleShape():
-            return pymunk.Circle(pm, shape.radius)
+            return pymunk.Circle(pm, shape.radius + more)
         case BoxShape():
-            return pymunk.Poly(pm, shape.outline())
+            return pymunk.Poly(pm, shape.outline(), radius=more)
         case PolygonShape():
-            return pymunk.Poly(pm, shape.vertices)
+            return pymunk.Poly(pm, shape.vertices, radius=more)
         case _:
             # a polygon with a radius, not a Segment: of a ray that comes in through a Segment's
             # round end and leaves through its side, pymunk tells where it leaves; as thin as a
@@ -67,7 +69,7 @@ def make_shape(shape: BodyShape, pm: pymunk.Body | None) -> pymunk.Shape:
             length = math.dist(a, b)
             x, y = HAIR * (a[1] - b[1]) / length, HAIR * (b[0] - a[0]) / length
             corners = [(px + s * x, py + s * y) for (px, py) in (a, b) for s in (1, -1)]
-            return pymunk.Poly(pm, corners, radius=max(radius - HAIR, 0.0))
+            return pymunk.Poly(pm, corners, radius=max(radius - HAIR, 0.0) + more)
 
 
 def _ends(shape: CapsuleShape | SegmentShape) -> tuple[Corner, Corner, float]:

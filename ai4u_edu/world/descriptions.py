@@ -5,11 +5,12 @@ Angles in degrees, as people write them; inside the world all is radians.
 
 from typing import Annotated, Literal
 
-from pydantic import Field
+from pydantic import Field, field_validator
 
 from ai4u_edu.palette import Colour
 from ai4u_edu.parameters import Bits, Degrees, Metres, Name, Point, PositiveMetres, quantity
 from ai4u_edu.world.shapes import BodyShape, CircleShape, Description, RegionShape
+from ai4u_edu.world.variation import Variation
 
 Tags = tuple[Name, ...]
 
@@ -37,6 +38,8 @@ class BodyDescription(Description):
     kind: Literal["static", "dynamic", "kinematic"] = "dynamic"
     position: Point = (0.0, 0.0)
     heading_deg: Degrees = 0.0
+    random: Variation | None = None
+    """What is drawn anew at each reset; where nothing is said, the body is as described here."""
     z: Metres | None = None
     """Height of the underside; left out: it stands on the highest floor there."""
     height: PositiveMetres = 1.0
@@ -60,6 +63,8 @@ class RegionDescription(Description):
     shape: RegionShape
     position: Point = (0.0, 0.0)
     heading_deg: Degrees = 0.0
+    random: Variation | None = None
+    """What is drawn anew at each reset; where nothing is said, it is as described here."""
     tags: Tags = ()
     colour: Colour | None = None
     label: Annotated[str, Field(max_length=40)] = ""
@@ -75,6 +80,16 @@ class FloorDescription(RegionDescription):
     top: Metres = 0.0
     tags: Tags = ("floor",)
 
+    @field_validator("random")
+    @classmethod
+    def _needs_no_clearance(cls, random: Variation | None) -> Variation | None:
+        if random is not None and random.clearance:
+            raise ValueError("a floor has bodies on it; expected no clearance, leave it out")
+        return random
+
 
 class AreaDescription(RegionDescription):
     """A place that can be asked about (a goal, a trigger); nothing collides with it."""
+
+    paint: bool = False
+    """Whether it is drawn as paint on the ground, without outline and label: a line, a marking."""

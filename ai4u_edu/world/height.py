@@ -9,14 +9,11 @@ from typing import TYPE_CHECKING, Any
 
 import pymunk
 
-from ai4u_edu.world.region import Region
+from ai4u_edu.world.ground import SAME, Ground
 
 if TYPE_CHECKING:
     from ai4u_edu.world.body import Body
     from ai4u_edu.world.world import World
-
-SAME = 1e-9
-"""Heights closer than this (metres) are the same."""
 
 
 class Height:
@@ -29,25 +26,16 @@ class Height:
 
     def __init__(self, world: "World") -> None:
         self._world = world
-        self._floors: list[tuple[float, Region]] = []
+        self._ground = Ground()
+        self.ground = self._ground.at
+        """The highest floor at a place; see :meth:`Ground.at`."""
         self.movers: dict[Body, None] = {}
 
     def rebuild(self) -> None:
         """Starts over with the world's floors as they are now."""
-        self._floors = sorted(
-            ((floor.top, region) for floor, region in self._world._floor_regions()),
-            key=lambda pair: -pair[0],
-        )
+        self._ground = Ground((floor.top, region) for floor, region in self._world._floor_regions())
+        self.ground = self._ground.at
         self.movers.clear()
-
-    def ground(self, x: float, y: float, below: float = float("inf")) -> float | None:
-        """The highest floor at a place that is not above ``below``; None over the void."""
-        if not self._floors:
-            return 0.0 if below >= -SAME else None
-        for top, region in self._floors:
-            if top <= below + SAME and region.contains(x, y):
-                return top
-        return None
 
     def settle(self, body: "Body", z: float | None) -> None:
         """Gives a body that was put somewhere its height: on the floor there, or the given one."""
@@ -82,7 +70,7 @@ class Height:
         """Puts a body on the ground or into the air, and among those to look at if need be."""
         body.on_ground = on_ground
         body._pm.velocity_func = pymunk.Body.update_velocity if on_ground else _fly
-        if body.moves and (self._floors or body.z != 0.0 or not on_ground):
+        if body.moves and (self._ground.floors or body.z != 0.0 or not on_ground):
             self.movers[body] = None
         else:
             self.movers.pop(body, None)

@@ -12,8 +12,9 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 import numpy.typing as npt
 import pymunk
+from numpy import add, fmod, multiply
 
-from ai4u_edu.world._chipmunk import Segments, shape_key
+from ai4u_edu.world._chipmunk import QUICK, Segments, shape_key
 from ai4u_edu.world.body import BodyView
 from ai4u_edu.world.region import Region
 
@@ -33,6 +34,9 @@ LEVEL = 1e-9
 
 NOWHERE = math.inf, -math.inf
 """From where to where nothing reaches upwards."""
+
+_WHOLE = np.ones(())
+_place, _angle = QUICK.place, QUICK.angle
 
 
 class Obstacle(NamedTuple):
@@ -66,7 +70,8 @@ class _Caster:
         self._code_of = code_of
         self._miss = code_of(())
         self._segments = Segments(len(self.angles))
-        self._learnt: tuple[int, BodyView | None] = (-1, None)
+        self._learnt = -1
+        self._looker: BodyView | None = None
         self._codes: dict[int, float] = {}
         self._bodies: dict[int, BodyView] = {}
         self._body_codes: dict[BodyView, float] = {}
@@ -76,32 +81,37 @@ class _Caster:
         self._filter = pymunk.ShapeFilter()
         self.origin = (0.0, 0.0, 0.0)
         """Where the eye was at the last cast: world frame, metres."""
-        self.directions = np.zeros((len(self.angles), 2))
+        # a pair (x, y) side by side is a complex number, and to turn it is to multiply;
+        # for numpy, an array of one number is half the work of a number
+        self._spokes = np.cos(self.angles) + 1j * np.sin(self.angles)
+        self._turned = self._spokes.copy()
+        self._ends = self._segments.ends.view(np.complex128)[:, 0]
+        self._reach = np.zeros(())
+        self._turn, self._start = np.zeros((), np.complex128), np.zeros((), np.complex128)
+        self.directions = self._turned.view(np.float64).reshape(-1, 2)
         """Where each column looked at the last cast: unit vectors, world frame."""
 
     def _aim(self, body: BodyView, reach: float) -> None:
         """Turns the directions with the body and finds what each meets first in the plane."""
-        if self._learnt != (self._world.generation, body):
+        if self._learnt != self._world.generation or self._looker is not body:
             self._learn(body)
         forward, left, up = self.eye
-        x, y = body.position
-        heading = body._pm.angle
+        place, heading = _place(body._handle), _angle(body._handle)
+        x, y, cos, sin = place.x, place.y, math.cos(heading), math.sin(heading)
         if forward or left:
-            cos, sin = math.cos(heading), math.sin(heading)
             x, y = x + cos * forward - sin * left, y + sin * forward + cos * left
         self.origin = x, y, body.z + up
-        turned = self.angles + heading
-        np.cos(turned, out=self.directions[:, 0])
-        np.sin(turned, out=self.directions[:, 1])
-        ends = self._segments.ends
-        np.multiply(self.directions, reach, out=ends)
-        ends += (x, y)
+        self._turn[()], self._reach[()], self._start[()] = complex(cos, sin), reach, complex(x, y)
+        ends = self._ends
+        multiply(self._spokes, self._turn, self._turned)
+        multiply(self._turned, self._reach, ends)
+        add(ends, self._start, ends)
         self._segments.cast(self._world.space, x, y, self._filter)
 
     def _learn(self, body: BodyView) -> None:
         """Looks up the codes of everything, once for each build of the world."""
         world = self._world
-        self._learnt = world.generation, body
+        self._learnt, self._looker = world.generation, body
         self._bodies = {shape_key(shape): owner for shape, owner in world.owners.items()}
         self._body_codes = {owner: self._code_of(owner.tags) for owner in self._bodies.values()}
         self._codes = {key: self._body_codes[owner] for key, owner in self._bodies.items()}
@@ -121,10 +131,11 @@ class _Caster:
 
     def _simple(self) -> bool:
         """Whether everything stands at height 0 and is as high as the eye."""
+        movers = self._world._height.movers
         return (
             self._flat
             and 0.0 <= self.origin[2] <= self._lowest_top
-            and not any(mover.z for mover in self._world._height.movers)
+            and not (movers and any(mover.z for mover in movers))
         )
 
     def _cut(self, column: int, reach: float) -> list[Obstacle]:
@@ -152,8 +163,7 @@ class RayFan(_Caster):
     """A flat fan: one level ray in each direction.
 
     Attributes:
-        codes: (n,) what each ray met, as ``code_of`` its tags.
-        distances: (n,) metres to it; 0 where nothing was met.
+        distances: (n,) metres to what each ray met; 0 where nothing was met.
     """
 
     def __init__(
@@ -168,27 +178,36 @@ class RayFan(_Caster):
         exclude_self: bool = True,
     ) -> None:
         super().__init__(world, angles, reach, code_of, eye, mask, exclude_self)
-        self.codes: Floats = np.zeros(len(self.angles))
         self.distances: Floats = np.zeros(len(self.angles))
+        self._codes_met: Floats = np.zeros(len(self.angles))
+        self._codes_known = True
 
     def cast(self, body: BodyView) -> None:
-        """Fills ``codes`` and ``distances``.
+        """Fills ``distances``, and what ``codes`` tells.
 
         Args:
             body: where the eye sits; it turns with it.
         """
         self._aim(body, self.reach)
-        keys = self._segments.shapes
-        codes = self._codes
-        self.codes[:] = [codes[key] for key in keys]
-        np.multiply(self._segments.alpha, self.reach, out=self.distances)
-        self.distances[self._segments.alpha >= 1.0] = 0.0
+        # a ray that meets nothing has gone its whole way, and of 1 this leaves 0
+        distances = self.distances
+        fmod(self._segments.alpha, _WHOLE, distances)
+        multiply(distances, self._reach, distances)
+        self._codes_known = False
         if not self._simple():
-            self._look_at_heights(keys)
+            self._look_at_heights()
 
-    def _look_at_heights(self, keys: Sequence[int]) -> None:
+    @property
+    def codes(self) -> Floats:
+        """(n,) what each ray met, as ``code_of`` its tags; looked up when they are asked for."""
+        if not self._codes_known:
+            self._codes_known = True
+            self._codes_met[:] = [*map(self._codes.__getitem__, self._segments.shapes())]
+        return self._codes_met
+
+    def _look_at_heights(self) -> None:
         level = self.origin[2]
-        for column, key in enumerate(keys):
+        for column, key in enumerate(self._segments.shapes()):
             if not key:
                 continue
             first = self._bodies[key]
@@ -280,7 +299,7 @@ class RayGrid(_Caster):
         Returns:
             Which rays may meet something else: a top, or what stands behind.
         """
-        alpha, keys = self._segments.alpha, self._segments.shapes
+        alpha, keys = self._segments.alpha, self._segments.shapes()
         firsts = [self._bodies.get(key) for key in keys]
         low, high = np.array(
             [(first.z, first.z + first.height) if first else NOWHERE for first in firsts]

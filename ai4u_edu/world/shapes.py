@@ -35,7 +35,17 @@ class Description(BaseModel):
     __init__.__pydantic_base_init__ = True  # type: ignore[attr-defined]
 
 
-class CircleShape(Description):
+class Shape(Description):
+    """The base of all shapes."""
+
+    def scaled(self, times: float) -> Self:
+        """The same shape, so many times as large."""
+        # whatever a shape has beside its type is a length, or lengths
+        lengths = {name: _times(value, times) for name, value in self if name != "type"}
+        return self if times == 1.0 else self.model_copy(update=lengths)
+
+
+class CircleShape(Shape):
     """A disc around the origin."""
 
     type: Literal["circle"] = "circle"
@@ -55,7 +65,7 @@ class CircleShape(Description):
         return _arc(self.radius, 0, 2 * math.pi, OUTLINE_CORNERS)
 
 
-class BoxShape(Description):
+class BoxShape(Shape):
     """A rectangle around the origin: ``size`` is (along x, along y)."""
 
     type: Literal["box"] = "box"
@@ -76,7 +86,7 @@ class BoxShape(Description):
         return [(a, b), (-a, b), (-a, -b), (a, -b)]
 
 
-class PolygonShape(Description):
+class PolygonShape(Shape):
     """A convex polygon by its corners, counter-clockwise."""
 
     type: Literal["polygon"] = "polygon"
@@ -124,7 +134,7 @@ class PolygonShape(Description):
         return list(self.vertices)
 
 
-class CapsuleShape(Description):
+class CapsuleShape(Shape):
     """A stick with round ends along x: ``length`` between the centres of the ends."""
 
     type: Literal["capsule"] = "capsule"
@@ -150,7 +160,7 @@ class CapsuleShape(Description):
         return [(x + half, y) for x, y in right] + [(x - half, y) for x, y in left]
 
 
-class SegmentShape(Description):
+class SegmentShape(Shape):
     """A straight wall from ``a`` to ``b`` with round ends."""
 
     type: Literal["segment"] = "segment"
@@ -185,7 +195,7 @@ class SegmentShape(Description):
         return [(x + bx, y + by) for x, y in front] + [(x + ax, y + ay) for x, y in back]
 
 
-class RingShape(Description):
+class RingShape(Shape):
     """The band between two circles around the origin. For floors and areas only."""
 
     type: Literal["ring"] = "ring"
@@ -215,6 +225,12 @@ class RingShape(Description):
     def hole(self) -> list[tuple[float, float]]:
         """The inner rim, counter-clockwise."""
         return _arc(self.inner, 0, 2 * math.pi, 2 * OUTLINE_CORNERS)
+
+
+def _times(value: Any, times: float) -> Any:
+    if isinstance(value, tuple):
+        return tuple(_times(each, times) for each in value)
+    return value * times
 
 
 def _arc(radius: float, start: float, stop: float, steps: int) -> list[tuple[float, float]]:

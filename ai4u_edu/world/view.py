@@ -40,7 +40,8 @@ class WorldView:
         Raises:
             NameNotFoundError: there is none; the message suggests the nearest name.
         """
-        return self._world[name]
+        body = self._world._bodies.get(name)
+        return self._world[name] if body is None else body
 
     def __contains__(self, name: str) -> bool:
         return name in self._world.bodies or name in self._world.areas
@@ -100,14 +101,14 @@ class WorldView:
 
     def touching(self, body: BodyView, target: str) -> bool:
         """Whether an agent's body touches another body now, or its centre is in an area."""
-        area = self._world.areas.get(target)
+        area = self._world._areas.get(target)
         if area is not None:
             return area.contains(*body.position)
         return target in self._world.contacts.of(body.name)
 
     def touched_after(self, body: BodyView, target: str, tick: int) -> bool:
         """Whether they touch now, or touched at any tick after the given one."""
-        if target in self._world.areas:
+        if target in self._world._areas:
             return self.touching(body, target)
         return self._world.contacts.touched_after(body.name, target, tick)
 
@@ -116,7 +117,7 @@ class WorldView:
         return self._world.contacts.of(body.name)
 
     def bounds(self) -> tuple[tuple[float, float], tuple[float, float]]:
-        """A rectangle ((x0, y0), (x1, y1)) around all floors and all bodies as described."""
+        """A rectangle ((x0, y0), (x1, y1)) around all floors and bodies, in any episode."""
         return self._world.bounds()
 
     def diagonal(self) -> float:

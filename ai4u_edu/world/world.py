@@ -1,7 +1,7 @@
 """The world: a plane with height, bodies by name, and a fixed tick."""
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from types import MappingProxyType
 from typing import Any
 
@@ -9,26 +9,26 @@ import pymunk
 
 from ai4u_edu.errors import NameNotFoundError, WorldError, suggest
 from ai4u_edu.seeding import Seeds
-from ai4u_edu.world._chipmunk import let_go
+from ai4u_edu.world._chipmunk import let_go, stepper
 from ai4u_edu.world.body import Body, BodyView
+from ai4u_edu.world.bounds import Rectangle, around
 from ai4u_edu.world.build import build
 from ai4u_edu.world.contacts import Contacts
 from ai4u_edu.world.descriptions import (
     AreaDescription,
     BodyDescription,
     FloorDescription,
-    RegionDescription,
     WorldSettings,
 )
 from ai4u_edu.world.grip import tear_off
 from ai4u_edu.world.height import Height
+from ai4u_edu.world.overlap import in_the_way
+from ai4u_edu.world.places import Thing
 from ai4u_edu.world.region import Region
+from ai4u_edu.world.scatter import scatter, squeeze_in
 from ai4u_edu.world.shapes import BodyShape, RegionShape
 
 MAX_BODIES = 500
-
-OVERLAP = 1e-3
-"""Bodies may be put this far into each other (metres): touching is no overlap."""
 
 SLOP = 0.01
 """How far into each other bodies come to rest (metres); some of it keeps contacts steady."""
@@ -39,6 +39,9 @@ BIAS = 0.2**60
 A velocity that is set anew each tick drives a body into a wall for one tick, before the wall can
 answer; with pymunk's own nine tenths that adds up to half a metre at 3 m/s.
 """
+
+
+KIND = {BodyDescription: "a body", FloorDescription: "a floor", AreaDescription: "an area"}
 
 
 class World:
@@ -68,11 +71,14 @@ class World:
         self.space = pymunk.Space()
         self.contacts = Contacts()
         self.owners: dict[pymunk.Shape, Body] = {}
+        self._described: dict[str, Thing] = {}
+        self._has_random = False
         self._bodies: dict[str, Body] = {}
         self._floors: dict[str, tuple[FloorDescription, Region]] = {}
         self._areas: dict[str, Region] = {}
         self._height = Height(self)
-        self._dt = 1.0 / self.settings.ticks_per_second
+        self._ticks_per_second = self.settings.ticks_per_second
+        self._dt = 1.0 / self._ticks_per_second
         self._groups = 0
         self.generation = 0
         """Grows whenever the space is built anew or what is in it changes."""
@@ -92,6 +98,11 @@ class World:
     def floors(self) -> tuple[FloorDescription, ...]:
         """All floors; none means endless ground at height 0."""
         return tuple(floor for floor, _ in self._floors.values())
+
+    @property
+    def described(self) -> tuple[Thing, ...]:
+        """Everything as it was described, nothing drawn yet, in the order in which it was added."""
+        return tuple(self._described.values())
 
     @property
     def dt(self) -> float:
@@ -127,59 +138,81 @@ class World:
         Raises:
             WorldError: its name or its place is taken, or the world is full.
         """
-        self._check_name(description.name)
-        if len(self._bodies) >= MAX_BODIES:
-            raise WorldError(
-                f"body {description.name!r}: the world is full; expected at most {MAX_BODIES} "
-                "bodies; remove some, or build walls from longer segments"
-            )
-        body = Body(self, description)
-        self._embody(body)
-        self._height.settle(body, description.z)
-        taken = self._taken_by(body)
-        if taken is not None:
-            self._remove_parts(body)
-            raise WorldError(
-                f"body {description.name!r}: its place {description.position} overlaps body "
-                f"{taken.name!r} at {taken.description.position}; move one of them"
-            )
-        self._bodies[description.name] = body
-        self._height.rest(body)
-        return body
+        self.add_all([description])
+        return self._bodies[description.name]
 
     def add_region(self, description: FloorDescription | AreaDescription) -> None:
         """Adds a floor or an area from its description."""
-        self._check_name(description.name)
-        if isinstance(description, FloorDescription):
-            self._floors[description.name] = description, Region(description)
-            self._rest_all()
-        else:
-            self._areas[description.name] = Region(description)
-        self.generation += 1
+        self.add_all([description])
+
+    def add_all(self, things: Iterable[Thing]) -> None:
+        """Adds bodies, floors and areas, in this order.
+
+        Before the first tick, whatever is random is drawn when all of them are there, so that the
+        world is the one that a reset to its seed gives. Later, only what is new is drawn.
+
+        Raises:
+            WorldError: a name or a place is taken, or the world is full.
+        """
+        things = list(things)
+        if self.ticks == 0 and (self._has_random or any(each.random for each in things)):
+            self._add_and_draw(things)
+            return
+        for each in things:
+            self._add_now(each)
 
     def remove(self, name: str) -> None:
         """Takes a body out of the world for good."""
         body = self[name]
         self._remove_parts(body)
-        del self._bodies[name]
+        self._forget(name)
 
     def reset(self, seed: int | None = None) -> None:
         """Puts every body back where its description says, on a space built anew.
 
+        What is random in that is drawn anew.
+
         Args:
             seed: of the coming episode; left out, it follows from the last one.
+
+        Raises:
+            WorldError: there is no room for something random; then all stays as it is.
         """
         self.seeds = self.seeds.next() if seed is None else Seeds(seed)
         self.rebuild()
 
+    def put_back(self, name: str) -> None:
+        """Puts one body back where its description says, as a reset does; all others stay.
+
+        What is random in that is drawn anew. Nobody holds it or touches it then; it pushes aside
+        what stands in its place.
+
+        Raises:
+            WorldError: there is no room for something random; then all stays as it is.
+        """
+        body = self[name]
+        chance = self.seeds.child(f"put back/{name}")
+        body.drawn = squeeze_in(self, body.description, int(chance.integers(2**63)))
+        self._remove_parts(body)
+        self._embody(body)
+        self._height.settle(body, body.drawn.z)
+        self._height.rest(body)
+
     def rebuild(self) -> None:
-        """Builds the physics anew: one that is only put back remembers old contacts."""
+        """Builds the physics anew: one that is only put back remembers old contacts.
+
+        Raises:
+            WorldError: there is no room for something random; then all stays as it is.
+        """
+        if self._has_random:
+            self._draw()
         let_go(self.space)
         self.space = pymunk.Space()
         self.space.damping = self.settings.damping
         self.space.collision_slop, self.space.collision_bias = SLOP, BIAS
         self.ticks = 0
         self.owners = {}
+        self._step = stepper(self.space, self._dt)
         self.contacts.attach(self.space, self.owners)
         self._groups = 0
         for body in self._bodies.values():
@@ -188,28 +221,28 @@ class World:
 
     def tick(self) -> None:
         """Moves the world by one tick."""
-        self.ticks = self.contacts.tick = self.ticks + 1
-        self.space.step(self._dt)
+        contacts = self.contacts
+        self.ticks = contacts.tick = ticks = self.ticks + 1
+        self._step()
         if self._height.movers:
             self._height.step(self._dt)
-        if self.contacts.error is not None:
-            error, self.contacts.error = self.contacts.error, None
+        if contacts.error is not None:
+            error, contacts.error = contacts.error, None
             raise error
-        if self.ticks % self.settings.ticks_per_second == 0:
+        if ticks % self._ticks_per_second == 0:
             self._check_finite()
 
     def ground(self, x: float, y: float) -> float | None:
         """The height of the highest floor at a place; None over the void."""
         return self._height.ground(x, y)
 
-    def bounds(self) -> tuple[tuple[float, float], tuple[float, float]]:
-        """A rectangle ((x0, y0), (x1, y1)), metres, around all floors and bodies as described."""
-        corners = [_extent(floor) for floor in self.floors]
-        corners += [_extent(body.description) for body in self._bodies.values()]
-        if not corners:
-            return (-5.0, -5.0), (5.0, 5.0)
-        left, low, right, high = zip(*corners, strict=True)
-        return (min(left), min(low)), (max(right), max(high))
+    def bounds(self) -> Rectangle:
+        """A rectangle ((x0, y0), (x1, y1)), metres, around all floors and bodies.
+
+        As described, and wherever chance may put them: it is the same in every episode.
+        """
+        things = self._described.values()
+        return around(each for each in things if not isinstance(each, AreaDescription))
 
     def filter_for(self, body: BodyView | None, mask: int) -> pymunk.ShapeFilter:
         """A filter that lets through what the mask names, but not the body itself."""
@@ -218,6 +251,76 @@ class World:
 
     def _floor_regions(self) -> Iterator[tuple[FloorDescription, Region]]:
         yield from self._floors.values()
+
+    def _add_now(self, thing: Thing) -> None:
+        """Adds one thing to what is there, wherever that is now."""
+        self._check_name(thing)
+        if isinstance(thing, BodyDescription):
+            self._add_body(thing, squeeze_in(self, thing))
+        else:
+            self._put_region(squeeze_in(self, thing))
+            if isinstance(thing, FloorDescription):
+                self._rest_all()
+            self.generation += 1
+        self._know(thing)
+
+    def _add_and_draw(self, things: list[Thing]) -> None:
+        """Adds things to a world that has not begun, and finds a place for all that is random."""
+        added = []
+        try:
+            for thing in things:
+                self._check_name(thing)
+                added.append(thing.name)
+                if isinstance(thing, BodyDescription):
+                    self._bodies[thing.name] = Body(self, thing)
+                self._know(thing)
+            self.rebuild()
+            for name in added:
+                if name in self._bodies:
+                    self._check_place(self._bodies[name])
+        except WorldError:
+            for name in added:
+                self._forget(name)
+            self.rebuild()
+            raise
+
+    def _add_body(self, description: BodyDescription, drawn: BodyDescription) -> None:
+        body = Body(self, description)
+        body.drawn = drawn
+        self._embody(body)
+        self._height.settle(body, drawn.z)
+        try:
+            self._check_place(body)
+        except WorldError:
+            self._remove_parts(body)
+            raise
+        self._bodies[body.name] = body
+        self._height.rest(body)
+
+    def _put_region(self, drawn: FloorDescription | AreaDescription) -> None:
+        if isinstance(drawn, FloorDescription):
+            self._floors[drawn.name] = drawn, Region(drawn)
+        else:
+            self._areas[drawn.name] = Region(drawn)
+
+    def _know(self, thing: Thing) -> None:
+        self._described[thing.name] = thing
+        self._has_random = self._has_random or thing.random is not None
+
+    def _forget(self, name: str) -> None:
+        for things in (self._described, self._bodies, self._floors, self._areas):
+            things.pop(name, None)
+        self._has_random = any(thing.random for thing in self._described.values())
+
+    def _draw(self) -> None:
+        """Finds a place in this episode for all that is random."""
+        found = scatter(self.seeds.seed, self._described.values())
+        for thing in found.values():
+            if isinstance(thing, BodyDescription):
+                self._bodies[thing.name].drawn = thing
+            else:
+                self._put_region(thing)
+        self.generation += 1
 
     def _embody(self, body: Body) -> None:
         self._groups += 1
@@ -252,13 +355,13 @@ class World:
             self.generation += 1  # rays look at the height of what can't fall only once
 
     def _drop(self, body: Body) -> None:
-        """Takes a body that fell below the threshold out of the physics."""
+        """Takes a body out of the physics; it stays known."""
         body.fallen = True
         tear_off(self, body)
         self.space.remove(body._pm, *body._shapes)
         self.contacts.forget(body)
         body._pm.velocity, body._pm.angular_velocity, body.vz = (0.0, 0.0), 0.0, 0.0
-        del self._height.movers[body]
+        self._height.movers.pop(body, None)
 
     def _remove_parts(self, body: Body) -> None:
         tear_off(self, body)
@@ -270,60 +373,34 @@ class World:
         self._height.movers.pop(body, None)
         self.generation += 1
 
-    def _taken_by(self, body: Body) -> Body | None:
-        for shape in body._shapes:
-            for hit in self.space.shape_query(shape):
-                other = self.owners.get(hit.shape)
-                if other is None or other is body or not (body.moves or other.moves):
-                    continue
-                level = body.z < other.z + other.height and other.z < body.z + body.height
-                if level and _overlap(shape, body._pm, hit, other._pm):
-                    return other
-        return None
+    def _check_place(self, body: Body) -> None:
+        """Raises WorldError if a body was put into another one."""
+        taken = in_the_way(self, body)
+        if taken is not None:
+            raise WorldError(
+                f"body {body.name!r}: its place {body.drawn.position} overlaps body "
+                f"{taken.name!r} at {taken.drawn.position}; move one of them",
+                thing=body.name,
+            )
 
-    def _check_name(self, name: str) -> None:
-        for kind, known in (
-            ("body", self._bodies),
-            ("floor", self._floors),
-            ("area", self._areas),
-        ):
-            if name in known:
-                raise WorldError(f"{name!r} is already the name of a {kind}; names are unique")
+    def _check_name(self, thing: Thing) -> None:
+        known = self._described.get(thing.name)
+        problem = ""
+        if known is not None:
+            problem = f"{thing.name!r} is already the name of {KIND[type(known)]}; names are unique"
+        elif isinstance(thing, BodyDescription) and len(self._bodies) >= MAX_BODIES:
+            problem = (
+                f"body {thing.name!r}: the world is full; expected at most {MAX_BODIES} bodies; "
+                "remove some, or build walls from longer segments"
+            )
+        if problem:
+            raise WorldError(problem, thing=thing.name)
 
     def _check_finite(self) -> None:
         for body in self._bodies.values():
-            x, y = body._pm.position
-            if not math.isfinite(x + y + body._pm.angle):
+            x, y, _, heading = body.pose
+            if not math.isfinite(x + y + heading):
                 raise WorldError(
                     f"body {body.name!r} is at ({x}, {y}): the physics went out of range; "
                     "are masses or speeds extreme?"
                 )
-
-
-def _overlap(
-    shape: pymunk.Shape, pm: pymunk.Body, hit: pymunk.ShapeQueryInfo, other: pymunk.Body
-) -> bool:
-    # for some pairs of shapes the distance comes with the wrong sign, and as 0 for two that lie
-    # exactly upon each other
-    deepest = max(abs(point.distance) for point in hit.contact_point_set.points)
-    return (
-        deepest > OVERLAP
-        or _depth(hit.shape, pm.local_to_world(shape.center_of_gravity)) > OVERLAP
-        or _depth(shape, other.local_to_world(hit.shape.center_of_gravity)) > OVERLAP
-    )
-
-
-def _depth(shape: pymunk.Shape, place: tuple[float, float]) -> float:
-    return -shape.point_query(place).distance
-
-
-def _extent(
-    description: BodyDescription | RegionDescription,
-) -> tuple[float, float, float, float]:
-    x, y = description.position
-    angle = math.radians(description.heading_deg)
-    cos, sin = math.cos(angle), math.sin(angle)
-    points = description.shape.outline()
-    xs = [x + cos * px - sin * py for px, py in points]
-    ys = [y + sin * px + cos * py for px, py in points]
-    return min(xs), min(ys), max(xs), max(ys)

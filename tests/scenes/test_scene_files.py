@@ -8,6 +8,8 @@ import pytest
 
 from ai4u_edu import Scene
 from ai4u_edu.errors import SceneError
+from ai4u_edu.scenes.plain import OWN
+from ai4u_edu.snapshot import body_states, set_stage
 
 GOOD = """
 name: small
@@ -101,13 +103,13 @@ def test_names_do_not_lead_out_of_the_library() -> None:
             "type: LocalBrain",
             "type: LocalBrian",
             "my.yaml, line 8: agents[0].brains[0].type: unknown type of brain 'LocalBrian'; "
-            "did you mean 'LocalBrain'?",
+            f"did you mean 'LocalBrain'?; {OWN}",
         ),
         (
             "type: WASDRBMoveController",
             "type: WASDRBMoveControler",
             "my.yaml, line 9: agents[0].brains[0].controller.type: unknown type of controller "
-            "'WASDRBMoveControler'; did you mean 'WASDRBMoveController'?",
+            f"'WASDRBMoveControler'; did you mean 'WASDRBMoveController'?; {OWN}",
         ),
         (
             "{type: WASDRBMoveController}",
@@ -165,6 +167,126 @@ def test_what_is_wrong_is_told_with_its_line(old: str, new: str, text: str) -> N
     assert error_of(changed(old, new)) == text
 
 
+VARIED = """
+name: varied
+floors:
+  - name: plate
+    shape: {type: box, size: [8, 8]}
+areas:
+  - name: goal
+    shape: {type: circle, radius: 0.5}
+    random:
+      places: [[-3, -3], [3, 3]]
+      clearance: 0.5
+bodies:
+  - name: robot
+    shape: {type: circle, radius: 0.4}
+    random: {x: [-4, 4], y: [-4, 4], heading_deg: [-180, 180], scale: [0.8, 1.2], clearance: 0.3}
+  - name: wall
+    shape: {type: box, size: [4, 0.5]}
+    kind: static
+agents:
+  - body: robot
+    brains: [{type: LocalBrain, controller: {type: WASDRBMoveController}}]
+"""
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "text"),
+    [
+        ("x: [-4, 4]", "x: [4, -4]",
+         "my.yaml, line 14: bodies[0].random.x: expected the smaller number first, got "
+         "[4.0, -4.0]"),
+        ("clearance: 0.5", "x: [0, 1]",
+         "my.yaml, line 8: areas[0].random: expected either ranges (x, y) or places, got both; "
+         "leave one out"),
+        ("scale: [0.8, 1.2]", "scale: [0.8, big]",
+         "my.yaml, line 14: bodies[0].random.scale[1]: expected a number, got 'big'"),
+        ("clearance: 0.3", "clearence: 0.3",
+         "my.yaml, line 14: bodies[0].random.clearence: unknown parameter; did you mean "
+         "'clearance'?"),
+        ("size: [8, 8]}", "size: [8, 8]}\n    random: {clearance: 1, x: [0, 1]}",
+         "my.yaml, line 5: floors[0].random: a floor has bodies on it; expected no clearance, "
+         "leave it out"),
+        ("clearance: 0.3", "clearance: 9",
+         "my.yaml, line 12: bodies[0]: body 'robot': found no free place in 1000 draws (x -4..4, "
+         "y -4..4, heading_deg -180..180, scale 0.8..1.2, clearance 9; seed 0); in the way: "
+         "body 'wall' (1000 times); give it wider ranges or less clearance, or make it smaller"),
+        ("radius: 0.5", "radius: 9",
+         "my.yaml, line 6: areas[0]: area 'goal': found no free place in 1000 draws (places "
+         "(-3, -3), (3, 3), clearance 0.5; seed 0); in the way: body 'wall' (1000 times); give it "
+         "wider ranges or less clearance, or make it smaller"),
+        ("name: wall", "name: goal",
+         "my.yaml, line 15: bodies[1]: 'goal' is already the name of an area; names are unique"),
+    ],
+)  # fmt: skip
+def test_what_is_wrong_with_what_is_random_is_told(old: str, new: str, text: str) -> None:
+    assert old in VARIED
+    assert error_of(VARIED.replace(old, new)) == text
+
+
+def test_that_there_is_room_in_some_episodes_is_not_enough() -> None:
+    places = "places: [[0, 2], [0, -2], [0, -2.1], [0, -2.2]]"
+    text = VARIED.replace("x: [-4, 4], y: [-4, 4]", f"{places}").replace(
+        "bodies:\n", "bodies:\n  - {name: cat, random: {places: [[0, -3], [3, 0]]}}\n"
+    )
+    Scene.loads(text)
+    told = error_of(text.replace("[0, 2], ", ""))
+    assert told.startswith(
+        "my.yaml, line 13: bodies[1]: body 'robot': found no free place in 1000 "
+    )
+    assert "seed 0" not in told
+    assert "body 'cat'" in told
+
+
+def test_what_is_random_comes_back_from_the_file() -> None:
+    scene = Scene.loads(VARIED)
+    again = Scene.loads(scene.dumps())
+    assert again == scene
+    assert again.plain()["areas"][0]["random"] == {"places": [[-3, -3], [3, 3]], "clearance": 0.5}
+    here, there = scene.build(), again.build()
+    for seed in (None, 5):
+        here.reset(seed)
+        there.reset(seed)
+        assert set_stage(here) == set_stage(there)
+        assert body_states(here) == body_states(there)
+    assert scene.dumps() == again.dumps(), "what was drawn is in no file"
+
+
+def test_a_built_scene_is_the_one_of_its_seed() -> None:
+    built = Scene.loads(VARIED).build(seed=3)
+    before = set_stage(built), body_states(built)
+    built.reset(3)
+    assert (set_stage(built), body_states(built)) == before
+
+
+def test_the_stage_is_another_one_in_each_episode() -> None:
+    sim = Scene.loads(VARIED).build()
+    stages = []
+    for seed in range(5):
+        sim.reset(seed)
+        stages.append(set_stage(sim))
+        robot, wall = stages[-1].bodies
+        assert robot.position == sim.world["robot"].position
+        assert wall is sim.world["wall"].description
+    for each in (
+        {stage.bodies[0].position for stage in stages},
+        {stage.bodies[0].heading_deg for stage in stages},
+        {stage.bodies[0].shape for stage in stages},
+    ):
+        assert len(each) == len(stages)
+    assert {stage.areas[0].position for stage in stages} == {(-3, -3), (3, 3)}
+    assert len({stage.bounds for stage in stages}) == 1
+
+
+def test_a_respawn_wins_over_chance() -> None:
+    respawn = "    actuators: [{type: RespawnActuator, poses: [[2, 3, 90]]}]\n    brains: [{"
+    sim = Scene.loads(VARIED.replace("    brains: [{", respawn)).build()
+    for seed in range(3):
+        sim.reset(seed)
+        assert sim.world["robot"].position == (2.0, 3.0)
+
+
 def test_all_problems_of_a_kind_are_told_at_once() -> None:
     lines = error_of(
         """
@@ -199,7 +321,8 @@ def test_what_is_no_scene_at_all(text: str, part: str) -> None:
 
 
 def test_a_deep_nest_is_no_crash() -> None:
-    assert "my.yaml" in error_of("a: " + "[" * 5000)
+    assert error_of("a: " + "[" * 5000) == "my.yaml: nested more than 24 deep"
+    assert "nested" not in error_of("a: " + "[" * 23 + "1" + "]" * 23)
 
 
 def test_a_missing_file() -> None:

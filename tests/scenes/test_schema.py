@@ -39,11 +39,23 @@ def test_every_scene_of_the_library_fits(name: str) -> None:
         {"agents": [{"body": "a", "sensors": [{"type": "NoSensor"}]}]},
         {"agents": [{"body": "a", "sensors": [{"type": "VelocitySensor", "max_speed": -1}]}]},
         {"agents": [{"body": "a", "sensors": [{"type": "RBMoveActuator"}]}]},
+        {"bodies": [{"name": "a", "random": {"x": [1]}}]},
+        {"bodies": [{"name": "a", "random": {"scale": [0, 1]}}]},
+        {"areas": [{"name": "a", "shape": {"type": "circle"}, "random": {"at": [0, 1]}}]},
     ],
 )
 def test_what_is_wrong_does_not_fit(change: dict[str, Any]) -> None:
     assert errors_in({"name": "x", "agents": [{"body": "a"}]}) == []
     assert errors_in({"name": "x", "agents": [{"body": "a"}]} | change)
+
+
+def test_what_is_random_fits_and_is_explained() -> None:
+    vary = {"places": [[1, 2], [3, 4]], "heading_deg": [-90, 90], "scale": [0.5, 2], "clearance": 1}
+    thing = {"name": "a", "shape": {"type": "circle"}, "random": vary}
+    scene = {"name": "x", "agents": [{"body": "a"}]}
+    assert errors_in(scene | {"bodies": [thing], "areas": [thing], "floors": [thing]}) == []
+    for about in SCHEMA["$defs"]["Variation"]["properties"].values():
+        assert about["description"]
 
 
 def test_every_block_has_a_definition_with_a_description() -> None:

@@ -85,7 +85,8 @@ def test_names_are_unique_among_bodies_floors_and_areas() -> None:
     world.add_floor("floor", BoxShape(size=(9, 9)))
     world.add_area("area", BoxShape())
     for kind in ("body", "floor", "area"):
-        message = f"^{kind!r} is already the name of a {kind}; names are unique$"
+        article = "an" if kind == "area" else "a"
+        message = f"^{kind!r} is already the name of {article} {kind}; names are unique$"
         with pytest.raises(WorldError, match=message):
             world.add_body(kind, CircleShape(), position=(5, 5))
         with pytest.raises(WorldError, match=message):

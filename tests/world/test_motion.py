@@ -1,0 +1,66 @@
+"""The quick ways to ask, move and tick bodies give exactly what pymunk's public ones give."""
+
+import math
+import random
+from typing import Any
+
+import pymunk
+
+from ai4u_edu.world import _chipmunk
+from ai4u_edu.world._chipmunk import PUBLIC, QUICK, Motion, stepper
+
+
+def make_space() -> tuple[pymunk.Space, list[pymunk.Body]]:
+    """Boxes of odd shapes in a ring, some of which touch."""
+    chance = random.Random(3)
+    space = pymunk.Space()
+    space.damping = 0.3
+    bodies = []
+    for i in range(12):
+        body = pymunk.Body()
+        body.position = 1.2 * math.cos(i), 1.2 * math.sin(i)
+        body.angle = chance.uniform(-9, 9)
+        corners = [(chance.uniform(0.1, 0.5), chance.uniform(-0.5, 0.5)) for _ in range(3)]
+        shape = pymunk.Poly(body, [(-0.3, 0.1), *corners])
+        shape.mass, shape.friction = 1 + i / 7, 0.5
+        space.add(body, shape)
+        bodies.append(body)
+    return space, bodies
+
+
+def drive(way: Motion, tick: Any, bodies: list[pymunk.Body]) -> list[tuple[float, ...]]:
+    chance = random.Random(5)
+    handles, vector, where = [way.handle(body) for body in bodies], way.vector(), way.vector()
+    seen: list[tuple[float, ...]] = []
+    for _ in range(120):
+        for i, handle in enumerate(handles):
+            vector.x, vector.y = chance.uniform(-9, 9), chance.uniform(-9, 9)
+            if i % 3 == 0:
+                way.push(handle, vector, where)
+            elif i % 3 == 1:
+                way.set_velocity(handle, vector)
+            else:
+                way.set_angular_velocity(handle, vector.x)
+        tick()
+        for handle in handles:
+            place = way.place(handle)
+            seen.append((place.x, place.y, way.angle(handle)))
+    return seen
+
+
+def test_the_quick_way_is_there_and_gives_exactly_what_the_public_one_gives() -> None:
+    assert QUICK is not PUBLIC, "with another pymunk it is; here we want to know"
+    space, bodies = make_space()
+    expected = drive(PUBLIC, lambda: space.step(1 / 60), bodies)
+    space, bodies = make_space()
+    assert drive(QUICK, stepper(space, 1 / 60), bodies) == expected
+    assert len(set(expected)) == len(expected)
+
+
+def test_without_it_ticks_go_the_public_way(monkeypatch: Any) -> None:
+    monkeypatch.setattr(_chipmunk, "_FAST", False)
+    space, bodies = make_space()
+    slow = drive(PUBLIC, stepper(space, 1 / 60), bodies)
+    monkeypatch.undo()
+    space, bodies = make_space()
+    assert drive(QUICK, stepper(space, 1 / 60), bodies) == slow
