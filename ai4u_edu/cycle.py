@@ -7,12 +7,30 @@ The order is a contract::
     decide:    the brain gets the percept and answers with an action (or a command)
     step:      reward := 0, begin_of_step
     each tick: on the first, or on all with repeat_action: begin_of_apply_action, the actuators
-               act, end_of_apply_action; then the world ticks
+               act, end_of_apply_action; then the world ticks; then actuators' and reward
+               functions' on_tick
     end:       every reward function's on_update, end_of_step, steps += 1; the episode may be over:
                end_of_episode
     sense:     ... the reading that ends one decision is the one that begins the next
 
 A body that falls out of the world in the middle of a cycle ends the cycle there.
+
+Each agent has an episode of its own, and they may end at different times. An agent whose episode is
+over takes no more decisions: its body stays in the world, undriven, and the others go on. Its brain
+is still asked, and two of its answers count:
+
+- RESTART: a new episode for the world and all its agents, at once, in place of the tick.
+- RESPAWN: a new episode for this agent alone, when the tick is over, in the order of the reset::
+
+    restart:   before_the_reset, the body goes back, blocks' on_reset, first sense, begin_of_episode
+
+  The body is as after a reset: it lets go, is let go of, and touches nothing until the next tick;
+  whoever touched it touched it until now, and what stands in its place is pushed aside. Stacked
+  readings begin anew. Chance goes on where it was, so another episode is another one; the clock and
+  the blocks of the others know nothing of it.
+
+A brain that answers HOLD has the world wait: the others are asked as well, and what they decide
+begins with the tick that takes place at last.
 """
 
 from collections.abc import Sequence
@@ -34,20 +52,24 @@ class _Cycle:
         self._ticks = 1
         self._repeat = True
         self._action: list[tuple[Actuator, Numbers]] = []
+        self._fitting = agent.fitting
 
     def decide(self) -> Command | None:
         """Asks the brain; a command is handed back, an action begins a step."""
         agent = self.agent
         if agent.stopped:
             return None
-        answer = agent.brain.decide(agent.percept)
+        fitting = self._fitting = agent.fitting
+        brain = fitting.brain
+        answer = brain.decide(agent.percept)
         if isinstance(answer, Command):
+            agent.obey(answer)
             return answer
-        if agent.done or agent.paused:
+        if agent.terminated or agent.truncated or agent.paused:
             return None
         self._action = agent.accept(answer)
-        self._tick, self._ticks = 0, agent.brain.skip_frame + 1
-        self._repeat = agent.brain.repeat_action
+        self._tick, self._ticks = 0, brain.skip_frame + 1
+        self._repeat = brain.repeat_action
         self.under_way = True
         agent.begin_step()
         return None
@@ -56,8 +78,7 @@ class _Cycle:
         """Lets the actuators act, if it is a tick on which they do."""
         if self._tick and not self._repeat:
             return
-        agent = self.agent
-        body = agent.body
+        agent, body = self.agent, self._fitting.body
         for actuator, numbers in self._action:
             if agent.begin_of_apply_action.handlers:
                 agent.begin_of_apply_action.fire(agent)
@@ -67,14 +88,42 @@ class _Cycle:
 
     def advance(self) -> None:
         """A tick is over; the last one ends the step and senses anew."""
-        agent = self.agent
+        fitting = self._fitting
         self._tick += 1
-        for reward in agent.fitting.tick_rewards:
-            reward.on_tick(agent.body, agent.view)
-        if self._tick >= self._ticks or agent.body.fallen:
-            self.under_way = False
-            agent.end_step()
-            agent.sense()
+        for actuator in fitting.tick_actuators:
+            actuator.on_tick(fitting.body, fitting.view)
+        for reward in fitting.tick_rewards:
+            reward.on_tick(fitting.body, fitting.view)
+        if self._tick >= self._ticks or fitting.body.fallen:
+            self._end()
+
+    def can_hurry(self) -> bool:
+        """Whether a step has begun, and nothing but acting and ticking happens until its end."""
+        agent, fitting = self.agent, self._fitting
+        return self.under_way and not (
+            fitting.tick_actuators
+            or fitting.tick_rewards
+            or agent.begin_of_apply_action.handlers
+            or agent.end_of_apply_action.handlers
+        )
+
+    def hurry(self, world: World) -> None:
+        """The rest of a step at one go, as one tick after another would do it."""
+        body, tick = self._fitting.body, world.tick
+        acts = [(actuator.act, numbers) for actuator, numbers in self._action]
+        for index in range(self._tick, self._ticks):
+            if self._repeat or not index:
+                for act, numbers in acts:
+                    act(body, numbers)
+            tick()
+            if body.fallen:
+                break
+        self._end()
+
+    def _end(self) -> None:
+        self.under_way = False
+        self.agent.end_step()
+        self.agent.sense()
 
 
 class ControlRequestor:
@@ -84,6 +133,8 @@ class ControlRequestor:
         world: where the agents' bodies are.
         agents: set up here; those of higher priority act first, equal ones in this order.
         default_time_scale: how fast a viewer lets the time run; 1 is real time.
+        goal: what is to be done, in words, for those who look.
+        success: the reward term that is paid when it is done; empty if there is none.
 
     >>> from ai4u_edu import BasicAgent, CircleShape, LocalBrain, RBMoveActuator, World
     >>> world = World()
@@ -102,7 +153,13 @@ class ControlRequestor:
     """
 
     def __init__(
-        self, world: World, agents: Sequence[BasicAgent], *, default_time_scale: float = 1.0
+        self,
+        world: World,
+        agents: Sequence[BasicAgent],
+        *,
+        default_time_scale: float = 1.0,
+        goal: str = "",
+        success: str = "",
     ) -> None:
         if not agents:
             raise SetupError("expected at least one agent, got none")
@@ -113,11 +170,17 @@ class ControlRequestor:
         self.world = world
         self.agents = tuple(sorted(agents, key=lambda agent: -agent.priority))
         self.default_time_scale = default_time_scale
+        self.goal = goal
+        self.success = success
         self.episode = 0
-        """How many episodes have begun."""
+        """How many episodes of the world have begun."""
+        self.held = False
+        """Whether the last tick did not take place, because a brain has the world wait for it."""
         for agent in self.agents:
+            agent.companions = len(self.agents) - 1
             agent.setup(world)
         self._cycles = [_Cycle(agent) for agent in self.agents]
+        self._respawning: list[_Cycle] = []
 
     def agent(self, agent_id: str) -> BasicAgent:
         """The agent of that id."""
@@ -139,26 +202,20 @@ class ControlRequestor:
                 agent.before_the_reset.fire(agent)
         self.world.reset(seed)
         self.episode += 1
-        for cycle in self._cycles:
-            cycle.under_way = False
-            cycle.agent.begin_episode()
-        for agent in self.agents:
-            agent.sense()
-            if agent.begin_of_episode.handlers:
-                agent.begin_of_episode.fire(agent)
+        self._begin(self._cycles)
+
+    def restart(self, *agents: BasicAgent) -> None:
+        """Begins an episode for one agent, or several at once; the world and the others go on.
+
+        Its body goes back to where its description says, or a RespawnActuator puts it. A decision
+        that is under way ends without a reward.
+        """
+        self._restart([self._cycle_of(agent) for agent in agents])
 
     def tick(self) -> None:
         """One tick: agents whose turn it is decide, all act, the world moves."""
-        for cycle in self._cycles:
-            if not cycle.under_way and self._obey(cycle.agent, cycle.decide()):
-                return  # a new episode has begun
-        for cycle in self._cycles:
-            if cycle.under_way:
-                cycle.apply()
-        self.world.tick()
-        for cycle in self._cycles:
-            if cycle.under_way:
-                cycle.advance()
+        if self._decide():
+            self._move()
 
     def step(self, agent: BasicAgent | None = None) -> Percept:
         """Ticks until a decision of an agent (the first one) is over, or its episode is.
@@ -167,8 +224,12 @@ class ControlRequestor:
             What the agent senses then.
         """
         agent = agent or self.agents[0]
-        cycle = self._cycles[self.agents.index(agent)]
-        self.tick()
+        cycle = self._cycle_of(agent)
+        if self._decide():
+            if len(self._cycles) == 1 and cycle.can_hurry():
+                cycle.hurry(self.world)
+            else:
+                self._move()
         while cycle.under_way:
             self.tick()
         return agent.percept
@@ -177,16 +238,56 @@ class ControlRequestor:
         """Whether no agent is in the middle of a step: the time to change things."""
         return not any(cycle.under_way for cycle in self._cycles)
 
-    def _obey(self, agent: BasicAgent, command: Command | None) -> bool:
-        """Carries a brain's command out; whether a new episode has begun by it."""
-        match command:
-            case Command.RESTART:
-                self.reset()
-                return True
-            case Command.PAUSE:
-                agent.paused = True
-            case Command.RESUME:
-                agent.paused = False
-            case Command.STOP:
-                agent.stopped = True
-        return False
+    def _decide(self) -> bool:
+        """Asks the brains whose turn it is; whether there is a tick then."""
+        self._respawning = []
+        self.held = False
+        for cycle in self._cycles:
+            if cycle.under_way:
+                continue
+            command = cycle.decide()
+            if command is None:
+                continue
+            if command is Command.RESTART:
+                self.reset(cycle.agent.brain.restart_seed())
+                return False
+            if command is Command.RESPAWN:
+                self._respawning.append(cycle)
+            self.held = self.held or command is Command.HOLD
+        if self.held:
+            self._restart(self._respawning)
+        return not self.held
+
+    def _move(self) -> None:
+        for cycle in self._cycles:
+            if cycle.under_way:
+                cycle.apply()
+        self.world.tick()
+        for cycle in self._cycles:
+            if cycle.under_way:
+                cycle.advance()
+        if self._respawning:
+            # not sooner: what they sense first is to be as new as what they decide on
+            self._restart(self._respawning)
+
+    def _restart(self, cycles: list[_Cycle]) -> None:
+        for cycle in cycles:
+            if cycle.agent.before_the_reset.handlers:
+                cycle.agent.before_the_reset.fire(cycle.agent)
+        for cycle in cycles:
+            self.world.put_back(cycle.agent.body_name)
+        self._begin(cycles)
+
+    def _begin(self, cycles: list[_Cycle]) -> None:
+        """What a reset and a restart share, when the bodies are in their places."""
+        for cycle in cycles:
+            cycle.under_way = False
+            cycle.agent.begin_episode()
+        for cycle in cycles:
+            agent = cycle.agent
+            agent.sense()
+            if agent.begin_of_episode.handlers:
+                agent.begin_of_episode.fire(agent)
+
+    def _cycle_of(self, agent: BasicAgent) -> _Cycle:
+        return self._cycles[self.agents.index(agent)]

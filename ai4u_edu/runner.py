@@ -13,6 +13,7 @@ from concurrent.futures import Future
 from typing import Any, TypeVar
 
 from ai4u_edu.cycle import ControlRequestor
+from ai4u_edu.recording import Recorder
 from ai4u_edu.snapshot import Snapshot, Stage, picture_of, set_stage
 
 T = TypeVar("T")
@@ -22,6 +23,13 @@ LATE = 0.25
 PATIENCE = 0.25
 """Where agents decide at different times there may be no moment between all decisions; a command
 waits this long (s) for one, and then takes any moment between two ticks."""
+OFTEN_ENOUGH = 1 / 120
+"""Seconds between two snapshots at least, while the world runs faster than anybody can look."""
+
+SLICE = 0.015
+"""While a world waits for a call, it is looked so often (s) whether somebody wants something."""
+SPRINT = 0.002
+"""Seconds for which somebody who called may keep the world; a tick more, at most."""
 
 
 class Runner:
@@ -32,6 +40,7 @@ class Runner:
         seed: of the first episode.
         time_scale: how fast the time runs; left out, as the sim says. ``math.inf`` for as fast as
             it goes.
+        recorder: keeps the episodes; it has to listen to the same sim.
         clock: seconds; to be replaced in tests.
     """
 
@@ -41,9 +50,11 @@ class Runner:
         *,
         seed: int | None = None,
         time_scale: float | None = None,
+        recorder: Recorder | None = None,
         clock: Callable[[], float] = time.perf_counter,
     ) -> None:
         self.sim = sim
+        self.recorder = recorder
         self.paused = False
         self.error = ""
         self.time_scale = sim.default_time_scale
@@ -55,7 +66,11 @@ class Runner:
         self._published = threading.Condition()
         self._stopping = False
         self._thread: threading.Thread | None = None
+        self._turn = threading.Lock()  # whoever has it may let the world go on
+        self._called = threading.Event()
+        self._expected = 0
         self._due = 0.0
+        self._shown = 0.0
         self._window: deque[tuple[float, int]] = deque(maxlen=60)
         self._ticked = 0
         sim.reset(seed)
@@ -82,9 +97,13 @@ class Runner:
             if not future.set_running_or_notify_cancel():
                 return
             try:
-                future.set_result(command())
+                result = self.recorder.guard(command) if self.recorder else command()
             except Exception as error:  # it belongs to whoever asked
+                self._publish()
                 future.set_exception(error)
+            else:
+                self._publish()  # first: who asked, and hears that it is done, looks at once
+                future.set_result(result)
 
         with self._wake:
             if self._stopping:
@@ -124,6 +143,36 @@ class Runner:
         """Lets the time run faster or slower."""
         return self.submit(lambda: self.set_time_scale(time_scale))
 
+    # -- for those who are waited for ------------------------------------------------------------
+
+    def expect_call(self) -> None:
+        """Said by a link that was asked: its answer will come with a :meth:`call`."""
+        self._expected += 1
+
+    def call(self) -> None:
+        """Something that the world waits for is there.
+
+        When all is there, a world that runs as fast as it goes goes on right here, in the caller's
+        thread, until it waits again: to wake the runner's thread, and to be woken by it, takes
+        longer than a tick does.
+        """
+        self._expected -= 1
+        if self._expected > 0:
+            return
+        if not self._may_sprint() or not self._turn.acquire(blocking=False):
+            self._called.set()
+            return
+        try:
+            end = self._clock() + SPRINT
+            while self._may_sprint() and self._clock() < end:
+                self._expected = 0
+                self.advance()
+                if self.sim.held:
+                    return
+        finally:
+            self._turn.release()
+        self._called.set()
+
     # -- the thread ------------------------------------------------------------------------------
 
     def start(self) -> None:
@@ -133,7 +182,7 @@ class Runner:
         self._thread.start()
 
     def stop(self) -> None:
-        """Ends the thread; commands that still wait are cancelled."""
+        """Ends the thread; commands that still wait are cancelled, brains are closed."""
         with self._wake:
             self._stopping = True
             self._wake.notify()
@@ -141,6 +190,10 @@ class Runner:
             self._thread.join()
         while self._commands:
             self._commands.popleft()[2].cancel()
+        if self.recorder is not None:
+            self.recorder.finish()
+        for agent in self.sim.agents:
+            agent.brain.close()
 
     def set_time_scale(self, time_scale: float) -> None:
         """Sets the time scale at once; only for the runner's thread, or before it starts."""
@@ -160,14 +213,27 @@ class Runner:
             self._tick()
             self._keep_time()
 
+    def _may_sprint(self) -> bool:
+        """Whether there is nothing to wait for but ticks, and a thread that would do them."""
+        standing = self.paused or self.error or self._commands or self._stopping
+        return math.isinf(self.time_scale) and self._thread is not None and not standing
+
     def _run(self) -> None:
         while not self._stopping:
-            self.advance()
+            with self._turn:
+                self._expected = 0
+                self.advance()
+                waits = self.sim.held and self._expected > 0
+            if waits:
+                self._called.wait(SLICE)
+                self._called.clear()
 
     def _rest(self) -> None:
         self._window.clear()
         with self._wake:
             self._wake.wait_for(lambda: self._commands or self._stopping, 0.1)
+        for agent in self.sim.agents:
+            agent.brain.idle()
         self._publish()  # keys that are held, and the like, go on
         self._due = self._clock()
 
@@ -176,12 +242,21 @@ class Runner:
             self.sim.tick()
         except Exception as error:  # a student's block may raise anything; the page shows it
             self.error = _sentence(error)
-        self._ticked += 1
-        self._publish()
+        self._ticked += not self.sim.held
+        self._show()
+
+    def _show(self) -> None:
+        """Publishes every tick, or of a world that runs fast as many as one can see."""
+        slow = self.sim.world.dt / self.time_scale >= OFTEN_ENOUGH
+        if slow or self.error or self._clock() - self._shown >= OFTEN_ENOUGH:
+            self._publish()
 
     def _keep_time(self) -> None:
         now = self._clock()
         self._window.append((now, self._ticked))
+        if self.sim.held:
+            self._due = now  # the time stood still: there is nothing to catch up with
+            return
         self._due = max(self._due + self.sim.world.dt / self.time_scale, now - LATE)
         if self._due > now:
             time.sleep(self._due - now)
@@ -189,12 +264,11 @@ class Runner:
     def _carry_out_commands(self) -> None:
         while self._commands:
             asked, command, _ = self._commands[0]
-            standing = self.paused or self.error or self.sim.between_decisions()
+            standing = self.paused or self.error or self.sim.held or self.sim.between_decisions()
             if not standing and self._clock() - asked < PATIENCE:
                 return
             self._commands.popleft()
             command()
-            self._publish()
 
     def _set_paused(self, paused: bool) -> None:
         self.paused = paused
@@ -203,6 +277,7 @@ class Runner:
                 agent.keyboard.release()
 
     def _publish(self) -> None:
+        self._shown = self._clock()
         self.latest = self._picture()
         with self._published:
             self._published.notify_all()

@@ -1,16 +1,32 @@
 """One frozen picture of everything, for the page, the API and the recorder."""
 
-from dataclasses import dataclass
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+from typing import NamedTuple
 
 from ai4u_edu.agent import BasicAgent
-from ai4u_edu.blocks import Percept, RayPicture, RaySensor
+from ai4u_edu.blocks import (
+    FallReward,
+    HomeostaticReward,
+    Legend,
+    Percept,
+    RayPicture,
+    RaySensor,
+    RemoteBrain,
+    RemoteStatus,
+    RewardFunc,
+    SpotPicture,
+)
 from ai4u_edu.cycle import ControlRequestor
 from ai4u_edu.world import AreaDescription, BodyDescription, FloorDescription, WorldSettings
 
 
 @dataclass(frozen=True, slots=True)
 class Stage:
-    """What does not move; the same object until something is built anew."""
+    """What does not move in an episode; the same object until something is built anew.
+
+    What a scene leaves to chance stands here as it was drawn.
+    """
 
     settings: WorldSettings
     floors: tuple[FloorDescription, ...]
@@ -19,7 +35,21 @@ class Stage:
     agent_of: dict[str, str]
     """The agent's id, by the name of its body."""
     bounds: tuple[tuple[float, float], tuple[float, float]]
-    """A rectangle around everything, as described: ((left, low), (right, high)), metres."""
+    """A rectangle around everything in all episodes: ((left, low), (right, high)), metres."""
+    goal: str = ""
+    """What is to be done, in words."""
+    success: str = ""
+    """The reward term that is paid when it is done; empty if there is none."""
+
+
+class Need(NamedTuple):
+    """Something that an agent has to keep in balance, as it is now."""
+
+    name: str
+    level: float
+    range: tuple[float, float]
+    comfort: tuple[float, float]
+    """The ends of the zone in which the agent feels well."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,6 +91,19 @@ class AgentState:
     held_keys: frozenset[str]
     rays: dict[str, RayPicture]
     """The rays of the last reading, by perception key."""
+    remote: RemoteStatus | None = None
+    """How it stands with the script that drives, if it is one's turn."""
+    episode: int = 1
+    """How many episodes the agent has begun, those that it began alone too."""
+    succeeded: bool = False
+    """Whether it was paid in this episode for reaching the scene's goal."""
+    fell: bool = False
+    """Whether its episode ended because it fell."""
+    needs: tuple[Need, ...] = ()
+    spots: dict[str, SpotPicture] = field(default_factory=dict)
+    """The places that sensors looked at in their last reading, by perception key."""
+    legends: dict[str, Legend] = field(default_factory=dict)
+    """How readings are seen as pictures, by perception key."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -115,7 +158,7 @@ def picture_of(
         real_time_factor=real_time_factor,
         error=error,
         bodies=body_states(sim),
-        agents=tuple(agent_state(agent) for agent in sim.agents),
+        agents=tuple(agent_state(agent, sim.success) for agent in sim.agents),
     )
 
 
@@ -130,9 +173,11 @@ def set_stage(sim: ControlRequestor) -> Stage:
             for region in world.areas.values()
             if isinstance(region.description, AreaDescription)
         ),
-        bodies=tuple(body.description for body in world.bodies.values()),
+        bodies=tuple(body.drawn for body in world.bodies.values()),
         agent_of={agent.body_name: agent.id for agent in sim.agents},
         bounds=world.bounds(),
+        goal=sim.goal,
+        success=sim.success,
     )
 
 
@@ -160,9 +205,17 @@ def body_states(sim: ControlRequestor) -> tuple[BodyState, ...]:
     return tuple(states)
 
 
-def agent_state(agent: BasicAgent) -> AgentState:
-    """What an agent sensed, did and got in its last decision."""
+def agent_state(agent: BasicAgent, success: str = "") -> AgentState:
+    """What an agent sensed, did and got in its last decision.
+
+    Args:
+        agent: which.
+        success: the reward term that is paid when the goal is reached.
+    """
     ledger = agent.ledger
+    sensors = [sensor for sensor in agent.fitting.sensors if sensor.is_active]
+    spots = {sensor.perception_key: sensor.spots() for sensor in sensors}
+    legends = {sensor.perception_key: sensor.legend() for sensor in sensors}
     return AgentState(
         id=agent.id,
         body=agent.body_name,
@@ -181,7 +234,43 @@ def agent_state(agent: BasicAgent) -> AgentState:
         held_keys=agent.keyboard.held(),
         rays={
             sensor.perception_key: sensor.picture()
-            for sensor in agent.fitting.sensors
-            if isinstance(sensor, RaySensor) and sensor.is_active
+            for sensor in sensors
+            if isinstance(sensor, RaySensor)
         },
+        remote=agent.brain.status() if isinstance(agent.brain, RemoteBrain) else None,
+        episode=agent.episode,
+        succeeded=ledger.episode_terms.get(success, 0.0) > 0,
+        fell=_fell(agent),
+        needs=tuple(_needs(agent)),
+        spots={key: each for key, each in spots.items() if each is not None},
+        legends={key: each for key, each in legends.items() if each is not None},
     )
+
+
+def _fell(agent: BasicAgent) -> bool:
+    if not agent.terminated:
+        return False
+    low = agent.body.fallen and not agent.body.on_ground  # who was only taken away stood there
+    ends = [
+        reward
+        for reward in agent.fitting.rewards
+        if reward.cause_episode_to_end and agent.ledger.terms.get(reward.name)
+    ]
+    # after another end a body may yet roll over the edge
+    return any(_is_for_falling(reward, low=low) for reward in ends) if ends else low
+
+
+def _is_for_falling(reward: RewardFunc, *, low: bool) -> bool:
+    children: Sequence[RewardFunc] = getattr(reward, "children", ())
+    return isinstance(reward, FallReward) or (
+        low and any(_is_for_falling(child, low=low) for child in children)
+    )
+
+
+def _needs(agent: BasicAgent) -> Iterator[Need]:
+    for reward in agent.fitting.rewards:
+        if isinstance(reward, HomeostaticReward):
+            for each in reward.variables:
+                bounds = each.range_min, each.range_max
+                comfort = each.comfort_min, each.comfort_max
+                yield Need(each.name, each.level, bounds, comfort)

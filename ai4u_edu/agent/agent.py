@@ -6,7 +6,7 @@ from ai4u_edu.agent.events import Event
 from ai4u_edu.agent.fitting import Fitting
 from ai4u_edu.agent.ledger import HANDLERS, Ledger
 from ai4u_edu.agent.table import table
-from ai4u_edu.blocks import Action, Actuator, Brain, Keyboard, Percept, RewardFunc, Sensor
+from ai4u_edu.blocks import Action, Actuator, Brain, Command, Keyboard, Percept, RewardFunc, Sensor
 from ai4u_edu.blocks.declared import Declared
 from ai4u_edu.errors import ActionError, SetupError, suggest
 from ai4u_edu.parameters import Count, Name, Number
@@ -43,6 +43,10 @@ class BasicAgent(Declared):
     def __post_init__(self) -> None:
         self.keyboard = Keyboard()
         self.ledger = Ledger()
+        self.episode = 0
+        """How many episodes it has begun; those that it began alone count too."""
+        self.companions = 0
+        """How many other agents are in its world."""
         self.steps = 0
         """Decisions taken in this episode."""
         self.terminated = False
@@ -144,6 +148,7 @@ class BasicAgent(Declared):
     def begin_episode(self) -> None:
         """Forgets the last episode and resets all blocks."""
         self.ledger.clear()
+        self.episode += 1
         self.steps = 0
         self.terminated = self.truncated = self.paused = self.stopped = False
         self._done_requested = False
@@ -160,6 +165,16 @@ class BasicAgent(Declared):
             self.end_of_update_state.fire(self)
         return self._percept
 
+    def obey(self, command: Command) -> None:
+        """What a brain's command changes in the agent itself."""
+        match command:
+            case Command.PAUSE:
+                self.paused = True
+            case Command.RESUME:
+                self.paused = False
+            case Command.STOP:
+                self.stopped = True
+
     def accept(self, action: Action) -> list[tuple[Actuator, Numbers]]:
         """Checks an action and finds its actuators.
 
@@ -167,12 +182,17 @@ class BasicAgent(Declared):
             ActionError: it names an actuator that there is not, or its numbers don't fit.
         """
         actuators = self.fitting.actuators
+        accepted, numbers = [], {}
         try:
-            accepted = [(actuators[name], actuators[name].accept(action[name])) for name in action]
+            for name in action:
+                actuator = actuators[name]
+                numbers[name] = actuator.accept(action[name])
+                if actuator.is_active:
+                    accepted.append((actuator, numbers[name]))
         except (KeyError, TypeError):
             self._refuse(action)
-        self.last_action = {actuator.action_name: numbers for actuator, numbers in accepted}
-        return [pair for pair in accepted if pair[0].is_active]
+        self.last_action = numbers
+        return accepted
 
     def begin_step(self) -> None:
         """A decision was taken: nothing is paid for it yet."""
@@ -185,25 +205,22 @@ class BasicAgent(Declared):
 
     def end_step(self) -> None:
         """The decision's last tick is over: pays, and finds out whether the episode ends."""
-        for reward in self.fitting.rewards:
-            if reward.is_active:
-                amount = self.fitting.pay(reward)
-                self.ledger.pay(reward.name, amount * self.reward_scale)
-                if amount and reward.cause_episode_to_end:
-                    self._done_requested = True
+        fitting = self.fitting
+        if fitting.pay(self.ledger, self.reward_scale):
+            self._done_requested = True
         if self.end_of_step.handlers:
             self.end_of_step.fire(self)
         self.steps += 1
         total = self.ledger.total
         self.terminated = (
             self._done_requested
-            or self.fitting.body.fallen
+            or fitting.body.fallen
             or (self.done_at_negative_reward and total < 0)
             or (self.done_at_positive_reward and total > 0)
         )
         limit = self.max_steps_per_episode
         self.truncated = not self.terminated and 0 < limit <= self.steps
-        if self.done and self.end_of_episode.handlers:
+        if self.end_of_episode.handlers and self.done:
             self.end_of_episode.fire(self)
 
     def _refuse(self, action: object) -> None:

@@ -7,7 +7,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ai4u_edu.agent.ledger import Ledger
 from ai4u_edu.blocks import (
+    Actuator,
     Brain,
     DoneSensor,
     IDSensor,
@@ -50,6 +52,9 @@ class Fitting:
         self._check_unique("sensor", "perception_key", [s.perception_key for s in self.sensors])
         self._check_unique("actuator", "action_name", [each.action_name for each in active])
         self.actuators = {actuator.action_name: actuator for actuator in active}
+        self.tick_actuators = [
+            actuator for actuator in active if type(actuator).on_tick is not Actuator.on_tick
+        ]
         self.tick_rewards = [
             reward for reward in self.rewards if type(reward).on_tick is not RewardFunc.on_tick
         ]
@@ -70,7 +75,9 @@ class Fitting:
         brain.enabled = True
         self._set_up(brain)
         brain.on_reset(self._agent, self.view)
-        self.brain.enabled = False
+        if self.brain is not brain:
+            self.brain.enabled = False
+            self.brain.close()
         self.brain = brain
         if not any(each is brain for each in self._agent.brains):
             self._agent.brains.append(brain)
@@ -96,7 +103,7 @@ class Fitting:
         try:
             for sensor in self._number_sensors:
                 if sensor.is_active:
-                    sensor.sense(body, view)
+                    sensor.take(body, view)
                 else:
                     sensor.blank()
             texts = []
@@ -111,18 +118,34 @@ class Fitting:
             raise
         return Percept(self.layout, bytes(self._memory), tuple(texts))
 
-    def pay(self, reward: RewardFunc) -> float:
-        """What one reward function says of the decision that just ended."""
+    def pay(self, ledger: Ledger, scale: float) -> bool:
+        """Every active reward function is asked about the decision that just ended.
+
+        Args:
+            ledger: where the amounts are booked.
+            scale: what each is multiplied by.
+
+        Returns:
+            Whether one that ends the episode has paid something.
+        """
+        body, view = self.body, self.view
+        ends = False
+        reward: RewardFunc | None = None
         try:
-            amount = float(reward.on_update(self.body, self.view))
+            for reward in self.rewards:
+                if reward.is_active:
+                    amount = float(reward.on_update(body, view))
+                    if not math.isfinite(amount):
+                        raise ReadingError(f"expected a finite number, got {amount}")
+                    ledger.pay(reward.name, amount * scale)
+                    if amount and reward.cause_episode_to_end:
+                        ends = True
         except AI4UError as error:
             raise ReadingError(f"{_named(reward)}: {error}") from error
         except TypeError as error:
             error.add_note(f"{_named(reward)}: on_update must return a number")
             raise
-        if not math.isfinite(amount):
-            raise ReadingError(f"{_named(reward)}: expected a finite number, got {amount}")
-        return amount
+        return ends
 
     def _with_standard_ones(self) -> list[Sensor]:
         """The agent's sensors, and those that every agent has."""

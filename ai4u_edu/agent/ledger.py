@@ -35,8 +35,9 @@ class Ledger:
 
     def pay(self, name: str, amount: float) -> None:
         """Books an amount under a name."""
-        self.terms[name] = self.terms.get(name, 0.0) + amount
-        self.episode_terms[name] = self.episode_terms.get(name, 0.0) + amount
+        terms, episode_terms = self.terms, self.episode_terms
+        terms[name] = terms.get(name, 0.0) + amount
+        episode_terms[name] = episode_terms.get(name, 0.0) + amount
         self.total += amount
         self.episode_total += amount
 

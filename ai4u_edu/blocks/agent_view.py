@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 if TYPE_CHECKING:
     from ai4u_edu.blocks.actuators.actuator import Actuator
+    from ai4u_edu.blocks.brains.brain import Brain
     from ai4u_edu.blocks.brains.controllers.keyboard import Keyboard
     from ai4u_edu.blocks.percept import Percept
     from ai4u_edu.blocks.rewards.reward_func import RewardFunc
@@ -23,6 +24,12 @@ class AgentView(Protocol):
     """An agent as its blocks see it (:class:`~ai4u_edu.agent.BasicAgent` is one)."""
 
     id: str
+    max_steps_per_episode: int
+    episode: int
+    """How many episodes it has begun."""
+    companions: int
+    """How many other agents are in its world."""
+    paused: bool
     actuators: list["Actuator"]
     sensors: list["Sensor"]
     rewards: list["RewardFunc"]
@@ -34,6 +41,10 @@ class AgentView(Protocol):
     @property
     def body(self) -> "BodyView":
         """The agent's body."""
+
+    @property
+    def brain(self) -> "Brain":
+        """The one brain that is enabled."""
 
     @property
     def keyboard(self) -> "Keyboard":
@@ -58,6 +69,10 @@ class AgentView(Protocol):
     @property
     def reward(self) -> float:
         """The reward of the last decision."""
+
+    @property
+    def reward_terms(self) -> dict[str, float]:
+        """The reward of the last decision, by named term."""
 
     @property
     def last_action(self) -> Mapping[str, Sequence[float]]:

@@ -55,8 +55,7 @@ class Layout:
     def view(self, memory: Any, key: str) -> npt.NDArray[Any]:
         """One reading in a piece of memory, without a copy."""
         slot = self.slots[key]
-        flat = np.frombuffer(memory, slot.dtype, slot.size, slot.offset)
-        return flat.reshape(slot.shape)
+        return np.ndarray(slot.shape, slot.dtype, memory, slot.offset)
 
 
 class Percept(Mapping[str, Any]):
@@ -85,8 +84,8 @@ class Percept(Mapping[str, Any]):
     def __getitem__(self, key: str) -> Any:
         slot = self.layout.slots.get(key)
         if slot is not None:
-            flat = np.frombuffer(self.data, slot.dtype, slot.size, slot.offset)
-            return flat.reshape(slot.shape) if slot.shape else flat[0].item()
+            reading: npt.NDArray[Any] = np.ndarray(slot.shape, slot.dtype, self.data, slot.offset)
+            return reading if slot.shape else reading.item()
         if key in self.layout.texts:
             return self.texts[self.layout.texts.index(key)]
         raise NameNotFoundError(f"no reading is called {key!r}; {suggest(key, self)}")

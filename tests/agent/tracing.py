@@ -24,7 +24,7 @@ Log = list[str]
 
 
 class TracedWorld(World):
-    """A world that tells each tick and each reset."""
+    """A world that tells each tick, each reset and each body that goes back."""
 
     log: Log | None = None
 
@@ -37,6 +37,11 @@ class TracedWorld(World):
         if self.log is not None:
             self.log.append("world reset")
         super().reset(seed)
+
+    def put_back(self, name: str) -> None:
+        if self.log is not None:
+            self.log.append(f"{name} goes back")
+        super().put_back(name)
 
 
 class TracedSensor(Sensor):

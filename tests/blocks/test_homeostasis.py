@@ -11,6 +11,7 @@ from ai4u_edu import (
     HomeostaticReward,
     HomeostaticSensor,
     HomeostaticVariable,
+    RBMoveActuator,
 )
 from ai4u_edu.errors import BlockError, NameNotFoundError
 from tests.builders import small_sim
@@ -108,6 +109,33 @@ def test_the_level_drifts_at_every_tick() -> None:
     for _ in range(9):
         sim.step()
     assert variable.level == pytest.approx(50 - 6)
+
+
+@pytest.mark.parametrize(
+    ("moving", "airborne", "rates"),
+    [
+        (None, None, (-6, -6, -6)),
+        (-12, None, (-6, -12, -12)),
+        (None, -24, (-6, -6, -24)),
+        (-12, -24, (-6, -12, -24)),
+        (0, -24, (-6, 0, -24)),
+    ],
+)
+def test_effort_costs_more(
+    moving: float | None, airborne: float | None, rates: tuple[float, ...]
+) -> None:
+    variable = energy(
+        drift_per_second=-6, moving_drift_per_second=moving, airborne_drift_per_second=airborne
+    )
+    reward = HomeostaticReward(variables=[variable])
+    action = {"move": [0, 0, 0, 0]}
+    move = RBMoveActuator(move_amount=2, jump_power=5)
+    sim = small_sim(rewards=[reward], actuators=[move], controller=lambda _percept: action)
+    for numbers, rate in zip(([0, 1, 0, 0], [1, 0, 0, 0], [0, 0, 1, 0]), rates, strict=True):
+        action["move"], before = numbers, variable.level
+        for _ in range(10):
+            sim.step()
+        assert variable.level - before == pytest.approx(rate * 10 / 60)
 
 
 def test_what_discomfort_costs_as_it_comes_and_pays_as_it_goes() -> None:

@@ -10,19 +10,24 @@ SENSORS = (
     "ActionSensor DoneSensor IDSensor StepSensor RewardSensor TruncatedSensor "
     "FloatArrayCompositeSensor OrientationSensor BearingSensor PositionSensor RayCastingSensor "
     "LinearRayCastingSensor TouchSensor GroupTouchSensor GroundStatusSensor AreaOrientationSensor "
-    "AgentArraySensor LocalGridSensor VelocitySensor HeadingSensor HomeostaticSensor"
+    "AgentArraySensor LocalGridSensor VelocitySensor HeadingSensor HomeostaticSensor "
+    "LineSensor GridSensor CellSensor PresenceSensor"
 )
 ACTUATORS = (
     "RBMoveActuator CBMoveActuator DifferentialDriveActuator DiscreteActuator ContinuousActuator "
-    "RespawnActuator GrabActuator"
+    "RespawnActuator GrabActuator CarActuator CollectActuator GridMoveActuator "
+    "ForceMoveActuator"
 )
 REWARDS = (
     "TouchRewardFunc CollisionWithRewardFunc MinDistReward DistanceToTargetRewardFunc FallReward "
     "DynamicFallReward RestlessnessRewardFunc EvalBoolValue EvalIntValue EvalFloatValue "
-    "AndRewardFunc OrRewardFunc HomeostaticReward"
+    "AndRewardFunc OrRewardFunc HomeostaticReward CheckpointsReward BodyInAreaRewardFunc "
+    "ParkedRewardFunc GoneReward TargetFallReward ProgressReward"
 )
 CONTROLLERS = (
-    "WASDRBMoveController ArrowController DiscreteArrowController ReplayController ScriptController"
+    "WASDRBMoveController ArrowController DiscreteArrowController ReplayController "
+    "ScriptController WASDController FleeController KeeperController PushOutController "
+    "StrikerController"
 )
 OTHERS = "BasicAgent ControlRequestor Brain LocalBrain Controller HomeostaticVariable"
 

@@ -9,7 +9,7 @@ from gymnasium import spaces
 
 from ai4u_edu.blocks.block import Block, default_name
 from ai4u_edu.errors import ActionError, BlockError
-from ai4u_edu.world import Body
+from ai4u_edu.world import Body, WorldView
 
 
 class Actuator(Block):
@@ -62,6 +62,14 @@ class Actuator(Block):
         """
         raise BlockError(f"{type(self).__name__} has no act(self, body, action)")
 
+    def on_tick(self, body: Body, view: WorldView) -> None:
+        """Called after every tick of a decision, acted or not; only where a subclass fills it.
+
+        Args:
+            body: the agent's body.
+            view: the world, to be asked.
+        """
+
     def limits(self) -> tuple[list[float], list[float]]:
         """Lowest and highest value of each number of an action."""
         space = self.space()
@@ -76,6 +84,7 @@ class Actuator(Block):
         """Works the limits out once, at setup."""
         low, high = self.limits()
         self._limits = list(zip(low, high, strict=True))
+        self._within_all = max(low, default=0.0), min(high, default=0.0)
         self.clipped = 0
         """How many numbers were outside their range, and cut, so far."""
 
@@ -85,7 +94,9 @@ class Actuator(Block):
         Raises:
             ActionError: not n finite numbers.
         """
-        numbers = self._numbers(values)
+        # the shortest way for what comes most often
+        plain = type(values) is np.ndarray and values.dtype.kind == "f" and values.ndim == 1
+        numbers = tuple(values.tolist()) if plain else self._numbers(values)
         if len(numbers) != len(self._limits):
             raise ActionError(
                 f"action {self.action_name!r}: expected {len(self._limits)} numbers, "
@@ -95,6 +106,9 @@ class Actuator(Block):
             raise ActionError(
                 f"action {self.action_name!r}: expected finite numbers, got {values!r}"
             )
+        low, high = self._within_all
+        if numbers and low <= min(numbers) and max(numbers) <= high:
+            return numbers
         cut = tuple(
             low if number < low else high if number > high else number
             for number, (low, high) in zip(numbers, self._limits, strict=True)

@@ -1,14 +1,15 @@
 """One choice out of a few."""
 
 from collections.abc import Callable
-from typing import Annotated, Any
+from typing import Annotated
 
 from gymnasium.spaces import Discrete
 from pydantic import Field
 
+from ai4u_edu.blocks.actuators.choice import ChoiceActuator
 from ai4u_edu.blocks.actuators.ground_motion import GroundMotion
 from ai4u_edu.blocks.agent_view import AgentView
-from ai4u_edu.errors import ActionError, BlockError
+from ai4u_edu.errors import BlockError
 from ai4u_edu.parameters import quantity
 from ai4u_edu.world import Body, WorldView
 
@@ -20,7 +21,7 @@ ARROWS: list[Row] = [(0, 0, 0, 0), (0, 1, 0, 0), (0, -1, 0, 0), (1, 0, 0, 0), (-
 """Nothing, turn right, turn left, ahead, back: as DiscreteArrowController counts them."""
 
 
-class DiscreteActuator(GroundMotion):
+class DiscreteActuator(GroundMotion, ChoiceActuator):
     """Takes a whole number from 0 to size - 1 and looks it up in a table of motions.
 
     A row of the table is [forward, turn, jump, forward jump], as RBMoveActuator takes them (-1..1,
@@ -33,8 +34,6 @@ class DiscreteActuator(GroundMotion):
     Action: Discrete(size), as an int. What is no choice is refused, not cut to the nearest one.
     Source: AI4U's DiscretActuator.
     """
-
-    is_continuous = False
 
     size: Annotated[int, Field(ge=1, le=1024)] | None = None
     """How many choices; left out: as many as the table has rows."""
@@ -64,21 +63,3 @@ class DiscreteActuator(GroundMotion):
             self.handler(body, index)
         elif body.on_ground:
             self.drive(body, *self.table[index])
-
-    def accept(self, values: Any) -> tuple[float, ...]:
-        """Checks a choice.
-
-        Raises:
-            ActionError: not one of them.
-        """
-        last = int(self._limits[0][1])
-        try:
-            numbers = self._numbers(values)
-        except ActionError:
-            numbers = ()
-        if len(numbers) != 1 or numbers[0] not in range(last + 1):
-            raise ActionError(
-                f"action {self.action_name!r}: expected a whole number from 0 to {last}, "
-                f"got {values!r}"
-            )
-        return numbers

@@ -3,5 +3,16 @@
 from ai4u_edu.blocks.brains.brain import Brain
 from ai4u_edu.blocks.brains.command import Action, Answer, Command
 from ai4u_edu.blocks.brains.local import LocalBrain
+from ai4u_edu.blocks.brains.remote import RemoteBrain, RemoteStatus
+from ai4u_edu.blocks.brains.trained import trained_brain
 
-__all__ = ["Action", "Answer", "Brain", "Command", "LocalBrain"]
+__all__ = [
+    "Action",
+    "Answer",
+    "Brain",
+    "Command",
+    "LocalBrain",
+    "RemoteBrain",
+    "RemoteStatus",
+    "trained_brain",
+]

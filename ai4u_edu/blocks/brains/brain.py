@@ -29,6 +29,16 @@ class Brain(Block):
             f"{type(self).__name__} has no decide(self, percept): it must return an action"
         )
 
+    def restart_seed(self) -> int | None:
+        """The seed of the episode that it asks for with RESTART; None: it follows from the last."""
+        return None
+
+    def idle(self) -> None:
+        """Called now and then while the world stands still, and nothing is to be decided."""
+
+    def close(self) -> None:
+        """Called when another brain takes its place, or the world ends."""
+
     def title(self) -> str:
         """What a person calls it."""
         return type(self).__name__

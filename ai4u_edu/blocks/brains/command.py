@@ -9,7 +9,9 @@ class Command(StrEnum):
     """An answer that is not an action."""
 
     RESTART = "restart"
-    """Begin a new episode."""
+    """Begin a new episode, for the world and all its agents."""
+    RESPAWN = "respawn"
+    """Begin a new episode for this agent alone; the world and the others go on."""
     PAUSE = "pause"
     """Take no more decisions until resume."""
     RESUME = "resume"
@@ -18,6 +20,8 @@ class Command(StrEnum):
     """Take no more decisions until the next reset."""
     WAIT = "wait"
     """No answer yet: ask again at the next tick."""
+    HOLD = "hold"
+    """No answer yet, and the world waits for it: no tick passes before it is asked again."""
 
 
 Action = Mapping[str, Any]

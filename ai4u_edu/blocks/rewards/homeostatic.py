@@ -22,8 +22,8 @@ class HomeostaticReward(RewardFunc):
     ``reward`` times (discomfort at the start - discomfort at the end): going in circles earns
     nothing.
 
-    Every tick the variables drift. Scripts change them:
-    ``reward.variable("energy").add_value(20)``; HomeostaticSensor reads them.
+    Every tick the variables drift. A CollectActuator changes them when the agent finds something, a
+    script as ``reward.variable("energy").add_value(20)``; HomeostaticSensor reads them.
 
     Source: ours, after Keramati and Gutkin, "Homeostatic reinforcement learning for integrating
     reward collection and physiological stability", eLife 3 (2014): reward as reduction of drive.
@@ -70,9 +70,25 @@ class HomeostaticReward(RewardFunc):
     def on_tick(self, body: BodyView, view: WorldView) -> None:
         """Lets the variables drift."""
         for variable in self.variables:
-            variable.add_value(variable.drift_per_second * view.dt)
+            variable.drift(body, view.dt)
 
     def on_update(self, body: BodyView, view: WorldView) -> float:
         """What the change of discomfort is worth."""
         before, self._before = self._before, self.discomfort()
         return self.reward * (before - self._before)
+
+
+def keeper_of(agent: AgentView, name: str) -> HomeostaticReward:
+    """The HomeostaticReward of that name that keeps an agent's variables.
+
+    Raises:
+        BlockError: there is none that is active; the message suggests the nearest name.
+    """
+    keepers = {
+        reward.name: reward
+        for reward in agent.rewards
+        if isinstance(reward, HomeostaticReward) and reward.is_active
+    }
+    if name not in keepers:
+        raise BlockError(f"no HomeostaticReward is called {name!r}; {suggest(name, keepers)}")
+    return keepers[name]

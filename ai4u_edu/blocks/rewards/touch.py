@@ -37,9 +37,10 @@ class TouchRewardFunc(RewardFunc):
         """The reward, or 0."""
         touched = view.touched_after(body, self.target, self._since)
         self._since = view.ticks
+        if not touched:
+            return 0.0
         waits = math.inf if self.only_one_time else self.cool_down
-        due = self._paid_at == -math.inf or view.time - self._paid_at >= waits
-        if not (touched and due):
+        if self._paid_at != -math.inf and view.time - self._paid_at < waits:
             return 0.0
         self._paid_at = view.time
         return self.reward

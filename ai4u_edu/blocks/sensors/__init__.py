@@ -3,15 +3,20 @@
 from ai4u_edu.blocks.sensors.agent_array import AgentArraySensor
 from ai4u_edu.blocks.sensors.area_orientation import AreaOrientationSensor
 from ai4u_edu.blocks.sensors.bearing import BearingSensor
+from ai4u_edu.blocks.sensors.cell import CellSensor
 from ai4u_edu.blocks.sensors.composite import FloatArrayCompositeSensor
+from ai4u_edu.blocks.sensors.grid import GridSensor
 from ai4u_edu.blocks.sensors.ground_status import GroundStatusSensor
 from ai4u_edu.blocks.sensors.group_touch import GroupTouchSensor
 from ai4u_edu.blocks.sensors.heading import HeadingSensor
 from ai4u_edu.blocks.sensors.homeostatic import HomeostaticSensor
+from ai4u_edu.blocks.sensors.line import LineSensor
 from ai4u_edu.blocks.sensors.linear_ray_casting import LinearRayCastingSensor
 from ai4u_edu.blocks.sensors.local_grid import LocalGridSensor
 from ai4u_edu.blocks.sensors.orientation import OrientationSensor
+from ai4u_edu.blocks.sensors.pictures import ChannelLegend, CodeLegend, Legend, SpotPicture
 from ai4u_edu.blocks.sensors.position import PositionSensor
+from ai4u_edu.blocks.sensors.presence import PresenceSensor
 from ai4u_edu.blocks.sensors.ray_casting import RayCastingSensor
 from ai4u_edu.blocks.sensors.ray_sensor import RayPicture, RaySensor
 from ai4u_edu.blocks.sensors.sensor import Sensor
@@ -31,22 +36,30 @@ __all__ = [
     "AgentArraySensor",
     "AreaOrientationSensor",
     "BearingSensor",
+    "CellSensor",
+    "ChannelLegend",
+    "CodeLegend",
     "DoneSensor",
     "FloatArrayCompositeSensor",
+    "GridSensor",
     "GroundStatusSensor",
     "GroupTouchSensor",
     "HeadingSensor",
     "HomeostaticSensor",
     "IDSensor",
+    "Legend",
+    "LineSensor",
     "LinearRayCastingSensor",
     "LocalGridSensor",
     "OrientationSensor",
     "PositionSensor",
+    "PresenceSensor",
     "RayCastingSensor",
     "RayPicture",
     "RaySensor",
     "RewardSensor",
     "Sensor",
+    "SpotPicture",
     "StepSensor",
     "TouchSensor",
     "TruncatedSensor",

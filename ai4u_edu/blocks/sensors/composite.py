@@ -78,7 +78,7 @@ class FloatArrayCompositeSensor(Sensor):
         start = 0
         for child, place in zip(self._children, self._places, strict=True):
             if child.is_active:
-                child.sense(body, view)
+                child.take(body, view)
             else:
                 child.blank()
             part = out[start : start + place.size]

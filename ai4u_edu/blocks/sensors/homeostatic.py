@@ -4,9 +4,8 @@ import numpy as np
 from gymnasium.spaces import Box
 
 from ai4u_edu.blocks.agent_view import AgentView
-from ai4u_edu.blocks.rewards import HomeostaticReward
+from ai4u_edu.blocks.rewards.homeostatic import keeper_of
 from ai4u_edu.blocks.sensors.sensor import Array, Sensor
-from ai4u_edu.errors import BlockError, suggest
 from ai4u_edu.world import BodyView, WorldView
 
 
@@ -24,16 +23,7 @@ class HomeostaticSensor(Sensor):
 
     def on_setup(self, agent: AgentView, view: WorldView) -> None:
         """Looks the source up."""
-        keepers = {
-            reward.name: reward
-            for reward in agent.rewards
-            if isinstance(reward, HomeostaticReward) and reward.is_active
-        }
-        if self.source not in keepers:
-            raise BlockError(
-                f"no HomeostaticReward is called {self.source!r}; {suggest(self.source, keepers)}"
-            )
-        self._variables = keepers[self.source].variables
+        self._variables = keeper_of(agent, self.source).variables
 
     def space(self) -> Box:
         """One number a variable."""

@@ -3,12 +3,14 @@
 from typing import Annotated, Any
 
 import numpy as np
+import numpy.typing as npt
 from gymnasium.spaces import Box
 from pydantic import Field
 
 from ai4u_edu.blocks.agent_view import AgentView
 from ai4u_edu.blocks.sensors.ray_sensor import RayPicture, RaySensor, spread
 from ai4u_edu.blocks.sensors.sensor import Array
+from ai4u_edu.errors import BlockError
 from ai4u_edu.world import BodyView, WorldView
 
 
@@ -18,25 +20,31 @@ class LinearRayCastingSensor(RaySensor):
     Ray i looks at ``(i + 1) * fov / (n + 1) - fov / 2 - shift`` from the heading, positive to the
     left: as in a laser scan, ray 0 is the rightmost and the last one the leftmost.
 
-    Reading: (n,) codes; with ``return_distance`` (2 n,): code, then distance, ray by ray; distance
-    0 where nothing was met.
+    Reading: (n,) codes; with ``return_distance`` (2 n,): code, then distance, ray by ray; without
+    ``return_code`` (n,) distances alone. A distance is 0 where nothing was met.
 
     Source: AI4U's LinearRayCastingSensor.
     """
 
     number_of_rays: Annotated[int, Field(ge=1, le=1024)] = 10
+    return_code: bool = True
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if not (self.return_code or self.return_distance):
+            raise BlockError(
+                f"{type(self).__name__} {self.perception_key!r}: expected return_code or "
+                "return_distance, got neither"
+            )
 
     def space(self) -> Box:
         """Codes, and distances in metres (or 0..1 with normalize_distance)."""
-        high = np.full(self.number_of_rays, self.largest_code, np.float32)
-        if self.return_distance:
-            high = np.stack([high, np.full_like(high, self.farthest)], axis=1).ravel()
+        high = self._by_ray(self.largest_code, self.farthest).astype(np.float32)
         return Box(np.zeros_like(high), high)
 
     def scale(self) -> Any:
         """Codes by the largest one; distances have normalize_distance."""
-        by = np.full(self.number_of_rays, self.largest_code)
-        return np.stack([by, np.ones_like(by)], axis=1).ravel() if self.return_distance else by
+        return self._by_ray(self.largest_code, 1.0)
 
     def on_setup(self, agent: AgentView, view: WorldView) -> None:
         """Prepares the rays."""
@@ -45,17 +53,23 @@ class LinearRayCastingSensor(RaySensor):
         self._fan = view.ray_fan(
             angles.tolist(), self.vision_max_distance, self.code_of, **self._options()
         )
+        self._far = np.array(self.vision_max_distance)
 
     def write(self, out: Array, body: BodyView, view: WorldView) -> None:
         """Casts the fan."""
         fan = self._fan
         fan.cast(body)
-        if not self.return_distance:
+        if not self.return_code:
+            out[:] = self._measured()
+        elif not self.return_distance:
             out[:] = fan.codes
-            return
-        out[0::2] = fan.codes
-        far = self.vision_max_distance / self.farthest
-        np.divide(fan.distances, far, out=out[1::2], casting="unsafe")
+        else:
+            out[0::2], out[1::2] = fan.codes, self._measured()
+
+    def _measured(self) -> Array:
+        """The distances, in the unit in which they are read."""
+        distances = self._fan.distances
+        return np.divide(distances, self._far) if self.normalize_distance else distances
 
     def picture(self) -> RayPicture:
         """The rays of the last reading."""
@@ -66,3 +80,8 @@ class LinearRayCastingSensor(RaySensor):
         flat = length * fan.directions + (x, y)
         ends = np.column_stack([flat, np.full(len(flat), z)])
         return RayPicture(fan.origin, ends, self._groups(fan.codes, hit))
+
+    def _by_ray(self, code: float, distance: float) -> npt.NDArray[np.float64]:
+        """What holds for codes and for distances, as the reading has them."""
+        parts = [code] * self.return_code + [distance] * self.return_distance
+        return np.tile(np.array(parts), self.number_of_rays)

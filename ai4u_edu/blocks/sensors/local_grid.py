@@ -7,6 +7,7 @@ from gymnasium.spaces import Box
 from pydantic import Field
 
 from ai4u_edu.blocks.agent_view import AgentView
+from ai4u_edu.blocks.sensors.pictures import ChannelLegend
 from ai4u_edu.blocks.sensors.plan import Plan
 from ai4u_edu.blocks.sensors.sensor import Array, Sensor
 from ai4u_edu.errors import BlockError
@@ -82,6 +83,10 @@ class LocalGridSensor(Sensor):
         planes = self._plan.draw(body, view)
         # the negative of 1 in 8 bits is 255
         np.negative(planes.transpose(1, 2, 0), out=out, casting="unsafe")
+
+    def legend(self) -> ChannelLegend:
+        """A group for each channel."""
+        return ChannelLegend(tuple(self.channels))
 
     def _stack(self, reading: Any) -> None:
         out, count = self._out, len(self.channels)

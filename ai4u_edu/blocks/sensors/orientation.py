@@ -7,7 +7,7 @@ import numpy as np
 from gymnasium.spaces import Box
 
 from ai4u_edu.blocks.agent_view import AgentView
-from ai4u_edu.blocks.sensors.sensor import Array, Sensor
+from ai4u_edu.blocks.sensors.sensor import Sensor
 from ai4u_edu.parameters import PositiveMetres
 from ai4u_edu.world import BodyView, WorldView
 
@@ -48,10 +48,9 @@ class OrientationSensor(Sensor):
         """The cosine stays; the distance is divided by max_distance."""
         return np.array([1.0, self._reach])[self._part]
 
-    def normalise(self, reading: Array) -> Array:
-        """As the base does, but what says "not to be seen" stays as it is."""
-        hidden = reading[-1] == (-2.0 if self.info == "angle" else -1.0)
-        return reading if hidden else super().normalise(reading)
+    def says_nothing(self, reading: Any) -> bool:
+        """Whether it says "not to be seen"."""
+        return bool(reading[-1] == (-2.0 if self.info == "angle" else -1.0))
 
     def on_setup(self, agent: AgentView, view: WorldView) -> None:
         """Looks the target up and measures the world."""
@@ -69,6 +68,8 @@ class OrientationSensor(Sensor):
         hidden = self.visibility_test and not view.sees(looker, target)
         if distance > self._reach or hidden:
             reading: tuple[float, ...] = (-2.0, -1.0)
+        elif self.info == "distance":
+            return (distance,)
         else:
             reading = (math.cos(looker.bearing(target)), distance)
         return reading[self._part]

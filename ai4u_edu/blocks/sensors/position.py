@@ -16,6 +16,8 @@ MARGIN = 5.0
 class PositionSensor(Sensor):
     """[x, y, z] of the agent, or of a target, in metres.
 
+    The target is a body, or an area (its centre, on the floor there).
+
     ``frame="global"`` counts from the world's origin; ``"local"`` from the agent: forward, left,
     up.
 
@@ -24,7 +26,7 @@ class PositionSensor(Sensor):
     """
 
     target: str = ""
-    """A body's name; left out: the agent's own."""
+    """A body's or an area's name; left out: the agent's own place."""
     frame: Literal["global", "local"] = "global"
     normalized: bool = True
     unit = "m"
@@ -40,7 +42,7 @@ class PositionSensor(Sensor):
     def on_setup(self, agent: AgentView, view: WorldView) -> None:
         """Looks the target up and measures the world."""
         if self.target:
-            _ = view[self.target]
+            view.check_target(self.target)
         (left, low), (right, high) = view.bounds()
         if self.frame == "local":
             across = view.diagonal() + MARGIN
@@ -51,9 +53,13 @@ class PositionSensor(Sensor):
 
     def read(self, body: BodyView, view: WorldView) -> tuple[float, ...]:
         """One reading."""
-        target = view[self.target] if self.target else body
-        x, y = target.position
-        place = (x, y, target.z)
+        area = view.areas.get(self.target)
+        if area is None:
+            target = view[self.target] if self.target else body
+            (x, y), z = target.position, target.z
+        else:
+            x, y, z = area.x, area.y, view.ground(area.x, area.y) or 0.0
+        place = (x, y, z)
         if self.frame == "local":
-            place = (*body.to_local(x, y), target.z - body.z)
+            place = (*body.to_local(x, y), z - body.z)
         return tuple(np.clip(place, -self._far, self._far))

@@ -7,6 +7,7 @@ from gymnasium.spaces import Box
 from pydantic import Field
 
 from ai4u_edu.blocks.agent_view import AgentView
+from ai4u_edu.blocks.sensors.pictures import CodeLegend
 from ai4u_edu.blocks.sensors.ray_sensor import RayPicture, RaySensor, spread
 from ai4u_edu.blocks.sensors.sensor import Array
 from ai4u_edu.parameters import Degrees, quantity
@@ -90,3 +91,11 @@ class RayCastingSensor(RaySensor):
         )
         groups = self._groups(grid.codes.ravel(), hit.ravel())
         return RayPicture(grid.origin, ends.reshape(-1, 3), groups)
+
+    def legend(self) -> CodeLegend:
+        """The groups by their codes."""
+        scale = self.largest_code if self.normalized else 1.0
+        codes = tuple(code / scale for code in self.group_code.values())
+        planes = 2 if self.return_distance else 1
+        groups, nothing = tuple(self.group_code), self.no_object_code / scale
+        return CodeLegend((self.rows, self.columns), codes, groups, planes, nothing)

@@ -2,6 +2,10 @@
 
 import math
 from collections import deque
+from collections.abc import Callable
+from functools import partial
+from operator import truediv
+from struct import Struct
 from typing import Annotated, Any, ClassVar
 
 import numpy as np
@@ -10,6 +14,7 @@ from gymnasium import spaces
 from pydantic import Field
 
 from ai4u_edu.blocks.block import Block, default_name
+from ai4u_edu.blocks.sensors.pictures import Legend, SpotPicture
 from ai4u_edu.errors import BlockError, ReadingError
 from ai4u_edu.parameters import quantity
 from ai4u_edu.world import BodyView, WorldView
@@ -102,6 +107,18 @@ class Sensor(Block):
         largest = np.maximum(np.abs(space.low), np.abs(space.high)).astype(np.float64)
         return np.where(np.isfinite(largest) & (largest > 0), largest, 1.0)
 
+    def says_nothing(self, reading: Any) -> bool:
+        """Whether a raw reading stands for "nothing there": it is not normalised."""
+        return False
+
+    def spots(self) -> SpotPicture | None:
+        """The places at which the last reading looked, to be drawn; most sensors have none."""
+        return None
+
+    def legend(self) -> Legend | None:
+        """How the reading is seen as a picture, if it is one."""
+        return None
+
     # -- what the base does with it --------------------------------------------------------------
 
     def reading_kind(self) -> str:
@@ -127,7 +144,10 @@ class Sensor(Block):
             return space
         low, high = space.low, space.high
         if self.normalized:
-            low, high = self.normalise(low), self.normalise(high)
+            low, high = (
+                each if self.says_nothing(each) else np.asarray(each / self.scale())
+                for each in (low, high)
+            )
         if self.stacked_observations > 1:
             times = (self.stacked_observations, *([1] * low.ndim))
             low, high = np.tile(low, times), np.tile(high, times)
@@ -153,35 +173,55 @@ class Sensor(Block):
         self._past: deque[Array] = deque(maxlen=self.delay + 1)
         self._fresh = True
         self._ever_read = False
-        self._direct = not (
-            self.stacked_observations > 1
-            or self.normalized
-            or self.noise
-            or self.delay
-            or self.dropout
-        )
+        self._scale = np.broadcast_to(np.asarray(self.scale(), np.float64), shape)
+        plain = not (self.stacked_observations > 1 or self.noise or self.delay or self.dropout)
+        # dividing by 1 leaves a number as it is
+        self._direct = plain and (not self.normalized or bool((self._scale == 1.0).all()))
+        # a few numbers in Python's own form need no detour through arrays
+        reads = type(self).write is Sensor.write
+        self._count = out.size
+        self._few = plain and reads and out.dtype == np.float32 and bool(out.size)
+        self.take: Callable[[BodyView, WorldView], None] = self._take_first
+        """Takes one reading and puts it into the agent's memory, by the shortest way there is."""
+        if self._few:
+            self._memory = out.reshape(-1).data.cast("B")
+            self._pack = Struct(f"={out.size}f").pack_into
+            self._divisors = None if self._direct else tuple(self._scale.ravel().tolist())
 
     def restart(self, chance: np.random.Generator) -> None:
         """Begins an episode: the next reading fills stack and delay."""
         self._chance = chance
         self._fresh = self.resetable or not self._ever_read
 
-    def sense(self, body: BodyView, view: WorldView) -> None:
-        """Takes one reading and puts it into the agent's memory."""
-        if self._direct:
-            self.write(self._out, body, view)
-        else:
-            self._sense_through(body, view)
-        if not self._ever_read:
-            self._ever_read = True
-            self._check_range()
-        self._fresh = False
-
     def blank(self) -> None:
         """Puts zeros in place of a reading: the sensor is switched off."""
         self._out[...] = 0
 
-    def _sense_through(self, body: BodyView, view: WorldView) -> None:
+    def _take_first(self, body: BodyView, view: WorldView) -> None:
+        take: Callable[[BodyView, WorldView], None] = self._take_through
+        if self._direct:
+            take = partial(self.write, self._out)
+        if self._few:
+            take = self._take_few
+        take(body, view)
+        self._ever_read = True
+        self._check_range()
+        self.take = take
+
+    def _take_few(self, body: BodyView, view: WorldView) -> None:
+        reading = self.read(body, view)
+        numbers = (reading,) if type(reading) is float else reading
+        try:
+            fits = len(numbers) == self._count and math.isfinite(sum(numbers))
+        except TypeError:
+            fits = False
+        if not fits:
+            numbers = self._checked(reading).ravel().tolist()
+        if self._divisors is not None and not self.says_nothing(numbers):
+            numbers = map(truediv, numbers, self._divisors)
+        self._pack(self._memory, 0, *numbers)
+
+    def _take_through(self, body: BodyView, view: WorldView) -> None:
         lost = self.dropout and not self._fresh and self._chance.random() < self.dropout
         if not lost:
             self.write(self._raw, body, view)
@@ -196,13 +236,10 @@ class Sensor(Block):
                 self._past.clear()
             self._past.append(reading.copy())
             reading = self._past[0]
-        if self.normalized:
-            reading = self.normalise(reading)
+        if self.normalized and not self.says_nothing(reading):
+            reading = reading / self._scale
         self._stack(reading)
-
-    def normalise(self, reading: Array) -> Array:
-        """A raw reading divided by :meth:`scale`."""
-        return np.asarray(reading / self.scale())
+        self._fresh = False
 
     def _stack(self, reading: Array) -> None:
         out = self._out

@@ -3,17 +3,29 @@
 from ai4u_edu.blocks.brains.controllers.arrow import ArrowController
 from ai4u_edu.blocks.brains.controllers.controller import Controller
 from ai4u_edu.blocks.brains.controllers.discrete_arrow import DiscreteArrowController
+from ai4u_edu.blocks.brains.controllers.flee import FleeController
+from ai4u_edu.blocks.brains.controllers.keeper import KeeperController
 from ai4u_edu.blocks.brains.controllers.keyboard import Keyboard
+from ai4u_edu.blocks.brains.controllers.neural import NeuralNetController
+from ai4u_edu.blocks.brains.controllers.push_out import PushOutController
 from ai4u_edu.blocks.brains.controllers.replay import ReplayController
 from ai4u_edu.blocks.brains.controllers.script import ScriptController
+from ai4u_edu.blocks.brains.controllers.striker import StrikerController
 from ai4u_edu.blocks.brains.controllers.wasd import WASDRBMoveController
+from ai4u_edu.blocks.brains.controllers.wasd_drive import WASDController
 
 __all__ = [
     "ArrowController",
     "Controller",
     "DiscreteArrowController",
+    "FleeController",
+    "KeeperController",
     "Keyboard",
+    "NeuralNetController",
+    "PushOutController",
     "ReplayController",
     "ScriptController",
+    "StrikerController",
+    "WASDController",
     "WASDRBMoveController",
 ]

@@ -1,0 +1,51 @@
+"""Four wheels, of which the front ones steer."""
+
+import math
+from typing import Annotated
+
+import numpy as np
+from gymnasium.spaces import Box
+
+from ai4u_edu.blocks.actuators.actuator import Actuator
+from ai4u_edu.blocks.actuators.ground_motion import quiet, roll
+from ai4u_edu.parameters import PositiveMetres, quantity
+from ai4u_edu.world import Body
+
+
+class CarActuator(Actuator):
+    """Drives like a car, with two numbers: [throttle, steering].
+
+    - throttle: -1..1, times ``max_speed`` is the speed of the rear wheels along the heading in m/s;
+      < 0 is backward.
+    - steering: -1..1, times ``max_steering_deg`` is how far the front wheels are turned; > 0 to the
+      right, < 0 to the left.
+
+    The axles sit ``wheelbase`` apart, as far before the body's centre as behind it. A car turns
+    only while it rolls: with the front wheels at an angle a, the middle of the rear axle goes round
+    a circle of radius wheelbase / tan(a), and can't go sideways. So to get into a narrow place one
+    has to think ahead, or to back up.
+
+    Speed is set, not pushed to: throttle 0 stops the car. It acts only on the ground; wheels don't
+    slip.
+
+    Source: ours; the usual kinematic model of a car ("bicycle model").
+    """
+
+    action_name: str = "move"
+    max_speed: Annotated[float, quantity("m/s", gt=0, le=100)] = 2.0
+    max_steering_deg: Annotated[float, quantity("deg", gt=0, le=80)] = 35.0
+    wheelbase: PositiveMetres = 1.5
+
+    def space(self) -> Box:
+        """[throttle, steering]."""
+        return Box(-1.0, 1.0, (2,), np.float32)
+
+    def act(self, body: Body, action: tuple[float, ...]) -> None:
+        """Sets the body's speeds, if it stands on the ground."""
+        if not body.on_ground:
+            return
+        throttle, steering = quiet(action)
+        speed = throttle * self.max_speed
+        angle = -steering * math.radians(self.max_steering_deg)
+        turning = speed * math.tan(angle) / self.wheelbase
+        roll(body, speed, turning * self.wheelbase / 2, turning)

@@ -1,0 +1,31 @@
+"""How an action that is one of a few choices is checked."""
+
+from typing import Any
+
+from ai4u_edu.blocks.actuators.actuator import Actuator
+from ai4u_edu.errors import ActionError
+
+
+class ChoiceActuator(Actuator):
+    """The base of actuators with a Discrete space: what is no choice is refused, never cut."""
+
+    abstract = True
+    is_continuous = False
+
+    def accept(self, values: Any) -> tuple[float, ...]:
+        """Checks a choice.
+
+        Raises:
+            ActionError: not one of them.
+        """
+        last = int(self._limits[0][1])
+        try:
+            numbers = self._numbers(values)
+        except ActionError:
+            numbers = ()
+        if len(numbers) != 1 or numbers[0] not in range(last + 1):
+            raise ActionError(
+                f"action {self.action_name!r}: expected a whole number from 0 to {last}, "
+                f"got {values!r}"
+            )
+        return numbers

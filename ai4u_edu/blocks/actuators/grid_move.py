@@ -1,0 +1,104 @@
+"""From cell to cell."""
+
+import math
+from typing import Annotated
+
+from gymnasium.spaces import Discrete
+from pydantic import Field
+
+from ai4u_edu.blocks.actuators.choice import ChoiceActuator
+from ai4u_edu.blocks.agent_view import AgentView
+from ai4u_edu.blocks.sensors.cells import Cell, OnGrid
+from ai4u_edu.parameters import Name, Point
+from ai4u_edu.world import Body, WorldView
+
+STEPS: tuple[Cell, ...] = ((0, 0), (0, 1), (0, -1), (-1, 0), (1, 0))
+"""(rows, columns) of each choice: none, right, left, up, down."""
+
+
+class GridMoveActuator(OnGrid, ChoiceActuator):
+    """Takes the agent to a neighbouring cell of a grid: one cell a decision, never less or more.
+
+    - 0: stay.
+    - 1: right (column + 1), 2: left, 3: up (row - 1), 4: down; as DiscreteArrowController counts.
+
+    The agent looks where it goes, glides there evenly while the decision lasts, and ends exactly in
+    the cell's middle, whatever it bumped into. It can't leave the grid, nor enter a cell with a
+    body of the groups in ``blocked_by`` in it: then it only turns. Anything else is met: touched,
+    or pushed. Where there is no floor it falls, and in the air nothing moves it.
+
+    Action: Discrete(5), as an int. Source: ours, for the lessons on search and Q-learning of AI4U's
+    grid world.
+    """
+
+    action_name: str = "move"
+    blocked_by: Annotated[list[Name], Field(max_length=32)] = Field(
+        default_factory=lambda: ["wall"]
+    )
+    """The tags of what nobody can walk into."""
+
+    def space(self) -> Discrete:
+        """Stay, right, left, up or down."""
+        return Discrete(len(STEPS))
+
+    def on_setup(self, agent: AgentView, view: WorldView) -> None:
+        """Lays the grid."""
+        self._agent, self._view, self._grid = agent, view, self.grid()
+        self._way: list[Point] = []
+        self._learnt = -1
+
+    def on_reset(self, agent: AgentView, view: WorldView) -> None:
+        """Forgets where it was going."""
+        self._way = []
+
+    def act(self, body: Body, action: tuple[float, ...]) -> None:
+        """Sets out, with the first tick of a decision."""
+        if self._way or not body.on_ground:
+            return
+        down, right = STEPS[int(action[0])]
+        start = body.position
+        row, column = self._grid.cell_at(*start)
+        cell = row + down, column + right
+        end = self._grid.centre_of((row, column) if self._blocked(cell) else cell)
+        ticks = self._agent.brain.skip_frame + 1
+        shares = [tick / ticks for tick in range(1, ticks + 1)]
+        # the end comes twice: once more after the last tick, in which something may have pushed
+        self._way = [_between(start, end, share) for share in shares] + [end]
+        self._go(body, math.atan2(-down, right) if down or right else None)
+
+    def on_tick(self, body: Body, view: WorldView) -> None:
+        """Goes on."""
+        if self._way:
+            self._go(body)
+
+    def _go(self, body: Body, heading: float | None = None) -> None:
+        body.move_to(*self._way.pop(0), heading=body.heading if heading is None else heading)
+
+    def _blocked(self, cell: Cell) -> bool:
+        if not self._grid.holds(cell):
+            return True
+        if self._learnt != self._view.generation:
+            self._learn()
+        x, y = self._grid.centre_of(cell)
+        number = self._grid.number(cell)
+        return any(
+            math.hypot(x - at_x, y - at_y) <= reach + self.cell_size
+            and number in self._grid.cells_of(wall)
+            for wall, reach in self._walls
+            if not wall.fallen
+            for at_x, at_y in [wall.position]
+        )
+
+    def _learn(self) -> None:
+        """Looks up what blocks the way, once for each build of the world."""
+        self._learnt = self._view.generation
+        names = [name for tag in self.blocked_by for name in self._view.named(tag)]
+        walls = [self._view[name] for name in dict.fromkeys(names)]
+        self._walls = [
+            (wall, wall.drawn.shape.reach) for wall in walls if wall is not self._agent.body
+        ]
+
+
+def _between(start: Point, end: Point, share: float) -> Point:
+    (x, y), (to_x, to_y) = start, end
+    return (1 - share) * x + share * to_x, (1 - share) * y + share * to_y

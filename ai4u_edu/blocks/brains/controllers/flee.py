@@ -1,0 +1,69 @@
+"""Runs away."""
+
+import math
+
+import numpy as np
+
+from ai4u_edu.blocks.agent_view import AgentView
+from ai4u_edu.blocks.brains.controllers.steering import Spot, SteeringController
+from ai4u_edu.blocks.percept import Percept
+from ai4u_edu.blocks.sensors import LinearRayCastingSensor
+from ai4u_edu.blocks.sensors.ray_sensor import spread
+from ai4u_edu.errors import BlockError
+from ai4u_edu.parameters import PositiveMetres
+from ai4u_edu.world import WorldView
+
+STRAIGHT = 0.3
+"""What going on as before is worth, where getting away is worth 1."""
+
+
+class FleeController(SteeringController):
+    """Runs from its pursuer, where there is room: it looks along rays, and takes the best one.
+
+    A ray is the better the more it leads away and the more room there is (up to ``room``). While
+    the pursuer is farther away than ``calm_distance`` it strolls, wherever there is room, at a
+    third of its speed.
+
+    It needs two sensors, named by their perception keys: ``pursuer``, a PositionSensor of the other
+    body with ``frame="local"``; ``rays``, a LinearRayCastingSensor all around it (``field_of_view``
+    360) with ``return_distance``.
+
+    Source: ours.
+    """
+
+    pursuer: str = "pursuer"
+    rays: str = "rays"
+    calm_distance: PositiveMetres = 5.0
+    room: PositiveMetres = 2.5
+
+    reads = ("pursuer", "rays")
+
+    def on_setup(self, agent: AgentView, view: WorldView) -> None:
+        """Looks its sensors up, and where the rays look."""
+        super().on_setup(agent, view)
+        sensor = self._sensors["rays"]
+        if not isinstance(sensor, LinearRayCastingSensor) or not sensor.return_distance:
+            raise BlockError(
+                f"rays: expected a LinearRayCastingSensor with return_distance=True, got {sensor!r}"
+            )
+        self._reach = sensor.vision_max_distance
+        self._unit = sensor.vision_max_distance / sensor.farthest
+        self._angles = spread(sensor.number_of_rays, sensor.field_of_view)
+        self._angles -= math.radians(sensor.horizontal_shift)
+
+    def wish(self, percept: Percept) -> Spot:
+        """A point along the best ray."""
+        forward, left = self.spot(percept, "pursuer")
+        free = np.asarray(percept[self.rays][1::2], np.float64) * self._unit
+        free = np.where(free == 0.0, self._reach, free)
+        away = -np.cos(self._angles - math.atan2(left, forward)) * self._in_fear(percept)
+        worth = away + 2.0 * np.minimum(free / self.room, 1.0) + STRAIGHT * np.cos(self._angles)
+        best = float(self._angles[np.argmax(worth)])
+        return math.cos(best), math.sin(best)
+
+    def effort(self, percept: Percept, wish: Spot) -> float:
+        """All of it while the pursuer is near."""
+        return 1.0 if self._in_fear(percept) else 0.3
+
+    def _in_fear(self, percept: Percept) -> bool:
+        return math.hypot(*self.spot(percept, "pursuer")) < self.calm_distance

@@ -1,0 +1,49 @@
+"""Drives at somebody, to push him out of a ring."""
+
+import math
+
+from ai4u_edu.blocks.brains.controllers.steering import Spot, SteeringController
+from ai4u_edu.blocks.percept import Percept
+from ai4u_edu.parameters import Point, PositiveMetres
+
+FALLS = -0.1
+"""What is lower than this (metres) need not be pushed any more."""
+
+
+class PushOutController(SteeringController):
+    """Drives at its opponent; near the edge it turns back, unless the other one stands outside.
+
+    A simple wrestler: strong head-on, but it can be passed, and then pushed from the side, where it
+    can't push back.
+
+    It needs three sensors, named by their perception keys: ``opponent``, a PositionSensor of the
+    other body with ``frame="local"``; ``position``, a PositionSensor of its own; ``heading``, a
+    HeadingSensor.
+
+    Source: ours.
+    """
+
+    opponent: str = "opponent"
+    position: str = "position"
+    heading: str = "heading"
+    middle: Point = (0.0, 0.0)
+    """The ring's centre in the world."""
+    safe_radius: PositiveMetres = 2.8
+    """Farther out than this it thinks of itself first."""
+
+    reads = ("opponent", "position", "heading")
+
+    def wish(self, percept: Percept) -> Spot:
+        """The opponent, or the middle."""
+        forward, left, up = self.read(percept, "opponent").tolist()
+        middle = self._middle(percept)
+        outside = math.hypot(*middle) > self.safe_radius
+        if outside and math.dist((forward, left), middle) < math.hypot(*middle):
+            return middle
+        return middle if up < FALLS else (forward, left)
+
+    def _middle(self, percept: Percept) -> Spot:
+        x, y, _ = self.read(percept, "position").tolist()
+        sine, cosine = self.read(percept, "heading").tolist()
+        dx, dy = self.middle[0] - x, self.middle[1] - y
+        return cosine * dx + sine * dy, cosine * dy - sine * dx

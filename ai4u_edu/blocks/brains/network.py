@@ -1,0 +1,180 @@
+"""A trained network in a file: what goes in, what comes out, and where it was trained."""
+
+import json
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from contextvars import ContextVar
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+from ai4u_edu import zoo
+from ai4u_edu.errors import BlockError, suggest
+from ai4u_edu.extras import need
+
+LARGEST = 64 * 2**20
+"""Bytes that a network's file may have."""
+
+IN_THE_ZOO = "zoo:"
+"""What a path begins with that names a scene's network of the package."""
+
+ABOUT = "ai4u_edu"
+"""The name of the entry, among the file's own metadata, in which we say where it was trained."""
+
+_FOLDER: ContextVar[Path | None] = ContextVar("_FOLDER", default=None)
+
+RHYTHM = ("skip_frame", "repeat_action")
+"""The parameters of a brain that a network remembers."""
+
+DTYPES: dict[str, npt.DTypeLike] = {
+    "tensor(float)": np.float32,
+    "tensor(int64)": np.int64,
+    "tensor(int32)": np.int32,
+    "tensor(uint8)": np.uint8,
+    "tensor(bool)": np.bool_,
+}
+
+
+class Port(NamedTuple):
+    """An input or an output."""
+
+    name: str
+    shape: tuple[int, ...]
+    """Of one decision; the batch that comes first is left out."""
+    dtype: np.dtype[Any]
+
+
+@contextmanager
+def files_in(folder: Path | None) -> Iterator[None]:
+    """Blocks that are made meanwhile look for their files in a folder: a scene file's."""
+    before = _FOLDER.set(folder)
+    try:
+        yield
+    finally:
+        _FOLDER.reset(before)
+
+
+def folder_of_files() -> Path | None:
+    """Where a block that is being made looks for its files; None for the current folder."""
+    return _FOLDER.get()
+
+
+def find_network(path: str, folder: Path | None = None) -> Path:
+    """The file that a path names.
+
+    Args:
+        path: of an ONNX file, or ``zoo:`` and a scene.
+        folder: where a relative path begins; if it is not there, in the current folder.
+
+    Raises:
+        BlockError: there is none, or it is no ONNX file.
+    """
+    if path.startswith(IN_THE_ZOO):
+        scene = path.removeprefix(IN_THE_ZOO)
+        if scene not in zoo.names():
+            raise BlockError(f"the zoo has no network for {scene!r}; {suggest(scene, zoo.names())}")
+        return zoo.network_of(scene)
+    if Path(path).suffix != ".onnx":
+        raise BlockError(
+            f"expected a network as an .onnx file (or zoo:SCENE), got {path!r}; "
+            "make one with: ai4u-edu export MODEL --out policy.onnx"
+        )
+    places = [Path(path)] if folder is None else [folder / path, Path(path)]
+    for place in places:
+        if place.is_file():
+            return place
+    told = " nor as ".join(str(place.absolute()) for place in dict.fromkeys(places))
+    raise BlockError(f"the network {path!r} is not there as {told}")
+
+
+class Network:
+    """A network that onnxruntime runs, on one thread.
+
+    Nothing but ONNX is ever loaded: a file of numbers and of operations from a fixed list, in which
+    no program can hide.
+
+    Args:
+        path: the file.
+
+    Raises:
+        BlockError: it can't be read, or onnxruntime can't run it.
+        SetupError: onnxruntime is not installed.
+    """
+
+    def __init__(self, path: Path) -> None:
+        need("onnx", "onnxruntime")
+        import onnxruntime
+
+        self.path = path
+        options = onnxruntime.SessionOptions()
+        # a network as small as a policy's is done before a second thread is awake
+        options.intra_op_num_threads = options.inter_op_num_threads = 1
+        options.log_severity_level = 4
+        # from bytes: then it can't have parts in other files
+        data = _bytes_of(path)
+        try:
+            session = onnxruntime.InferenceSession(
+                data, options, providers=["CPUExecutionProvider"]
+            )
+        except Exception as error:  # its errors have no common base of their own
+            raise BlockError(
+                f"{path.name}: expected a network that onnxruntime can run, got: {error}"
+            ) from None
+        self._session = session
+        self.inputs = [_port(each, path) for each in session.get_inputs()]
+        self.outputs = [_port(each, path) for each in session.get_outputs()]
+        self._names = [port.name for port in self.outputs]
+        self._feeds = [(port.name, (1, *port.shape), port.dtype) for port in self.inputs]
+        self.about = _about(session.get_modelmeta().custom_metadata_map, path)
+        """Where it was trained; empty for a network from elsewhere."""
+
+    @property
+    def rhythm(self) -> dict[str, Any]:
+        """How its brain decided where it was trained; empty for a network from elsewhere."""
+        return {name: self.about[name] for name in RHYTHM if name in self.about}
+
+    def decide(self, percept: Mapping[str, Any]) -> dict[str, npt.NDArray[Any]]:
+        """Its outputs by name, for one percept."""
+        feed = {
+            name: np.asarray(percept[name], dtype).reshape(shape)
+            for name, shape, dtype in self._feeds
+        }
+        answers = self._session.run(self._names, feed)
+        return {name: answer[0] for name, answer in zip(self._names, answers, strict=True)}
+
+
+def _bytes_of(path: Path) -> bytes:
+    try:
+        if path.stat().st_size > LARGEST:
+            raise BlockError(f"{path.name}: expected at most {LARGEST // 2**20} MB")
+        return path.read_bytes()
+    except OSError as error:
+        raise BlockError(f"{path}: can't be read: {error.strerror}") from None
+
+
+def _port(node: Any, path: Path) -> Port:
+    if node.type not in DTYPES:
+        raise BlockError(
+            f"{path.name}: {node.name!r} is a {node.type}; expected one of {', '.join(DTYPES)}"
+        )
+    batch, *shape = node.shape or [None]
+    if batch not in (1, None) and not isinstance(batch, str):
+        raise BlockError(
+            f"{path.name}: {node.name!r} takes {batch} decisions at once; expected a first axis "
+            "of length 1, or of any"
+        )
+    if not all(isinstance(length, int) for length in shape):
+        raise BlockError(f"{path.name}: {node.name!r} has an axis without a length: {node.shape}")
+    return Port(node.name, tuple(shape), np.dtype(DTYPES[node.type]))
+
+
+def _about(entries: Mapping[str, str], path: Path) -> dict[str, Any]:
+    try:
+        about = json.loads(entries.get(ABOUT, "{}"))
+    except (ValueError, RecursionError):
+        about = None
+    if not isinstance(about, dict):
+        raise BlockError(f"{path.name}: its entry {ABOUT!r} is no JSON mapping")
+    return about

@@ -1,0 +1,333 @@
+"""A brain on the other end of a network."""
+
+import time
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import Annotated, Any, Literal, Self, assert_never
+
+from pydantic import Field
+
+from ai4u_edu.blocks.agent_view import AgentView
+from ai4u_edu.blocks.brains.brain import Brain
+from ai4u_edu.blocks.brains.command import Action, Answer, Command
+from ai4u_edu.blocks.brains.link import Answered, Link, LinkState, Reset, Situation, offer_of
+from ai4u_edu.blocks.percept import Percept
+from ai4u_edu.errors import ActionError, SetupError, suggest
+from ai4u_edu.parameters import quantity
+from ai4u_edu.world import WorldView
+
+SLICE = 0.015
+"""Seconds for which a world in lockstep waits at a time; then whoever runs it looks whether
+somebody wants something else, and asks again."""
+GIVE_WAY = 0.05
+"""Seconds for which a script that asks for time has a world with other agents wait. One script may
+drive several of them in turn; if the world waited for all, it would wait for ever."""
+BRIEFLY = 0.001
+"""Seconds for which it is listened to after that, at each tick."""
+
+
+@dataclass(frozen=True, slots=True)
+class RemoteStatus:
+    """How it stands with a remote brain, for the page."""
+
+    state: Literal["waiting", "connected", "late", "lost"]
+    """``late``: a script is there, and its action is not."""
+    reason: str
+    decisions: int
+    """Actions of the script that were carried out."""
+    missing: int
+    """Decisions for which no action of the script was there in time."""
+    ignored: int
+    """What came and was no answer."""
+    refused: int
+    """Actions that no actuator could carry out."""
+    clipped: int
+    """Numbers of its actions that were out of range, and cut."""
+
+
+class RemoteBrain(Brain):
+    """Lets a Python script drive, in another process or on another machine.
+
+    The script gets what the agent senses, its reward and whether the episode is over, and answers
+    with an action, or asks for a reset. As in AI4U the script is a server and listens: the brain
+    knocks at ``host`` and ``port`` until one opens. An AI4U script works as it is::
+
+        env = gym.make("AI4UEnv-v0", controller_class=BasicGymController)
+
+    In ``lockstep`` the world stands still until the action is there: right for training, since the
+    script misses nothing. A script that needs more time and says so gets it (in a world with other
+    agents 0.05 s; then they go on); one that says nothing for longer than ``receive_timeout`` is
+    given up. In ``realtime`` the world never waits: an
+    action that comes too late counts for the next decision.
+
+    While there is no script, the agent takes no decisions. When a script was there and its action
+    is missing, ``on_missing`` decides: ``hold`` does the last action again, ``coast`` does nothing,
+    ``stop`` gives zeros to all actuators. Numbers that are out of range are cut to it; what no
+    actuator can carry out (another shape, NaN, an unknown name) is refused, and counts as missing.
+
+    A reset that the script asks for is the world's; if other agents are there too, it is a new
+    episode for this one alone.
+
+    Source: AI4U's RemoteBrain; ``mode`` and ``on_missing`` are ours.
+
+    >>> RemoteBrain(port=8090).title()
+    'RemoteBrain(127.0.0.1:8090)'
+    """
+
+    host: Annotated[str, Field(min_length=1, max_length=255)] = "127.0.0.1"
+    """Where the script listens."""
+    port: Annotated[int, Field(ge=1, le=65535)] = 8080
+    receive_timeout: Annotated[int, quantity("ms", ge=200, le=600_000)] = 2000
+    """How long a script may be silent."""
+    mode: Literal["lockstep", "realtime"] = "lockstep"
+    on_missing: Literal["hold", "coast", "stop"] = "hold"
+
+    def __post_init__(self) -> None:
+        self._given: Link | None = None
+        self._link: Link | None = None
+        self._situation: Situation | None = None
+        self._told: Situation | None = None
+        self._number = 0
+        self._asked = 0.0
+        self._seed: int | None = None
+        self._late = self._stopped = self._resetting = self._cut_short = False
+        self._reason = ""
+        self._decisions = self._missing = self._dropped = self._refused = self._clipped = 0
+
+    @classmethod
+    def over(cls, link: Link, **parameters: Any) -> Self:
+        """A remote brain whose script is reached in another way than by ``host`` and ``port``."""
+        brain = cls(**parameters)
+        brain._given = link
+        return brain
+
+    # -- what a brain does -----------------------------------------------------------------------
+
+    def on_setup(self, agent: AgentView, view: WorldView) -> None:
+        """Begins to look out for a script."""
+        self.close("the agent is set up anew")
+        self._agent, self._view = agent, view
+        self._actuators = {each.action_name: each for each in agent.actuators if each.is_active}
+        link = self._given or self._own_link()
+        link.open(
+            offer_of(
+                agent,
+                skip_frame=self.skip_frame,
+                repeat_action=self.repeat_action,
+                tick=view.dt,
+            )
+        )
+        self._link = link
+
+    def on_reset(self, agent: AgentView, view: WorldView) -> None:
+        """A new episode; a script that didn't ask for it is told that its own was cut off."""
+        told = self._told
+        self._cut_short = not self._resetting and told is not None and not told.done
+        self._resetting = self._stopped = False
+        self._situation = None
+
+    def decide(self, percept: Percept) -> Answer:
+        """What the script says, or what is done without it."""
+        link = self._link
+        if link is None:
+            raise SetupError(
+                f"{self.title()} was closed; expected agent.use_brain(...) to open it again"
+            )
+        situation = self._situation or self._now(percept)
+        answered = link.ask(situation, self._time_for(link))
+        if link.state is not LinkState.CONNECTED:
+            self._told = None
+        elif link.expecting or answered is not None:
+            self._told = situation
+        if answered is not None and self._outdated(answered, situation):
+            self._dropped += 1
+            answered = None
+        if answered is None:
+            return self._without_answer(link)
+        self._situation = None
+        self._late = False
+        return self._obeyed(link, answered, situation)
+
+    def restart_seed(self) -> int | None:
+        """The seed that the script asked for, if it did."""
+        return self._seed
+
+    def idle(self) -> None:
+        """Stays in touch while the world stands still; nobody is late meanwhile."""
+        self._asked = time.monotonic()
+        if self._link is not None:
+            self._link.idle()
+
+    def close(self, reason: str = "the world has ended") -> None:
+        """Says goodbye to the script."""
+        if self._link is not None:
+            self._link.close(reason)
+            self._link = self._situation = self._told = None
+
+    def title(self) -> str:
+        """What a person calls it."""
+        where = "a script" if self._given else f"{self.host}:{self.port}"
+        return f"{type(self).__name__}({where})"
+
+    def status(self) -> RemoteStatus:
+        """How it stands, for the page."""
+        link = self._link
+        state = LinkState.WAITING if link is None else link.state
+        here = state is LinkState.CONNECTED
+        return RemoteStatus(
+            state="late" if here and self._late else state.value,
+            reason=(self._reason if here else "") or (link.reason if link else ""),
+            decisions=self._decisions,
+            missing=self._missing,
+            ignored=self._dropped + (link.ignored if link else 0),
+            refused=self._refused,
+            clipped=self._clipped,
+        )
+
+    # -- the steps of it -------------------------------------------------------------------------
+
+    def _own_link(self) -> Link:
+        from ai4u_edu.blocks.brains.ai4u_link import AI4ULink
+
+        return AI4ULink(
+            self.host,
+            self.port,
+            receive_timeout=self.receive_timeout / 1000,
+            threaded=self.mode == "realtime",
+        )
+
+    def _now(self, percept: Percept) -> Situation:
+        """What is to be told now; the same until it is answered."""
+        self._number += 1
+        if self._cut_short and self._told is not None:
+            self._cut_short = False
+            now = replace(
+                self._told, number=self._number, reward=0.0, terms={}, done=True, truncated=True
+            )
+        else:
+            agent = self._agent
+            now = Situation(
+                number=self._number,
+                episode=agent.episode,
+                percept=percept,
+                reward=agent.reward,
+                terms=agent.reward_terms,
+                steps=agent.steps,
+                tick=self._view.ticks,
+                done=agent.done,
+                truncated=agent.truncated,
+                paused=agent.paused,
+                stopped=self._stopped,
+            )
+        self._situation = now
+        self._asked = time.monotonic()
+        return now
+
+    def _outdated(self, answered: Answered, situation: Situation) -> bool:
+        """Whether an answer belongs to what is over: it must not reach another episode."""
+        told = answered.situation
+        if told is None or isinstance(answered.answer, Reset):
+            return False
+        if self.mode == "lockstep":
+            return told.number != situation.number
+        return told.episode != self._agent.episode
+
+    def _can_act(self) -> bool:
+        agent = self._agent
+        return not (agent.done or agent.paused or self._stopped)
+
+    def _patient(self, link: Link) -> bool:
+        """Whether the world may wait for the script."""
+        if self.mode == "realtime":
+            return False
+        # one that has nothing to decide, and asks for patience all the same, keeps nobody waiting
+        since = max(self._asked, link.heard) if self._can_act() else self._asked
+        return (time.monotonic() - since) * 1000 <= self.receive_timeout
+
+    def _gives_way(self, link: Link) -> bool:
+        """Whether the script has asked for time for so long that the others may go on."""
+        waits = link.heard > self._asked and time.monotonic() - self._asked > GIVE_WAY
+        return waits and self._agent.companions > 0
+
+    def _time_for(self, link: Link) -> float:
+        """Seconds to wait for an answer now."""
+        if not self._patient(link):
+            return 0.0
+        return BRIEFLY if self._gives_way(link) else SLICE
+
+    def _without_answer(self, link: Link) -> Answer:
+        """The world waits, or goes on without the script."""
+        if link.state is LinkState.WAITING:
+            return Command.WAIT
+        if link.state is LinkState.CONNECTED:
+            if not link.expecting:
+                return Command.WAIT
+            if self._patient(link):
+                return Command.WAIT if self._gives_way(link) else Command.HOLD
+        if not self._can_act():
+            return Command.WAIT
+        self._late = True
+        self._reason = f"no action for {time.monotonic() - self._asked:.1f} s"
+        return self._without_action()
+
+    def _without_action(self) -> Action:
+        """What is done in place of the script's action."""
+        self._missing += 1
+        self._situation = None
+        match self.on_missing:
+            case "hold":
+                return dict(self._agent.last_action)
+            case "coast":
+                return {}
+            case "stop":
+                return {
+                    name: [
+                        min(max(0.0, low), high) for low, high in zip(*each.limits(), strict=True)
+                    ]
+                    for name, each in self._actuators.items()
+                    if each.is_output
+                }
+            case _:
+                assert_never(self.on_missing)
+
+    def _obeyed(self, link: Link, answered: Answered, situation: Situation) -> Answer:
+        """The answer in the cycle's terms."""
+        answer, agent = answered.answer, self._agent
+        if isinstance(answer, Reset):
+            self._resetting, self._cut_short = True, False
+            self._seed = answer.seed
+            alone = not agent.companions or answer.seed is not None
+            return Command.RESTART if alone else Command.RESPAWN
+        if isinstance(answer, Command):
+            self._stopped = self._stopped or answer is Command.STOP
+            # the cycle would not ask again, and so would never hear of a reset
+            return Command.WAIT if answer is Command.STOP else answer
+        if not self._can_act() or situation.done:
+            return Command.WAIT
+        try:
+            action = self._checked(answer)
+        except ActionError as error:
+            self._refused += 1
+            self._reason = str(error)
+            if link.refuse(answered, self._reason) and self._patient(link):
+                self._situation = situation
+                return Command.HOLD
+            return self._without_action()
+        self._decisions += 1
+        self._reason = ""
+        return action
+
+    def _checked(self, action: Action) -> Mapping[str, tuple[float, ...]]:
+        """An action as the actuators take it; numbers out of range are cut."""
+        checked = {}
+        for name, numbers in action.items():
+            actuator = self._actuators.get(name)
+            if actuator is None:
+                raise ActionError(
+                    f"agent {self._agent.id!r} has no actuator {name!r}; "
+                    f"{suggest(str(name), self._actuators)}"
+                )
+            before = actuator.clipped
+            checked[name] = actuator.accept(numbers)
+            self._clipped += actuator.clipped - before
+        return checked

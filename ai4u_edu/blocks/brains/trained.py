@@ -1,0 +1,21 @@
+"""A brain with a trained network in it."""
+
+from typing import Any
+
+from ai4u_edu.blocks.brains.controllers.neural import NeuralNetController
+from ai4u_edu.blocks.brains.local import LocalBrain
+
+
+def trained_brain(model_path: str, **parameters: Any) -> LocalBrain:
+    """A LocalBrain that a network drives, in the rhythm in which it learned to.
+
+    Args:
+        model_path: of an ONNX file, or ``zoo:`` and a scene's name.
+        parameters: others of :class:`NeuralNetController`.
+
+    Raises:
+        BlockError: there is no such network, or it can't be run.
+    """
+    controller = NeuralNetController(model_path=model_path, **parameters)
+    brain = LocalBrain(controller=controller)
+    return brain.changed(**controller.network.rhythm)

@@ -1,0 +1,70 @@
+"""Pays for the places of a way, in their order."""
+
+from typing import Annotated
+
+from pydantic import Field
+
+from ai4u_edu.blocks.agent_view import AgentView
+from ai4u_edu.blocks.rewards.reward_func import RewardFunc
+from ai4u_edu.parameters import Number
+from ai4u_edu.world import BodyView, WorldView
+
+
+class CheckpointsReward(RewardFunc):
+    """Pays ``reward`` for each target touched in its turn, and ``lap_reward`` for the whole way.
+
+    The targets (bodies, or areas, which are touched with the agent's centre) are the places of a
+    way. Only the next one counts, and each counts once: going back and forth earns nothing, and a
+    short cut that leaves one out earns nothing any more. They are looked at after every tick, so
+    nobody is too fast for them.
+
+    With ``loop`` the way is a round: it begins with the target that is touched first, whichever
+    that is, goes on in order, and ends where it began. For one term that is paid for a whole round
+    alone, set ``reward`` to 0. Example: a lap of a track with four marks, which ends the episode =
+    ``CheckpointsReward(targets=["1", "2", "3", "4"], loop=True, reward=0, lap_reward=10,
+    cause_episode_to_end=True)``.
+
+    Source: ours.
+    """
+
+    targets: Annotated[list[str], Field(min_length=1)]
+    """Bodies or areas, in the order in which they are to be touched."""
+    reward: Number = 1.0
+    lap_reward: Number = 0.0
+    """What the last one pays besides."""
+    loop: bool = False
+
+    def on_setup(self, agent: AgentView, view: WorldView) -> None:
+        """Looks the targets up."""
+        for target in self.targets:
+            view.check_target(target)
+
+    def on_reset(self, agent: AgentView, view: WorldView) -> None:
+        """Begins the way anew."""
+        self._under_way = not self.loop
+        self._ahead = list(self.targets)
+        self._due = 0.0
+
+    def on_tick(self, body: BodyView, view: WorldView) -> None:
+        """Looks whether the next one is touched."""
+        awaited = self._ahead[:1] if self._under_way else self._ahead
+        for target in awaited:
+            if view.touching(body, target):
+                self._due += self.reward
+                self._pass(target)
+                break
+
+    def on_update(self, body: BodyView, view: WorldView) -> float:
+        """What was earned in the decision."""
+        due, self._due = self._due, 0.0
+        return due
+
+    def _pass(self, target: str) -> None:
+        if self._under_way:
+            self._ahead = self._ahead[1:]
+        else:
+            first = self.targets.index(target)
+            self._ahead = [*self.targets[first + 1 :], *self.targets[: first + 1]]
+            self._under_way = True
+        if not self._ahead:
+            self._due += self.lap_reward

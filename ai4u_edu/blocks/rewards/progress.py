@@ -1,0 +1,34 @@
+"""Pays for every metre towards a target."""
+
+from ai4u_edu.blocks.agent_view import AgentView
+from ai4u_edu.blocks.rewards.reward_func import RewardFunc
+from ai4u_edu.parameters import Number
+from ai4u_edu.world import BodyView, WorldView
+
+
+class ProgressReward(RewardFunc):
+    """Pays ``reward`` for each metre by which a decision brought the agent closer to the target.
+
+    A decision that took it away costs as much, so going to and fro earns nothing: all that an
+    episode pays adds up to the way from where the agent was after its first decision, which is
+    free, to where it ended.
+
+    Source: ours; after Ng, Harada and Russell, "Policy invariance under reward transformations"
+    (1999): the distance is a potential.
+    """
+
+    target: str
+    reward: Number = 1.0
+
+    def on_setup(self, agent: AgentView, view: WorldView) -> None:
+        """Looks the target up."""
+        _ = view[self.target]
+
+    def on_reset(self, agent: AgentView, view: WorldView) -> None:
+        """Forgets how far it was."""
+        self._distance: float | None = None
+
+    def on_update(self, body: BodyView, view: WorldView) -> float:
+        """What the way of this decision is worth."""
+        before, self._distance = self._distance, body.distance(view[self.target])
+        return 0.0 if before is None else self.reward * (before - self._distance)

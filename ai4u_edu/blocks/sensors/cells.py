@@ -1,0 +1,114 @@
+"""The plane in square cells."""
+
+import math
+from typing import Annotated
+
+import numpy as np
+import numpy.typing as npt
+from pydantic import Field
+
+from ai4u_edu.blocks.declared import Declared
+from ai4u_edu.blocks.sensors.footprint import footprint
+from ai4u_edu.parameters import Point, PositiveMetres
+from ai4u_edu.world import BodyView, Region
+
+Cell = tuple[int, int]
+"""(row, column); row 0 is on top, column 0 on the left."""
+Cells = npt.NDArray[np.intp]
+"""The numbers of some cells, row by row: row * columns + column."""
+Length = Annotated[int, Field(ge=1, le=512)]
+
+RIM = 1e-9
+"""A cell's centre this close to a rim (metres) lies on it, and belongs to the shape."""
+
+
+class OnGrid(Declared):
+    """The parameters of blocks that take the world for a grid; the same ones, where they meet."""
+
+    rows: Length = 20
+    columns: Length = 20
+    cell_size: PositiveMetres = 1.0
+    """A cell's side."""
+    centre: Point = (0.0, 0.0)
+    """The middle of the whole grid in the world."""
+
+    def grid(self) -> "Grid":
+        """The grid."""
+        return Grid(self.rows, self.columns, self.cell_size, self.centre)
+
+
+class Grid:
+    """Rows and columns of cells, north up: row 0 is on top (+y), column 0 on the left (-x).
+
+    Args:
+        rows: how many.
+        columns: how many.
+        cell_size: a cell's side, metres.
+        centre: the middle of the grid, world frame, metres.
+
+    >>> grid = Grid(20, 20, 1.0, (0.0, 0.0))
+    >>> grid.cell_at(-9.6, 9.9), grid.centre_of((0, 0))
+    ((0, 0), (-9.5, 9.5))
+    """
+
+    def __init__(self, rows: int, columns: int, cell_size: float, centre: Point) -> None:
+        self.rows, self.columns, self.cell_size = rows, columns, cell_size
+        self._left = centre[0] - columns * cell_size / 2
+        self._top = centre[1] + rows * cell_size / 2
+        row, column = np.divmod(np.arange(rows * columns), columns)
+        self._x = self._left + (column + 0.5) * cell_size
+        self._y = self._top - (row + 0.5) * cell_size
+        self._known: dict[BodyView, tuple[object, Cells]] = {}
+
+    def cell_at(self, x: float, y: float) -> Cell:
+        """The cell in which a point lies; off the grid the numbers go on."""
+        column = math.floor((x - self._left) / self.cell_size)
+        return math.floor((self._top - y) / self.cell_size), column
+
+    def centre_of(self, cell: Cell) -> Point:
+        """The middle of a cell."""
+        row, column = cell
+        return (
+            self._left + (column + 0.5) * self.cell_size,
+            self._top - (row + 0.5) * self.cell_size,
+        )
+
+    def holds(self, cell: Cell) -> bool:
+        """Whether a cell is on the grid."""
+        return 0 <= cell[0] < self.rows and 0 <= cell[1] < self.columns
+
+    def number(self, cell: Cell) -> int:
+        """A cell's number, row by row."""
+        return cell[0] * self.columns + cell[1]
+
+    def cells_of(self, body: BodyView) -> Cells:
+        """The cells whose centre a body covers; one that covers none is in the one it is in.
+
+        A body thinner than a cell counts as one cell thick, so that no wall has gaps.
+        """
+        where = body.pose, body.drawn
+        known = self._known.get(body)
+        if known is None or known[0] != where:
+            known = self._known[body] = where, self._covered(body)
+        return known[1]
+
+    def cells_in(self, region: Region) -> Cells:
+        """The cells whose centre lies in a floor or an area."""
+        return np.flatnonzero(region.contains_each(self._x, self._y))
+
+    def _covered(self, body: BodyView) -> Cells:
+        (x, y, _, heading), shape = body.pose, body.drawn.shape
+        cos, sin = math.cos(heading), math.sin(heading)
+        dx, dy = self._x - x, self._y - y
+        u, v = cos * dx + sin * dy, cos * dy - sin * dx
+        parts = footprint(shape, self.cell_size)
+        inside = np.zeros(len(u), np.bool_)
+        for mid_u, mid_v, radius in parts.discs:
+            inside |= np.hypot(u - mid_u, v - mid_v) <= radius + RIM
+        for edges in parts.polygons:
+            inside |= np.all([a * u + b * v <= c + RIM for a, b, c in edges], axis=0)
+        if not inside.any():
+            mid_u, mid_v = np.mean(shape.outline(), axis=0).tolist()
+            cell = self.cell_at(x + cos * mid_u - sin * mid_v, y + sin * mid_u + cos * mid_v)
+            return np.array([self.number(cell)] if self.holds(cell) else [], np.intp)
+        return np.flatnonzero(inside)

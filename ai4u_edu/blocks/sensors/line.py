@@ -1,0 +1,85 @@
+"""A row of eyes that look at the ground."""
+
+from typing import Annotated
+
+import numpy as np
+import numpy.typing as npt
+from gymnasium.spaces import Box
+from pydantic import Field
+
+from ai4u_edu.blocks.agent_view import AgentView
+from ai4u_edu.blocks.sensors.pictures import SpotPicture
+from ai4u_edu.blocks.sensors.sensor import Sensor
+from ai4u_edu.errors import NameNotFoundError, suggest
+from ai4u_edu.parameters import Metres, Name, NonNegativeMetres
+from ai4u_edu.world import BodyView, WorldView
+
+
+class LineSensor(Sensor):
+    """Which points of the ground below a row of eyes are painted: 1 on the line, 0 beside it.
+
+    ``points`` eyes sit on a bar, ``ahead`` of the body's centre and square to its heading; the bar
+    is ``width`` long, the first eye at its left end, the last at its right. Each looks straight
+    down, at one point. The line is made of areas that carry the tag ``group``; what stands on the
+    ground hides nothing.
+
+    A robot that drives along a line reads [0, 0, 1, 0, 0]; once it reads [0, 1, 0, 0, 0] the line
+    is a bit to the left. Far off the line all is 0, to whichever side it went: to come back, it has
+    to remember (or to stack readings).
+
+    Reading: (points,), each 0 or 1. Source: ours; after the line sensors of small robots, which
+    measure how much light the ground sends back.
+    """
+
+    group: Name = "line"
+    """The tag of the areas that are the line."""
+    points: Annotated[int, Field(ge=1, le=64)] = 5
+    ahead: Metres = 0.4
+    width: NonNegativeMetres = 0.6
+
+    def space(self) -> Box:
+        """0 or 1 for each point."""
+        return Box(0.0, 1.0, (self.points,))
+
+    def on_setup(self, agent: AgentView, view: WorldView) -> None:
+        """Looks the line up."""
+        tags = {tag: None for area in view.areas.values() for tag in area.tags}
+        if self.group not in tags:
+            raise NameNotFoundError(
+                f"no area carries the tag {self.group!r}; {suggest(self.group, tags)}"
+            )
+        left = np.linspace(0.5, -0.5, self.points) if self.points > 1 else np.zeros(1)
+        self._left = left * self.width
+        self._reach = float(np.hypot(self.ahead, self.width / 2))
+        self._learnt = -1
+        nowhere = np.zeros(self.points)
+        self._seen = nowhere, nowhere, 0.0, nowhere.astype(np.bool_)
+
+    def read(self, body: BodyView, view: WorldView) -> npt.NDArray[np.bool_]:
+        """One reading."""
+        if self._learnt != view.generation:
+            self._learn(view)
+        (x, y), heading = body.position, body.heading
+        cos, sin = np.cos(heading), np.sin(heading)
+        xs = x + cos * self.ahead - sin * self._left
+        ys = y + sin * self.ahead + cos * self._left
+        on_it = np.zeros(self.points, np.bool_)
+        # a line has many pieces, of which one or two are near
+        for index in np.flatnonzero(np.hypot(self._x - x, self._y - y) <= self._far):
+            on_it |= self._line[index].contains_each(xs, ys)
+        self._seen = xs, ys, body.z, on_it
+        return on_it
+
+    def spots(self) -> SpotPicture:
+        """Where the eyes looked."""
+        xs, ys, z, on_it = self._seen
+        places = np.column_stack([xs, ys, np.full(self.points, z)])
+        return SpotPicture(places, tuple(on_it.tolist()))
+
+    def _learn(self, view: WorldView) -> None:
+        self._learnt = view.generation
+        self._line = [area for area in view.areas.values() if self.group in area.tags]
+        self._x = np.array([piece.x for piece in self._line])
+        self._y = np.array([piece.y for piece in self._line])
+        reaches = np.array([piece.description.shape.reach for piece in self._line])
+        self._far = reaches + self._reach

@@ -1,0 +1,1 @@
+"""Bytes and messages: what goes over a network to a brain, and comes back. Knows no world."""

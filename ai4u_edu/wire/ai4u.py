@@ -1,0 +1,280 @@
+"""AI4U's own protocol: UDP datagrams of text, one request and one reply at a time.
+
+The world asks, the script answers. A request is a row of named fields, each with a type; a reply is
+a row of commands, the first of which counts and the others are its fields::
+
+    request     5  10__target__3      10envcontrol   2id3       10 ...
+                how many fields; of each: bytes of the name, name, type, bytes of the value, value
+    reply       move;4;1.0;0;0;0@speed;1;2
+                name, number of arguments, arguments; the next command after an @
+
+Source: AI4U's ControlRequestor.SendMessageFrom and the Python package's BMWorker.decode.
+"""
+
+import base64
+import binascii
+import re
+from collections.abc import Iterable, Sequence
+from enum import IntEnum
+from functools import lru_cache
+from typing import Any, NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+from ai4u_edu.wire.strict import WireError, shown
+
+LARGEST = 65_507
+"""Bytes of a datagram; more don't fit into one over IPv4."""
+HALT = "halt"
+"""The one reply that is no command: the script has ended."""
+
+
+class Kind(IntEnum):
+    """A field's type, as the wire has it (the Python package has other names for the numbers)."""
+
+    FLOAT = 0
+    INT = 1
+    BOOL = 2
+    TEXT = 3
+    BYTES = 4
+    FLOATS = 5
+    INTS = 6
+    TEXTS = 7
+
+
+class Field(NamedTuple):
+    """A named value of a request."""
+
+    name: str
+    kind: Kind
+    value: Any
+    """float, int, bool, str, bytes, an array of float64 or int64, or a list of str."""
+
+
+class Order(NamedTuple):
+    """A command of a reply."""
+
+    name: str
+    args: tuple[str, ...] = ()
+
+
+# -- requests --------------------------------------------------------------------------------------
+
+
+def encode_request(fields: Iterable[Field]) -> bytes:
+    """A request as a datagram.
+
+    Raises:
+        WireError: a value is none of its kind, or what is to be sent is too large for a datagram.
+
+    >>> encode_request([Field("id", Kind.TEXT, "0"), Field("done", Kind.BOOL, True)])
+    b'   2   2id3       10   4done2       11'
+    """
+    parts = [packed(field) for field in fields]
+    return joined(parts)
+
+
+def packed(field: Field) -> bytes:
+    """One field of a request; for what stays the same from request to request."""
+    name, text = field.name.encode(), _text(field).encode()
+    if len(name) > 9_999 or len(text) > 99_999_999:
+        raise WireError(f"field {shown(field.name)}: expected a value that fits, got {len(text)}")
+    return b"%4d%s%d%8d%s" % (len(name), name, field.kind, len(text), text)
+
+
+def joined(parts: Sequence[bytes]) -> bytes:
+    """A request of fields that are packed."""
+    request = b"%4d%s" % (len(parts), b"".join(parts))
+    if len(request) > LARGEST:
+        raise WireError(
+            f"expected a request of at most {LARGEST} bytes, got {len(request)}: make sensors that "
+            "read much smaller, or switch them off (is_active=False)"
+        )
+    return request
+
+
+def decode_request(data: bytes) -> list[Field]:
+    """The fields of a request.
+
+    Raises:
+        WireError: it is none; nothing else is ever raised, whatever the bytes are.
+
+    >>> decode_request(b'   1   4eyes5       50.5 1')
+    [Field(name='eyes', kind=<Kind.FLOATS: 5>, value=array([0.5, 1. ]))]
+    """
+    if len(data) > LARGEST:
+        raise WireError(f"expected at most {LARGEST} bytes, got {len(data)}")
+    count, at = _size(data, 0, 4, "the number of fields")
+    fields = []
+    for _ in range(count):
+        size, at = _size(data, at, 4, "the length of a name")
+        name, at = _words(data, at, size, "a name")
+        kind, at = _size(data, at, 1, f"the type of {shown(name)}")
+        if kind >= len(Kind):
+            raise WireError(f"{shown(name)}: expected a type from 0 to {len(Kind) - 1}, got {kind}")
+        size, at = _size(data, at, 8, f"the length of {shown(name)}")
+        text, at = _words(data, at, size, f"the value of {shown(name)}")
+        fields.append(Field(name, Kind(kind), _value(name, Kind(kind), text)))
+    if at != len(data):
+        raise WireError(f"expected the end after {count} fields, got {len(data) - at} bytes more")
+    return fields
+
+
+def floats(numbers: npt.NDArray[Any]) -> str:
+    """Numbers as text; nine digits are read back as the same float32.
+
+    >>> floats(np.array([0.5, 1, -2.5e-7], np.float32))
+    '0.5 1 -2.49999999e-07'
+    """
+    values = numbers.ravel().tolist()
+    return _nine_digits(len(values)) % tuple(values)
+
+
+@lru_cache(maxsize=256)
+def _nine_digits(count: int) -> str:
+    return " ".join(["%.9g"] * count)
+
+
+def _text(field: Field) -> str:
+    value = field.value
+    try:
+        match field.kind:
+            case Kind.FLOAT:
+                int(value)  # refuses what is not finite: a script would stumble over it
+                return repr(float(value))
+            case Kind.INT:
+                return str(int(value))
+            case Kind.BOOL:
+                return "1" if value else "0"
+            case Kind.TEXT:
+                return str(value)
+            case Kind.BYTES:
+                return base64.b64encode(value).decode()
+            case Kind.FLOATS:
+                return floats(np.asarray(value))
+            case Kind.INTS:
+                return " ".join(map(str, np.asarray(value).ravel().tolist()))
+            case Kind.TEXTS:
+                return " ".join(value)
+    except (TypeError, ValueError, OverflowError) as error:
+        raise WireError(f"field {field.name!r}: {shown(value)} is no {field.kind.name}") from error
+
+
+# each digit can be read in one way only: with two, 20,000 of them take more than a second
+_NUMBER = re.compile(r"[+-]?(\d+(\.\d*)?|\.\d+)([eE][+-]?\d+)?|[+-]?(inf|nan|infinity)", re.I | re.A)
+_WHOLE = re.compile(r"[+-]?\d{1,18}", re.A)
+_SIZE = re.compile(rb" *\d+ *")
+
+
+def number(text: str) -> float:
+    """A number as a script writes it, ``nan`` and ``inf`` too.
+
+    Raises:
+        WireError: it is none.
+    """
+    text = text.strip(" ")
+    if not _NUMBER.fullmatch(text):
+        raise WireError(f"expected a number, got {shown(text)}")
+    return float(text)
+
+
+def _value(name: str, kind: Kind, text: str) -> Any:
+    try:
+        match kind:
+            case Kind.FLOAT:
+                return number(text)
+            case Kind.INT:
+                return _whole(text)
+            case Kind.BOOL:
+                return {"1": True, "0": False}[text.strip(" ")]
+            case Kind.TEXT:
+                return text
+            case Kind.BYTES:
+                return base64.b64decode(text.encode(), validate=True)
+            case Kind.FLOATS:
+                return np.array([number(part) for part in _parts(text)], np.float64)
+            case Kind.INTS:
+                return np.array([_whole(part) for part in _parts(text)], np.int64)
+            case Kind.TEXTS:
+                return _parts(text)
+    except (KeyError, WireError, binascii.Error):
+        raise WireError(f"{shown(name)}: expected {kind.name}, got {shown(text)}") from None
+
+
+def _whole(text: str) -> int:
+    text = text.strip(" ")
+    if not _WHOLE.fullmatch(text):
+        raise WireError(f"expected a whole number, got {shown(text)}")
+    return int(text)
+
+
+def _parts(text: str) -> list[str]:
+    return text.split(" ") if text else []
+
+
+def _size(data: bytes, at: int, digits: int, what: str) -> tuple[int, int]:
+    part = data[at : at + digits]
+    if len(part) != digits or not _SIZE.fullmatch(part):
+        raise WireError(f"expected {what} in {digits} characters, got {shown(part)}")
+    return int(part), at + digits
+
+
+def _words(data: bytes, at: int, size: int, what: str) -> tuple[str, int]:
+    part = data[at : at + size]
+    if len(part) != size:
+        raise WireError(f"expected {size} bytes for {what}, got {len(part)}")
+    try:
+        return part.decode(), at + size
+    except UnicodeDecodeError:
+        raise WireError(f"expected UTF-8 for {what}, got {shown(part)}") from None
+
+
+# -- replies ---------------------------------------------------------------------------------------
+
+
+def encode_reply(orders: Sequence[Order]) -> bytes:
+    """A reply as a datagram: a command, and its fields.
+
+    >>> encode_reply([Order("move", ("1.0", "0", "0", "0"))])
+    b'move;4;1.0;0;0;0'
+    """
+    if orders and orders[0].name == HALT:
+        return HALT.encode()
+    return "@".join(";".join((name, str(len(args)), *args)) for name, args in orders).encode()
+
+
+def decode_reply(data: bytes) -> list[Order]:
+    """The commands of a reply: the first one counts, the others are its fields.
+
+    Raises:
+        WireError: it is none; nothing else is ever raised, whatever the bytes are.
+
+    >>> decode_reply(b"move;2;1.0;0.5@speed;1;3")
+    [Order(name='move', args=('1.0', '0.5')), Order(name='speed', args=('3',))]
+    >>> decode_reply(b"move;2;1.0")
+    Traceback (most recent call last):
+    ...
+    ai4u_edu.wire.strict.WireError: 'move': expected 2 arguments as it says, got 1
+    """
+    if len(data) > LARGEST:
+        raise WireError(f"expected at most {LARGEST} bytes, got {len(data)}")
+    try:
+        text = data.decode().strip()
+    except UnicodeDecodeError:
+        raise WireError(f"expected a reply in UTF-8, got {shown(data)}") from None
+    if text == HALT:
+        return [Order(HALT)]
+    return [_order(part) for part in text.split("@")]
+
+
+def _order(text: str) -> Order:
+    name, *rest = text.strip().split(";")
+    if not name or not rest or not re.fullmatch(r"\d{1,5}", rest[0], re.A):
+        raise WireError(f"expected a command as in 'move;2;1.0;0.5', got {shown(text)}")
+    count, args = int(rest[0]), rest[1:]
+    if not count and args == [""]:
+        args = []  # the package writes a semicolon after a 0
+    if count != len(args):
+        raise WireError(f"{shown(name)}: expected {count} arguments as it says, got {len(args)}")
+    return Order(name, tuple(args))

@@ -1,0 +1,161 @@
+"""Checks that what came over a wire is what a message declares, field by field.
+
+A message is a frozen dataclass. Its annotations say what may stand in each field, and
+:func:`reader` makes of them, once, a function that lets nothing else through.
+"""
+
+from collections.abc import Callable, Mapping
+from dataclasses import fields
+from types import NoneType, UnionType
+from typing import Annotated, Any, Literal, TypeVar, Union, get_args, get_origin, get_type_hints
+
+from ai4u_edu.errors import AI4UError
+
+M = TypeVar("M")
+Check = Callable[[Any], Any]
+"""Gives back the value as it belongs into the message, or raises a :class:`WireError`."""
+
+LARGEST_INT = 2**53
+"""Every language has the whole numbers below this one."""
+LONGEST_TEXT = 400
+"""Characters of a text that has no limit of its own."""
+MOST = 1024
+"""Entries of a list or a mapping."""
+
+
+class WireError(AI4UError):
+    """What came over a wire is no message; the text says what was expected."""
+
+
+def reader(message: type[M]) -> Callable[[tuple[Any, ...]], M]:
+    """A function that makes a message of its fields' values, or raises a WireError.
+
+    Known are int (0 and more, below 2**53), float (whole numbers too), bool, str and bytes (with
+    ``Annotated[..., n]`` of up to n characters or bytes), ``Literal``, ``| None``,
+    ``tuple[x, ...]``, ``Mapping[str, x]``, and other messages.
+
+    >>> from dataclasses import dataclass
+    >>> @dataclass(frozen=True)
+    ... class Step:
+    ...     number: int
+    ...     rewards: tuple[float, ...]
+    >>> reader(Step)((7, (1, 2.5)))
+    Step(number=7, rewards=(1.0, 2.5))
+    >>> reader(Step)((-7, ()))
+    Traceback (most recent call last):
+    ...
+    ai4u_edu.wire.strict.WireError: number: expected a whole number from 0 on, got -7
+    """
+    hints = get_type_hints(message, include_extras=True)
+    names = [field.name for field in fields(message)]  # type: ignore[arg-type]
+    checks = [_check(hints[name]) for name in names]
+
+    def read(values: tuple[Any, ...]) -> M:
+        if len(values) != len(checks):
+            raise WireError(
+                f"expected {len(checks)} fields ({', '.join(names)}), got {len(values)}"
+            )
+        name = ""
+        try:
+            found = []
+            for name, check, value in zip(names, checks, values, strict=True):  # noqa: B007
+                found.append(check(value))
+        except WireError as error:
+            raise WireError(f"{name}: {error}") from None
+        return message(*found)
+
+    return read
+
+
+def shown(value: object) -> str:
+    """A value in a message of an error: its beginning."""
+    try:
+        text = repr(value)
+    except RecursionError:  # a frame may hold lists in lists, a thousand deep
+        text = f"a {type(value).__name__} that is nested too deep"
+    return text if len(text) <= 40 else text[:37] + "..."
+
+
+def _check(kind: Any, size: int | None = None) -> Check:
+    origin, parts = get_origin(kind), get_args(kind)
+    if origin is Annotated:
+        return _check(parts[0], parts[1])
+    if origin in (UnionType, Union):
+        (inner,) = (_check(part) for part in parts if part is not NoneType)
+        return lambda value: None if value is None else inner(value)
+    if origin is Literal:
+        return _one_of(parts)
+    if origin is tuple:
+        return _sequence(_check(parts[0]))
+    if origin is Mapping:
+        return _mapping(_check(parts[1]))
+    if kind is int:
+        return _int
+    if kind is float:
+        return _float
+    if kind is bool:
+        return _bool
+    if kind in (str, bytes):
+        return _text(kind, size or LONGEST_TEXT)
+    read = reader(kind)
+    return lambda value: read(_sequence(lambda part: part)(value))
+
+
+def _int(value: Any) -> int:
+    if type(value) is int and 0 <= value < LARGEST_INT:
+        return value
+    raise WireError(f"expected a whole number from 0 on, got {shown(value)}")
+
+
+def _float(value: Any) -> float:
+    if type(value) is float:
+        return value
+    if type(value) is int:
+        return float(value)
+    raise WireError(f"expected a number, got {shown(value)}")
+
+
+def _bool(value: Any) -> bool:
+    if type(value) is bool:
+        return value
+    raise WireError(f"expected true or false, got {shown(value)}")
+
+
+def _text(kind: type[str | bytes], size: int) -> Check:
+    what = f"text of up to {size} characters" if kind is str else f"up to {size} bytes"
+
+    def check(value: Any) -> Any:
+        if type(value) is kind and len(value) <= size:
+            return value
+        raise WireError(f"expected {what}, got {shown(value)}")
+
+    return check
+
+
+def _one_of(known: tuple[Any, ...]) -> Check:
+    def check(value: Any) -> Any:
+        if type(value) is str and value in known:
+            return value
+        raise WireError(f"expected one of {', '.join(map(repr, known))}, got {shown(value)}")
+
+    return check
+
+
+def _sequence(inner: Check) -> Check:
+    def check(value: Any) -> tuple[Any, ...]:
+        if type(value) is tuple and len(value) <= MOST:
+            return tuple([inner(part) for part in value])
+        raise WireError(f"expected a list of up to {MOST}, got {shown(value)}")
+
+    return check
+
+
+def _mapping(inner: Check) -> Check:
+    name = _text(str, LONGEST_TEXT)
+
+    def check(value: Any) -> dict[str, Any]:
+        if type(value) is dict and len(value) <= MOST:
+            return {name(key): inner(part) for key, part in value.items()}
+        raise WireError(f"expected names and values, up to {MOST}, got {shown(value)}")
+
+    return check

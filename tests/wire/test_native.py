@@ -1,0 +1,169 @@
+"""Our own frames: what goes in comes out, and nothing but a message is let through."""
+
+import random
+from contextlib import suppress
+from typing import Any
+
+import msgpack
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from ai4u_edu.wire.native import (
+    LARGEST_HEARD,
+    LARGEST_SAID,
+    Action,
+    Bye,
+    Hello,
+    Message,
+    Output,
+    Percept,
+    Problem,
+    Reading,
+    Reset,
+    Welcome,
+    decode,
+    encode,
+)
+from ai4u_edu.wire.strict import WireError
+
+numbers = st.integers(0, 2**53 - 1)
+floats = st.floats(allow_nan=False)
+names = st.text(max_size=20)
+readings = st.builds(
+    Reading,
+    names,
+    st.sampled_from(["box", "discrete", "text"]),
+    st.sampled_from(["<f4", "<i4", "|b1", "|u1", ""]),
+    st.lists(numbers, max_size=4).map(tuple),
+    numbers,
+    st.binary(max_size=20),
+    st.binary(max_size=20),
+    names,
+    st.booleans(),
+)
+rows = st.lists(floats, max_size=4).map(tuple)
+outputs = st.builds(Output, names, st.sampled_from(["box", "discrete"]), rows, rows, st.booleans())
+modes = st.sampled_from(["lockstep", "realtime"])
+texts = st.lists(names, max_size=3).map(tuple)
+messages: st.SearchStrategy[Message] = st.one_of(
+    st.builds(Hello, numbers, names, names, modes, texts, names, names),
+    st.builds(
+        Welcome,
+        numbers,
+        names,
+        floats,
+        names,
+        modes,
+        names,
+        floats,
+        numbers,
+        texts,
+        st.lists(readings, max_size=3).map(tuple),
+        st.lists(outputs, max_size=3).map(tuple),
+    ),
+    st.builds(
+        Percept,
+        numbers,
+        numbers,
+        numbers,
+        numbers,
+        floats,
+        st.dictionaries(names, floats, max_size=3),
+        st.booleans(),
+        st.booleans(),
+        st.binary(max_size=200),
+        texts,
+    ),
+    st.builds(Action, numbers, numbers, numbers, st.dictionaries(names, rows, max_size=3)),
+    st.builds(Reset, numbers, st.none() | numbers),
+    st.builds(Problem, names, names, numbers),
+    st.builds(Bye, names),
+)
+
+
+@given(messages)
+def test_what_goes_in_comes_out(message: Message) -> None:
+    assert decode(encode(message), LARGEST_HEARD) == message
+
+
+@pytest.mark.parametrize(
+    ("parts", "complaint"),
+    [
+        (7, "expected a message (hello, welcome, percept, action, reset, problem, bye), got None"),
+        (["rest"], "expected a message (hello, welcome, percept, action, reset, problem, bye), "
+                   "got 'rest'"),
+        (["reset", 1], "expected 2 fields (seq, seed), got 1"),
+        (["reset", -1, None], "seq: expected a whole number from 0 on, got -1"),
+        (["reset", True, None], "seq: expected a whole number from 0 on, got True"),
+        (["reset", 2**53, None], "seq: expected a whole number from 0 on, got 9007199254740992"),
+        (["reset", 1, 0.5], "seed: expected a whole number from 0 on, got 0.5"),
+        (["bye", "x" * 401], "reason: expected text of up to 400 characters, got "
+                             "'xxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxx..."),
+        (["bye", b"bytes"], "reason: expected text of up to 400 characters, got b'bytes'"),
+        (["action", 1, 0, 1, [["move", [1]]]], "values: expected names and values, up to 1024, "
+                                               "got (('move', (1,)),)"),
+        (["action", 1, 0, 1, {"move": "fast"}], "values: expected a list of up to 1024, "
+                                                "got 'fast'"),
+        (["action", 1, 0, 1, {"move": [None]}], "values: expected a number, got None"),
+        (["action", 1, 0, 1, {"move": [True]}], "values: expected a number, got True"),
+        (["hello", 1, "", "", "slow", [], "", ""], "mode: expected one of 'lockstep', 'realtime', "
+                                                   "got 'slow'"),
+        (["percept", 1, 0, 1, 0, 0.0, {}, 0, False, b"", []], "terminated: expected true or false, "
+                                                             "got 0"),
+    ],
+)  # fmt: skip
+def test_what_is_no_message_is_explained(parts: Any, complaint: str) -> None:
+    with pytest.raises(WireError) as caught:
+        decode(msgpack.packb(parts))
+    assert str(caught.value) == complaint
+
+
+@pytest.mark.parametrize(
+    "frame",
+    [
+        b"",
+        b"\xc1",
+        b"\x92\xa3bye",
+        b"\x92\xa3bye\xa1\xff",  # no UTF-8
+        b"\x91" * 3000,  # deep
+        b"\xdd\xff\xff\xff\xff",  # four thousand million entries, it says
+        b"\x92\xa3bye\xd6\xff\x00\x00\x00\x00",  # a time
+        b"\x92\xa3bye\xc7\x00\x05",  # an extension
+        b"\x81\x90\x01",
+        encode(Bye("x")) + b"\x00",
+    ],
+)
+def test_other_bytes_are_a_wire_error(frame: bytes) -> None:
+    with pytest.raises(WireError):
+        decode(frame)
+
+
+def test_a_frame_has_a_size() -> None:
+    frame = encode(Bye("x")) + bytes(LARGEST_SAID)
+    with pytest.raises(WireError, match=f"expected at most {LARGEST_SAID} bytes, got "):
+        decode(frame)
+
+
+def test_a_text_that_is_no_unicode_does_not_stop_the_world() -> None:
+    assert decode(encode(Bye("\ud800"))) == Bye("?")
+
+
+@settings(max_examples=50)
+@given(messages, st.integers(0, 2**32))
+def test_nothing_else_is_ever_raised(message: Message, seed: int) -> None:
+    chance = random.Random(seed)
+    whole = encode(message)
+    for _ in range(100):
+        frame = bytearray(whole)
+        for _ in range(chance.randint(1, 4)):
+            place = chance.randrange(len(frame) + 1)
+            match chance.randrange(3):
+                case 0:
+                    frame[place:place] = chance.randbytes(chance.randint(1, 5))
+                case 1:
+                    del frame[place : place + chance.randint(1, 5)]
+                case _:
+                    frame[place : place + 1] = chance.randbytes(1)
+        with suppress(WireError):
+            decode(bytes(frame), LARGEST_HEARD)
