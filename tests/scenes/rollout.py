@@ -3,23 +3,18 @@
 import hashlib
 import struct
 import sys
-from typing import Any
-
-import numpy as np
 
 from ai4u_edu import LocalBrain, Scene
+from ai4u_edu.check.drive import RandomDrive
 
 
 def trajectory(name: str, seed: int, decisions: int = 300) -> str:
     """The digest of every pose and percept of a drive by a seeded random driver."""
-    chance = np.random.default_rng(seed)
     sim = Scene.load(name).build()
-
-    def wander(_percept: Any) -> dict[str, Any]:
-        return {"move": chance.uniform([-1, -1, 0, 0], 1).tolist()}
-
-    for agent in sim.agents:
-        agent.use_brain(LocalBrain(controller=wander))
+    for number, agent in enumerate(sim.agents):
+        drive = RandomDrive(agent)
+        drive.restart(seed + number)
+        agent.use_brain(LocalBrain(controller=drive))
     sim.reset(seed)
     digest = hashlib.sha256()
     for _ in range(decisions):
