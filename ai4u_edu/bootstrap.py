@@ -18,6 +18,8 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
 OLDEST = (3, 11)
+TORCH = "torch==2.13.0"
+WITH_TORCH = {"dev", "train"}
 
 
 class SetupError(Exception):
@@ -145,6 +147,8 @@ def _give_pip(venv: Path, python: Path, version: list[int]) -> None:
 
 
 def _install(root: Path, python: Path, extras: list[str]) -> None:
+    if WITH_TORCH.intersection(extras) and _declares_torch(root):
+        _bring_torch(python)
     project = "." + ("[{}]".format(",".join(extras)) if extras else "")
     done = _run(python, "-m", "pip", "install", "--quiet", "--no-input", "-e", project, cwd=root)
     _check(
@@ -153,6 +157,20 @@ def _install(root: Path, python: Path, extras: list[str]) -> None:
         "They come over the network: see that it works, then run the same command again. "
         "If that doesn't help, delete .venv first.",
     )
+
+
+def _declares_torch(root: Path) -> bool:
+    return '"torch' in (root / "pyproject.toml").read_text(encoding="utf-8")
+
+
+def _bring_torch(python: Path) -> None:
+    """Install a torch that the tests know, if there is none yet.
+
+    Where it can't be had, the project's own requirement brings another.
+    """
+    look = "import sys; from importlib.util import find_spec; sys.exit(not find_spec('torch'))"
+    if _run(python, "-c", look).returncode:
+        _run(python, "-m", "pip", "install", "--quiet", "--no-input", TORCH)
 
 
 def _run(python: Path, *args: str, cwd: Path | None = None) -> subprocess.CompletedProcess[str]:

@@ -8,6 +8,8 @@ from pathlib import Path
 
 from gymnasium.envs.registration import register, registry
 
+REMOTE = "ai4u_edu/Remote-v0"
+"""An agent of a world that runs somewhere else."""
 LIBRARY = Path(__file__).parent / "scenes" / "library"
 
 
@@ -21,7 +23,9 @@ def env_id(scene: str) -> str:
 
 
 def register_envs() -> None:
-    """Registers every scene of the library that is not registered yet."""
+    """Registers every scene of the library, and the robot elsewhere, if they aren't yet."""
+    if REMOTE not in registry:
+        register(id=REMOTE, entry_point="ai4u_edu.remote.env:RemoteEnv")
     for path in sorted(LIBRARY.glob("*.yaml")):
         name = env_id(path.stem)
         if name not in registry:

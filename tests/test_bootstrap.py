@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 from ai4u_edu import bootstrap
-from tests.tiny_checkout import CLI, PYPROJECT, REPO, make_checkout
+from tests.tiny_checkout import CLI, PYPROJECT, REPO, make_checkout, make_wheel
 
 
 @pytest.fixture(scope="module")
@@ -49,6 +49,22 @@ def test_changes_are_installed_and_extras_add_up(made: Path) -> None:
     assert builds(made) == before + 2
     stamp = json.loads((made / ".venv" / "ai4u-edu.json").read_text())
     assert stamp["extras"] == ["dev", "train"]
+
+
+def test_a_known_torch_is_brought_first_where_it_can_be_had(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    root = make_checkout(tmp_path / "checkout")
+    (root / "pyproject.toml").write_text(PYPROJECT + '# train = ["torch>=2.6"]\n')
+    monkeypatch.setenv("PIP_NO_INDEX", "1")
+    bootstrap.ensure(root, ["train"])  # there is none to be had, and all goes on
+    assert builds(root) == 1
+
+    wheels = tmp_path / "wheels"
+    make_wheel(wheels, "torch", bootstrap.TORCH.partition("==")[2])
+    monkeypatch.setenv("PIP_FIND_LINKS", str(wheels))
+    python = bootstrap.ensure(root, ["dev"])
+    subprocess.run([python, "-c", "import torch"], check=True)
 
 
 def test_an_environment_without_stamp_and_pip_is_kept_and_completed(made: Path) -> None:

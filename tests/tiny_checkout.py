@@ -1,6 +1,7 @@
 """A checkout as small as can be, which installs without a network."""
 
 import shutil
+import zipfile
 from pathlib import Path
 
 REPO = Path(__file__).resolve().parent.parent
@@ -42,3 +43,18 @@ def make_checkout(root: Path) -> Path:
     (root / "pyproject.toml").write_text(PYPROJECT)
     (root / "backend.py").write_text(BACKEND)
     return root
+
+
+def make_wheel(folder: Path, name: str, version: str) -> None:
+    """A package with one empty module, to be installed without a network."""
+    folder.mkdir()
+    info = f"{name}-{version}.dist-info/"
+    with zipfile.ZipFile(folder / f"{name}-{version}-py3-none-any.whl", "w") as wheel:
+        wheel.writestr(f"{name}.py", "")
+        wheel.writestr(
+            info + "METADATA", f"Metadata-Version: 2.1\nName: {name}\nVersion: {version}\n"
+        )
+        wheel.writestr(
+            info + "WHEEL", "Wheel-Version: 1.0\nTag: py3-none-any\nRoot-Is-Purelib: true\n"
+        )
+        wheel.writestr(info + "RECORD", "")

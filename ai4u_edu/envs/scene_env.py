@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING, Any
 
 import gymnasium
 
+from ai4u_edu.blocks import Percept
 from ai4u_edu.cycle import ControlRequestor
 from ai4u_edu.drawing import draw
 from ai4u_edu.envs.held_brain import take_over
@@ -66,8 +67,8 @@ class SceneEnv(gymnasium.Env[Any, Any]):
         self.sim: ControlRequestor = self.scene.build()
         self.agent = self.sim.agents[0] if agent is None else self.sim.agent(agent)
         self._brain = take_over(self.agent)
-        self._observer = Observer(self.agent, observation)
-        self.observation_space = self._observer.space
+        self.observer = Observer(self.agent, observation)
+        self.observation_space = self.observer.space
         self.action_space = action_space_of(self.agent)
         self._output = next(iter(outputs_of(self.agent)))
         self._one_output = not isinstance(self.action_space, gymnasium.spaces.Dict)
@@ -89,6 +90,12 @@ class SceneEnv(gymnasium.Env[Any, Any]):
         """Where the page of mode ``"human"`` is; empty in other modes."""
         return self._page.url if self._page else ""
 
+    @property
+    def success(self) -> bool:
+        """Whether the scene's goal was reached in this episode."""
+        goal = self._goal
+        return goal is not None and self.agent.ledger.episode_terms.get(goal, 0.0) > 0
+
     def reset(
         self, *, seed: int | None = None, options: dict[str, Any] | None = None
     ) -> tuple[Any, dict[str, Any]]:
@@ -100,20 +107,24 @@ class SceneEnv(gymnasium.Env[Any, Any]):
         """
         self.sim.reset(seed)
         self._share_chance()
-        return self._observer.observe(self.agent.percept), self._info()
+        return self.observer.observe(self.agent.percept), self._info()
 
     def step(self, action: Any) -> tuple[Any, float, bool, bool, dict[str, Any]]:
         """One decision."""
+        percept = self.decide(action)
         agent = self.agent
-        self._brain.action = {self._output: action} if self._one_output else action
-        percept = self._page.step(agent) if self._page else self.sim.step(agent)
         return (
-            self._observer.observe(percept),
-            agent.reward,
+            self.observer.observe(percept),
+            agent.ledger.total,
             agent.terminated,
             agent.truncated,
             self._info(),
         )
+
+    def decide(self, action: Any) -> Percept:
+        """One decision, and what the agent senses after it; the rest is asked of the agent."""
+        self._brain.action = {self._output: action} if self._one_output else action
+        return self._page.step(self.agent) if self._page else self.sim.step(self.agent)
 
     def render(self) -> Any:
         """The world from above, (height, width, 3) uint8; None in mode ``"human"``."""
@@ -133,8 +144,4 @@ class SceneEnv(gymnasium.Env[Any, Any]):
         self._np_random, self._np_random_seed = seeds.generator, seeds.seed
 
     def _info(self) -> dict[str, Any]:
-        paid = self.agent.ledger.episode_terms
-        return {
-            "reward_terms": self.agent.reward_terms,
-            "success": bool(self._goal and paid.get(self._goal, 0.0) > 0),
-        }
+        return {"reward_terms": self.agent.ledger.terms.copy(), "success": self.success}

@@ -10,20 +10,34 @@ from ai4u_edu.drawing import draw
 from ai4u_edu.envs.held_brain import take_over
 from ai4u_edu.envs.scene_env import SceneLike, load_scene
 from ai4u_edu.envs.spaces_of import Observer, action_space_of, outputs_of
+from ai4u_edu.errors import ActionError, SetupError, suggest
 from ai4u_edu.snapshot import picture_of
 
 
 class SceneParallelEnv(ParallelEnv):  # type: ignore[misc]  # PettingZoo has no types
     """Every agent of a scene learns.
 
-    A step gives every agent its action, and ends when all their decisions are over. An agent whose
-    episode ends takes part no more; the others go on.
+    A step gives every agent its action, and is over when their decisions are; all decide as seldom
+    as the one that decides most seldom. An agent whose episode ends takes part no more, and the
+    others go on: ``agents`` has those that are left, and is empty when a reset is due. ``infos``
+    has for each ``reward_terms`` (by name) and ``success`` (whether it reached the scene's goal in
+    this episode).
 
     Args:
         scene: a name out of the library, a YAML file, or a Scene.
-        observation: ``"dict"`` or ``"flat"``.
-        render_mode: None or ``"rgb_array"``.
+        observation: ``"dict"``: by perception key; ``"flat"``: one float32 array.
+        render_mode: None or ``"rgb_array"``: drawn without a browser.
         max_cycles: steps after which all that are left are truncated; 0 for no limit.
+
+    >>> from ai4u_edu.envs import parallel_env
+    >>> env = parallel_env("sumo", observation="flat")
+    >>> observations, infos = env.reset(seed=1)
+    >>> env.agents, observations["blue"].shape
+    (['blue', 'orange'], (11,))
+    >>> actions = {agent: env.action_space(agent).sample() * 0 for agent in env.agents}
+    >>> observations, rewards, terminations, truncations, infos = env.step(actions)
+    >>> rewards, infos["orange"]["success"]
+    ({'blue': 0.0, 'orange': 0.0}, False)
     """
 
     metadata: dict[str, Any] = {"render_modes": ["rgb_array"], "is_parallelizable": True}
@@ -36,21 +50,35 @@ class SceneParallelEnv(ParallelEnv):  # type: ignore[misc]  # PettingZoo has no 
         render_mode: str | None = None,
         max_cycles: int = 0,
     ) -> None:
+        if render_mode not in (None, *self.metadata["render_modes"]):
+            raise SetupError(
+                f"render_mode: expected one of {self.metadata['render_modes']}, got {render_mode!r}"
+            )
         self.scene = load_scene(scene)
         self.sim = self.scene.build()
         self.render_mode = render_mode
         self.max_cycles = max_cycles
-        self.metadata = {**self.metadata, "name": f"ai4u_edu/{self.scene.description.name}"}
+        self._goal = self.scene.description.success
         self._agents: dict[str, BasicAgent] = {agent.id: agent for agent in self.sim.agents}
-        self._brains = {agent_id: take_over(agent) for agent_id, agent in self._agents.items()}
+        self._brains = {name: take_over(agent) for name, agent in self._agents.items()}
+        # one action a step, and no reward between two steps: so all need the same time for one
+        skip_frame = max(brain.skip_frame for brain in self._brains.values())
+        for brain in self._brains.values():
+            brain.skip_frame = skip_frame
         self._observers = {
-            agent_id: Observer(agent, observation) for agent_id, agent in self._agents.items()
+            name: Observer(agent, observation) for name, agent in self._agents.items()
         }
-        self._outputs = {agent_id: list(outputs_of(a)) for agent_id, a in self._agents.items()}
-        self._action_spaces = {name: action_space_of(a) for name, a in self._agents.items()}
+        self._outputs = {name: list(outputs_of(agent)) for name, agent in self._agents.items()}
+        self._action_spaces = {name: action_space_of(agent) for name, agent in self._agents.items()}
         self.possible_agents = list(self._agents)
         self.agents: list[str] = []
         self._cycles = 0
+        ticks = self.sim.world.settings.ticks_per_second
+        self.metadata = {
+            **self.metadata,
+            "name": f"ai4u_edu/{self.scene.description.name}",
+            "render_fps": max(1, round(ticks / (skip_frame + 1))),
+        }
 
     def observation_space(self, agent: str) -> spaces.Space[Any]:
         """An agent's space of observations."""
@@ -63,7 +91,12 @@ class SceneParallelEnv(ParallelEnv):  # type: ignore[misc]  # PettingZoo has no 
     def reset(
         self, seed: int | None = None, options: dict[str, Any] | None = None
     ) -> tuple[dict[str, Any], dict[str, Any]]:
-        """Begins an episode for all agents."""
+        """Begins an episode for all agents.
+
+        Args:
+            seed: fixes everything in it; left out, it follows from the last one's.
+            options: none are known.
+        """
         self.sim.reset(seed)
         self.agents = list(self.possible_agents)
         self._cycles = 0
@@ -73,12 +106,13 @@ class SceneParallelEnv(ParallelEnv):  # type: ignore[misc]  # PettingZoo has no 
     def step(
         self, actions: dict[str, Any]
     ) -> tuple[dict[str, Any], dict[str, float], dict[str, bool], dict[str, bool], dict[str, Any]]:
-        """One decision of every agent that still takes part."""
+        """One decision of every agent that still takes part.
+
+        Args:
+            actions: one for each of ``agents``.
+        """
         acting = list(self.agents)
-        for name in acting:
-            outputs = self._outputs[name]
-            action = actions[name]
-            self._brains[name].action = {outputs[0]: action} if len(outputs) == 1 else action
+        self._hand_out(actions)
         self.sim.tick()
         while not self.sim.between_decisions():
             self.sim.tick()
@@ -100,14 +134,32 @@ class SceneParallelEnv(ParallelEnv):  # type: ignore[misc]  # PettingZoo has no 
         )
 
     def render(self) -> Any:
-        """The world from above, (height, width, 3) uint8."""
+        """The world from above, (height, width, 3) uint8; None without a render mode."""
         return draw(picture_of(self.sim)) if self.render_mode == "rgb_array" else None
 
     def close(self) -> None:
         """Nothing is held open."""
 
+    def _hand_out(self, actions: dict[str, Any]) -> None:
+        if not self.agents:
+            raise SetupError("no agent takes part; expected a reset() first")
+        for name in actions:
+            if name not in self._agents:
+                raise ActionError(f"no agent has the id {name!r}; {suggest(name, self._agents)}")
+        for name in self.agents:
+            if name not in actions:
+                raise ActionError(
+                    f"expected an action for each of {self.agents}, got none for {name!r}"
+                )
+            outputs, action = self._outputs[name], actions[name]
+            self._brains[name].action = {outputs[0]: action} if len(outputs) == 1 else action
+
     def _observe(self, name: str) -> Any:
         return self._observers[name].observe(self._agents[name].percept)
 
     def _info(self, name: str) -> dict[str, Any]:
-        return {"reward_terms": self._agents[name].reward_terms}
+        agent, goal = self._agents[name], self._goal
+        return {
+            "reward_terms": agent.reward_terms,
+            "success": goal is not None and agent.ledger.episode_terms.get(goal, 0.0) > 0,
+        }

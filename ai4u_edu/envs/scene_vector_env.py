@@ -2,13 +2,12 @@
 
 from typing import Any
 
-import gymnasium
 import numpy as np
 import numpy.typing as npt
 from gymnasium.vector import AutoresetMode, VectorEnv
-from gymnasium.vector.utils import batch_space, create_empty_array
 
-from ai4u_edu.envs.scene_env import SceneEnv, SceneLike, load_scene
+from ai4u_edu.envs.scene_env import SceneLike
+from ai4u_edu.envs.worlds import Worlds
 from ai4u_edu.errors import SetupError
 
 
@@ -42,25 +41,18 @@ class SceneVectorEnv(VectorEnv[Any, Any, Any]):
         render_mode: str | None = None,
         copy: bool = True,
     ) -> None:
-        if num_envs < 1:
-            raise SetupError(f"num_envs: expected at least 1, got {num_envs}")
-        loaded = load_scene(scene)
+        self._worlds = Worlds(
+            num_envs, scene, observation=observation, agent=agent, render_mode=render_mode
+        )
         self.num_envs = num_envs
         self.render_mode = render_mode
-        self.envs = [
-            SceneEnv(loaded, observation=observation, agent=agent, render_mode=render_mode)
-            for _ in range(num_envs)
-        ]
+        self.envs = self._worlds.envs
+        """One environment a world."""
         self.single_observation_space = self.envs[0].observation_space
         self.single_action_space = self.envs[0].action_space
-        self.observation_space = batch_space(self.single_observation_space, num_envs)
-        self.action_space = batch_space(self.single_action_space, num_envs)
-        self._flat = observation == "flat"
+        self.observation_space = self._worlds.space
+        self.action_space = self._worlds.action_space
         self._copy = copy
-        self._observations: Any = create_empty_array(self.single_observation_space, num_envs)
-        self._rewards = np.zeros(num_envs, np.float64)
-        self._terminated = np.zeros(num_envs, np.bool_)
-        self._truncated = np.zeros(num_envs, np.bool_)
         self._over = np.zeros(num_envs, np.bool_)
 
     def reset(
@@ -77,35 +69,19 @@ class SceneVectorEnv(VectorEnv[Any, Any, Any]):
         """
         seeds = self._seeds(seed)
         mask = (options or {}).get("reset_mask", np.ones(self.num_envs, np.bool_))
-        infos: dict[str, Any] = {}
-        for index, env in enumerate(self.envs):
-            if mask[index]:
-                observation, info = env.reset(seed=seeds[index])
-                self._put(index, observation)
-                infos = self._add_info(infos, info, index)
-                self._over[index] = False
-        return self._told(), infos
+        for index in np.flatnonzero(mask).tolist():
+            self._worlds.reset(index, seeds[index])
+            self._over[index] = False
+        return self._told(), self._worlds.infos(mask)
 
     def step(
         self, actions: Any
     ) -> tuple[Any, npt.NDArray[Any], npt.NDArray[Any], npt.NDArray[Any], dict[str, Any]]:
         """One decision in every world."""
-        infos: dict[str, Any] = {}
-        rewards, terminated, truncated = self._rewards, self._terminated, self._truncated
-        for index, (env, action) in enumerate(
-            zip(self.envs, gymnasium.vector.utils.iterate(self.action_space, actions), strict=True)
-        ):
-            if self._over[index]:
-                observation, info = env.reset()
-                rewards[index], terminated[index], truncated[index] = 0.0, False, False
-            else:
-                observation, rewards[index], terminated[index], truncated[index], info = env.step(
-                    action
-                )
-            self._put(index, observation)
-            infos = self._add_info(infos, info, index)
-        np.logical_or(terminated, truncated, out=self._over)
-        return self._told(), rewards.copy(), terminated.copy(), truncated.copy(), infos
+        worlds = self._worlds
+        worlds.step(actions, self._over)
+        self._over = worlds.terminated | worlds.truncated
+        return self._told(), worlds.rewards, worlds.terminated, worlds.truncated, worlds.infos()
 
     def render(self) -> tuple[Any, ...] | None:
         """One picture a world."""
@@ -116,26 +92,8 @@ class SceneVectorEnv(VectorEnv[Any, Any, Any]):
     def close_extras(self, **kwargs: Any) -> None:
         """Nothing is held open."""
 
-    def _put(self, index: int, observation: Any) -> None:
-        if self._flat:
-            self._observations[index] = observation
-        else:
-            for key, value in observation.items():
-                part = self._observations[key]
-                if isinstance(part, tuple):  # text has no array
-                    self._observations[key] = (*part[:index], value, *part[index + 1 :])
-                else:
-                    part[index] = value
-
     def _told(self) -> Any:
-        if not self._copy:
-            return self._observations
-        if self._flat:
-            return self._observations.copy()
-        return {
-            key: part if isinstance(part, tuple) else part.copy()
-            for key, part in self._observations.items()
-        }
+        return self._worlds.told() if self._copy else self._worlds.observations
 
     def _seeds(self, seed: int | list[int | None] | None) -> list[int | None]:
         if seed is None:

@@ -1,5 +1,6 @@
 """An agent's spaces in Gymnasium's terms, and the way of numbers through them."""
 
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -11,6 +12,8 @@ from ai4u_edu.blocks import Actuator, Percept, Sensor
 from ai4u_edu.errors import SetupError
 
 Observation = Any
+
+_FLOAT = np.dtype(np.float32)
 
 
 class Observer:
@@ -33,19 +36,56 @@ class Observer:
         self._keys = [sensor.perception_key for sensor in sensors]
         each = {sensor.perception_key: _space_of(sensor) for sensor in sensors}
         self.space: spaces.Space[Any] = _flattened(each) if self.flat else spaces.Dict(each)
-        slots = [agent.fitting.layout.slots.get(key) for key in self._keys]
-        floats = all(slot is not None and slot.dtype == np.float32 for slot in slots)
+        slots = agent.fitting.layout.slots
+        self._slots = {key: slots[key] for key in self._keys if key in slots}
+        floats = [slot for slot in self._slots.values() if slot.dtype == np.float32]
         # inputs lie first and side by side in a percept, so all-float ones are one run of bytes
-        self._run = sum(slot.size for slot in slots if slot is not None) if floats else 0
+        self._run = (sum(slot.size for slot in floats),) if len(floats) == len(each) else None
 
     def observe(self, percept: Percept) -> Observation:
         """A new observation; nothing in it is shared with the percept."""
         if not self.flat:
             return {key: _own(percept[key]) for key in self._keys}
         if self._run:
-            return np.frombuffer(percept.data, np.float32, self._run).copy()
+            return np.ndarray(self._run, _FLOAT, percept.data).copy()
         parts = [np.asarray(percept[key], np.float32).ravel() for key in self._keys]
         return np.concatenate(parts)
+
+    def writer(self, batch: Any, index: int) -> Callable[[Percept], None]:
+        """What writes observations into one row of a batch.
+
+        Args:
+            batch: as Gymnasium's ``create_empty_array`` makes it of :attr:`space`.
+            index: which row.
+        """
+        copies, others = self._copies(batch, index), []
+        if not self.flat:
+            others = [key for key in self._keys if key not in copies]
+
+        def write(percept: Percept) -> None:
+            data = percept.data
+            for row, begin, end in copies.values():
+                row[:] = data[begin:end]
+            for key in others:
+                _put(batch, key, index, _own(percept[key]))
+
+        def write_all(percept: Percept) -> None:
+            batch[index] = self.observe(percept)
+
+        return write if copies or not self.flat else write_all
+
+    def _copies(self, batch: Any, index: int) -> dict[str, tuple[memoryview, int, int]]:
+        """The places in a row that hold bytes of a percept, and from where to where in it."""
+        if self.flat:
+            whole = batch[index].data.cast("B")
+            return {"": (whole, 0, len(whole))} if self._run else {}
+        found = {}
+        for key, slot in self._slots.items():
+            part = batch[key]
+            if isinstance(part, np.ndarray) and part.dtype == slot.dtype and slot.size:
+                place = part[index : index + 1].data.cast("B")
+                found[key] = place, slot.offset, slot.offset + len(place)
+        return found
 
 
 def action_space_of(agent: BasicAgent) -> spaces.Space[Any]:
@@ -98,3 +138,11 @@ def _own(value: Any) -> Any:
     if isinstance(value, bool | int):
         return np.int64(value)
     return np.asarray(value, np.float32)
+
+
+def _put(batch: dict[str, Any], key: str, index: int, value: Any) -> None:
+    part = batch[key]
+    if isinstance(part, tuple):  # text has no array
+        batch[key] = (*part[:index], value, *part[index + 1 :])
+    else:
+        part[index] = value

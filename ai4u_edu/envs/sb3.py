@@ -1,0 +1,122 @@
+"""A scene for Stable-Baselines3: many worlds, seen as its own VecEnv.
+
+Needs ``pip install ai4u-edu[train]``; nothing else of this package loads this module.
+"""
+
+import time
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from stable_baselines3.common.vec_env import VecEnv
+
+from ai4u_edu.envs.scene_env import SceneEnv, SceneLike
+from ai4u_edu.envs.worlds import Worlds
+
+Indices = None | int | Sequence[int]
+
+
+class SceneVecEnv(VecEnv):  # type: ignore[misc]  # seen without its types
+    """``num_envs`` worlds for ``PPO("MlpPolicy", SceneVecEnv("box_chase", 8))`` and its like.
+
+    Nothing stands between the learner and the worlds: no DummyVecEnv, no Monitor. A world whose
+    episode ends is reset in the same step, as Stable-Baselines3 wants it, and its info says how
+    the episode was: ``terminal_observation``, ``TimeLimit.truncated``, ``is_success``, and
+    ``episode`` with return ``r``, length ``l`` and seconds since the start ``t``. Every info has
+    the ``reward_terms`` by name.
+
+    Args:
+        scene: a name out of the library, a YAML file, or a Scene.
+        num_envs: how many worlds.
+        observation: ``"flat"`` for MlpPolicy, ``"dict"`` for MultiInputPolicy.
+        agent: the id of the agent that learns.
+        render_mode: None or ``"rgb_array"``.
+    """
+
+    def __init__(
+        self,
+        scene: SceneLike,
+        num_envs: int = 1,
+        *,
+        observation: str = "flat",
+        agent: str | None = None,
+        render_mode: str | None = None,
+    ) -> None:
+        self._worlds = Worlds(
+            num_envs, scene, observation=observation, agent=agent, render_mode=render_mode
+        )
+        self.envs: list[SceneEnv] = self._worlds.envs
+        one = self.envs[0]
+        super().__init__(num_envs, one.observation_space, one.action_space)
+        self._began = time.perf_counter()
+        self._actions: Any = None
+
+    def reset(self) -> Any:
+        """Begins an episode in every world, with the seeds of :meth:`seed` if it was called."""
+        for index, seed in enumerate(self._seeds):
+            self._worlds.reset(index, seed)
+        self.reset_infos: list[dict[str, Any]] = [{} for _ in self.envs]
+        self._reset_seeds()
+        self._reset_options()
+        return self._worlds.told()
+
+    def step_async(self, actions: Any) -> None:
+        """Takes the actions."""
+        self._actions = actions
+
+    def step_wait(self) -> tuple[Any, Any, Any, list[dict[str, Any]]]:
+        """One decision in every world."""
+        worlds = self._worlds
+        worlds.step(self._actions)
+        infos: list[dict[str, Any]] = [
+            {"reward_terms": env.agent.ledger.terms} for env in self.envs
+        ]
+        dones = worlds.terminated | worlds.truncated
+        for index in np.flatnonzero(dones).tolist():
+            infos[index] |= self._epilogue(index)
+            worlds.reset(index)
+        return worlds.told(), worlds.rewards.astype(np.float32), dones, infos
+
+    def close(self) -> None:
+        """Nothing is held open."""
+
+    def get_images(self) -> list[Any]:
+        """One picture a world."""
+        return [env.render() for env in self.envs]
+
+    def get_attr(self, attr_name: str, indices: Indices = None) -> list[Any]:
+        """An attribute of each world's environment."""
+        return [getattr(env, attr_name) for env in self._chosen(indices)]
+
+    def set_attr(self, attr_name: str, value: Any, indices: Indices = None) -> None:
+        """Sets an attribute of each world's environment."""
+        for env in self._chosen(indices):
+            setattr(env, attr_name, value)
+
+    def env_method(
+        self, method_name: str, *args: Any, indices: Indices = None, **options: Any
+    ) -> list[Any]:
+        """Calls a method of each world's environment."""
+        return [getattr(env, method_name)(*args, **options) for env in self._chosen(indices)]
+
+    def env_is_wrapped(self, wrapper_class: type, indices: Indices = None) -> list[bool]:
+        """No world's environment is wrapped."""
+        return [False for _ in self._chosen(indices)]
+
+    def _epilogue(self, index: int) -> dict[str, Any]:
+        """What is told of an episode that is over."""
+        env = self.envs[index]
+        agent = env.agent
+        return {
+            "terminal_observation": env.observer.observe(agent.percept),
+            "TimeLimit.truncated": agent.truncated,
+            "is_success": env.success,
+            "episode": {
+                "r": agent.ledger.episode_total,
+                "l": agent.steps,
+                "t": time.perf_counter() - self._began,
+            },
+        }
+
+    def _chosen(self, indices: Indices) -> list[SceneEnv]:
+        return [self.envs[index] for index in self._get_indices(indices)]

@@ -1,0 +1,104 @@
+"""Many copies of a scene in one process, and one set of arrays for what they give."""
+
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+from gymnasium.vector.utils import batch_space, create_empty_array, iterate
+
+from ai4u_edu.envs.scene_env import SceneEnv, SceneLike, load_scene
+from ai4u_edu.errors import SetupError
+
+
+class Worlds:
+    """``count`` worlds, stepped one after another.
+
+    Args:
+        count: how many.
+        scene: a name out of the library, a YAML file, or a Scene.
+        options: those of :class:`SceneEnv`.
+
+    Attributes:
+        envs: one environment a world.
+        space, action_space: of all worlds together, as Gymnasium batches them.
+        observations: the latest of each world; written in place.
+        rewards: (count,) float64, of the last decisions.
+        terminated, truncated: (count,) bool, by the last decisions.
+    """
+
+    def __init__(self, count: int, scene: SceneLike, **options: Any) -> None:
+        if count < 1:
+            raise SetupError(f"num_envs: expected at least 1, got {count}")
+        loaded = load_scene(scene)
+        self.envs = [SceneEnv(loaded, **options) for _ in range(count)]
+        one = self.envs[0]
+        self.space = batch_space(one.observation_space, count)
+        self.action_space = batch_space(one.action_space, count)
+        self.observations: Any = create_empty_array(one.observation_space, count)
+        self.rewards = np.zeros(count)
+        self.terminated, self.truncated = np.zeros(count, np.bool_), np.zeros(count, np.bool_)
+        self._write = [
+            env.observer.writer(self.observations, index) for index, env in enumerate(self.envs)
+        ]
+
+    def reset(self, index: int, seed: int | None = None) -> None:
+        """Begins an episode in one world."""
+        env = self.envs[index]
+        env.reset(seed=seed)
+        self._write[index](env.agent.percept)
+
+    def step(self, actions: Any, resting: npt.NDArray[np.bool_] | None = None) -> None:
+        """One decision in every world.
+
+        Args:
+            actions: out of ``action_space``.
+            resting: worlds whose episode is over: they are reset instead.
+        """
+        rows = actions if isinstance(actions, np.ndarray) else iterate(self.action_space, actions)
+        over = [False] * len(self.envs) if resting is None else resting.tolist()
+        rewards, terminated, truncated = [], [], []
+        for env, write, row, rests in zip(self.envs, self._write, rows, over, strict=True):
+            agent = env.agent
+            if rests:
+                env.reset()
+                write(agent.percept)
+            else:
+                write(env.decide(row))
+            rewards.append(agent.ledger.total)
+            terminated.append(agent.terminated)
+            truncated.append(agent.truncated)
+        self.rewards = np.array(rewards, np.float64)
+        self.terminated, self.truncated = np.array(terminated), np.array(truncated)
+
+    def told(self) -> Any:
+        """A copy of the observations."""
+        if isinstance(self.observations, dict):
+            return {
+                key: part if isinstance(part, tuple) else part.copy()
+                for key, part in self.observations.items()
+            }
+        return self.observations.copy()
+
+    def infos(self, mask: npt.NDArray[np.bool_] | None = None) -> dict[str, Any]:
+        """What is known beside the observations, in the form of Gymnasium's vector environments.
+
+        Args:
+            mask: which worlds are told of; left out, all.
+        """
+        told = np.ones(len(self.envs), np.bool_) if mask is None else np.array(mask, np.bool_)
+        envs = self.envs
+        terms = [
+            env.agent.ledger.terms if known else {}
+            for env, known in zip(envs, told.tolist(), strict=True)
+        ]
+        paid: dict[str, Any] = {}
+        for name in dict.fromkeys(name for each in terms for name in each):
+            paid[name] = np.array([each.get(name, 0.0) for each in terms])
+            paid[f"_{name}"] = np.array([name in each for each in terms])
+        success = [env.success and known for env, known in zip(envs, told.tolist(), strict=True)]
+        return {
+            "reward_terms": paid,
+            "_reward_terms": told,
+            "success": np.array(success),
+            "_success": told.copy(),
+        }

@@ -1,0 +1,130 @@
+"""Round trips a second with AI4U's package: ``python -m tests.benchmarks.ai4u_round_trips``.
+
+The unmodified package drives an agent, as ``play`` runs it at full speed: in an empty world, and in
+box_chase; its observation has 126 floats in both. Then it talks to a bare responder that has no
+world: that says the same bytes again and again. All ask again at once when the script wants more
+time. They take turns, since machines are never equally busy for long; on one that is, put ``chrt -r
+5`` in front (as root).
+"""
+
+import argparse
+import math
+import socket
+import statistics
+import threading
+import time
+
+from ai4u_edu import (
+    AgentArraySensor,
+    BasicAgent,
+    CircleShape,
+    ControlRequestor,
+    LocalBrain,
+    RBMoveActuator,
+    RemoteBrain,
+    Scene,
+    World,
+)
+from ai4u_edu.blocks.brains.ai4u_codec import AI4UCodec
+from ai4u_edu.blocks.brains.link import Situation, offer_of
+from ai4u_edu.runner import Runner
+from ai4u_edu.wire.ai4u_dialogue import Dialogue, Phase
+from tests.remote.test_ai4u_package import free_port, run_script
+
+
+def main() -> None:
+    """Measures and prints."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--steps", type=int, default=3000)
+    parser.add_argument("--turns", type=int, default=5)
+    options = parser.parse_args()
+    found: dict[str, list[float]] = {"bare": [], "empty world": [], "box_chase": []}
+    for turn in range(options.turns):
+        found["bare"].append(without_a_world(options.steps))
+        found["empty world"].append(with_a_world(empty_world(), options.steps))
+        found["box_chase"].append(with_a_world(Scene.load("box_chase").build(), options.steps))
+        print(turn + 1, *(f"{name} {rates[-1]:.0f}" for name, rates in found.items()), sep="  ")
+    bare = statistics.median(found["bare"])
+    for name, rates in found.items():
+        middle = statistics.median(rates)
+        print(f"{name}: {middle:.0f} round trips a second (median), {middle / bare:.0%} of bare")
+
+
+def empty_world() -> ControlRequestor:
+    """A robot that nothing surrounds."""
+    world = World()
+    world.add_body("robot", CircleShape(radius=0.5))
+    agent = BasicAgent(
+        body="robot",
+        sensors=[AgentArraySensor(size=126)],
+        actuators=[RBMoveActuator()],
+        brains=[LocalBrain(controller=lambda percept: {})],
+    )
+    return ControlRequestor(world, [agent])
+
+
+def with_a_world(sim: ControlRequestor, steps: int) -> float:
+    """Round trips a second with a world."""
+    port = free_port()
+    sim.agents[0].use_brain(RemoteBrain(port=port))
+    runner = Runner(sim, seed=1, time_scale=math.inf)
+    runner.start()
+    found = run_script("clocked.py", port, steps)
+    runner.stop()
+    return float(found)
+
+
+def without_a_world(steps: int) -> float:
+    """Round trips a second with constant content."""
+    port = free_port()
+    ended = threading.Event()
+    responder = threading.Thread(target=respond, args=(port, ended))
+    responder.start()
+    found = run_script("clocked.py", port, steps)
+    ended.set()
+    responder.join()
+    return float(found)
+
+
+def respond(port: int, ended: threading.Event) -> None:
+    """The world's side of the protocol, and nothing behind it."""
+    sim = Scene.load("box_chase").build()
+    sim.reset(1)
+    agent = sim.agents[0]
+    codec = AI4UCodec(offer_of(agent, skip_frame=4, repeat_action=True, tick=1 / 60))
+    state = codec.state(
+        Situation(
+            number=1,
+            episode=1,
+            percept=agent.percept,
+            reward=0.5,
+            terms={},
+            steps=1,
+            tick=5,
+            done=False,
+            truncated=False,
+            paused=False,
+            stopped=False,
+        )
+    )
+    dialogue = Dialogue("0", metadata=codec.metadata)
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as udp:
+        udp.connect(("127.0.0.1", port))
+        udp.settimeout(0.5)
+        same = b""
+        while not ended.is_set():
+            if dialogue.phase is Phase.PLAYING:
+                same = same or dialogue.request(state)
+            else:
+                time.sleep(0.05)
+            try:
+                udp.send(same or dialogue.request(state))
+                reply = udp.recv(2**16)
+            except OSError:
+                continue
+            if not same:
+                dialogue.hear(reply)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,184 @@
+"""The yardstick's world written by hand, with no abstraction at all: what a step costs at least.
+
+Three forms of one loop: with pymunk's public interface alone; with the rays cast through its cffi
+layer into memory that is there already; and with everything that has to be done each tick through
+that layer, which is as far as Python goes without a compiler.
+"""
+
+import math
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+import pymunk
+from pymunk._chipmunk_cffi import ffi, lib
+
+from ai4u_edu.cycle import ControlRequestor
+from ai4u_edu.world.world import BIAS, SLOP
+
+RAYS, REACH, TICKS, DT = 32, 10.0, 4, 1 / 60
+FORCE, TURN, PRIZE, LIMIT = 12.0, 3.0, 10.0, 300
+ROBOT, TARGET = 1, 2
+
+Step = tuple[npt.NDArray[np.float32], float, bool, bool, dict[str, Any]]
+
+
+class PublicFloor:
+    """Written against pymunk's public interface.
+
+    Args:
+        sim: the yardstick as an episode begins; its bodies are put in the same places.
+    """
+
+    def __init__(self, sim: ControlRequestor) -> None:
+        space = self.space = pymunk.Space()
+        space.damping = sim.world.settings.damping
+        space.collision_slop, space.collision_bias = SLOP, BIAS
+        kinds = {"static": pymunk.Body.STATIC, "dynamic": pymunk.Body.DYNAMIC}
+        bodies = {}
+        for theirs in sim.world.bodies.values():
+            told = theirs.description
+            body = bodies[told.name] = pymunk.Body(body_type=kinds[told.kind])
+            body.position, body.angle = theirs.position, theirs._pm.angle
+            shape: pymunk.Shape
+            if told.shape.type == "circle":
+                shape = pymunk.Circle(body, told.shape.radius)
+            else:
+                shape = pymunk.Poly(body, told.shape.outline())
+            shape.friction = told.friction
+            if told.kind == "dynamic":
+                shape.mass = told.mass
+            if told.name == "robot":
+                shape.collision_type, shape.filter = ROBOT, pymunk.ShapeFilter(group=1)
+                self.others = pymunk.ShapeFilter(group=1)
+            elif told.name == "target":
+                shape.collision_type = TARGET
+            space.add(body, shape)
+        self.robot, self.target = bodies["robot"], bodies["target"]
+        self.goal = tuple(self.target.position)
+        self.touched = False
+        space.on_collision(ROBOT, TARGET, begin=self._touch)
+        self.angles = np.radians(360.0 * (np.arange(1, RAYS + 1) / (RAYS + 1) - 0.5))
+        self.steps, self.distance = 0, math.nan
+
+    def step(self, action: Any) -> Step:
+        """One decision: four ticks, then the observation and the reward."""
+        forward, turn = action.tolist()
+        forward, turn = max(-1.0, min(1.0, forward)), max(-1.0, min(1.0, turn))
+        robot, space = self.robot, self.space
+        for _ in range(TICKS):
+            robot.apply_force_at_local_point((forward * FORCE, 0.0))
+            robot.angular_velocity = -turn * TURN
+            space.step(DT)
+        self.steps += 1
+        observation = self.observe()
+        reward = 0.0 if self.steps == 1 else self.before - self.distance
+        if self.touched:
+            reward += PRIZE
+        return observation, reward, self.touched, self.steps >= LIMIT, {}
+
+    def observe(self) -> npt.NDArray[np.float32]:
+        """Rays, bearing, distance."""
+        x, y = self.robot.position
+        angle = self.robot.angle
+        observation = np.zeros(RAYS + 3, np.float32)
+        self.cast(x, y, angle, observation)
+        self.orient(x, y, angle, observation)
+        return observation
+
+    def cast(self, x: float, y: float, angle: float, out: npt.NDArray[np.float32]) -> None:
+        """The share of its reach at which each ray meets something; 0 where it meets nothing."""
+        turned = self.angles + angle
+        xs, ys = (x + REACH * np.cos(turned)).tolist(), (y + REACH * np.sin(turned)).tolist()
+        query, others, start = self.space.segment_query_first, self.others, (x, y)
+        for i in range(RAYS):
+            hit = query(start, (xs[i], ys[i]), 0.0, others)
+            if hit is not None:
+                out[i] = hit.alpha
+
+    def orient(self, x: float, y: float, angle: float, out: npt.NDArray[np.float32]) -> None:
+        """Where the target is."""
+        dx, dy = self.goal[0] - x, self.goal[1] - y
+        bearing = math.atan2(dy, dx) - angle
+        self.before, self.distance = self.distance, math.hypot(dx, dy)
+        out[RAYS:] = math.sin(bearing), math.cos(bearing), self.distance / FAR
+
+    def _touch(self, *_: Any) -> None:
+        self.touched = True
+
+
+FAR = math.hypot(10.4, 10.4)
+"""The longest way across the arena, walls included: what a distance is divided by."""
+
+HIT = np.dtype(
+    [("shape", "u8"), ("px", "f8"), ("py", "f8"), ("nx", "f8"), ("ny", "f8"), ("alpha", "f8")]
+)
+
+
+class CffiFloor(PublicFloor):
+    """The same, with the rays cast through the cffi layer."""
+
+    def __init__(self, sim: ControlRequestor) -> None:
+        super().__init__(sim)
+        ends, hits = ffi.new("cpVect[]", RAYS), ffi.new("cpSegmentQueryInfo[]", RAYS)
+        self.kept = ends, hits
+        self.ends = np.frombuffer(ffi.buffer(ends), np.float64).reshape(RAYS, 2)
+        self.alpha = np.frombuffer(ffi.buffer(hits), HIT)["alpha"]
+        self.rays = [(ends[i], hits + i) for i in range(RAYS)]
+        self.start = ffi.new("cpVect *")[0]
+        chosen = ffi.new("cpShapeFilter *")
+        chosen[0] = tuple(self.others)
+        self.chosen = chosen[0]
+        self.turned = np.zeros(RAYS)
+
+    def cast(self, x: float, y: float, angle: float, out: npt.NDArray[np.float32]) -> None:
+        """The share of its reach at which each ray meets something; 0 where it meets nothing."""
+        ends, turned, start, chosen = self.ends, self.turned, self.start, self.chosen
+        np.add(self.angles, angle, out=turned)
+        np.cos(turned, out=ends[:, 0])
+        np.sin(turned, out=ends[:, 1])
+        ends *= REACH
+        ends += x, y
+        start.x, start.y = x, y
+        space, first = self.space._space, lib.cpSpaceSegmentQueryFirst
+        for end, hit in self.rays:
+            first(space, start, end, 0.0, chosen, hit)
+        out[:RAYS] = self.alpha
+        out[out == 1.0] = 0.0
+
+
+class BareFloor(CffiFloor):
+    """The same, with nothing of pymunk's Python in the loop at all."""
+
+    def __init__(self, sim: ControlRequestor) -> None:
+        super().__init__(sim)
+        self.space.step(1e-9)  # pymunk's own checks of what was added
+        self.push, self.nowhere = ffi.new("cpVect *")[0], ffi.new("cpVect *")[0]
+
+    def step(self, action: Any) -> Step:
+        """One decision: four ticks, then the observation and the reward."""
+        forward, turn = action.tolist()
+        forward, turn = max(-1.0, min(1.0, forward)), max(-1.0, min(1.0, turn))
+        robot, space, push, nowhere = self.robot._body, self.space._space, self.push, self.nowhere
+        push.x, omega = forward * FORCE, -turn * TURN
+        shove, spin = lib.cpBodyApplyForceAtLocalPoint, lib.cpBodySetAngularVelocity
+        tick = lib.cpSpaceStep
+        for _ in range(TICKS):
+            shove(robot, push, nowhere)
+            spin(robot, omega)
+            tick(space, DT)
+        self.steps += 1
+        observation = self.observe()
+        reward = 0.0 if self.steps == 1 else self.before - self.distance
+        if self.touched:
+            reward += PRIZE
+        return observation, reward, self.touched, self.steps >= LIMIT, {}
+
+    def observe(self) -> npt.NDArray[np.float32]:
+        """Rays, bearing, distance."""
+        place, angle = lib.cpBodyGetPosition(self.robot._body), lib.cpBodyGetAngle(self.robot._body)
+        x, y = place.x, place.y
+        observation = np.empty(RAYS + 3, np.float32)
+        self.cast(x, y, angle, observation)
+        self.orient(x, y, angle, observation)
+        return observation

@@ -1,0 +1,224 @@
+"""Round trips by our protocol and by a bare echo: ``python -m tests.benchmarks.remote_native``.
+
+A world in lockstep, as fast as it goes, whose agents see 35 numbers and decide on every tick; the
+scripts do nothing but answer. Beside it, in turns, a bare echo by the same WebSocket library, with
+a frame of the same size. Servers have a process of their own.
+"""
+
+import argparse
+import asyncio
+import math
+import multiprocessing
+import os
+import statistics
+import time
+from collections.abc import Callable
+from multiprocessing.connection import Connection
+from typing import Any
+
+from gymnasium.spaces import Box
+from websockets.asyncio.client import connect as connect_async
+from websockets.asyncio.server import ServerConnection
+from websockets.asyncio.server import serve as serve_echo
+from websockets.sync.client import connect as connect_plain
+
+from ai4u_edu.remote import AsyncRobot, Robot, connect
+
+FORWARD = [0.5, 0.1, 0.0, 0.0]
+SIZE = 184
+"""Bytes of a percept's frame with 35 numbers."""
+
+
+def serve_world(agents: int, ready: Connection) -> None:
+    """A world with so many agents, for ever."""
+    from ai4u_edu import (
+        BasicAgent,
+        CircleShape,
+        ControlRequestor,
+        LocalBrain,
+        RBMoveActuator,
+        Sensor,
+        World,
+    )
+    from ai4u_edu.runner import Runner
+    from ai4u_edu.server import ServerThread, room_app
+
+    class Numbers(Sensor):
+        """35 numbers."""
+
+        def space(self) -> Box:
+            return Box(-1.0, 1.0, (35,))
+
+        def write(self, out: Any, body: Any, view: Any) -> None:
+            out[0] = body.position[0] * 0.001
+
+    world = World()
+    for number in range(agents):
+        world.add_body(f"robot {number}", CircleShape(radius=0.3), position=(0.0, 2.0 * number))
+    crew = [
+        BasicAgent(
+            id=str(number),
+            body=f"robot {number}",
+            sensors=[Numbers()],
+            actuators=[RBMoveActuator(move_amount=0.1)],
+            brains=[LocalBrain(controller=lambda percept: {}, skip_frame=0)],
+        )
+        for number in range(agents)
+    ]
+    runner = Runner(ControlRequestor(world, crew), seed=1, time_scale=math.inf)
+    runner.start()
+    with ServerThread(room_app(runner, viser_port=9, title="benchmark")) as server:
+        ready.send(server.url)
+        ready.recv()
+
+
+def serve_bare(_agents: int, ready: Connection) -> None:
+    """An echo, for ever."""
+
+    async def echo(socket: ServerConnection) -> None:
+        async for frame in socket:
+            await socket.send(frame)
+
+    async def main() -> None:
+        async with serve_echo(echo, "127.0.0.1", 0, compression=None) as server:
+            port = next(iter(server.sockets)).getsockname()[1]
+            ready.send(f"ws://127.0.0.1:{port}")
+            await asyncio.get_running_loop().run_in_executor(None, ready.recv)
+
+    asyncio.run(main())
+
+
+def decide(robot: Robot) -> None:
+    robot.act(move=FORWARD)
+    robot.sense()
+
+
+def ours_plain(url: str, _agents: int, seconds: float) -> float:
+    with connect(url, "0", mode="lockstep") as robot:
+        return _timed(lambda: decide(robot), seconds)
+
+
+def bare_plain(url: str, _agents: int, seconds: float) -> float:
+    frame = bytes(SIZE)
+    with connect_plain(url, compression=None, proxy=None) as socket:
+
+        def there_and_back() -> None:
+            socket.send(frame)
+            socket.recv()
+
+        return _timed(there_and_back, seconds)
+
+
+def ours_async(url: str, agents: int, seconds: float) -> float:
+    async def drive(number: int, until: Callable[[], bool]) -> int:
+        count = 0
+        async with AsyncRobot(url, str(number), mode="lockstep") as robot:
+            while until():
+                await robot.act(move=FORWARD)
+                await robot.sense()
+                count += 1
+        return count
+
+    return asyncio.run(_together(drive, agents, seconds))
+
+
+def bare_async(url: str, agents: int, seconds: float) -> float:
+    async def drive(_number: int, until: Callable[[], bool]) -> int:
+        count, frame = 0, bytes(SIZE)
+        async with connect_async(url, compression=None, proxy=None) as socket:
+            while until():
+                await socket.send(frame)
+                await socket.recv()
+                count += 1
+        return count
+
+    return asyncio.run(_together(drive, agents, seconds))
+
+
+def ours_processes(url: str, agents: int, seconds: float) -> float:
+    return _spread(ours_one, url, agents, seconds)
+
+
+def bare_processes(url: str, agents: int, seconds: float) -> float:
+    return _spread(bare_one, url, agents, seconds)
+
+
+def ours_one(url: str, number: int, seconds: float, rate: Any) -> None:
+    with connect(url, str(number), mode="lockstep") as robot:
+        rate.put(_timed(lambda: decide(robot), seconds))
+
+
+def bare_one(url: str, _number: int, seconds: float, rate: Any) -> None:
+    rate.put(bare_plain(url, 1, seconds))
+
+
+async def _together(drive: Any, agents: int, seconds: float) -> float:
+    end = time.perf_counter() + seconds
+    began = time.perf_counter()
+    counts = await asyncio.gather(
+        *(drive(number, lambda: time.perf_counter() < end) for number in range(agents))
+    )
+    return float(sum(counts)) / (time.perf_counter() - began)
+
+
+def _timed(once: Callable[[], object], seconds: float) -> float:
+    for _ in range(100):
+        once()
+    began, count = time.perf_counter(), 0
+    while time.perf_counter() - began < seconds:
+        once()
+        count += 1
+    return count / (time.perf_counter() - began)
+
+
+def _spread(one: Any, url: str, agents: int, seconds: float) -> float:
+    rates: Any = multiprocessing.Queue()
+    scripts = [
+        multiprocessing.Process(target=one, args=(url, number, seconds, rates), daemon=True)
+        for number in range(agents)
+    ]
+    for script in scripts:
+        script.start()
+    found = [rates.get() for _ in scripts]
+    for script in scripts:
+        script.join()
+    return float(sum(found))
+
+
+WAYS: list[tuple[str, int, Any, Any]] = [
+    ("one script that waits", 1, ours_plain, bare_plain),
+    ("one asynchronous script", 1, ours_async, bare_async),
+    ("eight in one asynchronous script", 8, ours_async, bare_async),
+    ("eight scripts that wait", 8, ours_processes, bare_processes),
+]
+
+
+def main() -> None:
+    """Measures and prints."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--seconds", type=float, default=2)
+    parser.add_argument("--times", type=int, default=5)
+    options = parser.parse_args()
+    multiprocessing.set_start_method("spawn")
+    print(f"{os.cpu_count()} cores; round trips a second, median of {options.times}")
+    print("| scripts | ours | bare echo | share |\n|---|---|---|---|")
+    for name, agents, ours, bare in WAYS:
+        rates: dict[Any, list[float]] = {ours: [], bare: []}
+        served = []
+        for serve in (serve_world, serve_bare):
+            here, there = multiprocessing.Pipe()
+            process = multiprocessing.Process(target=serve, args=(agents, there), daemon=True)
+            process.start()
+            served.append((here.recv(), here, process))
+        for _ in range(options.times):
+            for measure, (url, _, _) in zip((ours, bare), served, strict=True):
+                rates[measure].append(measure(url, agents, options.seconds))
+        for _, here, process in served:
+            here.send("end")
+            process.join(10)
+        mine, other = (statistics.median(rates[measure]) for measure in (ours, bare))
+        print(f"| {name} | {mine:,.0f} | {other:,.0f} | {mine / other:.0%} |", flush=True)
+
+
+if __name__ == "__main__":
+    main()
