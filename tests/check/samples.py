@@ -13,7 +13,13 @@ from ai4u_edu import (
     BasicAgent,
     BearingSensor,
     Block,
+    Body,
+    BodyInAreaRewardFunc,
+    CarActuator,
     CBMoveActuator,
+    CellSensor,
+    CheckpointsReward,
+    CollectActuator,
     CollisionWithRewardFunc,
     ContinuousActuator,
     DifferentialDriveActuator,
@@ -26,8 +32,13 @@ from ai4u_edu import (
     EvalFloatValue,
     EvalIntValue,
     FallReward,
+    FleeController,
     FloatArrayCompositeSensor,
+    ForceMoveActuator,
+    GoneReward,
     GrabActuator,
+    GridMoveActuator,
+    GridSensor,
     GroundStatusSensor,
     GroupTouchSensor,
     HeadingSensor,
@@ -35,25 +46,36 @@ from ai4u_edu import (
     HomeostaticSensor,
     HomeostaticVariable,
     IDSensor,
+    KeeperController,
     LinearRayCastingSensor,
+    LineSensor,
     LocalBrain,
     LocalGridSensor,
     MinDistReward,
+    NeuralNetController,
     OrientationSensor,
     OrRewardFunc,
+    ParkedRewardFunc,
     PositionSensor,
+    PresenceSensor,
+    ProgressReward,
+    PushOutController,
     RayCastingSensor,
     RBMoveActuator,
+    RemoteBrain,
     ReplayController,
     RespawnActuator,
     RestlessnessRewardFunc,
     RewardSensor,
     ScriptController,
     StepSensor,
+    StrikerController,
+    TargetFallReward,
     TouchRewardFunc,
     TouchSensor,
     TruncatedSensor,
     VelocitySensor,
+    WASDController,
     WASDRBMoveController,
 )
 from ai4u_edu.blocks import Actuator, Brain, Controller, RewardFunc, Sensor
@@ -87,28 +109,36 @@ SAMPLES: tuple[Block, ...] = (
     AgentArraySensor(size=2),
     AreaOrientationSensor(target_group="target", group_code=CODES, radius=3),
     BearingSensor(target="box"),
+    CellSensor(rows=14, columns=14, cell_size=0.5),
     DoneSensor(),
     FloatArrayCompositeSensor(sensors=[BearingSensor(target="box"), HeadingSensor()]),
+    GridSensor(rows=14, columns=14, cell_size=0.5, group_code=CODES, self_exclude=False),
     GroundStatusSensor(),
     GroupTouchSensor(group="target"),
     HeadingSensor(),
     HomeostaticSensor(),
     IDSensor(),
+    LineSensor(group="goal"),
     LinearRayCastingSensor(group_code=CODES, return_distance=True),
     LocalGridSensor(width=16, height=16, cell_size=0.5, stacked_observations=2),
     OrientationSensor(target="box", visibility_test=True),
     PositionSensor(),
+    PresenceSensor(group="target"),
     RayCastingSensor(rows=3, columns=5, group_code=CODES, return_distance=True),
     RewardSensor(),
     StepSensor(),
     TouchSensor(target="box"),
     TruncatedSensor(),
     VelocitySensor(noise=0.1, delay=1, stacked_observations=2, dropout=0.1),
+    CarActuator(max_speed=3),
     CBMoveActuator(move_amount=3, turn_amount=3, move_noise=0.2, turn_noise=0.2, jump_noise=0.2),
+    CollectActuator(group="target", adds={"energy": 0.3}, comes_back_after=1),
     pushing(),
     DifferentialDriveActuator(max_wheel_speed=3),
     DiscreteActuator(move_amount=3, turn_amount=3),
+    ForceMoveActuator(force=20),
     GrabActuator(angle=360),
+    GridMoveActuator(rows=7, columns=7),
     RBMoveActuator(),
     RespawnActuator(poses=[(0, 0, 0), (2, -2, 90)], randomise_heading=True),
     AndRewardFunc(
@@ -117,6 +147,8 @@ SAMPLES: tuple[Block, ...] = (
             EvalFloatValue(property="speed", min_value=1, max_value=9),
         ]
     ),
+    BodyInAreaRewardFunc(thing="step", area="goal"),
+    CheckpointsReward(targets=["goal", "box"], loop=True),
     CollisionWithRewardFunc(),
     DistanceToTargetRewardFunc(target="box"),
     DynamicFallReward(reference="other", threshold=0.1),
@@ -124,16 +156,27 @@ SAMPLES: tuple[Block, ...] = (
     EvalFloatValue(property="speed", min_value=1, max_value=9),
     EvalIntValue(property="steps", min_value=2, max_value=5),
     FallReward(),
+    GoneReward(group="target"),
     HomeostaticReward(variables=[energy()]),
     MinDistReward(target="box"),
     OrRewardFunc(children=[EvalIntValue(property="steps", min_value=3, max_value=5), FallReward()]),
+    ParkedRewardFunc(area="goal"),
+    ProgressReward(target="box"),
     RestlessnessRewardFunc(),
+    TargetFallReward(target="robot"),
     TouchRewardFunc(target="box", reward=1, only_one_time=False),
     LocalBrain(controller=WASDRBMoveController()),
     ArrowController(),
     DiscreteArrowController(),
+    FleeController(pursuer="runner 1"),
+    KeeperController(),
+    PushOutController(),
+    RemoteBrain(port=9),  # nobody listens there: it waits
+    NeuralNetController(model_path="zoo:box_chase"),
     ReplayController(actions=[{"move": [1, 0, 0, 0]}, {"move": [0, 1, 0, 0]}], ending="repeat"),
     ScriptController(function=circle),
+    StrikerController(),
+    WASDController(),
     WASDRBMoveController(),
 )
 
@@ -142,9 +185,22 @@ INSIDE_OTHERS: tuple[type[Block], ...] = (HomeostaticVariable,)
 
 ACTUATORS: dict[str, list[Actuator]] = {"DiscreteArrowController": [DiscreteActuator()]}
 
+SCENES = {
+    "FleeController": "tag",
+    "KeeperController": "soccer",
+    "NeuralNetController": "box_chase",
+    "PushOutController": "sumo",
+    "StrikerController": "soccer",
+}
+"""Where a block is checked for which the standard world has not what it needs."""
+
 
 def tell(agent: BasicAgent, decision: int) -> None:
-    """What a script does in a check: it tells the agent something."""
+    """What a script does in a check: it tells the agent something, and takes a thing away."""
+    if decision == 90 and "ball" in agent.view:
+        ball = agent.view["ball"]
+        assert isinstance(ball, Body)
+        ball.leave()
     for sensor in agent.sensors:
         if isinstance(sensor, AgentArraySensor):
             sensor.set_value(0, abs(math.sin(decision)))

@@ -21,7 +21,7 @@ from ai4u_edu import (
     check_sensor,
 )
 from ai4u_edu.check import Outcome
-from tests.check.samples import ACTUATORS, SAMPLES, built_in_kinds, tell
+from tests.check.samples import ACTUATORS, SAMPLES, SCENES, built_in_kinds, tell
 
 BY_KIND = {type(block): block for block in SAMPLES}
 
@@ -30,20 +30,25 @@ ALWAYS_THE_SAME = {
     "EvalBoolValue": "changes",  # conditions pay nothing on their own
     "EvalFloatValue": "changes",
     "EvalIntValue": "changes",
+    "GoneReward": "changes",  # nothing goes there
+    "ParkedRewardFunc": "changes",  # who drives at random does not park
+    "RemoteBrain": "changes",  # it waits for a script
     "ScriptController": "changes",  # the sample drives in circles
 }
 
 
 def checked(block: Block) -> Report:
+    name = type(block).__name__
+    scene = SCENES.get(name)
     match block:
         case Sensor():
-            return check_sensor(block, script=tell)
+            return check_sensor(block, script=tell, scene=scene)
         case Actuator():
             return check_actuator(block)
         case RewardFunc():
             return check_reward(block)
         case Controller():
-            return check_controller(block, actuators=ACTUATORS.get(type(block).__name__, ()))
+            return check_controller(block, actuators=ACTUATORS.get(name, ()), scene=scene)
         case Brain():
             return check_brain(block)
         case _:

@@ -1,0 +1,128 @@
+"""A table of all components: what each is called in AI4U, and what tests it."""
+
+import ast
+import re
+from collections import Counter
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+
+from ai4u_edu import Block
+from ai4u_edu.blocks.block import is_built_in
+from ai4u_edu.blocks.lesson_page import coming_from_ai4u
+from ai4u_edu.scenes.plain import KINDS
+from tests.check.samples import INSIDE_OTHERS, SAMPLES
+
+TESTS = Path(__file__).parent
+
+AI4U = (
+    "ActionSensor AgentArraySensor AreaOrientationSensor DoneSensor FloatArrayCompositeSensor "
+    "GroundStatusSensor GroupTouchSensor IDSensor LinearRayCastingSensor OrientationSensor "
+    "PositionSensor RayCastingSensor RewardSensor StepSensor TouchSensor TruncatedSensor "
+    "CBMoveActuator ContinuousActuator DiscretActuator RBMoveActuator RespawnActuator "
+    "AndRewardFunc CollisionWithRewardFunc DistanceToTargetRewardFunc DynamicFallReward "
+    "EvalBoolValue EvalFloatValue EvalIntValue FallReward MinDistReward ORRewardFunc "
+    "RestlessnessRewardFunc2D TouchRewardFunc RemoteBrain ArrowPhysicsMoveController "
+    "DiscretArrowController WASDRBMoveController NeuralNetController"
+)
+"""AI4U's own names of the components that are to be here too."""
+
+MISSING: dict[str, str] = {}
+"""Components of AI4U that are not here yet, and why."""
+
+LISTS_ONLY = {"test_components", "test_parity"}
+"""Modules that name components without trying them."""
+
+
+@dataclass(frozen=True)
+class Component:
+    """A row of the table."""
+
+    name: str
+    kind: str
+    ai4u: str
+    """Its name in AI4U; empty for what is ours alone."""
+    contract: str
+    """Whether the checkers run on it."""
+    tests: dict[str, int]
+    """How many tests name it, by module."""
+
+
+def components() -> list[Component]:
+    """Every kind of block that is built in, by kind and name."""
+    ai4u = {ours: theirs for theirs, ours in parity_rows().items()}
+    sampled = {type(sample) for sample in SAMPLES}
+    found = []
+    for name, cls in Block.types.items():
+        if not is_built_in(cls) or cls in KINDS or cls.__dict__.get("abstract"):
+            continue
+        kind = next((each.__name__ for each in KINDS if issubclass(cls, each)), "part")
+        contract = "yes" if cls in sampled else "in others" if cls in INSIDE_OTHERS else "NO"
+        tests = {module: names[name] for module, names in named_in_tests().items() if name in names}
+        found.append(Component(name, kind, ai4u.get(name, ""), contract, tests))
+    order = [kind.__name__ for kind in KINDS] + ["part"]
+    return sorted(found, key=lambda each: (order.index(each.kind), each.name))
+
+
+def parity_rows() -> dict[str, str]:
+    """Our names by AI4U's, as the table for those who come from there says."""
+    return dict(re.findall(r"^\| `(\w+)` \| `(\w+)` \|", coming_from_ai4u(), re.MULTILINE))
+
+
+@cache
+def named_in_tests() -> dict[str, Counter[str]]:
+    """How many tests of each module name what; modules that only list names left out."""
+    files = sorted(TESTS.rglob("test_*.py"))
+    return {
+        file.relative_to(TESTS).with_suffix("").as_posix(): names_in(
+            file.read_text(encoding="utf-8")
+        )
+        for file in files
+        if file.stem not in LISTS_ONLY
+    }
+
+
+def names_in(source: str) -> Counter[str]:
+    """How many pieces of a test module, tests above all, name what; those that are put off don't.
+
+    >>> names_in("def test_it(): assert TouchSensor(target='box')")["TouchSensor"]
+    1
+    >>> names_in("def test_it(): Scene.loads('sensors: [{type: TouchSensor}]')")["TouchSensor"]
+    1
+    >>> names_in("@pytest.mark.skip\\ndef test_it(): assert TouchSensor()")["TouchSensor"]
+    0
+    """
+    pieces = ast.parse(source).body
+    if any(_is_put_off(each) for each in pieces if isinstance(each, ast.Assign)):
+        return Counter()
+    return Counter(name for each in pieces if not _is_put_off(each) for name in set(_names(each)))
+
+
+def _names(piece: ast.stmt) -> Iterator[str]:
+    for node in ast.walk(piece):
+        match node:
+            case ast.Name(id=name) | ast.Attribute(attr=name):
+                yield name
+            case ast.Constant(value=str(text)):  # a scene, perhaps
+                yield from re.findall(r"\btype: *(\w+)", text)
+
+
+def _is_put_off(piece: ast.stmt) -> bool:
+    """Whether it marks tests to be left out, or is such a test: skip, skipif, xfail, soak."""
+    return not {"skip", "skipif", "xfail", "soak"}.isdisjoint(
+        node.attr for node in ast.walk(piece) if isinstance(node, ast.Attribute)
+    )
+
+
+def table() -> str:
+    """All components, and what is missing, in columns."""
+    rows = [("component", "kind", "AI4U's name", "contract", "tests that name it")]
+    for each in components():
+        modules = sorted(each.tests, key=lambda module: (-each.tests[module], module))
+        shown = ", ".join(f"{module} ({each.tests[module]})" for module in modules[:3])
+        more = f", {len(modules) - 3} more" if len(modules) > 3 else ""
+        rows.append((each.name, each.kind, each.ai4u or "-", each.contract, shown + more))
+    rows += [("-", "-", name, "-", f"MISSING: {why}") for name, why in MISSING.items()]
+    widths = [max(len(row[column]) for row in rows) for column in range(4)]
+    return "\n".join("  ".join((*map(str.ljust, row[:4], widths), row[4])).rstrip() for row in rows)

@@ -1,0 +1,1 @@
+collect_ignore = ["robot.py"]  # it is loaded as a newcomer's file is, not imported from here

@@ -1,0 +1,34 @@
+"""Every component has a test of its own and passes the checkers; none of AI4U's is forgotten.
+
+The table of them stands at the end of the log.
+"""
+
+import pytest
+
+import ai4u_edu
+from ai4u_edu import Block
+from tests.components import AI4U, MISSING, Component, components, parity_rows, table
+from tests.conftest import LOG
+
+
+def test_the_table_is_in_the_log(request: pytest.FixtureRequest) -> None:
+    told = table()
+    assert len(told.splitlines()) > 50
+    request.config.stash[LOG] = told
+
+
+@pytest.mark.parametrize("component", components(), ids=lambda component: component.name)
+def test_each_has_a_test_of_its_own(component: Component) -> None:
+    assert component.tests, f"no test names {component.name}; expected one that tries it"
+    assert component.contract != "NO", f"put a {component.name} into tests/check/samples.py"
+
+
+def test_none_of_ai4us_is_forgotten() -> None:
+    assert sorted(parity_rows().keys() | MISSING.keys()) == sorted(AI4U.split())
+    for ours in parity_rows().values():
+        assert ours in Block.types
+
+
+def test_what_is_said_to_be_missing_is() -> None:
+    here = [name for name in MISSING if name in Block.types or hasattr(ai4u_edu, name)]
+    assert here == [], "they are there: take them out of MISSING in tests/components.py"
