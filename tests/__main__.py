@@ -15,6 +15,7 @@ from pathlib import Path
 
 from ai4u_edu import bootstrap
 from tests import setup_browser
+from tests.remote import ai4u_venv
 
 ROOT = Path(__file__).resolve().parent.parent
 LINT_IMPORTS = "from importlinter.cli import lint_imports_command as run; run()"
@@ -55,6 +56,11 @@ def main() -> int:
                 print(f"\n{error}\nGoing on without the tests that need a browser.", flush=True)
                 failed.append("browser")
                 extra = ["-m", "not browser", *for_pytest]
+            try:
+                ai4u_venv.ensure(python)
+            except ai4u_venv.VenvError as error:
+                print(f"\n{error}\nGoing on without the tests that need it.", flush=True)
+                failed.append("AI4U's package")
         if not passes(name, [str(python), *command, *extra]):
             failed.append(name)
     if failed:

@@ -13,14 +13,21 @@ from starlette.types import Scope
 from ai4u_edu.runner import Runner
 from ai4u_edu.server.api import Health, SnapshotView
 from ai4u_edu.server.door import LOOPBACK, Door
+from ai4u_edu.server.guard import Guard
 from ai4u_edu.server.input import Inputs
 from ai4u_edu.server.openapi import openapi
 from ai4u_edu.server.page import Page
 from ai4u_edu.server.proxy import ViserProxy
+from ai4u_edu.server.remote import RemoteSockets, Rules
 
 
 def room_app(
-    runner: Runner, *, viser_port: int, title: str, allowed_hosts: Collection[str] = LOOPBACK
+    runner: Runner,
+    *,
+    viser_port: int,
+    title: str,
+    allowed_hosts: Collection[str] = LOOPBACK,
+    rules: Rules | None = None,
 ) -> Starlette:
     """The ASGI app of one room; may be put under any path with :class:`RoomMount`.
 
@@ -29,9 +36,14 @@ def room_app(
         viser_port: where the room's viser listens, on 127.0.0.1.
         title: of the page, and the scene's name in the API.
         allowed_hosts: names under which the room may be asked for; see :mod:`ai4u_edu.server.door`.
+        rules: for scripts that drive agents from other machines; their token is asked for by the
+            page and the API too.
     """
     began = time.monotonic()
+    rules = rules or Rules()
     page = Page(title)
+    guard = [Middleware(Guard, token=rules.token)]
+    page_guard = [Middleware(Guard, token=rules.token, is_page=True)]
     document = openapi()
 
     def healthz(_: Request) -> Response:
@@ -46,13 +58,15 @@ def room_app(
 
     return Starlette(
         routes=[
-            Route("/", page.index),
-            Route("/web/{file}", page.file),
-            Route("/healthz", healthz),
-            Route("/api/snapshot", snapshot),
-            Route("/api/openapi.json", describe),
-            WebSocketRoute("/", ViserProxy(viser_port)),
-            WebSocketRoute("/ws/input", Inputs(runner)),
+            Route("/", page.index, middleware=page_guard),
+            Route("/web/{file}", page.file, middleware=guard),
+            Route("/healthz", healthz, middleware=guard),
+            Route("/api/snapshot", snapshot, middleware=guard),
+            Route("/api/openapi.json", describe, middleware=guard),
+            WebSocketRoute("/", ViserProxy(viser_port, rules.token), middleware=guard),
+            WebSocketRoute("/ws/input", Inputs(runner), middleware=guard),
+            # asks for the token itself, in the hello
+            WebSocketRoute("/ws/remote", RemoteSockets(runner, title, rules)),
         ],
         middleware=[Middleware(Door, allowed_hosts=allowed_hosts)],
     )

@@ -30,10 +30,24 @@ def hosts_for(bound: str) -> tuple[str, ...]:
     >>> ADDRESSES in hosts_for("0.0.0.0")
     True
     """
-    if bound in (*LOOPBACK, "::1"):
-        return LOOPBACK
+    shown = (f"[{bound}]" if ":" in bound else bound).lower()
+    if is_loopback(bound):
+        return LOOPBACK if shown in LOOPBACK else (*LOOPBACK, shown)
     name = socket.gethostname().lower()
-    return (*LOOPBACK, ADDRESSES, name, f"{name}.local")
+    return (*LOOPBACK, ADDRESSES, name, f"{name}.local", shown)
+
+
+def is_loopback(bound: str) -> bool:
+    """Whether only this machine reaches who listens at an address.
+
+    >>> is_loopback("localhost"), is_loopback("127.0.0.2"), is_loopback("0.0.0.0")
+    (True, True, False)
+    """
+    try:
+        found = {str(each[4][0]) for each in socket.getaddrinfo(bound, None)}
+    except (OSError, UnicodeError):  # then there is no listening there, and that is told
+        return False
+    return all(ipaddress.ip_address(each.partition("%")[0]).is_loopback for each in found)
 
 
 class Door:

@@ -15,6 +15,7 @@ from ai4u_edu.errors import NameNotFoundError
 from ai4u_edu.runner import Runner
 from ai4u_edu.server import messages, news
 from ai4u_edu.server.bindings import choose
+from ai4u_edu.server.frames import CAP, EXTENSION, FramesProtocol
 from ai4u_edu.server.rate import Rate
 from ai4u_edu.server.seat import Seat
 
@@ -42,6 +43,9 @@ class Inputs:
         """One page's socket, from its beginning to its end."""
         socket = WebSocket(scope, receive, send)
         await socket.accept()
+        frames: FramesProtocol | None = scope.get("extensions", {}).get(EXTENSION)
+        if frames:
+            frames.cap(CAP)
         with suppress(WebSocketDisconnect):
             try:
                 agent = choose(self._runner.sim, socket.query_params.get("agent"))

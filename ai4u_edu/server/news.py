@@ -4,9 +4,9 @@ from typing import Any
 
 from ai4u_edu.agent import BasicAgent
 from ai4u_edu.server.api import finite
-from ai4u_edu.server.bindings import keys_of
+from ai4u_edu.server.caps import captions, useful_keys
 from ai4u_edu.server.seat import Seat
-from ai4u_edu.snapshot import Snapshot
+from ai4u_edu.snapshot import AgentState, Snapshot
 
 Frame = dict[str, Any]
 
@@ -17,8 +17,10 @@ def hello(agent: BasicAgent, number: int) -> Frame:
         "type": "hello",
         "you": number,
         "agent": agent.id,
+        "name": agent.body_name,
         "brain": agent.brain.title(),
-        "keys": keys_of(agent),
+        "keys": useful_keys(agent),
+        "captions": captions(agent),
     }
 
 
@@ -30,19 +32,35 @@ def seating(seat: Seat) -> Frame:
 def state(picture: Snapshot, agent_id: str) -> Frame:
     """How the world and the agent are, as far as the page speaks of it."""
     agent = next(agent for agent in picture.agents if agent.id == agent_id)
-    body = next(body for body in picture.bodies if body.name == agent.body)
     return {
         "type": "state",
         "paused": picture.paused,
         "error": picture.error,
         "episode": picture.episode,
-        "terminated": agent.terminated,
-        "truncated": agent.truncated,
-        "fallen": body.fallen,
+        "goal": picture.stage.goal,
+        "outcome": outcome(picture, agent),
         "reward": finite(agent.episode_reward),
         "terms": {name: finite(value) for name, value in agent.episode_terms.items()},
         "held": sorted(agent.held_keys),
     }
+
+
+def outcome(picture: Snapshot, agent: AgentState) -> str:
+    """How an agent's episode has ended, in a word that the page knows; empty while it goes on."""
+    if not (agent.terminated or agent.truncated):
+        return ""
+    others = [other for other in picture.agents if other.id != agent.id]
+    if agent.succeeded:
+        return "won" if others else "goal"
+    if agent.truncated:
+        return "time"
+    if others:
+        beaten = agent.reward < 0 or any(other.succeeded for other in others)
+        return "lost" if beaten else "over"
+    if agent.fell:
+        return "fell"
+    # a scene that names no success has one all the same
+    return "goal" if agent.episode_reward > 0 and not picture.stage.success else "over"
 
 
 def error(text: str) -> Frame:

@@ -37,10 +37,13 @@ def openapi() -> dict[str, Any]:
 
 def _get(summary: str, schema: dict[str, Any]) -> dict[str, Any]:
     content = {"application/json": {"schema": schema}}
-    refused = {"description": "Asked for under a name that is not allowed."}
     return {
         "get": {
             "summary": summary,
-            "responses": {"200": {"description": "OK", "content": content}, "403": refused},
+            "responses": {
+                "200": {"description": "OK", "content": content},
+                "401": {"description": "The room has a token, and it was not said."},
+                "403": {"description": "Asked for under a name that is not allowed."},
+            },
         }
     }

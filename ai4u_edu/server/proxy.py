@@ -3,12 +3,15 @@
 import asyncio
 from contextlib import suppress
 
+from starlette.datastructures import Headers
+from starlette.requests import HTTPConnection
 from starlette.types import Receive, Scope, Send
 from starlette.websockets import WebSocket, WebSocketDisconnect
 from websockets.asyncio.client import ClientConnection, connect
 from websockets.exceptions import ConnectionClosed, InvalidHandshake
 from websockets.typing import Subprotocol
 
+from ai4u_edu.server.guard import with_token
 from ai4u_edu.server.rate import Rate
 
 UPWARD = 500
@@ -17,6 +20,13 @@ something sends about a hundred."""
 # Whoever sends these asks viser to open a tunnel from the internet to this machine. A message that
 # only mentions them is lost too, which costs less than two readers of one message who may disagree.
 _BARRED = (b"ShareUrlRequest", b"ShareUrlDisconnect")
+
+PAGE_HEADER = "X-AI4U-Edu-Page"
+"""By this viser is told the address under which a browser has the page."""
+AGENT_HEADER = "X-AI4U-Edu-Agent"
+"""By this viser is told which agent the page is about, percent-encoded; empty for none."""
+AGENT_COOKIE = "ai4u_edu_agent"
+"""By this the page tells us: viser leaves the query out of the address that it connects to."""
 
 _SAYABLE = range(1000, 1004)  # other codes of a close can't be passed on
 
@@ -29,10 +39,12 @@ class ViserProxy:
 
     Args:
         port: where viser listens, on 127.0.0.1.
+        token: the room's; who comes here has it, and its page may show it.
     """
 
-    def __init__(self, port: int) -> None:
+    def __init__(self, port: int, token: str = "") -> None:
         self._url = f"ws://127.0.0.1:{port}"
+        self._token = token
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """One page's connection, until one side closes it."""
@@ -40,6 +52,10 @@ class ViserProxy:
         try:
             viser = await connect(
                 self._url,
+                additional_headers={
+                    PAGE_HEADER: page_address(scope),
+                    AGENT_HEADER: HTTPConnection(scope).cookies.get(AGENT_COOKIE, ""),
+                },
                 subprotocols=[Subprotocol(name) for name in scope["subprotocols"]] or None,
                 compression=None,  # viser compresses by itself
                 max_size=None,
@@ -57,6 +73,19 @@ class ViserProxy:
             viser.transport.abort()  # a farewell would have to wait behind frames nobody reads
             with suppress(asyncio.CancelledError):
                 await upward
+
+
+def page_address(scope: Scope) -> str:
+    """The address under which a browser has the page, as far as it says.
+
+    >>> headers = [(b"host", b"inner:8080"), (b"origin", b"https://teacher.example")]
+    >>> page_address({"type": "websocket", "headers": headers, "root_path": "/lab"})
+    'https://teacher.example/lab'
+    """
+    headers = Headers(scope=scope)
+    secure = scope.get("scheme") in ("wss", "https")
+    host = f"{'https' if secure else 'http'}://{headers.get('host', '')}"
+    return f"{headers.get('origin', host)}{scope.get('root_path', '')}"
 
 
 async def _downward(viser: ClientConnection, page: WebSocket) -> None:

@@ -12,6 +12,7 @@ import uvicorn
 from starlette.types import ASGIApp
 
 from ai4u_edu.server.address import listen, url_of
+from ai4u_edu.server.frames import FramesProtocol
 
 _LARGEST = 64 * 2**20  # bytes of a WebSocket message; viser itself takes 50 MB
 _GRACE = 1  # seconds that open connections have when the server ends
@@ -76,7 +77,7 @@ class _Server(uvicorn.Server):
         super().__init__(
             uvicorn.Config(
                 app,
-                ws="websockets-sansio",
+                ws=FramesProtocol,
                 ws_max_size=_LARGEST,
                 ws_per_message_deflate=False,
                 lifespan="off",

@@ -1,0 +1,31 @@
+"""Drive an agent of a running world from anywhere; loads no physics and no page."""
+
+from typing import TYPE_CHECKING, Any
+
+from ai4u_edu.remote.asynchronous import AsyncRobot
+from ai4u_edu.remote.errors import LostError, RefusedError, RemoteError
+from ai4u_edu.remote.percept import RemotePercept
+from ai4u_edu.remote.robot import Robot, Spaces, connect
+
+if TYPE_CHECKING:
+    from ai4u_edu.remote.env import RemoteEnv
+
+__all__ = [
+    "AsyncRobot",
+    "LostError",
+    "RefusedError",
+    "RemoteEnv",
+    "RemoteError",
+    "RemotePercept",
+    "Robot",
+    "Spaces",
+    "connect",
+]
+
+
+def __getattr__(name: str) -> Any:
+    if name == "RemoteEnv":  # only who wants an environment loads Gymnasium
+        from ai4u_edu.remote.env import RemoteEnv
+
+        return RemoteEnv
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

@@ -1,0 +1,105 @@
+"""A remote agent as a Gymnasium environment."""
+
+from typing import Any
+
+import gymnasium
+import numpy as np
+
+from ai4u_edu.errors import SetupError
+from ai4u_edu.remote.percept import RemotePercept
+from ai4u_edu.remote.robot import connect
+from ai4u_edu.remote.spaces import action_space, observation_space
+
+
+class RemoteEnv(gymnasium.Env[Any, Any]):
+    """One agent of a world that runs somewhere else; the world waits for each step.
+
+    ``info`` has ``reward_terms`` (by name), and the percept's ``tick``. Spaces are those of the
+    same scene's environment on this machine.
+
+    Args:
+        url: the page's address, such as ``"http://teacher:8080"``.
+        agent: the agent's id; may be left out where there is only one.
+        observation: ``"dict"``: by perception key; ``"flat"``: one float32 array.
+        token: the world's, where it asks for one.
+        patience: seconds until the world has to have answered.
+    """
+
+    metadata: dict[str, Any] = {"render_modes": []}
+
+    def __init__(
+        self,
+        url: str = "http://127.0.0.1:8080",
+        agent: str = "",
+        *,
+        observation: str = "dict",
+        token: str = "",
+        patience: float = 10.0,
+        render_mode: str | None = None,
+    ) -> None:
+        if observation not in ("dict", "flat"):
+            raise SetupError(f"observation: expected 'dict' or 'flat', got {observation!r}")
+        if render_mode is not None:
+            raise SetupError(
+                f"render_mode: expected None (the page shows the world), got {render_mode!r}"
+            )
+        self.render_mode = None
+        self.robot = connect(url, agent, token=token, mode="lockstep", patience=patience)
+        """The same agent, imperatively."""
+        welcome = self.robot.welcome
+        self._flat = observation == "flat"
+        self._readings = [reading for reading in welcome.readings if reading.is_input]
+        self.observation_space = observation_space(self._readings, observation)
+        outputs = {output.name: output for output in welcome.outputs}
+        self.action_space = action_space(outputs)
+        self._one_output = next(output.name for output in welcome.outputs if output.is_output)
+        if isinstance(self.action_space, gymnasium.spaces.Dict):
+            self._one_output = ""
+
+    def reset(
+        self, *, seed: int | None = None, options: dict[str, Any] | None = None
+    ) -> tuple[Any, dict[str, Any]]:
+        """Begins an episode.
+
+        Args:
+            seed: fixes everything in it, for the whole world.
+            options: none are known.
+        """
+        super().reset(seed=seed)
+        percept = self.robot.reset(seed)
+        return self._observe(percept), self._info(percept)
+
+    def step(self, action: Any) -> tuple[Any, float, bool, bool, dict[str, Any]]:
+        """One decision."""
+        self.robot.act({self._one_output: action} if self._one_output else action)
+        percept = self.robot.sense()
+        return (
+            self._observe(percept),
+            percept.reward,
+            percept.terminated,
+            percept.truncated,
+            self._info(percept),
+        )
+
+    def close(self) -> None:
+        """Leaves the agent to the brain that it had before."""
+        self.robot.close()
+
+    def _observe(self, percept: RemotePercept) -> Any:
+        if self._flat:
+            parts = [np.asarray(percept[each.key], np.float32).ravel() for each in self._readings]
+            return np.concatenate(parts)
+        return {each.key: _own(percept[each.key]) for each in self._readings}
+
+    def _info(self, percept: RemotePercept) -> dict[str, Any]:
+        return {"reward_terms": percept.reward_terms, "tick": percept.tick}
+
+
+def _own(value: Any) -> Any:
+    if isinstance(value, np.ndarray):
+        return value.copy()
+    if isinstance(value, str):
+        return value
+    if isinstance(value, bool | int):
+        return np.int64(value)
+    return np.asarray(value, np.float32)

@@ -1,0 +1,93 @@
+"""What a remote agent senses, as its script gets it."""
+
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+import numpy as np
+
+from ai4u_edu.errors import NameNotFoundError, suggest
+from ai4u_edu.remote.errors import RemoteError
+from ai4u_edu.wire import native
+
+
+class RemotePercept(Mapping[str, Any]):
+    """The readings of one decision by perception key, and what the decision before it brought.
+
+    Arrays can't be written to. A reading of shape () is a plain number or bool, text is a str.
+
+    Attributes:
+        episode: the agent's own count of episodes.
+        step: decisions in this episode so far.
+        tick: of the world, since its reset.
+        reward: of the decisions since the percept before; in lockstep that is one.
+        reward_terms: the same by name.
+        terminated: whether the episode ended by what happened in it.
+        truncated: whether the episode was cut off by the step limit.
+    """
+
+    __slots__ = (
+        "_data",
+        "_readings",
+        "_texts",
+        "episode",
+        "reward",
+        "reward_terms",
+        "seq",
+        "step",
+        "terminated",
+        "tick",
+        "truncated",
+    )
+
+    def __init__(self, readings: Mapping[str, native.Reading], said: native.Percept) -> None:
+        self._readings = readings
+        self._data = said.data
+        self._texts = said.texts
+        self.seq = said.seq
+        self.episode = said.episode
+        self.step = said.step
+        self.tick = said.tick
+        self.reward = said.reward
+        self.reward_terms = dict(said.terms)
+        self.terminated = said.terminated
+        self.truncated = said.truncated
+
+    @property
+    def done(self) -> bool:
+        """Whether the episode is over."""
+        return self.terminated or self.truncated
+
+    def __getitem__(self, key: str) -> Any:
+        reading = self._readings.get(key)
+        if reading is None:
+            raise NameNotFoundError(f"no reading is called {key!r}; {suggest(key, self._readings)}")
+        try:
+            if reading.kind == "text":
+                return self._texts[reading.offset]
+            count = int(np.prod(reading.shape, dtype=np.int64))
+            flat = np.frombuffer(self._data, reading.dtype, count, reading.offset)
+        except (ValueError, IndexError):
+            raise RemoteError(
+                f"reading {key!r}: expected it in the percept as the welcome says, found it not; "
+                "connect again"
+            ) from None
+        return flat.reshape(reading.shape) if reading.shape else flat[0].item()
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._readings)
+
+    def __len__(self) -> int:
+        return len(self._readings)
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, RemotePercept):
+            return NotImplemented
+        return self.seq == other.seq and self._data == other._data and self._texts == other._texts
+
+    __hash__ = None  # type: ignore[assignment]  # compared by content
+
+    def __repr__(self) -> str:
+        return (
+            f"RemotePercept(episode={self.episode}, step={self.step}, reward={self.reward:g}, "
+            f"{dict(self)})"
+        )

@@ -1,0 +1,88 @@
+"""A connection for scripts that wait: the steps of a dialogue, one after another."""
+
+import time
+from typing import Any, TypeVar
+
+from websockets.exceptions import ConnectionClosed, WebSocketException
+from websockets.sync.client import ClientConnection, connect
+
+from ai4u_edu.remote.address import Address
+from ai4u_edu.remote.line_options import OPTIONS, lost_by
+from ai4u_edu.remote.steps import Close, Flow, LineLost, Open, Pause, Receive, Send, Step
+
+T = TypeVar("T")
+
+
+class PlainLine:
+    """One WebSocket to a world, opened anew when a dialogue wants that."""
+
+    def __init__(self, address: Address) -> None:
+        self._address = address
+        self._socket: ClientConnection | None = None
+
+    def run(self, flow: Flow[T]) -> T:
+        """Carries out what a dialogue wants, and gives back what it comes to."""
+        came: Any = None
+        lost: LineLost | None = None
+        while True:
+            try:
+                step = flow.throw(lost) if lost is not None else flow.send(came)
+            except StopIteration as end:
+                return end.value  # type: ignore[no-any-return]
+            came = lost = None
+            try:
+                came = self._carry_out(step)
+            except LineLost as error:
+                lost = error
+
+    def _carry_out(self, step: Step) -> Any:
+        match step:
+            case Receive(timeout):
+                return self._receive(timeout)
+            case Send(frame):
+                self._send(frame)
+            case Open(timeout):
+                self._close()
+                self._open(timeout)
+            case Close():
+                self._close()
+            case Pause(seconds):
+                time.sleep(seconds)
+        return None
+
+    def _open(self, timeout: float) -> None:
+        try:
+            self._socket = connect(
+                self._address.url,
+                open_timeout=timeout,
+                proxy=None if self._address.is_loopback else True,
+                **OPTIONS,
+            )
+        except (OSError, WebSocketException) as error:
+            raise lost_by(error) from None
+
+    def _send(self, frame: bytes) -> None:
+        try:
+            self._there.send(frame)
+        except ConnectionClosed as closed:
+            raise lost_by(closed) from None
+
+    def _receive(self, timeout: float) -> bytes | None:
+        try:
+            frame = self._there.recv(timeout, decode=False)
+        except TimeoutError:
+            return None
+        except ConnectionClosed as closed:
+            raise lost_by(closed) from None
+        return frame
+
+    def _close(self) -> None:
+        if self._socket is not None:
+            self._socket.close()
+            self._socket = None
+
+    @property
+    def _there(self) -> ClientConnection:
+        if self._socket is None:
+            raise LineLost("there is no connection")
+        return self._socket

@@ -1,0 +1,167 @@
+"""A robot that is somewhere else."""
+
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING, Any, NamedTuple, Self
+
+from ai4u_edu.remote.address import address_of
+from ai4u_edu.remote.dialogue import Dialogue
+from ai4u_edu.remote.percept import RemotePercept
+from ai4u_edu.remote.plain_line import PlainLine
+from ai4u_edu.wire.native import Mode, Welcome
+
+if TYPE_CHECKING:
+    from gymnasium import spaces
+
+
+_robots: dict[tuple[str, str], "Robot"] = {}
+"""Those of this process, by the world's address and the agent that was asked for."""
+
+
+class Spaces(NamedTuple):
+    """What an agent senses and can do, in Gymnasium's terms."""
+
+    observation: "spaces.Dict"
+    """By perception key; what a policy gets."""
+    action: "spaces.Space[Any]"
+    """Of its one actuator, or a Dict of several."""
+
+
+class Robot:
+    """An agent of a running world, driven from here. :func:`connect` gives one.
+
+    Each decision is a percept and the action that answers it::
+
+        with connect("http://teacher:8080", agent="red") as robot:
+            for percept in robot:
+                robot.act(move=[1, -percept["bearing"][0], 0, 0])
+            print(robot.percept.reward_terms)
+            robot.reset()
+
+    If the connection is lost, it is taken up again; the session goes on where it was.
+    """
+
+    def __init__(self, line: PlainLine, dialogue: Dialogue) -> None:
+        self._line = line
+        self._dialogue = dialogue
+        line.run(dialogue.begin())
+
+    # -- the verbs -------------------------------------------------------------------------------
+
+    def sense(self) -> RemotePercept:
+        """What the robot senses now; after an action, as soon as its decision is over."""
+        return self._line.run(self._dialogue.sense())
+
+    def act(self, action: Any = None, /, **numbers: Any) -> None:
+        """Decides: answers the latest percept. Returns at once; :meth:`sense` waits.
+
+        Args:
+            action: numbers by the actuator's name; of a robot with one actuator, its numbers alone.
+            numbers: the same, as in ``act(move=[1, 0, 0, 0])``. What is left out does nothing.
+
+        Raises:
+            ActionError: it names an actuator that there is not, its numbers don't fit, or the
+                episode is over.
+        """
+        self._line.run(self._dialogue.act(numbers if action is None else action))
+
+    def reset(self, seed: int | None = None) -> RemotePercept:
+        """Begins an episode; what the robot senses first.
+
+        Args:
+            seed: fixes everything in it, and begins one for the whole world. Left out, it begins
+                for this robot alone if there are others.
+        """
+        return self._line.run(self._dialogue.reset(seed))
+
+    def close(self) -> None:
+        """Leaves the robot to the brain that it had before. Closing twice is fine."""
+        self._line.run(self._dialogue.end())
+        for place in [place for place, robot in _robots.items() if robot is self]:
+            del _robots[place]
+
+    def __iter__(self) -> Iterator[RemotePercept]:
+        """Every percept that needs an action, until the episode is over."""
+        while not (percept := self.sense()).done:
+            yield percept
+            self._dialogue.expect_answer_to(percept)
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+    # -- what can be asked -----------------------------------------------------------------------
+
+    @property
+    def percept(self) -> RemotePercept | None:
+        """The latest, without waiting; None before the first."""
+        return self._dialogue.percept
+
+    @property
+    def welcome(self) -> Welcome:
+        """What the world said of the agent: its readings and outputs, ticks, names of rewards."""
+        return self._dialogue.welcome
+
+    @property
+    def session(self) -> str:
+        """What ``connect(..., session=...)`` needs to go on from another process; a secret."""
+        return self._dialogue.session
+
+    @property
+    def spaces(self) -> Spaces:
+        """What the robot senses and can do, as Gymnasium's spaces."""
+        from ai4u_edu.remote.spaces import action_space, observation_space
+
+        dialogue = self._dialogue
+        observation: Any = observation_space(dialogue.readings.values())
+        return Spaces(observation, action_space(dialogue.outputs))
+
+    def __repr__(self) -> str:
+        welcome = self._dialogue.welcome
+        return f"Robot({welcome.agent!r} in {welcome.title!r}, {welcome.mode})"
+
+
+def connect(
+    url: str,
+    agent: str = "",
+    *,
+    token: str = "",
+    mode: Mode = "realtime",
+    keys: Sequence[str] = (),
+    session: str = "",
+    patience: float = 10.0,
+) -> Robot:
+    """Drives an agent of a running world.
+
+    A robot that this process has already at the same agent is closed first, so that a notebook's
+    cell can be run again.
+
+    Args:
+        url: the page's address, such as ``"http://teacher:8080"``; a token in it counts.
+        agent: the agent's id; may be left out where there is only one.
+        token: the world's, where it asks for one.
+        mode: ``"realtime"``: the world never waits, and an action counts as soon as it is there.
+            ``"lockstep"``: the world waits for each action, as training wants it.
+        keys: the readings that are wanted, such as ``["ray_casting"]``; left out, all.
+        session: :attr:`Robot.session` of a script that is gone, to go on in its place.
+        patience: seconds until the world has to have answered.
+
+    Raises:
+        RefusedError: the world doesn't give the agent away; the text says why.
+        LostError: no world answers.
+    """
+    address = address_of(url)
+    before = _robots.pop((address.url, agent), None)
+    if before is not None:
+        before.close()
+    dialogue = Dialogue(
+        agent,
+        token=token or address.token,
+        mode=mode,
+        keys=keys,
+        session=session,
+        patience=patience,
+    )
+    robot = _robots[address.url, agent] = Robot(PlainLine(address), dialogue)
+    return robot

@@ -1,0 +1,56 @@
+"""What the keys on the screen are for: only those that do something, and what they do."""
+
+from ai4u_edu.agent import BasicAgent
+from ai4u_edu.blocks import Actuator, DiscreteActuator, DiscreteArrowController
+from ai4u_edu.server.bindings import keys_of
+
+MOTIONS = {
+    (1, 0, 0): "forward",
+    (-1, 0, 0): "back",
+    (0, 1, 0): "right",
+    (0, -1, 0): "left",
+    (0, 0, 1): "jump",
+    (1, 0, 1): "leap",
+}
+"""What a motion is called, by the signs of (forward, turn, jump of either kind)."""
+
+
+def useful_keys(agent: BasicAgent) -> dict[str, list[str]]:
+    """The keys of an agent, without those for what its body can't do."""
+    idle = _idle(_actuator(agent))
+    return {action: codes for action, codes in keys_of(agent).items() if action not in idle}
+
+
+def captions(agent: BasicAgent) -> dict[str, str]:
+    """What keys do in this scene, where it isn't what they are called."""
+    actuator = _actuator(agent)
+    controller = getattr(agent.brain, "controller", None)
+    if not isinstance(actuator, DiscreteActuator) or actuator.handler is not None:
+        return {}
+    if not isinstance(controller, DiscreteArrowController):
+        return {}
+    names = {}
+    for action, row in zip(("right", "left", "up", "down"), actuator.table[1:], strict=False):
+        forward, turn, jump, leap = row
+        name = MOTIONS.get((_sign(forward), _sign(turn), _sign(jump + leap)))
+        if name is not None:
+            names[action] = name
+    return names
+
+
+def _idle(actuator: Actuator | None) -> set[str]:
+    """The actions for which an actuator has no power."""
+    jump = getattr(actuator, "jump_power", 1.0)
+    leap = getattr(actuator, "jump_forward_power", 1.0)
+    idle = {"jump": not jump, "jump_forward": not (jump or leap)}
+    return {action for action, is_idle in idle.items() if is_idle}
+
+
+def _actuator(agent: BasicAgent) -> Actuator | None:
+    """The actuator that an agent's controller drives."""
+    controller = getattr(agent.brain, "controller", None)
+    return agent.fitting.actuators.get(getattr(controller, "actuator_name", ""))
+
+
+def _sign(number: float) -> int:
+    return (number > 0) - (number < 0)

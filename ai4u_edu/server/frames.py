@@ -1,0 +1,63 @@
+"""A short way for frames that somebody waits for.
+
+Through ASGI every frame takes two more turns of the event loop than it needs, one for each
+direction. Where a script and a world wait for each other, that is a third of their time. So a
+socket may ask for its frames as they arrive, and may write its own at once. Everything else, the
+handshake, pings, the close, remains uvicorn's and ASGI's.
+"""
+
+from collections.abc import Callable, MutableMapping
+from typing import Any
+
+from uvicorn.protocols.websockets.websockets_sansio_impl import WebSocketsSansIOProtocol
+from websockets.exceptions import InvalidState
+from websockets.http11 import Request
+
+CAP = 2**20
+"""Bytes that no message needs, other than those to viser."""
+EXTENSION = "ai4u_edu.frames"
+"""Where an ASGI app finds it, in ``scope["extensions"]``."""
+
+Listener = Callable[[bytes], bool]
+"""Gets a frame as it arrives; whether it took it. What it does not take goes on through ASGI."""
+
+
+class FramesProtocol(WebSocketsSansIOProtocol):
+    """uvicorn's protocol, with the short way in its extensions."""
+
+    listener: Listener | None = None
+
+    def cap(self, size: int) -> None:
+        """From now on a message has at most so many bytes; a larger one is not even read.
+
+        It ends the connection with 1009, without a word: so this is for what nobody means.
+        """
+        for name in ("max_message_size", "max_size"):  # the newer and the older websockets'
+            setattr(self.conn, name, size)
+
+    def handle_connect(self, event: Request) -> None:
+        """Lets the app find the short way."""
+        super().handle_connect(event)
+        if self.handshake_initiated and not self.close_sent:
+            extensions: MutableMapping[str, Any] = self.scope["extensions"]
+            extensions[EXTENSION] = self
+
+    def send_receive_event_to_app(self) -> None:
+        """Hands a frame to the listener first."""
+        if self.listener is not None and self.curr_msg_data_type == "bytes" and self.queue.empty():
+            frame = b"".join(self.frames)
+            if not self.close_sent and self.listener(frame):
+                self.frames = []
+                return
+        super().send_receive_event_to_app()
+
+    def write(self, frame: bytes) -> bool:
+        """Sends a frame at once; whether it could. It can't while earlier ones wait."""
+        if not self.handshake_complete or self.close_sent or not self.writable.is_set():
+            return False
+        try:
+            self.conn.send_binary(frame)
+        except InvalidState:  # the other side has closed
+            return False
+        self.transport.write(b"".join(self.conn.data_to_send()))
+        return True

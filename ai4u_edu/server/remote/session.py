@@ -1,0 +1,191 @@
+"""A script that has an agent: its brain's link, and what the loop hears for it.
+
+The runner's thread asks; the server's loop hears and speaks. What both touch is guarded by a lock,
+and is never held for long.
+"""
+
+import asyncio
+from collections import deque
+from collections.abc import Callable
+from threading import Lock, get_ident
+
+from ai4u_edu.blocks.brains.link import Answered, LinkState, Offer, Reset, Situation
+from ai4u_edu.runner import Runner
+from ai4u_edu.server.remote.line import Line
+from ai4u_edu.server.remote.welcome import Excerpt
+from ai4u_edu.wire import native
+
+
+class Session:
+    """One script at one agent, over however many connections.
+
+    Args:
+        excerpt: the readings that it wants.
+        runner: the room's.
+        on_close: called in the loop when the agent's brain is closed.
+    """
+
+    def __init__(self, excerpt: Excerpt, runner: Runner, on_close: Callable[[str], None]) -> None:
+        self.state = LinkState.CONNECTED
+        self.reason = ""
+        self.ignored = 0
+        self.heard = 0.0
+        self._excerpt = excerpt
+        self._runner = runner
+        self._thread = get_ident()
+        self._on_close = on_close
+        self._loop = asyncio.get_running_loop()
+        self._lock = Lock()
+        self._line: Line | None = None
+        self._answers: deque[Answered] = deque()
+        self._told: Situation | None = None
+        self._is_answered = False
+        self._frame = b""
+        self._counted = (0, 0)
+        self._reward = 0.0
+        self._terms: dict[str, float] = {}
+
+    # -- for the brain, in the runner's thread ---------------------------------------------------
+
+    @property
+    def expecting(self) -> bool:
+        """Whether the script owes an answer."""
+        return self._told is not None
+
+    def open(self, offer: Offer) -> None:
+        """Nothing: the script is here already, and knows."""
+
+    def ask(self, situation: Situation, timeout: float) -> Answered | None:
+        """The script's answer, if it is there; if not, the runner is called when it is."""
+        self._count(situation)
+        if not self._answers:
+            if self._told is None or (self._line is None and self._told is not situation):
+                self._tell(situation)
+            if timeout:  # the world waits for it
+                self._runner.expect_call()
+            return None
+        answered = self._answers.popleft()
+        self._told = None
+        if answered.situation is not situation:
+            self._tell(situation)  # it was late; what it says counts now, what it sees is new
+        return answered
+
+    def refuse(self, answered: Answered, reason: str) -> bool:
+        """Tells the script that its action can't be carried out."""
+        situation = answered.situation
+        if situation is None:
+            return False
+        with self._lock:
+            again = self._told is None
+            if again:
+                self._told, self._is_answered = situation, False
+        self._post(self._say, native.encode(native.Problem("bad_action", reason, situation.number)))
+        return again
+
+    def idle(self) -> None:
+        """Nothing: the connection looks after itself."""
+
+    def close(self, reason: str) -> None:
+        """The agent has another brain, or the world has ended."""
+        self.state, self.reason = LinkState.WAITING, reason
+        self._told = None
+        self._post(self._on_close, reason)
+
+    # -- for the connections, in the loop --------------------------------------------------------
+
+    @property
+    def line(self) -> Line | None:
+        """The connection; None while it is lost."""
+        return self._line
+
+    def attach(self, line: Line) -> None:
+        """A connection is there; a percept that waits for its answer is said (again)."""
+        self._line = line
+        with self._lock:
+            if self._told is not None and not self._is_answered:
+                line.say(self._frame)
+        self.state, self.reason = LinkState.CONNECTED, ""
+
+    def detach(self) -> None:
+        """The connection is lost."""
+        self._line = None
+
+    def hear(self, message: native.Action | native.Reset) -> native.Problem | None:
+        """An answer. What answers nothing is not counted, and the last percept is said again.
+
+        Returns:
+            What is wrong with it, if it is an answer and can't be one.
+        """
+        with self._lock:
+            told = self._told
+            if told is None or self._is_answered or message.seq != told.number:
+                self.ignored += 1
+                if told is not None and not self._is_answered and self._line is not None:
+                    self._line.say(self._frame)
+                return None
+            if isinstance(message, native.Action):
+                if told.done:
+                    text = "the episode is over; expected a reset"
+                    return native.Problem("episode_over", text, told.number)
+                if (message.episode, message.step) != (told.episode, told.steps):
+                    text = (
+                        f"percept {told.number} is of episode {told.episode}, step {told.steps}; "
+                        f"got an action for episode {message.episode}, step {message.step}"
+                    )
+                    return native.Problem("bad_action", text, told.number)
+                answered = Answered(message.values, told)
+            else:
+                answered = Answered(Reset(message.seed), told)
+            self._is_answered = True
+        self._answers.append(answered)
+        self._runner.call()
+        return None
+
+    # -- what they are made of -------------------------------------------------------------------
+
+    def _count(self, situation: Situation) -> None:
+        """Adds up what was paid since the last percept that the script was told."""
+        place = (situation.episode, situation.steps)
+        if place == self._counted:
+            return
+        if situation.episode != self._counted[0]:
+            self._reward, self._terms = 0.0, {}
+        self._counted = place
+        self._reward += situation.reward
+        for name, amount in situation.terms.items():
+            self._terms[name] = self._terms.get(name, 0.0) + amount
+
+    def _tell(self, situation: Situation) -> None:
+        data, texts = self._excerpt.of(situation.percept)
+        frame = native.encode(
+            native.Percept(
+                episode=situation.episode,
+                step=situation.steps,
+                seq=situation.number,
+                tick=situation.tick,
+                reward=self._reward,
+                terms=self._terms,
+                terminated=situation.done and not situation.truncated,
+                truncated=situation.truncated,
+                data=data,
+                texts=texts,
+            )
+        )
+        self._reward, self._terms = 0.0, {}
+        with self._lock:
+            self._told, self._frame, self._is_answered = situation, frame, False
+        if self._line is not None:  # else it is said when there is one again
+            self._post(self._say, frame)
+
+    def _say(self, frame: bytes) -> None:
+        if self._line is not None:
+            self._line.say(frame)
+
+    def _post(self, function: Callable[..., None], argument: object) -> None:
+        if get_ident() == self._thread:
+            function(argument)
+            return
+        try:
+            self._loop.call_soon_threadsafe(function, argument)
+        except RuntimeError:  # the server has ended before the world
+            self.state, self.reason = LinkState.LOST, "the server has ended"

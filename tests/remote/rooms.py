@@ -1,0 +1,169 @@
+"""Worlds for scripts on other machines, and a script that speaks frame by frame."""
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Any, Self
+
+from gymnasium.spaces import Box
+from websockets.exceptions import ConnectionClosed
+from websockets.sync.client import connect as open_socket
+
+from ai4u_edu import (
+    Actuator,
+    BasicAgent,
+    CircleShape,
+    ControlRequestor,
+    LocalBrain,
+    RewardFunc,
+    Sensor,
+    World,
+)
+from ai4u_edu.server.remote import Rules
+from ai4u_edu.wire import native
+from tests.builders import still
+from tests.server.rooms import Room, served
+
+SECRET = "a secret of the tests"
+LARGEST = 1e9
+
+
+class Place(Sensor):
+    """[episode, step] of the agent."""
+
+    def on_setup(self, agent: Any, view: Any) -> None:
+        self._agent = agent
+
+    def space(self) -> Box:
+        return Box(0.0, LARGEST, (2,))
+
+    def read(self, body: Any, view: Any) -> Any:
+        return [self._agent.episode, self._agent.steps]
+
+
+class Log(Actuator):
+    """Writes down each number that it is given, with the episode and the step."""
+
+    def on_setup(self, agent: Any, view: Any) -> None:
+        self._agent = agent
+        self.entries: list[tuple[int, int, float]] = []
+
+    def space(self) -> Box:
+        return Box(0.0, LARGEST, (1,))
+
+    def act(self, body: Any, action: tuple[float, ...]) -> None:
+        self.entries.append((self._agent.episode, self._agent.steps, action[0]))
+
+
+class Pay(RewardFunc):
+    """One for each decision."""
+
+    def on_update(self, body: Any, view: Any) -> float:
+        return 1.0
+
+
+def log_sim(agents: int = 1, *, max_steps: int = 0, skip_frame: int = 0) -> ControlRequestor:
+    """Agents "a", "b", ... that write down what they are told to do."""
+    world = World()
+    crew = []
+    for number in range(agents):
+        name = "abcdefgh"[number]
+        world.add_body(name, CircleShape(radius=0.3), position=(0.0, 2.0 * number))
+        crew.append(
+            BasicAgent(
+                id=name,
+                body=name,
+                max_steps_per_episode=max_steps,
+                sensors=[Place()],
+                actuators=[Log()],
+                rewards=[Pay()],
+                brains=[LocalBrain(controller=still, skip_frame=skip_frame)],
+            )
+        )
+    return ControlRequestor(world, crew)
+
+
+def log_of(room: Room, agent_id: str = "a") -> list[tuple[int, int, float]]:
+    """What an agent was told to do: (episode, step, number)."""
+    log = room.sim.agent(agent_id).actuators[0]
+    assert isinstance(log, Log)
+    return log.entries
+
+
+@contextmanager
+def log_room(
+    agents: int = 1,
+    *,
+    max_steps: int = 0,
+    skip_frame: int = 0,
+    time_scale: float = float("inf"),
+    **rules: Any,
+) -> Iterator[Room]:
+    """A room of such agents, as fast as it goes."""
+    sim = log_sim(agents, max_steps=max_steps, skip_frame=skip_frame)
+    with served(sim, rules=Rules(**rules)) as room:
+        room.runner.scale_time(time_scale)
+        yield room
+
+
+class Script:
+    """A script that says and hears one frame at a time, and repeats nothing by itself."""
+
+    def __init__(self, room: Room, *, subprotocol: str | None = native.SUBPROTOCOL) -> None:
+        names: Any = [subprotocol] if subprotocol else None
+        url = room.url.replace("http", "ws", 1) + "ws/remote"
+        self.socket = open_socket(url, subprotocols=names, proxy=None, compression=None)
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.socket.close()
+
+    def say(self, message: native.Message) -> None:
+        self.socket.send(native.encode(message))
+
+    def hello(self, **changes: Any) -> native.Message:
+        """Says hello, and gives back the answer."""
+        fields: dict[str, Any] = {
+            "version": native.VERSION,
+            "agent": "a",
+            "token": "",
+            "mode": "lockstep",
+            "keys": (),
+            "session": "",
+            "secret": SECRET,
+        }
+        self.say(native.Hello(**(fields | changes)))
+        return self.hear()
+
+    def hear(self, timeout: float = 5.0) -> native.Message:
+        return native.decode(self.socket.recv(timeout, decode=False), native.LARGEST_HEARD)
+
+    def percept(self) -> native.Percept:
+        message = self.hear()
+        assert isinstance(message, native.Percept), message
+        return message
+
+    def silence(self, seconds: float = 0.15) -> bool:
+        """Whether nothing comes for a while."""
+        try:
+            self.hear(seconds)
+        except TimeoutError:
+            return True
+        return False
+
+    def act(self, percept: native.Percept, number: float, **changes: int) -> None:
+        fields: dict[str, Any] = {
+            "episode": percept.episode,
+            "step": percept.step,
+            "seq": percept.seq,
+        }
+        self.say(native.Action(**(fields | changes), values={"log": (number,)}))
+
+    def end(self) -> tuple[int, str]:
+        """How the world closes the connection."""
+        while True:
+            try:
+                self.socket.recv(5)
+            except ConnectionClosed as closed:
+                return (closed.rcvd.code, closed.rcvd.reason) if closed.rcvd else (1006, "")

@@ -1,0 +1,51 @@
+"""``ai4u-edu play --brain``."""
+
+import pytest
+
+from ai4u_edu import RemoteBrain, Scene
+from ai4u_edu.blocks.brains.address import brain_at
+from ai4u_edu.cli import _give_brain
+from ai4u_edu.errors import NameNotFoundError, ParameterError, SetupError
+from tests.playing import played
+from tests.remote.test_ai4u_package import free_port, pair, run_script
+
+
+def test_a_served_scene_is_driven_by_a_script() -> None:
+    port = free_port()
+    with played("box_chase", "--seed", "1", "--brain", f"ai4u://127.0.0.1:{port}") as server:
+        (agent,) = server.snapshot()["agents"]
+        assert agent["brain"] == f"RemoteBrain(127.0.0.1:{port})"
+        assert agent["steps"] == 0  # nobody drives yet
+        log = run_script("steps.py", port, 20)["log"]
+        assert [each["steps"] for each in log] == list(range(1, 21))
+
+
+def test_the_brain_decides_as_often_as_the_one_before() -> None:
+    sim = Scene.load("box_chase").build()
+    sim.agents[0].brain.skip_frame = 9
+    _give_brain(sim, "0=ai4u://localhost:9?mode=realtime", "box_chase")
+    brain = sim.agents[0].brain
+    assert isinstance(brain, RemoteBrain)
+    assert (brain.host, brain.port, brain.mode, brain.skip_frame) == ("localhost", 9, "realtime", 9)
+    brain.close()
+
+
+def test_with_several_agents_one_is_named() -> None:
+    says = r"the scene has several agents \(0, 1\); name one, as in --brain 0=ai4u://127.0.0.1:9"
+    with pytest.raises(SetupError, match=says):
+        _give_brain(pair(), "ai4u://127.0.0.1:9", "")
+    with pytest.raises(NameNotFoundError, match="no agent has the id '7'"):
+        _give_brain(pair(), "7=ai4u://127.0.0.1:9", "")
+
+
+@pytest.mark.parametrize(
+    "address", ["", "8080", "ws://host:1", "ai4u://", "ai4u://a:b", "ai4u://a/b"]
+)
+def test_what_is_no_address(address: str) -> None:
+    with pytest.raises(SetupError, match=r"expected an address such as ai4u://127.0.0.1:8080, got"):
+        brain_at(address)
+
+
+def test_an_unknown_parameter() -> None:
+    with pytest.raises(ParameterError, match="mod: unknown parameter; did you mean 'mode'"):
+        brain_at("ai4u://127.0.0.1:8080?mod=realtime")

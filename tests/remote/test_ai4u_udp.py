@@ -1,0 +1,559 @@
+"""AI4U's protocol over real sockets: a session, and everything that can happen to it."""
+
+import threading
+import time
+from collections.abc import Iterator
+from typing import Any, Literal
+
+import psutil
+import pytest
+
+from ai4u_edu import (
+    AgentArraySensor,
+    BasicAgent,
+    BearingSensor,
+    CircleShape,
+    ControlRequestor,
+    LocalBrain,
+    RBMoveActuator,
+    RemoteBrain,
+    World,
+)
+from ai4u_edu.errors import SetupError
+from ai4u_edu.runner import Runner
+from ai4u_edu.wire.strict import WireError
+from tests.builders import small_sim
+from tests.remote.udp_script import NOOP, RESET, WAIT, UDPScript, udp_script
+
+AHEAD = "move;4;1.0;0;0;0"
+
+
+@pytest.fixture
+def script() -> Iterator[UDPScript]:
+    with udp_script() as script:
+        yield script
+
+
+def remote_sim(script: UDPScript, **fields: Any) -> tuple[ControlRequestor, RemoteBrain]:
+    """One agent whose brain is that script."""
+    given = {
+        name: fields.pop(name) for name in ("mode", "on_missing", "skip_frame") if name in fields
+    }
+    brain = RemoteBrain(port=script.port, receive_timeout=200, **given)
+    sim = small_sim([BearingSensor(target="box")], brains=[brain], **fields)
+    return sim, brain
+
+
+def silent(sim: ControlRequestor, brain: RemoteBrain) -> None:
+    """Lets time pass until a script that says nothing is given up."""
+    until = time.monotonic() + 5
+    while brain.status().state != "lost":
+        assert time.monotonic() < until
+        sim.tick()
+
+
+# -- a session -------------------------------------------------------------------------------------
+
+
+def test_a_session(script: UDPScript) -> None:
+    sim, brain = remote_sim(script)
+    agent = sim.agents[0]
+    state = script.meet(sim)
+    assert brain.status().state == "connected"
+    assert (state["done"], state["steps"], state["id"]) == (False, 0, "0")
+    assert state["bearing"].tolist() == [0.0, 1.0]
+    script.say(AHEAD)
+    state = script.next(sim)
+    assert (state["steps"], agent.steps) == (1, 1)
+    assert agent.last_action == {"move": (1.0, 0.0, 0.0, 0.0)}
+    assert sim.world.ticks == 5  # its whole cycle is over
+    assert brain.status().decisions == 1
+    brain.close()
+
+
+def test_the_handshake_tells_of_the_sensors_and_of_the_actuator(script: UDPScript) -> None:
+    sim, brain = remote_sim(script, max_steps_per_episode=300)
+    script.next(sim)
+    script.say(NOOP)
+    request = script.next(sim)
+    assert request.pop("modelmetadata") == (
+        '{"inputs": [{"name": "bearing", "shape": [2], "type": 5, "rangeMin": -1.0, '
+        '"rangeMax": 1.0, "dataType": 5}], "outputs": [{"name": "move", "isContinuous": true, '
+        '"shape": [4], "rangeMin": [-1.0, -1.0, 0.0, 0.0], "rangeMax": [1.0, 1.0, 1.0, 1.0]}]}'
+    )
+    assert request == {"__target__": "envcontrol", "max_steps": 300, "id": "0", "config": 1}
+    brain.close()
+
+
+def test_a_script_that_is_not_there_yet_keeps_nobody_waiting(script: UDPScript) -> None:
+    sim, brain = remote_sim(script)
+    script.close()
+    for _ in range(300):
+        sim.tick()
+    assert (sim.world.ticks, sim.agents[0].steps) == (300, 0)
+    status = brain.status()
+    assert status.state == "waiting"
+    assert status.reason == f"no AI4U script listens at 127.0.0.1:{script.port} yet"
+    with udp_script(script.port) as late:
+        late.meet(sim)
+        assert brain.status().state == "connected"
+        assert brain.status().reason == ""
+    brain.close()
+
+
+def test_the_world_stands_still_while_the_script_asks_for_time(script: UDPScript) -> None:
+    sim, brain = remote_sim(script)
+    script.meet(sim)
+    ticks = sim.world.ticks
+    began = time.monotonic()
+    while time.monotonic() < began + 0.5:  # more than the timeout: it is there, and says so
+        script.say(WAIT)
+        state = script.next(sim)
+        assert state["steps"] == 0
+    assert sim.held
+    assert sim.world.ticks == ticks
+    script.say(AHEAD)
+    assert script.next(sim)["steps"] == 1
+    brain.close()
+
+
+def test_noop_lets_a_tick_pass_and_asks_again(script: UDPScript) -> None:
+    sim, brain = remote_sim(script)
+    script.meet(sim)
+    ticks = sim.world.ticks
+    script.say(NOOP)
+    assert script.next(sim)["steps"] == 0
+    assert sim.world.ticks == ticks + 1
+    brain.close()
+
+
+def test_pause_and_resume(script: UDPScript) -> None:
+    sim, brain = remote_sim(script)
+    agent = sim.agents[0]
+    script.meet(sim)
+    script.say("__pause__;1;0")
+    assert script.next(sim)["__ctrl_paused__"] is True
+    assert agent.paused
+    script.say(AHEAD)
+    assert script.next(sim)["steps"] == 0  # it takes no decisions now
+    script.say("__resume__;1;0")
+    assert script.next(sim)["__ctrl_paused__"] is False
+    script.say(AHEAD)
+    assert script.next(sim)["steps"] == 1
+    brain.close()
+
+
+def test_stop_lasts_until_the_reset(script: UDPScript) -> None:
+    sim, brain = remote_sim(script)
+    script.meet(sim)
+    script.say("__stop__;1;0")
+    assert script.next(sim)["__ctrl_stopped__"] is True
+    for reply in (AHEAD, "__resume__;1;0", AHEAD):
+        script.say(reply)
+        assert script.next(sim)["steps"] == 0
+    script.say(RESET)
+    state = script.next(sim)
+    assert (state["__ctrl_stopped__"], state["steps"]) == (False, 0)
+    script.say(AHEAD)
+    assert script.next(sim)["steps"] == 1
+    brain.close()
+
+
+def test_an_episode_ends_and_the_next_begins(script: UDPScript) -> None:
+    sim, brain = remote_sim(script, max_steps_per_episode=2)
+    script.meet(sim)
+    states = []
+    for _ in range(2):
+        script.say(AHEAD)
+        states.append(script.next(sim))
+    assert [(each["done"], each["truncated"]) for each in states] == [(False, False), (True, True)]
+    script.say(WAIT)
+    assert script.next(sim)["done"] is True
+    episode = sim.episode
+    script.say(RESET)
+    state = script.next(sim)
+    assert (state["done"], state["truncated"], state["steps"]) == (False, False, 0)
+    assert sim.episode == episode + 1
+    brain.close()
+
+
+def test_envcontrol_goes_back_to_the_beginning(script: UDPScript) -> None:
+    sim, brain = remote_sim(script)
+    script.meet(sim)
+    script.say("__envcontrol__;1;0")
+    request = script.next(sim)
+    assert request["__target__"] == "envcontrol"
+    assert request["__envcontrol__"] == "__envcontrol__"
+    ticks = sim.world.ticks
+    for _ in range(10):
+        sim.tick()
+    assert sim.world.ticks == ticks + 10  # nobody waits for a script that doesn't play
+    script.say(RESET)
+    assert script.next(sim)["done"] is False
+    brain.close()
+
+
+def test_halt_ends_the_session_and_a_new_one_may_begin(script: UDPScript) -> None:
+    sim, brain = remote_sim(script)
+    script.meet(sim)
+    script.say("halt")
+    assert "wait_command" in script.next(sim)  # it knocks again
+    status = brain.status()
+    assert status.state == "waiting"
+    assert status.reason == f"the script at 127.0.0.1:{script.port} has ended"
+    script.say(NOOP)
+    assert "config" in script.next(sim)
+    brain.close()
+
+
+def test_closing_says_goodbye(script: UDPScript) -> None:
+    sim, _ = remote_sim(script)
+    script.meet(sim)
+    script.say(AHEAD)
+    script.next(sim)
+    sim.agents[0].use_brain(LocalBrain(controller=lambda percept: {}))
+    request = script.hear()
+    assert request == {"__target__": "envcontrol", "__stop__": "stop", "id": "0"}
+    steps = sim.agents[0].steps
+    sim.step()
+    assert sim.agents[0].steps == steps + 1  # the other brain drives
+
+
+def test_a_reset_that_the_script_did_not_ask_for_ends_its_episode(script: UDPScript) -> None:
+    sim, brain = remote_sim(script)
+    script.meet(sim)
+    script.say(AHEAD)
+    before = script.next(sim)
+    sim.reset()
+    script.say(AHEAD)  # meant for the episode before
+    state = script.next(sim)
+    assert (state["done"], state["truncated"], state["steps"]) == (True, True, before["steps"])
+    assert sim.agents[0].steps == 0
+    script.say(RESET)
+    assert script.next(sim)["done"] is False
+    script.say(AHEAD)
+    assert script.next(sim)["steps"] == 1
+    brain.close()
+
+
+def test_with_others_there_a_reset_is_the_agents_own(script: UDPScript) -> None:
+    world = World()
+    agents = []
+    for index in range(2):
+        world.add_body(f"robot{index}", CircleShape(), position=(0, 3 * index))
+        remote = RemoteBrain(port=script.port, skip_frame=0)
+        local = LocalBrain(controller=lambda percept: {"move": [1, 0, 0, 0]}, skip_frame=0)
+        agents.append(
+            BasicAgent(
+                body=f"robot{index}",
+                id=str(index),
+                sensors=[BearingSensor(target="robot0")] if index else [],
+                actuators=[RBMoveActuator()],
+                brains=[remote if index else local],
+            )
+        )
+    sim = ControlRequestor(world, agents)
+    sim.reset(1)
+    state = script.meet(sim, agent="1")
+    assert (state["id"], state["done"]) == ("1", False)
+    assert sim.episode == 1
+    assert [agent.episode for agent in sim.agents] == [1, 2]
+    assert sim.agents[0].steps > 0
+    sim.agents[1].brain.close()
+
+
+def test_the_fields_of_a_command_drive_other_actuators(script: UDPScript) -> None:
+    actuators = [RBMoveActuator(), RBMoveActuator(action_name="other")]
+    sim, brain = remote_sim(script, actuators=actuators)
+    script.meet(sim)
+    script.say(f"{AHEAD}@other;4;0;1;0;0@note;1;hello")
+    script.next(sim)
+    assert sim.agents[0].last_action == {
+        "move": (1.0, 0.0, 0.0, 0.0),
+        "other": (0.0, 1.0, 0.0, 0.0),
+    }
+    brain.close()
+
+
+# -- wrong actions ---------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("reply", "says"),
+    [
+        ("move;2;1;0", "action 'move': expected 4 numbers, got 2"),
+        ("move;4;nan;0;0;0", "action 'move': expected finite numbers"),
+        ("move;4;inf;0;0;0", "action 'move': expected finite numbers"),
+        ("move;4;1,5;0;0;0", "action 'move': expected 4 numbers, got ('1,5', '0', '0', '0')"),
+        ("mvoe;4;1;0;0;0", "agent '0' has no actuator 'mvoe'; did you mean 'move'?"),
+    ],
+)
+def test_a_wrong_action_is_refused_and_the_script_gets_the_next_state(
+    script: UDPScript, reply: str, says: str
+) -> None:
+    sim, brain = remote_sim(script, on_missing="coast")
+    script.meet(sim)
+    script.say(reply)
+    assert script.next(sim)["steps"] == 1
+    status = brain.status()
+    assert (status.refused, status.missing, status.decisions) == (1, 1, 0)
+    assert says in status.reason
+    assert sim.agents[0].last_action == {}
+    script.say(AHEAD)
+    script.next(sim)
+    assert (brain.status().decisions, brain.status().reason) == (1, "")
+    brain.close()
+
+
+def test_what_is_out_of_range_is_cut_and_counted_once(script: UDPScript) -> None:
+    sim, brain = remote_sim(script)
+    script.meet(sim)
+    script.say("move;4;500;0;-1;0")
+    script.next(sim)
+    assert sim.agents[0].last_action == {"move": (1.0, 0.0, 0.0, 0.0)}
+    assert brain.status().clipped == 2
+    assert sim.agents[0].actuators[0].clipped == 2
+    brain.close()
+
+
+# -- faults ----------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("on_missing", "action"),
+    [("hold", {"move": (1.0, 0.0, 0.0, 0.0)}), ("coast", {}), ("stop", {"move": (0.0,) * 4})],
+)
+def test_a_lost_reply_ends_the_session_and_the_world_goes_on(
+    script: UDPScript, on_missing: str, action: dict[str, Any]
+) -> None:
+    sim, brain = remote_sim(script, on_missing=on_missing)
+    script.meet(sim)
+    script.say(AHEAD)
+    script.next(sim)  # and its reply is lost
+    silent(sim, brain)
+    status = brain.status()
+    assert status.reason.startswith(
+        f"the script at 127.0.0.1:{script.port} did not answer for 0.2 s: its session is over"
+    )
+    steps = sim.agents[0].steps
+    for _ in range(50):
+        sim.tick()
+    assert sim.agents[0].steps >= steps + 9
+    assert sim.agents[0].last_action == action
+    assert brain.status().missing >= 9
+    while (request := script.heard()) is not None:
+        assert "wait_command" in request  # the state was not sent again
+    brain.close()
+
+
+def test_after_a_loss_a_new_session_begins_without_a_restart(script: UDPScript) -> None:
+    sim, brain = remote_sim(script)
+    script.meet(sim)
+    silent(sim, brain)
+    script.say(AHEAD)  # much too late
+    ignored = brain.status().ignored
+    while script.heard() is not None:
+        pass
+    state = script.meet(sim)
+    assert (state["steps"], brain.status().state) == (0, "connected")
+    assert brain.status().ignored == ignored + 1
+    script.say(AHEAD)
+    assert script.next(sim)["steps"] == 1
+    brain.close()
+
+
+def test_a_repeated_reply_counts_once(script: UDPScript) -> None:
+    sim, brain = remote_sim(script)
+    script.meet(sim)
+    for step in range(1, 20):
+        script.say(f"move;4;{step / 100};0;0;0", times=2)
+        state = script.next(sim)
+        assert state["steps"] == step
+        assert sim.agents[0].last_action["move"][0] == pytest.approx(step / 100)
+    assert brain.status().ignored == 19
+    brain.close()
+
+
+def test_replies_from_elsewhere_and_garbage_are_ignored(script: UDPScript) -> None:
+    sim, brain = remote_sim(script)
+    script.meet(sim)
+    script.say_from_elsewhere("move;4;0;1;0;0")
+    for garbage in (b"", b"\xff\x00", b"move;4;1", b"max_steps;1;0@id;1;0", b"x" * 9000):
+        script.say(garbage)
+    script.say(AHEAD)
+    assert script.next(sim)["steps"] == 1
+    assert sim.agents[0].last_action == {"move": (1.0, 0.0, 0.0, 0.0)}
+    assert brain.status().ignored == 6
+    brain.close()
+
+
+def test_a_large_reply_is_read_to_its_end(script: UDPScript) -> None:
+    actuators = [RBMoveActuator(), RBMoveActuator(action_name="last")]
+    sim, brain = remote_sim(script, actuators=actuators)
+    script.meet(sim)
+    script.say(f"move;4;1.0;0;0;0@note;1;{'x' * 5000}@last;4;0;1;0;0")
+    assert script.next(sim)["steps"] == 1
+    assert sim.agents[0].last_action["last"] == (0.0, 1.0, 0.0, 0.0)
+    assert brain.status().ignored == 0
+    assert brain.status().decisions == 1
+    brain.close()
+
+
+def test_a_script_that_is_killed_and_one_that_comes_after_it(script: UDPScript) -> None:
+    sim, brain = remote_sim(script, on_missing="stop")
+    script.meet(sim)
+    script.say(AHEAD)
+    script.close()
+    until = time.monotonic() + 5
+    while brain.status().state != "lost":
+        assert time.monotonic() < until
+        sim.tick()
+    assert "is gone (Connection refused); start it again" in brain.status().reason
+    with udp_script(script.port) as another:
+        assert another.meet(sim)["done"] is False
+        another.say(AHEAD)
+        assert another.next(sim)["steps"] == 1
+    brain.close()
+
+
+def test_the_others_go_on_when_a_script_is_lost(script: UDPScript) -> None:
+    world = World()
+    agents = []
+    for index in range(2):
+        world.add_body(f"robot{index}", CircleShape(), position=(0, 3 * index))
+        brain = (
+            RemoteBrain(port=script.port, receive_timeout=200, skip_frame=0)
+            if index
+            else LocalBrain(controller=lambda percept: {}, skip_frame=0)
+        )
+        agents.append(
+            BasicAgent(
+                body=f"robot{index}",
+                id=str(index),
+                sensors=[BearingSensor(target="robot0")],
+                actuators=[RBMoveActuator()],
+                brains=[brain],
+            )
+        )
+    sim = ControlRequestor(world, agents)
+    sim.reset(1)
+    script.meet(sim, agent="1")
+    remote = agents[1].brain
+    assert isinstance(remote, RemoteBrain)
+    silent(sim, remote)
+    before = [agent.steps for agent in sim.agents]
+    for _ in range(20):
+        sim.tick()
+    assert [agent.steps for agent in sim.agents] == [steps + 20 for steps in before]
+    remote.close()
+
+
+def test_a_host_that_there_is_not() -> None:
+    with pytest.raises(SetupError, match="host: expected a name or an IPv4 address, got 'no such'"):
+        small_sim([BearingSensor(target="box")], brains=[RemoteBrain(host="no such")])
+
+
+# -- the runner ------------------------------------------------------------------------------------
+
+
+def test_a_world_that_waits_still_does_what_the_page_asks_for(script: UDPScript) -> None:
+    sim, brain = remote_sim(script)
+    brain.receive_timeout = 5000
+    script.meet(sim)
+    runner = Runner(sim, seed=1, time_scale=float("inf"))  # resets the world, too
+    script.say(WAIT)
+    runner.start()
+    began = time.monotonic()
+    runner.submit(lambda: None).result(2)
+    runner.pause().result(2)
+    assert runner.latest.paused
+    runner.reset(seed=5).result(2)
+    assert runner.latest.seed == 5
+    assert time.monotonic() - began < 2
+    runner.stop()
+
+
+def test_a_page_that_pauses_does_not_lose_the_script(script: UDPScript) -> None:
+    sim, brain = remote_sim(script)
+    runner = Runner(sim, seed=1, time_scale=float("inf"))
+    runner.pause()
+    runner.start()
+    for expected, reply in (("wait_command", NOOP), ("config", "max_steps;1;0@id;1;0")):
+        assert expected in script.hear()
+        script.say(reply)
+    for _ in range(3):  # it is asked again and again, so that it doesn't take us for dead
+        assert "wait_command" in script.hear()
+        script.say(NOOP)
+    script.hear()
+    script.say(RESET)
+    time.sleep(0.3)
+    assert script.heard() is None  # its reset waits until the time goes on
+    runner.resume()
+    assert script.hear()["steps"] == 0
+    script.say(WAIT)
+    runner.stop()
+    assert brain.status().state == "waiting"
+
+
+# -- real time -------------------------------------------------------------------------------------
+
+
+def test_in_real_time_the_world_never_waits(script: UDPScript) -> None:
+    sim, brain = remote_sim(script, mode="realtime", on_missing="stop", skip_frame=0)
+    agent = sim.agents[0]
+    for expected, reply in (
+        ("wait_command", NOOP),
+        ("config", "max_steps;1;0@id;1;0"),
+        ("wait_command", RESET),
+    ):
+        sim.tick()
+        assert expected in script.hear()
+        script.say(reply)
+    while sim.episode == 1:
+        sim.tick()
+    sim.tick()
+    assert script.hear()["steps"] == 0
+    before = (sim.world.ticks, agent.steps, brain.status().missing)
+    for _ in range(10):
+        sim.tick()
+    assert (sim.world.ticks, agent.steps) == (before[0] + 10, before[1] + 10)
+    assert brain.status().missing == before[2] + 10
+    assert brain.status().state == "late"
+    assert agent.last_action == {"move": (0.0, 0.0, 0.0, 0.0)}
+    script.say(AHEAD)  # late: it counts for the next decision
+    until = time.monotonic() + 5
+    while brain.status().decisions == 0:
+        assert time.monotonic() < until
+        sim.tick()
+    assert agent.last_action == {"move": (1.0, 0.0, 0.0, 0.0)}
+    assert brain.status().decisions == 1
+    state = script.hear()
+    assert state["steps"] >= before[1] + 10
+    brain.close()
+
+
+@pytest.mark.parametrize("mode", ["lockstep", "realtime"])
+def test_what_does_not_fit_into_a_datagram_is_an_error_of_the_world(
+    script: UDPScript, mode: Literal["lockstep", "realtime"]
+) -> None:
+    brain = RemoteBrain(port=script.port, mode=mode)
+    sensor = AgentArraySensor(size=1000, stacked_observations=40)
+    sim = small_sim([sensor], brains=[brain])
+    for reply in (NOOP, "max_steps;1;0@id;1;0", RESET):
+        script.next(sim)
+        script.say(reply)
+    with pytest.raises(WireError, match="make sensors that read much smaller"):
+        script.next(sim)
+    brain.close()
+
+
+def test_a_closed_brain_leaves_nothing_behind(script: UDPScript) -> None:
+    process = psutil.Process()
+    before = process.num_fds(), threading.active_count()
+    for mode in ("lockstep", "realtime"):
+        sim, brain = remote_sim(script, mode=mode)
+        for _ in range(5):
+            sim.tick()
+        brain.close()
+        brain.close()
+    assert (process.num_fds(), threading.active_count()) == before

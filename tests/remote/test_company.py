@@ -1,0 +1,103 @@
+"""Several agents, in lockstep and in realtime; and people who want something meanwhile."""
+
+import threading
+
+import pytest
+
+from ai4u_edu.remote import Robot, connect
+from ai4u_edu.server import frames
+from ai4u_edu.server.remote import sockets
+from tests.remote.rooms import Place, Script, log_of, log_room
+
+
+def test_in_lockstep_all_agents_take_each_step_together() -> None:
+    with log_room(3) as room:
+        robots = [connect(room.url, agent, mode="lockstep") for agent in "abc"]
+        ends: list[int] = []
+
+        def drive(robot: Robot) -> None:
+            for number in range(50):
+                robot.act(log=[number])
+                robot.sense()
+            ends.append(robot.sense().tick)
+
+        threads = [threading.Thread(target=drive, args=(robot,)) for robot in robots]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join(20)
+        assert len(ends) == 3
+        for agent in "abc":
+            # whoever has finished has the others wait, and does its last action again
+            assert [number for _, _, number in log_of(room, agent)][:50] == list(range(50))
+        for robot in robots:
+            robot.close()
+
+
+def test_a_silent_script_in_realtime_slows_nobody() -> None:
+    with log_room(2) as room, Script(room) as silent:
+        silent.hello(mode="realtime")
+        with connect(room.url, "b", mode="lockstep") as robot:
+            for number in range(300):
+                robot.act(log=[number])
+                robot.sense()
+            assert len(log_of(room, "b")) == 300
+        status = room.sim.agent("a").brain.status()  # type: ignore[attr-defined]  # RemoteBrain
+        assert (status.state, status.decisions) == ("late", 0)
+
+
+def test_a_world_that_waits_still_does_what_people_ask() -> None:
+    with log_room(receive_timeout=60_000) as room, Script(room) as script:
+        script.hello()
+        percept = script.percept()
+        room.runner.pause().result(5)
+        assert room.runner.latest.paused
+        room.runner.resume().result(5)
+        script.act(percept, 1)
+        percept = script.percept()
+        room.runner.reset(seed=9).result(5)
+        told = script.percept if not script.silence() else None
+        script.act(percept, 2)
+        percept = script.percept()
+        assert (percept.truncated, told) == (True, None)  # its episode was cut off
+
+
+@pytest.mark.parametrize("time_scale", [float("inf"), 1000.0])
+def test_a_world_as_fast_as_it_goes_goes_on_where_the_answer_is_heard(time_scale: float) -> None:
+    names = []
+
+    class Where(Place):
+        def read(self, body: object, view: object) -> object:
+            names.append(threading.current_thread().name)
+            return super().read(body, view)
+
+    with log_room(time_scale=time_scale) as room:
+        sensor = room.sim.agents[0].sensors[0]
+        sensor.__class__ = Where
+        with connect(room.url, mode="lockstep") as robot:
+            robot.sense()
+            names.clear()
+            for number in range(50):
+                robot.act(log=[number])
+                robot.sense()
+        assert (names.count("server") > 25) == (time_scale == float("inf"))
+
+
+def test_answers_take_the_short_way_and_find_another_one(monkeypatch: pytest.MonkeyPatch) -> None:
+    taken = []
+    hear = sockets._Connection.hear_answer
+
+    def count(self: sockets._Connection, frame: bytes) -> bool:
+        taken.append(hear(self, frame))
+        return taken[-1]
+
+    monkeypatch.setattr(sockets._Connection, "hear_answer", count)
+    for extension, short in ((frames.EXTENSION, True), ("there is none", False)):
+        monkeypatch.setattr(sockets, "EXTENSION", extension)
+        taken.clear()
+        with log_room() as room, connect(room.url, mode="lockstep") as robot:
+            for number in range(20):
+                robot.act(log=[number])
+                robot.sense()
+            assert [number for _, _, number in log_of(room)] == list(range(20))
+        assert (taken.count(True) >= 20) == short

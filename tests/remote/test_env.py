@@ -1,0 +1,85 @@
+"""The environment: the checkers' rules, and the same world as on this machine."""
+
+from typing import Any
+
+import gymnasium
+import numpy as np
+import pytest
+from gymnasium.utils.env_checker import check_env
+
+from ai4u_edu import AI4UError
+from ai4u_edu.envs import SceneEnv
+from ai4u_edu.remote import RemoteEnv
+from ai4u_edu.scenes import Scene
+from tests.server.rooms import Room, served
+
+
+def scene_room(name: str) -> Any:
+    sim = Scene.load(name).build()
+    sim.default_time_scale = float("inf")
+    return served(sim)
+
+
+def remote_env(room: Room, **options: Any) -> gymnasium.Env[Any, Any]:
+    agent = room.sim.agents[0].id
+    return gymnasium.make("ai4u_edu/Remote-v0", url=room.url, agent=agent, **options)
+
+
+@pytest.mark.parametrize("observation", ["dict", "flat"])
+def test_gymnasiums_checker_is_content(observation: str) -> None:
+    with scene_room("box_chase") as room:
+        env = remote_env(room, observation=observation)
+        check_env(env.unwrapped)
+        env.close()
+
+
+@pytest.mark.parametrize("observation", ["dict", "flat"])
+@pytest.mark.parametrize("scene", ["box_chase", "sample_scene", "platform"])
+def test_it_is_the_same_environment_as_on_this_machine(scene: str, observation: str) -> None:
+    here = SceneEnv(scene, observation=observation)
+    with scene_room(scene) as room:
+        there = remote_env(room, observation=observation)
+        assert there.observation_space == here.observation_space
+        assert there.action_space == here.action_space
+        here.action_space.seed(3)
+        for seed in (1, 2):
+            same(there.reset(seed=seed)[0], here.reset(seed=seed)[0])
+            for _ in range(40):
+                action = here.action_space.sample()
+                mine, yours = here.step(action), there.step(action)
+                same(yours[0], mine[0])
+                assert yours[1:4] == mine[1:4]
+                assert yours[4]["reward_terms"] == mine[4]["reward_terms"]
+                if mine[2] or mine[3]:
+                    break
+        there.close()
+
+
+def test_a_wish_that_can_not_be_met_is_explained() -> None:
+    with pytest.raises(AI4UError, match="observation: expected 'dict' or 'flat', got 'flatt'"):
+        RemoteEnv(observation="flatt")
+    with pytest.raises(AI4UError, match="render_mode: expected None"):
+        RemoteEnv(render_mode="rgb_array")
+
+
+@pytest.mark.filterwarnings("ignore")  # what Stable-Baselines3 complains of in itself
+def test_stable_baselines_checks_and_learns() -> None:
+    checker = pytest.importorskip("stable_baselines3.common.env_checker")
+    from stable_baselines3 import PPO
+
+    with scene_room("box_chase") as room:
+        env = remote_env(room, observation="flat")
+        checker.check_env(env.unwrapped)
+        model = PPO("MlpPolicy", env, n_steps=64, batch_size=32, n_epochs=1, device="cpu")
+        model.learn(128)
+        assert model.num_timesteps == 128
+        env.close()
+
+
+def same(one: Any, other: Any) -> None:
+    if isinstance(one, dict):
+        assert one.keys() == other.keys()
+        for key in one:
+            np.testing.assert_array_equal(one[key], other[key])
+    else:
+        np.testing.assert_array_equal(one, other)

@@ -1,0 +1,20 @@
+"""Who drives a robot elsewhere loads nothing that a world needs."""
+
+import subprocess
+import sys
+
+HEAVY = ("pymunk", "viser", "pydantic", "starlette", "uvicorn", "ruamel", "typer", "rich")
+OURS = ("blocks", "world", "agent", "scenes", "runner", "server", "viewer", "parameters")
+
+
+def test_the_client_is_light() -> None:
+    code = (
+        "import sys; from ai4u_edu.remote import connect, AsyncRobot, RemoteEnv; "
+        "import gymnasium; gymnasium.spec('ai4u_edu/Remote-v0'); "
+        f"print([name for name in {HEAVY} if name in sys.modules] + "
+        f"[name for name in {OURS} if 'ai4u_edu.' + name in sys.modules])"
+    )
+    found = subprocess.run(
+        [sys.executable, "-c", code], capture_output=True, text=True, check=True, timeout=60
+    )
+    assert found.stdout.strip() == "[]"

@@ -1,0 +1,142 @@
+"""Frames that come twice, late, or not at all: everything counts once, and where it belongs."""
+
+import pytest
+
+from ai4u_edu.wire import native
+from tests.remote.rooms import Script, log_of, log_room
+from tests.server.rooms import until
+
+
+def test_each_action_is_the_answer_to_one_percept() -> None:
+    with log_room() as room, Script(room) as script:
+        assert isinstance(script.hello(), native.Welcome)
+        for number in range(1, 4):
+            percept = script.percept()
+            script.act(percept, number)
+        last = script.percept()
+        first = log_of(room)[0][1]
+        assert log_of(room) == [(1, first, 1.0), (1, first + 1, 2.0), (1, first + 2, 3.0)]
+        assert (last.step, last.reward, last.terms) == (first + 3, 1.0, {"pay": 1.0})
+
+
+def test_a_repeated_action_is_applied_once_and_the_next_percept_said_again() -> None:
+    with log_room() as room, Script(room) as script:
+        script.hello()
+        first = script.percept()
+        script.act(first, 1)
+        second = script.percept()
+        script.act(first, 1)
+        assert script.percept() == second
+        script.act(first, 99)  # another action under an old number
+        assert script.percept() == second
+        script.act(second, 2)
+        script.percept()
+        assert [number for _, _, number in log_of(room)] == [1.0, 2.0]
+
+
+def test_an_action_for_a_percept_that_is_yet_to_come_is_no_answer() -> None:
+    with log_room() as room, Script(room) as script:
+        script.hello()
+        percept = script.percept()
+        script.act(percept, 1, seq=percept.seq + 1)
+        assert script.percept() == percept
+        assert log_of(room) == []
+
+
+@pytest.mark.parametrize("changed", [{"step": 7}, {"episode": 7}])
+def test_an_action_says_which_step_it_is_for(changed: dict[str, int]) -> None:
+    with log_room() as room, Script(room) as script:
+        script.hello()
+        percept = script.percept()
+        script.act(percept, 1, **changed)
+        problem = script.hear()
+        assert isinstance(problem, native.Problem)
+        assert (problem.code, problem.seq) == ("bad_action", percept.seq)
+        assert log_of(room) == []
+        script.act(percept, 2)
+        script.percept()
+        assert [number for _, _, number in log_of(room)] == [2.0]
+
+
+def test_a_repeated_hello_is_answered_again_with_the_percept() -> None:
+    with log_room() as room, Script(room) as script:
+        welcome = script.hello()
+        percept = script.percept()
+        assert script.hello() == welcome
+        assert script.percept() == percept
+
+
+def test_a_repeated_reset_begins_one_episode() -> None:
+    with log_room() as room, Script(room) as script:
+        script.hello()
+        before = script.percept()
+        script.say(native.Reset(before.seq, 5))
+        after = script.percept()
+        script.say(native.Reset(before.seq, 5))
+        assert script.percept() == after
+        assert (after.episode, after.step) == (before.episode + 1, 0)
+        assert room.sim.world.seeds.seed == 5
+
+
+def test_an_action_that_comes_too_late_is_applied_to_no_other_step() -> None:
+    with log_room(receive_timeout=200) as room, Script(room) as script:
+        script.hello()
+        percept = script.percept()
+        agent = room.sim.agents[0]
+        until(lambda: agent.steps > percept.step + 1)  # the world went on without it
+        script.act(percept, 13)
+        later = script.percept()
+        assert later.step > percept.step + 1
+        assert 13.0 not in [number for _, _, number in log_of(room)]
+        assert later.reward == later.step - percept.step  # what was paid meanwhile is not lost
+
+
+def test_in_realtime_the_world_does_not_wait_and_an_action_counts_once() -> None:
+    with log_room(time_scale=1.0) as room, Script(room) as script:
+        script.hello(mode="realtime")
+        percept = script.percept()
+        agent = room.sim.agents[0]
+        until(lambda: agent.steps > percept.step + 5)
+        script.act(percept, 13)
+        later = script.percept()
+        until(lambda: agent.steps > later.step + 5)
+        taken = [number for _, _, number in log_of(room)]
+        assert taken.index(13.0) > 0 or taken[0] == 13.0
+        assert agent.brain.status().decisions == 1  # type: ignore[attr-defined]  # a RemoteBrain
+        assert later.step > percept.step
+
+
+def test_an_episode_that_is_over_wants_a_reset() -> None:
+    with log_room(max_steps=3) as room, Script(room) as script:
+        script.hello()
+        percept = script.percept()
+        while not percept.truncated:
+            script.act(percept, 1)
+            percept = script.percept()
+        script.act(percept, 2)
+        assert script.hear() == native.Problem(
+            "episode_over", "the episode is over; expected a reset", percept.seq
+        )
+        script.say(native.Reset(percept.seq, None))
+        assert script.percept().step == 0
+
+
+def test_of_several_agents_one_begins_anew_alone_unless_it_gives_a_seed() -> None:
+    with log_room(2) as room, Script(room) as script:
+        script.hello()
+        percept = script.percept()
+        world = room.sim.episode
+        script.say(native.Reset(percept.seq, None))
+        percept = script.percept()
+        assert (percept.episode, room.sim.episode) == (2, world)
+        script.say(native.Reset(percept.seq, 3))
+        assert (script.percept().episode, room.sim.episode) == (3, world + 1)
+
+
+def test_a_script_gets_the_readings_that_it_wants() -> None:
+    with log_room() as room, Script(room) as script:
+        welcome = script.hello(keys=("id", "done"))
+        assert isinstance(welcome, native.Welcome)
+        assert [reading.key for reading in welcome.readings] == ["done", "id"]
+        percept = script.percept()
+        assert (percept.data, percept.texts) == (b"\x00", ("a",))

@@ -1,0 +1,179 @@
+"""Each thing that a script may do wrong has its own error, with what to do."""
+
+import pytest
+
+from ai4u_edu.remote import LostError, RefusedError, connect
+from ai4u_edu.server.remote import sockets
+from ai4u_edu.wire import native
+from tests.remote.rooms import Script, log_of, log_room, log_sim
+from tests.server.rooms import UPGRADE, Room, free_port, raw_answer, served
+
+
+def refused(room: Room, code: str, **hello: object) -> str:
+    """How a hello is refused: the problem, and the close that follows."""
+    with Script(room) as script:
+        problem = script.hello(**hello)
+        assert isinstance(problem, native.Problem), problem
+        assert problem.code == code
+        closed, reason = script.end()
+        assert closed == native.PROBLEMS[code]
+        assert problem.text.startswith(reason)
+        return problem.text
+
+
+def test_each_refusal_says_what_to_do() -> None:
+    with log_room(2, token="sesame") as room:
+        said = {"token": "sesame"}
+        assert refused(room, "version", **said, version=7) == (
+            "expected version 1, got 7; install the ai4u-edu that the world has "
+            "(pip install -U ai4u-edu, on both machines)"
+        )
+        assert refused(room, "unknown_agent", **said, agent="A") == (
+            "no agent has the id 'A'; known are 'a', 'b'"
+        )
+        assert refused(room, "unknown_agent", **said, agent="") == (
+            "which agent? none was named; known are 'a', 'b'"
+        )
+        assert refused(room, "bad_token") == (
+            "expected this world's token, got none; it stands in the page's address, as in "
+            "connect('http://teacher:8080/?token=...')"
+        )
+        assert "got another one" in refused(room, "bad_token", token="open")
+        assert refused(room, "unknown_key", **said, keys=("plaec",)) == (
+            "no reading is called 'plaec'; did you mean 'place'?"
+        )
+        assert refused(room, "session_over", **said, session="1234") == (
+            "session '1234' of agent 'a' is over; connect anew"
+        )
+        assert refused(room, "malformed", **said, secret="short") == (
+            "secret: expected at least 16 characters, got 5"
+        )
+        with Script(room) as first:
+            first.hello(**said)
+            assert refused(room, "agent_taken", **said, secret="another long secret") == (
+                "agent 'a' is driven by another script; free are 'b'; a seat is free 3 s after "
+                "its script has ended"
+            )
+
+
+def test_a_client_of_another_version_is_told_so() -> None:
+    with log_room() as room:
+        for spoken, got in (("ai4u-edu-remote.v9", "ai4u-edu-remote.v9"), (None, "none")):
+            with Script(room, subprotocol=spoken) as script:
+                problem = script.hear()
+                assert isinstance(problem, native.Problem)
+                assert problem.code == "version"
+                assert problem.text.startswith(
+                    f"expected subprotocol 'ai4u-edu-remote.v1', got {got}; install"
+                )
+                assert script.end()[0] == native.PROBLEMS["version"]
+
+
+def test_a_bad_action_is_answered_and_never_applied() -> None:
+    with log_room() as room, Script(room) as script:
+        script.hello()
+        percept = script.percept()
+        wrong: list[tuple[dict[str, tuple[float, ...]], str]] = [
+            ({"lgo": (1.0,)}, "agent 'a' has no actuator 'lgo'; did you mean 'log'?"),
+            ({"log": ()}, "action 'log': expected 1 numbers, got 0: ()"),
+            ({"log": (float("nan"),)}, "action 'log': expected finite numbers, got (nan,)"),
+            ({"log": (float("inf"),)}, "action 'log': expected finite numbers, got (inf,)"),
+        ]
+        for values, complaint in wrong:
+            script.say(native.Action(percept.episode, percept.step, percept.seq, values))
+            assert script.hear() == native.Problem("bad_action", complaint, percept.seq)
+        assert log_of(room) == []
+        script.act(percept, -5)  # out of range: cut, and counted
+        script.percept()
+        assert [number for _, _, number in log_of(room)] == [0.0]
+        assert room.sim.agents[0].brain.status().clipped == 1  # type: ignore[attr-defined]
+
+
+def test_malformed_frames_are_answered_and_then_end_the_connection() -> None:
+    with log_room() as room, Script(room) as script:
+        script.hello()
+        percept = script.percept()
+        for _ in range(sockets.MISTAKES - 1):
+            script.socket.send(b"\xc1")
+            problem = script.hear()
+            assert isinstance(problem, native.Problem)
+            assert problem.code == "bad_message"
+            assert problem.text.startswith("expected msgpack, got b'\\xc1' (")
+        script.act(percept, 1)  # a good one in between: the count begins anew
+        script.percept()
+        for _ in range(sockets.MISTAKES):
+            script.socket.send("text")
+        code, reason = script.end()
+        assert code == native.PROBLEMS["malformed"]
+        assert reason.startswith("5 malformed frames in a row; the last: expected msgpack")
+
+
+@pytest.mark.parametrize("message", [native.Bye("x"), native.Reset(1, None)])
+def test_whoever_does_not_say_hello_first_is_told_to(message: native.Message) -> None:
+    with log_room() as room, Script(room) as script:
+        script.say(message)
+        kind = type(message).__name__.lower()
+        assert script.hear() == native.Problem("bad_message", f"expected a hello, got a {kind}", 0)
+
+
+def test_a_second_hello_can_not_be_another_one() -> None:
+    with log_room(2) as room, Script(room) as script:
+        script.hello()
+        script.percept()
+        assert script.hello(agent="b") == native.Problem(
+            "bad_message", "expected one hello in a connection, got another one", 0
+        )
+        assert room.sim.agent("b").brain.title() == "LocalBrain(ScriptController)"
+
+
+def test_a_frame_that_is_too_large_ends_the_connection() -> None:
+    with log_room() as room, Script(room) as script:
+        script.hello()
+        script.socket.send(bytes(native.LARGEST_SAID + 1))
+        assert script.end() == (
+            native.PROBLEMS["too_large"],
+            f"expected at most {native.LARGEST_SAID} bytes in a frame, got "
+            f"{native.LARGEST_SAID + 1}",
+        )
+
+
+def test_a_flood_ends_the_connection() -> None:
+    with log_room() as room, Script(room) as script:
+        script.hello()
+        percept = script.percept()
+        late = native.encode(native.Action(1, 0, percept.seq + 9, {}))
+        for _ in range(2 * sockets.PER_SECOND):
+            script.socket.send(late)
+        assert script.end() == (
+            native.PROBLEMS["too_fast"],
+            f"expected at most {sockets.PER_SECOND} frames a second that answer nothing",
+        )
+
+
+def test_a_connection_that_says_nothing_is_ended(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(sockets, "HELLO_WITHIN", 0.1)
+    with log_room() as room, Script(room) as script:
+        assert script.end() == (native.PROBLEMS["malformed"], "expected a hello within 0.1 s")
+
+
+def test_a_foreign_page_may_not_open_the_socket() -> None:
+    with log_room() as room:
+        status, why = raw_answer(
+            room.url + "ws/remote", "Host: localhost", "Origin: http://evil.example", *UPGRADE
+        )
+        assert status == 403
+        assert why.startswith("Origin: expected")
+
+
+def test_the_client_raises_what_the_world_says() -> None:
+    with log_room(2) as room:
+        with pytest.raises(RefusedError, match="no agent has the id 'red'") as refusal:
+            connect(room.url, agent="red")
+        assert refusal.value.code == "unknown_agent"
+    with (
+        served(log_sim(), allowed_hosts=["elsewhere"]) as room,
+        pytest.raises(LostError, match="expected a world, got answer 403 Host: expected"),
+    ):
+        connect(room.url, patience=1)
+    with pytest.raises(LostError, match="is it running, and is the address right"):
+        connect(f"http://127.0.0.1:{free_port()}", patience=1)

@@ -1,0 +1,127 @@
+"""Connections that are lost, and sessions that go on over other ones."""
+
+import threading
+import time
+from socket import SHUT_RDWR
+
+import pytest
+
+from ai4u_edu.remote import LostError, RefusedError, Robot, connect
+from ai4u_edu.wire import native
+from tests.remote.rooms import SECRET, Script, log_of, log_room
+from tests.server.rooms import until
+
+
+def cut(robot: Robot) -> None:
+    """Cuts a robot's connection, without a farewell."""
+    robot._line._there.socket.shutdown(SHUT_RDWR)
+
+
+def test_a_session_goes_on_where_it_was() -> None:
+    with log_room(grace=5.0, receive_timeout=5000) as room:
+        with Script(room) as script:
+            welcome = script.hello()
+            assert isinstance(welcome, native.Welcome)
+            script.act(script.percept(), 1)
+            percept = script.percept()
+            script.socket.socket.shutdown(SHUT_RDWR)  # without a farewell
+        with Script(room) as script:
+            again = script.hello(session=welcome.session)
+            assert again == welcome
+            assert script.percept() == percept
+            script.act(percept, 2)
+            assert script.percept().step == percept.step + 1
+        assert [number for _, _, number in log_of(room)] == [1.0, 2.0]
+
+
+def test_the_secret_alone_is_enough_and_nothing_else_is() -> None:
+    with log_room(grace=5.0) as room, Script(room) as first:
+        welcome = first.hello()
+        assert isinstance(welcome, native.Welcome)
+        with Script(room) as thief:
+            answer = thief.hello(session=welcome.session, secret=SECRET + "?")
+            assert isinstance(answer, native.Problem)
+            assert answer.code == "session_over"
+        with Script(room) as second:
+            assert second.hello() == welcome
+            code, reason = first.end()
+            assert (code, reason) == (
+                native.PROBLEMS["taken_over"],
+                "the session goes on over another connection",
+            )
+            assert second.percept().seq == 1
+
+
+def test_a_lost_connection_is_taken_up_again_unnoticed() -> None:
+    with (
+        log_room(grace=5.0, receive_timeout=5000) as room,
+        connect(room.url, mode="lockstep") as robot,
+    ):
+        robot.reset()
+        for number in range(1, 40):
+            robot.act(log=[number])
+            if number % 10 == 0:
+                cut(robot)
+            robot.sense()
+        assert [number for _, _, number in log_of(room)] == list(range(1, 40))
+        assert [step for _, step, _ in log_of(room)] == list(range(39))
+
+
+def test_a_script_that_comes_too_late_finds_its_seat_free() -> None:
+    with log_room(grace=0.2) as room:
+        robot = connect(room.url, mode="lockstep")
+        before = room.sim.agents[0].brains[0]
+        robot.sense()
+        session = robot.session
+        cut(robot)
+        until(lambda: room.sim.agents[0].brain is before)
+        with pytest.raises(RefusedError, match=r"session '\w+' of agent 'a' is over; connect anew"):
+            connect(room.url, mode="lockstep", session=session).sense()
+        with pytest.raises(LostError):
+            robot.reset()
+        with connect(room.url) as another:
+            assert another.sense()["id"] == "a"
+
+
+def test_another_process_may_go_on_with_a_session() -> None:
+    with log_room(grace=5.0, receive_timeout=5000) as room:
+        first = connect(room.url, mode="lockstep")
+        percept = first.sense()
+        with connect(room.url, "a", mode="lockstep", session=first.session) as second:
+            assert second.sense() == percept
+            second.act(log=[1])
+            assert second.sense().step == percept.step + 1
+            with pytest.raises(LostError, match="the session goes on over another connection"):
+                first.act(log=[2])
+
+
+def test_in_realtime_a_lost_script_stops_its_agent_and_in_time_frees_it() -> None:
+    with log_room(time_scale=1.0, grace=1.0) as room:
+        agent = room.sim.agents[0]
+        robot = connect(room.url)
+        robot.act(log=[5])
+        robot.sense()
+        until(lambda: agent.last_action.get("log") == (5.0,))
+        lost = time.monotonic()
+        cut(robot)
+        until(lambda: agent.last_action.get("log") == (0.0,))
+        stopped = time.monotonic() - lost
+        assert agent.brain.status().state == "lost"  # type: ignore[attr-defined]  # RemoteBrain
+        until(lambda: agent.brain is agent.brains[0])
+        print(f"stopped after {stopped:.2f} s, free after {time.monotonic() - lost:.2f} s")
+        robot.close()
+
+
+def test_nothing_is_left_behind() -> None:
+    with log_room(grace=0.1) as room:
+        connect(room.url).close()
+        agent = room.sim.agents[0]
+        until(lambda: agent.brain is agent.brains[0])
+        before = threading.active_count()
+        for _ in range(5):
+            robot = connect(room.url)
+            robot.sense()
+            cut(robot)
+            until(lambda: len(agent.brains) == 1 and agent.brain is agent.brains[0])
+            robot.close()
+        until(lambda: threading.active_count() <= before)
