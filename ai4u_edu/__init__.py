@@ -102,6 +102,7 @@ _HOMES = {
     ),
     "cycle": ("ControlRequestor",),
     "errors": ("AI4UError",),
+    "recording": ("Episode", "Recorder", "Replay"),
     "scenes": ("Scene",),
     "world": (
         "AreaDescription",

@@ -91,6 +91,9 @@ from ai4u_edu.check import check_scene as check_scene
 from ai4u_edu.check import check_sensor as check_sensor
 from ai4u_edu.cycle import ControlRequestor as ControlRequestor
 from ai4u_edu.errors import AI4UError as AI4UError
+from ai4u_edu.recording import Episode as Episode
+from ai4u_edu.recording import Recorder as Recorder
+from ai4u_edu.recording import Replay as Replay
 from ai4u_edu.scenes import Scene as Scene
 from ai4u_edu.version import __version__ as __version__
 from ai4u_edu.world import AreaDescription as AreaDescription

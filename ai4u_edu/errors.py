@@ -11,6 +11,7 @@
     ├── WorldError             the world can't do this (too many bodies, a place is taken)
     ├── ReadingError           a sensor gave something that it had not declared
     ├── ActionError            an action that no actuator can carry out
+    ├── RecordingError         an episode can't be read, or played again (in ai4u_edu.recording)
     ├── WireError              what came over a network is no message (in ai4u_edu.wire)
     ├── RemoteError            a robot that is somewhere else (in ai4u_edu.remote)
     │   ├── RefusedError       the world does not give it to this script

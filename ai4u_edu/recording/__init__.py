@@ -1,0 +1,20 @@
+"""Episodes that are kept, played again exactly, and exported."""
+
+from ai4u_edu.recording.episode import AgentRecord, Decision, Episode
+from ai4u_edu.recording.errors import RecordingError
+from ai4u_edu.recording.ghost import Ghost, ghost_of
+from ai4u_edu.recording.recorder import Recorder
+from ai4u_edu.recording.replay import Moment, Replay, Verdict
+
+__all__ = [
+    "AgentRecord",
+    "Decision",
+    "Episode",
+    "Ghost",
+    "Moment",
+    "Recorder",
+    "RecordingError",
+    "Replay",
+    "Verdict",
+    "ghost_of",
+]

@@ -1,0 +1,98 @@
+"""The scene that a world is: as data, with which the same world can be made somewhere else."""
+
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+import numpy as np
+
+from ai4u_edu.agent import BasicAgent
+from ai4u_edu.blocks import Block, Brain
+from ai4u_edu.cycle import ControlRequestor
+from ai4u_edu.recording.errors import RecordingError
+from ai4u_edu.scenes import SceneDescription
+from ai4u_edu.scenes.plain import fits_a_file, to_plain
+from ai4u_edu.world import AreaDescription, BodyDescription, FloorDescription
+
+
+def scene_of(sim: ControlRequestor, like: SceneDescription | None = None) -> SceneDescription:
+    """A world and its agents as a scene.
+
+    A brain that no file can hold, such as a Python function, is left out.
+
+    Args:
+        sim: the world and its agents.
+        like: where name, title and goal come from.
+
+    Raises:
+        RecordingError: a parameter of a block is nothing that a file can hold.
+    """
+    things = sim.world.described
+    fields: dict[str, Any] = {
+        "time_scale": sim.default_time_scale,
+        "world": sim.world.settings,
+        "floors": tuple(each for each in things if isinstance(each, FloorDescription)),
+        "areas": tuple(each for each in things if isinstance(each, AreaDescription)),
+        "bodies": tuple(each for each in things if isinstance(each, BodyDescription)),
+        "agents": tuple(_agent(agent) for agent in sim.agents),
+    }
+    if like is None:
+        return SceneDescription(
+            name="recorded", goal=sim.goal, success=sim.success or None, **fields
+        )
+    return like.model_copy(update=fields)
+
+
+def without_brains(scene: SceneDescription) -> list[Any]:
+    """What of a scene decides how its world goes on once the actions are given."""
+    agents = [{k: v for k, v in agent.items() if k != "brains"} for agent in scene.agents]
+    return [scene.world, scene.floors, scene.areas, scene.bodies, agents]
+
+
+def _agent(agent: BasicAgent) -> dict[str, Any]:
+    given = agent.given()
+    brains = given.pop("brains", [])
+    try:
+        plain: dict[str, Any] = _numbers(to_plain(given))
+    except TypeError as error:
+        raise RecordingError(f"agent {agent.id!r}: {error}") from None
+    kept = [_numbers(to_plain(brain)) for brain in brains if _fits(brain)]
+    if kept:
+        plain["brains"] = kept
+        if sum(brain.get("enabled", True) for brain in kept) != 1:
+            # the one that drove is not among them
+            plain["brains"] = [brain | {"enabled": brain is kept[0]} for brain in kept]
+    return plain
+
+
+def _fits(brain: Brain) -> bool:
+    try:
+        _numbers(to_plain(brain))
+    except TypeError:
+        return False
+    return all(
+        fits_a_file(type(block)) and Block.types.get(type(block).__name__) is type(block)
+        for block in _blocks(brain)
+    )
+
+
+def _blocks(block: Block) -> Iterator[Block]:
+    yield block
+    for value in block.values().values():
+        if isinstance(value, Block):
+            yield from _blocks(value)
+
+
+def _numbers(value: Any) -> Any:
+    """Plain data, with Python's own numbers in it."""
+    if value is None or isinstance(value, bool | str):
+        return value
+    if isinstance(value, np.generic | np.ndarray):
+        return value.tolist()
+    for kind in (int, float):
+        if isinstance(value, kind):
+            return kind(value)
+    if isinstance(value, Mapping):
+        return {str(key): _numbers(each) for key, each in value.items()}
+    if isinstance(value, list | tuple):
+        return [_numbers(each) for each in value]
+    raise TypeError(f"expected a parameter that a file can hold, got {value!r}")

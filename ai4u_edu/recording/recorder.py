@@ -1,0 +1,159 @@
+"""Keeps the last episodes of a world, whoever drives its agents."""
+
+from collections import deque
+from collections.abc import Callable
+from typing import Any, TypeVar
+
+from ai4u_edu.agent import BasicAgent
+from ai4u_edu.blocks import Block
+from ai4u_edu.cycle import ControlRequestor
+from ai4u_edu.recording.episode import Episode
+from ai4u_edu.recording.errors import RecordingError
+from ai4u_edu.recording.fingerprint import everything
+from ai4u_edu.recording.portrait import scene_of
+from ai4u_edu.recording.tape import Tape
+from ai4u_edu.scenes import SceneDescription
+
+T = TypeVar("T")
+
+
+class Recorder:
+    """Listens to all agents of a world, and keeps its last episodes.
+
+    It hears what the brains decided and does not ask them, so it does not matter who drives: a
+    person, a script, a network, an environment's ``step``. Switched off, it listens to nothing.
+
+    Args:
+        sim: the world and its agents. An episode that is under way already is left out.
+        scene: where it comes from; its name, title and goal go into the episodes.
+        keep: how many episodes are kept.
+        on_episode: called with each one when it is over, in the thread that runs the world.
+
+    >>> from ai4u_edu import Scene
+    >>> scene = Scene.load("box_chase")
+    >>> sim = scene.build()
+    >>> recorder = Recorder(sim, scene=scene.description)
+    >>> sim.reset(seed=5)
+    >>> for _ in range(3):
+    ...     percept = sim.step()
+    >>> sim.reset()
+    >>> episode = recorder.episodes[-1]
+    >>> episode.seed, len(episode.agent("0")), episode.seconds
+    (5, 3, 0.25)
+    """
+
+    def __init__(
+        self,
+        sim: ControlRequestor,
+        *,
+        scene: SceneDescription | None = None,
+        keep: int = 50,
+        on_episode: Callable[[Episode], object] | None = None,
+    ) -> None:
+        self.sim = sim
+        self.scene = scene
+        self.episodes: deque[Episode] = deque(maxlen=keep)
+        """Those that are over, the latest last."""
+        self.problem = ""
+        """Why the episode that is under way can't be recorded; empty if it can."""
+        self.on_episode = on_episode
+        self._tape: Tape | None = None
+        self._world_episode = sim.episode
+        self._listening = False
+        self.switch(True)
+        if sim.episode and sim.world.ticks == 0 and sim.between_decisions():
+            self._begin()
+            for agent in sim.agents:
+                self._first(agent)
+
+    def switch(self, on: bool) -> None:
+        """On: listens from the next reset on. Off: what was heard so far is kept as an episode."""
+        if on == self._listening:
+            return
+        self._listening = on
+        if not on:
+            self.finish()
+        for agent in self.sim.agents:
+            for event, handler in (
+                (agent.before_the_reset, self._leave),
+                (agent.begin_of_episode, self._first),
+                (agent.begin_of_step, self._decided),
+                (agent.end_of_update_state, self._sensed),
+            ):
+                (event.connect if on else event.disconnect)(handler)
+
+    def now(self) -> Episode | None:
+        """The episode that is under way, as far as it got."""
+        return None if self._tape is None else self._tape.episode()
+
+    def finish(self) -> None:
+        """The episode that is under way is over: nothing more of it is recorded."""
+        tape, self._tape = self._tape, None
+        if tape is None:
+            return
+        episode = tape.episode()
+        if not any(map(len, episode.agents)):
+            return
+        self.episodes.append(episode)
+        if self.on_episode is not None:
+            self.on_episode(episode)
+
+    def guard(self, command: Callable[[], T]) -> T:
+        """Carries out what somebody asked for, and notices whether the world was changed by that.
+
+        An episode can be played again exactly up to such a change, and not beyond.
+        """
+        tape = self._tape
+        if tape is None or tape.changed is not None:
+            return command()
+        ticks, restarts, before = self.sim.world.ticks, tape.restarts, self._all()
+        try:
+            return command()
+        finally:
+            same = self._tape is tape and tape.restarts == restarts
+            if same and self.sim.world.ticks == ticks and self._all() != before:
+                tape.changed = ticks
+
+    # -- what it hears ---------------------------------------------------------------------------
+
+    def _leave(self, _agent: BasicAgent) -> None:
+        if self._tape is not None:
+            self._tape.leave()
+
+    def _first(self, agent: BasicAgent) -> None:
+        if self.sim.episode != self._world_episode:
+            self.finish()
+            self._begin()
+        if self._tape is not None:
+            self._tape.first(agent)
+
+    def _decided(self, agent: BasicAgent) -> None:
+        if self._tape is not None:
+            self._tape.decided(agent)
+
+    def _sensed(self, agent: BasicAgent) -> None:
+        if self._tape is not None:
+            self._tape.sensed(agent)
+
+    def _begin(self) -> None:
+        self._world_episode = self.sim.episode
+        self.problem = ""
+        try:
+            self._tape = Tape(self.sim, scene_of(self.sim, self.scene))
+        except RecordingError as error:  # no reason for the world to stop
+            self.problem = str(error)
+
+    def _all(self) -> list[Any]:
+        """All that a person may change by hand; who drives is no part of it."""
+        blocks: list[Any] = [everything(self.sim.world)]
+        for agent in self.sim.agents:
+            blocks.append(agent.fitting)
+            blocks += [
+                (block, _values(block))
+                for block in (*agent.sensors, *agent.actuators, *agent.rewards)
+            ]
+        return blocks
+
+
+def _values(block: Block) -> dict[str, Any]:
+    return {name: repr(value) for name, value in block.values().items()}

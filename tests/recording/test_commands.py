@@ -1,0 +1,113 @@
+"""record, replay, dataset: as processes of their own."""
+
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from ai4u_edu.recording import Episode, Replay
+from tests.playing import played
+
+SEEK = """
+def seek(percept):
+    return {"move": [1.0, 0, 0, 0] if percept["orientation"][0] > 0.99 else [0, 0.2, 0, 0]}
+"""
+
+
+def run(*args: str | int | Path) -> subprocess.CompletedProcess[str]:
+    command = [sys.executable, "-m", "ai4u_edu", *map(str, args)]
+    return subprocess.run(command, capture_output=True, text=True, check=False)
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("record")
+    (folder / "mine.py").write_text(SEEK)
+    told = run(
+        *("record", "box_chase", "--brain", f"{folder / 'mine.py'}:seek"),
+        *("--episodes", 2, "--seed", 5, "--out", folder / "kept"),
+    )
+    assert told.returncode == 0, told.stderr
+    assert "yes" in told.stdout
+    return folder / "kept"
+
+
+def test_record_keeps_each_episode_as_a_file(folder: Path) -> None:
+    files = sorted(folder.glob("*.episode"))
+    assert [file.name for file in files] == ["box_chase-5.episode", "box_chase-6.episode"]
+    episode = Episode.load(files[0])
+    assert (episode.seed, episode.success, episode.scene.name) == (5, True, "box_chase")
+    assert Replay(episode).verdict.exact
+
+
+def test_replay_says_that_it_is_exact_and_exports(folder: Path, tmp_path: Path) -> None:
+    out = [tmp_path / f"one.{kind}" for kind in ("html", "gif", "csv", "mp4")]
+    told = run(
+        "replay",
+        folder / "box_chase-5.episode",
+        *(part for path in out for part in (f"--{path.suffix[1:]}", path)),
+    )
+    assert told.returncode == 0, told.stderr
+    assert "it plays again exactly, bit for bit" in told.stdout
+    assert "touch 100" in told.stdout
+    assert all(path.stat().st_size > 1000 for path in out)
+
+
+def test_replay_says_where_it_is_not(folder: Path, tmp_path: Path) -> None:
+    episode = Episode.load(folder / "box_chase-5.episode")
+    episode.agents[0].percepts[10] ^= 1
+    told = run("replay", episode.save(tmp_path / "wrong.episode"))
+    assert told.returncode == 1
+    assert "it plays again exactly up to 0.85 s and not beyond: agent '0', decision 10: " in (
+        told.stdout
+    )
+
+
+def test_a_file_that_is_none(tmp_path: Path) -> None:
+    path = tmp_path / "x.episode"
+    path.write_text("hello")
+    told = run("replay", path)
+    assert (told.returncode, told.stderr) == (
+        1,
+        "error: x.episode: expected a recorded episode, as ai4u-edu record writes it, and this is "
+        "none\n",
+    )
+
+
+def test_nobody_holds_the_keys(tmp_path: Path) -> None:
+    told = run("record", "box_chase", "--out", tmp_path)
+    assert told.returncode == 1
+    assert "agent '0' is driven by keys (WASDRBMoveController)" in told.stderr
+    assert "ai4u-edu play box_chase --record DIR" in told.stderr
+
+
+def test_dataset_as_arrays(folder: Path, tmp_path: Path) -> None:
+    told = run("dataset", folder, "--out", tmp_path / "data.npz")
+    assert told.returncode == 0, told.stderr
+    with np.load(tmp_path / "data.npz", allow_pickle=False) as data:
+        count = len(data["0/rewards"])
+        assert data["0/observations"].shape == (count + 1, 126)
+        assert data["0/actions"].shape == (count, 4)
+        assert data["0/terminations"].tolist() == [False] * (count - 1) + [True]
+        assert "1/actions" in data
+
+
+def test_a_dataset_of_nothing(tmp_path: Path) -> None:
+    told = run("dataset", tmp_path, "--out", tmp_path / "data.npz")
+    assert told.returncode == 1
+    assert f"{tmp_path}: expected recorded episodes (.episode), found none; " in told.stderr
+
+
+def test_play_keeps_what_a_person_drove(tmp_path: Path) -> None:
+    with played("box_chase", "--seed", "3", "--record", str(tmp_path / "kept")) as game:
+        until = time.monotonic() + 20
+        while game.snapshot()["tick"] < 30 and time.monotonic() < until:
+            time.sleep(0.05)
+    (file,) = (tmp_path / "kept").glob("*.episode")
+    episode = Episode.load(file)
+    assert (episode.seed, episode.changed) == (3, None)
+    assert len(episode.agents[0]) >= 5
+    assert Replay(episode).verdict.exact
