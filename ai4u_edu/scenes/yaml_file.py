@@ -66,6 +66,8 @@ class YamlFile:
             raise SceneError(f"{name}{line}: not YAML: {error.problem or error.context}") from None
         except (YAMLError, RecursionError, ValueError) as error:
             raise SceneError(f"{name}: not YAML: {error}") from None
+        except TypeError:  # as of a mapping that is to be a key
+            raise SceneError(f"{name}: expected words as keys, got lists or mappings") from None
         if not isinstance(self._document, CommentedMap):
             raise SceneError(
                 f"{name}: expected a mapping (name: ..., bodies: ..., agents: ...), "

@@ -85,6 +85,6 @@ def test_without_room_it_stays_away() -> None:
     assert coin.fallen
     world["robot"].move_to(0, 0)
     coin.come_back()
-    assert coin.position == (2, 0)
+    assert coin.position == (2.0, 0.0)
     coin.come_back()  # it is not in its own way
-    assert coin.position == (2, 0)
+    assert coin.position == (2.0, 0.0)

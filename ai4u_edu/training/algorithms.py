@@ -1,0 +1,100 @@
+"""The algorithms of Stable-Baselines3, set up as a settings file says. Loads torch."""
+
+import inspect
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import torch
+from gymnasium import spaces
+from stable_baselines3 import DQN, PPO, SAC
+from stable_baselines3.common.base_class import BaseAlgorithm
+from stable_baselines3.common.vec_env import VecEnv
+
+from ai4u_edu.errors import SetupError, suggest
+from ai4u_edu.training.settings import Algorithm, AlgorithmSettings
+
+CLASSES: dict[Algorithm, type[BaseAlgorithm]] = {"sac": SAC, "ppo": PPO, "dqn": DQN}
+
+OURS = {"self", "policy", "env", "seed", "policy_kwargs", "tensorboard_log", "verbose", "device"}
+"""What we decide, and no settings file does."""
+
+THREADS = 1
+"""Torch's threads: for layers as small as these a second one only waits for the first."""
+
+
+def new_model(
+    algorithm: Algorithm, settings: AlgorithmSettings, worlds: VecEnv, seed: int
+) -> BaseAlgorithm:
+    """A model that has learned nothing yet.
+
+    Raises:
+        SetupError: the algorithm can't choose such actions, or doesn't know one of its settings.
+    """
+    torch.set_num_threads(THREADS)
+    options = _checked(algorithm, settings)
+    rate = options.pop("learning_rate", 1e-3)
+    layers: Any = list(settings.layers)
+    activation = torch.nn.ReLU if settings.activation == "relu" else torch.nn.Tanh
+    own = options.pop("log_std_init", None)
+    if algorithm != "ppo":
+        options.setdefault("buffer_size", settings.steps)  # it remembers all that it tries
+    return CLASSES[algorithm](
+        _policy_for(worlds.observation_space),
+        worlds,
+        seed=seed,
+        device="cpu",
+        learning_rate=falling(rate) if settings.falling_rate else rate,
+        policy_kwargs={"net_arch": layers, "activation_fn": activation}
+        | ({} if own is None else {"log_std_init": own}),
+        **options,
+    )
+
+
+def load_model(algorithm: Algorithm, path: Path, worlds: VecEnv | None = None) -> BaseAlgorithm:
+    """A model that was saved.
+
+    The file has Python objects in it, and reading one can run any program: only for files of the
+    user's own, which he named himself.
+    """
+    torch.set_num_threads(THREADS)
+    try:
+        # with n_steps it stores the buffer's class as well, and on loading warns of having both
+        custom = {} if algorithm == "ppo" else {"replay_buffer_class": None}
+        return CLASSES[algorithm].load(path, env=worlds, device="cpu", custom_objects=custom)
+    except (OSError, ValueError, KeyError) as error:
+        raise SetupError(f"{path}: expected a model of {algorithm}, got: {error}") from None
+
+
+def check_actions(algorithm: Algorithm, space: spaces.Space[Any]) -> None:
+    """Whether an algorithm can choose such actions.
+
+    Raises:
+        SetupError: it can't; says which can.
+    """
+    if isinstance(space, spaces.Dict):
+        raise SetupError(
+            f"expected an agent with one actuator for a policy to drive, got {sorted(space)}; "
+            "set is_output to False on the others"
+        )
+    if algorithm == "sac" and not isinstance(space, spaces.Box):
+        raise SetupError(f"sac needs actions of real numbers, and here they are {space}; try dqn")
+
+
+def falling(rate: float) -> Callable[[float], float]:
+    """A learning rate that falls from ``rate`` to 0."""
+    return lambda left: rate * left
+
+
+def _policy_for(space: spaces.Space[Any]) -> str:
+    return "MultiInputPolicy" if isinstance(space, spaces.Dict) else "MlpPolicy"
+
+
+def _checked(algorithm: Algorithm, settings: AlgorithmSettings) -> dict[str, Any]:
+    known = set(inspect.signature(CLASSES[algorithm]).parameters) - OURS | {"log_std_init"}
+    for name in settings.others:
+        if name not in known:
+            raise SetupError(
+                f"{algorithm}: Stable-Baselines3 knows no setting {name!r}; {suggest(name, known)}"
+            )
+    return settings.others

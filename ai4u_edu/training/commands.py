@@ -1,0 +1,173 @@
+"""The commands for learning; what they need is loaded when they run."""
+
+import json
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+from rich.console import Console
+
+from ai4u_edu.errors import SetupError
+
+Folder = Annotated[Path, typer.Option(help="The training's folder.", show_default=False)]
+
+
+def add_to(app: typer.Typer) -> None:
+    """Adds the commands to a command line."""
+    app.command()(train)
+    app.command()(evaluate)
+    app.command()(export)
+
+
+def train(
+    scene: Annotated[
+        str, typer.Argument(help="A scene of the library, or a YAML file; not with --resume.")
+    ] = "",
+    algo: Annotated[str, typer.Option(help="sac, ppo or dqn; left out, as the settings say.")] = "",
+    steps: Annotated[
+        int | None,
+        typer.Option(help="Decisions to learn from; left out, as the settings say.", min=1),
+    ] = None,
+    seed: Annotated[int, typer.Option(help="The same seed gives the same model.", min=0)] = 0,
+    out: Annotated[
+        Path | None, typer.Option(help="The training's folder; left out: runs/SCENE-ALGO-SEED.")
+    ] = None,
+    settings: Annotated[
+        Path | None, typer.Option(help="A YAML file in place of the scene's own settings.")
+    ] = None,
+    resume: Annotated[
+        bool, typer.Option("--resume", help="Go on with the training in --out.")
+    ] = False,
+    watch: Annotated[
+        bool, typer.Option("--watch", help="Show the policy driving in the browser as it learns.")
+    ] = False,
+) -> None:
+    r"""Let an agent learn a scene; Ctrl-C keeps what it learned.
+
+    Needs: pip install "ai4u-edu\[train]"
+    """
+    from ai4u_edu.extras import need
+
+    need("train", "torch", "stable_baselines3")
+    from ai4u_edu.scenes import Scene
+    from ai4u_edu.training import train as learning
+    from ai4u_edu.training.settings import ALGORITHMS, settings_for
+
+    if resume:
+        if out is None:
+            raise SetupError("--resume needs --out, the folder of the training to go on with")
+        done = learning.resume(out, steps=steps, watch=watch)
+    else:
+        loaded = Scene.load(scene or "box_chase")
+        name = loaded.description.name
+        how = settings_for(name, settings)
+        algorithm = algo or how.algorithm
+        if algorithm not in ALGORITHMS:
+            raise SetupError(f"--algo: expected one of {', '.join(ALGORITHMS)}, got {algo!r}")
+        done = learning.train(
+            loaded,
+            algorithm,
+            how,
+            out or Path("runs") / f"{name}-{algorithm}-{seed}",
+            steps=steps,
+            seed=seed,
+            watch=watch,
+        )
+    best = done.best
+    success = "" if best.success is None else f"success {best.success:.0%}, "
+    why = "interrupted" if done.interrupted else "good enough" if done.enough else "done"
+    typer.echo(
+        f"{why} after {done.steps} steps; kept {done.run.best}: {success}reward {best.reward:.2f} "
+        f"(after {best.steps} steps)\n"
+        f"look at it:  ai4u-edu evaluate {done.run.folder}\n"
+        f"export it:   ai4u-edu export {done.run.folder} --out policy.onnx"
+    )
+
+
+def evaluate(
+    who: Annotated[
+        str,
+        typer.Argument(
+            help="A training's folder, a model (.zip), a network (.onnx, zoo:SCENE), a controller, "
+            "FILE.py:NAME, random, or scene (the scene's own controller)."
+        ),
+    ],
+    scene: Annotated[
+        str, typer.Option(help="A scene of the library, or a YAML file; left out: its own.")
+    ] = "",
+    compare: Annotated[
+        list[str] | None, typer.Option(help="Somebody else, on the same seeds; more than once.")
+    ] = None,
+    episodes: Annotated[int, typer.Option(min=1, max=1_000_000)] = 100,
+    seed: Annotated[int, typer.Option(help="Of the first episode; then one by one.", min=0)] = 0,
+    json_file: Annotated[
+        Path | None, typer.Option("--json", help="Write all of it to a file; - for the terminal.")
+    ] = None,
+    plot: Annotated[Path | None, typer.Option(help="Draw it into a PNG file.")] = None,
+) -> None:
+    """Find out how good somebody drives, on seeds that nobody learned from.
+
+    A model of Stable-Baselines3 (.zip) can run any program when it is read: only name your own.
+    """
+    from rich.progress import track
+
+    from ai4u_edu.extras import need
+    from ai4u_edu.scenes import Scene
+    from ai4u_edu.training.entrants import entrant
+    from ai4u_edu.training.evaluate import evaluate as evaluated
+    from ai4u_edu.training.report import table
+
+    if plot is not None:
+        need("train", "matplotlib")
+    entrants = [entrant(each) for each in (who, *(compare or ()))]
+    where = scene or next((each.scene for each in entrants if each.scene), "")
+    if not where:
+        raise SetupError(f"in which scene is {who} to drive? Expected --scene")
+    loaded = Scene.load(where)
+    seeds = range(seed, seed + episodes)
+    done = [
+        evaluated(
+            each,
+            loaded,
+            track(seeds, each.name, console=Console(stderr=True), transient=True),
+        )
+        for each in entrants
+    ]
+    if json_file is None or str(json_file) != "-":
+        Console().print(
+            f"{loaded.description.name}: {episodes} episodes, seeds {seed}..{seed + episodes - 1}",
+            highlight=False,
+        )
+        Console().print(table(done))
+    if json_file is not None:
+        text = json.dumps([each.plain() for each in done], indent=1)
+        if str(json_file) == "-":
+            typer.echo(text)
+        else:
+            json_file.write_text(text + "\n", encoding="utf-8")
+    if plot is not None:
+        from ai4u_edu.training.plots import plot_evaluations
+
+        plot_evaluations(done, plot)
+
+
+def export(
+    model: Annotated[Path, typer.Argument(help="A training's folder, or a model (.zip) in it.")],
+    out: Annotated[Path, typer.Option(help="The network's file.")] = Path("policy.onnx"),
+) -> None:
+    """Write a model as a network (.onnx) that drives without torch, and can be shared."""
+    from ai4u_edu.extras import need
+
+    need("train", "torch", "stable_baselines3", "onnx", "onnxscript")
+    from ai4u_edu.training.algorithms import load_model
+    from ai4u_edu.training.export import export as exported
+    from ai4u_edu.training.run import Run
+
+    run = Run(model if model.is_dir() else model.parent)
+    config = run.config()
+    loaded: Any = load_model(config.algorithm, run.best if model.is_dir() else model)
+    path = exported(loaded, run.scene(), config, out)
+    typer.echo(
+        f"{path}: {path.stat().st_size / 1000:.0f} kB\n"
+        f"let it drive:  ai4u-edu play {config.scene} --brain {path}"
+    )

@@ -1,0 +1,170 @@
+"""Who drives in an evaluation: a model, a network, a controller, chance."""
+
+import importlib.util
+import sys
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ai4u_edu.agent import BasicAgent
+from ai4u_edu.blocks import (
+    Block,
+    Brain,
+    Controller,
+    LocalBrain,
+    NeuralNetController,
+    Percept,
+    trained_brain,
+)
+from ai4u_edu.blocks.brains.network import IN_THE_ZOO
+from ai4u_edu.envs.spaces_of import Observer, outputs_of
+from ai4u_edu.errors import AI4UError, SetupError, suggest
+from ai4u_edu.extras import need
+from ai4u_edu.scenes import Scene
+from ai4u_edu.training.prepare import prepare
+from ai4u_edu.training.run import Run
+
+
+def _as_it_is(scene: Scene) -> Scene:
+    return scene
+
+
+@dataclass(frozen=True)
+class Entrant:
+    """Somebody who can drive."""
+
+    name: str
+    brain: Callable[[BasicAgent], Brain]
+    """A new brain for an agent; it drives by what it thinks best."""
+    scene: str = ""
+    """The scene that it was made for, a name or a file; empty for any."""
+    fitted: Callable[[Scene], Scene] = _as_it_is
+    """A scene whose agent observes as it is used to."""
+    agent: str = ""
+    """The id of the agent that it drives; empty for the one that acts first."""
+
+
+def entrant(spec: str) -> Entrant:
+    """Finds out who drives.
+
+    Args:
+        spec: a training's folder or a model in it (.zip); a network (.onnx,
+            ``zoo:SCENE``); a function from percept to action or a Controller, in a Python file of
+            one's own (FILE.py:NAME); a controller by its name; ``random``; ``scene`` for the
+            controller that the scene's file names.
+
+    Raises:
+        AI4UError: there is nothing of that name.
+    """
+    path = Path(spec)
+    if spec == "random":
+        return Entrant("random", _by_chance)
+    if spec == "scene":
+        return Entrant("scene", lambda agent: agent.brain)
+    if spec.startswith(IN_THE_ZOO) or path.suffix == ".onnx":
+        return _network(spec)
+    if path.is_dir() or path.suffix == ".zip":
+        return _model(path)
+    file, _, name = spec.rpartition(":")
+    if file.endswith(".py"):
+        return Entrant(name, _in_rhythm(_from_file(Path(file), name)))
+    controllers = {
+        name: cls
+        for name, cls in Block.types.items()
+        if issubclass(cls, Controller) and not cls.__dict__.get("abstract")
+    }
+    if spec in controllers:
+        return Entrant(spec, _in_rhythm(controllers[spec]))
+    raise SetupError(
+        f"nobody is called {spec!r}: expected a training's folder, a model (.zip), a network "
+        "(.onnx, zoo:SCENE), FILE.py:NAME, random, scene, or a controller; "
+        f"{suggest(spec, controllers)}"
+    )
+
+
+def _network(spec: str) -> Entrant:
+    about = NeuralNetController(model_path=spec).network.about
+    return Entrant(
+        Path(spec).name, lambda _agent: trained_brain(spec), scene=str(about.get("scene", ""))
+    )
+
+
+def _model(path: Path) -> Entrant:
+    need("train", "torch", "stable_baselines3")
+    from ai4u_edu.training.algorithms import load_model
+    from ai4u_edu.training.worlds import table_for
+
+    run = Run(path if path.is_dir() else path.parent)
+    config = run.config()
+    settings = config.settings
+    model = load_model(config.algorithm, run.best if path.is_dir() else path)
+
+    def brain(agent: BasicAgent) -> Brain:
+        observer = Observer(agent, settings.observation)
+        ((output, actuator),) = outputs_of(agent).items()
+        space: Any = actuator.space()
+        chooses = config.algorithm == "dqn" and hasattr(space, "low")
+        table = table_for(space, settings.actions) if chooses else None
+
+        def drive(percept: Percept) -> dict[str, Any]:
+            action, _ = model.predict(observer.observe(percept), deterministic=True)
+            return {output: action if table is None else table[action]}
+
+        return LocalBrain(controller=drive, skip_frame=agent.brain.skip_frame)
+
+    return Entrant(
+        path.name,
+        brain,
+        scene=str(run.folder / "scene.yaml"),
+        fitted=lambda scene: prepare(scene, settings, learning=False),
+        agent=settings.agent,
+    )
+
+
+def _by_chance(agent: BasicAgent) -> Brain:
+    spaces = {name: actuator.space() for name, actuator in outputs_of(agent).items()}
+    view = agent.view
+
+    def drive(_percept: Percept) -> dict[str, Any]:
+        chance = view.random("random entrant")
+        return {name: _drawn(space, chance) for name, space in spaces.items()}
+
+    return _in_rhythm(lambda: drive)(agent)
+
+
+def _drawn(space: Any, chance: np.random.Generator) -> Any:
+    if hasattr(space, "n"):
+        return int(space.start + chance.integers(space.n))
+    return chance.uniform(space.low, space.high)
+
+
+def _in_rhythm(make: Callable[[], Any]) -> Callable[[BasicAgent], Brain]:
+    """A LocalBrain that decides as often as the agent's own."""
+    return lambda agent: LocalBrain(
+        controller=make(),
+        skip_frame=agent.brain.skip_frame,
+        repeat_action=agent.brain.repeat_action,
+    )
+
+
+def _from_file(path: Path, name: str) -> Callable[[], Any]:
+    """Runs a Python file, which the user named, and takes a function or a controller out of it."""
+    called = f"own_controllers_{path.stem}"
+    found = importlib.util.spec_from_file_location(called, path)
+    if found is None or found.loader is None or not path.is_file():
+        raise SetupError(f"{path}: there is no such Python file")
+    module = sys.modules[called] = importlib.util.module_from_spec(found)
+    try:
+        found.loader.exec_module(module)
+    except Exception as error:  # it is theirs, so it may be any
+        raise SetupError(f"{path}: {type(error).__name__}: {error}") from error
+    if not hasattr(module, name):
+        known = [each for each in vars(module) if not each.startswith("_")]
+        raise AI4UError(f"{path} has no {name!r}; {suggest(name, known)}")
+    value = getattr(module, name)
+    if isinstance(value, type) and issubclass(value, Controller):
+        return value
+    return lambda: value

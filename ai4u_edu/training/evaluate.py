@@ -1,0 +1,114 @@
+"""How good somebody drives: episodes on seeds that nobody learned from."""
+
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from ai4u_edu.agent import BasicAgent
+from ai4u_edu.cycle import ControlRequestor
+from ai4u_edu.scenes import Scene
+from ai4u_edu.training.entrants import Entrant
+from ai4u_edu.training.episode import Episode, wilson
+
+LONGEST = 10_000
+"""Decisions after which an episode is cut off in a scene that has no limit of its own."""
+
+
+@dataclass(frozen=True)
+class Evaluation:
+    """How somebody drove."""
+
+    name: str
+    scene: str
+    has_goal: bool
+    """Whether the scene says what a success is."""
+    episodes: tuple[Episode, ...]
+
+    @property
+    def successes(self) -> int:
+        """Episodes that reached the goal."""
+        return sum(each.success for each in self.episodes)
+
+    @property
+    def success(self) -> float | None:
+        """Share of the episodes that reached the goal; None in a scene without one."""
+        return self.successes / len(self.episodes) if self.has_goal else None
+
+    @property
+    def interval(self) -> tuple[float, float] | None:
+        """Where the true share lies, 19 times out of 20."""
+        return wilson(self.successes, len(self.episodes)) if self.has_goal else None
+
+    @property
+    def rewards(self) -> list[float]:
+        """Each episode's return."""
+        return [each.reward for each in self.episodes]
+
+    @property
+    def lengths(self) -> list[int]:
+        """Each episode's number of decisions."""
+        return [each.length for each in self.episodes]
+
+    def plain(self) -> dict[str, Any]:
+        """All of it as plain data, for a file."""
+        return {
+            "name": self.name,
+            "scene": self.scene,
+            "episodes": len(self.episodes),
+            "success": self.success,
+            "interval": self.interval,
+            "return": _spread(self.rewards),
+            "length": _spread(self.lengths),
+            "each": [each._asdict() for each in self.episodes],
+        }
+
+
+def evaluate(
+    who: Entrant,
+    scene: Scene,
+    seeds: Iterable[int],
+    *,
+    tell: Callable[[], None] = lambda: None,
+) -> Evaluation:
+    """Lets somebody drive one episode for each seed.
+
+    Args:
+        who: drives the agent; the others do as their brains say.
+        scene: where; with its own limit of steps.
+        seeds: of the episodes; trainings use none below 2**32 on purpose.
+        tell: called after each episode.
+    """
+    sim = who.fitted(scene).build()
+    agent = sim.agent(who.agent) if who.agent else sim.agents[0]
+    agent.use_brain(who.brain(agent))
+    goal = scene.description.success
+    episodes = []
+    for seed in seeds:
+        episodes.append(_drive(sim, agent, seed, goal))
+        tell()
+    return Evaluation(who.name, scene.description.name, goal is not None, tuple(episodes))
+
+
+def _drive(sim: ControlRequestor, agent: BasicAgent, seed: int, goal: str | None) -> Episode:
+    sim.reset(seed)
+    reward, length, episode = 0.0, 0, sim.episode
+    while not agent.done and length < LONGEST:
+        sim.step(agent)
+        if sim.episode != episode or agent.stopped or agent.paused:
+            return Episode(seed, False, reward, length, False)  # it gave up
+        reward += agent.reward
+        length += 1
+    paid = agent.ledger.episode_terms
+    won = bool(goal and paid.get(goal, 0.0) > 0)
+    return Episode(seed, won, reward, length, agent.terminated)
+
+
+def _spread(numbers: Sequence[float]) -> dict[str, float]:
+    return {
+        "mean": float(np.mean(numbers)),
+        "deviation": float(np.std(numbers)),
+        "lowest": float(np.min(numbers)),
+        "highest": float(np.max(numbers)),
+    }

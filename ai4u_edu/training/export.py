@@ -1,0 +1,161 @@
+"""Writes a model as an ONNX file: numbers and operations from a fixed list, and no program."""
+
+import hashlib
+import json
+import logging
+import tempfile
+import warnings
+from collections.abc import Iterator
+from contextlib import contextmanager, redirect_stdout
+from io import StringIO
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import onnx
+import torch
+from gymnasium import spaces
+from stable_baselines3.common.base_class import BaseAlgorithm
+
+from ai4u_edu.agent import BasicAgent
+from ai4u_edu.blocks.brains.network import ABOUT
+from ai4u_edu.envs.spaces_of import outputs_of
+from ai4u_edu.scenes import Scene
+from ai4u_edu.scenes.plain import to_plain
+from ai4u_edu.training.network import Drive, example
+from ai4u_edu.training.prepare import prepare
+from ai4u_edu.training.run import Config
+from ai4u_edu.training.worlds import table_for
+from ai4u_edu.version import __version__
+
+OPSET = 18
+
+
+class Exported:
+    """A model's network as ONNX, with all that it takes to drive an agent.
+
+    It has one input for each sensor, by its perception key, of the shape of its reading with a
+    first axis of any length; and one output by the actuator's name. Its metadata (entry
+    ``ai4u_edu``, JSON) say where it was trained.
+
+    Args:
+        model: trained by :func:`~ai4u_edu.training.train.train`.
+        scene: where.
+        config: how.
+    """
+
+    def __init__(self, model: BaseAlgorithm, scene: Scene, config: Config) -> None:
+        settings = config.settings
+        sim = prepare(scene, settings, learning=False).build()
+        agent = sim.agent(settings.agent) if settings.agent else sim.agents[0]
+        ((output, actuator),) = outputs_of(agent).items()
+        inputs = inputs_of(agent)
+        space: Any = actuator.space()
+        chooses = config.algorithm == "dqn" and isinstance(space, spaces.Box)
+        table = table_for(space, settings.actions) if chooses else None
+        self._model = model
+        self._drive = Drive(model, list(inputs), table)
+        training = model.policy.training
+        self._network = _graph(self._drive.eval(), inputs, output)
+        model.policy.set_training_mode(training)
+        self._about = {
+            "version": __version__,
+            "scene": config.scene,
+            "algorithm": config.algorithm,
+            "seed": config.seed,
+            "skip_frame": agent.brain.skip_frame,
+            "repeat_action": agent.brain.repeat_action,
+            "sensors": {
+                sensor.perception_key: to_plain(sensor)
+                | {"shape": list(inputs[sensor.perception_key][0])}
+                for sensor in agent.sensors
+                if sensor.perception_key in inputs
+            },
+            "actuators": {output: to_plain(actuator) | {"space": str(space)}},
+        }
+
+    def refresh(self) -> None:
+        """Takes the model's numbers as they are now; the operations stay."""
+        state = self._drive.state_dict()
+        for weights in self._network.graph.initializer:
+            if weights.name in state:
+                numbers = state[weights.name].detach().numpy()
+                weights.CopyFrom(onnx.numpy_helper.from_array(numbers, weights.name))
+
+    def write(self, path: Path) -> Path:
+        """Writes it to a file; what was there is replaced whole, or not at all."""
+        network = onnx.ModelProto()
+        network.CopyFrom(self._network)
+        network.producer_name, network.producer_version = "ai4u-edu", __version__
+        digest = hashlib.sha256(network.SerializeToString(deterministic=True)).hexdigest()
+        about = self._about | {"steps": self._model.num_timesteps, "hash": digest}
+        entry = network.metadata_props.add()
+        entry.key, entry.value = ABOUT, json.dumps(about, sort_keys=True)
+        beside = path.with_name(f".new-{path.name}")
+        beside.write_bytes(network.SerializeToString(deterministic=True))
+        return beside.replace(path)
+
+
+def export(model: BaseAlgorithm, scene: Scene, config: Config, path: Path) -> Path:
+    """Writes a model as an ONNX file; see :class:`Exported`."""
+    return Exported(model, scene, config).write(path)
+
+
+def inputs_of(agent: BasicAgent) -> dict[str, tuple[tuple[int, ...], np.dtype[Any]]]:
+    """Shape and type of each reading that a policy gets, in the order of the observation."""
+    slots = agent.fitting.layout.slots
+    return {
+        sensor.perception_key: (
+            slots[sensor.perception_key].shape,
+            slots[sensor.perception_key].dtype,
+        )
+        for sensor in agent.fitting.sensors
+        if sensor.is_input and sensor.perception_key in slots
+    }
+
+
+def _graph(
+    drive: Drive, inputs: dict[str, tuple[tuple[int, ...], np.dtype[Any]]], output: str
+) -> onnx.ModelProto:
+    batch = torch.export.Dim("batch")
+    with tempfile.TemporaryDirectory() as folder, _silence():
+        file = Path(folder) / "network.onnx"
+        torch.onnx.export(
+            drive,
+            example(inputs),
+            file,
+            input_names=list(inputs),
+            output_names=[output],
+            opset_version=OPSET,
+            dynamo=True,
+            dynamic_shapes={"readings": tuple({0: batch} for _ in inputs)},
+            external_data=False,
+            verbose=False,
+        )
+        network = onnx.load(file)
+    # the exporter notes where each operation stands in whose source code
+    for node in network.graph.node:
+        del node.metadata_props[:]
+        node.doc_string = ""
+    for value in (*network.graph.value_info, *network.graph.input, *network.graph.output):
+        del value.metadata_props[:]
+    for weights in network.graph.initializer:
+        del weights.metadata_props[:]
+    del network.graph.metadata_props[:]
+    del network.metadata_props[:]
+    onnx.checker.check_model(network)
+    return network
+
+
+@contextmanager
+def _silence() -> Iterator[None]:
+    """The exporter talks to its own developers."""
+    exporter = logging.getLogger("torch.onnx")
+    level = exporter.level
+    exporter.setLevel(logging.ERROR)
+    try:
+        with warnings.catch_warnings(), redirect_stdout(StringIO()):
+            warnings.simplefilter("ignore")
+            yield
+    finally:
+        exporter.setLevel(level)

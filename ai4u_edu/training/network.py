@@ -1,0 +1,135 @@
+"""A model's way from readings to an action, as one torch module. Loads torch."""
+
+from collections.abc import Mapping, Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+import torch
+from gymnasium import spaces
+from stable_baselines3.common.base_class import BaseAlgorithm
+from stable_baselines3.common.preprocessing import is_image_space
+from torch import Tensor, nn
+
+from ai4u_edu.errors import SetupError
+from ai4u_edu.training.algorithms import CLASSES
+
+
+class Drive(nn.Module):  # type: ignore[misc]  # seen without its types
+    """What a model does when it does what it thinks best; readings in, an action out.
+
+    Scaling of the readings, the choice and the scaling to the actuator's range all happen inside.
+
+    Args:
+        model: of Stable-Baselines3: SAC, PPO or DQN.
+        keys: the perception keys, in the order in which the readings come.
+        table: (choices, numbers) the actions, where the model chooses them by number.
+    """
+
+    def __init__(
+        self,
+        model: BaseAlgorithm,
+        keys: Sequence[str],
+        table: npt.NDArray[np.float32] | None = None,
+    ) -> None:
+        super().__init__()
+        self.policy: Any = model.policy
+        self._kind = _kind_of(model)
+        self._keys = tuple(keys)
+        self._spaces = _spaces_of(model.observation_space)
+        action_space: Any = model.action_space
+        self._continuous = isinstance(action_space, spaces.Box)
+        if self._continuous:
+            self.low: Tensor
+            self.high: Tensor
+            self.register_buffer("low", torch.as_tensor(action_space.low))
+            self.register_buffer("high", torch.as_tensor(action_space.high))
+        self.table: Tensor | None
+        self.register_buffer("table", None if table is None else torch.as_tensor(table))
+
+    def forward(self, *readings: Tensor) -> Tensor:
+        """An action for each row of the readings."""
+        seen = self._observation(readings)
+        if self._kind == "sac":
+            actor = self.policy.actor
+            latent = actor.latent_pi(self._features(seen, actor.features_extractor))
+            return self._scaled(torch.tanh(actor.mu(latent)))
+        if self._kind == "dqn":
+            net = self.policy.q_net
+            return self._looked_up(net.q_net(self._features(seen, net.features_extractor)))
+        policy = self.policy
+        extractor = (
+            policy.features_extractor
+            if policy.share_features_extractor
+            else policy.pi_features_extractor
+        )
+        latent = policy.mlp_extractor.forward_actor(self._features(seen, extractor))
+        numbers = policy.action_net(latent)
+        if not self._continuous:
+            return self._looked_up(numbers)
+        if policy.squash_output:
+            return self._scaled(torch.tanh(numbers))
+        return torch.minimum(torch.maximum(numbers, self.low), self.high)
+
+    def _observation(self, readings: Sequence[Tensor]) -> Any:
+        if not self._spaces:
+            return torch.cat([each.to(torch.float32).flatten(1) for each in readings], dim=1)
+        named = zip(self._keys, readings, strict=True)
+        return {key: _as_seen(each, self._spaces[key]) for key, each in named}
+
+    def _features(self, seen: Any, extractor: nn.Module) -> Tensor:
+        features: Tensor = extractor(seen)
+        return features
+
+    def _scaled(self, squashed: Tensor) -> Tensor:
+        return self.low + 0.5 * (squashed + 1.0) * (self.high - self.low)
+
+    def _looked_up(self, values: Tensor) -> Tensor:
+        best = values.argmax(dim=1)
+        return best if self.table is None else self.table[best]
+
+
+class _Seen(NamedTuple):
+    """How a reading comes to a network that takes each one by itself."""
+
+    choices: int
+    """Of a whole number, which becomes as many zeros and a one; 0 for anything else."""
+    is_picture: bool
+    shape: tuple[int, ...]
+
+
+def _spaces_of(space: spaces.Space[Any]) -> dict[str, _Seen]:
+    """Of each reading; empty where they all come in one array."""
+    if not isinstance(space, spaces.Dict):
+        return {}
+    return {
+        key: _Seen(
+            int(each.n) if isinstance(each, spaces.Discrete) else 0,
+            is_image_space(each),
+            each.shape or (),
+        )
+        for key, each in space.spaces.items()
+    }
+
+
+def _as_seen(reading: Tensor, seen: _Seen) -> Tensor:
+    """What Stable-Baselines3 does with a reading before its network gets it."""
+    if seen.choices:
+        return nn.functional.one_hot(reading.to(torch.int64), seen.choices).to(torch.float32)
+    if not seen.is_picture:
+        return reading.to(torch.float32)
+    if tuple(reading.shape[1:]) != seen.shape:
+        reading = reading.permute(0, 3, 1, 2)  # it takes the channels first
+    return reading.to(torch.float32) / 255.0
+
+
+def _kind_of(model: BaseAlgorithm) -> str:
+    for kind, cls in CLASSES.items():
+        if isinstance(model, cls):
+            return kind
+    raise SetupError(f"expected a model of SAC, PPO or DQN, got {type(model).__name__}")
+
+
+def example(inputs: Mapping[str, tuple[tuple[int, ...], np.dtype[Any]]]) -> tuple[Tensor, ...]:
+    """Two rows of zeros for each input, by shape and type."""
+    return tuple(torch.from_numpy(np.zeros((2, *shape), dtype)) for shape, dtype in inputs.values())

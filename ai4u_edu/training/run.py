@@ -1,0 +1,131 @@
+"""A training's folder: the model, how it came about, and how good it was on the way.
+
+::
+
+    DIR/config.json     the algorithm, its settings, the seed, the versions of what ran
+    DIR/scene.yaml      the scene, as it was
+    DIR/best.zip        the model that did best in a check
+    DIR/last.zip        the model as it was last: --resume goes on from it
+    DIR/replay.pkl      what SAC and DQN remember
+    DIR/checks.json     every check on the way
+    DIR/tensorboard/    curves, for: tensorboard --logdir DIR
+"""
+
+import json
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+from pydantic import BaseModel, ConfigDict, ValidationError
+
+from ai4u_edu.errors import SetupError
+from ai4u_edu.scenes import Scene
+from ai4u_edu.training.settings import Algorithm, Settings
+
+
+class Config(BaseModel):
+    """How a training was set up."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid")
+
+    scene: str
+    algorithm: Algorithm
+    seed: int
+    steps: int
+    settings: Settings
+    versions: dict[str, str]
+    """Of the packages that ran, by name."""
+
+
+class Check(BaseModel):
+    """How good a policy was, somewhere on the way."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid")
+
+    steps: int
+    """Decisions learned from so far."""
+    seconds: float
+    """Since the training began, checks included."""
+    success: float | None
+    """Share of the episodes that reached the goal; None in a scene without one."""
+    reward: float
+    """Of an episode, on average."""
+    length: float
+    """Decisions in an episode, on average."""
+
+    @property
+    def rank(self) -> tuple[float, float]:
+        """Larger is better: more success; where all succeeded, sooner; else more reward."""
+        return (self.success or 0.0, -self.length if self.success == 1.0 else self.reward)
+
+
+class Run:
+    """A training's folder.
+
+    Args:
+        folder: where it is, or is to be.
+    """
+
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder
+        self.best = folder / "best.zip"
+        self.last = folder / "last.zip"
+        self.replay = folder / "replay.pkl"
+        self.tensorboard = folder / "tensorboard"
+
+    def begin(self, config: Config, scene: Scene) -> None:
+        """Makes the folder.
+
+        Raises:
+            SetupError: there is a training in it already.
+        """
+        if (self.folder / "config.json").exists():
+            raise SetupError(
+                f"{self.folder} holds a training already; go on with it (--resume), "
+                "or choose another folder (--out)"
+            )
+        self.folder.mkdir(parents=True, exist_ok=True)
+        scene.save(self.folder / "scene.yaml")
+        self._write("config.json", config.model_dump(mode="json"))
+
+    def config(self) -> Config:
+        """How it was set up.
+
+        Raises:
+            SetupError: there is no training in the folder.
+        """
+        path = self.folder / "config.json"
+        try:
+            return Config.model_validate_json(path.read_bytes())
+        except OSError:
+            raise SetupError(
+                f"{self.folder} holds no training; begin one with: ai4u-edu train SCENE --out "
+                f"{self.folder}"
+            ) from None
+        except ValidationError as error:
+            raise SetupError(f"{path}: not as a training writes it: {error}") from None
+
+    def scene(self) -> Scene:
+        """The scene, as it was."""
+        return Scene.load(self.folder / "scene.yaml")
+
+    def checks(self) -> list[Check]:
+        """Every check so far."""
+        path = self.folder / "checks.json"
+        if not path.is_file():
+            return []
+        return [Check.model_validate(each) for each in json.loads(path.read_bytes())]
+
+    def note(self, checks: list[Check]) -> None:
+        """Writes all checks down."""
+        self._write("checks.json", [check.model_dump(mode="json") for check in checks])
+
+    def put(self, path: Path, write: Callable[[Path], object]) -> None:
+        """Writes a file beside its place first: it is there whole, or not at all."""
+        beside = path.with_name(f".new-{path.name}")
+        write(beside)
+        beside.replace(path)
+
+    def _write(self, name: str, data: Any) -> None:
+        text = json.dumps(data, indent=1)
+        self.put(self.folder / name, lambda beside: beside.write_text(text + "\n", "utf-8"))

@@ -1,0 +1,195 @@
+"""Lets an agent learn a scene."""
+
+from dataclasses import dataclass
+from importlib.metadata import version
+from importlib.util import find_spec
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from rich.console import Console
+from stable_baselines3.common.base_class import BaseAlgorithm
+from stable_baselines3.common.callbacks import BaseCallback, CallbackList
+from stable_baselines3.common.logger import configure
+from stable_baselines3.common.off_policy_algorithm import OffPolicyAlgorithm
+from stable_baselines3.common.vec_env import VecEnv
+
+from ai4u_edu.envs import SceneEnv
+from ai4u_edu.errors import SetupError
+from ai4u_edu.scenes import Scene
+from ai4u_edu.training.algorithms import check_actions, load_model, new_model
+from ai4u_edu.training.interrupt import Interrupt
+from ai4u_edu.training.keeper import Keeper
+from ai4u_edu.training.prepare import prepare
+from ai4u_edu.training.progress import Bar
+from ai4u_edu.training.run import Check, Config, Run
+from ai4u_edu.training.settings import Algorithm, Settings
+from ai4u_edu.training.worlds import ABOVE, Choices, make_worlds
+
+if TYPE_CHECKING:
+    from ai4u_edu.training.watch import Watch
+
+PACKAGES = ("ai4u-edu", "stable-baselines3", "torch", "numpy", "pymunk", "gymnasium")
+
+
+@dataclass(frozen=True)
+class Trained:
+    """What came out of a training."""
+
+    run: Run
+    steps: int
+    """Decisions learned from, also before a resume."""
+    interrupted: bool
+    """Whether Ctrl-C ended it."""
+    enough: bool
+    """Whether it ended sooner because the policy was good enough."""
+    checks: list[Check]
+
+    @property
+    def best(self) -> Check:
+        """The check of the model that was kept."""
+        return max(self.checks, key=lambda check: check.rank)
+
+
+def train(
+    scene: Scene,
+    algorithm: Algorithm,
+    settings: Settings,
+    folder: Path,
+    *,
+    steps: int | None = None,
+    seed: int = 0,
+    console: Console | None = None,
+    quiet: bool = False,
+    watch: bool = False,
+) -> Trained:
+    """Begins a training.
+
+    The same seed on the same machine gives the same model.
+
+    Args:
+        scene: where.
+        algorithm: how.
+        settings: of all algorithms, for this scene.
+        folder: for everything that comes out; see :class:`~ai4u_edu.training.run.Run`.
+        steps: decisions to learn from; left out, as the settings say.
+        seed: of the network, the worlds and all chance.
+        console: where to show how it goes.
+        quiet: whether to show nothing.
+        watch: whether to show the policy driving in the browser as it learns.
+
+    Raises:
+        SetupError: the settings don't fit the scene, or the folder holds a training already.
+    """
+    own = settings.of(algorithm)
+    prepared = prepare(scene, settings)
+    check_actions(algorithm, _env(prepared, settings).action_space)
+    worlds = make_worlds(prepared, settings, algorithm)
+    model = new_model(algorithm, own, worlds, seed)
+    worlds.seed(ABOVE + 1000 * seed)  # a new model has given them its own, which is small
+    run = Run(folder)
+    config = Config(
+        scene=scene.description.name,
+        algorithm=algorithm,
+        seed=seed,
+        steps=steps or own.steps,
+        settings=settings,
+        versions={name: version(name) for name in PACKAGES},
+    )
+    run.begin(config, scene)
+    return _learn(run, config, prepared, model, worlds, console, quiet, watch)
+
+
+def resume(
+    folder: Path,
+    *,
+    steps: int | None = None,
+    console: Console | None = None,
+    quiet: bool = False,
+    watch: bool = False,
+) -> Trained:
+    """Goes on with a training that was interrupted, or is to last longer.
+
+    The worlds begin new episodes, so it is not bit for bit what it would have been without a break.
+
+    Args:
+        folder: of the training.
+        steps: decisions to learn from, the ones before counted too; left out, as it was begun.
+        console: where to show how it goes.
+        quiet: whether to show nothing.
+        watch: whether to show the policy driving in the browser as it learns.
+
+    Raises:
+        SetupError: there is no training in the folder.
+    """
+    run = Run(folder)
+    config = run.config()
+    settings = config.settings
+    prepared = prepare(run.scene(), settings)
+    worlds = make_worlds(prepared, settings, config.algorithm)
+    model = load_model(config.algorithm, run.last, worlds)
+    # other episodes than those that it began with
+    worlds.seed(ABOVE + 1000 * config.seed + 7919 * (1 + model.num_timesteps))
+    if isinstance(model, OffPolicyAlgorithm) and run.replay.is_file():
+        model.load_replay_buffer(run.replay)
+    config = config.model_copy(update={"steps": steps or config.steps})
+    if model.num_timesteps >= config.steps:
+        raise SetupError(
+            f"{folder} has learned from {model.num_timesteps} steps already; "
+            f"expected --steps larger than that, got {config.steps}"
+        )
+    return _learn(run, config, prepared, model, worlds, console, quiet, watch)
+
+
+def _learn(
+    run: Run,
+    config: Config,
+    prepared: Scene,
+    model: BaseAlgorithm,
+    worlds: VecEnv,
+    console: Console | None,
+    quiet: bool,
+    watch: bool,
+) -> Trained:
+    settings = config.settings
+    keeper = Keeper(
+        run,
+        lambda: _env(prepared, settings),
+        settings,
+        table=worlds.table if isinstance(worlds, Choices) else None,
+        every=settings.of(config.algorithm).check_every,
+        has_goal=prepared.description.success is not None,
+    )
+    interrupt = Interrupt()
+    bar = Bar(keeper, config.steps, console or Console(stderr=True), quiet=quiet)
+    formats = ["tensorboard"] if find_spec("tensorboard") else []
+    model.set_logger(configure(str(run.tensorboard), formats))
+    left = config.steps - model.num_timesteps
+    callbacks: list[BaseCallback] = [interrupt, keeper, bar]
+    page = _page(run, config) if watch else None
+    if page:
+        callbacks.append(page)
+    try:
+        with interrupt.listening():
+            model.learn(left, CallbackList(callbacks), reset_num_timesteps=False)
+            if not keeper.checks or keeper.checks[-1].steps < model.num_timesteps:
+                keeper.check()
+    finally:
+        bar.close()
+        if page:
+            page.close()
+        model.logger.close()
+    run.put(run.last, model.save)
+    if isinstance(model, OffPolicyAlgorithm):
+        run.put(run.replay, model.save_replay_buffer)
+    return Trained(run, model.num_timesteps, interrupt.asked, keeper.enough, keeper.checks)
+
+
+def _env(prepared: Scene, settings: Settings) -> SceneEnv:
+    return SceneEnv(prepared, observation=settings.observation, agent=settings.agent or None)
+
+
+def _page(run: Run, config: Config) -> "Watch":
+    # only who watches needs what writes networks
+    from ai4u_edu.training.watch import Watch
+
+    return Watch(run, config)

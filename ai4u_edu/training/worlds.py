@@ -1,0 +1,85 @@
+"""Copies of a scene to learn in, as Stable-Baselines3 wants them."""
+
+from collections.abc import Sequence
+from itertools import product
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+from gymnasium import spaces
+from stable_baselines3.common.vec_env import VecEnv, VecEnvWrapper
+
+from ai4u_edu.envs.sb3 import SceneVecEnv
+from ai4u_edu.errors import SetupError
+from ai4u_edu.scenes import Scene
+from ai4u_edu.training.settings import Algorithm, Settings
+
+ABOVE = 2**40
+"""Seeds of a training's first episodes are larger than this, and those that follow are of 32 bits
+and drawn at random: small numbers are left for evaluations, on what the agent never saw."""
+
+
+def make_worlds(scene: Scene, settings: Settings, algorithm: Algorithm) -> VecEnv:
+    """Worlds to learn in.
+
+    Args:
+        scene: as :func:`~ai4u_edu.training.prepare.prepare` made it.
+        settings: how it is learned.
+        algorithm: DQN gets a table of actions to choose from.
+    """
+    worlds: VecEnv = SceneVecEnv(
+        scene,
+        settings.of(algorithm).worlds,
+        observation=settings.observation,
+        agent=settings.agent or None,
+    )
+    if algorithm == "dqn" and isinstance(worlds.action_space, spaces.Box):
+        return Choices(worlds, table_for(worlds.action_space, settings.actions))
+    return worlds
+
+
+class Choices(VecEnvWrapper):  # type: ignore[misc]  # seen without its types
+    """Worlds whose actions are chosen by number from a table.
+
+    Args:
+        worlds: with actions of real numbers.
+        table: (choices, numbers) an action a row.
+    """
+
+    def __init__(self, worlds: VecEnv, table: npt.NDArray[np.float32]) -> None:
+        super().__init__(worlds, action_space=spaces.Discrete(len(table)))
+        self.table = table
+
+    def reset(self) -> Any:
+        """Begins an episode in every world."""
+        return self.venv.reset()
+
+    def step_async(self, actions: npt.NDArray[Any]) -> None:
+        """Looks the actions up."""
+        self.venv.step_async(self.table[actions])
+
+    def step_wait(self) -> Any:
+        """What became of them."""
+        return self.venv.step_wait()
+
+
+def table_for(space: spaces.Box, given: Sequence[Sequence[float]] = ()) -> npt.NDArray[np.float32]:
+    """The actions that DQN chooses from.
+
+    >>> low, high = np.array([-1, 0], np.float32), np.array([1, 1], np.float32)
+    >>> table_for(spaces.Box(low, high)).tolist()
+    [[0.0, 0.0], [-1.0, 0.0], [1.0, 0.0], [0.0, 1.0]]
+    """
+    count = int(np.prod(space.shape))
+    if given:
+        wrong = [row for row in given if len(row) != count]
+        if wrong:
+            raise SetupError(f"actions: expected rows of {count} numbers, got {list(wrong[0])}")
+        return np.clip(np.array(given, np.float32), space.low.ravel(), space.high.ravel())
+    rows = [np.zeros(count, np.float32)]
+    for index, end in product(range(count), (space.low.ravel(), space.high.ravel())):
+        if end[index]:
+            row = np.zeros(count, np.float32)
+            row[index] = end[index]
+            rows.append(row)
+    return np.stack(rows)

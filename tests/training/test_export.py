@@ -1,0 +1,166 @@
+"""A network says what its model says: same readings, same action, 1,000 times."""
+
+import json
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import onnx
+import pytest
+from gymnasium import spaces
+from stable_baselines3.common.vec_env import VecEnv
+
+from ai4u_edu import Command, Scene
+from ai4u_edu.blocks.brains.network import ABOUT, Network, Port
+from ai4u_edu.training.algorithms import load_model, new_model
+from ai4u_edu.training.export import Exported, export
+from ai4u_edu.training.prepare import prepare
+from ai4u_edu.training.run import Config
+from ai4u_edu.training.settings import ALGORITHMS, Algorithm, Settings
+from ai4u_edu.training.worlds import Choices, make_worlds
+from ai4u_edu.version import __version__
+from tests.training.small import CHOICES, small_settings, small_training
+
+
+def config(algorithm: Algorithm, settings: Settings, scene: str = "box_chase") -> Config:
+    return Config(scene=scene, algorithm=algorithm, seed=0, steps=1, settings=settings, versions={})
+
+
+def untrained(scene: Scene, algorithm: Algorithm, settings: Settings) -> tuple[Any, VecEnv]:
+    """A model with larger weights than a new one's, so that actions saturate too."""
+    worlds = make_worlds(prepare(scene, settings), settings, algorithm)
+    model = new_model(algorithm, settings.of(algorithm), worlds, seed=1)
+    for weights in model.policy.parameters():
+        weights.data.mul_(1.5)
+    return model, worlds
+
+
+def drawn(port: Port, chance: np.random.Generator) -> Any:
+    """A reading at random."""
+    if port.dtype.kind == "f":
+        return chance.normal(0, 1, port.shape).astype(port.dtype)
+    return chance.integers(0, 2, port.shape).astype(port.dtype)
+
+
+def disagreement(model: Any, network: Network, worlds: VecEnv, keys: list[str]) -> float:
+    """How far apart model and network ever are, on 1,000 observations drawn at random."""
+    flat = not isinstance(worlds.observation_space, spaces.Dict)
+    table = worlds.table if isinstance(worlds, Choices) else None
+    chance = np.random.default_rng(0)
+    ports = {port.name: port for port in network.inputs}
+    worst = 0.0
+    for _ in range(1000):
+        percept = {key: drawn(ports[key], chance) for key in keys}
+        seen: Any = percept
+        if flat:
+            seen = np.concatenate([percept[key].ravel().astype(np.float32) for key in keys])
+        action, _ = model.predict(seen, deterministic=True)
+        (answer,) = network.decide(percept).values()
+        expected = action if table is None else table[action]
+        worst = max(worst, float(np.abs(np.asarray(expected) - answer).max()))
+    return worst
+
+
+@pytest.mark.parametrize("algorithm", ALGORITHMS)
+def test_a_thousand_observations(tmp_path: Path, algorithm: Algorithm) -> None:
+    scene, settings = Scene.load("box_chase"), small_settings()
+    model, worlds = untrained(scene, algorithm, settings)
+    file = export(model, scene, config(algorithm, settings), tmp_path / "policy.onnx")
+    network = Network(file)
+    keys = ["vision", "orientation", "last_action"]
+    assert [port.name for port in network.inputs] == keys
+    assert [port.name for port in network.outputs] == ["move"]
+    assert disagreement(model, network, worlds, keys) < 1e-5
+
+
+@pytest.mark.parametrize("algorithm", ["ppo", "dqn"])
+@pytest.mark.parametrize("observation", ["flat", "dict"])
+def test_choices_and_pictures(tmp_path: Path, algorithm: Algorithm, observation: str) -> None:
+    scene, settings = Scene.loads(CHOICES), small_settings(observation=observation)
+    model, worlds = untrained(scene, algorithm, settings)
+    file = export(model, scene, config(algorithm, settings), tmp_path / "policy.onnx")
+    network = Network(file)
+    keys = ["bearing", "local_grid", "ground_status"]
+    assert [port.name for port in network.inputs] == keys
+    assert [(port.name, port.shape) for port in network.outputs] == [("choice", ())]
+    assert disagreement(model, network, worlds, keys) == 0
+
+
+def test_ppo_with_gsde_squashes(tmp_path: Path) -> None:
+    ppo = small_settings().ppo.model_dump() | {"use_sde": True}
+    scene, settings = Scene.load("box_chase"), small_settings(ppo=ppo)
+    model, worlds = untrained(scene, "ppo", settings)
+    network = Network(export(model, scene, config("ppo", settings), tmp_path / "policy.onnx"))
+    assert disagreement(model, network, worlds, ["vision", "orientation", "last_action"]) < 1e-5
+
+
+def test_what_the_file_says_of_itself(tmp_path: Path) -> None:
+    done = small_training(tmp_path / "run", "sac", seed=5, observe=("orientation", "last_action"))
+    run = done.run
+    model = load_model("sac", run.best)
+    one = export(model, run.scene(), run.config(), tmp_path / "one.onnx")
+    two = export(model, run.scene(), run.config(), tmp_path / "two.onnx")
+    assert one.read_bytes() == two.read_bytes()
+    assert one.stat().st_size < 200_000
+    network = onnx.load(one)
+    entries = {entry.key: entry.value for entry in network.metadata_props}
+    assert set(entries) == {ABOUT}
+    about = json.loads(entries[ABOUT])
+    assert (about["scene"], about["version"], about["algorithm"]) == (
+        "box_chase",
+        __version__,
+        "sac",
+    )
+    assert (about["seed"], about["steps"], about["skip_frame"]) == (5, model.num_timesteps, 9)
+    assert about["sensors"]["orientation"] == {
+        "type": "OrientationSensor",
+        "perception_key": "orientation",
+        "target": "box",
+        "shape": [2],
+    }
+    assert list(about["sensors"]) == ["last_action", "orientation"]
+    assert about["actuators"]["move"]["move_amount"] == 5.0
+    assert len(about["hash"]) == 64
+    # nothing of the machine on which it was made
+    assert str(Path(__file__).parents[2]).encode() not in one.read_bytes()
+    assert b".py" not in one.read_bytes()
+
+
+def test_refresh_takes_the_models_numbers_as_they_are_now(tmp_path: Path) -> None:
+    scene, settings = Scene.load("box_chase"), small_settings()
+    model, worlds = untrained(scene, "sac", settings)
+    exported = Exported(model, scene, config("sac", settings))
+    before = Network(exported.write(tmp_path / "policy.onnx"))
+    for weights in model.policy.parameters():
+        weights.data.add_(0.1)
+    keys = ["vision", "orientation", "last_action"]
+    assert disagreement(model, before, worlds, keys) > 0.1
+    exported.refresh()
+    after = Network(exported.write(tmp_path / "policy.onnx"))
+    assert disagreement(model, after, worlds, keys) < 1e-5
+    assert before.about["hash"] != after.about["hash"]
+
+
+def test_a_network_decides_as_its_model_does(tmp_path: Path) -> None:
+    """On a real agent, on all that it senses in a drive."""
+    from ai4u_edu.training.entrants import entrant
+
+    done = small_training(tmp_path / "run", "ppo")
+    run = done.run
+    export(load_model("ppo", run.best), run.scene(), run.config(), tmp_path / "policy.onnx")
+    who, other = (entrant(str(tmp_path / name)) for name in ("run", "policy.onnx"))
+    sim = who.fitted(Scene.load("box_chase")).build()
+    agent = sim.agents[0]
+    brain, network = who.brain(agent), other.brain(agent)
+    agent.use_brain(network)
+    agent.use_brain(brain)
+    assert (brain.skip_frame, network.skip_frame) == (9, 9)
+    sim.reset(4)
+    for _ in range(30):
+        one, two = brain.decide(agent.percept), network.decide(agent.percept)
+        assert not isinstance(one, Command)
+        assert not isinstance(two, Command)
+        np.testing.assert_allclose(one["move"], two["move"], atol=1e-5)
+        sim.step()
+        if agent.done:
+            sim.reset()
