@@ -8,7 +8,7 @@ import numpy.typing as npt
 from PIL import Image, ImageDraw
 
 from ai4u_edu import look
-from ai4u_edu.blocks import RayPicture
+from ai4u_edu.blocks import RayPicture, SpotPicture
 from ai4u_edu.snapshot import BodyState, Snapshot, Stage
 from ai4u_edu.world import BodyDescription, CircleShape, RegionDescription, RingShape
 
@@ -55,14 +55,15 @@ class _Canvas:
         if not self.stage.floors:
             self.pen.rectangle((0, 0, *self.image.size), fill=look.FLOOR)
         for area in self.stage.areas:
-            tint = look.mixed(look.area_colour(area), look.FLOOR, 0.65)
-            self._region(area, tint, look.area_colour(area))
+            self._region(area, look.area_fill(area), look.area_colour(area))
         for agent in snapshot.agents:
             self._rays(agent.rays.values())
         described = {body.name: body for body in self.stage.bodies}
         for state in sorted(snapshot.bodies, key=lambda state: state.z):
             if not state.fallen and state.name in described:
                 self._body(described[state.name], state)
+        for agent in snapshot.agents:
+            self._spots(agent.spots.values())
         smooth = self.image.reduce(FINER)
         return np.asarray(smooth, np.uint8)
 
@@ -101,6 +102,13 @@ class _Canvas:
             for end, group in zip(ends, rays.groups, strict=True):
                 colour = groups.get(group, look.UNKNOWN) if group else look.NOTHING
                 self.pen.line([start, end], fill=colour, width=1)
+
+    def _spots(self, pictures: Iterable[SpotPicture]) -> None:
+        radius = look.SPOT * self.scale
+        for spots in pictures:
+            for (x, y), lit in zip(self._pixels(spots.places[:, :2]), spots.lit, strict=True):
+                disc = (x - radius, y - radius, x + radius, y + radius)
+                self.pen.ellipse(disc, fill=look.LIT if lit else look.UNLIT)
 
     def _polygon(self, points: Points, fill: look.Rgb, edge: look.Rgb | None) -> None:
         self.pen.polygon(self._pixels(points), fill=fill, outline=edge, width=FINER)

@@ -18,6 +18,12 @@ NOTHING: Rgb = (152, 161, 170)
 UNKNOWN: Rgb = rgb("purple")
 """A ray that met something without a code."""
 ACTION: Rgb = (52, 60, 70)
+LIT: Rgb = rgb("yellow")
+"""A spot at which a sensor sees something."""
+UNLIT: Rgb = (120, 129, 138)
+"""One at which it sees nothing."""
+SPOT = 0.06
+"""A spot's radius, metres."""
 
 
 def mixed(a: Rgb, b: Rgb, share: float) -> Rgb:
@@ -51,6 +57,12 @@ def area_colour(area: AreaDescription) -> Rgb:
     if area.colour is not None:
         return rgb(area.colour)
     return rgb("orange" if "target" in area.tags else "green")
+
+
+def area_fill(area: AreaDescription) -> Rgb:
+    """The colour inside an area where nothing shines through: pale, unless it is paint."""
+    colour = area_colour(area)
+    return colour if area.paint else mixed(colour, FLOOR, 0.65)
 
 
 def group_colours(stage: Stage) -> dict[str, Rgb]:

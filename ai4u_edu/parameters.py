@@ -151,10 +151,18 @@ BOUNDS = {
 }
 
 
+def _shown(value: object) -> str:
+    try:
+        text = repr(value)
+    except RecursionError:  # what came from a file may hold lists in lists, a thousand deep
+        text = f"a {type(value).__name__} that is nested too deep"
+    return text if len(text) <= 60 else text[:57] + "..."
+
+
 def _sentence(error: ErrorDetails, known: Sequence[str]) -> str:
     kind, got = error["type"], error.get("input")
     context: Mapping[str, Any] = error.get("ctx", {})
-    shown = repr(got) if len(repr(got)) <= 60 else repr(got)[:57] + "..."
+    shown = _shown(got)
     if kind in {"missing", "missing_argument", "missing_keyword_only_argument"}:
         return "is missing and has no default"
     if kind == "unexpected_positional_argument":

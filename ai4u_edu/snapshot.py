@@ -107,6 +107,15 @@ class AgentState:
 
 
 @dataclass(frozen=True, slots=True)
+class SlowTick:
+    """A tick that took too long."""
+
+    seconds: float
+    contacts: int
+    """How many pairs of bodies touched, about."""
+
+
+@dataclass(frozen=True, slots=True)
 class Snapshot:
     """Everything at one tick."""
 
@@ -125,6 +134,8 @@ class Snapshot:
     """What stopped the world, in a sentence; empty while all is well."""
     bodies: tuple[BodyState, ...]
     agents: tuple[AgentState, ...]
+    slow_tick: SlowTick | None = None
+    """The slowest tick of the last seconds, if one took too long."""
 
 
 def picture_of(
@@ -135,6 +146,7 @@ def picture_of(
     time_scale: float = 1.0,
     real_time_factor: float = 1.0,
     error: str = "",
+    slow_tick: SlowTick | None = None,
 ) -> Snapshot:
     """Everything as it is now.
 
@@ -145,6 +157,7 @@ def picture_of(
         time_scale: how fast it should run.
         real_time_factor: how fast it ran lately.
         error: what stopped the world.
+        slow_tick: one that took too long, lately.
     """
     world = sim.world
     return Snapshot(
@@ -159,6 +172,7 @@ def picture_of(
         error=error,
         bodies=body_states(sim),
         agents=tuple(agent_state(agent, sim.success) for agent in sim.agents),
+        slow_tick=slow_tick,
     )
 
 

@@ -29,7 +29,8 @@ from ai4u_edu.check import Outcome
 from ai4u_edu.errors import SceneError, SetupError
 from ai4u_edu.runner import Runner
 from ai4u_edu.viewer import Viewer
-from tests.viewer.test_agent_panel import panel_of
+from tests.viewer.pages import page
+from tests.viewer.test_agent_panel import panel_of, text_of
 
 HERE = Path(__file__).parent / "newcomer"
 
@@ -101,18 +102,19 @@ def test_all_of_it_appears_in_the_viewer(sim: ai4u_edu.ControlRequestor) -> None
     try:
         for _ in range(30):
             runner._tick()
-        for part in viewer._parts:
-            part._drawn_at = 0.0
-        viewer._draw(runner.latest)
+        with page(viewer):
+            for part in viewer._parts:
+                part._drawn_at = 0.0
+            viewer._draw(runner.latest)
+            told = text_of(panel_of(viewer))
         (agent,) = sim.agents
-        folder = panel_of(viewer)._folders["0"]
         smell = float(agent.percept["smell"][0])
         assert 0.6 < smell < 1
-        assert f"<th>smell</th><td>{smell:.2f}</td>" in folder._senses.content
+        assert f"<th>smell</th><td>{smell:.2f}</td>" in told
         paid = agent.ledger.episode_terms["cosy"]
         assert paid == 6
-        assert f"<th>cosy</th><td>1.00</td><td>{paid:.2f}</td>" in folder._reward.content
-        assert "LocalBrain" in folder._state.content
+        assert f"<th>cosy</th><td>1.00</td><td>{paid:.2f}</td>" in told
+        assert "LocalBrain" in told
         names = list(viewer.server.scene._handle_from_node_name)
         assert len([name for name in names if name.endswith("/body")]) == 2, "mouse and cheese"
         texts = [

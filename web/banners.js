@@ -2,6 +2,17 @@
 
 import { element } from "./dom.js";
 
+/** Kinds of banners that are whole sentences, and not printed bold. */
+const PLAIN = ["error", "task"];
+/** How an episode has ended, by the server's word for it: about you, and about an agent by name. */
+const OUTCOMES = {
+  goal: ["Reached the goal!", "reached the goal!"],
+  won: ["You win!", "wins!"],
+  lost: ["You lost.", "lost."],
+  fell: ["Fell.", "fell."],
+  time: ["Time is up."],
+  over: ["Episode over."],
+};
 /** How long a complaint stays (ms). */
 const STAYS = 8000;
 
@@ -13,7 +24,7 @@ export class Banners {
   #fatal = "";
   #complaint = "";
   #timer = 0;
-  #drawn = [null, ""];
+  #drawn = [null, {}];
 
   /** @param {(name: string) => void} order called with the name of a command */
   constructor(order) {
@@ -38,11 +49,13 @@ export class Banners {
 
   /**
    * @param state what the server told last; null while it is away
-   * @param {string} restart what is printed on the key that begins anew
+   * @param about.restart what is printed on the key that begins anew
+   * @param about.name of the agent, if it is not for this page to drive
+   * @param about.isNew whether the person has done nothing yet, and may want to know the goal
    */
-  draw(state, restart) {
-    this.#drawn = [state, restart];
-    const banner = this.#banner(state, restart);
+  draw(state, about) {
+    this.#drawn = [state, about];
+    const banner = this.#banner(state, about);
     const key = JSON.stringify(banner);
     if (key === this.#shown) return;
     this.#shown = key;
@@ -51,17 +64,18 @@ export class Banners {
     urgent.replaceChildren(...(banner ? [this.#card(banner)] : []));
   }
 
-  #banner(state, restart) {
+  #banner(state, about) {
     if (this.#fatal) return { kind: "error", text: this.#fatal, button: "Reload" };
     if (state?.error) return { kind: "error", text: state.error, button: "Reset" };
     if (this.#complaint) return { kind: "error", text: this.#complaint };
-    if (state?.terminated || state?.truncated) return ending(state, restart);
+    if (state?.outcome) return ending(state, about);
     if (state?.paused) return { kind: "paused", text: "Paused", button: "Resume" };
+    if (state?.goal && about.isNew && !about.name) return { kind: "task", text: state.goal };
     return null;
   }
 
   #card({ kind, text, amount, hint, details, button }) {
-    const words = element("p", {}, element(kind === "error" ? "span" : "strong", { textContent: text }));
+    const words = element("p", {}, element(PLAIN.includes(kind) ? "span" : "strong", { textContent: text }));
     if (amount) words.append(" ", element("span", { className: "ai4u-amount", textContent: amount }));
     if (hint) words.append(element("span", { className: "ai4u-hint", textContent: hint }));
     if (details) words.append(element("small", { textContent: details }));
@@ -77,12 +91,12 @@ export class Banners {
   }
 }
 
-function ending({ fallen, truncated, reward, terms }, restart) {
-  const text = fallen ? "Fell." : truncated ? "Time is up." : reward > 0 ? "Reached the goal!" : "Episode over.";
+function ending({ outcome, reward, terms }, { restart, name }) {
+  const [mine, theirs] = OUTCOMES[outcome];
   const parts = Object.entries(terms).filter(([, value]) => Math.abs(value) >= 0.005);
   return {
-    kind: reward > 0 && !fallen ? "goal" : "over",
-    text,
+    kind: outcome === "goal" || outcome === "won" ? "goal" : "over",
+    text: name && theirs ? `${name} ${theirs}` : mine,
     amount: signed(reward),
     hint: restart && ` – press ${restart} to try again`,
     details: parts.length > 1 ? parts.map(([name, value]) => `${name} ${signed(value)}`).join(" · ") : "",
@@ -93,6 +107,6 @@ function ending({ fallen, truncated, reward, terms }, restart) {
 function signed(value) {
   if (value === null) return "";
   const size = Math.abs(value);
-  const digits = size.toLocaleString(undefined, { maximumFractionDigits: size < 10 ? 2 : 1 });
+  const digits = size.toLocaleString(undefined, { maximumFractionDigits: size < 10 ? 2 : size < 100 ? 1 : 0 });
   return (value < 0 ? "−" : "+") + digits;
 }

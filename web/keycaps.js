@@ -40,12 +40,12 @@ export class Keycaps {
     );
   }
 
-  /** Makes a cap for each action. */
-  arrange(bindings) {
+  /** Makes a cap for each action; `captions` says what some of them do here. */
+  arrange(bindings, captions = {}) {
     const made = new Map();
     this.#caps.clear();
     for (const [action, codes] of Object.entries(bindings)) {
-      made.set(action, this.#cap(action, codes[0]));
+      made.set(action, this.#cap(action, codes[0], caption(action, captions)));
       this.#caps.set(made.get(action), codes);
     }
     this.#pad.replaceChildren();
@@ -70,12 +70,12 @@ export class Keycaps {
     this.#take.hidden = kind !== "other";
   }
 
-  #cap(action, code) {
+  #cap(action, code, does) {
     const cap = element(
       "button",
-      { type: "button", className: "ai4u-cap", ariaLabel: `${caption(action)} (${label(code)})` },
+      { type: "button", className: "ai4u-cap", ariaLabel: `${does} (${label(code)})` },
       element("kbd", { textContent: label(code) }),
-      element("span", { textContent: caption(action) }),
+      element("span", { textContent: does }),
     );
     cap.dataset.action = action;
     const press = (event) => {

@@ -28,7 +28,11 @@ export function label(code) {
   return NAMES[code] ?? code.replace(/^(Key|Digit|Numpad)/, "");
 }
 
-/** What an action is called under its key. */
-export function caption(action) {
-  return CAPTIONS[action] ?? action.replaceAll("_", " ");
+/**
+ * What an action is called under its key.
+ * @param {string} action
+ * @param {Record<string, string>} told what the server calls it in this scene
+ */
+export function caption(action, told = {}) {
+  return told[action] ?? CAPTIONS[action] ?? action.replaceAll("_", " ");
 }

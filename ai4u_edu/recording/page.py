@@ -73,10 +73,7 @@ def _regions(stage: Stage) -> list[dict[str, Any]]:
         _region(floor, look.floor_colour(floor), look.CLIFF)
         for floor in sorted(stage.floors, key=lambda floor: floor.top)
     ]
-    areas = [
-        _region(area, look.mixed(look.area_colour(area), look.FLOOR, 0.65), look.area_colour(area))
-        for area in stage.areas
-    ]
+    areas = [_region(area, look.area_fill(area), look.area_colour(area)) for area in stage.areas]
     return floors + areas
 
 

@@ -1,73 +1,116 @@
-"""What each agent senses, does and gets, in a panel of its own."""
+"""What an agent senses, does and gets, in a panel: on each page the agent that is looked at."""
 
-from html import escape
+from urllib.parse import unquote
 
-from viser import GuiApi
+from viser import ClientHandle, GuiDropdownHandle, GuiEvent
 
-from ai4u_edu.snapshot import AgentState, Snapshot, Stage
+from ai4u_edu.look import Rgb, group_colours
+from ai4u_edu.snapshot import Snapshot, Stage
+from ai4u_edu.viewer.agent_html import AgentHtml, overview, title
 from ai4u_edu.viewer.local_server import LocalServer
-from ai4u_edu.viewer.readings import action, block, readings, rewards
+
+AGENT_HEADER = "X-AI4U-Edu-Agent"
+"""By this our proxy tells viser which agent a page is about, percent-encoded."""
 
 
 class AgentPanel:
-    """A folder for each agent; what changed is sent."""
+    """A panel on each page, in which one agent is open at a time.
 
-    def __init__(self, server: LocalServer) -> None:
-        self._gui = server.gui
-        panel = self._gui.add_panel()
-        self._tab = panel.add_tab("Agents")
-        panel.dock_below(self._gui.main_panel)
-        self._folders: dict[str, _Folder] = {}
+    Args:
+        server: viser's.
+        first: the id of the agent that a page shows which is about none in particular.
+    """
+
+    def __init__(self, server: LocalServer, first: str) -> None:
+        self._server = server
+        self._first = first
+        self._pages: dict[int, _Page] = {}
+        self._agent_of: dict[str, str] = {}
+        self._colours: dict[str, Rgb] = {}
 
     def build(self, stage: Stage) -> None:
-        """Makes a folder for each agent, if there are other agents than before."""
-        ids = list(stage.agent_of.values())
-        if ids == list(self._folders):
+        """Learns the stage's colours; if there are other agents than before, makes new panels."""
+        self._stage, self._colours = stage, group_colours(stage)
+        if stage.agent_of == self._agent_of:
             return
-        for folder in self._folders.values():
-            folder.remove()
-        with self._tab:
-            self._folders = {
-                agent_id: _Folder(self._gui, agent_id, body, expanded=len(ids) <= 2)
-                for body, agent_id in stage.agent_of.items()
-            }
+        self._agent_of = dict(stage.agent_of)
+        for page in self._pages.values():
+            page.remove()
+        self._pages = {}
 
     def draw(self, snapshot: Snapshot) -> None:
-        """Shows the agents' last decisions."""
-        for agent in snapshot.agents:
-            folder = self._folders.get(agent.id)
-            if folder is not None:
-                folder.show(agent)
+        """Shows the agents' last decisions to all pages, new ones too."""
+        clients = self._server.get_clients()
+        for gone in self._pages.keys() - clients.keys():
+            del self._pages[gone]
+        for new in sorted(clients.keys() - self._pages.keys()):
+            self._pages[new] = _Page(clients[new], self._agent_of, self._wanted(new))
+        written: dict[str, AgentHtml] = {}  # once for all pages that look at the same agent
+        for page in self._pages.values():
+            for agent in snapshot.agents:
+                if agent.id == page.chosen:
+                    if agent.id not in written:
+                        written[agent.id] = AgentHtml.of(agent, self._colours)
+                    page.show(written[agent.id], snapshot)
+
+    def choose(self, client_id: int, body: str) -> None:
+        """Opens the agent of that body on one page."""
+        page, agent_id = self._pages.get(client_id), self._agent_of.get(body)
+        if page is not None and agent_id is not None:
+            page.choose(agent_id)
+
+    def chosen(self, client_id: int) -> str:
+        """The id of the agent that one page looks at."""
+        page = self._pages.get(client_id)
+        return self._first if page is None else page.chosen
+
+    def watched(self) -> set[str]:
+        """The ids of the agents that somebody looks at."""
+        return {page.chosen for page in tuple(self._pages.values())} or {self._first}
+
+    def _wanted(self, client_id: int) -> str:
+        connection = self._server._websock_server._live_connections.get(client_id)
+        request = getattr(connection, "request", None)
+        asked = unquote(request.headers.get(AGENT_HEADER, "")) if request is not None else ""
+        known = list(self._agent_of.values())
+        return asked if asked in known else self._first if self._first in known else known[0]
 
 
-class _Folder:
-    def __init__(self, gui: GuiApi, agent_id: str, body: str, *, expanded: bool) -> None:
-        self._folder = gui.add_folder(f"Agent {agent_id}: {body}", expand_by_default=expanded)
-        with self._folder:
-            self._state = gui.add_html("")
-            self._senses = gui.add_html("")
-            self._action = gui.add_html("")
-            self._reward = gui.add_html("")
+class _Page:
+    """The panel of one page."""
 
-    def show(self, agent: AgentState) -> None:
-        self._state.content = state(agent)
-        self._senses.content = readings(agent.percept)
-        self._action.content = action(agent.action)
-        self._reward.content = rewards(agent.reward_terms, agent.episode_terms)
+    def __init__(self, client: ClientHandle, agent_of: dict[str, str], chosen: str) -> None:
+        gui = client.gui
+        names = {agent_id: title(agent_id, body) for body, agent_id in agent_of.items()}
+        self.chosen = chosen
+        self._names = names
+        self._ids = {name: agent_id for agent_id, name in names.items()}
+        self._panel = gui.add_panel()
+        with self._panel.add_tab("Agents" if len(names) > 1 else "Agent"):
+            self._is_one_of_several = len(names) > 1
+            if self._is_one_of_several:
+                self._overview = gui.add_html("")
+                self._list = gui.add_dropdown(
+                    "Look at", tuple(self._ids), initial_value=names[chosen]
+                )
+                self._list.on_update(self._on_choice)
+            self._parts = [gui.add_html("") for _ in AgentHtml._fields]
+        self._panel.dock_below(gui.main_panel)
+
+    def choose(self, agent_id: str) -> None:
+        self.chosen = agent_id
+        if self._is_one_of_several:
+            # a method parts its getter from its setter
+            self._list.value = self._names[agent_id]  # type: ignore[misc]
+
+    def show(self, html: AgentHtml, snapshot: Snapshot) -> None:
+        if self._is_one_of_several:
+            self._overview.content = overview(snapshot, self.chosen)
+        for handle, content in zip(self._parts, html, strict=True):
+            handle.content = content
 
     def remove(self) -> None:
-        self._folder.remove()
+        self._panel.remove()
 
-
-def state(agent: AgentState) -> str:
-    """Who decides for an agent, and how far it is, as HTML."""
-    words = [f"<small>Brain</small> {escape(agent.brain)}"]
-    if agent.terminated:
-        words.append("<b>episode over</b>")
-    elif agent.truncated:
-        words.append("<b>cut off at the step limit</b>")
-    elif agent.paused:
-        words.append("<b>paused</b>")
-    if agent.clipped:
-        words.append(f"{agent.clipped} numbers out of range, cut")
-    return block("<br>".join(words))
+    async def _on_choice(self, event: GuiEvent[GuiDropdownHandle[str]]) -> None:
+        self.chosen = self._ids.get(event.target.value, self.chosen)

@@ -1,9 +1,11 @@
 """What moves: bodies as prisms with shadows, faces and marks; one batch for each kind of body."""
 
 from collections import defaultdict
+from collections.abc import Callable
 
 import numpy as np
 import numpy.typing as npt
+from viser import BatchedMeshHandle, SceneNodePointerEvent
 
 from ai4u_edu.look import VOID, Rgb, body_colour, mixed
 from ai4u_edu.snapshot import Snapshot, Stage
@@ -26,9 +28,15 @@ RIM = 0.05
 
 
 class Bodies:
-    """Draws all bodies; only what moved is sent."""
+    """Draws all bodies; only what moved is sent.
 
-    def __init__(self, server: LocalServer) -> None:
+    Args:
+        server: viser's.
+        on_agent: called with a page's number and a body's name when an agent is clicked on.
+    """
+
+    def __init__(self, server: LocalServer, on_agent: Callable[[int, str], None]) -> None:
+        self._on_agent = on_agent
         self._scene = server.scene
         self._root = Root(server.scene, "bodies")
         self._seen: object = None
@@ -49,6 +57,9 @@ class Bodies:
                 _Kind(Brush(self._scene, f"{root}/{number}"), self._layers, stage, indices)
                 for number, indices in enumerate(members.values())
             ]
+            for kind in self._kinds:
+                if kind.names[0] in stage.agent_of:
+                    kind.listen(self._on_agent)
         self._seen = wanted
 
     def draw(self, snapshot: Snapshot) -> None:
@@ -64,6 +75,7 @@ class _Kind:
     def __init__(self, brush: Brush, layers: Layers, stage: Stage, members: list[int]) -> None:
         self._members = np.array(members)
         bodies = [stage.bodies[index] for index in members]
+        self.names = [body.name for body in bodies]
         is_agent = bodies[0].name in stage.agent_of
         colours = [body_colour(body, is_agent) for body in bodies]
         self._own = surfaces(colours)
@@ -81,6 +93,15 @@ class _Kind:
             self._marks.append(brush.batch("pupils", eyes, [DARK] * count))
         elif "target" in bodies[0].tags:
             self._marks.append(brush.batch("rings", rings(radius, top), [LIGHT] * count))
+
+    def listen(self, on_agent: Callable[[int, str], None]) -> None:
+        """Has a click on a member told, with the page on which it was clicked."""
+
+        async def tell(event: SceneNodePointerEvent[BatchedMeshHandle]) -> None:
+            if event.instance_index is not None and event.instance_index < len(self.names):
+                on_agent(event.client_id, self.names[event.instance_index])
+
+        self._body.on_click(tell)
 
     def move(self, where: Poses) -> None:
         """Puts the members where they are."""

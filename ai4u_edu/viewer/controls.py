@@ -8,9 +8,10 @@ from viser import ClientHandle, GuiButtonGroupHandle, GuiDropdownHandle, GuiEven
 
 from ai4u_edu.runner import Runner
 from ai4u_edu.snapshot import Snapshot, Stage
+from ai4u_edu.viewer.agent_panel import AgentPanel
 from ai4u_edu.viewer.local_server import LocalServer
 from ai4u_edu.viewer.rays import Rays
-from ai4u_edu.viewer.status import STYLE, legend, speed_name, status
+from ai4u_edu.viewer.status import STYLE, goal, legend, speed_name, status
 from ai4u_edu.viewer.view import View
 
 T = TypeVar("T")
@@ -28,15 +29,22 @@ class Controls:
         runner: gets the commands.
         views: the pages' cameras, by client id.
         rays: can be shown or not.
+        panel: knows which agent a page looks at.
     """
 
     def __init__(
-        self, server: LocalServer, runner: Runner, views: Mapping[int, View], rays: Rays
+        self,
+        server: LocalServer,
+        runner: Runner,
+        views: Mapping[int, View],
+        rays: Rays,
+        panel: AgentPanel,
     ) -> None:
         gui = server.gui
-        self._runner, self._views, self._rays = runner, views, rays
+        self._runner, self._views, self._rays, self._panel = runner, views, rays, panel
         self._scale_shown, self._seed_shown = 0.0, -1
         gui.add_html(STYLE)
+        self._goal = gui.add_html("")
         self._status = gui.add_html("")
         self._time = gui.add_button_group("Time", RUNNING)
         self._speed = gui.add_dropdown("Speed", tuple(SPEEDS))
@@ -54,7 +62,8 @@ class Controls:
         self._shown.on_update(self._on_rays)
 
     def build(self, stage: Stage) -> None:
-        """Explains the colours of a stage."""
+        """Tells the goal, and explains the colours of a stage."""
+        self._goal.content = goal(stage)
         self._legend.content = legend(stage)
 
     def draw(self, snapshot: Snapshot) -> None:
@@ -98,12 +107,14 @@ class Controls:
         self._rays.shown = bool(self._shown.value)
 
     async def _on_camera(self, event: GuiEvent[GuiButtonGroupHandle]) -> None:
-        view = self._views.get(-1 if event.client_id is None else event.client_id)
-        bodies = list(self._runner.latest.stage.agent_of)
+        client_id = -1 if event.client_id is None else event.client_id
+        view = self._views.get(client_id)
+        agent_of = self._runner.latest.stage.agent_of
         if view is None:
             return
-        if event.target.value == FOLLOW and bodies:
-            view.follow_next(bodies)
+        if event.target.value == FOLLOW and agent_of:
+            chosen = self._panel.chosen(client_id)
+            view.follow_next(sorted(agent_of, key=lambda body: agent_of[body] != chosen))
         else:
             view.show_all()
 

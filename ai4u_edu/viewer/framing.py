@@ -13,6 +13,10 @@ PORTRAIT = 0.8
 """A window narrower than this (width / height) is a phone's: the panel covers its lower part."""
 FREE_IN_PORTRAIT = 0.62
 """The upper share of such a window that stays free."""
+LANDSCAPE = 1.6
+"""A window wider than this has room for the keys beside the arena."""
+FREE_ABOVE_KEYS = 0.9
+"""The upper share of a window in between; the keys lie at its lower edge."""
 
 
 @dataclass(frozen=True)
@@ -47,7 +51,9 @@ def visible_height(distance: float) -> float:
 
 def free_part(aspect: float) -> float:
     """The upper share of a window of that aspect which nothing covers."""
-    return FREE_IN_PORTRAIT if aspect < PORTRAIT else 1.0
+    if aspect < PORTRAIT:
+        return FREE_IN_PORTRAIT
+    return FREE_ABOVE_KEYS if aspect < LANDSCAPE else 1.0
 
 
 def frame(bounds: Bounds, aspect: float) -> Frame:

@@ -21,6 +21,8 @@ BLUR = 0.028
 """How soft that shadow's edge is, likewise."""
 SHEETS = 8
 """What that shadow is made of."""
+SEAM = 0.01
+"""How far paint reaches beyond its outline, metres."""
 BLACK: Rgb = (0, 0, 0)
 
 
@@ -96,10 +98,17 @@ def _out_of_sight(outline: Array, scale: float) -> Array | None:
 def _area(brush: Brush, layers: Layers, area: AreaDescription, top: float) -> None:
     outline, hole = placed(area)
     name, colour = f"area {area.name}", area_colour(area)
+    if area.paint:
+        # a little larger, so that no seam shows where two pieces meet
+        edge = grow(outline, SEAM)
+        brush.mesh(f"{name}/fill", sheet(edge, hole), top + layers.paint, colour)
+        return
     brush.mesh(f"{name}/fill", sheet(outline, hole), top + layers.area, colour, opacity=0.28)
     for edge in (outline,) if hole is None else (outline, hole):
         brush.line(segments(edge, top + layers.outline), colour)
-    brush.label(f"{name}/label", area.label or area.name, (*area.position, top))
+    text = area.label or area.name
+    if not text.isspace():
+        brush.label(f"{name}/label", text, (*area.position, top))
 
 
 def _around(stage: Stage, times: float) -> Mesh:

@@ -46,6 +46,11 @@ class Layers:
         return self.unit
 
     @property
+    def paint(self) -> float:
+        """What is painted on a floor."""
+        return 1.5 * self.unit
+
+    @property
     def area(self) -> float:
         """The fill of an area."""
         return 2 * self.unit

@@ -45,5 +45,5 @@ def size(stage: Stage) -> float:
 def seen_bounds(stage: Stage) -> tuple[tuple[float, float], tuple[float, float]]:
     """What a camera shall show: all of the arena; where the ground is endless, some more."""
     (left, low), (right, high) = stage.bounds
-    more = 0.0 if stage.floors else max(3.0, 0.4 * size(stage))
+    more = 0.0 if stage.floors else max(3.0, 0.2 * size(stage))
     return (left - more, low - more), (right + more, high + more)

@@ -1,5 +1,7 @@
 """What the ray sensors saw: a line for each ray, a dot where it met something."""
 
+from collections.abc import Callable, Collection
+
 import numpy as np
 import numpy.typing as npt
 
@@ -20,10 +22,16 @@ DOT = 0.0055
 
 
 class Rays:
-    """Draws the rays of all agents' last readings."""
+    """Draws the rays of agents' last readings.
 
-    def __init__(self, server: LocalServer) -> None:
+    Args:
+        server: viser's.
+        watched: gives the ids of the agents whose rays are drawn.
+    """
+
+    def __init__(self, server: LocalServer, watched: Callable[[], Collection[str]]) -> None:
         self.shown = True
+        self._watched = watched
         self._scene = server.scene
         self._root = Root(server.scene, "rays")
         self._count = 0
@@ -39,11 +47,12 @@ class Rays:
 
     def draw(self, snapshot: Snapshot) -> None:
         """Draws the rays as they are."""
+        watched = self._watched()
         gone = {body.name for body in snapshot.bodies if body.fallen}
         pictures = [
             picture
             for agent in snapshot.agents
-            if agent.body not in gone and self.shown
+            if agent.id in watched and agent.body not in gone and self.shown
             for picture in agent.rays.values()
         ]
         groups = [group for picture in pictures for group in picture.groups]

@@ -2,10 +2,15 @@
 
 from collections.abc import Iterable, Mapping, Sequence
 from html import escape
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
+
+from ai4u_edu.blocks import Legend
+from ai4u_edu.look import Rgb
+from ai4u_edu.viewer.pictures import pictures
 
 IN_FULL = 8
 """Arrays of at most so many numbers are shown in full; longer ones as bars."""
@@ -33,9 +38,24 @@ def table(rows: Iterable[Sequence[str]]) -> str:
     return f"<table>{''.join(lines)}</table>"
 
 
-def readings(percept: Mapping[str, Any]) -> str:
-    """What an agent senses, by perception key."""
-    rows = [f"<tr>{_cells(key, value)}</tr>" for key, value in percept.items()]
+def readings(
+    percept: Mapping[str, Any],
+    legends: Mapping[str, Legend] = MappingProxyType({}),
+    colours: Mapping[str, Rgb] = MappingProxyType({}),
+) -> str:
+    """What an agent senses, by perception key.
+
+    Args:
+        percept: what it senses.
+        legends: of the readings that are pictures.
+        colours: of the groups in those.
+    """
+    rows = [
+        f"<tr>{_picture(key, value, legends[key], colours)}</tr>"
+        if key in legends
+        else f"<tr>{_cells(key, value)}</tr>"
+        for key, value in percept.items()
+    ]
     return block(heading("Senses"), f"<table>{''.join(rows)}</table>")
 
 
@@ -94,6 +114,12 @@ def _cells(key: str, value: Any) -> str:
     if np.ndim(value) and np.size(value) > IN_FULL:
         return f'<th colspan="2">{name} {reading(value)}</th>'
     return f"<th>{name}</th><td>{reading(value)}</td>"
+
+
+def _picture(key: str, value: Any, legend: Legend, colours: Mapping[str, Rgb]) -> str:
+    shape = " x ".join(map(str, np.shape(value)))
+    name = f"{escape(key)} <small>{shape}</small><br>"
+    return f'<th colspan="2">{name}{pictures(value, legend, colours)}</th>'
 
 
 def _bars(array: npt.NDArray[Any]) -> str:

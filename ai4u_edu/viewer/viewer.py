@@ -18,6 +18,8 @@ from ai4u_edu.viewer.local_server import LocalServer
 from ai4u_edu.viewer.part import Paced, Part
 from ai4u_edu.viewer.placing import seen_bounds
 from ai4u_edu.viewer.rays import Rays
+from ai4u_edu.viewer.remote_lines import RemoteLines
+from ai4u_edu.viewer.spots import Spots
 from ai4u_edu.viewer.view import View
 
 PANEL_WIDTH = 320
@@ -53,15 +55,18 @@ class Viewer:
         server.gui.main_panel.dock_right()
         server.gui.main_panel.set_width(PANEL_WIDTH)
         light(server.scene)
-        rays = Rays(server)
+        panel = AgentPanel(server, first=runner.sim.agents[0].id)
+        rays = Rays(server, panel.watched)
         parts: list[tuple[Part, float]] = [
             (Ground(server), 1),
-            (Bodies(server), FRAMES),
+            (Bodies(server, panel.choose), FRAMES),
             (Labels(server), FRAMES),
             (rays, 30),
+            (Spots(server, panel.watched), 30),
             (Actions(server), 30),
-            (Controls(server, runner, self._views, rays), 8),
-            (AgentPanel(server), 8),
+            (Controls(server, runner, self._views, rays, panel), 8),
+            (panel, 8),
+            (RemoteLines(server, runner), 2),
         ]
         self._parts = [Paced(part, rate, self._complaints) for part, rate in parts]
         self._draw(runner.latest)

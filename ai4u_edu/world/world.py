@@ -244,6 +244,13 @@ class World:
         things = self._described.values()
         return around(each for each in things if not isinstance(each, AreaDescription))
 
+    def count_contacts(self) -> int:
+        """How many pairs of bodies touch, about; takes a while where there are many."""
+        found: list[pymunk.Arbiter] = []
+        for body in self.bodies.values():
+            body._pm.each_arbiter(found.append)
+        return (len(found) + 1) // 2
+
     def filter_for(self, body: BodyView | None, mask: int) -> pymunk.ShapeFilter:
         """A filter that lets through what the mask names, but not the body itself."""
         group = 0 if body is None or not body._shapes else body._shapes[0].filter.group

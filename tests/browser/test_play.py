@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator
 from typing import Any
 
 import pytest
-from playwright.sync_api import Browser, Page
+from playwright.sync_api import Browser, Page, expect
 
 from tests.browser.theatre import ready
 from tests.playing import Played, played
@@ -81,6 +81,19 @@ def test_the_page_shows_what_the_agent_senses(server: Played, page: Page) -> Non
         "new URL(each.name).host === location.host || "
         "/^(blob|data):/.test(each.name))"
     )
+
+
+def test_the_goal_is_told_until_somebody_drives(page: Page) -> None:
+    task = page.locator(".ai4u-banner[data-kind=task]")
+    expect(task).to_contain_text("Reach the box and touch it.")
+    page.keyboard.press("KeyA")
+    expect(task).to_have_count(0)
+    expect(page.locator(".ai4u .goal")).to_contain_text("Reach the box and touch it.")
+
+
+def test_there_are_no_keys_for_what_the_robot_can_not_do(page: Page) -> None:
+    expect(page.locator(".ai4u-cap")).to_have_count(5)
+    expect(page.locator(".ai4u-cap[data-action=jump]")).to_have_count(0)
 
 
 def test_ctrl_c_ends_it_cleanly(server: Played, page: Page) -> None:

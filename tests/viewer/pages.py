@@ -14,6 +14,7 @@ from websockets.sync.connection import Connection
 from websockets.typing import Subprotocol
 
 from ai4u_edu.viewer import Viewer
+from ai4u_edu.viewer.agent_panel import AGENT_HEADER
 
 
 class Page:
@@ -54,6 +55,19 @@ class Page:
     def submit(self, form: Any) -> None:
         self.say("GuiFormSubmitMessage", uuid=form._impl.uuid)
 
+    def click(self, node: str, instance: int | None) -> None:
+        """Clicks on a thing in the scene."""
+        self.say(
+            "SceneNodeClickMessage",
+            name=node,
+            instance_index=instance,
+            ray_origin=(0.0, 0.0, 1.0),
+            ray_direction=(0.0, 0.0, -1.0),
+            screen_pos=(0.5, 0.5),
+            modifier=None,
+            owner="",
+        )
+
     def _read(self) -> None:
         with contextlib.suppress(ConnectionClosed):
             for message in self._connection:
@@ -61,10 +75,15 @@ class Page:
 
 
 @contextlib.contextmanager
-def page(viewer: Viewer) -> Iterator[Page]:
+def page(viewer: Viewer, agent: str = "") -> Iterator[Page]:
+    """Opens a page; it is about an agent, percent-encoded, as the proxy tells it."""
     protocol = Subprotocol(f"viser-v{viser.__version__}")
     with connect(
-        f"ws://127.0.0.1:{viewer.port}", subprotocols=[protocol], max_size=None, compression=None
+        f"ws://127.0.0.1:{viewer.port}",
+        additional_headers={AGENT_HEADER: agent},
+        subprotocols=[protocol],
+        max_size=None,
+        compression=None,
     ) as connection:
         here = Page(connection)
         here.report_camera()

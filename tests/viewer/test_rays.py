@@ -18,6 +18,10 @@ PICTURE = RayPicture(
 )
 
 
+def everybody() -> set[str]:
+    return {"0"}
+
+
 def test_a_line_runs_from_the_eye_to_the_end_of_each_ray() -> None:
     lines = ray_lines(PICTURE)
     assert lines.shape == (3, 2, 3)
@@ -37,7 +41,7 @@ def test_rays_have_the_colours_of_what_they_met(viewer: Viewer) -> None:
     snapshot = picture(sim)
     groups = snapshot.agents[0].rays["fan"].groups
     assert set(groups) == {"target", "wall", ""}
-    rays = Rays(viewer.server)
+    rays = Rays(viewer.server, everybody)
     rays.build(snapshot.stage)
     rays.draw(snapshot)
     colours = {"": NOTHING, "target": rgb("orange"), "wall": WALL}
@@ -52,7 +56,7 @@ def test_more_and_fewer_rays(viewer: Viewer) -> None:
     sim = busy_sim()
     sim.reset(seed=1)
     snapshot = picture(sim)
-    rays = Rays(viewer.server)
+    rays = Rays(viewer.server, everybody)
     rays.build(snapshot.stage)
     for count in (1, 3, 0, 2):
         few = RayPicture(PICTURE.origin, PICTURE.ends[:count], PICTURE.groups[:count])
@@ -70,11 +74,21 @@ def test_who_fell_out_of_the_world_sees_nothing(viewer: Viewer) -> None:
     sim.reset(seed=1)
     snapshot = picture(sim)
     first, *others = snapshot.bodies
-    rays = Rays(viewer.server)
+    rays = Rays(viewer.server, everybody)
     rays.build(snapshot.stage)
     rays.draw(snapshot)
     rays.draw(replace(snapshot, bodies=(replace(first, fallen=True), *others)))
     assert rays._lines._impl.removed
+
+
+def test_rays_of_an_agent_that_nobody_looks_at_are_not_drawn(viewer: Viewer) -> None:
+    sim = busy_sim()
+    sim.reset(seed=1)
+    rays = Rays(viewer.server, lambda: {"another"})
+    snapshot = picture(sim)
+    rays.build(snapshot.stage)
+    rays.draw(snapshot)
+    assert rays._count == 0
 
 
 def test_every_group_of_the_stage_has_a_colour(viewer: Viewer) -> None:

@@ -1,8 +1,9 @@
 import math
 from dataclasses import replace
 
+from ai4u_edu.blocks import RemoteStatus
 from ai4u_edu.runner import Runner
-from ai4u_edu.viewer.status import legend, speed_name, status
+from ai4u_edu.viewer.status import goal, legend, speed_name, status
 
 
 def test_an_error_is_shown_escaped(runner: Runner) -> None:
@@ -15,6 +16,38 @@ def test_what_can_not_keep_up_says_so(runner: Runner) -> None:
     assert "keep up" not in status(replace(runner.latest, real_time_factor=0.97))
     assert "keep up" not in status(replace(runner.latest, time_scale=math.inf))
     assert "Paused" in status(replace(runner.latest, paused=True, real_time_factor=0.0))
+
+
+def test_how_it_stands_with_a_script_is_shown_escaped(runner: Runner) -> None:
+    agent = replace(
+        runner.latest.agents[0],
+        remote=RemoteStatus(
+            state="lost",
+            reason="no answer from <b>",
+            decisions=7,
+            missing=2,
+            ignored=0,
+            refused=0,
+            clipped=1,
+        ),
+    )
+    html = status(replace(runner.latest, agents=(agent,)))
+    assert "<strong>lost</strong>" in html
+    assert "no answer from &lt;b&gt;" in html
+    assert "7 decisions, 2 missing, 1 clipped" in html
+    assert "Script of agent" not in status(runner.latest)
+
+
+def test_the_goal_is_told_escaped(runner: Runner) -> None:
+    assert goal(runner.latest.stage) == ""
+    assert "Reach &lt;it&gt;" in goal(replace(runner.latest.stage, goal="Reach <it>"))
+
+
+def test_steps_are_those_of_the_only_agent(runner: Runner) -> None:
+    (agent,) = runner.latest.agents
+    snapshot = replace(runner.latest, agents=(replace(agent, steps=41),))
+    assert "<small>step</small> 41" in status(snapshot)
+    assert "step" not in status(replace(snapshot, agents=(agent, agent)))
 
 
 def test_the_legend_names_all_groups_and_what_rays_can_meet(runner: Runner) -> None:

@@ -8,7 +8,7 @@ from viser import CameraHandle
 from ai4u_edu.runner import Runner
 from ai4u_edu.snapshot import Snapshot
 from ai4u_edu.viewer import Viewer
-from ai4u_edu.viewer.framing import Frame, frame
+from ai4u_edu.viewer.framing import Frame, centred, frame
 from ai4u_edu.viewer.placing import seen_bounds
 from ai4u_edu.viewer.view import FOLLOWED, View
 from tests.viewer.pages import Page, page, until
@@ -51,6 +51,12 @@ def whole(snapshot: Snapshot, aspect: float = 1.2) -> Frame:
 
 def place(shown: Frame) -> tuple[float, float, float]:
     return shown.x, shown.y, shown.distance
+
+
+def middle(x: float, y: float, height: float) -> list[float]:
+    """What a camera looks at that has a place in the middle of the free part of its window."""
+    shown = centred(x, y, height, 1.2)
+    return [shown.x, shown.y, 0.0]
 
 
 def with_robot_at(snapshot: Snapshot, x: float, y: float) -> Snapshot:
@@ -122,7 +128,7 @@ def test_a_followed_agent_comes_to_the_middle_smoothly(
     view.update(runner.latest)
     view.follow_next(["robot"])
     view.update(runner.latest)
-    assert watched.camera.look_at == pytest.approx([0.0, 0.0, 0.0])
+    assert watched.camera.look_at == pytest.approx(middle(0.0, 0.0, 0.4 * FOLLOWED))
     assert watched.camera.position[2] == pytest.approx(Frame(0, 0, 0.4 * FOLLOWED).distance)
     ways = []
     for _ in range(60):
@@ -154,7 +160,8 @@ def test_following_goes_on_to_the_next_agent_and_ends(watched: Watched, runner: 
         view.follow_next(["robot", "box"])
         view.update(runner.latest)
         body = next(body for body in runner.latest.bodies if body.name == expected)
-        assert watched.camera.look_at == pytest.approx([body.x, body.y, 0.0])
+        height = watched.view._frame.height
+        assert watched.camera.look_at == pytest.approx(middle(body.x, body.y, height))
     view.show_all()
     view.update(runner.latest)
     assert watched.camera.position == pytest.approx(place(whole(runner.latest)))

@@ -93,6 +93,34 @@ def test_a_changed_stage_is_built_anew_and_the_old_one_goes(viewer: Viewer, runn
     assert [name for name in names if name.startswith("/ground")] == kept
 
 
+def test_an_area_whose_label_is_blank_has_no_label(viewer: Viewer, runner: Runner) -> None:
+    for name, label in (("quiet", " "), ("nameless", "")):
+        shape = BoxShape(size=(1, 1))
+        runner.sim.world.add_area(name, shape, position=(-3, -3), label=label)
+    runner._publish()
+    viewer._draw(runner.latest)
+    found = [name.split("/area ")[1] for name in nodes(viewer) if "/area " in name]
+    assert "quiet/fill" in found
+    assert "quiet/label" not in found
+    assert "nameless/label" in found  # its name is written
+
+
+def test_paint_is_opaque_and_has_neither_outline_nor_label(viewer: Viewer, runner: Runner) -> None:
+    before: Any = viewer.server.scene.get_handle_by_name("/ground1/lines")
+    strokes = len(before.points)
+    shape = BoxShape(size=(1, 1))
+    runner.sim.world.add_area("line", shape, position=(-3, -3), paint=True, label="unseen")
+    runner._publish()
+    viewer._draw(runner.latest)
+    scene = viewer.server.scene
+    fill: Any = scene.get_handle_by_name("/ground0/area line/fill")
+    goal: Any = scene.get_handle_by_name("/ground0/area goal/fill")
+    lines: Any = scene.get_handle_by_name("/ground0/lines")
+    assert (fill.opacity, goal.opacity) == (None, 0.28)
+    assert "/ground0/area line/label" not in nodes(viewer)
+    assert len(lines.points) == strokes
+
+
 def test_a_reset_builds_nothing_anew(viewer: Viewer, runner: Runner) -> None:
     before = nodes(viewer)
     runner.sim.reset(2)

@@ -1,0 +1,38 @@
+import numpy as np
+
+from ai4u_edu import Scene
+from ai4u_edu.drawing import draw
+from ai4u_edu.look import LIT, UNLIT
+from ai4u_edu.snapshot import picture_of
+from tests.gallery import COLUMNS, SPACE, TILE, contact_sheet
+
+
+def test_every_scene_has_its_tile() -> None:
+    names = Scene.names()
+    sheet = np.asarray(contact_sheet(names))
+    rows = -(-len(names) // COLUMNS)
+    tall = (sheet.shape[0] - SPACE) // rows
+    for index in range(len(names)):
+        row, column = divmod(index, COLUMNS)
+        top, left = SPACE + row * tall, SPACE + column * (TILE + SPACE)
+        tile = sheet[top : top + TILE, left : left + TILE].reshape(-1, 3)
+        assert len(np.unique(tile, axis=0)) > 10, names[index]
+
+
+def has(picture: np.ndarray, colour: tuple[int, int, int]) -> bool:
+    return bool((picture == colour).all(axis=2).any())
+
+
+def test_paint_is_drawn_in_its_own_colour_and_eyes_light_up_on_it() -> None:
+    sim = Scene.load("line_follow").build()
+    sim.reset(1)
+    robot = sim.agents[0].body
+    pictures = []
+    for y in (-3.85, 0.0):  # with all eyes on the line, and with none
+        robot.move_to(-1.0, y, heading=np.pi / 2)
+        sim.agents[0].sense()
+        pictures.append(draw(picture_of(sim), longest=900))
+    on, off = pictures
+    assert has(on, (0, 0, 0))
+    assert (has(on, LIT), has(on, UNLIT)) == (True, False)
+    assert (has(off, LIT), has(off, UNLIT)) == (False, True)

@@ -1,0 +1,69 @@
+"""The lines to paste into a notebook."""
+
+import viser
+from websockets.sync.client import connect
+from websockets.typing import Subprotocol
+
+from ai4u_edu.runner import Runner
+from ai4u_edu.server import ServerThread, room_app
+from ai4u_edu.viewer import Viewer
+from ai4u_edu.viewer.remote_lines import RemoteLines, lines
+from tests.builders import small_sim
+from tests.remote.rooms import log_sim
+from tests.viewer.pages import Page, page, until
+
+
+def part_of(viewer: Viewer) -> RemoteLines:
+    (part,) = (each._part for each in viewer._parts if isinstance(each._part, RemoteLines))
+    return part
+
+
+def test_the_lines_are_python_for_this_agent() -> None:
+    agent = small_sim().agents[0]
+    text = lines("http://teacher:8080", agent)
+    code = text.split("```python\n")[1].split("```")[0]
+    assert code == (
+        "from ai4u_edu.remote import connect\n\n"
+        "robot = connect('http://teacher:8080', agent='0')\n"
+        "for percept in robot:\n"
+        "    robot.act(move=[1, 0, 0, 0])\n"
+        "robot.close()\n"
+    )
+    compile(code, "lines", "exec")
+
+
+def test_each_page_has_them_with_the_address_by_which_it_came(
+    viewer: Viewer, runner: Runner
+) -> None:
+    part = part_of(viewer)
+    with ServerThread(room_app(runner, viser_port=viewer.port, title="A room")) as server:
+        address = server.url.rstrip("/").replace("127.0.0.1", "localhost")
+        with connect(
+            address.replace("http", "ws", 1),
+            origin=address,  # type: ignore[arg-type]  # a NewType of str
+            subprotocols=[Subprotocol(f"viser-v{viser.__version__}")],
+            max_size=None,
+            compression=None,
+            proxy=None,
+        ) as connection:
+            Page(connection).report_camera()
+            until(viewer.server.get_clients)
+            part.draw(runner.latest)
+            (folder,) = part._pages.values()
+            assert f"connect({address!r}, agent=" in folder.lines.content
+        until(lambda: not viewer.server.get_clients())
+        part.draw(runner.latest)
+        assert part._pages == {}
+
+
+def test_of_several_agents_one_is_chosen() -> None:
+    runner = Runner(log_sim(2), seed=1)
+    viewer = Viewer(runner)
+    part = part_of(viewer)
+    with page(viewer) as browser:
+        part.draw(runner.latest)
+        (folder,) = part._pages.values()
+        assert "agent='a'" in folder.lines.content
+        browser.change(folder.agent, "b")
+        until(lambda: "agent='b'" in folder.lines.content)
+    viewer.stop()

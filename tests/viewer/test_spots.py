@@ -1,0 +1,57 @@
+"""Where a line sensor looks is seen, and whether it sees the line."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from ai4u_edu import Scene
+from ai4u_edu.look import LIT, UNLIT
+from ai4u_edu.snapshot import Snapshot, picture_of
+from ai4u_edu.viewer import Viewer
+from ai4u_edu.viewer.light import surfaces
+from ai4u_edu.viewer.spots import Spots
+
+
+@pytest.fixture
+def picture() -> Snapshot:
+    sim = Scene.load("line_follow").build()
+    sim.reset(1)
+    sim.agents[0].body.move_to(-1.0, -3.85, heading=np.pi / 2)
+    sim.agents[0].sense()
+    return picture_of(sim)
+
+
+def test_the_spots_are_where_the_eyes_look(picture: Snapshot) -> None:
+    spots = picture.agents[0].spots["line"]
+    assert spots.places[:, 0] == pytest.approx([-1.3, -1.15, -1.0, -0.85, -0.7])
+    assert spots.places[:, 1] == pytest.approx(-3.5)
+    assert spots.lit == (True,) * 5
+
+
+def test_spots_light_up_above_the_body(viewer: Viewer, picture: Snapshot) -> None:
+    (agent,) = picture.agents
+    some = agent.spots["line"]._replace(lit=(True, False, False, True, False))
+    part = Spots(viewer.server, lambda: {"0"})
+    part.build(picture.stage)
+    part.draw(replace(picture, agents=(replace(agent, spots={"line": some}),)))
+    expected = surfaces([LIT, UNLIT, UNLIT, LIT, UNLIT])
+    assert (part._dots.batched_colors == expected).all()
+    assert part._dots.batched_positions[:, 1] == pytest.approx(-3.5)
+    assert part._dots.batched_positions[:, 2].min() > 1.0
+
+
+def test_nobody_sees_spots_of_agents_that_nobody_looks_at(
+    viewer: Viewer, picture: Snapshot
+) -> None:
+    watched = {"0"}
+    part = Spots(viewer.server, lambda: watched)
+    part.build(picture.stage)
+    part.draw(picture)
+    dots = part._dots
+    watched.clear()
+    part.draw(picture)
+    assert dots._impl.removed
+    watched.add("0")
+    part.draw(replace(picture, bodies=tuple(replace(b, fallen=True) for b in picture.bodies)))
+    assert part._count == 0
