@@ -57,7 +57,7 @@ def test_off_the_plate_it_falls_and_r_restarts(server: Played, page: Page) -> No
     assert state["reward_terms"]["fall"] == -1
     assert state["pose"][0] > 5
     assert state["pose"][1:2] == [0]
-    page.get_by_text("Fell").wait_for()
+    page.get_by_text("Fell.").wait_for()
     until(lambda: agent(server)["pose"][2] < -1.5)  # and it goes on falling while one looks
     page.keyboard.press("KeyR")
     until(lambda: not agent(server)["terminated"])
