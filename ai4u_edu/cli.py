@@ -4,15 +4,21 @@ import gc
 import json
 import sys
 from collections.abc import Sized
+from contextlib import suppress
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
 from rich.console import Console
 from rich.table import Table
 
-from ai4u_edu.errors import AI4UError
+from ai4u_edu import episode_commands
+from ai4u_edu.errors import AI4UError, SetupError
+from ai4u_edu.training import commands as learning
 from ai4u_edu.version import __version__
+
+if TYPE_CHECKING:
+    from ai4u_edu.cycle import ControlRequestor
 
 app = typer.Typer(
     name="ai4u-edu",
@@ -21,6 +27,15 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
     context_settings={"help_option_names": ["-h", "--help"]},
 )
+
+OwnBlocks = Annotated[
+    list[Path] | None,
+    typer.Option(
+        "--blocks",
+        help="A Python file with blocks of your own, which is run; once for each file.",
+        show_default=False,
+    ),
+]
 
 
 def main() -> None:
@@ -67,25 +82,66 @@ def play(
         list[str] | None,
         typer.Option(help="A name under which the page is asked for, behind a proxy."),
     ] = None,
+    token: Annotated[
+        str,
+        typer.Option(
+            help="What page and scripts have to know; where other machines can reach it, one is "
+            "made up if you choose none.",
+            show_default=False,
+        ),
+    ] = "",
+    seeded_resets: Annotated[
+        bool,
+        typer.Option(
+            "--seeded-resets", help="Let one of several agents' scripts reset the whole world."
+        ),
+    ] = False,
+    own_blocks: OwnBlocks = None,
+    brain: Annotated[
+        list[str] | None,
+        typer.Option(
+            help="Let a script drive: ai4u://127.0.0.1:8080, or 0=ai4u://... for agent 0; or a "
+            "network: policy.onnx, or zoo for the one that comes with the scene."
+        ),
+    ] = None,
+    record: Annotated[
+        Path | None, typer.Option(help="A folder in which every episode is kept as a file.")
+    ] = None,
 ) -> None:
     """Serve a scene in the browser; drive with W, A, S, D."""
     from ai4u_edu.runner import Runner
     from ai4u_edu.scenes import Scene
-    from ai4u_edu.server import hosts_for, open_on_desktop, room_app, serve, shut_side_door
+    from ai4u_edu.server import (
+        Rules,
+        announcement,
+        hosts_for,
+        open_on_desktop,
+        room_app,
+        serve,
+        shut_side_door,
+        token_for,
+        with_token,
+    )
     from ai4u_edu.viewer import Viewer
 
+    rules = Rules(token=token_for(host, token), seeded_resets=seeded_resets)
+    _load(own_blocks)
     loaded = Scene.load(scene)
     title = loaded.description.title or loaded.description.name
-    runner = Runner(loaded.build(), seed=seed, time_scale=time_scale)
+    sim = loaded.build()
+    for each in brain or ():
+        _give_brain(sim, each, loaded.description.name)
+    recorder = episode_commands.recorder_into(record, sim, loaded) if record else None
+    runner = Runner(sim, seed=seed, time_scale=time_scale, recorder=recorder)
     viewer = Viewer(runner, title=title)
     shut_side_door(viewer.server)
     hosts = (*hosts_for(host), *(allow_host or ()))
-    room = room_app(runner, viser_port=viewer.port, title=title, allowed_hosts=hosts)
+    room = room_app(runner, viser_port=viewer.port, title=title, allowed_hosts=hosts, rules=rules)
 
     def ready(url: str) -> None:
-        typer.echo(f"{title} is served at {url}  (Ctrl-C ends it)")
+        typer.echo(announcement(title, host, url, rules.token))
         if open_page:
-            open_on_desktop(url)
+            open_on_desktop(with_token(url, rules.token))
 
     # what is there now stays; looking through it again and again, the garbage collector would stop
     # the world for a tenth of a second at a time
@@ -98,6 +154,52 @@ def play(
     finally:
         viewer.stop()
         runner.stop()
+
+
+@app.command()
+def bridge(
+    url: Annotated[str, typer.Argument(help="The world's address: ws://teacher:8080")],
+    agent: Annotated[str, typer.Option(help="The agent's id; left out, the only one.")] = "",
+    port: Annotated[
+        int, typer.Option(help="Where the AI4U script listens.", min=1, max=65535)
+    ] = 8080,
+    token: Annotated[str, typer.Option(help="The world's, if its address has none.")] = "",
+    realtime: Annotated[
+        bool, typer.Option("--realtime", help="Don't have the world wait for each action.")
+    ] = False,
+    script_id: Annotated[
+        str, typer.Option(help="The id by which the script knows its agent.")
+    ] = "0",
+) -> None:
+    """Let an AI4U script on this machine drive an agent of a world elsewhere."""
+    from ai4u_edu.remote.bridge import Bridge
+
+    mode: Literal["realtime", "lockstep"] = "realtime" if realtime else "lockstep"
+    there = Bridge(
+        url, agent, port=port, token=token, mode=mode, script_id=script_id, tell=typer.echo
+    )
+    with suppress(KeyboardInterrupt):
+        there.run()
+
+
+def _give_brain(sim: "ControlRequestor", address: str, scene: str) -> None:
+    from ai4u_edu.blocks.brains.address import agent_and_address, brain_at
+
+    agent_id, where = agent_and_address(address)
+    if not agent_id and len(sim.agents) > 1:
+        ids = ", ".join(agent.id for agent in sim.agents)
+        raise SetupError(
+            f"--brain {address}: the scene has several agents ({ids}); name one, as in "
+            f"--brain {sim.agents[0].id}={address}"
+        )
+    agent = sim.agent(agent_id) if agent_id else sim.agents[0]
+    if where == "zoo" or where.startswith("zoo:") or where.endswith(".onnx"):
+        from ai4u_edu.blocks import trained_brain
+
+        agent.use_brain(trained_brain(f"zoo:{scene}" if where == "zoo" else where))
+        return
+    before, brain = agent.brain, brain_at(where)
+    agent.use_brain(brain.changed(skip_frame=before.skip_frame, repeat_action=before.repeat_action))
 
 
 @app.command()
@@ -115,16 +217,26 @@ def scenes() -> None:
 
 
 @app.command()
-def check(file: Annotated[Path, typer.Argument(help="A scene file.")]) -> None:
+def check(
+    file: Annotated[Path, typer.Argument(help="A scene file.")], own_blocks: OwnBlocks = None
+) -> None:
     """Say what is wrong in a scene file."""
     from ai4u_edu.scenes import Scene
 
+    _load(own_blocks)
     described = Scene.load(file).description
     typer.echo(
         f"{file}: fine: {_count(described.bodies, 'body', 'bodies')}, "
         f"{_count(described.floors, 'floor', 'floors')}, "
         f"{_count(described.agents, 'agent', 'agents')}"
     )
+
+
+def _load(files: list[Path] | None) -> None:
+    from ai4u_edu.blocks.own_file import load_blocks
+
+    for file in files or ():
+        load_blocks(file)
 
 
 def _count(things: Sized, one: str, many: str) -> str:
@@ -153,3 +265,7 @@ def schema() -> None:
     from ai4u_edu.scenes.schema import scene_schema
 
     typer.echo(json.dumps(scene_schema(), indent=2))
+
+
+learning.add_to(app)
+episode_commands.add_to(app)

@@ -14,7 +14,7 @@ from typing import Any, TypeVar
 
 from ai4u_edu.cycle import ControlRequestor
 from ai4u_edu.recording import Recorder
-from ai4u_edu.snapshot import Snapshot, Stage, picture_of, set_stage
+from ai4u_edu.snapshot import SlowTick, Snapshot, Stage, picture_of, set_stage
 
 T = TypeVar("T")
 
@@ -30,6 +30,11 @@ SLICE = 0.015
 """While a world waits for a call, it is looked so often (s) whether somebody wants something."""
 SPRINT = 0.002
 """Seconds for which somebody who called may keep the world; a tick more, at most."""
+
+SLOW = 0.05
+"""A tick that takes longer (s) is reported."""
+LATELY = 5.0
+"""For so long (s)."""
 
 
 class Runner:
@@ -73,6 +78,7 @@ class Runner:
         self._shown = 0.0
         self._window: deque[tuple[float, int]] = deque(maxlen=60)
         self._ticked = 0
+        self._slow: tuple[float, SlowTick] | None = None
         sim.reset(seed)
         self._generation = -1
         self._stage: Stage
@@ -238,12 +244,29 @@ class Runner:
         self._due = self._clock()
 
     def _tick(self) -> None:
+        began = self._clock()
         try:
             self.sim.tick()
         except Exception as error:  # a student's block may raise anything; the page shows it
             self.error = _sentence(error)
+        self._watch(began)
         self._ticked += not self.sim.held
         self._show()
+
+    def _watch(self, began: float) -> None:
+        """Notices a tick that took too long; to count the contacts takes time, and is done then."""
+        ended = self._clock()
+        took = ended - began
+        if took <= SLOW or self.sim.held:  # a world that waits for a script is not slow
+            return
+        before = self._slow_lately()
+        if before is None or took > before.seconds:
+            self._slow = ended, SlowTick(took, self.sim.world.count_contacts())
+
+    def _slow_lately(self) -> SlowTick | None:
+        if self._slow is None or self._clock() - self._slow[0] > LATELY:
+            return None
+        return self._slow[1]
 
     def _show(self) -> None:
         """Publishes every tick, or of a world that runs fast as many as one can see."""
@@ -296,6 +319,7 @@ class Runner:
             time_scale=self.time_scale,
             real_time_factor=self._real_time_factor(),
             error=self.error,
+            slow_tick=self._slow_lately(),
         )
 
     def _real_time_factor(self) -> float:

@@ -5,6 +5,7 @@ they pack better. Reading runs nothing, and believes nothing: what is unpacked i
 everything is checked before it is used.
 """
 
+import json
 import os
 import tempfile
 import zlib
@@ -243,6 +244,11 @@ def _each_tuple(entries: Any) -> Any:
 
 
 def _scene(plain: Small) -> SceneDescription:
+    try:
+        json.dumps(plain)
+    except (TypeError, ValueError, RecursionError) as error:
+        # msgpack has bytes too, and lists a thousand deep: nothing that a scene's file can hold
+        raise RecordingError(f"scene: expected what a scene's file can hold, got {error}") from None
     try:
         return SceneDescription.model_validate(plain)
     except ValidationError as error:

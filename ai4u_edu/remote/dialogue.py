@@ -8,7 +8,7 @@ import time
 from collections.abc import Sequence
 from contextlib import suppress
 from secrets import token_urlsafe
-from typing import Any, NoReturn
+from typing import Any, Literal, NoReturn
 
 from ai4u_edu.errors import ActionError
 from ai4u_edu.remote.errors import LostError, RefusedError, RemoteError
@@ -54,7 +54,7 @@ class Dialogue:
         self._agent, self._token, self._mode, self._keys = agent, token, mode, tuple(keys)
         self._patience = patience
         self._welcome: native.Welcome | None = None
-        self._said = b""
+        self._said = self._hello = b""
         self._answered = True
         self._refusable = -1
         self._ended: RemoteError | None = None
@@ -134,6 +134,20 @@ class Dialogue:
             percept = yield from self.sense()
         return percept
 
+    def order(self, word: Literal["pause", "resume", "stop"]) -> Flow[None]:
+        """Answers the latest percept with something other than an action."""
+        percept = yield from self.sense()
+        yield from self._answer(native.Order(percept.seq, word))
+
+    def wait(self) -> Flow[None]:
+        """Asks for more time, if there is a percept that has no answer yet."""
+        if self.percept is None or self._answered:
+            return
+        try:
+            yield Send(native.encode(native.Order(self.percept.seq, "wait")))
+        except LineLost as lost:
+            yield from self._take_up_again(lost)
+
     def end(self, reason: str = "the script has ended") -> Flow[None]:
         """Says goodbye: the seat is free."""
         if self._ended is None:
@@ -144,7 +158,7 @@ class Dialogue:
 
     # -- what they are made of -------------------------------------------------------------------
 
-    def _answer(self, message: native.Action | native.Reset) -> Flow[None]:
+    def _answer(self, message: native.Answer) -> Flow[None]:
         self._said, self._answered, self._refusable = native.encode(message), True, message.seq
         try:
             yield Send(self._said)
@@ -168,8 +182,9 @@ class Dialogue:
         wait = FIRST_WAIT
         while time.monotonic() < deadline:
             yield Send(hello)
-            if not self._said:
+            if self._said == self._hello:  # nothing else was said yet
                 self._said = hello
+            self._hello = hello
             until = time.monotonic() + wait
             wait = min(2 * wait, LONGEST_WAIT)
             while (left := until - time.monotonic()) > 0:
@@ -232,9 +247,11 @@ class Dialogue:
                 self._refuse(message)
             case native.Problem(seq=0):
                 raise RemoteError(message.text, message.code)
-            case native.Problem(seq=seq) if seq == self._refusable:
+            case native.Problem(code=code, seq=seq) if seq == self._refusable:
                 self._refusable = -1  # it may come twice
                 self._answered = self._answered and seq != latest
+                if code == "seed_refused":
+                    raise RefusedError(message.text, code)
                 raise ActionError(message.text)
             case native.Bye(reason):
                 self._end_by(LostError(f"the world has ended the session: {reason}"))

@@ -14,8 +14,10 @@ from ai4u_edu.remote.spaces import action_space, observation_space
 class RemoteEnv(gymnasium.Env[Any, Any]):
     """One agent of a world that runs somewhere else; the world waits for each step.
 
-    ``info`` has ``reward_terms`` (by name), and the percept's ``tick``. Spaces are those of the
-    same scene's environment on this machine.
+    ``info`` has ``reward_terms`` (by name), ``success`` (whether the scene's goal was reached in
+    this episode), and the percept's ``tick``. Spaces are those of the same scene's environment on
+    this machine. In a world with other agents, a reset with a seed needs the consent of whoever
+    runs it; one without begins an episode for this agent alone.
 
     Args:
         url: the page's address, such as ``"http://teacher:8080"``.
@@ -55,6 +57,7 @@ class RemoteEnv(gymnasium.Env[Any, Any]):
         self._one_output = next(output.name for output in welcome.outputs if output.is_output)
         if isinstance(self.action_space, gymnasium.spaces.Dict):
             self._one_output = ""
+        self._paid = 0.0
 
     def reset(
         self, *, seed: int | None = None, options: dict[str, Any] | None = None
@@ -63,10 +66,12 @@ class RemoteEnv(gymnasium.Env[Any, Any]):
 
         Args:
             seed: fixes everything in it, for the whole world.
+                A RefusedError if others are in that world, and it is not to be reset from here.
             options: none are known.
         """
         super().reset(seed=seed)
         percept = self.robot.reset(seed)
+        self._paid = 0.0
         return self._observe(percept), self._info(percept)
 
     def step(self, action: Any) -> tuple[Any, float, bool, bool, dict[str, Any]]:
@@ -92,7 +97,13 @@ class RemoteEnv(gymnasium.Env[Any, Any]):
         return {each.key: _own(percept[each.key]) for each in self._readings}
 
     def _info(self, percept: RemotePercept) -> dict[str, Any]:
-        return {"reward_terms": percept.reward_terms, "tick": percept.tick}
+        goal = self.robot.welcome.success
+        self._paid += percept.reward_terms.get(goal, 0.0)
+        return {
+            "reward_terms": percept.reward_terms,
+            "success": self._paid > 0,
+            "tick": percept.tick,
+        }
 
 
 def _own(value: Any) -> Any:

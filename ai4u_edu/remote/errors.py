@@ -17,7 +17,7 @@ class RemoteError(AI4UError):
 
 
 class RefusedError(RemoteError):
-    """The world does not give the agent to this script."""
+    """The world does not give the agent to this script, or does not let it do this."""
 
 
 class LostError(RemoteError):

@@ -23,6 +23,8 @@ class RemotePercept(Mapping[str, Any]):
         reward_terms: the same by name.
         terminated: whether the episode ended by what happened in it.
         truncated: whether the episode was cut off by the step limit.
+        paused: whether the script asked for a pause, and actions move nothing until it ends.
+        stopped: whether the script asked for no more decisions until the next reset.
     """
 
     __slots__ = (
@@ -30,10 +32,12 @@ class RemotePercept(Mapping[str, Any]):
         "_readings",
         "_texts",
         "episode",
+        "paused",
         "reward",
         "reward_terms",
         "seq",
         "step",
+        "stopped",
         "terminated",
         "tick",
         "truncated",
@@ -51,6 +55,8 @@ class RemotePercept(Mapping[str, Any]):
         self.reward_terms = dict(said.terms)
         self.terminated = said.terminated
         self.truncated = said.truncated
+        self.paused = said.paused
+        self.stopped = said.stopped
 
     @property
     def done(self) -> bool:
@@ -66,12 +72,12 @@ class RemotePercept(Mapping[str, Any]):
                 return self._texts[reading.offset]
             count = int(np.prod(reading.shape, dtype=np.int64))
             flat = np.frombuffer(self._data, reading.dtype, count, reading.offset)
-        except (ValueError, IndexError):
+            return flat.reshape(reading.shape) if reading.shape else flat[0].item()
+        except (ValueError, IndexError, TypeError, OverflowError):
             raise RemoteError(
                 f"reading {key!r}: expected it in the percept as the welcome says, found it not; "
                 "connect again"
             ) from None
-        return flat.reshape(reading.shape) if reading.shape else flat[0].item()
 
     def __iter__(self) -> Iterator[str]:
         return iter(self._readings)

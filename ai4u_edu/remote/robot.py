@@ -70,6 +70,10 @@ class Robot:
         Args:
             seed: fixes everything in it, and begins one for the whole world. Left out, it begins
                 for this robot alone if there are others.
+
+        Raises:
+            RefusedError: there is a seed and there are others, and the world is not to be reset
+                from here.
         """
         return self._line.run(self._dialogue.reset(seed))
 

@@ -31,11 +31,10 @@ def announcement(title: str, host: str, url: str, token: str) -> str:
         if host in EVERYWHERE:
             others = f"http://{own_address()}:{urlsplit(url).port}/"
             lines.append(f"from other machines: {with_token(others, token)}")
-        lines += [
+        lines.append(
             "Other machines can reach it. Page, API and scripts are asked for the token in this "
-            "address:",
-            "give it only to those who may drive.",
-        ]
+            "address:\ngive it only to those who may drive."
+        )
     return "\n".join(lines)
 
 

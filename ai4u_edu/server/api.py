@@ -85,6 +85,13 @@ class AgentView(_View):
         )
 
 
+class SlowTickView(_View):
+    """A tick that took too long."""
+
+    seconds: Number
+    contacts: int = Field(description="how many pairs of bodies touched, about")
+
+
 class SnapshotView(_View):
     """Everything at one tick."""
 
@@ -96,6 +103,9 @@ class SnapshotView(_View):
     time_scale: Number = Field(description="1 is real time; null: as fast as it goes")
     real_time_factor: Number
     error: str = Field(description="what stopped the world; empty while all is well")
+    slow_tick: SlowTickView | None = Field(
+        description="the slowest tick of the last 5 s, if one took more than 0.05 s"
+    )
     agents: list[AgentView]
     bodies: list[BodyView]
 
@@ -103,6 +113,7 @@ class SnapshotView(_View):
     def of(cls, picture: Snapshot) -> "SnapshotView":
         """The view of a snapshot."""
         bodies = {body.name: body for body in picture.bodies}
+        slow = picture.slow_tick
         return cls(
             tick=picture.tick,
             time=picture.time,
@@ -112,6 +123,7 @@ class SnapshotView(_View):
             time_scale=picture.time_scale,
             real_time_factor=picture.real_time_factor,
             error=picture.error,
+            slow_tick=SlowTickView(seconds=slow.seconds, contacts=slow.contacts) if slow else None,
             agents=[AgentView.of(agent, bodies[agent.body]) for agent in picture.agents],
             bodies=[BodyView.of(body) for body in picture.bodies],
         )

@@ -1,7 +1,13 @@
 """What the keys on the screen are for: only those that do something, and what they do."""
 
 from ai4u_edu.agent import BasicAgent
-from ai4u_edu.blocks import Actuator, DiscreteActuator, DiscreteArrowController
+from ai4u_edu.blocks import (
+    Actuator,
+    ArrowController,
+    DiscreteActuator,
+    DiscreteArrowController,
+    WASDRBMoveController,
+)
 from ai4u_edu.server.bindings import keys_of
 
 MOTIONS = {
@@ -14,10 +20,14 @@ MOTIONS = {
 }
 """What a motion is called, by the signs of (forward, turn, jump of either kind)."""
 
+JUMPS = ("jump", "jump_forward")
+FEWEST = 4
+"""An actuator of fewer numbers has none for a jump."""
+
 
 def useful_keys(agent: BasicAgent) -> dict[str, list[str]]:
     """The keys of an agent, without those for what its body can't do."""
-    idle = _idle(_actuator(agent))
+    idle = _idle(agent)
     return {action: codes for action, codes in keys_of(agent).items() if action not in idle}
 
 
@@ -38,12 +48,17 @@ def captions(agent: BasicAgent) -> dict[str, str]:
     return names
 
 
-def _idle(actuator: Actuator | None) -> set[str]:
-    """The actions for which an actuator has no power."""
+def _idle(agent: BasicAgent) -> set[str]:
+    """The jumps that an agent's controller knows and its body can't do."""
+    controller, actuator = getattr(agent.brain, "controller", None), _actuator(agent)
+    if actuator is None or not isinstance(controller, WASDRBMoveController | ArrowController):
+        return set()
+    numbers = len(actuator.limits()[0])
+    parts = getattr(controller, "components", None) or (JUMPS if numbers >= FEWEST else ())
     jump = getattr(actuator, "jump_power", 1.0)
-    leap = getattr(actuator, "jump_forward_power", 1.0)
-    idle = {"jump": not jump, "jump_forward": not (jump or leap)}
-    return {action for action, is_idle in idle.items() if is_idle}
+    leap = jump or getattr(actuator, "jump_forward_power", 1.0)
+    can = {"jump": jump and "jump" in parts, "jump_forward": leap and "jump_forward" in parts}
+    return {action for action in JUMPS if not can[action]}
 
 
 def _actuator(agent: BasicAgent) -> Actuator | None:

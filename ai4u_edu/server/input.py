@@ -8,7 +8,7 @@ from contextlib import suppress
 from itertools import count
 
 from starlette.types import Receive, Scope, Send
-from starlette.websockets import WebSocket, WebSocketDisconnect
+from starlette.websockets import WebSocket, WebSocketDisconnect, WebSocketState
 
 from ai4u_edu.agent import BasicAgent
 from ai4u_edu.errors import NameNotFoundError
@@ -136,7 +136,12 @@ class _Page:
                 await self._complain(f"{type(error).__name__}: {error}")
 
     async def _complain(self, text: str) -> None:
-        await self._socket.send_json(news.error(text))
+        await self._say(json.dumps(news.error(text)))
+
+    async def _say(self, text: str) -> None:
+        # whoever tells the news may wake up when the connection has just been closed from here
+        if self._socket.application_state is WebSocketState.CONNECTED:
+            await self._socket.send_text(text)
 
     async def _tell(self, changed: asyncio.Event) -> None:
         told: dict[str, str] = {}
@@ -150,6 +155,6 @@ class _Page:
                 text = json.dumps(frame)
                 if told.get(frame["type"]) != text:
                     told[frame["type"]] = text
-                    await self._socket.send_text(text)
+                    await self._say(text)
             with suppress(TimeoutError):
                 await asyncio.wait_for(changed.wait(), LOOK)

@@ -32,11 +32,15 @@ def seating(seat: Seat) -> Frame:
 def state(picture: Snapshot, agent_id: str) -> Frame:
     """How the world and the agent are, as far as the page speaks of it."""
     agent = next(agent for agent in picture.agents if agent.id == agent_id)
+    body = next(body for body in picture.bodies if body.name == agent.body)
     return {
         "type": "state",
         "paused": picture.paused,
         "error": picture.error,
         "episode": picture.episode,
+        "terminated": agent.terminated,
+        "truncated": agent.truncated,
+        "fallen": body.fallen,
         "goal": picture.stage.goal,
         "outcome": outcome(picture, agent),
         "reward": finite(agent.episode_reward),

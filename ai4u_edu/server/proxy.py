@@ -13,6 +13,7 @@ from websockets.typing import Subprotocol
 
 from ai4u_edu.server.guard import with_token
 from ai4u_edu.server.rate import Rate
+from ai4u_edu.server.side_door import KNOCK, KNOCK_HEADER
 
 UPWARD = 500
 """Messages a second that viser gets from one page; a page that sends more is slowed down. Dragging
@@ -53,8 +54,9 @@ class ViserProxy:
             viser = await connect(
                 self._url,
                 additional_headers={
-                    PAGE_HEADER: page_address(scope),
-                    AGENT_HEADER: HTTPConnection(scope).cookies.get(AGENT_COOKIE, ""),
+                    PAGE_HEADER: with_token(page_address(scope), self._token),
+                    AGENT_HEADER: page_agent(scope),
+                    KNOCK_HEADER: KNOCK,
                 },
                 subprotocols=[Subprotocol(name) for name in scope["subprotocols"]] or None,
                 compression=None,  # viser compresses by itself
@@ -86,6 +88,20 @@ def page_address(scope: Scope) -> str:
     secure = scope.get("scheme") in ("wss", "https")
     host = f"{'https' if secure else 'http'}://{headers.get('host', '')}"
     return f"{headers.get('origin', host)}{scope.get('root_path', '')}"
+
+
+def page_agent(scope: Scope) -> str:
+    r"""The agent that a page says it is about, percent-encoded; empty if it says none.
+
+    >>> page_agent({"type": "websocket", "headers": [(b"cookie", b"ai4u_edu_agent=red%201")]})
+    'red%201'
+    >>> quoted = rb'ai4u_edu_agent="red\015\012Origin: x"'
+    >>> page_agent({"type": "websocket", "headers": [(b"cookie", quoted)]})
+    ''
+    """
+    said = HTTPConnection(scope).cookies.get(AGENT_COOKIE, "")
+    # a cookie's text may have line ends, written otherwise, and begin another header
+    return said if said.isascii() and said.isprintable() else ""
 
 
 async def _downward(viser: ClientConnection, page: WebSocket) -> None:

@@ -1,17 +1,24 @@
 """viser's own port: only the proxy may use it."""
 
+from secrets import token_urlsafe
 from typing import TYPE_CHECKING
+
+from ai4u_edu.server.guard import same
 
 if TYPE_CHECKING:
     from viser import ViserServer
     from viser.infra import WebsockClientConnection
 
+KNOCK_HEADER = "X-AI4U-Edu-Knock"
+KNOCK = token_urlsafe(24)
+"""What the proxy says in this header; known in this process alone."""
+
 
 def shut_side_door(viser_server: "ViserServer") -> None:
-    """Has a viser refuse browsers that come around the proxy, and forget how to open tunnels.
+    """Has a viser refuse whoever comes around the proxy, and forget how to open tunnels.
 
-    viser accepts any page that finds its port. Every browser names the page it comes from and our
-    proxy does not; so whoever names one came around.
+    viser accepts anybody who finds its port: pages from elsewhere, and programs of others who work
+    on this machine and were never asked for a token.
     """
     from viser import _messages
 
@@ -20,10 +27,11 @@ def shut_side_door(viser_server: "ViserServer") -> None:
         if kind in web._incoming_handlers:
             web.unregister_handler(kind)
 
-    async def refuse_browsers(client: "WebsockClientConnection") -> None:
+    async def refuse_others(client: "WebsockClientConnection") -> None:
         connection = web._live_connections[client.client_id]
         request = connection.request
-        if request is None or "Origin" in request.headers:
+        knock = "" if request is None else request.headers.get(KNOCK_HEADER, "")
+        if not same(KNOCK, knock):
             await connection.close(1008, "this is the viewer's inner port; use the page's own")
 
-    web._client_connect_cb.insert(0, refuse_browsers)  # before viser sends anything
+    web._client_connect_cb.insert(0, refuse_others)  # before viser sends anything

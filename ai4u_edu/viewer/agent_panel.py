@@ -45,13 +45,15 @@ class AgentPanel:
             del self._pages[gone]
         for new in sorted(clients.keys() - self._pages.keys()):
             self._pages[new] = _Page(clients[new], self._agent_of, self._wanted(new))
-        written: dict[str, AgentHtml] = {}  # once for all pages that look at the same agent
+        # once for all pages that look at the same agent
+        written: dict[str, tuple[AgentHtml, str]] = {}
         for page in self._pages.values():
             for agent in snapshot.agents:
                 if agent.id == page.chosen:
                     if agent.id not in written:
-                        written[agent.id] = AgentHtml.of(agent, self._colours)
-                    page.show(written[agent.id], snapshot)
+                        html = AgentHtml.of(agent, self._colours)
+                        written[agent.id] = html, overview(snapshot, agent.id)
+                    page.show(*written[agent.id])
 
     def choose(self, client_id: int, body: str) -> None:
         """Opens the agent of that body on one page."""
@@ -103,9 +105,9 @@ class _Page:
             # a method parts its getter from its setter
             self._list.value = self._names[agent_id]  # type: ignore[misc]
 
-    def show(self, html: AgentHtml, snapshot: Snapshot) -> None:
+    def show(self, html: AgentHtml, everybody: str) -> None:
         if self._is_one_of_several:
-            self._overview.content = overview(snapshot, self.chosen)
+            self._overview.content = everybody
         for handle, content in zip(self._parts, html, strict=True):
             handle.content = content
 

@@ -162,7 +162,9 @@ def _text(field: Field) -> str:
 
 
 # each digit can be read in one way only: with two, 20,000 of them take more than a second
-_NUMBER = re.compile(r"[+-]?(\d+(\.\d*)?|\.\d+)([eE][+-]?\d+)?|[+-]?(inf|nan|infinity)", re.I | re.A)
+_NUMBER = re.compile(
+    r"[+-]?(\d+(\.\d*)?|\.\d+)([eE][+-]?\d+)?|[+-]?(inf|nan|infinity)", re.I | re.A
+)
 _WHOLE = re.compile(r"[+-]?\d{1,18}", re.A)
 _SIZE = re.compile(rb" *\d+ *")
 

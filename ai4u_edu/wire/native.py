@@ -5,7 +5,7 @@ A frame is one msgpack array: the kind of message, then its fields. The script s
     script  hello                        which agent, and how
     world   welcome                      what the agent senses and can do
     world   percept 1                    what it senses now
-    script  action for 1 (or reset, order)    what it shall do
+    script  action for 1 (or a reset)    what it shall do
     world   percept 2 ...                when the decision is over
 
 Frames may get lost, come twice or in another order. So everything has its number, and whoever waits
@@ -171,6 +171,8 @@ class Problem:
     """Something was wrong; the text says what, and what to do."""
 
     code: Annotated[str, 40]
+    """One of :data:`PROBLEMS`; or bad_message, bad_action, episode_over, seed_refused, after which
+    the script may say something else."""
     text: Annotated[str, LONGEST_READ]
     seq: int
     """Of the percept whose answer it was; 0 where it was none."""

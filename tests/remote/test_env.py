@@ -9,8 +9,9 @@ from gymnasium.utils.env_checker import check_env
 
 from ai4u_edu import AI4UError
 from ai4u_edu.envs import SceneEnv
-from ai4u_edu.remote import RemoteEnv
+from ai4u_edu.remote import RefusedError, RemoteEnv
 from ai4u_edu.scenes import Scene
+from ai4u_edu.server.remote import Rules
 from tests.server.rooms import Room, served
 
 
@@ -50,9 +51,42 @@ def test_it_is_the_same_environment_as_on_this_machine(scene: str, observation: 
                 same(yours[0], mine[0])
                 assert yours[1:4] == mine[1:4]
                 assert yours[4]["reward_terms"] == mine[4]["reward_terms"]
+                assert yours[4]["success"] is mine[4]["success"]
                 if mine[2] or mine[3]:
                     break
         there.close()
+
+
+def test_it_says_whether_the_goal_was_reached() -> None:
+    with scene_room("box_chase") as room:
+        env = remote_env(room)
+        observation, info = env.reset(seed=1)
+        done = False
+        while not done:
+            assert info["success"] is False
+            ahead = observation["orientation"][0] > 0.99
+            action = np.array([1, 0, 0, 0] if ahead else [0, 0.2, 0, 0], np.float32)
+            observation, _, done, _, info = env.step(action)
+        assert info["success"] is True
+        assert env.reset()[1]["success"] is False
+        env.close()
+
+
+def test_one_of_several_resets_alone_and_the_world_only_if_it_may() -> None:
+    sim = Scene.load("sumo").build()
+    sim.default_time_scale = float("inf")
+    for may in (False, True):
+        with served(sim, rules=Rules(seeded_resets=may)) as room:
+            env = remote_env(room)
+            env.reset()
+            if may:
+                env.reset(seed=3)
+                assert room.sim.world.seeds.seed == 3
+            else:
+                with pytest.raises(RefusedError, match="expected a reset without a seed"):
+                    env.reset(seed=3)
+                env.step(env.action_space.sample())
+            env.close()
 
 
 def test_a_wish_that_can_not_be_met_is_explained() -> None:

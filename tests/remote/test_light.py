@@ -10,6 +10,7 @@ OURS = ("blocks", "world", "agent", "scenes", "runner", "server", "viewer", "par
 def test_the_client_is_light() -> None:
     code = (
         "import sys; from ai4u_edu.remote import connect, AsyncRobot, RemoteEnv; "
+        "from ai4u_edu.remote.bridge import Bridge; "
         "import gymnasium; gymnasium.spec('ai4u_edu/Remote-v0'); "
         f"print([name for name in {HEAVY} if name in sys.modules] + "
         f"[name for name in {OURS} if 'ai4u_edu.' + name in sys.modules])"

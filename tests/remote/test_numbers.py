@@ -2,6 +2,8 @@
 
 import pytest
 
+from ai4u_edu import BasicAgent
+from ai4u_edu.remote import RefusedError, connect
 from ai4u_edu.wire import native
 from tests.remote.rooms import Script, log_of, log_room
 from tests.server.rooms import until
@@ -91,6 +93,35 @@ def test_an_action_that_comes_too_late_is_applied_to_no_other_step() -> None:
         assert later.reward == later.step - percept.step  # what was paid meanwhile is not lost
 
 
+def beyond(agent: BasicAgent, step: int) -> None:
+    """Waits until an agent has taken more decisions than that."""
+    until(lambda: agent.steps > step)
+
+
+def test_what_was_paid_while_nobody_listened_is_told_once_and_by_name() -> None:
+    with log_room(receive_timeout=200) as room, Script(room) as script:
+        script.hello()
+        agent, paid = room.sim.agents[0], {}
+        agent.end_of_update_state.connect(
+            lambda agent: paid.update({(agent.episode, agent.steps): dict(agent.reward_terms)})
+        )
+        first = script.percept()
+        for _ in range(2):
+            before = first
+            beyond(agent, before.step + 2)
+            script.act(before, 1)  # too late
+            first = script.percept()
+            missed = [
+                paid[first.episode, step]["pay"] for step in range(before.step + 1, first.step + 1)
+            ]
+            assert len(missed) >= 3
+            assert first.terms == {"pay": sum(missed)}
+            assert first.reward == sum(missed)
+        script.act(first, 2)
+        last = script.percept()
+        assert last.reward == last.step - first.step
+
+
 def test_in_realtime_the_world_does_not_wait_and_an_action_counts_once() -> None:
     with log_room(time_scale=1.0) as room, Script(room) as script:
         script.hello(mode="realtime")
@@ -122,7 +153,7 @@ def test_an_episode_that_is_over_wants_a_reset() -> None:
 
 
 def test_of_several_agents_one_begins_anew_alone_unless_it_gives_a_seed() -> None:
-    with log_room(2) as room, Script(room) as script:
+    with log_room(2, seeded_resets=True) as room, Script(room) as script:
         script.hello()
         percept = script.percept()
         world = room.sim.episode
@@ -131,6 +162,36 @@ def test_of_several_agents_one_begins_anew_alone_unless_it_gives_a_seed() -> Non
         assert (percept.episode, room.sim.episode) == (2, world)
         script.say(native.Reset(percept.seq, 3))
         assert (script.percept().episode, room.sim.episode) == (3, world + 1)
+
+
+def test_one_of_several_does_not_reset_the_world_of_the_others_unless_that_is_allowed() -> None:
+    with log_room(2) as room, Script(room) as script:
+        script.hello()
+        percept = script.percept()
+        before = room.sim.episode
+        script.say(native.Reset(percept.seq, 3))
+        problem = script.hear()
+        assert isinstance(problem, native.Problem)
+        assert (problem.code, problem.seq) == ("seed_refused", percept.seq)
+        assert problem.text == (
+            "expected a reset without a seed, which begins an episode for this agent; with one it "
+            "would begin for all 2 agents, and whoever runs the world has to allow that (ai4u-edu "
+            "play --seeded-resets)"
+        )
+        script.say(native.Reset(percept.seq, None))
+        assert script.percept().episode == percept.episode + 1
+        assert room.sim.episode == before
+
+
+def test_the_client_says_so_and_can_go_on() -> None:
+    with log_room(2) as room, connect(room.url, "b", mode="lockstep") as robot:
+        with pytest.raises(RefusedError, match="expected a reset without a seed") as refusal:
+            robot.reset(seed=3)
+        assert refusal.value.code == "seed_refused"
+        robot.act(log=[7])
+        robot.sense()
+        assert [number for _, _, number in log_of(room, "b")] == [7.0]
+        assert robot.reset().step == 0
 
 
 def test_a_script_gets_the_readings_that_it_wants() -> None:

@@ -35,8 +35,8 @@ def test_each_refusal_says_what_to_do() -> None:
             "which agent? none was named; known are 'a', 'b'"
         )
         assert refused(room, "bad_token") == (
-            "expected this world's token, got none; it stands in the page's address, as in "
-            "connect('http://teacher:8080/?token=...')"
+            "expected this world's token, got none; take the whole address that its terminal "
+            "shows, as in connect('http://teacher:8080/?token=...')"
         )
         assert "got another one" in refused(room, "bad_token", token="open")
         assert refused(room, "unknown_key", **said, keys=("plaec",)) == (

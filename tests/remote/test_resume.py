@@ -7,6 +7,8 @@ from socket import SHUT_RDWR
 import pytest
 
 from ai4u_edu.remote import LostError, RefusedError, Robot, connect
+from ai4u_edu.remote.dialogue import Dialogue
+from ai4u_edu.remote.steps import Flow, LineLost, Open, Receive, Send, Step
 from ai4u_edu.wire import native
 from tests.remote.rooms import SECRET, Script, log_of, log_room
 from tests.server.rooms import until
@@ -125,3 +127,29 @@ def test_nothing_is_left_behind() -> None:
             until(lambda: len(agent.brains) == 1 and agent.brain is agent.brains[0])
             robot.close()
         until(lambda: threading.active_count() <= before)
+
+
+def test_a_connection_lost_before_the_first_percept_is_taken_up_with_one_hello_only() -> None:
+    dialogue = Dialogue("a")
+    hellos: list[bytes] = []
+    with log_room(grace=5.0) as room, Script(room) as script:
+        welcome = native.encode(script.hello())
+
+        def greeted(flow: Flow[object], first: Step) -> Step:
+            assert isinstance(first, Open)
+            said = flow.send(None)
+            assert isinstance(said, Send)
+            hellos.append(said.frame)
+            assert isinstance(flow.send(None), Receive)
+            try:
+                return flow.send(welcome)
+            except StopIteration:
+                return first
+
+        beginning = dialogue.begin()
+        greeted(beginning, next(beginning))
+        sensing = dialogue.sense()
+        assert isinstance(next(sensing), Receive)
+        again = greeted(sensing, sensing.throw(LineLost("cut")))
+        assert again == Send(hellos[1])  # and not the first one's, of another session
+        assert hellos[0] != hellos[1]

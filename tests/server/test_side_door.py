@@ -10,6 +10,7 @@ from websockets.sync.client import ClientConnection, connect
 from websockets.typing import Subprotocol
 
 from ai4u_edu.server import shut_side_door
+from ai4u_edu.server.side_door import KNOCK, KNOCK_HEADER
 from tests.server.rooms import until
 
 
@@ -30,9 +31,14 @@ def directly(server: viser.ViserServer, **headers: str) -> ClientConnection:
     )
 
 
-def test_a_browser_that_comes_around_the_proxy_hears_nothing(inner: viser.ViserServer) -> None:
+@pytest.mark.parametrize(
+    "headers", [{}, {"Origin": "http://evil.example"}, {KNOCK_HEADER: "guess"}]
+)
+def test_who_comes_around_the_proxy_hears_nothing(
+    inner: viser.ViserServer, headers: dict[str, str]
+) -> None:
     inner.gui.add_text("Name", initial_value="secret")
-    with directly(inner, Origin="http://evil.example") as page:
+    with directly(inner, **headers) as page:
         with pytest.raises(ConnectionClosed) as closed:
             page.recv(5)
         assert closed.value.rcvd is not None
@@ -40,8 +46,8 @@ def test_a_browser_that_comes_around_the_proxy_hears_nothing(inner: viser.ViserS
     until(lambda: not inner.get_clients())
 
 
-def test_the_proxy_is_no_browser_and_comes_in(inner: viser.ViserServer) -> None:
-    with directly(inner) as proxy:
+def test_the_proxy_comes_in(inner: viser.ViserServer) -> None:
+    with directly(inner, **{KNOCK_HEADER: KNOCK}) as proxy:
         assert proxy.recv(5)
 
 
@@ -49,7 +55,7 @@ def test_nobody_opens_a_tunnel(inner: viser.ViserServer, monkeypatch: pytest.Mon
     asked: list[str] = []
     monkeypatch.setattr(inner, "request_share_url", lambda: asked.append("request"))
     field = inner.gui.add_text("Name", initial_value="before")
-    with directly(inner) as proxy:
+    with directly(inner, **{KNOCK_HEADER: KNOCK}) as proxy:
         proxy.recv(5)
         proxy.send(msgspec.msgpack.encode({"type": "ShareUrlRequest"}))
         update = {"type": "GuiUpdateMessage", "uuid": field._impl.uuid, "updates": {"value": "x"}}
@@ -60,5 +66,5 @@ def test_nobody_opens_a_tunnel(inner: viser.ViserServer, monkeypatch: pytest.Mon
 
 def test_shutting_it_twice_is_no_harm(inner: viser.ViserServer) -> None:
     shut_side_door(inner)
-    with directly(inner) as proxy:
+    with directly(inner, **{KNOCK_HEADER: KNOCK}) as proxy:
         assert proxy.recv(5)

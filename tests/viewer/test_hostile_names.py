@@ -2,20 +2,22 @@
 
 import html
 import re
-import time
-from contextlib import suppress
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
 from typing import Any
 
 import httpx
 import msgspec
 import viser
+import zstandard
 from gymnasium.spaces import Box
+from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import connect
+from websockets.sync.connection import Connection
 from websockets.typing import Subprotocol
 
 from ai4u_edu import (
     Actuator,
-    AreaDescription,
     BasicAgent,
     BoxShape,
     CircleShape,
@@ -31,6 +33,7 @@ from ai4u_edu.server import ServerThread, room_app, shut_side_door
 from ai4u_edu.viewer import Viewer
 from ai4u_edu.viewer.remote_lines import lines
 from tests.builders import still
+from tests.viewer.pages import Page, until
 
 EVIL = "</td><img src=x onerror=alert(1)>{alert(2)}\n```\n<script>alert(3)</script>"
 
@@ -73,7 +76,7 @@ class Evil(LocalBrain):
 
 def evil_sim(action_name: str = EVIL) -> ControlRequestor:
     world = World()
-    world.add_area("goal", BoxShape(size=(1, 1)), position=(5, 5), label=EVIL)
+    world.add_area("goal", BoxShape(size=(1, 1)), position=(5, 5), label=EVIL[5:33])
     world.add_body("robot", CircleShape(radius=0.5))
     world.add_body("box", BoxShape(size=(1, 1)), position=(3, 0), tags=("target",))
     agent = BasicAgent(
@@ -100,10 +103,30 @@ def contents(message: Any) -> list[str]:
     return []
 
 
-def told(url: str, seconds: float = 1.5) -> list[str]:
-    """All HTML and markdown that a page is told."""
-    found: list[str] = []
-    until = time.monotonic() + seconds
+def _unpacked(frame: str | bytes) -> Any:
+    """viser's messages: two lengths, msgpack in zstd, and arrays behind it."""
+    assert isinstance(frame, bytes)
+    plain, packed = (int.from_bytes(frame[at : at + 8], "little") for at in (0, 8))
+    raw = zstandard.ZstdDecompressor().decompress(frame[16 : 16 + packed], plain)
+    return msgspec.msgpack.decode(raw)
+
+
+class Reader(Page):
+    """Keeps all HTML and markdown that it is told."""
+
+    def __init__(self, connection: Connection) -> None:
+        self.pieces: list[str] = []
+        super().__init__(connection)
+
+    def _read(self) -> None:
+        with suppress(ConnectionClosed):
+            for frame in self._connection:
+                self.pieces += contents(_unpacked(frame))
+
+
+@contextmanager
+def reader(url: str) -> Iterator[Reader]:
+    """A page, by the way that all pages take."""
     with connect(
         url.replace("http", "ws", 1),
         origin=url.rstrip("/"),  # type: ignore[arg-type]  # a NewType of str
@@ -111,11 +134,10 @@ def told(url: str, seconds: float = 1.5) -> list[str]:
         max_size=None,
         compression=None,
         proxy=None,
-    ) as page:
-        with suppress(TimeoutError):
-            while (left := until - time.monotonic()) > 0:
-                found += contents(msgspec.msgpack.decode(page.recv(left)))
-    return found
+    ) as connection:
+        here = Reader(connection)
+        here.report_camera()
+        yield here
 
 
 def test_no_name_becomes_html() -> None:
@@ -127,16 +149,19 @@ def test_no_name_becomes_html() -> None:
     viewer.start()
     try:
         with ServerThread(room_app(runner, viser_port=viewer.port, title=EVIL)) as server:
-            page = httpx.get(server.url).text
+            document = httpx.get(server.url).text
             health = httpx.get(server.url + "healthz")
-            pieces = told(server.url)
-            runner.submit(lambda: setattr(runner, "error", EVIL)).result(5)
-            pieces += told(server.url, 0.7)
+            with reader(server.url) as page:
+                until(lambda: any("```python" in piece for piece in page.pieces))
+                until(lambda: any("Reward" in piece for piece in page.pieces))
+                runner.submit(lambda: setattr(runner, "error", EVIL)).result(5)
+                until(lambda: any("Stopped" in piece for piece in page.pieces))
+                pieces = list(page.pieces)
     finally:
         viewer.stop()
         runner.stop()
-    assert f"<title>{html.escape(EVIL)}</title>" in page
-    assert "onerror" not in page.replace(html.escape(EVIL), "")
+    assert f"<title>{html.escape(EVIL)}</title>" in document
+    assert "onerror" not in document.replace(html.escape(EVIL), "")
     assert health.headers["Content-Type"] == "application/json"
     markdown = [piece for piece in pieces if "```python" in piece]
     rest = [piece for piece in pieces if "```python" not in piece]
@@ -168,7 +193,3 @@ def test_the_lines_have_the_token_of_a_page_that_has_it() -> None:
         "connect('http://teacher:8080/?token=a%20b', agent='0')\nfor percept in robot:\n"
         "    robot.act(move=[1, 0])\n"
     ) in lines("http://teacher:8080/?token=a%20b", agent)
-
-
-def test_a_description_says_what_is_a_label() -> None:
-    assert AreaDescription.model_fields["label"].annotation is not None

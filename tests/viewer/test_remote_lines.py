@@ -5,7 +5,7 @@ from websockets.sync.client import connect
 from websockets.typing import Subprotocol
 
 from ai4u_edu.runner import Runner
-from ai4u_edu.server import ServerThread, room_app
+from ai4u_edu.server import Rules, ServerThread, room_app
 from ai4u_edu.viewer import Viewer
 from ai4u_edu.viewer.remote_lines import RemoteLines, lines
 from tests.builders import small_sim
@@ -54,6 +54,29 @@ def test_each_page_has_them_with_the_address_by_which_it_came(
         until(lambda: not viewer.server.get_clients())
         part.draw(runner.latest)
         assert part._pages == {}
+
+
+def test_a_page_that_knows_the_token_has_it_in_its_lines(viewer: Viewer, runner: Runner) -> None:
+    part, rules = part_of(viewer), Rules(token="open sesame")
+    room = room_app(runner, viser_port=viewer.port, title="A room", rules=rules)
+    with ServerThread(room) as server:
+        with connect(
+            server.url.replace("http", "ws", 1) + "?token=open%20sesame",
+            subprotocols=[Subprotocol(f"viser-v{viser.__version__}")],
+            max_size=None,
+            compression=None,
+            proxy=None,
+        ) as connection:
+            Page(connection).report_camera()
+            until(viewer.server.get_clients)
+            part.draw(runner.latest)
+            (folder,) = part._pages.values()
+            assert f"connect('{server.url}?token=open%20sesame', agent=" in folder.lines.content
+        until(lambda: not viewer.server.get_clients())
+    with page(viewer):  # around the proxy, and so without having been asked
+        part.draw(runner.latest)
+        (folder,) = part._pages.values()
+        assert "sesame" not in folder.lines.content
 
 
 def test_of_several_agents_one_is_chosen() -> None:

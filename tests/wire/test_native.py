@@ -16,6 +16,7 @@ from ai4u_edu.wire.native import (
     Bye,
     Hello,
     Message,
+    Order,
     Output,
     Percept,
     Problem,
@@ -34,6 +35,7 @@ readings = st.builds(
     Reading,
     names,
     st.sampled_from(["box", "discrete", "text"]),
+    names,
     st.sampled_from(["<f4", "<i4", "|b1", "|u1", ""]),
     st.lists(numbers, max_size=4).map(tuple),
     numbers,
@@ -58,7 +60,10 @@ messages: st.SearchStrategy[Message] = st.one_of(
         names,
         floats,
         numbers,
+        st.booleans(),
+        numbers,
         texts,
+        names,
         st.lists(readings, max_size=3).map(tuple),
         st.lists(outputs, max_size=3).map(tuple),
     ),
@@ -72,11 +77,14 @@ messages: st.SearchStrategy[Message] = st.one_of(
         st.dictionaries(names, floats, max_size=3),
         st.booleans(),
         st.booleans(),
+        st.booleans(),
+        st.booleans(),
         st.binary(max_size=200),
         texts,
     ),
     st.builds(Action, numbers, numbers, numbers, st.dictionaries(names, rows, max_size=3)),
     st.builds(Reset, numbers, st.none() | numbers),
+    st.builds(Order, numbers, st.sampled_from(["pause", "resume", "stop", "wait"])),
     st.builds(Problem, names, names, numbers),
     st.builds(Bye, names),
 )
@@ -90,9 +98,11 @@ def test_what_goes_in_comes_out(message: Message) -> None:
 @pytest.mark.parametrize(
     ("parts", "complaint"),
     [
-        (7, "expected a message (hello, welcome, percept, action, reset, problem, bye), got None"),
-        (["rest"], "expected a message (hello, welcome, percept, action, reset, problem, bye), "
-                   "got 'rest'"),
+        (7, "expected a message (hello, welcome, percept, action, reset, order, problem, bye), got "
+            "None"),
+        (["rest"], "expected a message (hello, welcome, percept, action, reset, order, problem, "
+                   "bye), got 'rest'"),
+        (["order", 1, "sit"], "word: expected one of 'pause', 'resume', 'stop', 'wait', got 'sit'"),
         (["reset", 1], "expected 2 fields (seq, seed), got 1"),
         (["reset", -1, None], "seq: expected a whole number from 0 on, got -1"),
         (["reset", True, None], "seq: expected a whole number from 0 on, got True"),
@@ -109,8 +119,8 @@ def test_what_goes_in_comes_out(message: Message) -> None:
         (["action", 1, 0, 1, {"move": [True]}], "values: expected a number, got True"),
         (["hello", 1, "", "", "slow", [], "", ""], "mode: expected one of 'lockstep', 'realtime', "
                                                    "got 'slow'"),
-        (["percept", 1, 0, 1, 0, 0.0, {}, 0, False, b"", []], "terminated: expected true or false, "
-                                                             "got 0"),
+        (["percept", 1, 0, 1, 0, 0.0, {}, 0, False, False, False, b"", []],
+         "terminated: expected true or false, got 0"),
     ],
 )  # fmt: skip
 def test_what_is_no_message_is_explained(parts: Any, complaint: str) -> None:

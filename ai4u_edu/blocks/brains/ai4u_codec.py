@@ -1,37 +1,14 @@
-"""An agent in the terms of AI4U's protocol."""
+"""An agent in the terms of AI4U's protocol, for a script beside the world."""
 
-import base64
-from typing import Any
-
-import numpy as np
-from gymnasium import spaces
-
-from ai4u_edu.blocks.brains.command import Action
-from ai4u_edu.blocks.brains.link import Offer, Output, Reading, Situation
+from ai4u_edu.blocks.brains.link import Offer, Situation
 from ai4u_edu.errors import SetupError
-from ai4u_edu.wire.ai4u import Field, Kind, Order, packed
-from ai4u_edu.wire.ai4u_dialogue import STANDARD, State
-from ai4u_edu.wire.ai4u_metadata import ModelInput, ModelOutput, metadata
-from ai4u_edu.wire.png import grey_png
-
-KINDS = {
-    "sfloat": Kind.FLOAT,
-    "sbool": Kind.BOOL,
-    "sint": Kind.INT,
-    "sstring": Kind.TEXT,
-    "sbytearray": Kind.BYTES,
-    "simage": Kind.TEXTS,
-}
-"""How a reading goes over the wire, by AI4U's type; all others are rows of floats."""
+from ai4u_edu.wire.agent_codec import AgentCodec
+from ai4u_edu.wire.ai4u_dialogue import State
+from ai4u_edu.wire.strict import WireError
 
 
-class AI4UCodec:
+class AI4UCodec(AgentCodec):
     """Situations to states, replies to actions.
-
-    Every sensor's reading is sent, and those that a policy gets stand in the metadata: rows of
-    numbers flat, in the order of memory; pictures as one grey PNG a channel. Whole numbers are
-    declared as floats, since the script's side would make bytes of them. AI4U's environment has one
-    action: it is the first actuator's; a script can drive the others by their names, or by fields.
 
     Args:
         offer: the agent.
@@ -41,20 +18,15 @@ class AI4UCodec:
     """
 
     def __init__(self, offer: Offer) -> None:
-        self._readings = [
-            (each, _wire_kind(each)) for each in offer.readings if each.name not in STANDARD
-        ]
-        inputs = [each for each in offer.readings if each.is_input and each.kind != "sstring"]
-        outputs = [each for each in offer.outputs if each.is_output][:1]
-        self._known = {each.name for each in offer.outputs}
-        self.metadata = metadata(map(_input, inputs), map(_output, outputs))
+        try:
+            super().__init__(offer.readings, offer.outputs)
+        except WireError as error:
+            raise SetupError(str(error)) from None
 
     def state(self, now: Situation) -> State:
         """What the script is told."""
-        percept = now.percept
-        sensors = [_field(reading, kind, percept[reading.name]) for reading, kind in self._readings]
         return State(
-            sensors=sensors,
+            sensors=self.sensors(now.percept),
             reward=now.reward,
             steps=now.steps,
             done=now.done,
@@ -62,57 +34,3 @@ class AI4UCodec:
             paused=now.paused,
             stopped=now.stopped,
         )
-
-    def action(self, orders: list[Order]) -> Action:
-        """The action in a reply: its command, and of its fields those that name an actuator."""
-        (name, args), *fields = orders
-        return {each: numbers for each, numbers in fields if each in self._known} | {name: args}
-
-
-def _wire_kind(reading: Reading) -> Kind:
-    if reading.kind == "sbytearray" and reading.is_input:
-        return Kind.FLOATS  # the script's side leaves the base64 of bytes as it is
-    return KINDS.get(reading.kind, Kind.FLOATS)
-
-
-def _field(reading: Reading, kind: Kind, value: Any) -> bytes:
-    if kind is Kind.TEXTS:
-        value = [base64.b64encode(grey_png(each)).decode() for each in _channels_first(value)]
-    elif kind is Kind.BYTES:
-        value = np.asarray(value).tobytes()
-    elif kind is Kind.FLOATS and not np.size(value):
-        value = np.zeros(1)  # the script's side stumbles over a row of nothing
-    return packed(Field(reading.name, kind, value))
-
-
-def _channels_first(picture: Any) -> Any:
-    """A picture of shape (height, width) or (height, width, channels), channel by channel."""
-    return picture[None] if picture.ndim == 2 else np.moveaxis(picture, -1, 0)
-
-
-def _input(reading: Reading) -> ModelInput:
-    space = reading.space
-    shape = space.shape or (1,)
-    if isinstance(space, spaces.Discrete):
-        low, high = float(space.start), float(space.start + space.n - 1)
-    elif isinstance(space, spaces.Box):
-        low, high = float(space.low.min()), float(space.high.max())
-    else:
-        raise SetupError(
-            f"sensor {reading.name!r}: expected a Box or Discrete space, got {space}; AI4U's "
-            "protocol has no words for others, so set its is_input to False"
-        )
-    if reading.kind == "simage":
-        height, width, *channels = shape
-        return ModelInput(reading.name, (*(channels or [1]), height, width), "sstrings", low, high)
-    kind = "sbytearray" if reading.kind == "sbytearray" else "sfloatarray"
-    return ModelInput(reading.name, (int(np.prod(shape)),), kind, low, high)
-
-
-def _output(output: Output) -> ModelOutput:
-    space = output.space
-    if isinstance(space, spaces.Discrete):
-        return ModelOutput(output.name, False, (int(space.n),), (0.0,), (float(space.n - 1),))
-    assert isinstance(space, spaces.Box)  # noqa: S101 - an actuator has no other space
-    low, high = space.low.ravel().tolist(), space.high.ravel().tolist()
-    return ModelOutput(output.name, True, (len(low),), tuple(low), tuple(high))

@@ -58,7 +58,10 @@ class Seat:
             excerpt = Excerpt(agent, hello.keys)
         except NameNotFoundError as error:
             raise RefusalError("unknown_key", str(error)) from None
-        self.session = Session(excerpt, runner, self._taken_away)
+        alone = len(runner.sim.agents) == 1
+        self.session = Session(
+            excerpt, runner, self._taken_away, may_seed=alone or rules.seeded_resets
+        )
         self._readings = excerpt.readings
         self.welcome = b""
 
@@ -132,7 +135,10 @@ class Seat:
                 title=title,
                 ticks_per_second=settings.ticks_per_second,
                 skip_frame=agent.brain.skip_frame,
+                repeat_action=agent.brain.repeat_action,
+                max_steps=agent.max_steps_per_episode,
                 rewards=tuple(reward.name for reward in agent.fitting.rewards),
+                success=self._runner.sim.success,
                 readings=self._readings,
                 outputs=tuple(
                     output_of(name, each) for name, each in agent.fitting.actuators.items()

@@ -5,10 +5,12 @@ and is never held for long.
 """
 
 import asyncio
+import time
 from collections import deque
 from collections.abc import Callable
 from threading import Lock, get_ident
 
+from ai4u_edu.blocks import Answer, Command
 from ai4u_edu.blocks.brains.link import Answered, LinkState, Offer, Reset, Situation
 from ai4u_edu.runner import Runner
 from ai4u_edu.server.remote.line import Line
@@ -23,9 +25,17 @@ class Session:
         excerpt: the readings that it wants.
         runner: the room's.
         on_close: called in the loop when the agent's brain is closed.
+        may_seed: whether a reset may have a seed, which resets the whole world.
     """
 
-    def __init__(self, excerpt: Excerpt, runner: Runner, on_close: Callable[[str], None]) -> None:
+    def __init__(
+        self,
+        excerpt: Excerpt,
+        runner: Runner,
+        on_close: Callable[[str], None],
+        *,
+        may_seed: bool = True,
+    ) -> None:
         self.state = LinkState.CONNECTED
         self.reason = ""
         self.ignored = 0
@@ -34,6 +44,7 @@ class Session:
         self._runner = runner
         self._thread = get_ident()
         self._on_close = on_close
+        self._may_seed = may_seed
         self._loop = asyncio.get_running_loop()
         self._lock = Lock()
         self._line: Line | None = None
@@ -110,7 +121,7 @@ class Session:
         """The connection is lost."""
         self._line = None
 
-    def hear(self, message: native.Action | native.Reset) -> native.Problem | None:
+    def hear(self, message: native.Answer) -> native.Problem | None:
         """An answer. What answers nothing is not counted, and the last percept is said again.
 
         Returns:
@@ -118,30 +129,50 @@ class Session:
         """
         with self._lock:
             told = self._told
+            waits = isinstance(message, native.Order) and message.word == "wait"
             if told is None or self._is_answered or message.seq != told.number:
+                if waits:
+                    return None
                 self.ignored += 1
                 if told is not None and not self._is_answered and self._line is not None:
                     self._line.say(self._frame)
                 return None
-            if isinstance(message, native.Action):
-                if told.done:
-                    text = "the episode is over; expected a reset"
-                    return native.Problem("episode_over", text, told.number)
-                if (message.episode, message.step) != (told.episode, told.steps):
-                    text = (
-                        f"percept {told.number} is of episode {told.episode}, step {told.steps}; "
-                        f"got an action for episode {message.episode}, step {message.step}"
-                    )
-                    return native.Problem("bad_action", text, told.number)
-                answered = Answered(message.values, told)
-            else:
-                answered = Answered(Reset(message.seed), told)
+            if waits:
+                self.heard = time.monotonic()
+                return None
+            problem = self._problem(message, told)
+            if problem is not None:
+                return problem
+            answered = Answered(_answer_in(message), told)
             self._is_answered = True
         self._answers.append(answered)
         self._runner.call()
         return None
 
     # -- what they are made of -------------------------------------------------------------------
+
+    def _problem(self, message: native.Answer, told: Situation) -> native.Problem | None:
+        """Why a message can't be the answer to what was told."""
+        match message:
+            case native.Action() if told.done:
+                text = "the episode is over; expected a reset"
+                return native.Problem("episode_over", text, told.number)
+            case native.Action(episode=episode, step=step):
+                if (episode, step) == (told.episode, told.steps):
+                    return None
+                text = (
+                    f"percept {told.number} is of episode {told.episode}, step {told.steps}; "
+                    f"got an action for episode {episode}, step {step}"
+                )
+                return native.Problem("bad_action", text, told.number)
+            case native.Reset(seed=int()) if not self._may_seed:
+                text = (
+                    "expected a reset without a seed, which begins an episode for this agent; with "
+                    f"one it would begin for all {len(self._runner.sim.agents)} agents, and whoever"
+                    " runs the world has to allow that (ai4u-edu play --seeded-resets)"
+                )
+                return native.Problem("seed_refused", text, told.number)
+        return None
 
     def _count(self, situation: Situation) -> None:
         """Adds up what was paid since the last percept that the script was told."""
@@ -167,6 +198,8 @@ class Session:
                 terms=self._terms,
                 terminated=situation.done and not situation.truncated,
                 truncated=situation.truncated,
+                paused=situation.paused,
+                stopped=situation.stopped,
                 data=data,
                 texts=texts,
             )
@@ -189,3 +222,13 @@ class Session:
             self._loop.call_soon_threadsafe(function, argument)
         except RuntimeError:  # the server has ended before the world
             self.state, self.reason = LinkState.LOST, "the server has ended"
+
+
+def _answer_in(message: native.Answer) -> Answer | Reset:
+    match message:
+        case native.Action(values=values):
+            return values
+        case native.Reset(seed=seed):
+            return Reset(seed)
+        case native.Order(word=word):
+            return Command(word)

@@ -107,17 +107,18 @@ class _Connection:
             said = native.decode(frame)
         except WireError:
             return False
-        if not isinstance(said, native.Action | native.Reset):
+        if not isinstance(said, native.Answer):
             return False
         self._answer(self.seat.session, said)
         return True
 
-    def _answer(self, session: Session, said: native.Action | native.Reset) -> None:
+    def _answer(self, session: Session, said: native.Answer) -> None:
         before = session.ignored
         problem = session.hear(said)
         if problem is not None:
             self._line.say(native.encode(problem))
-        if problem is not None or session.ignored > before:
+        waits = isinstance(said, native.Order) and said.word == "wait"
+        if problem is not None or waits or session.ignored > before:
             self._limit()
         self._mistakes = 0
 
@@ -127,7 +128,7 @@ class _Connection:
 
     async def _hear(self, said: native.Message) -> None:
         match said:
-            case native.Action() | native.Reset() if self.seat is not None:
+            case native.Action() | native.Reset() | native.Order() if self.seat is not None:
                 self._answer(self.seat.session, said)
             case native.Hello():
                 self._limit()

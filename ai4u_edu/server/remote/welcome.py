@@ -46,6 +46,7 @@ class Excerpt:
                 native.Reading(
                     key=slot.key,
                     kind="discrete" if _is_discrete(sensor.observation_space()) else "box",
+                    sensor_type=sensor.reading_kind(),
                     dtype=slot.dtype.str,  # type: ignore[arg-type]  # DTYPES has no others
                     shape=slot.shape,
                     offset=place,
@@ -63,6 +64,7 @@ class Excerpt:
                 native.Reading(
                     key=layout.texts[place],
                     kind="text",
+                    sensor_type=sensor.reading_kind(),
                     dtype="",
                     shape=(longest,),
                     offset=number,

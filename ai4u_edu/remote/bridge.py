@@ -1,0 +1,243 @@
+"""A bridge: AI4U's protocol to a script on this machine, ours to a world elsewhere.
+
+AI4U's own protocol can't bear a lost or repeated datagram. On loopback none is lost; and what the
+network between here and the world does is our protocol's affair. The script notices a delay.
+"""
+
+import threading
+import time
+from collections.abc import Callable
+from secrets import token_urlsafe
+from typing import NamedTuple
+
+from gymnasium import spaces
+
+from ai4u_edu.errors import ActionError
+from ai4u_edu.remote.address import address_of
+from ai4u_edu.remote.ai4u_script import AI4UScript, ScriptGoneError
+from ai4u_edu.remote.dialogue import Dialogue
+from ai4u_edu.remote.errors import RemoteError
+from ai4u_edu.remote.percept import RemotePercept
+from ai4u_edu.remote.plain_line import PlainLine
+from ai4u_edu.remote.spaces import output_space, reading_space
+from ai4u_edu.wire import ai4u_dialogue, native
+from ai4u_edu.wire.agent_codec import AgentCodec
+from ai4u_edu.wire.ai4u import Order, number
+from ai4u_edu.wire.ai4u_dialogue import Phase, State, Word
+from ai4u_edu.wire.strict import WireError
+
+SETTLE = 0.1
+"""Seconds that a script gets to put itself together, before it is greeted and before it is told a
+first state: it asks for its reset meanwhile."""
+POLL_EVERY = 0.01
+"""Seconds between two questions to a script that has not begun, or asks for nothing."""
+THINKING = (1e-4, 0.004)
+"""Seconds by which the pause grows with each question to a script that asks for time; the most."""
+STILL_HERE = 0.25
+"""Seconds between two words to the world while the script asks for time."""
+
+_ORDERS = {Word.PAUSE: "pause", Word.RESUME: "resume", Word.STOP: "stop"}
+
+
+class _Reading(NamedTuple):
+    name: str
+    kind: str
+    space: spaces.Space[object]
+    is_input: bool
+
+
+class _Output(NamedTuple):
+    name: str
+    space: spaces.Space[object]
+    is_output: bool
+
+
+class Bridge:
+    """Lets an AI4U script on this machine drive an agent of a world that is somewhere else.
+
+    The agent is the script's only while there is one: before, between two scripts and after the
+    last, its own brain drives.
+
+    Args:
+        url: the page's address of the world; a token in it counts.
+        agent: the agent's id; may be left out where there is only one.
+        port: where the script listens (UDP).
+        host: the same, if not on loopback.
+        token: the world's, where it asks for one.
+        mode: lockstep: the world waits for each action; realtime: it never waits.
+        script_id: the id by which the script knows its agent.
+        patience: seconds for which the script may be silent.
+        tell: called with a sentence for whoever sits there.
+
+    Raises:
+        RemoteError: one of the addresses is none.
+    """
+
+    def __init__(
+        self,
+        url: str,
+        agent: str = "",
+        *,
+        port: int = 8080,
+        host: str = "127.0.0.1",
+        token: str = "",
+        mode: native.Mode = "lockstep",
+        script_id: str = "0",
+        patience: float = 5.0,
+        tell: Callable[[str], object] = print,
+    ) -> None:
+        self._address = address_of(url)
+        self._agent, self._token, self._mode = agent, token or self._address.token, mode
+        self._secret = token_urlsafe(16)
+        self._tell = tell
+        self._line, self._robot = self._connected()
+        welcome = self._robot.welcome
+        self._title = f"agent {welcome.agent!r} of {welcome.title!r}"
+        self._codec = _codec_of(welcome)
+        dialogue = ai4u_dialogue.Dialogue(
+            script_id,
+            metadata=self._codec.metadata,
+            max_steps=welcome.max_steps,
+            skip_frame=welcome.skip_frame,
+            repeat_action=welcome.repeat_action,
+        )
+        self._leave()
+        self._stopping = threading.Event()
+        self._script = AI4UScript(port, dialogue, host=host, patience=patience)
+
+    def run(self) -> None:
+        """Serves one script after another, until :meth:`stop`.
+
+        Raises:
+            RefusedError: the world does not give the agent away; the text says why.
+            LostError: the world is gone, or has given the agent to another.
+        """
+        try:
+            while self._await_script():
+                try:
+                    self._let_drive()
+                except ScriptGoneError as gone:
+                    self._tell(str(gone))
+                finally:
+                    self._leave()
+        finally:
+            self._script.say_goodbye()
+            self._script.close()
+
+    def stop(self) -> None:
+        """Has :meth:`run` end, from another thread."""
+        self._stopping.set()
+
+    # -- the steps of it -------------------------------------------------------------------------
+
+    def _connected(self) -> tuple[PlainLine, Dialogue]:
+        line = PlainLine(self._address)
+        # with the same secret, since the world may not have heard that the session before is over
+        robot = Dialogue(
+            self._agent, token=self._token, mode=self._mode, session=f":{self._secret}"
+        )
+        line.run(robot.begin())
+        return line, robot
+
+    def _leave(self) -> None:
+        self._line.run(self._robot.end("the AI4U script has ended"))
+
+    def _await_script(self) -> bool:
+        """Knocks until a script is there, and asks it until it begins; whether it did."""
+        script, told = self._script, False
+        while script.dialogue.phase not in (Phase.STARTED, Phase.PLAYING):
+            if self._stopping.is_set():
+                return False
+            try:
+                heard = script.ask()
+            except ScriptGoneError as gone:
+                self._tell(str(gone))
+                continue
+            if heard is None and not told:
+                told = True
+                self._tell(f"no AI4U script listens at {script.where} yet; start it")
+            elif heard is not None and heard.word is Word.HALT:
+                script.dialogue.begin()
+            elif heard is not None:
+                greets = script.dialogue.phase is Phase.GREETING
+                time.sleep(SETTLE if greets else POLL_EVERY)
+        return True
+
+    def _let_drive(self) -> None:
+        """A session: from the script's first wish until it ends."""
+        script = self._script
+        self._line, self._robot = self._connected()
+        self._tell(f"an AI4U script drives {self._title}")
+        starts = script.dialogue.phase is Phase.STARTED
+        percept = self._line.run(self._robot.sense() if starts else self._robot.reset())
+        if starts:
+            time.sleep(SETTLE)
+        state, waits, said = self._state(percept), 0, 0.0
+        while not self._stopping.is_set():
+            heard = script.ask(state)
+            word = heard.word if heard else Word.CONTROL
+            if word is Word.HALT:
+                script.dialogue.begin()
+                self._tell("the AI4U script has ended; start another one, or end me with Ctrl-C")
+            if word in (Word.HALT, Word.CONTROL):
+                return
+            if word is Word.WAIT and time.monotonic() - said > STILL_HERE:
+                self._line.run(self._robot.wait())
+                said = time.monotonic()
+            waits = waits + 1 if word is Word.WAIT else 0
+            after = self._obeyed(word, heard.orders if heard else [], percept)
+            if after is None:
+                step, most = THINKING
+                time.sleep(min(waits * step, most) if waits else POLL_EVERY)
+            else:
+                percept, state = after, self._state(after)
+
+    def _obeyed(
+        self, word: Word, orders: list[Order], percept: RemotePercept
+    ) -> RemotePercept | None:
+        """Has the world do what the script asks for; what the agent senses then, if it did."""
+        run, robot = self._line.run, self._robot
+        if word is Word.RESET:
+            return run(robot.reset())
+        if word in _ORDERS:
+            run(robot.order(_ORDERS[word]))  # type: ignore[arg-type]  # they are what it takes
+            return run(robot.sense())
+        if word is not Word.ACTION or percept.done or self._script.dialogue.phase is Phase.STARTED:
+            return None
+        try:
+            run(robot.act(_numbers(self._codec.action(orders))))
+            return run(robot.sense())
+        except ActionError as error:
+            self._tell(f"{error}; the agent does nothing in this decision")
+            run(robot.act({}))
+            return run(robot.sense())
+
+    def _state(self, percept: RemotePercept) -> State:
+        return State(
+            sensors=self._codec.sensors(percept),
+            reward=percept.reward,
+            steps=percept.step,
+            done=percept.done,
+            truncated=percept.truncated,
+            paused=percept.paused,
+            stopped=percept.stopped,
+        )
+
+
+def _codec_of(welcome: native.Welcome) -> AgentCodec:
+    readings = [
+        _Reading(each.key, each.sensor_type, reading_space(each), each.is_input)
+        for each in welcome.readings
+    ]
+    outputs = [_Output(each.name, output_space(each), each.is_output) for each in welcome.outputs]
+    try:
+        return AgentCodec(readings, outputs)
+    except WireError as error:
+        raise RemoteError(str(error)) from None
+
+
+def _numbers(action: dict[str, tuple[str, ...]]) -> dict[str, list[float]]:
+    try:
+        return {name: [number(arg) for arg in args] for name, args in action.items()}
+    except WireError as error:
+        raise ActionError(f"action: {error}") from None

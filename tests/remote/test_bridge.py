@@ -1,0 +1,239 @@
+"""AI4U scripts at worlds elsewhere, through the bridge."""
+
+import contextlib
+import threading
+from collections.abc import Iterator
+from typing import Any
+
+import pytest
+
+from ai4u_edu import ControlRequestor, RemoteBrain, Scene
+from ai4u_edu.blocks.agent_view import AgentView
+from ai4u_edu.blocks.brains.ai4u_codec import AI4UCodec
+from ai4u_edu.blocks.brains.link import offer_of
+from ai4u_edu.remote import LostError, RefusedError, connect
+from ai4u_edu.remote.bridge import Bridge
+from tests.remote.bridged import OPTIONS, TOKEN, bridged, run, scene_room
+from tests.remote.faulty_proxy import Faults, FaultyProxy
+from tests.remote.rooms import log_of, log_room
+from tests.remote.test_ai4u_package import free_port, run_script
+from tests.remote.udp_script import NOOP, RESET, WAIT, UDPScript, udp_script
+from tests.server.rooms import served, until
+
+PATIENCE = 10.0
+
+
+def test_the_unmodified_client_sees_what_the_world_recorded_whatever_the_network_does() -> None:
+    faults = Faults(
+        drop=0.05, duplicate=0.05, reorder=0.10, single_bytes=0.02, reset=0.02, latency=0.01
+    )
+    assert run(40, faults) == []
+
+
+def test_pause_resume_and_stop_go_through() -> None:
+    with scene_room() as room, bridged(room.url) as (port, _):
+        seen = run_script("pausing.py", port)
+    assert seen == [
+        [1, False, False],
+        [1, True, False],
+        [1, True, False],
+        [1, False, False],
+        [2, False, False],
+        [2, False, True],
+        [2, False, True],
+        [2, False, True],
+        [2, False, True],
+        [0, False, False],
+        [1, False, False],
+    ]
+
+
+def offered(sim: ControlRequestor) -> AI4UCodec:
+    """How an agent is described to a script that stands beside its world."""
+    agent, found = sim.agents[0], []
+
+    class Link(RemoteBrain):
+        def on_setup(self, agent: AgentView, view: Any) -> None:
+            found.append(offer_of(agent, skip_frame=4, repeat_action=True, tick=view.dt))
+
+    agent.use_brain(Link())
+    return AI4UCodec(found[0])
+
+
+@pytest.mark.parametrize("scene", ["box_chase", "sample_scene", "forage", "grid_world", "platform"])
+def test_a_script_is_told_of_an_agent_what_it_is_told_beside_the_world(scene: str) -> None:
+    with served(Scene.load(scene).build()) as room:
+        agent = room.sim.agents[0].id
+        bridge = Bridge(room.url, agent, port=free_port())
+        assert bridge._codec.metadata == offered(Scene.load(scene).build()).metadata
+        bridge._script.close()
+
+
+# -- a script by hand ------------------------------------------------------------------------------
+
+
+@contextlib.contextmanager
+def by_hand(url: str, **options: Any) -> Iterator[tuple[UDPScript, list[str]]]:
+    """A script that says what a test says, and its bridge."""
+    with udp_script() as script, bridged(url, port=script.port, **options) as (_, told):
+        yield script, told
+
+
+def begin(script: UDPScript) -> dict[str, Any]:
+    """Goes through the beginning; the first state after the reset."""
+    for expected, reply in (
+        ("wait_command", NOOP),
+        ("config", "max_steps;1;0@id;1;0"),
+        ("wait_command", RESET),
+    ):
+        request = script.hear(PATIENCE)
+        assert expected in request, request
+        script.say(reply)
+    return script.hear(PATIENCE)
+
+
+def test_a_script_that_asks_for_time_gets_it() -> None:
+    with log_room(receive_timeout=300) as room, by_hand(room.url) as (script, _):
+        state = begin(script)
+        waits = threading.Event()
+        threading.Timer(1.2, waits.set).start()
+        while not waits.is_set():
+            script.say(WAIT)
+            again = script.hear()
+            assert again["place"].tolist() == state["place"].tolist()
+        script.say("log;1;7")
+        assert script.hear()["steps"] == 1
+        brain = room.sim.agents[0].brain
+        assert isinstance(brain, RemoteBrain)
+        assert (brain.status().missing, brain.status().decisions) == (0, 1)
+        assert log_of(room)[-1] == (state["place"][0], 0, 7.0)
+
+
+@pytest.mark.parametrize(
+    ("reply", "complaint"),
+    [
+        ("log;1;nan", "action 'log': expected 1 finite number, got [nan]"),
+        ("log;2;1;2", "action 'log': expected 1 finite number, got [1.0, 2.0]"),
+        ("log;1;fast", "action: expected a number, got 'fast'"),
+        ("lgo;1;1", "no actuator is called 'lgo'; did you mean 'log'?"),
+    ],
+)
+def test_an_action_that_can_not_be_is_told_and_nothing_is_done(reply: str, complaint: str) -> None:
+    with log_room() as room, by_hand(room.url) as (script, told):
+        begin(script)
+        before = len(log_of(room))
+        script.say(reply)
+        assert script.hear()["steps"] == 1
+        assert told[-1] == f"{complaint}; the agent does nothing in this decision"
+        script.say("log;1;3")
+        assert script.hear()["steps"] == 2
+        assert [number for _, _, number in log_of(room)[before:]] == [3.0]
+
+
+def test_the_agent_is_the_scripts_only_while_there_is_one() -> None:
+    with log_room(time_scale=1.0) as room:
+        agent = room.sim.agents[0]
+        own = agent.brain
+        with by_hand(room.url) as (script, told):
+            for _ in range(2):
+                begin(script)
+                assert isinstance(agent.brain, RemoteBrain)
+                script.say("halt")
+                until(lambda: agent.brain is own)
+        drives = "an AI4U script drives agent 'a' of 'A room'"
+        ended = "the AI4U script has ended; start another one, or end me with Ctrl-C"
+        assert [each for each in told if each in (drives, ended)] == [drives, ended] * 2
+
+
+def test_a_farewell_that_was_lost_keeps_the_bridge_out_of_nothing() -> None:
+    with log_room(grace=60.0) as room:
+        bridge = Bridge(room.url, port=free_port())
+        first, _ = bridge._connected()
+        second, robot = bridge._connected()  # the world thinks that the first one is still there
+        assert second.run(robot.sense())["id"] == "a"
+        second.run(robot.end())
+        for line in (first, second):
+            line._close()
+        bridge._script.close()
+
+
+def test_a_lost_connection_is_a_delay_and_no_more() -> None:
+    with (
+        log_room(grace=10.0, receive_timeout=10_000) as room,
+        FaultyProxy(room.url, Faults(reset=0.1), seed=3) as proxy,
+        by_hand(proxy.url) as (script, _),
+    ):
+        begin(script)
+        before = len(log_of(room))
+        for number in range(1, 31):
+            script.say(f"log;1;{number}")
+            assert script.hear(PATIENCE)["steps"] == number
+        assert [number for _, _, number in log_of(room)[before:]] == list(range(1, 31))
+        assert proxy.happened["reset"] >= 3
+
+
+# -- what goes wrong -------------------------------------------------------------------------------
+
+
+def test_a_script_that_is_not_there_yet() -> None:
+    with log_room() as room:
+        port = free_port()
+        with bridged(room.url, port=port) as (_, told):
+            until(lambda: told)
+            assert told == [f"no AI4U script listens at 127.0.0.1:{port} yet; start it"]
+
+
+def test_a_script_that_falls_silent() -> None:
+    with log_room() as room, by_hand(room.url, patience=0.3) as (script, told):
+        begin(script)
+        until(lambda: any("gone" in each for each in told))
+        assert told[-1] == (
+            f"the AI4U script at 127.0.0.1:{script.port} is gone (no answer for 0.3 s); start it "
+            "again"
+        )
+
+
+def test_no_world_is_there() -> None:
+    with pytest.raises(LostError, match="is it running, and is the address right"):
+        Bridge(f"ws://127.0.0.1:{free_port()}", port=free_port())
+
+
+def test_a_world_that_ends() -> None:
+    with udp_script() as script:
+        with log_room(grace=0.3) as room:
+            bridge = Bridge(room.url, port=script.port)
+            told: list[str] = []
+
+            def drive() -> None:
+                try:
+                    bridge.run()
+                except LostError as error:
+                    told.append(str(error))
+
+            thread = threading.Thread(target=drive)
+            thread.start()
+            begin(script)
+        script.say("log;1;1")
+        assert "__stop__" in script.hear(PATIENCE)
+        script.say("halt")
+        thread.join(PATIENCE)
+        assert len(told) == 1
+        assert "expected connect" in told[0] or "ended the session" in told[0]
+
+
+def test_an_agent_that_is_taken_and_one_that_is_not_there() -> None:
+    with log_room(2) as room, connect(room.url, "a"):
+        with pytest.raises(RefusedError, match="agent 'a' is driven by another script; free are"):
+            Bridge(room.url, "a", port=free_port())
+        with pytest.raises(RefusedError, match="no agent has the id 'red'; known are 'a', 'b'"):
+            Bridge(room.url, "red", port=free_port())
+
+
+def test_a_bad_token() -> None:
+    with scene_room() as room:
+        with pytest.raises(RefusedError, match="expected this world's token, got another one"):
+            Bridge(room.url, port=free_port(), token="guessed")
+        with pytest.raises(RefusedError, match="expected this world's token, got none"):
+            Bridge(room.url, port=free_port())
+        Bridge(f"{room.url}?token={TOKEN.replace(' ', '%20')}", port=free_port())._script.close()
+        assert OPTIONS["token"] == TOKEN

@@ -1,0 +1,7 @@
+"""A short slice of ``python -m tests.scenes.kill_saves``."""
+
+from tests.scenes.kill_saves import run
+
+
+def test_a_scene_is_never_half_written() -> None:
+    assert run(3) == []
