@@ -156,5 +156,7 @@ class _Page:
                 if told.get(frame["type"]) != text:
                     told[frame["type"]] = text
                     await self._say(text)
+            # before Python 3.12 a wait_for whose event has just come forgets that it was cancelled
             with suppress(TimeoutError):
-                await asyncio.wait_for(changed.wait(), LOOK)
+                async with asyncio.timeout(LOOK):
+                    await changed.wait()

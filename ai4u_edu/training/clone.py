@@ -23,7 +23,7 @@ from ai4u_edu.recording.player import Player
 from ai4u_edu.scenes.plain import to_plain
 from ai4u_edu.training.algorithms import THREADS
 from ai4u_edu.training.demonstrations import Demonstrations, demonstrations
-from ai4u_edu.training.export import _graph, inputs_of
+from ai4u_edu.training.export import graph_of, inputs_of
 from ai4u_edu.version import __version__
 
 LAYERS = (128, 128)
@@ -212,7 +212,7 @@ def _write(
     agent = Player(episode).sim.agent(shown.agent)
     inputs = inputs_of(agent)
     ((output, actuator),) = outputs_of(agent).items()
-    graph = _graph(cast(Any, network), inputs, output)
+    graph = graph_of(cast(Any, network), inputs, output)
     graph.producer_name, graph.producer_version = "ai4u-edu", __version__
     about = {
         "version": __version__,

@@ -56,7 +56,7 @@ class Exported:
         self._model = model
         self._drive = Drive(model, list(inputs), table)
         training = model.policy.training
-        self._network = _graph(self._drive.eval(), inputs, output)
+        self._network = graph_of(self._drive.eval(), inputs, output)
         model.policy.set_training_mode(training)
         self._about = {
             "version": __version__,
@@ -114,9 +114,16 @@ def inputs_of(agent: BasicAgent) -> dict[str, tuple[tuple[int, ...], np.dtype[An
     }
 
 
-def _graph(
+def graph_of(
     drive: Drive, inputs: dict[str, tuple[tuple[int, ...], np.dtype[Any]]], output: str
 ) -> onnx.ModelProto:
+    """The ONNX graph of a module that turns readings into an action.
+
+    Args:
+        drive: takes one array for each input, the first axis being the batch.
+        inputs: the shape and type of each, by perception key.
+        output: the name of what comes out.
+    """
     batch = torch.export.Dim("batch")
     with tempfile.TemporaryDirectory() as folder, _silence():
         file = Path(folder) / "network.onnx"

@@ -95,11 +95,11 @@ class Height:
     def _stands(self, body: "Body") -> bool:
         """Whether something bears a body right below its centre; the floor is asked first."""
         z = body.z
-        return self.ground(*body._pm.position, z) == z or self._support(body, z) == z
+        return self.ground(*body.position, z) == z or self._support(body, z) == z
 
     def _support(self, body: "Body", below: float) -> float | None:
         """The highest top under a centre, of floors and bodies, that is not above ``below``."""
-        place = body._pm.position
+        place = body.position
         best = self.ground(*place, below)
         for hit in self._world.space.point_query(place, 0.0, body._shapes[0].filter):
             other = self._world.owners[hit.shape]
