@@ -1,6 +1,7 @@
 """YAML text to plain data, with the line of everything."""
 
 import io
+import re
 from typing import Any
 
 from ruamel.yaml import YAML
@@ -25,6 +26,8 @@ from ai4u_edu.errors import SceneError
 MAX_SIZE = 1_000_000
 """Characters that a scene file may have."""
 MAX_DEPTH = 24
+UNFOLDED = 1_000_000
+"""Characters of a line that never ends."""
 
 OPENING = (
     BlockMappingStartToken,
@@ -122,17 +125,30 @@ def write_yaml(data: dict[str, Any]) -> str:
     """Plain data as YAML: short lists and mappings on one line."""
     yaml = YAML(typ="rt", pure=True)
     yaml.default_flow_style = None
-    yaml.width = 100
+    # where a line ends, ruamel loses some of what is odd in a text
+    yaml.width = UNFOLDED if _is_odd(data) else 100
     yaml.indent(mapping=2, sequence=4, offset=2)
     out = io.StringIO()
     yaml.dump(_quoted(data), out)
     return out.getvalue()
 
 
+_USUAL = re.compile(r"[\w(+.,!?<-]?\w([\w(),.;!?+*/<>=%&-]| (?! ))*")
+
+
+def _is_odd(data: Any) -> bool:
+    """Whether a text in it is more than words."""
+    if isinstance(data, dict):
+        return any(_is_odd(key) or _is_odd(value) for key, value in data.items())
+    if isinstance(data, list):
+        return any(map(_is_odd, data))
+    return isinstance(data, str) and not _USUAL.fullmatch(data)
+
+
 def _quoted(data: Any) -> Any:
-    """Texts in quotes where spaces follow each other: at the end of a line they would get lost."""
     if isinstance(data, dict):
         return {_quoted(key): _quoted(value) for key, value in data.items()}
     if isinstance(data, list):
         return [_quoted(value) for value in data]
-    return DoubleQuotedScalarString(data) if isinstance(data, str) and "  " in data else data
+    odd = isinstance(data, str) and _is_odd(data)
+    return DoubleQuotedScalarString(data) if odd else data

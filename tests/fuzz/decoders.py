@@ -1,0 +1,214 @@
+"""The decoders: our own frames in both directions, AI4U's requests and replies, a page's words."""
+
+import json
+import random
+from typing import Any
+
+import msgpack
+import numpy as np
+
+from ai4u_edu.errors import AI4UError
+from ai4u_edu.remote.percept import RemotePercept
+from ai4u_edu.server import messages
+from ai4u_edu.wire import native
+from ai4u_edu.wire.ai4u import (
+    Field,
+    Kind,
+    Order,
+    decode_reply,
+    decode_request,
+    encode_reply,
+    encode_request,
+    number,
+)
+from ai4u_edu.wire.strict import WireError
+from tests.fuzz.messages import KINDS, example
+from tests.fuzz.mutate import bent, bent_and_packed, mangled
+from tests.fuzz.target import MANY, Target
+
+SAMPLES = tuple(example(kind, random.Random(number)) for kind in KINDS for number in range(4))
+"""Right messages: all that a script or a world can say."""
+
+PACKED = (
+    b"\xc0", b"\xc1", b"\xc2", b"\x80", b"\x90", b"\x91" * 1018 + b"\xc0",
+    b"\x81\xa1x" * 1018 + b"\xc0",
+    b"\xdd\xff\xff\xff\xff", b"\xdf\x00\x01\x00\x00", b"\xdc\x04\x01", b"\xc6\xff\xff\xff\xff",
+    b"\xdb\x7f\xff\xff\xff", b"\xc7\x00\x05", b"\xd6\xff\x00\x00\x00\x00", b"\xcf" + b"\xff" * 8,
+    b"\xcb\x7f\xf8" + bytes(6), b"\xa3bye", b"\xa5hello", b"\xa2\xff\xfe", b"\xed\xa0\x80",
+)  # fmt: skip
+
+
+FRAMES = tuple(map(native.encode, SAMPLES))
+
+
+def make_frame(chance: random.Random) -> bytes:
+    """A frame of our own protocol with something wrong in it."""
+    frame = chance.choice(FRAMES)
+    if chance.random() < 0.5:
+        return mangled(frame, chance, PACKED)
+    if chance.random() < 0.1:
+        # one field is what no packer writes, and all around it is right
+        fields = [msgpack.packb(field) for field in msgpack.unpackb(frame)]
+        fields[chance.randrange(len(fields))] = chance.choice(PACKED)
+        head: bytes = msgpack.Packer().pack_array_header(len(fields))
+        return head + b"".join(fields)
+    return bent_and_packed(msgpack.unpackb(frame), chance)
+
+
+def _read_frame(largest: int) -> Any:
+    def read(frame: bytes) -> None:
+        message = native.decode(frame, largest)
+        again = native.encode(message)
+        assert native.encode(native.decode(again, 2 * largest)) == again
+
+    return read
+
+
+def make_percept(chance: random.Random) -> bytes:
+    """A welcome and a percept that need not fit each other, as one frame each."""
+    parts = []
+    for kind in (native.Welcome, native.Percept):
+        tree = msgpack.unpackb(native.encode(example(kind, chance)))
+        if chance.random() < 0.7:
+            # most other places only have it refused as a frame
+            at = tree.index(next((part for part in tree[::-1] if isinstance(part, list)), tree[-1]))
+            tree[at] = bent(tree[at], chance)
+        try:
+            parts.append(msgpack.packb(tree, unicode_errors="replace"))
+        except (OverflowError, ValueError):
+            parts.append(b"")
+    return b"%8d" % len(parts[0]) + b"".join(parts)
+
+
+def read_percept(data: bytes) -> None:
+    """Reads it as a script does: every reading, and the spaces."""
+    size = int(data[:8])
+    welcome = native.decode(data[8 : 8 + size], native.LARGEST_HEARD)
+    percept = native.decode(data[8 + size :], native.LARGEST_HEARD)
+    if not isinstance(welcome, native.Welcome) or not isinstance(percept, native.Percept):
+        return
+    readings = {reading.key: reading for reading in welcome.readings}
+    seen = RemotePercept(readings, percept)
+    for key in seen:
+        try:
+            seen[key]
+        except AI4UError:
+            continue
+
+
+REQUESTS = tuple(
+    encode_request(fields)
+    for fields in (
+        (
+            Field("vision", Kind.FLOATS, np.linspace(0, 1, 9)),
+            Field("seen", Kind.INTS, np.arange(5)),
+            Field("names", Kind.TEXTS, ["a", "b c"]),
+            Field("image", Kind.BYTES, b"\x00\x01\xff"),
+            Field("done", Kind.BOOL, False),
+            Field("reward", Kind.FLOAT, -0.25),
+            Field("steps", Kind.INT, 12),
+            Field("id", Kind.TEXT, "0"),
+        ),
+        (
+            Field("__target__", Kind.TEXT, "envcontrol"),
+            Field("wait_command", Kind.TEXT, "restart"),
+            Field("id", Kind.TEXT, "röbot"),
+        ),
+    )
+)
+REPLIES = tuple(
+    encode_reply(orders)
+    for orders in (
+        (Order("move", ("1.0", "0.5", "0", "0")), Order("speed", ("2",))),
+        (Order("__reset__", ("0",)),),
+        (Order("max_steps", ("1000",)), Order("id", ("0",))),
+        (Order("halt"),),
+        (Order("jump"),),
+    )
+)
+TEXT = (
+    b";", b"@", b"0", b"-1", b"99999", b"   9", b"        ", b"9" * 9000, b"nan", b"inf", b"1e999",
+    b"1_0", b"\xd9\xa3", b"\x00", b"\xff", b"\xc2\xa0", b"\r\n", b"halt", b"__noop__", b" " * 4000,
+    b"1.5 " * 2000, b"." * 3000, b"\xf0\x9f\xa4\x96", b"+", b"e", b"1" * 20_000 + b"x",
+)  # fmt: skip
+
+
+def _make_request(chance: random.Random) -> bytes:
+    if chance.random() < 0.7:
+        return mangled(chance.choice(REQUESTS), chance, TEXT)
+    # lengths that are right, around what is not: a chance of getting as far as the values
+    parts = []
+    for _ in range(chance.randrange(5)):
+        name = mangled(b"eyes", chance, TEXT)[:9999]
+        text = mangled(chance.choice((b"1 2.5 -3e4", b"7", b"AAEC", b"true")), chance, TEXT)
+        kind = chance.randrange(10)
+        parts.append(b"%4d%s%d%8d%s" % (len(name), name, kind, len(text), text))
+    return b"%4d%s" % (len(parts), b"".join(parts))
+
+
+def _read_request(data: bytes) -> None:
+    fields = decode_request(data)
+    decode_request(encode_request(fields))
+
+
+def _make_reply(chance: random.Random) -> bytes:
+    if chance.random() < 0.7:
+        return mangled(chance.choice(REPLIES), chance, TEXT)
+    orders = []
+    for _ in range(chance.randrange(1, 4)):
+        args = [mangled(b"0.5", chance, TEXT) for _ in range(chance.randrange(4))]
+        orders.append(b";".join((b"move", b"%d" % len(args), *args)))
+    return b"@".join(orders)
+
+
+def _read_reply(data: bytes) -> None:
+    for _, args in decode_reply(data):
+        for arg in args[:50]:
+            try:
+                number(arg)
+            except WireError:
+                continue
+
+
+WORDS: tuple[Any, ...] = (
+    {"type": "keys", "held": ["KeyW", "Space"]},
+    {"type": "take"},
+    {"type": "command", "name": "reset", "seed": 7},
+    {"type": "command", "name": "pause"},
+)
+
+
+def make_words(chance: random.Random) -> bytes:
+    """What a page says, with something wrong in it."""
+    words = chance.choice(WORDS)
+    if chance.random() < 0.5:
+        return mangled(json.dumps(words).encode(), chance, (b"[" * 900, b'"', b"\\ud800", *TEXT))
+    return json.dumps(bent(words, chance), default=repr).encode()
+
+
+WIRE = ("ai4u_edu.wire",)
+
+NATIVE_SAID = Target(
+    "native-said",
+    make_frame,
+    _read_frame(native.LARGEST_SAID),
+    (WireError,),
+    packages=WIRE,
+    seeds=FRAMES,
+)
+NATIVE_HEARD = Target(
+    "native-heard",
+    make_frame,
+    _read_frame(native.LARGEST_HEARD),
+    (WireError,),
+    packages=WIRE,
+    seeds=FRAMES,
+)
+AI4U_REQUEST = Target(
+    "ai4u-request", _make_request, _read_request, (WireError,), packages=WIRE, seeds=REQUESTS
+)
+AI4U_REPLY = Target(
+    "ai4u-reply", _make_reply, _read_reply, (WireError,), packages=WIRE, seeds=REPLIES
+)
+PERCEPT = Target("percept", make_percept, read_percept, (AI4UError,), count=MANY)
+PAGE = Target("page-words", make_words, messages.read, (ValueError,), count=MANY)

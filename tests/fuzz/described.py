@@ -1,0 +1,43 @@
+"""The API held against its own description, by schemathesis."""
+
+import math
+from typing import Any
+
+from hypothesis import HealthCheck, given, settings
+
+from ai4u_edu.runner import Runner
+from ai4u_edu.server import room_app
+from tests.builders import small_sim
+
+
+def hold_against_description(examples: int) -> str:
+    """Asks for each operation so many times, in every odd way; what was done, as a sentence.
+
+    Raises:
+        AssertionError: an answer is none that the description has.
+    """
+    import schemathesis  # not everybody has it
+
+    runner = Runner(small_sim(), seed=1, time_scale=math.inf)
+    app = room_app(runner, viser_port=9, title="A room", allowed_hosts=("localhost", "testserver"))
+    schema = schemathesis.openapi.from_asgi("/api/openapi.json", app)
+    asked = 0
+    for found in schema.get_all_operations():
+        operation: Any = found.ok()  # type: ignore[union-attr]  # an error has none, and is raised
+
+        @given(case=operation.as_strategy())
+        @settings(
+            max_examples=examples,
+            deadline=1000,
+            derandomize=True,
+            suppress_health_check=list(HealthCheck),
+            database=None,
+        )
+        def answers_as_described(case: Any) -> None:
+            nonlocal asked
+            asked += 1
+            runner.advance()
+            case.call_and_validate()
+
+        answers_as_described()
+    return f"{'http':<14} schemathesis: {asked} requests answered as described"

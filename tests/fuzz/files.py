@@ -1,0 +1,188 @@
+"""Files that somebody sends: scenes, and recorded episodes."""
+
+import json
+import random
+import zlib
+from functools import cache
+from typing import Any
+
+import msgpack
+from ruamel.yaml import YAML
+
+from ai4u_edu.blocks import Block
+from ai4u_edu.errors import AI4UError
+from ai4u_edu.recording import Episode, Recorder, RecordingError
+from ai4u_edu.recording.file import HEAD, LARGEST_FILE, decode, encode
+from ai4u_edu.scenes import Scene
+from ai4u_edu.scenes.scene import LIBRARY
+from tests.fuzz.mutate import ODD, bent, bent_and_packed, mangled
+from tests.fuzz.target import MANY, Target
+
+SMALL = """\
+name: small
+success: touch
+world: {ticks_per_second: 60}
+floors:
+  - {name: plate, shape: {type: box, size: [10, 10]}}
+bodies:
+  - {name: robot, shape: {type: circle, radius: 0.5}, random: {x: [-3, 3], heading_deg: [0, 90]}}
+  - {name: box, shape: {type: box, size: [1, 1]}, position: [3, 0], mass: 5, tags: [target]}
+areas:
+  - {name: goal, shape: {type: box, size: [1, 1]}, position: [-4, 0]}
+agents:
+  - id: "0"
+    body: robot
+    max_steps_per_episode: 50
+    sensors:
+      - {type: RayCastingSensor, rows: 1, columns: 4, group_code: {target: 2}}
+      - {type: OrientationSensor, target: box, stacked_observations: 2}
+    actuators:
+      - {type: RBMoveActuator, move_amount: 2}
+      - {type: RespawnActuator, poses: [[0, 0, 0]]}
+    rewards:
+      - {type: TouchRewardFunc, target: box, reward: 1, cause_episode_to_end: true}
+    brains:
+      - {type: LocalBrain, controller: {type: WASDRBMoveController}}
+"""
+TINY = """\
+name: tiny
+bodies: [{name: r, shape: {type: circle, radius: 0.5}}]
+agents:
+- body: r
+  actuators: [{type: RBMoveActuator}]
+  brains: [{type: LocalBrain, controller: {type: WASDRBMoveController}}]
+"""
+
+YAML_TOKENS = (
+    b"&a ", b"*a", b"!!python/object:os.system ", b"<<: ", b"? ", b"- ", b": ", b"|\n", b">\n  ",
+    b"%YAML 9\n", b"---\n", b"...\n", b"{", b"}", b"[" * 40, b"]", b"\t", b"'", b'"', b"#", b"\x00",
+    b"\xff", b"\xef\xbb\xbf", b".inf", b".nan", b"1e400", b"0x" + b"f" * 400, b"9" * 5000, b"0o9",
+    b"2026-13-45", b"2026-01-01", b"1:30:00", b"~", b"yes", b"@", b"`", b"\xe2\x80\xa8", b"\\u0000",
+)  # fmt: skip
+
+
+@cache
+def _scenes() -> tuple[tuple[bytes, ...], tuple[Any, ...], tuple[Any, ...]]:
+    """Texts, the same as plain data, and what may stand in its places."""
+    texts = [SMALL, TINY, *(path.read_text() for path in sorted(LIBRARY.glob("*.yaml")))]
+    weights = [SMALL] * 30 + [TINY] * 100 + texts  # most are small: they are read much faster
+    trees = [YAML(typ="safe").load(text) for text in weights]
+    # one that looks out for a script would open a socket for each
+    types = sorted(name for name in Block.types if "Remote" not in name)
+    return tuple(text.encode() for text in weights), tuple(trees), (*ODD, *types, *_blocks(trees))
+
+
+def _blocks(tree: Any) -> list[Any]:
+    """Everything with a type in some scenes: blocks and shapes, to be put where they don't fit."""
+    found: list[Any] = []
+    for each in tree.values() if isinstance(tree, dict) else tree:
+        if isinstance(each, dict | list):
+            found += [each] if "type" in each else []
+            found += _blocks(each)
+    return found[:400]
+
+
+def make_scene(chance: random.Random) -> bytes:
+    """A scene file with something wrong in it."""
+    texts, trees, odd = _scenes()
+    if chance.random() < 0.4:
+        return mangled(chance.choice(texts), chance, YAML_TOKENS)
+    tree = chance.choice(trees)
+    for _ in range(chance.choice((1, 1, 2, 4))):
+        tree = bent(tree, chance, odd)
+    # of what JSON can't say, YAML has names of its own
+    try:
+        text = json.dumps(tree, default=repr, ensure_ascii=chance.random() < 0.5)
+    except RecursionError:
+        text = "name: deep\nbodies: " + "[" * 900 + "]" * 900
+    text = text.replace("NaN", ".nan").replace("Infinity", ".inf")
+    return text.encode(errors="replace")
+
+
+def read_scene(data: bytes) -> None:
+    """Loads it; what is loaded can be written, read again, and played."""
+    try:
+        text = data.decode()
+    except UnicodeDecodeError:  # as when a file is opened
+        text = data.decode("latin-1")
+    scene = Scene.loads(text)
+    sim = scene.build(seed=1)
+    try:
+        sim.reset(seed=1)
+        sim.step()
+        again = scene.dumps()
+    finally:
+        for agent in sim.agents:
+            agent.brain.close()
+    assert Scene.loads(again) == scene
+
+
+@cache
+def _episodes() -> tuple[tuple[bytes, Any], ...]:
+    """Recorded files, and what is in them."""
+    found = []
+    for text in (TINY, SMALL):
+        scene = Scene.loads(text)
+        sim = scene.build()
+        recorder = Recorder(sim, scene=scene.description)
+        sim.reset(1)
+        for _ in range(4):
+            sim.step()
+        sim.restart(sim.agents[0])
+        sim.step()
+        recorder.finish()
+        whole = encode(recorder.episodes[-1])
+        found.append((whole, msgpack.unpackb(zlib.decompress(whole[len(HEAD) :]))))
+    return tuple(found)
+
+
+def make_recording(chance: random.Random) -> bytes:
+    """A recorded episode with something wrong: in the file, in what is packed, in the data."""
+    whole, tree = chance.choice(_episodes())
+    match chance.randrange(5):
+        case 0:
+            return mangled(whole, chance, (HEAD, b"\x78\xda", b"ai4u-edu episode 2\n"))
+        case 1:
+            plain = mangled(zlib.decompress(whole[len(HEAD) :]), chance)
+        case 2:
+            deep = chance.choice((b"\x91", b"\x81\xa1x")) * chance.choice((30, 400, 1018))
+            odd = chance.choice(list(tree))
+            plain = msgpack.Packer().pack_map_header(len(tree))
+            for key, each in tree.items():
+                value = deep + b"\xc0" if key == odd else msgpack.packb(each)
+                plain += msgpack.packb(key) + value
+        case _:
+            plain = bent_and_packed(tree, chance)
+    return HEAD + zlib.compress(plain, 1)
+
+
+def read_recording(data: bytes) -> None:
+    """Reads it, looks at every decision, and writes it again."""
+    episode = decode(Episode, data, "x.episode")
+    for record in episode.agents:
+        for decision in record:
+            assert decision.end >= decision.begin
+    str(episode), episode.success, episode.places, episode.restart_places
+    again = decode(Episode, encode(episode), "again.episode")
+    assert encode(again) == encode(episode)
+
+
+def read_packed(data: bytes) -> None:
+    """The same for what is packed in a file: a fuzzer that knows no zlib gets no further."""
+    read_recording(HEAD + zlib.compress(data[:LARGEST_FILE], 1))
+
+
+SCENE = Target(
+    "scene",
+    make_scene,
+    read_scene,
+    (AI4UError,),
+    count=MANY,
+)
+RECORDING = Target(
+    "recording",
+    make_recording,
+    read_recording,
+    (RecordingError,),
+    count=MANY,
+)

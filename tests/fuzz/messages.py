@@ -1,0 +1,40 @@
+"""Right messages of our own protocol, made by what their classes declare."""
+
+import random
+from collections.abc import Mapping
+from dataclasses import fields, is_dataclass
+from types import NoneType, UnionType
+from typing import Annotated, Any, Literal, Union, get_args, get_origin, get_type_hints
+
+from ai4u_edu.wire import native
+
+KINDS: tuple[type[native.Message], ...] = get_args(native.Message)
+NAMES = ("red", "move", "eyes", "", "s" * 20, "röbot", "speed")
+
+
+def example(kind: Any, chance: random.Random) -> Any:
+    """Something that an annotation lets through."""
+    origin, parts = get_origin(kind), get_args(kind)
+    if origin is Annotated:
+        return example(parts[0], chance)
+    if origin in (UnionType, Union):
+        return example(chance.choice(parts), chance)
+    if origin is Literal:
+        return chance.choice(parts)
+    if origin is tuple:
+        return tuple(example(parts[0], chance) for _ in range(chance.randrange(4)))
+    if origin is Mapping:
+        return {name: example(parts[1], chance) for name in chance.sample(NAMES, 2)}
+    if is_dataclass(kind):
+        hints = get_type_hints(kind, include_extras=True)
+        make: Any = kind
+        return make(**{each.name: example(hints[each.name], chance) for each in fields(kind)})
+    leaves: dict[Any, Any] = {
+        int: chance.choice((0, 1, 2, 7, 2**31)),
+        float: chance.choice((0.0, 1.0, -0.5, 60.0)),
+        bool: chance.random() < 0.5,
+        str: chance.choice(NAMES),
+        bytes: chance.randbytes(chance.choice((0, 1, 4, 24))),
+        NoneType: None,
+    }
+    return leaves[kind]

@@ -1,0 +1,116 @@
+"""Feeding a target, and watching what it does: errors, time, memory."""
+
+import gc
+import random
+import resource
+import signal
+import sys
+import time
+import traceback
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from types import FrameType
+
+from tests.fuzz.target import Target
+
+HANG = 1.0
+"""Seconds of processor time that one input may take."""
+LEAK = 0.1
+"""Objects that an input may leave behind: a leak leaves one or more, caches that fill up fewer."""
+ENOUGH = 5
+"""Findings after which it goes no further."""
+
+
+class HangError(BaseException):
+    """An input took too long. No ordinary exception, so that nobody catches it on the way."""
+
+
+@dataclass
+class Report:
+    """What a run came to."""
+
+    name: str
+    inputs: int = 0
+    right: int = 0
+    slowest: float = 0.0
+    """Seconds of processor time."""
+    left: float = 0.0
+    """Objects left behind by an input, on average."""
+    megabytes: float = 0.0
+    """By which the process grew after the first fifth."""
+    seconds: float = 0.0
+    findings: list[str] = field(default_factory=list)
+
+    def __str__(self) -> str:
+        return (
+            f"{self.name:<14} {self.inputs:>9,} inputs ({self.right:,} right) in "
+            f"{self.seconds:.0f} s; slowest {self.slowest * 1000:.1f} ms; left behind "
+            f"{self.left:.5f} objects an input, {self.megabytes:+.1f} MB; "
+            f"findings: {len(self.findings)}"
+        )
+
+
+def run(target: Target, inputs: int, seed: int = 0) -> Report:
+    """Feeds a target with inputs that depend on the seed alone."""
+    chance = random.Random(seed)
+    report = Report(target.name)
+    began = time.perf_counter()
+    warm = max(inputs // 5, 1)
+    blocks, memory = 0, 0.0
+    with _watched():
+        while report.inputs < inputs and len(report.findings) < ENOUGH:
+            if report.inputs == warm:
+                blocks, memory = _blocks(), _megabytes()
+            _feed(target, target.make(chance), report)
+    if report.inputs > warm:
+        report.left = max(0, _blocks() - blocks) / (report.inputs - warm)
+        report.megabytes = _megabytes() - memory
+        if report.left > LEAK and report.inputs >= 10_000:
+            report.findings.append(f"{report.left:.3f} objects stay after each input")
+    report.seconds = time.perf_counter() - began
+    return report
+
+
+def _feed(target: Target, data: bytes, report: Report) -> None:
+    report.inputs += 1
+    before = time.process_time()
+    signal.setitimer(signal.ITIMER_VIRTUAL, HANG)
+    try:
+        report.right += target.reads(data)
+    except HangError as hang:
+        report.findings.append(_told("more than a second", data, hang))
+    except Exception as error:
+        report.findings.append(_told(repr(error), data, error))
+    finally:
+        signal.setitimer(signal.ITIMER_VIRTUAL, 0)
+    report.slowest = max(report.slowest, time.process_time() - before)
+
+
+def _told(what: str, data: bytes, error: BaseException) -> str:
+    frames = [each for each in traceback.extract_tb(error.__traceback__) if "fuzz" not in each[0]]
+    where = frames[-1] if frames else traceback.extract_tb(error.__traceback__)[-1]
+    shown = repr(data) if len(data) <= 3000 else f"{data[:3000]!r}... ({len(data)} bytes)"
+    return f"{what[:200]} at {where.filename}:{where.lineno}\n  input: {shown}"
+
+
+@contextmanager
+def _watched() -> Iterator[None]:
+    def ring(number: int, frame: FrameType | None) -> None:
+        raise HangError
+
+    before = signal.signal(signal.SIGVTALRM, ring)
+    try:
+        yield
+    finally:
+        signal.setitimer(signal.ITIMER_VIRTUAL, 0)
+        signal.signal(signal.SIGVTALRM, before)
+
+
+def _blocks() -> int:
+    gc.collect()
+    return sys.getallocatedblocks()
+
+
+def _megabytes() -> float:
+    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024

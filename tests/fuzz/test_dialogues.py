@@ -1,0 +1,213 @@
+"""The state machines of both protocols, against what their pictures in the code say."""
+
+import asyncio
+import math
+from typing import Any
+
+import pytest
+from hypothesis import settings
+from hypothesis import strategies as st
+from hypothesis.stateful import RuleBasedStateMachine, initialize, invariant, rule
+
+from ai4u_edu.blocks.brains.link import Answered, Situation
+from ai4u_edu.blocks.brains.link import Reset as ResetAnswer
+from ai4u_edu.server.remote.line import Line
+from ai4u_edu.server.remote.session import Session
+from ai4u_edu.wire import native
+from ai4u_edu.wire.ai4u import decode_request
+from ai4u_edu.wire.ai4u_dialogue import WORDS, Dialogue, Phase, State, Word
+from ai4u_edu.wire.strict import WireError
+
+SAYABLE = {
+    Word.CONFIGURED: b"max_steps;1;0@id;1;0",
+    Word.ACTION: b"move;2;1.0;0.5",
+} | {
+    word: f"{word.value};1;0".encode()
+    for word in Word
+    if word not in (Word.CONFIGURED, Word.ACTION, Word.HALT)
+}
+SAYABLE[Word.HALT] = b"halt"
+NEXT = {
+    (Phase.GREETING, Word.CONFIGURED): Phase.POLLING,
+    **{(phase, Word.HALT): Phase.OVER for phase in Phase if phase is not Phase.KNOCKING},
+    **{(phase, word): Phase.PLAYING for phase in (Phase.POLLING, Phase.STARTED, Phase.PLAYING)
+       for word in (Word.RESET, Word.RESTART)},
+    (Phase.POLLING, Word.START): Phase.STARTED,
+    (Phase.STARTED, Word.CONTROL): Phase.POLLING,
+    (Phase.PLAYING, Word.CONTROL): Phase.POLLING,
+}  # fmt: skip
+MEANT = {Word.START: Phase.STARTED, Word.RESET: Phase.PLAYING, Word.RESTART: Phase.PLAYING}
+"""What a script that is knocked at says is done after the handshake."""
+
+
+class AI4USession(RuleBasedStateMachine):
+    """Whatever comes, the phase is the one of the picture, and what is sent can be read."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.dialogue = Dialogue("0", metadata="{}")
+        self.phase = Phase.KNOCKING
+        self.meant: Phase | None = None
+
+    @rule(done=st.booleans(), reward=st.floats(allow_nan=False, allow_infinity=False))
+    def ask(self, done: bool, reward: float) -> None:
+        state = State(sensors=[], reward=reward, steps=3, done=done, truncated=False)
+        names = [field.name for field in decode_request(self.dialogue.request(state))]
+        assert "id" in names
+        assert ("reward" in names) == (self.phase in (Phase.STARTED, Phase.PLAYING))
+        assert self.dialogue.in_flight
+
+    @rule(word=st.sampled_from(Word))
+    def hear(self, word: Word) -> None:
+        if word not in WORDS[self.phase]:
+            with pytest.raises(WireError, match="nothing that can be said while"):
+                self.dialogue.hear(SAYABLE[word])
+            return
+        self.dialogue.hear(SAYABLE[word])
+        if self.phase is Phase.KNOCKING:
+            self.phase, self.meant = Phase.GREETING, MEANT.get(word)
+        elif word is Word.CONFIGURED and self.meant is not None:
+            self.phase = self.meant
+        else:
+            self.phase = NEXT.get((self.phase, word), self.phase)
+        assert not self.dialogue.in_flight
+
+    @rule(reply=st.binary(max_size=40))
+    def garbage(self, reply: bytes) -> None:
+        before = self.dialogue.in_flight
+        try:
+            self.dialogue.hear(b"\xff" + reply)
+        except WireError:
+            assert self.dialogue.in_flight == before
+
+    @rule()
+    def begin(self) -> None:
+        self.dialogue.begin()
+        self.phase = Phase.KNOCKING
+
+    @invariant()
+    def phase_is_the_pictures(self) -> None:
+        assert self.dialogue.phase is self.phase
+
+
+class _World:
+    """What a session needs of a runner."""
+
+    def expect_call(self) -> None:
+        pass
+
+    def call(self) -> None:
+        pass
+
+
+class _Excerpt:
+    def of(self, percept: Any) -> tuple[bytes, tuple[str, ...]]:
+        return b"", ()
+
+
+class NativeSession(RuleBasedStateMachine):
+    """Frames get lost, come twice and late: each answer counts once, for what it answers."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.loop = asyncio.new_event_loop()
+        self.loop.run_until_complete(self._make())
+        self.number = 0
+        self.asked: Situation | None = None
+        self.heard: list[native.Message] = []
+        self.sent: list[native.Action | native.Reset] = []
+        self.carried_out: list[int] = []
+        self.line: Line | None = None
+
+    async def _make(self) -> None:
+        world: Any = _World()
+        excerpt: Any = _Excerpt()
+        self.session = Session(excerpt, world, lambda reason: None)
+
+    @initialize()
+    def come(self) -> None:
+        self.connect()
+
+    @rule()
+    def connect(self) -> None:
+        def write(frame: bytes) -> bool:
+            self.heard.append(native.decode(frame, native.LARGEST_HEARD))
+            return True
+
+        async def never(message: Any) -> None:
+            raise AssertionError
+
+        self.line = Line(never, write)
+        self.session.attach(self.line)
+
+    @rule()
+    def lose(self) -> None:
+        self.session.detach()
+
+    @rule(new=st.booleans(), patient=st.booleans())
+    def world_asks(self, new: bool, patient: bool) -> None:
+        if new or self.asked is None:
+            self.number += 1
+            nothing: Any = None
+            self.asked = Situation(
+                number=self.number, episode=1 + self.number // 5, percept=nothing, reward=1.0,
+                terms={},
+                steps=self.number % 5, tick=self.number, done=self.number % 5 == 4,
+                truncated=False, paused=False, stopped=False,
+            )  # fmt: skip
+        answered = self.session.ask(self.asked, 0.015 if patient else 0.0)
+        if answered is not None:
+            self._check(answered)
+            self.asked = None  # a brain that has its answer asks about something new
+
+    def _check(self, answered: Answered) -> None:
+        told = answered.situation
+        assert told is not None
+        assert not self.carried_out or told.number > self.carried_out[-1], "twice, or out of order"
+        self.carried_out.append(told.number)
+        if not isinstance(answered.answer, ResetAnswer):
+            values: Any = answered.answer
+            assert values == {"log": (float(told.number),)}, "to another percept"
+            assert not told.done
+
+    def _percept(self, back: int) -> native.Percept | None:
+        percepts = [each for each in self.heard if isinstance(each, native.Percept)]
+        return percepts[-1 - back] if back < len(percepts) else None
+
+    @rule(back=st.integers(0, 3), reset=st.booleans())
+    def script_answers(self, back: int, reset: bool) -> None:
+        percept = self._percept(back)
+        if percept is None:
+            return
+        seq = percept.seq
+        message = (
+            native.Reset(seq, None)
+            if reset
+            else native.Action(percept.episode, percept.step, seq, {"log": (float(seq),)})
+        )
+        self.sent.append(message)
+        self.session.hear(message)
+
+    @rule(back=st.integers(0, 5))
+    def a_frame_comes_again(self, back: int) -> None:
+        if back < len(self.sent):
+            self.session.hear(self.sent[-1 - back])
+
+    @rule(seq=st.integers(0, 2**53), step=st.integers(0, 9))
+    def a_frame_of_nowhere(self, seq: int, step: int) -> None:
+        if seq > self.number:
+            before = self.session.ignored
+            self.session.hear(native.Action(1, step, seq, {"log": (math.nan,)}))
+            assert self.session.ignored == before + 1
+
+    def teardown(self) -> None:
+        self.loop.close()
+
+
+EXAMPLES = settings(max_examples=60, stateful_step_count=40, deadline=None, derandomize=True)
+
+
+TestAI4USession = AI4USession.TestCase
+TestAI4USession.settings = EXAMPLES
+TestNativeSession = NativeSession.TestCase
+TestNativeSession.settings = EXAMPLES

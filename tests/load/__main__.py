@@ -1,0 +1,115 @@
+"""A class at work: ``python -m tests.load --brains 30,60,100``.
+
+One world at 60 ticks a second in which so many scripts drive an agent each, in realtime, 15 times
+a second with 16 rays, while as many viewers look at the page. The scripts are real ones of
+``ai4u_edu.remote``, the viewers bare clients of viser's socket that read every frame. World and
+server have one process, all brains another one, all viewers a third; how much of a core each took
+stands in the table, since they compete for the same cores.
+"""
+
+import argparse
+import multiprocessing
+import os
+from multiprocessing.connection import Connection
+from typing import Any
+
+import numpy as np
+
+from tests.load import clients, world
+
+HEAD = """\
+| brains | viewers | besides | tick late p50 / p99 | observation old p50 / p99 | viewer frames/s \
+least / median | server, brains, viewers (cores) |
+|---|---|---|---|---|---|---|"""
+
+
+def main() -> None:
+    """Measures and prints."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--brains", default="30,60,100")
+    parser.add_argument("--seconds", type=float, default=20)
+    parser.add_argument("--quick", action="store_true", help="5 s each")
+    parser.add_argument("--no-viewers", action="store_true")
+    options = parser.parse_args()
+    multiprocessing.set_start_method("spawn")
+    seconds = 5.0 if options.quick else options.seconds
+    load = ", ".join(f"{each:.1f}" for each in os.getloadavg())
+    print(f"{os.cpu_count()} cores; load averages before: {load}; {seconds:g} s each")
+    print(HEAD, flush=True)
+    counts = [int(each) for each in options.brains.split(",")]
+    for count in counts:
+        print(measure(count, 0, seconds), flush=True)
+        if not options.no_viewers:
+            print(measure(count, count, seconds), flush=True)
+    least = min(counts)
+    print(measure(least, 5, seconds, slow=5), flush=True)
+    print(measure(least, 5, seconds, flooding=True), flush=True)
+    print(measure(least, 30, seconds, stopped=25), flush=True)
+
+
+def measure(
+    brains: int,
+    viewers: int,
+    seconds: float,
+    *,
+    slow: int = 0,
+    stopped: int = 0,
+    flooding: bool = False,
+) -> str:
+    """One line of the table."""
+    here, there = multiprocessing.Pipe()
+    served = multiprocessing.Process(target=world.serve, args=(brains, there), daemon=True)
+    served.start()
+    url = here.recv()
+    parties: list[tuple[Any, Any, int]] = [(clients.brains, list(range(brains)), slow)]
+    parties += [(clients.viewers, viewers, stopped)] if viewers else []
+    parties += [(clients.flood, 1, 0)] if flooding else []
+    ends = [_begin(party, url, count, odd, seconds) for party, count, odd in parties]
+    _wait(ends[0], clients.WARM + 1)
+    here.send("begin")
+    here.recv()
+    found = [end.recv() for end in ends]
+    here.send("told")
+    told = here.recv()
+    here.send("end")
+    served.join(20)
+    besides = [f"{slow} brains slow"] if slow else []
+    besides += [f"{stopped} viewers never read"] if stopped else []
+    besides += [f"flood, closed: {found[-1].closes}"] if flooding else []
+    ages = [
+        age
+        for number, each in enumerate(found[0].ages.values())
+        for age in each[15 * int(clients.WARM) :]
+        if number >= slow
+    ]
+    frames = sorted(found[1].frames) if viewers else []
+    seen = f"{frames[0]:.0f} / {np.median(frames):.0f}" if frames else "-"
+    took = clients.WARM + seconds
+    used = [told.processor / seconds, *(each.processor / took for each in found)]
+    return (
+        f"| {brains} | {viewers} | {'; '.join(besides) or '-'} | {_ms(told.late)} | {_ms(ages)} "
+        f"| {seen} | {', '.join(f'{each:.2f}' for each in used)} |"
+    )
+
+
+def _begin(party: Any, url: str, count: Any, odd: int, seconds: float) -> Connection:
+    here, there = multiprocessing.Pipe()
+    multiprocessing.Process(
+        target=party, args=(url, count, odd, seconds, there), daemon=True
+    ).start()
+    return here
+
+
+def _wait(end: Connection, seconds: float) -> None:
+    end.poll(seconds)
+
+
+def _ms(seconds: list[float]) -> str:
+    if not seconds:
+        return "-"
+    middle, most = np.percentile(seconds, (50, 99)) * 1000
+    return f"{middle:.1f} / {most:.1f} ms"
+
+
+if __name__ == "__main__":
+    main()

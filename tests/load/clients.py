@@ -1,0 +1,159 @@
+"""Those who make the load, in processes of their own: brains, viewers, and some who misbehave."""
+
+import asyncio
+import resource
+import time
+from contextlib import suppress
+from multiprocessing.connection import Connection
+from typing import Any, NamedTuple
+
+import msgspec
+import viser
+from websockets.asyncio.client import connect
+from websockets.exceptions import ConnectionClosed
+from websockets.typing import Subprotocol
+
+from ai4u_edu.remote import AsyncRobot
+from ai4u_edu.wire import native
+
+ROUND = 256.0
+VISER = Subprotocol(f"viser-v{viser.__version__}")
+REMOTE = Subprotocol(native.SUBPROTOCOL)
+SLOW = 0.5
+"""Seconds that a slow script thinks."""
+
+
+class Found(NamedTuple):
+    """What some clients saw."""
+
+    ages: dict[str, list[float]]
+    """Seconds between sensing and having it, by agent."""
+    frames: list[float]
+    """Pictures a second, of each viewer that reads."""
+    closes: list[tuple[int, str]]
+    """How clients were sent away."""
+    processor: float
+    """Seconds."""
+
+
+def brains(url: str, agents: list[int], slow: int, seconds: float, ends: Connection) -> None:
+    """Drives agents; the first ``slow`` of them with scripts that think for long."""
+    ages: dict[str, list[float]] = {str(number): [] for number in agents}
+
+    async def drive(name: str, pause: float, end: float) -> None:
+        async with AsyncRobot(url, name, mode="realtime") as robot:
+            while time.monotonic() < end:
+                percept = await robot.sense()
+                ages[name].append((time.monotonic() - float(percept["clock"][0])) % ROUND)
+                if pause:
+                    await asyncio.sleep(pause)
+                await robot.act(move=[0.2, 0.5, 0.0, 0.0])
+
+    async def main(end: float) -> None:
+        await asyncio.gather(
+            *(
+                drive(str(number), SLOW if index < slow else 0.0, end)
+                for index, number in enumerate(agents)
+            )
+        )
+
+    _run(main, seconds, ends, lambda: Found(ages, [], [], 0.0))
+
+
+def viewers(url: str, count: int, stopped: int, seconds: float, ends: Connection) -> None:
+    """Looks at the page; the first ``stopped`` of the viewers never read."""
+    frames = [0] * count
+
+    async def look(number: int, end: float) -> None:
+        async with _page(url) as page:
+            await page.send(CAMERA)
+            if number < stopped:
+                await asyncio.sleep(end - time.monotonic())
+                page.transport.abort()
+                return
+            warm = end - seconds
+            with suppress(TimeoutError, ConnectionClosed):
+                async with asyncio.timeout(end - time.monotonic()):
+                    while True:
+                        await page.recv(decode=False)
+                        frames[number] += time.monotonic() > warm
+            page.transport.abort()
+
+    async def main(end: float) -> None:
+        await asyncio.gather(*(look(number, end) for number in range(count)))
+
+    _run(
+        main,
+        seconds,
+        ends,
+        lambda: Found({}, [each / seconds for each in frames[stopped:]], [], 0.0),
+    )
+
+
+def flood(url: str, _count: int, _unused: int, seconds: float, ends: Connection) -> None:
+    """One client of each socket that sends as fast as it can."""
+    closes: list[tuple[int, str]] = []
+    path = url.replace("http", "ws", 1)
+
+    async def pour(socket: Any, frame: bytes | str) -> None:
+        async with socket as open_socket:
+            with suppress(ConnectionClosed):
+                while True:
+                    for _ in range(100):
+                        await open_socket.send(frame)
+                    await asyncio.sleep(0)
+            with suppress(ConnectionClosed):
+                while True:
+                    await open_socket.recv()
+            closes.append((open_socket.close_code or 0, open_socket.close_reason or ""))
+
+    async def main(end: float) -> None:
+        late = native.encode(native.Action(1, 1, 2**40, {"move": (1.0, 0.0, 0.0, 0.0)}))
+        with suppress(TimeoutError):
+            async with asyncio.timeout(end - time.monotonic()):
+                await asyncio.gather(
+                    pour(connect(path + "ws/input", proxy=None), '{"type": "take"}'),
+                    pour(connect(path + "ws/remote", proxy=None, subprotocols=[REMOTE]), late),
+                )
+                # viser's socket slows down who says too much, and goes on
+                await pour(_page(url), CAMERA)
+
+    _run(main, seconds, ends, lambda: Found({}, [], closes, 0.0))
+
+
+def _page(url: str) -> Any:
+    return connect(
+        url.rstrip("/").replace("http", "ws", 1),
+        subprotocols=[VISER],
+        compression=None,
+        max_size=None,
+        proxy=None,
+        ping_interval=None,
+    )
+
+
+CAMERA = msgspec.msgpack.encode(
+    {
+        "type": "ViewerCameraMessage",
+        "wxyz": (0.0, 1.0, 0.0, 0.0),
+        "position": (3.0, 3.0, 160.0),
+        "fov": 0.1,
+        "near": 0.1,
+        "far": 1000.0,
+        "image_height": 800,
+        "image_width": 960,
+        "look_at": (3.0, 3.0, 0.0),
+        "up_direction": (0.0, 1.0, 0.0),
+    }
+)
+
+WARM = 3.0
+"""Seconds for all to come, before anything counts."""
+
+
+def _run(main: Any, seconds: float, ends: Connection, found: Any) -> None:
+    begin = resource.getrusage(resource.RUSAGE_SELF)
+    asyncio.run(main(time.monotonic() + WARM + seconds))
+    end = resource.getrusage(resource.RUSAGE_SELF)
+    used = end.ru_utime + end.ru_stime - begin.ru_utime - begin.ru_stime
+    ends.send(found()._replace(processor=used))

@@ -1,0 +1,122 @@
+"""The world under load, in a process of its own, that notes when its ticks begin."""
+
+import gc
+import time
+from multiprocessing.connection import Connection
+from typing import Any, NamedTuple
+
+import numpy as np
+from gymnasium.spaces import Box
+
+from ai4u_edu import (
+    BasicAgent,
+    BoxShape,
+    CircleShape,
+    ControlRequestor,
+    LinearRayCastingSensor,
+    LocalBrain,
+    RBMoveActuator,
+    Sensor,
+    TouchRewardFunc,
+    World,
+)
+from ai4u_edu.runner import Runner
+from ai4u_edu.server import ServerThread, room_app, shut_side_door
+from ai4u_edu.server.remote import Rules
+from ai4u_edu.viewer import Viewer
+from tests.builders import still
+
+RAYS = 16
+SKIP = 3
+"""Ticks between two decisions: 60 / (3 + 1) are 15 a second."""
+ROUND = 256.0
+"""Seconds after which a :class:`Clock` begins anew: a float32 then has steps of 0.02 ms."""
+
+
+class Clock(Sensor):
+    """When it was sensed, by a clock that all processes of this machine share."""
+
+    def space(self) -> Box:
+        return Box(0.0, ROUND, (1,))
+
+    def read(self, body: Any, view: Any) -> Any:
+        return time.monotonic() % ROUND
+
+
+class TimedRunner(Runner):
+    """Notes how late each tick begins."""
+
+    late: list[float]
+
+    def _tick(self) -> None:
+        self.late.append(self._clock() - self._due)
+        super()._tick()
+
+
+class Told(NamedTuple):
+    """What happened in the world since it was asked last."""
+
+    late: list[float]
+    """Seconds, of every tick."""
+    processor: float
+    """Seconds."""
+    missing: dict[str, int]
+    """Decisions without an action of the script, by agent."""
+
+
+def crowd(agents: int) -> ControlRequestor:
+    """So many robots on a plate with some boxes, each with 16 rays."""
+    world = World()
+    side = int(np.ceil(np.sqrt(agents)))
+    world.add_floor("plate", BoxShape(size=(4.0 * side + 8, 4.0 * side + 8)))
+    crew = []
+    for number in range(agents):
+        x, y = (4.0 * (each - side / 2) for each in divmod(number, side))
+        name = f"robot {number}"
+        world.add_body(name, CircleShape(radius=0.4), position=(x, y), tags=("robot",))
+        crew.append(
+            BasicAgent(
+                id=str(number),
+                body=name,
+                sensors=[
+                    Clock(perception_key="clock"),
+                    LinearRayCastingSensor(
+                        number_of_rays=RAYS, field_of_view=180, group_code={"robot": 1}
+                    ),
+                ],
+                actuators=[RBMoveActuator(move_amount=0.5)],
+                rewards=[TouchRewardFunc(target=f"robot {(number + 1) % agents}")],
+                brains=[LocalBrain(controller=still, skip_frame=SKIP)],
+            )
+        )
+    return ControlRequestor(world, crew)
+
+
+def serve(agents: int, ends: Connection) -> None:
+    """Serves such a world; each word that comes is answered with what happened, until it ends."""
+    runner = TimedRunner.__new__(TimedRunner)
+    runner.late = []
+    runner.__init__(crowd(agents), seed=1)  # type: ignore[misc]
+    viewer = Viewer(runner, title="Load")
+    shut_side_door(viewer.server)
+    app = room_app(runner, viser_port=viewer.port, title="Load", rules=Rules(grace=1.0))
+    gc.collect()
+    gc.freeze()  # as ai4u-edu play does
+    runner.start()
+    viewer.start()
+    with ServerThread(app) as server:
+        ends.send(server.url)
+        processor = time.process_time()
+        while ends.recv() != "end":
+            late, runner.late = runner.late, []
+            before, processor = processor, time.process_time()
+            states = {agent.id: agent.remote for agent in runner.latest.agents}
+            ends.send(
+                Told(
+                    late,
+                    processor - before,
+                    {name: state.missing for name, state in states.items() if state},
+                )
+            )
+    viewer.stop()
+    runner.stop()
