@@ -2,6 +2,7 @@
 
 import gc
 import json
+import signal
 import sys
 from collections.abc import Sized
 from contextlib import suppress
@@ -178,6 +179,13 @@ def bridge(
     there = Bridge(
         url, agent, port=port, token=token, mode=mode, script_id=script_id, tell=typer.echo
     )
+
+    def asked_to_end(*_: object) -> None:
+        # at a place that suits it; in the middle of a message it might never be done with it
+        there.stop()
+        signal.signal(signal.SIGINT, signal.default_int_handler)  # asked twice: at once
+
+    signal.signal(signal.SIGINT, asked_to_end)
     with suppress(KeyboardInterrupt):
         there.run()
 

@@ -145,9 +145,9 @@ class Bridge:
     def _await_script(self) -> bool:
         """Knocks until a script is there, and asks it until it begins; whether it did."""
         script, told = self._script, False
-        while script.dialogue.phase not in (Phase.STARTED, Phase.PLAYING):
-            if self._stopping.is_set():
-                return False
+        while not self._stopping.is_set():
+            if script.dialogue.phase in (Phase.STARTED, Phase.PLAYING):
+                return True
             try:
                 heard = script.ask()
             except ScriptGoneError as gone:
@@ -161,7 +161,7 @@ class Bridge:
             elif heard is not None:
                 greets = script.dialogue.phase is Phase.GREETING
                 time.sleep(SETTLE if greets else POLL_EVERY)
-        return True
+        return False
 
     def _let_drive(self) -> None:
         """A session: from the script's first wish until it ends."""
