@@ -25,7 +25,9 @@ CHECKS = {
     "ruff check": ["-m", "ruff", "check", "."],
     "mypy": ["-m", "mypy"],
     "imports": ["-c", LINT_IMPORTS],
-    "pytest": ["-m", "pytest"],  # last, so that CI finds its closing line at the end
+    # What needs the machine to itself (see conftest.py), then all else on every core.
+    "pytest alone": ["-m", "pytest", "-m", "alone"],
+    "pytest": ["-m", "pytest", "-m", "not alone", "-n", "auto"],
 }
 
 
@@ -47,25 +49,33 @@ def main() -> int:
     for name, command in CHECKS.items():
         if only and name.split()[0] != only:
             continue
-        extra: list[str] = []
-        if name == "pytest":
-            extra = for_pytest
-            try:
-                os.environ["AI4U_CHROMIUM"] = setup_browser.ensure(python)
-            except setup_browser.BrowserError as error:
-                print(f"\n{error}\nGoing on without the tests that need a browser.", flush=True)
-                failed.append("browser")
-                extra = ["-m", "not browser", *for_pytest]
-            try:
-                ai4u_venv.ensure(python)
-            except ai4u_venv.VenvError as error:
-                print(f"\n{error}\nGoing on without the tests that need it.", flush=True)
-                failed.append("AI4U's package")
-        if not passes(name, [str(python), *command, *extra]):
+        if name == "pytest alone":
+            failed += prepare(python)
+            if for_pytest:  # a few tests, chosen by hand
+                return subprocess.call([str(python), "-m", "pytest", *for_pytest], cwd=ROOT)
+            if "browser" in failed:
+                command = ["-m", "pytest", "-m", "alone and not browser"]
+        if not passes(name, [str(python), *command]):
             failed.append(name)
     if failed:
         print(f"\nNot in order: {', '.join(failed)}", flush=True)
     return 1 if failed else 0
+
+
+def prepare(python: Path) -> list[str]:
+    """Get what tests need besides Python's packages; return what could not be had."""
+    missing = []
+    try:
+        os.environ["AI4U_CHROMIUM"] = setup_browser.ensure(python)
+    except setup_browser.BrowserError as error:
+        print(f"\n{error}\nGoing on without the tests that need a browser.", flush=True)
+        missing.append("browser")
+    try:
+        ai4u_venv.ensure(python)
+    except ai4u_venv.VenvError as error:
+        print(f"\n{error}\nGoing on without the tests that need it.", flush=True)
+        missing.append("AI4U's package")
+    return missing
 
 
 def passes(name: str, command: list[str]) -> bool:

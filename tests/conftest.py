@@ -1,11 +1,27 @@
-"""What belongs to no test alone: the table of components, at the end of the log."""
+"""What belongs to no test alone: who needs the machine to itself; the table at the log's end."""
+
+from pathlib import Path
 
 import pytest
 
-LOG = pytest.StashKey[str]()
+TESTS = Path(__file__).parent
+ALONE = {"browser", "lessons", "load", "remote", "server", "training", "viewer", "workshop"}
+ALONE_TOO = {"test_runner.py", "test_slow_ticks.py"}
+"""Tests of these folders and files keep real time, listen at ports, or look at a page."""
+LOG = "components"
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    for item in items:
+        inside = TESTS in item.path.parents
+        first = item.path.relative_to(TESTS).parts[0] if inside else ""
+        if first in ALONE | ALONE_TOO or item.get_closest_marker("browser"):
+            item.add_marker(pytest.mark.alone)
 
 
 def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
-    if LOG in terminalreporter.config.stash:
-        terminalreporter.section("components")
-        terminalreporter.write_line(terminalreporter.config.stash[LOG])
+    for report in terminalreporter.stats.get("passed", ()):
+        for name, told in report.user_properties:  # they come over from another process too
+            if name == LOG:
+                terminalreporter.section("components")
+                terminalreporter.write_line(told)

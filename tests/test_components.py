@@ -3,6 +3,8 @@
 The table of them stands at the end of the log.
 """
 
+from collections.abc import Callable
+
 import pytest
 
 import ai4u_edu
@@ -11,10 +13,10 @@ from tests.components import AI4U, MISSING, Component, components, parity_rows, 
 from tests.conftest import LOG
 
 
-def test_the_table_is_in_the_log(request: pytest.FixtureRequest) -> None:
+def test_the_table_is_in_the_log(record_property: Callable[[str, object], None]) -> None:
     told = table()
     assert len(told.splitlines()) > 50
-    request.config.stash[LOG] = told
+    record_property(LOG, told)
 
 
 @pytest.mark.parametrize("component", components(), ids=lambda component: component.name)
