@@ -1,0 +1,57 @@
+"""An eye for lamps."""
+
+import math
+
+from gymnasium.spaces import Box
+
+from ai4u_edu.blocks.agent_view import AgentView
+from ai4u_edu.blocks.sensors.sensor import Sensor
+from ai4u_edu.parameters import Degrees, Name, PositiveMetres
+from ai4u_edu.world import BodyView, WorldView
+
+
+class LightSensor(Sensor):
+    """How bright it is on one side of the body: an eye for lamps, the bodies of a group.
+
+    A lamp at distance d, seen at an angle a from where the eye looks, adds
+    ``cos(a) / (1 + (d / reach)²)``: half as much at ``reach`` as close by, less the farther aside,
+    and nothing from behind the eye. Nothing casts a shadow. Two of them, one looking to the left
+    and one to the right, are the eyes of Braitenberg's vehicles.
+
+    Reading: (1,), 0 in the dark to 1. Source: ours, after V. Braitenberg, Vehicles (1984).
+    """
+
+    group: Name
+    angle_deg: Degrees = 0.0
+    """Where the eye looks, counter-clockwise from the heading."""
+    reach: PositiveMetres = 5.0
+    """Where a lamp is half as bright as close by."""
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        self._lamps: tuple[str, ...] = ()
+        self._angle = math.radians(self.angle_deg)
+
+    def space(self) -> Box:
+        """0 to 1."""
+        return Box(0.0, 1.0, (1,))
+
+    def slots(self) -> tuple[str, ...]:
+        """One number."""
+        return ("brightness",)
+
+    def on_setup(self, agent: AgentView, view: WorldView) -> None:
+        """Looks the group up."""
+        view.check_group(self.group)
+        self._lamps = view.named(self.group)
+
+    def read(self, body: BodyView, view: WorldView) -> float:
+        """One reading."""
+        light = 0.0
+        for name in self._lamps:
+            lamp = view[name]
+            if lamp.fallen or lamp is body:
+                continue
+            aside = math.cos(body.bearing(lamp) - self._angle)
+            light += max(0.0, aside) / (1.0 + (body.distance(lamp) / self.reach) ** 2)
+        return min(1.0, light)

@@ -1,0 +1,52 @@
+"""What the lessons' notebooks use.
+
+::
+
+    from ai4u_edu.lessons import check, hint, progress, report, show, solution
+
+Names are loaded when they are first asked for, so that the command line starts quickly.
+"""
+
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from ai4u_edu.lessons.checking import check, hint, progress, solution
+    from ai4u_edu.lessons.filming import film
+    from ai4u_edu.lessons.handin import report
+    from ai4u_edu.lessons.plots import bars, plot
+    from ai4u_edu.lessons.readiness import ready
+    from ai4u_edu.lessons.showing import show, stop
+
+__all__ = [
+    "bars",
+    "check",
+    "film",
+    "hint",
+    "plot",
+    "progress",
+    "ready",
+    "report",
+    "show",
+    "solution",
+    "stop",
+]
+
+_HOMES = {
+    "checking": ("check", "hint", "progress", "solution"),
+    "filming": ("film",),
+    "handin": ("report",),
+    "showing": ("show", "stop"),
+    "plots": ("bars", "plot"),
+    "readiness": ("ready",),
+}
+_HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
+
+
+def __getattr__(name: str) -> object:
+    from importlib import import_module
+
+    if name not in _HOME_OF:
+        raise AttributeError(f"module 'ai4u_edu.lessons' has no attribute {name!r}")
+    value = getattr(import_module(f"ai4u_edu.lessons.{_HOME_OF[name]}"), name)
+    globals()[name] = value
+    return value

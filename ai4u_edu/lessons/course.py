@@ -1,0 +1,67 @@
+"""Where the course lies: in the package, or beside it in a checkout."""
+
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+
+from ai4u_edu.errors import SetupError, suggest
+from ai4u_edu.lessons.notebook import Cell, read_cells
+
+
+@dataclass(frozen=True)
+class Lesson:
+    """One notebook of the course, as text."""
+
+    path: Path
+
+    @property
+    def number(self) -> str:
+        """Two digits."""
+        return self.path.name[:2]
+
+    @property
+    def name(self) -> str:
+        """The file's name without its ending."""
+        return self.path.stem
+
+    @cached_property
+    def cells(self) -> list[Cell]:
+        """What a student gets."""
+        return read_cells(self.path)
+
+    @property
+    def title(self) -> str:
+        """The first heading."""
+        return self.cells[0].source.splitlines()[0].lstrip("# ")
+
+    @property
+    def exercises(self) -> list[str]:
+        """The ids of its exercises, in order."""
+        return [cell.exercise for cell in self.cells if cell.exercise]
+
+
+def course_folder() -> Path:
+    """The folder of the course."""
+    here = Path(__file__).resolve().parent
+    for folder in (here / "course", here.parent.parent / "lessons"):
+        if (folder / "00_start_here.py").is_file():
+            return folder
+    raise SetupError(f"expected the course in {here / 'course'}, found none; install ai4u-edu anew")
+
+
+def lessons() -> list[Lesson]:
+    """All lessons, in order."""
+    return [Lesson(path) for path in sorted(course_folder().glob("[0-9][0-9]_*.py"))]
+
+
+def lesson(number: str) -> Lesson:
+    """A lesson by its number.
+
+    Raises:
+        SetupError: there is none.
+    """
+    for each in lessons():
+        if each.number == number:
+            return each
+    known = [each.number for each in lessons()]
+    raise SetupError(f"no lesson has the number {number!r}; {suggest(number, known)}")

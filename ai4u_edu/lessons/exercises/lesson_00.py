@@ -1,0 +1,92 @@
+"""Start here."""
+
+import math
+from typing import Any
+
+from ai4u_edu.lessons.exercise import Done, exercise
+from ai4u_edu.lessons.rolls import Drive, drives, seeds_of
+
+STEPS = 8
+SCENE = "box_chase"
+
+ACTION = {
+    "action": 'An action is `{"move": [forward, turn, 0, 0]}`. The first number drives: 1 is full '
+    "speed forward, -1 full speed backward, 0 stands still.",
+}
+
+
+def _turned(drive: Drive, heading: float) -> float:
+    """Degrees since the beginning, counter-clockwise, of a turn of less than a half."""
+    return math.degrees(math.remainder(drive.agent.body.heading - heading, math.tau))
+
+
+@exercise(
+    "00.1",
+    "Make it go",
+    hints=ACTION
+    | {"backward": "Your robot drove backward. What happens if you take the minus sign away?"},
+)
+def goes(drive_it: Any) -> Done:
+    """The robot drives forward, wherever it begins."""
+    for drive in drives(SCENE, drive_it, seeds_of("00.1", 5), limit=STEPS):
+        (x, y), (u, v) = drive.trail[0], drive.trail[-1]
+        if u - x < -0.1:
+            raise drive.not_yet("Your robot drove backward ({where}).", "backward")
+        if math.hypot(u - x, v - y) < 0.5:
+            raise drive.not_yet("Your robot stayed where it was ({where}).", "action")
+    return Done("Your robot drives forward. It did so in 5 worlds.", drive.picture())
+
+
+@exercise(
+    "00.2",
+    "Make it turn left",
+    hints={
+        "action": "The second number of the action turns. Keep the first one at 0, so that the "
+        "robot stays where it is.",
+        "right": "Your robot turned right. Left is the other sign: try a negative number.",
+        "moved": "Your robot drove away. The first number drives: it has to be 0 here.",
+    },
+)
+def turns_left(drive_it: Any) -> Done:
+    """The robot turns left on the spot."""
+    headings: list[float] = []
+
+    def watch(drive: Drive) -> None:
+        if drive.steps == 0:
+            headings.append(drive.agent.body.heading)
+
+    for drive in drives(SCENE, drive_it, seeds_of("00.2", 5), limit=3, watch=watch):
+        turned = _turned(drive, headings[-1])
+        if drive.moved > 0.2:
+            raise drive.not_yet("Your robot left its place ({where}).", "moved")
+        if turned < -1:
+            raise drive.not_yet(
+                f"Your robot turned {-turned:.0f} degrees to the right ({{where}}).", "right"
+            )
+        if turned < 1:
+            raise drive.not_yet("Your robot did not turn ({where}).", "action")
+    return Done("Your robot turns left and stays on its spot.", drive.picture())
+
+
+@exercise(
+    "00.3",
+    "Mend it",
+    hints={
+        "read": "Read the last line of the message: it says what it did not know, and what you may "
+        "have meant.",
+        "curve": "It runs now, well done. But the robot has to drive a curve to the right: both "
+        "the first and the second number are above 0.",
+    },
+)
+def is_mended(drive_it: Any) -> Done:
+    """The function runs, and drives a curve to the right."""
+    headings: list[float] = []
+
+    def watch(drive: Drive) -> None:
+        if drive.steps == 0:
+            headings.append(drive.agent.body.heading)
+
+    for drive in drives(SCENE, drive_it, seeds_of("00.3", 5), limit=4, watch=watch):
+        if drive.moved < 0.3 or _turned(drive, headings[-1]) > -1:
+            raise drive.not_yet("No curve to the right yet ({where}).", "curve")
+    return Done("Mended: your robot drives a curve to the right.", drive.picture())

@@ -1,0 +1,189 @@
+"""Build an agent from blocks."""
+
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+
+from ai4u_edu.blocks import TouchRewardFunc
+from ai4u_edu.lessons.exercise import Done, NotYet, exercise
+from ai4u_edu.lessons.rolls import Drive, drive, seeds_of
+from ai4u_edu.lessons.worlds import forward, plate, put_in
+from ai4u_edu.world import Variation
+
+ASIDE = Variation(x=(-4, 4), y=(3, 4))
+"""Where a box is out of the way."""
+BEHIND = Variation(places=((-3.0, 0.0),))
+STATUS = ("done", "id")
+"""What every agent senses."""
+
+
+@exercise(
+    "02.1",
+    "Legs",
+    hints={
+        "actuator": "An actuator is missing: put `RBMoveActuator(...)` into the list "
+        "`actuators=[]`.",
+        "speed": "The parameter `move_amount` is the speed, in metres a second, that the number 1 "
+        "stands for.",
+        "turn": "The parameter `turn_amount` is the turning speed, in radians a second, that the "
+        "number 1 stands for.",
+    },
+)
+def has_legs(agent: Any) -> Done:
+    """Drives at 2 m/s, and turns at 3 rad/s."""
+    if not put_in(agent, plate(None, ASIDE), forward()).agents[0].actuators:
+        raise NotYet("Your agent has no actuator yet: it can't do anything.", hint="actuator")
+    straight = _driven(agent, 1, 0, decisions=12)
+    if abs(straight.moved - 2) > 0.05:
+        raise straight.not_yet(
+            f"In one second the robot drove {straight.moved:.2f} m, not 2 ({{where}}).", "speed"
+        )
+    turning = _driven(agent, 0, 1, decisions=6)
+    turned = -turning.agent.body.heading
+    if abs(turned - 1.5) > 0.05:
+        raise turning.not_yet(
+            f"In half a second the robot turned {turned:.2f} rad to the right, not 1.5 "
+            "({where}).",
+            "turn",
+        )
+    return Done("Two metres and three radians a second: it has its legs.", straight.picture())
+
+
+def _driven(agent: Any, move: float, turn: float, decisions: int) -> Drive:
+    sim = put_in(agent, plate(None, ASIDE), forward(move, turn))
+    return drive(sim, sim.agents[0], seed=3, limit=decisions)
+
+
+@exercise(
+    "02.2",
+    "Eyes and a bumper",
+    hints={
+        "sensors": "Put two sensors into the list `sensors=[]`: one tells the direction of the "
+        "box, the other one whether it is touched. `ai4u-edu blocks` lists all sensors.",
+        "bearing": "One reading has to tell left from right. That takes two numbers, the sine and "
+        "the cosine of the angle to the box: `BearingSensor`.",
+        "touch": "One reading has to be 1 while the robot touches the box, and -1 else: "
+        "`TouchSensor`.",
+    },
+)
+def has_senses(agent: Any) -> Done:
+    """One reading is the bearing of the box, another one says whether it is touched."""
+    sim = put_in(agent, plate(), forward(0))
+    if not sim.agents[0].sensors:
+        raise NotYet("Your agent has no sensor yet: it knows nothing of the world.", hint="sensors")
+    for seed in seeds_of("02.2", 10):
+        seen = drive(sim, sim.agents[0], seed, limit=1)
+        if not _sees(seen):
+            raise seen.not_yet("No reading tells where the box is ({where}).", "bearing")
+    sim = put_in(agent, plate(None, None), forward())
+    felt: list[dict[str, float]] = []
+    bumped = drive(sim, sim.agents[0], 5, 30, watch=lambda done: felt.append(_single(done)))
+    if not any(first == -1 and felt[-1].get(key) == 1 for key, first in felt[0].items()):
+        raise bumped.not_yet(
+            "The robot touches the box, and no reading says so ({where}).", "touch"
+        )
+    return Done("It sees where the box is, and feels when it touches it.", bumped.picture())
+
+
+def _sees(done: Drive) -> bool:
+    """Whether a reading is the true bearing of the box."""
+    angle = done.agent.body.bearing(done.sim.world["box"])
+    true = np.array([np.sin(angle), np.cos(angle)])
+    return any(
+        np.shape(reading) == (2,) and np.allclose(reading, true, atol=0.01)
+        for key, reading in done.agent.percept.items()
+        if key not in STATUS
+    )
+
+
+def _single(done: Drive) -> dict[str, float]:
+    """The readings of one number."""
+    return {
+        key: float(np.ravel(reading)[0])
+        for key, reading in done.agent.percept.items()
+        if key not in STATUS and np.size(reading) == 1
+    }
+
+
+@exercise(
+    "02.3",
+    "Praise and blame",
+    hints={
+        "rewards": "Put two reward functions into the list `rewards=[]`: a `TouchRewardFunc` for "
+        "the box, and a `FallReward`.",
+        "amount": "How much is paid for the touch is the parameter `reward`.",
+        "end": "The episode goes on after the touch. Every reward function has a parameter "
+        "`cause_episode_to_end`, which is False unless you say so.",
+        "fall": "Whoever falls is to get -1. That is what `FallReward()` pays.",
+    },
+)
+def is_paid(agent: Any) -> Done:
+    """+10 for a touch, which ends the episode; -1 for a fall."""
+    sim = put_in(agent, plate(None, None), forward())
+    if not sim.agents[0].rewards:
+        raise NotYet("Your agent has no reward function yet.", hint="rewards")
+    touched = drive(sim, sim.agents[0], seed=5, limit=16)
+    paid = _paid(touched)
+    if abs(paid - 10) > 1e-6:
+        raise touched.not_yet(
+            f"The robot touched the box and got {paid:g}, not 10 ({{where}}).", "amount"
+        )
+    if not touched.agent.terminated:
+        raise touched.not_yet("The robot touched the box, and it went on ({where}).", "end")
+    sim = put_in(agent, plate(None, ASIDE), forward())
+    fallen = drive(sim, sim.agents[0], seed=5, limit=120)
+    paid = _paid(fallen)
+    if abs(paid + 1) > 1e-6:
+        raise fallen.not_yet(f"The robot fell and got {paid:g}, not -1 ({{where}}).", "fall")
+    return Done("A touch pays 10 and ends the episode, a fall costs 1.", touched.picture())
+
+
+def _paid(done: Drive) -> float:
+    return float(done.agent.ledger.episode_total)
+
+
+@exercise(
+    "02.4",
+    "To the box, from anywhere",
+    hints={
+        "look": 'The first number of `percept["bearing"]` is above 0 where the box is to the '
+        "left. Turn by it: the second number of the action has to follow from it.",
+        "mirrored": "Your robot turns away from the box. Above 0 the bearing means left, but in "
+        "the action above 0 means right: a minus sign is missing.",
+        "behind": "Straight behind the robot the sine is 0 too. Look at the cosine: where it is "
+        "below 0, turn on the spot, without driving.",
+    },
+)
+def reaches_the_box(agent: Any) -> Done:
+    """Touches the box in 20 worlds."""
+    arrived = TouchRewardFunc(name="arrived", target="box", reward=1, cause_episode_to_end=True)
+    put_in(agent, plate())
+    seeds = seeds_of("02.4")
+    for count, seed in enumerate(seeds):
+        world = plate(None, BEHIND) if seed == seeds[-1] else plate()
+        sim = put_in(agent.changed(rewards=[arrived]), world)
+        turns: list[tuple[float, float]] = []
+        done = drive(sim, sim.agents[0], seed, 240, lambda done: turns.append(_turn(done)))  # noqa: B023
+        if not _paid(done):
+            how = "fell off the plate" if done.fell else "did not get to the box"
+            raise done.not_yet(
+                f"The robot {how} ({{where}}). In {count} worlds before that it got there.",
+                "behind" if seed == seeds[-1] else _why(turns),
+            )
+    return Done(f"In {len(seeds)} worlds the robot got to the box.", done.picture())
+
+
+def _turn(done: Drive) -> tuple[float, float]:
+    """The sine of the box's bearing now, and how the robot turned last."""
+    body = done.agent.body
+    last = next(iter(done.agent.last_action.values()), (0.0, 0.0))
+    return float(np.sin(body.bearing(done.sim.world["box"]))), last[1] if len(last) > 1 else 0.0
+
+
+def _why(turns: list[tuple[float, float]]) -> str:
+    """The name of the hint that fits how a robot turned."""
+    pairs = [(sine, turn) for (sine, _), (_, turn) in pairwise(turns)]
+    if len({turn for _, turn in pairs}) < 2:
+        return "look"
+    return "mirrored" if sum(sine * turn for sine, turn in pairs) > 0 else "behind"

@@ -1,0 +1,242 @@
+"""Sensors: what can it know?"""
+
+import math
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from ai4u_edu.agent import BasicAgent
+from ai4u_edu.blocks import (
+    BearingSensor,
+    LocalBrain,
+    OrientationSensor,
+    Percept,
+    RBMoveActuator,
+    Sensor,
+    TouchRewardFunc,
+)
+from ai4u_edu.cycle import ControlRequestor
+from ai4u_edu.lessons.exercise import Done, NotYet, exercise
+from ai4u_edu.lessons.pictures import picture
+from ai4u_edu.lessons.rolls import as_brain, drive, seeds_of
+from ai4u_edu.lessons.worlds import plate
+from ai4u_edu.snapshot import picture_of
+from ai4u_edu.world import BoxShape, CircleShape, World
+
+STATUS = ("done", "id")
+"""What every agent senses."""
+
+
+def _look(
+    sensors: Sequence[Sensor], box: tuple[float, float], *, wall: bool = False
+) -> ControlRequestor:
+    """A robot in the middle that looks to the right, and a box somewhere."""
+    world = World()
+    world.add_floor("plate", BoxShape(size=(24, 24)))
+    world.add_body("robot", CircleShape(radius=0.5), tags=("agent",))
+    world.add_body("box", BoxShape(size=(1, 1)), position=box, tags=("target",))
+    if wall:
+        middle, angle = (box[0] * 0.6, box[1] * 0.6), math.degrees(math.atan2(box[1], box[0]))
+        shape = BoxShape(size=(0.3, 2.4))
+        world.add_body(
+            "wall", shape, kind="static", position=middle, heading_deg=angle, tags=("wall",)
+        )
+    idle = LocalBrain(controller=lambda _: {})
+    agent = BasicAgent(body="robot", sensors=list(sensors), brains=[idle])
+    sim = ControlRequestor(world, [agent])
+    sim.reset(1)
+    return sim
+
+
+def _readings(percept: Percept) -> dict[str, Any]:
+    return {key: np.asarray(value) for key, value in percept.items() if key not in STATUS}
+
+
+def _same(one: Percept, other: Percept) -> bool:
+    ones, others = _readings(one), _readings(other)
+    return all(np.allclose(ones[key], others[key], atol=1e-4) for key in ones)
+
+
+@exercise(
+    "03.1",
+    "The twin",
+    hints={
+        "other": "You gave the same place. There is a second one: think of a mirror that lies "
+        "along the line in which the robot looks.",
+        "behind": "The cosine is not the same there. Ahead must stay ahead: only left and right "
+        "change places.",
+        "far": "The distance is not the same there. The twin is as far away as the box.",
+    },
+)
+def finds_the_twin(twin: Any) -> Done:
+    """The other place of which the orientation is the same."""
+    if not callable(twin):
+        raise NotYet(f"Expected a function, got `{twin!r}`. Give its name, without brackets.")
+    for x, y in ((3.0, 1.0), (2.0, -4.0), (-3.0, 2.5), (0.5, 3.0), (-4.0, -1.5)):
+        given = twin(x, y)
+        try:
+            u, v = (float(each) for each in given)
+        except (TypeError, ValueError):
+            raise NotYet(f"For ({x:g}, {y:g}) expected two numbers, got `{given!r}`.") from None
+        if math.hypot(u - x, v - y) < 0.1:
+            raise NotYet(f"For ({x:g}, {y:g}) your function gives the same place.", hint="other")
+        if not 1.5 < math.hypot(u, v) < 11:
+            raise NotYet(f"({u:g}, {v:g}) lies in the robot, or far off the plate.", hint="far")
+        one = _look([OrientationSensor(target="box", normalized=False)], (x, y))
+        (cosine, distance) = one.agents[0].percept["orientation"]
+        other = _look([OrientationSensor(target="box", normalized=False)], (u, v))
+        (twins_cosine, twins_distance) = other.agents[0].percept["orientation"]
+        if abs(distance - twins_distance) > 0.01:
+            raise NotYet(
+                f"At ({x:g}, {y:g}) the robot reads a distance of {distance:.2f}, at "
+                f"({u:g}, {v:g}) {twins_distance:.2f}.",
+                hint="far",
+                picture=picture(picture_of(other)),
+            )
+        if abs(cosine - twins_cosine) > 0.01:
+            raise NotYet(
+                f"At ({x:g}, {y:g}) the robot reads a cosine of {cosine:.2f}, at ({u:g}, {v:g}) "
+                f"{twins_cosine:.2f}.",
+                hint="behind",
+                picture=picture(picture_of(other)),
+            )
+    return Done("In five worlds the robot can't tell the box from its twin.")
+
+
+@exercise(
+    "03.2",
+    "Search",
+    hints={
+        "turn": "Two cases: where the cosine is large, drive; else turn on the spot, always in "
+        "the same direction.",
+        "narrow": "The robot turns past the box again and again. In one decision it turns by up to "
+        "14 degrees: be content with a smaller cosine, or turn more slowly.",
+        "wide": "The robot drives although it does not look at the box. A cosine of 0 is a box "
+        "beside you: ask for more.",
+    },
+)
+def finds_by_turning(search: Any) -> Done:
+    """Gets to the box with one cosine."""
+    arrived = TouchRewardFunc(name="arrived", target="box", reward=1, cause_episode_to_end=True)
+    agent = BasicAgent(
+        body="robot",
+        sensors=[OrientationSensor(target="box", info="angle")],
+        actuators=[RBMoveActuator(move_amount=2, turn_amount=3)],
+        rewards=[arrived],
+        brains=[LocalBrain(controller=lambda _: {})],
+    )
+    sim = ControlRequestor(plate(), [agent])
+    agent.use_brain(as_brain(search))
+    seeds = seeds_of("03.2")
+    for count, seed in enumerate(seeds):
+        turned: list[float] = []
+        driven: list[float] = []
+
+        def watch(_: object, turned: list[float] = turned, driven: list[float] = driven) -> None:
+            action = next(iter(agent.last_action.values()), ())
+            turned.append(abs(action[1]) if len(action) > 1 else 0.0)
+            driven.append(abs(action[0]) if action else 0.0)
+
+        done = drive(sim, agent, seed, 360, watch)
+        if not agent.ledger.episode_total:
+            how = "fell off the plate" if done.fell else "did not get to the box"
+            often = sum(driven) > 0.3 * len(driven)
+            why = "turn" if not any(turned) else "wide" if often else "narrow"
+            raise done.not_yet(
+                f"The robot {how} ({{where}}). In {count} worlds before that it got there.", why
+            )
+    return Done(f"With one number it found the box in {len(seeds)} worlds.", done.picture())
+
+
+@exercise(
+    "03.3",
+    "The angle",
+    hints={
+        "begin": "`math.degrees(math.atan2(sine, cosine))`: the sine comes first.",
+        "degrees": "That is the angle in radians: `math.degrees` makes degrees of it.",
+        "side": "The size is right, the side is not. A function of the cosine alone can't tell "
+        "left from right.",
+        "behind": "Ahead it is right, behind it is not. A function of the sine alone can't tell "
+        "ahead from behind: `math.atan2` takes both.",
+    },
+)
+def computes_the_angle(angle_to_box: Any) -> Done:
+    """Degrees, from a sine and a cosine."""
+    if not callable(angle_to_box):
+        raise NotYet(f"Expected a function, got `{angle_to_box!r}`.")
+    found: list[tuple[float, float]] = []
+    for angle in (20, 75, -35, -80, 110, 160, -100, -170):
+        turned = math.radians(angle)
+        box = (4 * math.cos(turned), 4 * math.sin(turned))
+        percept = _look([BearingSensor(target="box")], box).agents[0].percept
+        given = angle_to_box(percept)
+        if given is None or given is ...:
+            raise NotYet("Your function returned nothing yet.", hint="begin")
+        try:
+            found.append((float(angle), float(given)))
+        except (TypeError, ValueError):
+            raise NotYet(f"Expected a number, got `{given!r}`.", hint="begin") from None
+    wrong = [(true, given) for true, given in found if abs(true - given) > 0.5]
+    if wrong:
+        true, given = wrong[0]
+        raise NotYet(
+            f"The box lies at {true:g} degrees, your function says {given:.1f}.",
+            hint=_why(found),
+        )
+    return Done("Eight directions all around the robot, and every angle was right.")
+
+
+def _why(found: list[tuple[float, float]]) -> str:
+    """The hint that fits how angles are wrong."""
+
+    def fits(wrong: Any) -> bool:
+        return all(abs(wrong(true) - given) < 0.5 for true, given in found)
+
+    if fits(math.radians):
+        return "degrees"
+    if fits(abs):
+        return "side"
+    if all(abs(true - given) < 0.5 for true, given in found if abs(true) < 90):
+        return "behind"
+    return "begin"
+
+
+@exercise(
+    "03.4",
+    "Tell them apart",
+    hints={
+        "mirror": "The mirrored worlds look the same. Which sensor tells left from right?",
+        "distance": "Near and far look the same: one of the sensors has to tell a distance.",
+        "wall": "The wall is not seen. Which sensor is stopped by what stands in between?",
+        "many": "It works, and with fewer sensors too: two are enough.",
+    },
+)
+def tells_apart(sensors: Any) -> Done:
+    """Three pairs of worlds, three different percepts."""
+    if not isinstance(sensors, Sequence) or not all(isinstance(each, Sensor) for each in sensors):
+        raise NotYet(f"Expected a list of sensors, got `{sensors!r}`.")
+    for angle in (20.0, 35.0, 50.0):
+        turned = math.radians(angle)
+        ahead, side = math.cos(turned), math.sin(turned)
+        left = _look(sensors, (4 * ahead, 4 * side)).agents[0].percept
+        shown = f"the box at {angle:g} degrees"
+        if _same(left, _look(sensors, (4 * ahead, -4 * side)).agents[0].percept):
+            raise NotYet(
+                f"With {shown} on the left, or as much on the right, the percept is the same.",
+                hint="mirror",
+            )
+        if _same(left, _look(sensors, (7 * ahead, 7 * side)).agents[0].percept):
+            raise NotYet(
+                f"With {shown}, 4 or 7 metres away, the percept is the same.", hint="distance"
+            )
+        hidden = _look(sensors, (4 * ahead, 4 * side), wall=True)
+        if _same(left, hidden.agents[0].percept):
+            raise NotYet(
+                f"With {shown}, in sight or behind a wall, the percept is the same.",
+                hint="wall",
+                picture=picture(picture_of(hidden)),
+            )
+    if len(sensors) > 2:
+        raise NotYet(f"You tell all pairs apart, with {len(sensors)} sensors.", hint="many")
+    return Done(f"Three pairs of worlds, told apart by {len(sensors)} sensor(s).")

@@ -1,0 +1,163 @@
+"""A vehicle with two wires."""
+
+import math
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+
+from ai4u_edu.agent import BasicAgent
+from ai4u_edu.blocks import DifferentialDriveActuator, LightSensor
+from ai4u_edu.cycle import ControlRequestor
+from ai4u_edu.lessons.exercise import Done, exercise
+from ai4u_edu.lessons.rolls import Drive, as_brain, drive, seeds_of
+from ai4u_edu.world import BoxShape, CircleShape, World
+
+TOUCH = 1.0
+"""Metres from middle to middle at which vehicle and lamp touch, and a little more."""
+
+
+def _vehicle(wires: Any, seed: int) -> ControlRequestor:
+    """A vehicle 4 to 6 m from a lamp, which it has somewhere before or beside it."""
+    chance = np.random.default_rng(seed)
+    around, away = chance.uniform(-math.pi, math.pi), chance.uniform(4, 6)
+    aside = math.radians(chance.uniform(20, 95)) * chance.choice([-1.0, 1.0])
+    world = World()
+    world.add_floor("plate", BoxShape(size=(24, 24)))
+    world.add_body(
+        "vehicle",
+        CircleShape(radius=0.5),
+        position=(away * math.cos(around), away * math.sin(around)),
+        heading_deg=math.degrees(around + math.pi + aside),
+    )
+    world.add_body("lamp", CircleShape(radius=0.4), kind="static", tags=("lamp",))
+    agent = BasicAgent(
+        body="vehicle",
+        sensors=[
+            LightSensor(perception_key="left eye", group="lamp", angle_deg=60, reach=4),
+            LightSensor(perception_key="right eye", group="lamp", angle_deg=-60, reach=4),
+        ],
+        actuators=[
+            DifferentialDriveActuator(action_name="wheels", max_wheel_speed=3, axle_width=1)
+        ],
+        brains=[as_brain(wires)],
+    )
+    return ControlRequestor(world, [agent])
+
+
+def _drives(wires: Any, exercise_id: str, limit: int) -> Iterator[tuple[Drive, list[float]]]:
+    """Drives with the distances to the lamp on the way; metres, middle to middle."""
+    for seed in seeds_of(exercise_id, 12):
+        sim = _vehicle(wires, seed)
+        done = drive(sim, sim.agents[0], seed, limit)
+        yield done, [math.hypot(x, y) for x, y in done.trail]
+
+
+def _aside(done: Drive) -> float:
+    """How far the lamp is from where the vehicle looks; degrees."""
+    return abs(math.degrees(done.agent.body.bearing(done.sim.world["lamp"])))
+
+
+@exercise(
+    "04.1",
+    "Attack",
+    hints={
+        "begin": "Each wheel gets the number of one eye. There are only two ways to do that: try "
+        "both, and watch.",
+        "sides": "It turns away from the lamp. The wheel on the lamp's side is faster: connect "
+        "each eye with the other wheel.",
+        "straight": "Both wheels turn equally fast, so the vehicle can't turn. Each wheel needs "
+        "another eye.",
+    },
+)
+def attacks(wires: Any) -> Done:
+    """Hits the lamp."""
+    for done, away in _drives(wires, "04.1", 150):
+        if done.moved < 0.2:
+            raise done.not_yet("The vehicle stands still ({where}).", "begin")
+        if min(away) > TOUCH:
+            hint = "sides" if _aside(done) > 100 else "straight"
+            raise done.not_yet(
+                f"The vehicle did not hit the lamp: it came as near as {min(away):.1f} m "
+                "({where}).",
+                hint if _turned(done) else "straight",
+            )
+    return Done("In 12 worlds the vehicle hit the lamp.", done.picture())
+
+
+def _turned(done: Drive) -> bool:
+    """Whether it ever turned."""
+    return bool(abs(done.agent.body.heading - _vehicle_heading(done)) > 0.05)
+
+
+def _vehicle_heading(done: Drive) -> float:
+    """Where it looked at the beginning; radians."""
+    return float(_vehicle(lambda _: {}, done.seed).world["vehicle"].heading)
+
+
+@exercise(
+    "04.2",
+    "Fear",
+    hints={
+        "begin": "The other way to connect two eyes with two wheels.",
+        "sides": "It turns towards the lamp. This time the wheel on the lamp's side has to be the "
+        "faster one.",
+        "rest": "It runs on and on, and falls off the plate in the end. Without light its wheels "
+        "have to stand still: nothing may be added.",
+    },
+)
+def is_afraid(wires: Any) -> Done:
+    """Turns away, and comes to rest."""
+    for done, away in _drives(wires, "04.2", 300):
+        if len(done.trail) > 1 and max(math.dist(done.trail[0], each) for each in done.trail) < 0.2:
+            raise done.not_yet("The vehicle stands still ({where}).", "begin")
+        if done.fell or away[-1] > 11:
+            raise done.not_yet("The vehicle runs on, off the plate ({where}).", "rest")
+        if _aside(done) < 90 or min(away) < 1.5:
+            raise done.not_yet(
+                f"At the end the lamp is {away[-1]:.1f} m away, {_aside(done):.0f} degrees from "
+                "where the vehicle looks ({where}). It should have turned away.",
+                "sides",
+            )
+        pace = math.dist(done.trail[-1], done.trail[-2])
+        if pace > 0.05:
+            raise done.not_yet("The vehicle does not come to rest ({where}).", "rest")
+    return Done("In 12 worlds it turned its back on the lamp, and came to rest.", done.picture())
+
+
+@exercise(
+    "04.3",
+    "Love",
+    hints={
+        "begin": "In the dark the wheels are to turn: begin with 1, and take something away for "
+        "the light that an eye sees.",
+        "sides": "It turns away from the lamp. The wheel on the bright side has to be the slower "
+        "one: each eye brakes the wheel on its own side.",
+        "weak": "It runs into the lamp: the brakes are too weak. Take a larger number times the "
+        "brightness.",
+        "strong": "It stops too far away, or never comes: the brakes are too strong. Take a "
+        "smaller number times the brightness.",
+    },
+)
+def loves(wires: Any) -> Done:
+    """Comes, and stays 1 to 3 m before the lamp."""
+    for done, away in _drives(wires, "04.3", 240):
+        if len(done.trail) > 1 and max(math.dist(done.trail[0], each) for each in done.trail) < 0.2:
+            idle = not any(done.agent.last_action["wheels"])
+            hint = "begin" if idle else "strong"
+            raise done.not_yet("The vehicle stands still ({where}).", hint)
+        seen = f"At the end the lamp is {away[-1]:.1f} m away"
+        if min(away) < TOUCH:
+            raise done.not_yet("The vehicle runs into the lamp ({where}).", "weak")
+        if done.fell or away[-1] > 8:
+            raise done.not_yet(f"{seen} ({{where}}). The vehicle has left it.", "sides")
+        if not 1 <= away[-1] <= 3:
+            raise done.not_yet(f"{seen}, not 1 to 3 ({{where}}).", "strong")
+        if _aside(done) > 45:
+            raise done.not_yet(
+                f"{seen}, but {_aside(done):.0f} degrees from where the vehicle looks ({{where}}).",
+                "sides",
+            )
+        if math.dist(done.trail[-1], done.trail[-2]) > 0.05:
+            raise done.not_yet(f"{seen}, but the vehicle does not rest ({{where}}).", "strong")
+    return Done("In 12 worlds it came to the lamp, and stayed.", done.picture())

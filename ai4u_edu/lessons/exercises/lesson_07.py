@@ -1,0 +1,198 @@
+"""Rewards: say what you want, get what you said."""
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
+
+from ai4u_edu.agent import BasicAgent
+from ai4u_edu.blocks import (
+    BearingSensor,
+    Controller,
+    LocalBrain,
+    OrientationSensor,
+    Percept,
+    RBMoveActuator,
+    RewardFunc,
+)
+from ai4u_edu.cycle import ControlRequestor
+from ai4u_edu.lessons.exercise import Done, NotYet, exercise
+from ai4u_edu.lessons.rolls import drive, seeds_of
+from ai4u_edu.lessons.worlds import plate
+
+Action = dict[str, list[float]]
+SEEDS = (1, 2, 3, 4, 5)
+TEN_SECONDS = 120
+NEAR, FAR = 1.6, 3.0
+"""Metres from the box between which the dancer dances."""
+
+
+def _steer(percept: Percept, speed: float = 1.0) -> Action:
+    left, ahead = (float(each) for each in percept["bearing"])
+    if ahead < 0:
+        return {"move": [0, -1 if left > 0 else 1, 0, 0]}
+    return {"move": [speed, -left, 0, 0]}
+
+
+def _linger(percept: Percept) -> Action:
+    return _steer(percept, 0.0 if percept["orientation"][1] < NEAR else 1.0)
+
+
+class _Dancer(Controller):
+    """To and fro before the box."""
+
+    comes = True
+
+    def get_action(self, percept: Percept) -> Action:
+        away = percept["orientation"][1]
+        if away < NEAR:
+            self.comes = False
+        elif away > FAR:
+            self.comes = True
+        return _steer(percept, 1.0 if self.comes else -1.0)
+
+
+TEMPERS: dict[str, Callable[[], Any]] = {
+    "runner": lambda: _steer,
+    "stroller": lambda: lambda percept: _steer(percept, 0.4),
+    "lingerer": lambda: _linger,
+    "dancer": _Dancer,
+    "sleeper": lambda: lambda _: {"move": [0, 0, 0, 0]},
+    "jumper": lambda: lambda _: {"move": [1, 0, 0, 0]},
+}
+"""What makes each temper's controller."""
+
+
+def tempers(name: str, rewards: Sequence[RewardFunc] = ()) -> ControlRequestor:
+    """A world in which a robot of that temper lives.
+
+    Args:
+        name: one of ``TEMPERS``.
+        rewards: what it is paid for.
+    """
+    if name not in TEMPERS:
+        raise NotYet(f"Expected one of {', '.join(TEMPERS)}; got `{name!r}`.")
+    agent = BasicAgent(
+        body="robot",
+        sensors=[BearingSensor(target="box"), OrientationSensor(target="box", normalized=False)],
+        actuators=[RBMoveActuator(move_amount=2, turn_amount=3)],
+        rewards=list(rewards),
+        brains=[LocalBrain(controller=TEMPERS[name]())],
+    )
+    return ControlRequestor(plate(), [agent])
+
+
+def contest(rewards: Sequence[RewardFunc], seeds: Sequence[int] = SEEDS) -> dict[str, float]:
+    """The mean return of each temper, over the same worlds.
+
+    Args:
+        rewards: what all of them are paid for.
+        seeds: of the worlds.
+    """
+    if not all(isinstance(each, RewardFunc) for each in rewards):
+        raise NotYet(f"Expected a list of reward functions, got `{rewards!r}`.")
+    found = {}
+    for name in TEMPERS:
+        sim = tempers(name, rewards)
+        agent = sim.agents[0]
+        total = 0.0
+        for seed in seeds:
+            drive(sim, agent, seed, TEN_SECONDS)
+            total += agent.ledger.episode_total
+        found[name] = total / len(seeds)
+    return found
+
+
+def _best(found: Mapping[str, float]) -> str:
+    return max(found, key=lambda name: found[name])
+
+
+def _shown(found: Mapping[str, float]) -> str:
+    return ", ".join(f"{name} {paid:.1f}" for name, paid in found.items())
+
+
+@exercise(
+    "07.1",
+    "Who wins?",
+    hints={
+        "near": "With `near` the touch pays 10, once, and ends the episode. Being near pays a "
+        "little at each of 120 decisions. Which sum is larger?",
+        "quick": "With `quick` everybody pays 1 at each decision until the episode is over. What "
+        "ends the episode here? Read the first line of `quick` once more.",
+        "closer": "With `closer` a step towards the box pays, and a step away costs nothing. Who "
+        "takes most steps towards it?",
+    },
+)
+def predicts(winners: Any, well_meant: Any) -> Done:
+    """The winner with each of three rewards."""
+    if not isinstance(winners, Mapping):
+        raise NotYet(f"Expected a name for each reward, got `{winners!r}`.")
+    for name, rewards in well_meant.items():
+        said = winners.get(name)
+        found = contest(rewards(), seeds_of("07.1", 5))
+        if said not in found:
+            raise NotYet(f"For `{name}` expected one of {', '.join(found)}; got `{said!r}`.")
+        if said != _best(found):
+            raise NotYet(
+                f"With `{name}` the {said} gets {found[said]:.1f}, and somebody else gets more.",
+                hint=name,
+            )
+    return Done("You saw all three winners coming.")
+
+
+def _made(make: Any) -> list[RewardFunc]:
+    if not callable(make):
+        raise NotYet(f"Expected a function that makes the rewards, got `{make!r}`.")
+    return list(make() or ())
+
+
+@exercise(
+    "07.2",
+    "A trail that can't be tricked",
+    hints={
+        "linger": "Somebody gets more than the runner by staying near, or by dancing. A trail must "
+        "pay for *getting* nearer, and take it back from who goes away: `ProgressReward`.",
+        "trail": "The runner wins, but until the touch it gets nothing: a beginner would not know "
+        "where to go. Add a reward for progress.",
+    },
+)
+def has_a_trail(make: Any) -> Done:
+    """The runner wins, and is paid on the way."""
+    seeds = seeds_of("07.2", 5)
+    found = contest(_made(make), seeds)
+    others = max(paid for name, paid in found.items() if name not in ("runner", "stroller"))
+    if found["runner"] < others + 1 or found["runner"] < found["stroller"] - 1:
+        raise NotYet(f"The runner does not win clearly: {_shown(found)}.", hint="linger")
+    sim = tempers("runner", _made(make))
+    agent = sim.agents[0]
+    for seed in seeds:
+        paid: list[float] = []
+        done = drive(sim, agent, seed, TEN_SECONDS, lambda _: paid.append(agent.reward))  # noqa: B023
+        good = sum(each > 0 for each in paid[1:])
+        if good < 0.5 * (len(paid) - 1):
+            raise done.not_yet(
+                f"The runner was paid above 0 for {good} of {len(paid) - 1} decisions ({{where}}).",
+                "trail",
+            )
+    return Done(f"The runner wins, and the way is paid: {_shown(found)}.", done.picture())
+
+
+@exercise(
+    "07.3",
+    "Quick, but not at any price",
+    hints={
+        "time": "Runner and stroller get the same. Let each decision cost a little: "
+        "the `reward` for restlessness below 0.",
+        "jump": "The jumper is not the last: a fall ends the episode, and who is out pays no "
+        "more. The fall has to cost more than all the time that it saves.",
+        "runner": "The runner has to get the most of all.",
+    },
+)
+def is_quick(make: Any) -> Done:
+    """Runner before stroller, jumper last."""
+    found = contest(_made(make), seeds_of("07.3", 5))
+    if found["runner"] <= found["stroller"] + 0.1:
+        raise NotYet(f"Time costs nothing yet: {_shown(found)}.", hint="time")
+    if _best(found) != "runner":
+        raise NotYet(f"The runner does not win: {_shown(found)}.", hint="runner")
+    if min(found, key=lambda name: found[name]) != "jumper":
+        raise NotYet(f"The jumper is not the last: {_shown(found)}.", hint="jump")
+    return Done(f"Quick, and nobody wants to jump: {_shown(found)}.")

@@ -1,0 +1,141 @@
+"""Project: your own world."""
+
+from typing import Any
+
+import numpy as np
+
+from ai4u_edu.agent import BasicAgent
+from ai4u_edu.blocks import LocalBrain
+from ai4u_edu.errors import AI4UError
+from ai4u_edu.lessons.exercise import Done, NotYet, exercise
+from ai4u_edu.lessons.pictures import picture
+from ai4u_edu.lessons.rolls import drive, drives, seeds_of
+from ai4u_edu.scenes import Scene
+from ai4u_edu.snapshot import picture_of
+
+WANTED = ("goal", "controls", "rewards")
+
+
+def _scene(text: Any) -> Scene:
+    if isinstance(text, Scene):
+        return text
+    if not isinstance(text, str) or not text.strip():
+        raise NotYet(f"Expected the text of a scene, got `{text!r}`.")
+    try:
+        return Scene.loads(text, name="my_world")
+    except AI4UError as error:
+        raise NotYet(str(error), hint="yaml") from error
+
+
+@exercise(
+    "15.1",
+    "A complete scene",
+    hints={
+        "complete": "Look at a scene of the library: `print(Scene.load('box_chase').dumps())`. "
+        "What has it got that yours has not?",
+        "yaml": "Every name is followed by a colon and a space. What belongs to something stands "
+        "two spaces further to the right; in a list each thing begins with a dash.",
+        "success": "`success: touch` at the top level says which reward term means that the task "
+        "is done. A reward function's `name` is its term.",
+        "random": "`random: {x: [-4, 4], y: [-4, 4]}` at a body lets it begin somewhere else in "
+        "each episode.",
+    },
+)
+def is_complete(text: Any) -> Done:
+    """A scene that others can play."""
+    scene = _scene(text)
+    told = scene.description
+    missing = [name for name in WANTED if len(getattr(told, name).strip()) < 8]
+    if missing:
+        raise NotYet(f"There is no {missing[0]} in words yet.", hint="complete")
+    sim = scene.build()
+    sim.reset(1)
+    agent = sim.agents[0]
+    for name, count, least in (
+        ("sensors", len(agent.sensors), 2),
+        ("actuators", len(agent.actuators), 1),
+        ("reward functions", len(agent.rewards), 2),
+    ):
+        if count < least:
+            raise NotYet(
+                f"The first agent has {count} {name}; at least {least} are needed.",
+                hint="complete",
+            )
+    if not told.success:
+        raise NotYet("Nothing says when the task is done: `success:` is missing.", hint="success")
+    if told.success not in {reward.name for reward in agent.rewards}:
+        raise NotYet(f"No reward term is called `{told.success}`.", hint="success")
+    places = []
+    for seed in seeds_of("15.1", 3):
+        sim.reset(seed)
+        places.append([body.position for body in sim.world.bodies.values()])
+    if places[0] == places[1] == places[2]:
+        raise NotYet("All episodes begin in the same way.", hint="random")
+    return Done(f"{told.title or told.name}: complete.", picture(picture_of(sim)))
+
+
+@exercise(
+    "15.2",
+    "Solved",
+    hints={
+        "begin": "Write `solve` for your scene. What did you do in lessons 02 and 05?",
+        "seldom": "It works sometimes. Watch an episode that failed: `film(Scene.loads(my_scene), "
+        "solve, seed=...)`.",
+        "yaml": "The scene itself is not in order yet: first solve exercise 15.1.",
+    },
+)
+def is_solved(text: Any, solve: Any) -> Done:
+    """8 of 10 seeds."""
+    scene, won = _scene(text), 0
+    if not scene.description.success:
+        raise NotYet("The scene does not say what success is: see exercise 15.1.", hint="begin")
+    reason = None
+    for done in drives(scene, solve, seeds_of("15.2", 10)):
+        won += done.won
+        if not done.won and reason is None:
+            reason = done.not_yet("No success ({where}).", "seldom" if done.moved else "begin")
+    if won < 8 and reason is not None:
+        reason.text = f"{won} of 10 episodes succeeded, 8 are needed. {reason.text}"
+        raise reason
+    return Done(f"{won} of 10 episodes succeeded.", done.picture())
+
+
+@exercise(
+    "15.3",
+    "Worth something",
+    hints={
+        "easy": "Chance succeeds too often. Put the target farther away, behind something, near an "
+        "edge; give less time; or ask for two things in turn.",
+        "yaml": "The scene itself is not in order yet: first solve exercise 15.1.",
+    },
+)
+def is_no_chance(text: Any) -> Done:
+    """Random actions succeed in fewer than 3 of 10 episodes."""
+    scene = _scene(text)
+    if not scene.description.success:
+        raise NotYet("The scene does not say what success is: see exercise 15.1.", hint="easy")
+    won = 0
+    for seed in seeds_of("15.3", 10):
+        sim = scene.build()
+        agent = sim.agents[0]
+        before = agent.brain
+        agent.use_brain(
+            LocalBrain(controller=_by_chance(agent, seed), skip_frame=before.skip_frame)
+        )
+        done = drive(sim, agent, seed)
+        won += done.won
+    if won >= 3:
+        raise NotYet(
+            f"With random actions {won} of 10 episodes succeeded.",
+            hint="easy",
+            picture=done.picture(),
+        )
+    return Done(f"With random actions {won} of 10 episodes succeeded.", done.picture())
+
+
+def _by_chance(agent: BasicAgent, seed: int) -> Any:
+    """A controller that gives any action."""
+    spaces = {each.action_name: each.space() for each in agent.actuators if each.is_output}
+    for index, space in enumerate(spaces.values()):
+        space.seed(seed + index)
+    return lambda _: {name: np.asarray(space.sample()) for name, space in spaces.items()}

@@ -1,0 +1,52 @@
+"""``film``: one episode as an animation in the notebook; no server, nothing to click."""
+
+from collections import deque
+from typing import Any
+
+from ai4u_edu.cycle import ControlRequestor
+from ai4u_edu.lessons.out import image, put
+from ai4u_edu.lessons.pictures import RATE, SECONDS, animation, moving
+from ai4u_edu.lessons.rolls import LONGEST, Drive, drives
+from ai4u_edu.recording import Episode
+from ai4u_edu.scenes import Scene
+from ai4u_edu.snapshot import Snapshot, picture_of
+
+
+def film(
+    world: "ControlRequestor | Scene | Episode | str",
+    brain: Any = None,
+    *,
+    seed: int = 0,
+    limit: int = LONGEST,
+) -> None:
+    """Drives one episode as fast as it goes, and shows its end as an animation.
+
+    Args:
+        world: a scene or its name, a world with its agents; or an episode that was recorded.
+        brain: who drives the first agent; left out, whoever it has.
+        seed: of the episode.
+        limit: decisions after which it is cut off.
+    """
+    if isinstance(world, Episode):
+        put(image(animation(world), "the episode"), f"An episode of {world.seconds:.1f} s.")
+        return
+    shown: deque[Snapshot] = deque(maxlen=RATE * SECONDS)
+    due = 0.0
+
+    def watch(drive: Drive) -> None:
+        nonlocal due
+        if drive.sim.world.time >= due or drive.agent.done:
+            shown.append(picture_of(drive.sim))
+            due = drive.sim.world.time + 0.99 / RATE
+
+    source = (lambda: world) if isinstance(world, ControlRequestor) else world
+    (drive,) = drives(source, brain, [seed], limit=limit, watch=watch)
+    ends = (
+        (drive.won, "the robot reached its goal"),
+        (drive.fell, "the robot fell"),
+        (drive.agent.done, "the episode was over"),
+        (True, "the film stops"),
+    )
+    how = next(words for happened, words in ends if happened)
+    words = f"Seed {seed}: after {drive.steps} decisions {how}."
+    put(f"<p>{words}</p>{image(moving(shown), 'the episode')}", words)

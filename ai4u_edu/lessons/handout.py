@@ -1,0 +1,80 @@
+"""Copies the course into a student's folder; what a student wrote is never overwritten."""
+
+import hashlib
+import json
+import shutil
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from ai4u_edu.errors import SetupError
+from ai4u_edu.lessons.course import course_folder, lessons
+from ai4u_edu.lessons.keeper import FOLDER
+from ai4u_edu.lessons.notebook import dumps
+
+LAB = {"disabledExtensions": {"@jupyterlab/apputils-extension:announcements": True}}
+"""How JupyterLab is set up: it would ask whether it may fetch news from the internet."""
+BOOK = "handed-out.json"
+"""In the hidden folder: which version of each notebook was handed out."""
+
+
+@dataclass
+class HandedOut:
+    """What became of each notebook."""
+
+    folder: Path
+    new: list[str] = field(default_factory=list)
+    kept: list[str] = field(default_factory=list)
+    """There already, and left as they are."""
+    beside: list[str] = field(default_factory=list)
+    """Newer ones, put beside those that are there."""
+
+
+def hand_out(folder: Path) -> HandedOut:
+    """Writes the notebooks and their pictures.
+
+    A notebook that is there already stays. If the course has a newer one by now, that is put
+    beside it, as ``NAME.new.ipynb``.
+
+    Raises:
+        SetupError: the folder can't be written to.
+    """
+    done = HandedOut(folder)
+    try:
+        (folder / FOLDER).mkdir(parents=True, exist_ok=True)
+        shutil.copytree(course_folder() / "pictures", folder / "pictures", dirs_exist_ok=True)
+        shutil.copyfile(course_folder() / "GLOSSARY.md", folder / "GLOSSARY.md")
+        config = lab_config(folder) / "labconfig"
+        config.mkdir(parents=True, exist_ok=True)
+        (config / "page_config.json").write_text(json.dumps(LAB, indent=1), encoding="utf-8")
+        book = _read(folder / FOLDER / BOOK)
+        for lesson in lessons():
+            text = dumps(lesson.cells)
+            print_ = hashlib.sha256(text.encode()).hexdigest()
+            path = folder / f"{lesson.name}.ipynb"
+            if not path.exists():
+                path.write_text(text, encoding="utf-8")
+                done.new.append(path.name)
+            elif book.get(lesson.name, print_) == print_:
+                done.kept.append(path.name)
+            else:
+                path = folder / f"{lesson.name}.new.ipynb"
+                path.write_text(text, encoding="utf-8")
+                done.beside.append(path.name)
+            book[lesson.name] = print_
+        (folder / FOLDER / BOOK).write_text(json.dumps(book, indent=1), encoding="utf-8")
+    except OSError as error:
+        raise SetupError(f"expected to write into {folder}, and couldn't: {error}") from None
+    return done
+
+
+def lab_config(folder: Path) -> Path:
+    """Where JupyterLab finds how it is set up here."""
+    return folder.absolute() / FOLDER / "jupyter"
+
+
+def _read(path: Path) -> dict[str, str]:
+    try:
+        found = json.loads(path.read_text(encoding="utf-8"))
+    except (OSError, ValueError):
+        return {}
+    return {str(k): str(v) for k, v in found.items()} if isinstance(found, dict) else {}

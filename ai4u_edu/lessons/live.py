@@ -1,0 +1,153 @@
+"""A world that runs, and its page inside the notebook."""
+
+import html
+import json
+import os
+from contextlib import suppress
+from itertools import count
+from pathlib import Path
+from secrets import token_urlsafe
+
+from ai4u_edu.cycle import ControlRequestor
+from ai4u_edu.errors import AI4UError
+from ai4u_edu.lessons.out import card, image, in_notebook, replace
+from ai4u_edu.lessons.pictures import SIDE, animation, picture
+from ai4u_edu.recording import Episode, Recorder
+from ai4u_edu.runner import Runner
+
+TOKEN = token_urlsafe(24)
+"""Of all pages of this process. A notebook server may be one that many share, and under any name;
+so whoever asks for the page has to know this, whatever the name."""
+TEMPLATE = Path(__file__).with_name("embed.html")
+LONGEST = 120
+"""An episode of more seconds is not played again for an animation: that would take too long."""
+
+_numbers = count(1)
+
+
+class Live:
+    """A world that runs, and its page.
+
+    Args:
+        sim: the world and its agents.
+        recorder: listens to it.
+        title: of the page.
+        seed: of the first episode.
+    """
+
+    def __init__(
+        self, sim: ControlRequestor, recorder: Recorder, title: str, seed: int | None = None
+    ) -> None:
+        # loaded when a world is shown: exercises can be checked without a page
+        from ai4u_edu.server import Rules, ServerThread, room_app, shut_side_door, with_token
+        from ai4u_edu.viewer import Viewer
+
+        self.sim = sim
+        self.title = title
+        self.recorder = recorder
+        self.runner = Runner(sim, seed=seed, recorder=recorder)
+        self._viewer = Viewer(self.runner, title=title)
+        shut_side_door(self._viewer.server)
+        room = room_app(
+            self.runner,
+            viser_port=self._viewer.port,
+            title=title,
+            allowed_hosts=("*",),  # the token is asked for; a proxy passes any name on
+            rules=Rules(token=TOKEN),
+        )
+        self._server = ServerThread(room)
+        self.url = with_token(self._server.url, TOKEN)
+        """The page's address on this machine, with the token."""
+        self.runner.start()
+        self._viewer.start()
+        self._server.start()
+        self.running = True
+        self._kept: Episode | None = None
+        self.handle = f"ai4u-live-{os.getpid()}-{next(_numbers)}"
+
+    @property
+    def port(self) -> int:
+        """Where the page is served."""
+        return int(self._server.url.rstrip("/").rpartition(":")[2])
+
+    @property
+    def episodes(self) -> list[Episode]:
+        """The episodes so far, the one under way last."""
+        now = self.recorder.now()
+        under_way = [now] if now is not None and any(map(len, now.agents)) else []
+        return [*self.recorder.episodes, *under_way]
+
+    def close(self) -> None:
+        """Ends the world, and says nothing."""
+        if self.running:
+            self.running = False
+            self._server.stop()
+            self._viewer.stop()
+            self.runner.stop()
+
+    def stop(self) -> None:
+        """Ends the world; in its place stays what happened last."""
+        if not self.running:
+            return
+        last = self.episodes[-1:] if in_notebook() else []
+        self.close()
+        moments = _animated(last[0]) if last else b""
+        words = f"{self.title}: this world has ended; run its cell again for a new one."
+        replace("", "", self.film)
+        page = card("grey", self.title, [words.partition(": ")[2]])
+        replace(page + image(moments or self._still(), "the last episode"), words, self.handle)
+
+    def keep(self) -> None:
+        """Puts the last finished episode beneath, for whoever reads the notebook without a server.
+
+        The live page hides it.
+        """
+        finished = self.recorder.episodes
+        if not self.running or not finished or finished[-1] is self._kept:
+            return
+        self._kept = finished[-1]
+        moments = _animated(finished[-1])
+        if moments:
+            text = f'<div id="{self.film}">{image(moments, "the last episode")}</div>'
+            replace(text, "the last episode", self.film)
+
+    @property
+    def film(self) -> str:
+        """The name by which the last episode's place is found again."""
+        return f"{self.handle}-film"
+
+    def page(self, height: int) -> str:
+        """What stands under the cell."""
+        spec = {
+            "id": self.handle,
+            "port": self.port,
+            "token": TOKEN,
+            "hub": os.environ.get("JUPYTERHUB_SERVICE_PREFIX", ""),
+            "height": height,
+        }
+        parts = {
+            "ID": self.handle,
+            "URL": html.escape(self.url),
+            "TITLE": html.escape(self.title),
+            "STILL": image(self._still(), "the world as it begins"),
+            # within a script nothing may look like its end
+            "SPEC": json.dumps(spec).replace("<", "\\u003c"),
+        }
+        text = TEMPLATE.read_text(encoding="utf-8")
+        for name, part in parts.items():
+            text = text.replace("{{" + name + "}}", part)
+        return text
+
+    def _still(self) -> bytes:
+        return picture(self.runner.latest, longest=SIDE)
+
+    def _ipython_display_(self) -> None:
+        """Nothing more: the cell shows the world already."""
+
+
+def _animated(episode: Episode) -> bytes:
+    if episode.seconds > LONGEST:
+        return b""
+    with suppress(AI4UError, RuntimeError):  # blocks of a student's own may not play again
+        return animation(episode)
+    return b""

@@ -1,0 +1,99 @@
+"""Plots by matplotlib, in the colours of the worlds; never told apart by colour alone."""
+
+import io
+import math
+from collections.abc import Mapping, Sequence
+
+from ai4u_edu.extras import need
+from ai4u_edu.lessons.out import image, put
+from ai4u_edu.palette import PALETTE
+
+COLOURS = ("blue", "orange", "green", "vermillion", "purple", "sky blue", "black")
+STYLES = ("-", "--", "-.", ":")
+MARKERS = "osD^v<>"
+FEW = 30
+"""Points up to which each gets a marker."""
+
+
+def plot(
+    lines: Mapping[str, Sequence[float]],
+    x: Sequence[float] | None = None,
+    *,
+    xlabel: str = "",
+    ylabel: str = "",
+    title: str = "",
+) -> None:
+    """Draws lines, one for each name.
+
+    Args:
+        lines: the heights by the line's name.
+        x: where they stand; left out, 0, 1, 2 and so on.
+        xlabel: what x is, with its unit.
+        ylabel: what the heights are, with their unit.
+        title: above it.
+
+    Raises:
+        SetupError: matplotlib is not installed.
+    """
+    need("lessons", "matplotlib")
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.figure import Figure
+
+    figure = Figure(figsize=(6.4, 3.2), layout="constrained")
+    panel = figure.subplots()
+    for index, (name, heights) in enumerate(lines.items()):
+        along = range(len(heights)) if x is None else x
+        panel.plot(
+            along,
+            heights,
+            STYLES[index % len(STYLES)],
+            color=PALETTE[COLOURS[index % len(COLOURS)]],
+            marker=MARKERS[index % len(MARKERS)] if len(heights) <= FEW else "",
+            label=name,
+        )
+    panel.set(xlabel=xlabel, ylabel=ylabel, title=title)
+    panel.grid(alpha=0.3)
+    if len(lines) > 1:
+        panel.legend(fontsize="small")
+    FigureCanvasAgg(figure)
+    out = io.BytesIO()
+    figure.savefig(out, dpi=100, format="png")
+    put(image(out.getvalue(), title or ylabel), _words(lines, title or ylabel))
+
+
+def bars(heights: Mapping[str, float], *, ylabel: str = "", title: str = "") -> None:
+    """Draws a bar for each name.
+
+    Args:
+        heights: by name.
+        ylabel: what the heights are, with their unit.
+        title: above it.
+
+    Raises:
+        SetupError: matplotlib is not installed.
+    """
+    need("lessons", "matplotlib")
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.figure import Figure
+
+    figure = Figure(figsize=(6.4, 0.9 + 0.4 * len(heights)), layout="constrained")
+    panel = figure.subplots()
+    panel.barh(list(heights), list(heights.values()), color=PALETTE["sky blue"], edgecolor="black")
+    for place, height in enumerate(heights.values()):
+        panel.text(max(height, 0), place, f" {height:.3g}", va="center")
+    panel.invert_yaxis()
+    panel.margins(x=0.15)
+    panel.set(xlabel=ylabel, title=title)
+    FigureCanvasAgg(figure)
+    out = io.BytesIO()
+    figure.savefig(out, dpi=100, format="png")
+    put(image(out.getvalue(), title or ylabel), f"{title}: {dict(heights)}")
+
+
+def _words(lines: Mapping[str, Sequence[float]], title: str) -> str:
+    ends = [
+        f"{name} from {heights[0]:.3g} to {heights[-1]:.3g}"
+        for name, heights in lines.items()
+        if len(heights) and math.isfinite(heights[-1])
+    ]
+    return f"[plot] {title}: {'; '.join(ends)}"

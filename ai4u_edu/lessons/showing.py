@@ -1,0 +1,95 @@
+"""``show`` and ``stop``: one world at a time, under the cell that asked for it."""
+
+import atexit
+from pathlib import Path
+from typing import Any
+
+from ai4u_edu.agent import BasicAgent
+from ai4u_edu.blocks import LocalBrain
+from ai4u_edu.cycle import ControlRequestor
+from ai4u_edu.episode_commands import recorder_into
+from ai4u_edu.errors import SetupError
+from ai4u_edu.lessons.live import Live
+from ai4u_edu.lessons.out import after_each_cell, in_notebook, put
+from ai4u_edu.lessons.rolls import brain_for
+from ai4u_edu.recording import Recorder
+from ai4u_edu.scenes import Scene
+from ai4u_edu.world import World
+
+_current: Live | None = None
+
+
+def show(
+    world: "ControlRequestor | Scene | World | str | Path" = "box_chase",
+    brain: Any = None,
+    *,
+    seed: int | None = None,
+    height: int = 520,
+    record: str | Path | None = None,
+) -> Live:
+    """Lets a world run, and shows its page under the cell; the one shown before ends.
+
+    Args:
+        world: a scene's name or file, a scene, a world with its agents (ControlRequestor), or a
+            world alone.
+        brain: who drives the first agent: a function, a controller or a brain; left out, whoever
+            it has.
+        seed: of the first episode.
+        height: of the page, pixels.
+        record: a folder in which every episode is kept as a file.
+    """
+    global _current
+    sim, scene, title = _sim_of(world)
+    if brain is not None:
+        sim.agents[0].use_brain(brain_for(brain, sim.agents[0]))
+    stop()
+    description = scene.description if scene else None
+    if record is not None and scene is not None:
+        recorder = recorder_into(Path(record), sim, scene)
+    elif record is not None:
+        raise SetupError("record: expected a scene or its name to go with it; give show a scene")
+    else:
+        recorder = Recorder(sim, scene=description)
+    _current = live = Live(sim, recorder, title, seed)
+    put(live.page(height), f"{title} runs at {live.url}", live.handle)
+    if in_notebook():
+        put("", "", live.film)
+        after_each_cell(_keep)
+    return live
+
+
+def stop() -> None:
+    """Ends the world that is shown; an animation of its last episode stays in its place."""
+    global _current
+    if _current is not None:
+        ended, _current = _current, None
+        ended.stop()
+
+
+def _keep(_: object = None) -> None:
+    if _current is not None:
+        _current.keep()
+
+
+@atexit.register
+def _close() -> None:
+    if _current is not None:  # by now there may be no notebook left to tell
+        _current.close()
+
+
+def _sim_of(world: Any) -> tuple[ControlRequestor, Scene | None, str]:
+    if isinstance(world, ControlRequestor):
+        return world, None, "Your world"
+    if isinstance(world, World):
+        return _looked_at(world), None, "Your world"
+    scene = world if isinstance(world, Scene) else Scene.load(world)
+    return scene.build(), scene, scene.description.title or scene.description.name
+
+
+def _looked_at(world: World) -> ControlRequestor:
+    """A world alone, in which nobody does anything."""
+    bodies = [name for name, body in world.bodies.items() if body.moves]
+    if not bodies:
+        raise SetupError("show: expected a world with a body that can move; add one first")
+    agent = BasicAgent(body=bodies[0], brains=[LocalBrain(controller=lambda _: {})])
+    return ControlRequestor(world, [agent])

@@ -1,0 +1,183 @@
+# %% [markdown]
+# # 00 Start here
+#
+# ![A blue robot on a grey plate drives to an orange box](pictures/00.png)
+#
+# In this course you build robots that live in a small flat world. You drive them yourself, you tell
+# them how to drive, and in the end you let them learn it. It begins with a click.
+#
+# **When you are through, you can**
+#
+# - run a notebook, cell by cell,
+# - open the sandbox and drive a robot,
+# - send a robot its first action from Python,
+# - read an error message, and mend what it is about.
+#
+# *About 45 minutes. You need nothing but this page.*
+
+# %% [markdown]
+# ## Is everything there?
+#
+# The grey box below is a **cell**: a piece of a program. Click into it, then press **Shift + Enter**.
+# The cell runs, and what it has to say appears under it.
+#
+# You will see a robot on a plate. **Click into the picture**, then hold **W** to drive forward, **S**
+# to drive backward, **A** and **D** to turn. **R** starts again. Reach the orange box, and don't fall
+# off the plate!
+
+# %%
+from ai4u_edu.lessons import ready, show
+
+ready()
+show("box_chase", seed=1)
+
+# %% [markdown]
+# The green line says whether all is installed that you need. No robot to see? Click on the line above
+# the picture: it opens the world in a tab of its own. If that does not help either, show your teacher
+# what stands under the cell.
+#
+# ## What is a notebook?
+#
+# A notebook is a page of text and cells. Three things to know:
+#
+# 1. **Shift + Enter** runs a cell and goes on to the next one. The number on the left says in which
+#    order the cells ran.
+# 2. Cells remember. What one cell made, the next one can use. So run them **from top to bottom**.
+# 3. If everything is in a muddle, choose **Kernel > Restart Kernel**, and run the cells again from
+#    the top. Your text stays.
+#
+# Try it: change the word in quotes, and run the cell. (The two lines above it fetch what we need later.)
+
+# %% tags=["setup"]
+from ai4u_edu import Scene
+from ai4u_edu.lessons import check, film, hint, progress, report, solution
+
+name = "Ada"
+print("Hello,", name)
+
+# %% [markdown]
+# ## Your first action
+#
+# You drove with keys. A program drives with numbers. Twelve times a second the robot asks: *what
+# shall I do?* The answer is called an **action**, and it looks like this:
+#
+# ```python
+# {"move": [1, 0, 0, 0]}
+# ```
+#
+# The first number drives, the second one turns. (The other two jump; this robot can't.) Each goes from
+# -1 to 1. A **function** gives the answer; the robot calls it again and again. It also hands over a
+# `percept`: all that the robot senses. We don't look at that yet.
+
+
+# %%
+def spin(percept):
+    return {"move": [0, 1, 0, 0]}
+
+
+film("box_chase", spin, seed=1, limit=36)
+
+# %% [markdown]
+# `film` lets one **episode** run and shows it as a little film. An episode is one try, from the start
+# until the robot reaches its goal, falls, or time is up. `limit=36` ends it after 36 decisions: that is
+# three seconds.
+#
+# ### Exercise 00.1: make it go
+#
+# Write a function that lets the robot drive **forward**. Replace the first 0.
+
+
+# %% tags=["exercise-00.1"]
+def go(percept):
+    return {"move": [0, 0, 0, 0]}
+
+
+# %% [markdown]
+# Now ask whether it works. `check` puts your function on robots in several worlds, and says what
+# happened. Ask as often as you like. If you are stuck, there is a hint; and if nothing helps,
+# `solution("00.1")` shows one way to do it.
+
+# %%
+check("00.1", go)
+
+# %%
+hint("00.1")
+
+# %% [markdown]
+# ### Exercise 00.2: turn left
+#
+# The cell with `spin` turned the robot to the right. Write a function that turns it to the **left**,
+# and leaves it on its spot.
+
+
+# %% tags=["exercise-00.2"]
+def turn_left(percept):
+    return {"move": [0, 0, 0, 0]}
+
+
+# %%
+check("00.2", turn_left)
+
+# %% [markdown]
+# ## Errors are messages
+#
+# Everybody's programs stop with errors, every day. The trick is to read them. **The last line says
+# what is wrong.** The lines above it say where.
+#
+# The robot knows only actions called `move`. Look what it answers if we call it something else:
+
+
+# %%
+def wrong(percept):
+    return {"mov": [1, 0, 0, 0]}
+
+
+try:
+    film("box_chase", wrong, seed=1)
+except Exception as error:
+    print(type(error).__name__ + ":", error)
+
+# %% [markdown]
+# It even guesses what we meant.
+#
+# ### Exercise 00.3: mend it
+#
+# This function should let the robot drive a curve to the right. There are mistakes in it. Run the
+# check, read what it says, mend one thing, and check again.
+
+
+# %% tags=["exercise-00.3"]
+def curve(percept):
+    return {"mvoe": [forward, 0.5, 0, 0]}
+
+
+# %%
+check("00.3", curve)
+
+# %% [markdown]
+# ## How far are you?
+
+# %%
+progress()
+
+# %% [markdown]
+# `progress()` works in every lesson. Your marks lie in the file `progress.json`, beside your notebooks;
+# they go nowhere else. At the end of a lesson `report()` writes a page, `report.html`, which you can
+# hand in: it holds your code, what the checks said, and their pictures.
+
+# %%
+report()
+
+# %% [markdown]
+# ## Stretch
+#
+# - Let the robot drive a circle that fits on the plate: `film("box_chase", your_function, seed=1)`.
+#   Which two numbers make a small circle, which ones a large one?
+# - `Scene.names()` lists all worlds. Put another name into `show("...")`, and play.
+
+# %%
+print(Scene.names())
+
+# %% [markdown]
+# **Words of this lesson:** cell, action, percept, decision, episode, seed. You find them in
+# `GLOSSARY.md`. **Next:** 01, in which you find out what the robot is told while you drive.

@@ -1,0 +1,187 @@
+# %% [markdown]
+# # 01 Drive: body, action, observation
+#
+# ![The robot's way across the plate, up to the box](pictures/01.png)
+#
+# You press a key, and the robot moves. What happens in between?
+#
+# **When you are through, you can**
+#
+# - tell where a body is, with three numbers,
+# - say what the four numbers of an action do, and for how long,
+# - read what a robot senses,
+# - make a robot stop at the right place because it *looks*.
+#
+# *About 50 minutes. Before: lesson 00.*
+#
+# **Recap.** Shift + Enter runs a cell. A function gives the action: `{"move": [forward, turn, 0, 0]}`.
+
+# %% tags=["setup"]
+import math
+
+from ai4u_edu import LocalBrain, Scene
+from ai4u_edu.lessons import check, film, hint, plot, progress, report, show, solution
+
+# %% [markdown]
+# ## Drive, and watch
+#
+# Run the cell, click into the world, and drive with **W A S D**. **Space** jumps, **J** jumps forward:
+# you need that for the low wall. Reach the cube. Then drive again, and keep an eye on the panel at the
+# right:
+#
+# - **action**: the four numbers that your keys become,
+# - **readings**: what the robot senses. Turn on the spot: which numbers change, and which don't?
+
+# %%
+show("sample_scene", seed=1)
+
+# %% [markdown]
+# ## The body
+#
+# Now the same world in Python. `build` makes it, `reset` begins an episode. The **seed** is the number
+# from which all chance in the world grows: the same seed gives the same episode, always.
+
+# %%
+sim = Scene.load("sample_scene").build()
+sim.reset(seed=1)
+robot = sim.world["robot"]
+print("x, y in metres:    ", robot.position)
+print("heading in degrees:", math.degrees(robot.heading))
+
+# %% [markdown]
+# The robot is a **body**: a disc of half a metre radius. Where it is, three numbers tell: **x** (to the
+# right), **y** (up on the screen), and the **heading**: the direction in which it looks. Heading 0
+# looks to the right; turning left makes it grow, so 90 degrees look up.
+#
+# ## The action
+#
+# `{"move": [forward, turn, jump, forward jump]}`. The first two go from -1 to 1, the others from 0 to 1.
+#
+# | number | above 0 | below 0 |
+# |---|---|---|
+# | forward | drives forward | drives backward |
+# | turn | turns **right** | turns **left** |
+# | jump | jumps | |
+# | forward jump | jumps forward | |
+#
+# How fast is a 1? That depends on the robot's motor, the **actuator**. In this scene 1 drives at 4 m/s.
+#
+# One action holds for one **decision**: 5 ticks of the world's clock, which has 60 ticks a second. So a
+# decision lasts 5/60 = 1/12 of a second. Let us take twelve, and look at the way:
+
+
+# %%
+def ahead(percept):
+    return {"move": [0.5, 0, 0, 0]}
+
+
+film("sample_scene", ahead, seed=1, limit=12)
+
+# %% [markdown]
+# Half of 4 m/s, for 12/12 of a second: 2 metres.
+#
+# ### Exercise 01.1: how far?
+#
+# A robot drives at `speed` metres a second. For how many decisions do you have to let it drive until it
+# has covered `distance` metres? Compute it from the two numbers. (A whole number is not needed: the
+# check rounds.)
+
+
+# %% tags=["exercise-01.1"]
+def decisions_for(distance, speed):
+    return 0
+
+
+# %%
+check("01.1", decisions_for)
+
+# %% [markdown]
+# ### Exercise 01.2: a quarter turn
+#
+# A robot turns at so many degrees a second. How many decisions does it take to turn by 90 degrees?
+
+
+# %% tags=["exercise-01.2"]
+def decisions_for_quarter(degrees_per_second):
+    return 0
+
+
+# %%
+check("01.2", decisions_for_quarter)
+
+# %% [markdown]
+# ## The observation
+#
+# A robot that only counts drives blindly. What does it sense? Before each decision every **sensor**
+# reads once. All readings together are the **percept**. (Books also call it the *observation*.)
+
+# %%
+sim.reset(seed=1)
+percept = sim.agents[0].percept
+for name, reading in percept.items():
+    print(f"{name:12}", getattr(reading, "shape", ""), reading if name != "vision" else "...")
+
+# %% [markdown]
+# - `bearing` says in which direction the cube lies: two numbers, we come to them in lesson 03.
+# - `orientation` says: is it in front of me (1), beside me (0), behind me (-1)? And how far away?
+# - `velocity` says how fast the robot moves and turns.
+# - `vision` is a small picture: 45 rays that look ahead.
+# - `last_action` is what the robot did last.
+# - `id` and `done` are on every robot: who am I, and is the episode over?
+#
+# Let the robot drive ahead, and write down the distance at each decision. `use_brain` says who decides
+# from now on; `step` is one decision. In this scene the distance is a share of the world's size: 1
+# would be as far as it goes.
+#
+# Before you run it: what will the curve look like? And what happens to it at the low wall?
+
+# %%
+sim.agents[0].use_brain(LocalBrain(controller=ahead))
+distances = []
+for _ in range(40):
+    percept = sim.step()
+    distances.append(float(percept["orientation"][1]))
+plot({"distance": distances}, xlabel="decision", ylabel="distance to the cube (share)")
+
+# %% [markdown]
+# ### Exercise 01.3: stop in time
+#
+# The robot looks at the box. It is to drive up to it and stop when the middle of the box is **2 metres**
+# away. The box is at another distance in each world, so counting does not help: the robot has to look.
+#
+# Here the distance is in metres: `percept["orientation"][1]`.
+
+
+# %% tags=["exercise-01.3"]
+def stop_in_time(percept):
+    distance = percept["orientation"][1]
+    return {"move": [0, 0, 0, 0]}
+
+
+# %%
+check("01.3", stop_in_time)
+
+# %% [markdown]
+# That was your first **agent**: something that senses, decides and acts, again and again.
+#
+# ```
+#         percept                action
+# world ----------> the agent ----------> world
+#   ^                                       |
+#   +---------------------------------------+
+# ```
+
+# %%
+progress()
+
+# %% [markdown]
+# ## Stretch
+#
+# - Let the robot slow down gently: the nearer the box, the smaller the first number. Which formula did
+#   you take? Does `check("01.3", ...)` still agree?
+# - Who needs the fewest seconds for the cube in `sample_scene`? The page shows the time.
+# - Write a function that drives an eight. You need to count decisions: a variable outside of the
+#   function can do that (look up `global`).
+#
+# **Words of this lesson:** body, heading, actuator, action, sensor, percept, agent. **Next:** 02, in which
+# you build an agent of your own.

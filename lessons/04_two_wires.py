@@ -1,0 +1,182 @@
+# %% [markdown]
+# # 04 A vehicle with two wires
+#
+# ![A vehicle that found the lamp with two wires](pictures/04.png)
+#
+# Here comes a robot whose whole brain is two wires. And yet people who watch it say things like "it is
+# afraid", or "it loves the lamp". How much brain does a feeling need?
+#
+# **When you are through, you can**
+#
+# - drive with two wheels,
+# - wire sensors straight to motors, and predict what the vehicle will do,
+# - make four characters out of two wires,
+# - say why what we *see* in a robot is more than what is *in* it.
+#
+# *About 50 minutes. Before: lesson 03.*
+#
+# **Recap.** A robot knows what its sensors tell. The controller turns readings into an action.
+
+# %% tags=["setup"]
+import math
+
+from ai4u_edu import *
+from ai4u_edu.lessons import check, film, hint, plot, progress, report, show, solution
+
+
+def vehicle(wires, x=-5, y=2, heading_deg=0):
+    """A vehicle with two eyes and two wheels, and a lamp in the middle."""
+    world = World()
+    world.add_floor("plate", BoxShape(size=(24, 24)))
+    shape = CircleShape(radius=0.5)
+    world.add_body("vehicle", shape, position=(x, y), heading_deg=heading_deg)
+    world.add_body("lamp", CircleShape(radius=0.4), kind="static", tags=("lamp",))
+    agent = BasicAgent(
+        body="vehicle",
+        sensors=[
+            LightSensor(perception_key="left eye", group="lamp", angle_deg=60, reach=4),
+            LightSensor(perception_key="right eye", group="lamp", angle_deg=-60, reach=4),
+        ],
+        actuators=[
+            DifferentialDriveActuator(action_name="wheels", max_wheel_speed=3, axle_width=1)
+        ],
+        brains=[LocalBrain(controller=wires)],
+    )
+    return ControlRequestor(world, [agent])
+
+
+# %% [markdown]
+# ## Two wheels
+#
+# This vehicle has a wheel on each side. The action is `{"wheels": [left, right]}`, each from -1 to 1.
+# Both the same: straight on. If the left wheel is faster, the vehicle turns to the ... ? Think of a
+# rowing boat, then run the cell.
+
+
+# %%
+def try_wheels(percept):
+    return {"wheels": [0.6, 0.4]}
+
+
+film(vehicle(try_wheels), limit=60)
+
+# %% [markdown]
+# ## Two eyes
+#
+# A `LightSensor` tells how bright it is: 0 in the dark, up to 1. The left eye looks 60 degrees to the
+# left, the right eye 60 degrees to the right. The nearer the lamp, and the more it lies where the eye
+# looks, the brighter.
+
+# %%
+distances = [0.5 * step for step in range(2, 23)]
+left, right = [], []
+for distance in distances:
+    sim = vehicle(try_wheels, x=-distance, y=0, heading_deg=-30)  # the lamp is a bit to the left
+    sim.reset()
+    left.append(float(sim.agents[0].percept["left eye"][0]))
+    right.append(float(sim.agents[0].percept["right eye"][0]))
+plot(
+    {"left eye": left, "right eye": right},
+    x=distances,
+    xlabel="distance to the lamp in metres",
+    ylabel="brightness",
+)
+
+# %% [markdown]
+# ## Wires
+#
+# Now connect them. A wire carries a brightness from an eye to a wheel: the brighter, the faster. There
+# are two ways: each eye to the wheel on **its own** side, or **crossed**, to the other side.
+#
+# Take paper and draw a vehicle from above, with its eyes, wheels and wires, and a lamp at the front
+# left. Which eye gets more light? Which wheel turns faster? Where does it go?
+#
+# ### Exercise 04.1: attack
+#
+# Wire the vehicle so that it drives at the lamp and hits it.
+
+
+# %% tags=["exercise-04.1"]
+def attack(percept):
+    left_eye = percept["left eye"][0]
+    right_eye = percept["right eye"][0]
+    return {"wheels": [0, 0]}
+
+
+# %%
+check("04.1", attack)
+
+# %%
+film(vehicle(attack), limit=120)
+
+# %% [markdown]
+# The nearer it comes, the faster it gets. People say: it is *aggressive*.
+#
+# ### Exercise 04.2: fear
+#
+# Now one that turns away from the lamp, and runs as long as it sees it. At a distance, in the dark, it
+# comes to rest.
+
+
+# %% tags=["exercise-04.2"]
+def fear(percept):
+    left_eye = percept["left eye"][0]
+    right_eye = percept["right eye"][0]
+    return {"wheels": [0, 0]}
+
+
+# %%
+check("04.2", fear)
+
+# %%
+film(vehicle(fear, heading_deg=-20), limit=120)
+
+# %% [markdown]
+# ## Wires that slow down
+#
+# A wire can also **brake**: the brighter, the slower. Such a wheel turns fast in the dark:
+# `1 - 2 * brightness`, say. In living brains there are both kinds of connections, too: those that excite
+# and those that *inhibit*.
+#
+# ### Exercise 04.3: love
+#
+# Make a vehicle that comes to the lamp and stays before it, looking at it, **1 to 3 metres** away (from
+# middle to middle). There are two things to find out: which eye brakes which wheel, and how strongly.
+
+
+# %% tags=["exercise-04.3"]
+def love(percept):
+    left_eye = percept["left eye"][0]
+    right_eye = percept["right eye"][0]
+    return {"wheels": [0, 0]}
+
+
+# %%
+check("04.3", love)
+
+# %%
+show(vehicle(love))
+
+# %% [markdown]
+# Show your three vehicles to somebody who does not know the wires. Ask: what does it want? What does it
+# feel? Then show the two lines of code.
+#
+# Valentino Braitenberg, a brain researcher, thought up these vehicles in 1984. He called it the law of
+# **uphill analysis and downhill invention**: it is easy to build something that behaves in a surprising
+# way, and hard to guess from the behaviour what is inside. Remember that when you watch animals, or
+# people, or a chatbot.
+
+# %%
+progress()
+
+# %% [markdown]
+# ## Stretch
+#
+# - There is a fourth character: brakes the other way round. Braitenberg called it the *explorer*. Why?
+# - Put two lamps into the world (`World.add_body` with the tag `"lamp"`). What does each of your vehicles
+#   do between them?
+# - What happens if one eye breaks (always 0)? Try it, then think of an animal that circles around a lamp
+#   at night.
+#
+# **Words of this lesson:** actuator with two wheels, brightness, to excite, to inhibit. **Next:** 05, in
+# which the brain gets rules, and a memory.

@@ -1,0 +1,162 @@
+# %% [markdown]
+# # 13 Needs: a creature that gets hungry
+#
+# ![The way of a creature between food and water](pictures/13.png)
+#
+# Nobody gives you points for drinking. You drink because you are thirsty. Could a robot want something by
+# itself?
+#
+# **When you are through, you can**
+#
+# - say what a need is: a level, a zone in which one feels well, and a drift,
+# - compute how long a creature lives without food,
+# - write a controller that weighs two needs,
+# - say how a reward can come from inside.
+#
+# *About 50 minutes. Before: lessons 05 and 07.*
+#
+# **Recap.** Rules have priorities. A reward says what is good, and one gets what was said.
+
+# %% tags=["setup"]
+import math
+
+from ai4u_edu import *
+from ai4u_edu.lessons import bars, check, film, hint, plot, progress, report, show, solution
+from ai4u_edu.lessons.exercises.lesson_13 import creature
+
+# %% [markdown]
+# ## Levels
+#
+# Our creature has two inner levels, **energy** and **water**, each from 0 to 100. Both sink by themselves.
+# That is their *drift*. Food adds 40 to the energy, water 40 to the water. Who has nothing left dies.
+#
+# Between 40 and 80 the creature feels well: its **comfort zone**. Too much is not good either.
+#
+# `creature(controller)` makes its world. Run it, and drive: the panel shows the levels as bars, with the
+# comfort zone marked. How long can you keep it well?
+
+# %%
+show(creature(WASDRBMoveController()), seed=1)
+
+# %% [markdown]
+# Keeping inner levels in balance is called **homeostasis**. Your body does it all day: with warmth, water,
+# sugar, sleep.
+#
+# ### Exercise 13.1: how long?
+#
+# A creature has `level` of something, and loses `loss` of it each second. How many seconds does it take
+# until it **leaves the comfort zone** at 40? If it is below 40 already: 0.
+
+
+# %% tags=["exercise-13.1"]
+def seconds_of_comfort(level, loss):
+    return level
+
+
+# %%
+check("13.1", seconds_of_comfort)
+
+# %% [markdown]
+# ## What do I need most?
+#
+# The creature senses where food and water are (`to food`, `to water`: sine and cosine of the bearing, as
+# in lesson 03), and its levels (`inside`: energy and water, from 0 to 1).
+#
+# `to` steers towards a bearing. What has been eaten comes back somewhere else three seconds later.
+
+
+# %% tags=["setup"]
+def to(bearing):
+    left, ahead = bearing
+    if ahead < 0:
+        return {"move": [0, -1 if left > 0 else 1, 0, 0]}
+    return {"move": [1, -left, 0, 0]}
+
+
+# %% [markdown]
+# ### Exercise 13.2: stay alive
+#
+# Keep the creature alive for a minute.
+
+
+# %% tags=["exercise-13.2"]
+def live(percept):
+    energy, water = percept["inside"]
+    return to(percept["to food"])
+
+
+# %%
+check("13.2", live)
+
+# %%
+film(creature(live), seed=1)
+
+# %% [markdown]
+# ## Too much
+#
+# To live is not to live well. Write down the levels of a life:
+
+
+# %%
+def levels(controller, seed=1):
+    sim = creature(controller)
+    sim.reset(seed)
+    agent = sim.agents[0]
+    energy, water = [], []
+    while not agent.done:
+        energy.append(100 * agent.percept["inside"][0])
+        water.append(100 * agent.percept["inside"][1])
+        sim.step()
+    return {"energy": energy, "water": water}
+
+
+plot(levels(live), xlabel="decision (12 a second)", ylabel="level")
+
+# %% [markdown]
+# ### Exercise 13.3: live well
+#
+# Keep **both** levels between 40 and 80, for at least 70 of 100 decisions. When should the creature eat?
+# When should it rather do nothing? (`{"move": [0, 0, 0, 0]}`)
+
+
+# %% tags=["exercise-13.3"]
+def live_well(percept):
+    energy, water = percept["inside"]
+    return {"move": [0, 0, 0, 0]}
+
+
+# %%
+check("13.3", live_well)
+
+# %%
+plot(levels(live_well), xlabel="decision (12 a second)", ylabel="level")
+
+# %% [markdown]
+# ## A reward from inside
+#
+# `HomeostaticReward` turns needs into a reward: each bit of discomfort that goes away pays, and each bit
+# that comes costs. Nobody says "eat". The creature finds out by itself that eating feels good, and only
+# while it is hungry.
+
+# %%
+for name, controller in {"live": live, "live_well": live_well}.items():
+    sim = creature(controller)
+    sim.reset(1)
+    while not sim.agents[0].done:
+        sim.step()
+    print(f"{name:10}", {k: round(v, 1) for k, v in sim.agents[0].ledger.episode_terms.items()})
+
+# %%
+progress()
+
+# %% [markdown]
+# ## Stretch
+#
+# - Which needs has a phone? A vacuum robot? A class? Give one of them levels, drifts and a comfort zone.
+# - `forage` is a scene of the library with rocks and two kinds of food. Play it, then write a controller for
+#   it (it sees with rays: lesson 03).
+# - Animals eat before they are hungry if food is rare. When is that clever? Change the time after which
+#   food comes back, and try.
+#
+# **Words of this lesson:** need, level, drift, comfort zone, homeostasis, drive. **Next:** 14, in which you
+# build blocks of your own.

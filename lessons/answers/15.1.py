@@ -1,0 +1,117 @@
+# %% tags=["solution"]
+my_scene = """
+name: my_world
+title: Behind the wall
+goal: Get to the box behind the wall. Do not fall off the plate.
+controls: W forward, S backward, A left, D right, R restart
+rewards: +10 for touching the box (the end), -1 for falling (the end)
+success: arrived
+floors:
+  - name: plate
+    shape: {type: box, size: [12, 12]}
+bodies:
+  - name: robot
+    shape: {type: circle, radius: 0.5}
+    random: {x: [-4, -3], y: [-3, 3], heading_deg: [-180, 180]}
+    tags: [agent]
+    colour: blue
+  - name: wall
+    shape: {type: box, size: [0.4, 3]}
+    kind: static
+    tags: [wall]
+  - name: box
+    shape: {type: box, size: [1, 1]}
+    random: {x: [3, 4], y: [-3, 3]}
+    tags: [target]
+    colour: orange
+agents:
+  - body: robot
+    max_steps_per_episode: 400
+    sensors:
+      - {type: BearingSensor, target: box}
+      - {type: TouchSensor, target: wall, perception_key: bumper}
+    actuators:
+      - {type: RBMoveActuator, move_amount: 3, turn_amount: 3}
+    rewards:
+      - {type: TouchRewardFunc, name: arrived, target: box, reward: 10, cause_episode_to_end: true}
+      - {type: FallReward, cause_episode_to_end: true}
+    brains:
+      - {type: LocalBrain, controller: {type: WASDRBMoveController}}
+"""
+
+# %% tags=["wrong", "yaml"]
+my_scene = """
+name: my_world
+title: My world
+  goal: Get to the box.
+floors:
+  - name: plate
+"""
+
+# %% tags=["wrong", "success"]
+my_scene = """
+name: my_world
+title: My world
+goal: Get to the box.
+controls: W forward, S backward, A left, D right, R restart
+rewards: +10 for touching the box
+floors:
+  - name: plate
+    shape: {type: box, size: [10, 10]}
+bodies:
+  - name: robot
+    shape: {type: circle, radius: 0.5}
+    random: {x: [-4, -3], y: [-3, 3], heading_deg: [-180, 180]}
+    tags: [agent]
+  - name: box
+    shape: {type: box, size: [1, 1]}
+    position: [3, 1]
+    tags: [target]
+agents:
+  - body: robot
+    max_steps_per_episode: 400
+    sensors:
+      - {type: BearingSensor, target: box}
+      - {type: TouchSensor, target: box}
+    actuators:
+      - {type: RBMoveActuator, move_amount: 3, turn_amount: 3}
+    rewards:
+      - {type: TouchRewardFunc, target: box, reward: 10, cause_episode_to_end: true}
+      - {type: FallReward, cause_episode_to_end: true}
+    brains:
+      - {type: LocalBrain, controller: {type: WASDRBMoveController}}
+"""
+
+# %% tags=["wrong", "random"]
+my_scene = """
+name: my_world
+title: My world
+goal: Get to the box.
+controls: W forward, S backward, A left, D right, R restart
+rewards: +10 for touching the box
+success: touch
+floors:
+  - name: plate
+    shape: {type: box, size: [10, 10]}
+bodies:
+  - name: robot
+    shape: {type: circle, radius: 0.5}
+    tags: [agent]
+  - name: box
+    shape: {type: box, size: [1, 1]}
+    position: [3, 1]
+    tags: [target]
+agents:
+  - body: robot
+    max_steps_per_episode: 400
+    sensors:
+      - {type: BearingSensor, target: box}
+      - {type: TouchSensor, target: box, perception_key: bumper}
+    actuators:
+      - {type: RBMoveActuator, move_amount: 3, turn_amount: 3}
+    rewards:
+      - {type: TouchRewardFunc, target: box, reward: 10, cause_episode_to_end: true}
+      - {type: FallReward, cause_episode_to_end: true}
+    brains:
+      - {type: LocalBrain, controller: {type: WASDRBMoveController}}
+"""

@@ -1,0 +1,55 @@
+"""Lessons in a real Jupyter kernel, with the solutions in place."""
+
+import time
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import nbformat
+from nbclient import NotebookClient
+
+from ai4u_edu.lessons.answers import answers_to
+from ai4u_edu.lessons.course import Lesson
+from ai4u_edu.lessons.keeper import Entry, Keeper
+from ai4u_edu.lessons.notebook import dumps
+from tests.lessons.workbook import solved
+
+LONGEST = 120
+"""Seconds that a cell may take."""
+
+
+@dataclass
+class Executed:
+    """A notebook that was run."""
+
+    book: Any
+    entries: dict[str, Entry]
+    seconds: float
+    slowest: float
+    """Seconds that the slowest cell took."""
+
+    @property
+    def complaints(self) -> list[Any]:
+        """Errors, and whatever was written to stderr."""
+        outs = [out for cell in self.book.cells for out in cell.get("outputs", ())]
+        return [out for out in outs if out.output_type == "error" or out.get("name") == "stderr"]
+
+
+def executed(lesson: Lesson, folder: Path) -> Executed:
+    """Runs a lesson from top to bottom, in a folder."""
+    read: Any = nbformat.reads
+    answers = {each: answers_to(each).solution for each in lesson.exercises}
+    book = read(dumps(solved(lesson, answers)), as_version=4)
+    times: list[float] = []
+    client = NotebookClient(
+        book,
+        timeout=LONGEST,
+        kernel_name="python3",
+        resources={"metadata": {"path": str(folder)}},
+        on_cell_start=lambda **_: times.append(time.perf_counter()),
+    )
+    began = time.perf_counter()
+    client.execute()
+    ends = [*times[1:], time.perf_counter()]
+    slowest = max(end - start for start, end in zip(times, ends, strict=True))
+    return Executed(book, Keeper(folder).entries(), ends[-1] - began, slowest)

@@ -1,0 +1,184 @@
+"""What a student is told, and what is kept of it."""
+
+import json
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from ai4u_edu.errors import SetupError
+from ai4u_edu.lessons import check, hint, progress, solution
+from ai4u_edu.lessons import written as written_module
+from ai4u_edu.lessons.checking import UNFINISHED, judge
+from ai4u_edu.lessons.exercise import EXERCISES, Exercise, find
+from ai4u_edu.lessons.keeper import FILE, Keeper
+from ai4u_edu.lessons.notebook import Cell
+from tests.lessons.workbook import run
+
+
+@pytest.fixture(autouse=True)
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+def go(percept: Any) -> Any:
+    return {"move": [1, 0, 0, 0]}
+
+
+def stay(percept: Any) -> Any:
+    return {"move": [0, 0, 0, 0]}
+
+
+def written(source: str) -> Any:
+    """A function as typed into a cell."""
+    names: dict[str, Any] = {}
+    run(Cell(source), names, "<a cell>")
+    return names["go"]
+
+
+def test_what_was_right_is_said(capsys: pytest.CaptureFixture[str]) -> None:
+    check("00.1", go)
+    assert "Right. Your robot drives forward. It did so in 5 worlds." in capsys.readouterr().out
+
+
+def test_what_happened_is_said_with_seed_step_picture_and_where_to_get_help(
+    capsys: pytest.CaptureFixture[str], folder: Path
+) -> None:
+    check("00.1", stay)
+    told = capsys.readouterr().out
+    assert "Not yet. Your robot stayed where it was (seed " in told
+    assert ", step 8).\n" in told
+    assert 'hint("00.1")' in told
+    assert Keeper().picture("00.1").read_bytes().startswith(b"\x89PNG")
+
+
+@pytest.mark.parametrize("thing", [..., None])
+def test_an_ellipsis_is_unfinished(thing: Any) -> None:
+    assert judge(find("00.1"), thing).text == UNFINISHED
+    assert judge(find("00.1")).text == UNFINISHED
+
+
+def test_the_students_exception_is_a_sentence_with_their_line() -> None:
+    source = "def go(percept):\n    speed = 1 / 0\n    return {'move': [speed, 0, 0, 0]}"
+    verdict = judge(find("00.1"), written(source))
+    assert verdict.text == (
+        "Your code stopped with ZeroDivisionError: division by zero (line 2 of its cell: "
+        "speed = 1 / 0)."
+    )
+    assert not verdict.passed
+
+
+def test_an_action_that_nothing_can_carry_out_is_a_sentence() -> None:
+    verdict = judge(find("00.1"), lambda percept: {"mov": [1, 0, 0, 0]})
+    assert not verdict.passed
+    assert "did you mean 'move'?" in verdict.text
+
+
+@pytest.mark.parametrize("thing", [7, "go", {"move": [1, 0, 0, 0]}, [1, 0, 0, 0]])
+def test_something_else_than_a_function_is_told(thing: Any) -> None:
+    verdict = judge(find("00.1"), thing)
+    assert verdict.text.startswith("Expected a function that gets a percept")
+
+
+def test_a_fault_of_the_course_is_not_blamed_on_the_student() -> None:
+    hints = {"a": "A hint."}
+    verdict = judge(Exercise("99.1", "", json.loads, hints), "{" * 99)
+    assert not verdict.passed
+    assert verdict.text.startswith("The check could not try out '{{{{{{{{{{{{...{{{{{{{{{{{{{'")
+    assert verdict.text.endswith("If it is, the check itself has a fault.")
+
+
+def test_hints_begin_with_the_one_that_fits(capsys: pytest.CaptureFixture[str]) -> None:
+    check("00.1", lambda percept: {"move": [-1, 0, 0, 0]})
+    capsys.readouterr()
+    hint("00.1")
+    assert "drove backward" in capsys.readouterr().out
+    hint("00.1")
+    assert "The first number drives" in capsys.readouterr().out
+
+
+def test_a_solution_is_printed_without_the_wrong_ones(capsys: pytest.CaptureFixture[str]) -> None:
+    solution("00.1")
+    out = capsys.readouterr().out
+    assert out == 'def go(percept):\n    return {"move": [1, 0, 0, 0]}\n'
+
+
+@pytest.mark.parametrize("ask", [check, hint, solution])
+def test_an_unknown_exercise_is_told(ask: Any) -> None:
+    with pytest.raises(SetupError, match=r"^no exercise is called '00\.9'; did you mean '00\.\d'"):
+        ask("00.9")
+    with pytest.raises(SetupError, match=r"in quotes, such as '01.1', got 0\.1"):
+        ask(0.1)
+
+
+def test_progress_counts_and_keeps_what_was_passed(capsys: pytest.CaptureFixture[str]) -> None:
+    for thing in (stay, stay, go, stay):
+        check("00.1", thing)
+    entry = Keeper().entries()["00.1"]
+    assert (entry.passed, entry.tries) == (True, 3)
+    assert entry.text.startswith("Your robot drives forward")
+    capsys.readouterr()
+    progress()
+    out = capsys.readouterr().out
+    assert "Progress. 1 of " in out
+    assert "00 Start here: 00.1 \u2714   00.2 \u2013" in out
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "",
+        "{",
+        "[]",
+        "null",
+        '{"version": 2, "exercises": {}}',
+        '{"version": 1}',
+        '{"version": 1, "exercises": []}',
+        '{"version": 1, "exercises": {"00.1": {"passed": "yes"}}}',
+        '{"version": 1, "exercises": {"00.1": {"unknown": 1}}}',
+        '{"version": 1, "exercises": {"00.1": 7}}',
+        "\udcff",
+        "[" * 100_000,
+    ],
+    ids=range(12),
+)
+def test_a_damaged_file_is_put_aside_and_said(
+    folder: Path, text: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (folder / FILE).write_bytes(text.encode(errors="surrogateescape"))
+    check("00.1", go)
+    assert "progress.json could not be read" in capsys.readouterr().out
+    assert Keeper().entries()["00.1"].passed
+    aside = (folder / "progress.damaged.json").read_bytes()
+    assert aside == text.encode(errors="surrogateescape")
+
+
+def test_a_write_that_fails_leaves_the_file_as_it_was(
+    folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    check("00.1", go)
+    before = (folder / FILE).read_bytes()
+
+    def fail(*_: object, **__: object) -> None:
+        raise OSError("no room")
+
+    monkeypatch.setattr(json, "dump", fail)
+    with pytest.raises(OSError, match="no room"):
+        Keeper().note("00.2", passed=True, text="", hint="", picture=b"")
+    assert (folder / FILE).read_bytes() == before
+    assert sorted(path.name for path in folder.iterdir() if path.name.startswith(".p")) == []
+
+
+def test_every_hint_has_a_name_of_its_own() -> None:
+    for each in EXERCISES.values():
+        assert each.hints
+        assert all(each.hints.values())
+
+
+def test_the_code_that_was_checked_is_kept(monkeypatch: pytest.MonkeyPatch) -> None:
+    cells = ["def go(percept):\n    return 1", "%magic", "check('00.1', go)", "go = 7", "x = go"]
+    monkeypatch.setattr(written_module, "cells_so_far", lambda: cells[:3])
+    check("00.1", go)
+    assert Keeper().entries()["00.1"].code == cells[0]
+    assert written_module.latest({"go"}, cells) == "go = 7"

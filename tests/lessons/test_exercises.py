@@ -1,0 +1,91 @@
+"""Each exercise: the solution passes; the unfinished cell and plausible wrong answers don't."""
+
+import ast
+from pathlib import Path
+
+import pytest
+
+from ai4u_edu import BasicAgent
+from ai4u_edu.lessons.answers import answers_to
+from ai4u_edu.lessons.checking import judge
+from ai4u_edu.lessons.course import course_folder, lesson, lessons
+from ai4u_edu.lessons.exercise import EXERCISES, find
+from tests.lessons.workbook import handed_in, tried
+
+IDS = [each for one in lessons() for each in one.exercises]
+JUNK = [
+    *(True, 10**400, "x", [], {}, object(), int, BasicAgent(body="robot")),
+    lambda *_: None,
+    lambda *_: True,
+    lambda *_: {"move": [1, 0, 0, 0]},
+    lambda *_: 1 / 0,
+    lambda: None,
+]
+"""What nobody means, or has not thought about."""
+WRONG = [(each, number) for each in IDS for number in range(len(answers_to(each).wrong))]
+
+
+@pytest.fixture(autouse=True)
+def elsewhere(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("AI4U_FAST", "1")
+
+
+@pytest.mark.parametrize("exercise", IDS)
+def test_the_solution_passes(exercise: str) -> None:
+    verdict = tried(lesson(exercise[:2]), exercise, answers_to(exercise).solution)
+    assert verdict.passed, verdict.text
+    assert verdict.text.endswith(".")
+
+
+@pytest.mark.parametrize("exercise", IDS)
+def test_the_unfinished_cell_does_not(exercise: str) -> None:
+    one = lesson(exercise[:2])
+    (stub,) = [cell.source for cell in one.cells if cell.exercise == exercise]
+    verdict = tried(one, exercise, stub)
+    assert not verdict.passed
+    assert verdict.hint == next(iter(find(exercise).hints))
+
+
+@pytest.mark.parametrize("exercise", [each for each in IDS if each != "00.1"])
+def test_nothing_thoughtless_passes_and_all_of_it_gets_an_answer(exercise: str) -> None:
+    count = len(ast.parse(handed_in(lesson(exercise[:2]), exercise), mode="eval").body.elts)  # type: ignore[attr-defined]
+    for junk in JUNK:
+        verdict = judge(find(exercise), *[junk] * count)
+        assert not verdict.passed, junk
+        assert verdict.text
+        assert verdict.hint in find(exercise).hints
+
+
+@pytest.mark.parametrize(("exercise", "number"), WRONG)
+def test_a_wrong_answer_gets_the_hint_that_helps(exercise: str, number: int) -> None:
+    wrong = answers_to(exercise).wrong[number]
+    verdict = tried(lesson(exercise[:2]), exercise, wrong.code)
+    assert not verdict.passed
+    assert verdict.hint == wrong.hint, verdict.text
+
+
+@pytest.mark.parametrize("one", lessons(), ids=lambda one: one.number)
+def test_a_lesson_has_three_exercises_with_wrong_answers_and_a_picture(one: object) -> None:
+    from ai4u_edu.lessons.course import Lesson
+
+    assert isinstance(one, Lesson)
+    assert len(one.exercises) >= 3
+    for number, exercise in enumerate(one.exercises, 1):
+        assert exercise == f"{one.number}.{number}"
+        known = find(exercise).hints
+        hints = [wrong.hint for wrong in answers_to(exercise).wrong]
+        assert hints
+        assert set(hints) <= set(known)
+        assert all(text.endswith((".", "?")) for text in known.values())
+    picture = course_folder() / "pictures" / f"{one.number}.png"
+    assert f"pictures/{picture.name}" in one.cells[0].source
+    assert picture.stat().st_size < 60_000
+
+
+def test_no_answers_lie_about_without_an_exercise() -> None:
+    for one in lessons():
+        for exercise in one.exercises:
+            find(exercise)
+    assert sorted(EXERCISES) == IDS
+    assert sorted(path.stem for path in (course_folder() / "answers").iterdir()) == IDS

@@ -1,0 +1,59 @@
+"""Lessons with something in the place of what students are to write."""
+
+import ast
+import linecache
+import re
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import Any
+
+from ai4u_edu.lessons.checking import Verdict, judge
+from ai4u_edu.lessons.course import Lesson
+from ai4u_edu.lessons.exercise import find
+from ai4u_edu.lessons.notebook import Cell
+
+SETUP = "setup"
+"""Cells with this tag are run before an exercise is tried alone."""
+
+
+def solved(lesson: Lesson, answers: Mapping[str, str]) -> list[Cell]:
+    """A lesson's cells with other code in some exercises."""
+    return [
+        replace(cell, source=answers[cell.exercise]) if cell.exercise in answers else cell
+        for cell in lesson.cells
+    ]
+
+
+def run(cell: Cell, names: dict[str, Any], file: str) -> None:
+    """Runs a cell as a notebook does, so that messages can quote its lines."""
+    linecache.cache[file] = len(cell.source), None, cell.source.splitlines(True), file
+    exec(compile(cell.source, file, "exec"), names)  # noqa: S102 - as a notebook does
+
+
+def handed_in(lesson: Lesson, exercise: str) -> str:
+    """What the exercise's check in the notebook gets, as an expression."""
+    pattern = re.compile(rf'^check\("{re.escape(exercise)}"', re.MULTILINE)
+    calls = [
+        node
+        for cell in lesson.cells
+        if not cell.is_text and pattern.search(cell.source)
+        for node in ast.walk(ast.parse(cell.source))
+        if isinstance(node, ast.Call) and getattr(node.func, "id", "") == "check"
+        if ast.literal_eval(node.args[0]) == exercise
+    ]
+    assert len(calls) == 1, f"lesson {lesson.number}: expected one check of {exercise}"
+    return "(" + "".join(ast.unparse(each) + ", " for each in calls[0].args[1:]) + ")"
+
+
+def tried(lesson: Lesson, exercise: str, code: str) -> Verdict:
+    """What the check says of code in the exercise's cell."""
+    names: dict[str, Any] = {"__name__": "__main__"}
+    for number, cell in enumerate(lesson.cells):
+        if SETUP in cell.tags:
+            run(cell, names, f"<setup {lesson.number}:{number}>")
+    try:
+        run(Cell(code), names, f"<exercise {exercise}>")
+        things = eval(handed_in(lesson, exercise), names)  # noqa: S307 - the course's own
+    except Exception as error:
+        raise AssertionError(f"{exercise}: the cell itself must run; {error!r}") from error
+    return judge(find(exercise), *things)
