@@ -28,7 +28,8 @@ class SceneVecEnv(VecEnv):  # type: ignore[misc]  # seen without its types
     Args:
         scene: a name out of the library, a YAML file, or a Scene.
         num_envs: how many worlds.
-        observation: ``"flat"`` for MlpPolicy, ``"dict"`` for MultiInputPolicy.
+        observation: ``"flat"`` for MlpPolicy, ``"dict"`` for MultiInputPolicy, ``"image"`` for
+            CnnPolicy.
         agent: the id of the agent that learns.
         render_mode: None or ``"rgb_array"``.
     """

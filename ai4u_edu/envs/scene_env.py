@@ -34,7 +34,8 @@ class SceneEnv(gymnasium.Env[Any, Any]):
 
     Args:
         scene: a name out of the library, a YAML file, or a :class:`Scene`.
-        observation: ``"dict"``: by perception key; ``"flat"``: one float32 array.
+        observation: ``"dict"``: by perception key; ``"flat"``: one float32 array; ``"image"``: the
+            picture of the only sensor, uint8, for policies that look at pictures.
         agent: the id of the agent that learns; left out, the one that acts first.
         render_mode: ``"rgb_array"``: drawn without a browser; ``"human"``: serves the page
             (``page_url``), at the pace of the wall clock.
@@ -73,6 +74,7 @@ class SceneEnv(gymnasium.Env[Any, Any]):
         self._output = next(iter(outputs_of(self.agent)))
         self._one_output = not isinstance(self.action_space, gymnasium.spaces.Dict)
         self._goal = self.scene.description.success
+        self._ledger = self.agent.ledger
         self.render_mode = render_mode
         ticks = self.sim.world.settings.ticks_per_second
         fps = max(1, round(ticks / (self._brain.skip_frame + 1)))
@@ -94,7 +96,7 @@ class SceneEnv(gymnasium.Env[Any, Any]):
     def success(self) -> bool:
         """Whether the scene's goal was reached in this episode."""
         goal = self._goal
-        return goal is not None and self.agent.ledger.episode_terms.get(goal, 0.0) > 0
+        return goal is not None and self._ledger.episode_terms.get(goal, 0.0) > 0
 
     def reset(
         self, *, seed: int | None = None, options: dict[str, Any] | None = None
@@ -144,4 +146,4 @@ class SceneEnv(gymnasium.Env[Any, Any]):
         self._np_random, self._np_random_seed = seeds.generator, seeds.seed
 
     def _info(self) -> dict[str, Any]:
-        return {"reward_terms": self.agent.ledger.terms.copy(), "success": self.success}
+        return {"reward_terms": self._ledger.terms.copy(), "success": self.success}

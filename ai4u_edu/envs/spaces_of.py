@@ -9,9 +9,11 @@ from gymnasium import spaces
 
 from ai4u_edu.agent import BasicAgent
 from ai4u_edu.blocks import Actuator, Percept, Sensor
-from ai4u_edu.errors import SetupError
+from ai4u_edu.errors import SetupError, suggest
 
 Observation = Any
+
+FORMS = ("dict", "flat", "image")
 
 _FLOAT = np.dtype(np.float32)
 
@@ -21,12 +23,16 @@ class Observer:
 
     Args:
         agent: whose sensors; those with ``is_input`` are observed.
-        form: ``"dict"`` for one entry a sensor, ``"flat"`` for one array of float32.
+        form: ``"dict"`` for one entry a sensor, ``"flat"`` for one array of float32, ``"image"``
+            for the picture of the only sensor, (height, width, channels) uint8.
     """
 
     def __init__(self, agent: BasicAgent, form: str) -> None:
-        if form not in ("dict", "flat"):
-            raise SetupError(f"observation: expected 'dict' or 'flat', got {form!r}")
+        if form not in FORMS:
+            raise SetupError(
+                f"observation: expected one of {', '.join(FORMS)}, got {form!r}; "
+                f"{suggest(form, FORMS)}"
+            )
         sensors = [sensor for sensor in agent.fitting.sensors if sensor.is_input]
         if not sensors:
             raise SetupError(
@@ -35,7 +41,10 @@ class Observer:
         self.flat = form == "flat"
         self._keys = [sensor.perception_key for sensor in sensors]
         each = {sensor.perception_key: _space_of(sensor) for sensor in sensors}
-        self.space: spaces.Space[Any] = _flattened(each) if self.flat else spaces.Dict(each)
+        self.image = _only_picture(agent, each) if form == "image" else ""
+        self.space: spaces.Space[Any] = (
+            each[self.image] if self.image else _flattened(each) if self.flat else spaces.Dict(each)
+        )
         slots = agent.fitting.layout.slots
         self._slots = {key: slots[key] for key in self._keys if key in slots}
         floats = [slot for slot in self._slots.values() if slot.dtype == np.float32]
@@ -44,6 +53,8 @@ class Observer:
 
     def observe(self, percept: Percept) -> Observation:
         """A new observation; nothing in it is shared with the percept."""
+        if self.image:
+            return _own(percept[self.image])
         if not self.flat:
             return {key: _own(percept[key]) for key in self._keys}
         if self._run:
@@ -58,6 +69,8 @@ class Observer:
             batch: as Gymnasium's ``create_empty_array`` makes it of :attr:`space`.
             index: which row.
         """
+        if self.image:
+            batch = {self.image: batch}
         copies, others = self._copies(batch, index), []
         if not self.flat:
             others = [key for key in self._keys if key not in copies]
@@ -102,6 +115,23 @@ def outputs_of(agent: BasicAgent) -> dict[str, Actuator]:
     if not found:
         raise SetupError(f"agent {agent.id!r} has no actuator for a policy to drive (is_output)")
     return found
+
+
+def _only_picture(agent: BasicAgent, each: dict[str, spaces.Space[Any]]) -> str:
+    """The key of the one sensor that is observed, which has to be a picture."""
+    if len(each) > 1:
+        raise SetupError(
+            f"observation='image': expected one sensor that is observed, a picture; agent "
+            f"{agent.id!r} has {sorted(each)}; set is_input to False on the others, or take "
+            "observation='dict'"
+        )
+    ((key, space),) = each.items()
+    if not isinstance(space, spaces.Box) or len(space.shape) != 3 or space.dtype != np.uint8:
+        raise SetupError(
+            f"observation='image': expected a picture (height, width, channels) of whole numbers "
+            f"0..255, got {key!r}: {space}; a LocalGridSensor with normalized False gives one"
+        )
+    return key
 
 
 def _space_of(sensor: Sensor) -> spaces.Space[Any]:

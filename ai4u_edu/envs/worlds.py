@@ -37,6 +37,8 @@ class Worlds:
         self.observations: Any = create_empty_array(one.observation_space, count)
         self.rewards = np.zeros(count)
         self.terminated, self.truncated = np.zeros(count, np.bool_), np.zeros(count, np.bool_)
+        self._agents = [env.agent for env in self.envs]
+        self._ledgers = [agent.ledger for agent in self._agents]
         self._write = [
             env.observer.writer(self.observations, index) for index, env in enumerate(self.envs)
         ]
@@ -56,19 +58,16 @@ class Worlds:
         """
         rows = actions if isinstance(actions, np.ndarray) else iterate(self.action_space, actions)
         over = [False] * len(self.envs) if resting is None else resting.tolist()
-        rewards, terminated, truncated = [], [], []
         for env, write, row, rests in zip(self.envs, self._write, rows, over, strict=True):
-            agent = env.agent
             if rests:
                 env.reset()
-                write(agent.percept)
+                write(env.agent.percept)
             else:
                 write(env.decide(row))
-            rewards.append(agent.ledger.total)
-            terminated.append(agent.terminated)
-            truncated.append(agent.truncated)
-        self.rewards = np.array(rewards, np.float64)
-        self.terminated, self.truncated = np.array(terminated), np.array(truncated)
+        agents = self._agents
+        self.rewards = np.array([ledger.total for ledger in self._ledgers])
+        self.terminated = np.array([agent.terminated for agent in agents])
+        self.truncated = np.array([agent.truncated for agent in agents])
 
     def told(self) -> Any:
         """A copy of the observations."""
@@ -85,20 +84,27 @@ class Worlds:
         Args:
             mask: which worlds are told of; left out, all.
         """
-        told = np.ones(len(self.envs), np.bool_) if mask is None else np.array(mask, np.bool_)
-        envs = self.envs
-        terms = [
-            env.agent.ledger.terms if known else {}
-            for env, known in zip(envs, told.tolist(), strict=True)
-        ]
-        paid: dict[str, Any] = {}
-        for name in dict.fromkeys(name for each in terms for name in each):
-            paid[name] = np.array([each.get(name, 0.0) for each in terms])
-            paid[f"_{name}"] = np.array([name in each for each in terms])
-        success = [env.success and known for env, known in zip(envs, told.tolist(), strict=True)]
+        terms = [ledger.terms for ledger in self._ledgers]
+        success = np.array([env.success for env in self.envs])
+        told = np.ones(len(terms), np.bool_)
+        if mask is not None:
+            told[:] = mask
+            success &= told
+            terms = [
+                each if known else {} for each, known in zip(terms, told.tolist(), strict=True)
+            ]
+        names, paid = terms[0].keys(), {}
+        if all(each.keys() == names for each in terms):  # always, but where an episode begins
+            for name in names:
+                paid[name] = np.array([each[name] for each in terms])
+                paid[f"_{name}"] = told.copy()
+        else:
+            for name in dict.fromkeys(name for each in terms for name in each):
+                paid[name] = np.array([each.get(name, 0.0) for each in terms])
+                paid[f"_{name}"] = np.array([name in each for each in terms])
         return {
             "reward_terms": paid,
             "_reward_terms": told,
-            "success": np.array(success),
+            "success": success,
             "_success": told.copy(),
         }

@@ -8,8 +8,10 @@ from ai4u_edu.world.descriptions import (
     RegionDescription,
     WorldSettings,
 )
-from ai4u_edu.world.rays import RayFan, RayGrid
+from ai4u_edu.world.ray_grid import RayGrid
+from ai4u_edu.world.rays import RayFan
 from ai4u_edu.world.region import Region
+from ai4u_edu.world.renovate import Pose, arrange, bring_in, rework
 from ai4u_edu.world.shapes import (
     BoxShape,
     CapsuleShape,
@@ -32,6 +34,7 @@ __all__ = [
     "CircleShape",
     "FloorDescription",
     "PolygonShape",
+    "Pose",
     "RayFan",
     "RayGrid",
     "Region",
@@ -42,4 +45,7 @@ __all__ = [
     "World",
     "WorldSettings",
     "WorldView",
+    "arrange",
+    "bring_in",
+    "rework",
 ]

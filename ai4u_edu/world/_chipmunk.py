@@ -1,93 +1,30 @@
-"""The one place that touches pymunk's private parts: rays, motion and ticks without an object each.
+"""Pymunk's private parts: motion and ticks without an object each; rays are beside, in _segments.
 
 Everything here has a twin in pymunk's public interface, which is used where the private one is
 not as expected, and gives exactly the same numbers.
 """
 
+import ctypes
 from collections.abc import Callable
 from functools import partial
 from operator import attrgetter
 from typing import Any, NamedTuple
 
-import numpy as np
-import numpy.typing as npt
 import pymunk
 
-try:
-    from pymunk._chipmunk_cffi import ffi, lib
+from ai4u_edu.world._compiled import library
 
-    _FAST = (
+try:
+    from pymunk._chipmunk_cffi import ffi as ffi
+    from pymunk._chipmunk_cffi import lib as lib
+
+    FAST = (
         all(hasattr(lib, name) for name in ("cpSpaceSegmentQueryFirst", "cpSpaceStep"))
         and ffi.sizeof("cpSegmentQueryInfo") == 48
     )
 except ImportError:  # pragma: no cover - another pymunk than the pinned one
     ffi = lib = None
-    _FAST = False
-
-_HIT = np.dtype(
-    [("shape", "u8"), ("px", "f8"), ("py", "f8"), ("nx", "f8"), ("ny", "f8"), ("alpha", "f8")]
-)
-
-
-class Segments:
-    """Casts n segments that start at one point and tells what each meets first.
-
-    Args:
-        count: how many segments.
-        fast: None for the fastest way there is; False for the public interface.
-
-    Attributes:
-        ends: (n, 2) float64, where each segment ends; written by the caller, metres.
-        alpha: (n,) float64, the share of each segment up to what it meets; 1 for nothing.
-    """
-
-    def __init__(self, count: int, *, fast: bool | None = None) -> None:
-        self._fast = _FAST if fast is None else fast
-        self._shapes: list[int] = [0] * count
-        self.ends: npt.NDArray[np.float64]
-        self.alpha: npt.NDArray[np.float64]
-        if self._fast:
-            self._end_memory = ffi.new("cpVect[]", count)
-            self._hit_memory = ffi.new("cpSegmentQueryInfo[]", count)
-            self.ends = np.frombuffer(ffi.buffer(self._end_memory), np.float64).reshape(count, 2)
-            self._hits = np.frombuffer(ffi.buffer(self._hit_memory), _HIT)
-            self.alpha = self._hits["alpha"]
-            self._start = ffi.new("cpVect *")[0]
-            self._filter = ffi.new("cpShapeFilter *")[0]
-            self._accept: pymunk.ShapeFilter | None = None
-            self._first = lib.cpSpaceSegmentQueryFirst
-            self._pairs = [(self._end_memory[i], self._hit_memory + i) for i in range(count)]
-        else:
-            self.ends = np.zeros((count, 2))
-            self.alpha = np.ones(count)
-
-    def cast(self, space: pymunk.Space, x: float, y: float, accept: pymunk.ShapeFilter) -> None:
-        """Fills ``alpha``, and what :meth:`shapes` tells."""
-        if not self._fast:
-            self._cast_publicly(space, x, y, accept)
-            return
-        chosen = self._filter
-        if accept is not self._accept:  # turned into Chipmunk's form once, not for each ray
-            self._accept = accept
-            chosen.group, chosen.categories, chosen.mask = accept
-        start, handle, first = self._start, space._space, self._first
-        start.x, start.y = x, y
-        for end, hit in self._pairs:
-            first(handle, start, end, 0.0, chosen, hit)
-
-    def shapes(self) -> list[int]:
-        """What each met at the last cast, as :func:`shape_key` names it; 0 for nothing."""
-        return self._hits["shape"].tolist() if self._fast else self._shapes
-
-    def _cast_publicly(
-        self, space: pymunk.Space, x: float, y: float, accept: pymunk.ShapeFilter
-    ) -> None:
-        keys = []
-        for i, (end_x, end_y) in enumerate(self.ends.tolist()):
-            hit = space.segment_query_first((x, y), (end_x, end_y), 0.0, accept)
-            self.alpha[i] = 1.0 if hit is None else hit.alpha
-            keys.append(0 if hit is None else shape_key(hit.shape, fast=False))
-        self._shapes = keys
+    FAST = False
 
 
 class _Vector:
@@ -145,7 +82,7 @@ QUICK = (
         set_angular_velocity=lib.cpBodySetAngularVelocity,
         push=lib.cpBodyApplyForceAtLocalPoint,
     )
-    if _FAST
+    if FAST
     else PUBLIC
 )
 """The fastest way there is."""
@@ -157,7 +94,7 @@ def stepper(space: pymunk.Space, dt: float) -> Callable[[], None]:
     pymunk's own also checks masses, which descriptions have done, and lets collision handlers add
     and remove things, which ours don't.
     """
-    return partial(lib.cpSpaceStep, space._space, dt) if _FAST else partial(space.step, dt)
+    return partial(lib.cpSpaceStep, space._space, dt) if FAST else partial(space.step, dt)
 
 
 def let_go(space: pymunk.Space) -> None:
@@ -171,9 +108,22 @@ def let_go(space: pymunk.Space) -> None:
         handler._space = None
 
 
-def shape_key(shape: pymunk.Shape, *, fast: bool | None = None) -> int:
-    """The number by which :class:`Segments` names a shape."""
-    if _FAST if fast is None else fast:
+def shape_key(shape: pymunk.Shape) -> int:
+    """The number by which a ray names the shape that it met."""
+    if FAST:
         pointer: Any = shape._shape
         return int(ffi.cast("uintptr_t", pointer))
     return id(shape)
+
+
+def c_function(name: str, form: str) -> Any:
+    """A function of the compiled part, to be called through cffi; None where there is none.
+
+    Args:
+        name: as in rays.c.
+        form: its type, as ``"void (*)(void *)"``.
+    """
+    made = library() if FAST else None
+    if made is None:
+        return None
+    return ffi.cast(form, ctypes.cast(getattr(made, name), ctypes.c_void_p).value)

@@ -1,6 +1,7 @@
 """From descriptions to pymunk's objects."""
 
 import math
+from collections.abc import Sequence
 
 import pymunk
 
@@ -19,6 +20,9 @@ Corner = tuple[float, float]
 
 HAIR = 1e-9
 """Half the thickness of the core of a stick, metres; what it is rounded with makes up the rest."""
+
+_AS_IT_IS = pymunk.Transform.identity()
+"""The transform of a polygon's corners; pymunk would make one anew for each."""
 
 KINDS = {
     "static": pymunk.Body.STATIC,
@@ -40,8 +44,11 @@ def build(body: Body, space: pymunk.Space, group: int) -> None:
     pm.position = description.position
     pm.angle = math.radians(description.heading_deg)
     if description.kind != "static":
-        pm.velocity = description.velocity
-        pm.angular_velocity = math.radians(description.angular_velocity_deg)
+        # a new body rests
+        if description.velocity != (0.0, 0.0):
+            pm.velocity = description.velocity
+        if description.angular_velocity_deg:
+            pm.angular_velocity = math.radians(description.angular_velocity_deg)
     shape = make_shape(description.shape, pm)
     dress(shape, description, group)
     if description.kind == "dynamic":
@@ -54,13 +61,19 @@ def make_shape(
     shape: BodyShape, pm: pymunk.Body | None, more: float = 0.0
 ) -> pymunk.Circle | pymunk.Poly:
     """The pymunk shape of a description, with ``more`` metres all around it."""
+    if isinstance(shape, CircleShape):
+        return pymunk.Circle(pm, shape.radius + more)
+    corners, radius = core(shape)
+    return pymunk.Poly(pm, corners, _AS_IT_IS, radius + more)
+
+
+def core(shape: BodyShape) -> tuple[Sequence[Corner], float]:
+    """The corners in the middle of a shape, and the radius that rounds what they span to it."""
     match shape:
         case CircleShape():
-            return pymunk.Circle(pm, shape.radius + more)
-        case BoxShape():
-            return pymunk.Poly(pm, shape.outline(), radius=more)
-        case PolygonShape():
-            return pymunk.Poly(pm, shape.vertices, radius=more)
+            return [(0.0, 0.0)], shape.radius
+        case BoxShape() | PolygonShape():
+            return shape.outline(), 0.0
         case _:
             # a polygon with a radius, not a Segment: of a ray that comes in through a Segment's
             # round end and leaves through its side, pymunk tells where it leaves; as thin as a
@@ -69,7 +82,7 @@ def make_shape(
             length = math.dist(a, b)
             x, y = HAIR * (a[1] - b[1]) / length, HAIR * (b[0] - a[0]) / length
             corners = [(px + s * x, py + s * y) for (px, py) in (a, b) for s in (1, -1)]
-            return pymunk.Poly(pm, corners, radius=max(radius - HAIR, 0.0) + more)
+            return corners, max(radius - HAIR, 0.0)
 
 
 def _ends(shape: CapsuleShape | SegmentShape) -> tuple[Corner, Corner, float]:
@@ -96,7 +109,8 @@ def _give_mass(pm: pymunk.Body, shape: pymunk.Shape, description: BodyDescriptio
 def dress(shape: pymunk.Shape, description: BodyDescription, group: int) -> None:
     """Gives a shape its material and its filter."""
     shape.friction = description.friction
-    shape.elasticity = description.elasticity
+    if description.elasticity:  # a new shape has none
+        shape.elasticity = description.elasticity
     shape.filter = pymunk.ShapeFilter(
         group=group,
         categories=description.collision_layer,

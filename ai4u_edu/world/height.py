@@ -9,11 +9,14 @@ from typing import TYPE_CHECKING, Any
 
 import pymunk
 
+from ai4u_edu.world._chipmunk import QUICK
 from ai4u_edu.world.ground import SAME, Ground
 
 if TYPE_CHECKING:
     from ai4u_edu.world.body import Body
     from ai4u_edu.world.world import World
+
+_place = QUICK.place  # each mover is asked at each tick
 
 
 class Height:
@@ -69,7 +72,9 @@ class Height:
     def _mark(self, body: "Body", on_ground: bool) -> None:
         """Puts a body on the ground or into the air, and among those to look at if need be."""
         body.on_ground = on_ground
-        body._pm.velocity_func = pymunk.Body.update_velocity if on_ground else _fly
+        moved_by = pymunk.Body.update_velocity if on_ground else _fly
+        if body._pm.velocity_func is not moved_by:
+            body._pm.velocity_func = moved_by
         if body.moves and (self._ground.floors or body.z != 0.0 or not on_ground):
             self.movers[body] = None
         else:
@@ -94,8 +99,8 @@ class Height:
 
     def _stands(self, body: "Body") -> bool:
         """Whether something bears a body right below its centre; the floor is asked first."""
-        z = body.z
-        return self.ground(*body.position, z) == z or self._support(body, z) == z
+        z, place = body.z, _place(body._handle)
+        return self.ground(place.x, place.y, z) == z or self._support(body, z) == z
 
     def _support(self, body: "Body", below: float) -> float | None:
         """The highest top under a centre, of floors and bodies, that is not above ``below``."""

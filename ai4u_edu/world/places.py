@@ -1,35 +1,114 @@
 """Where things are, and where there is room for one more."""
 
 import math
-from typing import Any, NamedTuple, TypeVar
+from functools import cached_property
+from typing import Any, TypeVar
 
 import numpy as np
 import pymunk
 
 from ai4u_edu.errors import WorldError
 from ai4u_edu.seeding import Seeds
-from ai4u_edu.world.build import dress, make_shape
+from ai4u_edu.world.build import core, dress, make_shape
 from ai4u_edu.world.descriptions import AreaDescription, BodyDescription, FloorDescription
 from ai4u_edu.world.ground import Ground
 from ai4u_edu.world.overlap import overlap
 from ai4u_edu.world.region import Region
-from ai4u_edu.world.shapes import CircleShape, RingShape
+from ai4u_edu.world.shapes import BodyShape, CircleShape, RingShape
 from ai4u_edu.world.variation import Variation
 
 TRIES = 1000
 """So many draws a thing gets: where a fiftieth of them is free, one episode in 10^8 fails."""
 
+SLACK = 1e-6
+"""What a rectangle around a form is wider than the form itself, metres: more than any rounding."""
+
 Thing = BodyDescription | FloorDescription | AreaDescription
 Some = TypeVar("Some", bound=Thing)
 
 
-class _Form(NamedTuple):
-    """A thing's shape in its place, and from which height to which it reaches."""
+class _Form:
+    """What something takes up in its place.
 
-    pm: pymunk.Body
-    shape: pymunk.Shape
-    low: float
-    high: float
+    Args:
+        thing: as it is described.
+        shape: its own; of a ring, the disc: what is in its middle is taken up too.
+        more: so many metres are added all around that.
+        heights: from which one it reaches to which.
+        rectangle: (left, bottom, right, top) around it all, upright; it may be a bit too large.
+    """
+
+    def __init__(
+        self,
+        thing: BodyDescription | AreaDescription,
+        shape: BodyShape,
+        more: float,
+        heights: tuple[float, float],
+        rectangle: tuple[float, float, float, float],
+    ) -> None:
+        self._thing, self._shape, self._more = thing, shape, more
+        self.low, self.high = heights
+        self.left, self.bottom, self.right, self.top = rectangle
+
+    def grown(self, more: float) -> "_Form":
+        """The same with so many metres more all around it, in the plane."""
+        if not more:
+            return self
+        rectangle = self.left - more, self.bottom - more, self.right + more, self.top + more
+        return _Form(self._thing, self._shape, more, (self.low, self.high), rectangle)
+
+    def near(self, other: "_Form") -> bool:
+        """Whether the two may meet: whether the rectangles around them do, and their heights."""
+        return (
+            self.left <= other.right
+            and other.left <= self.right
+            and self.bottom <= other.top
+            and other.bottom <= self.top
+            and self.low < other.high
+            and other.low < self.high
+        )
+
+    @cached_property
+    def solid(self) -> tuple[pymunk.Body, pymunk.Shape]:
+        """The same for pymunk; made only for what something comes near to, which is seldom."""
+        thing = self._thing
+        pm = pymunk.Body(body_type=pymunk.Body.STATIC)
+        pm.position = thing.position
+        pm.angle = math.radians(thing.heading_deg)
+        shape = make_shape(self._shape, pm, self._more)
+        if isinstance(thing, BodyDescription):
+            dress(shape, thing, group=0)
+        return pm, shape
+
+
+class _Taken:
+    """Forms that have their place, each with a few words for it."""
+
+    def __init__(self) -> None:
+        self._forms: list[tuple[_Form, str]] = []
+        self._solid: dict[pymunk.Shape, tuple[_Form, str]] = {}
+        self._space: pymunk.Space | None = None
+
+    def keep(self, form: _Form, words: str) -> None:
+        """Adds one."""
+        self._forms.append((form, words))
+
+    def met_by(self, form: _Form) -> str:
+        """The words for one that another form overlaps; empty if there is none."""
+        near = [kept for kept in self._forms if form.near(kept[0])]
+        if not near:
+            return ""
+        space = self._space = self._space or pymunk.Space()
+        for kept in near:
+            if kept[0].solid[1] not in self._solid:
+                space.add(*kept[0].solid)
+                self._solid[kept[0].solid[1]] = kept
+        pm, shape = form.solid
+        for hit in space.shape_query(shape):
+            other, words = self._solid[hit.shape]
+            if form.near(other) and overlap(shape, pm, hit, other.solid[0]):
+                return words
+        return ""
 
 
 class Places:
@@ -42,20 +121,14 @@ class Places:
     def __init__(self, seed: int) -> None:
         self._seeds = Seeds(seed)
         self._ground = Ground()
-        self._bodies = pymunk.Space()
-        self._kept_free = pymunk.Space()
-        self._taken: dict[pymunk.Shape, tuple[_Form, str]] = {}
+        self._bodies, self._kept_free = _Taken(), _Taken()
 
     def take(self, thing: Thing, clearance: float = 0.0) -> None:
         """From now on something is where its description says, and keeps so much around it free."""
         if isinstance(thing, FloorDescription):
             self._ground = Ground([*self._ground.floors, (thing.top, Region(thing))])
-            return
-        if isinstance(thing, BodyDescription):
-            self._keep(self._bodies, self._form(thing), f"body {thing.name!r}")
-        if clearance:
-            words = f"the clearance of {thing.name!r}"
-            self._keep(self._kept_free, self._form(thing, clearance), words)
+        else:
+            self._keep(thing, self._form(thing), clearance)
 
     def find(self, described: Some) -> Some:
         """Draws something until it has a free place, and takes that.
@@ -71,60 +144,52 @@ class Places:
         in_the_way: dict[str, int] = {}
         for _ in range(TRIES):
             drawn = draw(described, vary, chance)
-            words = self._in_the_way(drawn, vary.clearance)
+            if isinstance(drawn, FloorDescription):
+                self.take(drawn)
+                return drawn
+            form = self._form(drawn)
+            words = self._in_the_way(drawn, form, vary.clearance)
             if not words:
-                self.take(drawn, vary.clearance)
+                self._keep(drawn, form, vary.clearance)
                 return drawn
             in_the_way[words] = in_the_way.get(words, 0) + 1
         raise self._no_place(described, vary, in_the_way)
 
-    def _in_the_way(self, thing: Thing, clearance: float) -> str:
+    def _in_the_way(
+        self, thing: BodyDescription | AreaDescription, form: _Form, clearance: float
+    ) -> str:
         """Why something can't be where it is described, in a few words; empty if it can."""
-        if isinstance(thing, FloorDescription):
-            return ""
         if isinstance(thing, AreaDescription):
-            return self._met(self._bodies, self._form(thing, clearance)) if clearance else ""
-        form = self._form(thing)
+            return self._bodies.met_by(form.grown(clearance)) if clearance else ""
         return (
-            self._met(self._bodies, self._form(thing, clearance) if clearance else form)
-            or self._met(self._kept_free, form)
+            self._bodies.met_by(form.grown(clearance))
+            or self._kept_free.met_by(form)
             or ("" if self._stands(thing, form) else "the end of the floor")
         )
 
-    def _met(self, space: pymunk.Space, form: _Form) -> str:
-        for hit in space.shape_query(form.shape):
-            other, words = self._taken[hit.shape]
-            level = form.low < other.high and other.low < form.high
-            if level and overlap(form.shape, form.pm, hit, other.pm):
-                return words
-        return ""
+    def _keep(
+        self, thing: BodyDescription | AreaDescription, form: _Form, clearance: float
+    ) -> None:
+        if isinstance(thing, BodyDescription):
+            self._bodies.keep(form, f"body {thing.name!r}")
+        if clearance:
+            self._kept_free.keep(form.grown(clearance), f"the clearance of {thing.name!r}")
 
     def _stands(self, body: BodyDescription, form: _Form) -> bool:
         """Whether a floor bears a body's centre, and reaches as far as the body does."""
         if not self._ground.floors:
             return True
         top = self._ground.at(*body.position, math.inf if body.z is None else body.z)
-        corners = map(form.pm.local_to_world, body.shape.outline())
+        corners = map(form.solid[0].local_to_world, body.shape.outline())
         return top is not None and all(self._ground.at(*each, top) == top for each in corners)
 
-    def _form(self, thing: BodyDescription | AreaDescription, more: float = 0.0) -> _Form:
-        """What something takes up, with so many metres more all around it."""
-        pm = pymunk.Body(body_type=pymunk.Body.STATIC)
-        pm.position = thing.position
-        pm.angle = math.radians(thing.heading_deg)
-        outline = thing.shape
-        if isinstance(outline, RingShape):  # what is in its middle is kept free too
-            outline = CircleShape(radius=outline.outer)
-        shape = make_shape(outline, pm, more)
-        if isinstance(thing, AreaDescription):
-            return _Form(pm, shape, -math.inf, math.inf)
-        dress(shape, thing, group=0)
-        z = (self._ground.at(*thing.position) or 0.0) if thing.z is None else thing.z
-        return _Form(pm, shape, z, z + thing.height)
-
-    def _keep(self, space: pymunk.Space, form: _Form, words: str) -> None:
-        space.add(form.pm, form.shape)
-        self._taken[form.shape] = form, words
+    def _form(self, thing: BodyDescription | AreaDescription) -> _Form:
+        heights, outline = (-math.inf, math.inf), thing.shape
+        if isinstance(thing, BodyDescription):
+            z = (self._ground.at(*thing.position) or 0.0) if thing.z is None else thing.z
+            heights = z, z + thing.height
+        shape = CircleShape(radius=outline.outer) if isinstance(outline, RingShape) else outline
+        return _Form(thing, shape, 0.0, heights, _around(thing, shape))
 
     def _no_place(self, thing: Thing, vary: Variation, found: dict[str, int]) -> WorldError:
         most = sorted(found.items(), key=lambda each: -each[1])[:3]
@@ -138,20 +203,36 @@ class Places:
         )
 
 
+def _around(thing: Thing, shape: BodyShape) -> tuple[float, float, float, float]:
+    """The upright rectangle around a shape in a thing's place, a bit too large."""
+    corners, radius = core(shape)
+    (x, y), heading, more = thing.position, math.radians(thing.heading_deg), radius + SLACK
+    cos, sin = math.cos(heading), math.sin(heading)
+    xs = [cos * cx - sin * cy for cx, cy in corners]
+    ys = [sin * cx + cos * cy for cx, cy in corners]
+    return x + min(xs) - more, y + min(ys) - more, x + max(xs) + more, y + max(ys) + more
+
+
 def draw(described: Some, vary: Variation, chance: np.random.Generator) -> Some:
     """A thing with what is random in it drawn once."""
     x, y = described.position
     if vary.places:
         x, y = vary.places[int(chance.integers(len(vary.places)))]
     if vary.x:
-        x = float(chance.uniform(*vary.x))
+        x = _between(vary.x, chance)
     if vary.y:
-        y = float(chance.uniform(*vary.y))
+        y = _between(vary.y, chance)
     fresh: dict[str, Any] = {"position": (x, y), "random": None}
     if vary.heading_deg:
-        fresh["heading_deg"] = float(chance.uniform(*vary.heading_deg))
+        fresh["heading_deg"] = _between(vary.heading_deg, chance)
     if vary.scale:
-        fresh["shape"] = described.shape.scaled(float(chance.uniform(*vary.scale)))
+        fresh["shape"] = described.shape.scaled(_between(vary.scale, chance))
     drawn: Any = described.model_copy(update=fresh)  # of the same kind, which mypy can't follow
     found: Some = drawn
     return found
+
+
+def _between(limits: tuple[float, float], chance: np.random.Generator) -> float:
+    # the numbers of Generator.uniform, which takes three times as long
+    low, high = limits
+    return low + (high - low) * chance.random()

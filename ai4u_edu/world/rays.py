@@ -1,8 +1,7 @@
 """Rays: what lies in which direction, and how far.
 
-Two forms, both cast from an eye on a body: a flat fan (one ray a direction, level with the eye)
-and a grid in perspective (rows at different pitches), which asks the plane once for each column
-and finds out the rows from heights.
+Two forms, both cast from an eye on a body: a flat fan (one ray a direction, level with the eye),
+and, in ray_grid.py, a grid in perspective.
 """
 
 import math
@@ -12,9 +11,10 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 import numpy.typing as npt
 import pymunk
-from numpy import add, fmod, multiply
+from numpy import multiply
 
-from ai4u_edu.world._chipmunk import QUICK, Segments, shape_key
+from ai4u_edu.world._chipmunk import QUICK, shape_key
+from ai4u_edu.world._segments import segments
 from ai4u_edu.world.body import BodyView
 from ai4u_edu.world.region import Region
 
@@ -29,13 +29,6 @@ CodeOf = Callable[[Sequence[str]], float]
 GROUND_TAGS = ("floor",)
 """The tags of the endless ground of a world without floors."""
 
-LEVEL = 1e-9
-"""A slope less than this meets no floor within any reach."""
-
-NOWHERE = math.inf, -math.inf
-"""From where to where nothing reaches upwards."""
-
-_WHOLE = np.ones(())
 _place, _angle = QUICK.place, QUICK.angle
 
 
@@ -49,7 +42,7 @@ class Obstacle(NamedTuple):
     code: float
 
 
-class _Caster:
+class Caster:
     """What the fan and the grid share: directions, codes, and the first hit of each direction."""
 
     def __init__(
@@ -69,7 +62,7 @@ class _Caster:
         self._mask, self._exclude_self = mask, exclude_self
         self._code_of = code_of
         self._miss = code_of(())
-        self._segments = Segments(len(self.angles))
+        self._segments = segments(len(self.angles))
         self._learnt = -1
         self._looker: BodyView | None = None
         self._codes: dict[int, float] = {}
@@ -84,12 +77,11 @@ class _Caster:
         # a pair (x, y) side by side is a complex number, and to turn it is to multiply;
         # for numpy, an array of one number is half the work of a number
         self._spokes = np.cos(self.angles) + 1j * np.sin(self.angles)
-        self._turned = self._spokes.copy()
-        self._ends = self._segments.ends.view(np.complex128)[:, 0]
-        self._reach = np.zeros(())
-        self._turn, self._start = np.zeros((), np.complex128), np.zeros((), np.complex128)
-        self.directions = self._turned.view(np.float64).reshape(-1, 2)
+        self._turn = np.zeros((), np.complex128)
+        self.directions = self._segments.directions
         """Where each column looked at the last cast: unit vectors, world frame."""
+        self._turned = self.directions.view(np.complex128)[:, 0]
+        self._turned[:] = self._spokes
 
     def _aim(self, body: BodyView, reach: float) -> None:
         """Turns the directions with the body and finds what each meets first in the plane."""
@@ -101,12 +93,9 @@ class _Caster:
         if forward or left:
             x, y = x + cos * forward - sin * left, y + sin * forward + cos * left
         self.origin = x, y, body.z + up
-        self._turn[()], self._reach[()], self._start[()] = complex(cos, sin), reach, complex(x, y)
-        ends = self._ends
+        self._turn[()] = complex(cos, sin)
         multiply(self._spokes, self._turn, self._turned)
-        multiply(self._turned, self._reach, ends)
-        add(ends, self._start, ends)
-        self._segments.cast(self._world.space, x, y, self._filter)
+        self._segments.cast(self._world.space, x, y, reach, self._filter)
 
     def _learn(self, body: BodyView) -> None:
         """Looks up the codes of everything, once for each build of the world."""
@@ -141,7 +130,8 @@ class _Caster:
     def _cut(self, column: int, reach: float) -> list[Obstacle]:
         """Everything in one column within reach, whatever its height, nearest first."""
         x, y, _ = self.origin
-        end_x, end_y = self._segments.ends[column].tolist()
+        dx, dy = self.directions[column].tolist()
+        end_x, end_y = dx * reach + x, dy * reach + y
         obstacles = []
         for hit in self._world.space.segment_query((x, y), (end_x, end_y), 0.0, self._filter):
             owner = self._world.owners[hit.shape]
@@ -159,7 +149,7 @@ class _Caster:
         return sorted(obstacles)
 
 
-class RayFan(_Caster):
+class RayFan(Caster):
     """A flat fan: one level ray in each direction.
 
     Attributes:
@@ -178,7 +168,7 @@ class RayFan(_Caster):
         exclude_self: bool = True,
     ) -> None:
         super().__init__(world, angles, reach, code_of, eye, mask, exclude_self)
-        self.distances: Floats = np.zeros(len(self.angles))
+        self.distances: Floats = self._segments.distances
         self._codes_met: Floats = np.zeros(len(self.angles))
         self._codes_known = True
 
@@ -189,10 +179,6 @@ class RayFan(_Caster):
             body: where the eye sits; it turns with it.
         """
         self._aim(body, self.reach)
-        # a ray that meets nothing has gone its whole way, and of 1 this leaves 0
-        distances = self.distances
-        fmod(self._segments.alpha, _WHOLE, distances)
-        multiply(distances, self._reach, distances)
         self._codes_known = False
         if not self._simple():
             self._look_at_heights()
@@ -218,110 +204,3 @@ class RayFan(_Caster):
                 if obstacle.low <= level <= obstacle.high:
                     self.codes[column], self.distances[column] = obstacle.code, obstacle.near
                     break
-
-
-class RayGrid(_Caster):
-    """A grid in perspective: m rows at different pitches, n columns at different angles.
-
-    Attributes:
-        codes: (m, n) what each ray met; a floor has its own code, the void the code of nothing.
-        distances: (m, n) metres along the ray; 0 where nothing was met.
-    """
-
-    def __init__(
-        self,
-        world: "World",
-        angles: Sequence[float],
-        pitches: Sequence[float],
-        reach: float,
-        code_of: CodeOf,
-        *,
-        eye: tuple[float, float, float] = (0.0, 0.0, 0.5),
-        mask: int = 0xFFFFFFFF,
-        exclude_self: bool = True,
-    ) -> None:
-        super().__init__(world, angles, reach, code_of, eye, mask, exclude_self)
-        self.pitches = np.asarray(pitches, np.float64)
-        self._slopes = np.tan(self.pitches)
-        steep = np.where(np.abs(self._slopes) > LEVEL, self._slopes, math.nan)
-        self._runs = 1.0 / steep
-        self._cos = np.cos(self.pitches)[:, None]
-        self._reaches = reach * self._cos[:, 0]
-        self._flat_reach = float(self._reaches.max())
-        self.codes: Floats = np.zeros((len(self.pitches), len(self.angles)))
-        self.distances: Floats = np.zeros_like(self.codes)
-
-    def cast(self, body: BodyView) -> None:
-        """Fills ``codes`` and ``distances``.
-
-        Args:
-            body: where the eye sits; it turns with it.
-        """
-        self._aim(body, self._flat_reach)
-        # until the end, the distances are those in the plane, and infinite for nothing
-        codes, flat = self.codes, self.distances
-        codes.fill(self._miss)
-        flat.fill(math.inf)
-        self._look_at_grounds()
-        undecided = self._look_at_firsts()
-        for column in np.flatnonzero(undecided.any(axis=0)).tolist():
-            obstacles = self._cut(column, self._flat_reach)
-            for row in np.flatnonzero(undecided[:, column]).tolist():
-                slope = float(self._slopes[row])
-                for obstacle in obstacles:
-                    at = _meet(obstacle, self.origin[2], slope)
-                    if at < flat[row, column]:
-                        codes[row, column], flat[row, column] = obstacle.code, at
-        beyond = flat > self._reaches[:, None]
-        codes[beyond], flat[beyond] = self._miss, 0.0
-        flat /= self._cos
-
-    def _look_at_grounds(self) -> None:
-        """Enters the floors that the rays meet."""
-        x, y, up = self.origin
-        for top, region, code in self._grounds:
-            at = (top - up) * self._runs
-            rows = np.flatnonzero((at > 0.0) & (at <= self._reaches))
-            if not len(rows):
-                continue
-            far = at[rows, None]
-            met = far < self.distances[rows]
-            if region is not None:
-                met &= region.contains_each(
-                    x + far * self.directions[:, 0], y + far * self.directions[:, 1]
-                )
-            self.distances[rows] = np.where(met, far, self.distances[rows])
-            self.codes[rows] = np.where(met, code, self.codes[rows])
-
-    def _look_at_firsts(self) -> npt.NDArray[np.bool_]:
-        """Enters the rays that end on the side of what stands first in their column.
-
-        Returns:
-            Which rays may meet something else: a top, or what stands behind.
-        """
-        alpha, keys = self._segments.alpha, self._segments.shapes()
-        firsts = [self._bodies.get(key) for key in keys]
-        low, high = np.array(
-            [(first.z, first.z + first.height) if first else NOWHERE for first in firsts]
-        ).T
-        near = alpha * self._flat_reach
-        at_near = self.origin[2] + self._slopes[:, None] * near
-        reached = (near < self.distances) & (alpha < 1.0)
-        on_side = reached & (low <= at_near) & (at_near <= high)
-        self.distances[:] = np.where(on_side, near, self.distances)
-        self.codes[:] = np.where(on_side, [self._codes[key] for key in keys], self.codes)
-        undecided: npt.NDArray[np.bool_] = reached & ~on_side
-        if self._simple():
-            # below the ground there is nothing, and nothing above the highest top
-            undecided &= (at_near > 0.0) & (at_near <= self._highest_top)
-        return undecided
-
-
-def _meet(obstacle: Obstacle, up: float, slope: float) -> float:
-    """How far away in the plane a ray enters an obstacle; infinite if it does not."""
-    near, far, low, high, _ = obstacle
-    if slope == 0.0:
-        return near if low <= up <= high else math.inf
-    a, b = (low - up) / slope, (high - up) / slope
-    enter, leave = max(near, min(a, b)), min(far, max(a, b))
-    return enter if enter <= leave else math.inf

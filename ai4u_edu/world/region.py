@@ -41,6 +41,11 @@ class Region:
         self, x: npt.NDArray[np.float64], y: npt.NDArray[np.float64]
     ) -> npt.NDArray[np.bool_]:
         """The same for many points of the world, given as arrays of one form."""
+        if self._box is not None:
+            a, b = self._box
+            upright: npt.NDArray[np.bool_] = np.abs(x - self.x) * 2 <= a
+            upright &= np.abs(y - self.y) * 2 <= b
+            return upright
         inside: npt.NDArray[np.bool_] = self._contains(*self._to_local(x, y))
         return inside
 

@@ -9,7 +9,8 @@ import numpy as np
 from ai4u_edu.errors import NameNotFoundError, suggest
 from ai4u_edu.world.body import BodyView
 from ai4u_edu.world.descriptions import FloorDescription
-from ai4u_edu.world.rays import CodeOf, RayFan, RayGrid
+from ai4u_edu.world.ray_grid import RayGrid
+from ai4u_edu.world.rays import CodeOf, RayFan
 from ai4u_edu.world.region import Region
 from ai4u_edu.world.sight import line_of_sight
 

@@ -216,6 +216,8 @@ class World:
         self.contacts.attach(self.space, self.owners)
         self._groups = 0
         for body in self._bodies.values():
+            if not self._has_random:
+                body.drawn = body.description  # it may have been changed where it stood
             self._embody(body)
         self._rest_all()
 

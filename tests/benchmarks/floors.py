@@ -1,11 +1,17 @@
 """The yardstick's world written by hand, with no abstraction at all: what a step costs at least.
 
-Three forms of one loop: with pymunk's public interface alone; with the rays cast through its cffi
-layer into memory that is there already; and with everything that has to be done each tick through
-that layer, which is as far as Python goes without a compiler.
+Four forms of one loop: with pymunk's public interface alone; with the rays cast through its cffi
+layer into memory that is there already; with everything that has to be done each tick through that
+layer, which is as far as Python goes without a compiler; and that with the loop over the rays in C.
 """
 
+import ctypes
 import math
+import shutil
+import subprocess
+import tempfile
+from functools import cache
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -126,25 +132,29 @@ class CffiFloor(PublicFloor):
         self.alpha = np.frombuffer(ffi.buffer(hits), HIT)["alpha"]
         self.rays = [(ends[i], hits + i) for i in range(RAYS)]
         self.start = ffi.new("cpVect *")[0]
-        chosen = ffi.new("cpShapeFilter *")
-        chosen[0] = tuple(self.others)
-        self.chosen = chosen[0]
+        self.filter = ffi.new("cpShapeFilter *")
+        self.filter[0] = tuple(self.others)
+        self.chosen = self.filter[0]
         self.turned = np.zeros(RAYS)
 
     def cast(self, x: float, y: float, angle: float, out: npt.NDArray[np.float32]) -> None:
         """The share of its reach at which each ray meets something; 0 where it meets nothing."""
-        ends, turned, start, chosen = self.ends, self.turned, self.start, self.chosen
+        ends, turned = self.ends, self.turned
         np.add(self.angles, angle, out=turned)
         np.cos(turned, out=ends[:, 0])
         np.sin(turned, out=ends[:, 1])
         ends *= REACH
         ends += x, y
-        start.x, start.y = x, y
-        space, first = self.space._space, lib.cpSpaceSegmentQueryFirst
-        for end, hit in self.rays:
-            first(space, start, end, 0.0, chosen, hit)
+        self.query(self.space._space, x, y)
         out[:RAYS] = self.alpha
         out[out == 1.0] = 0.0
+
+    def query(self, space: Any, x: float, y: float) -> None:
+        """Casts all rays."""
+        start, chosen, first = self.start, self.chosen, lib.cpSpaceSegmentQueryFirst
+        start.x, start.y = x, y
+        for end, hit in self.rays:
+            first(space, start, end, 0.0, chosen, hit)
 
 
 class BareFloor(CffiFloor):
@@ -182,3 +192,33 @@ class BareFloor(CffiFloor):
         self.cast(x, y, angle, observation)
         self.orient(x, y, angle, observation)
         return observation
+
+
+class CompiledFloor(BareFloor):
+    """The same, with the loop over the rays in C; only where there is a compiler."""
+
+    def __init__(self, sim: ControlRequestor) -> None:
+        super().__init__(sim)
+        self.cast_all = compiled()
+        self.first = ffi.addressof(lib, "cpSpaceSegmentQueryFirst")
+
+    def query(self, space: Any, x: float, y: float) -> None:
+        """Casts all rays."""
+        ends, hits = self.kept
+        self.cast_all(self.first, space, x, y, ends, self.filter, hits, RAYS)
+
+
+@cache
+def compiled() -> Any:
+    """The loop of floor.c, to be called through cffi; None where there is no compiler."""
+    compiler = shutil.which("cc")
+    if compiler is None:
+        return None
+    source = Path(__file__).with_name("floor.c")
+    with tempfile.TemporaryDirectory() as folder:
+        made = Path(folder) / "floor.so"
+        command = [compiler, "-std=c11", "-O2", "-shared", "-fPIC", "-o", str(made), str(source)]
+        subprocess.run(command, check=True)
+        address = ctypes.cast(ctypes.CDLL(str(made)).cast, ctypes.c_void_p).value
+    form = "void (*)(void *, void *, double, double, void *, void *, void *, int)"
+    return ffi.cast(form, address)

@@ -1,14 +1,21 @@
 """What costs nothing where it is not used: ``python -m tests.benchmarks.idle``.
 
-The yardstick as it is, and with more in it that nobody uses: blocks that are switched off, and
-bodies, floors and areas that change nothing for the robot. Ratios as in ``tests.benchmarks``.
+The yardstick as it is, next to one with more in it that nobody uses (blocks that are switched off,
+a recorder that is), and to one whose code doesn't even look whether somebody listens to an event or
+is in the air. Ratios as in ``tests.benchmarks``.
 """
 
 import argparse
+import ast
+import inspect
+import textwrap
+import time
+from types import MethodType
 from typing import Any
 
 from ai4u_edu import Scene
 from ai4u_edu.envs import SceneEnv
+from ai4u_edu.recording import Recorder
 from ai4u_edu.scenes import SceneDescription
 from tests.benchmarks.__main__ import SEED, Contender, one_world
 from tests.benchmarks.interleaved import race
@@ -22,6 +29,41 @@ def changed(**more: Any) -> SceneEnv:
         agent[kind] = [*agent[kind], *blocks]
     scene = Scene(SceneDescription.model_validate(plain))
     return SceneEnv(scene, observation="flat")
+
+
+def without(env: SceneEnv, looked_at: str) -> SceneEnv:
+    """The same with each ``if`` left out of the decision cycle that looks at an attribute.
+
+    With a name that nothing has, all stays; so what the detour itself costs is seen, too.
+    """
+    agent, world = env.agent, env.sim.world
+    for owner, names in ((agent, ("begin_step", "sense", "end_step")), (world, ("tick",))):
+        for name in names:
+            method = getattr(type(owner), name)
+            tree = ast.parse(textwrap.dedent(inspect.getsource(method)))
+            tree = _Blind(looked_at).visit(tree)
+            found: dict[str, Any] = {}
+            exec(compile(tree, "<without>", "exec"), method.__globals__, found)  # noqa: S102
+            setattr(owner, name, MethodType(found[name], owner))
+    return env
+
+
+class _Blind(ast.NodeTransformer):
+    def __init__(self, looked_at: str) -> None:
+        self._looked_at = looked_at
+
+    def visit_If(self, node: ast.If) -> ast.If | None:
+        attributes = (each for each in ast.walk(node.test) if isinstance(each, ast.Attribute))
+        return None if any(each.attr == self._looked_at for each in attributes) else node
+
+
+def recorded(on: bool) -> SceneEnv:
+    """The yardstick with a recorder that was switched on once."""
+    env = changed()
+    recorder = Recorder(env.sim, keep=1)
+    recorder.switch(True)
+    recorder.switch(on)
+    return env
 
 
 def contender(env: SceneEnv) -> Contender:
@@ -46,16 +88,21 @@ def main() -> None:
         getattr(heard.agent, moment).connect(lambda _: None)
     timings = race(
         {
-            "as it is": contender(changed()),
-            "the same once more": contender(changed()),
-            "four events with a listener": contender(heard),
+            "as it is": contender(without(changed(), "nothing")),
+            "the same once more": contender(without(changed(), "nothing")),
+            "no look whether somebody listens": contender(without(changed(), "handlers")),
+            "no look whether somebody is in the air": contender(without(changed(), "movers")),
+            "a recorder that is off": contender(recorded(False)),
             "a sensor that is off": contender(changed(sensors=[rays | off])),
             "a reward that is off": contender(
                 changed(rewards=[{"type": "MinDistReward", "target": "target"} | off])
             ),
+            "for comparison: four events with a listener": contender(heard),
+            "for comparison: a recorder that is on": contender(recorded(True)),
         },
         "as it is",
         options.rounds,
+        time.process_time,
     )
     best = timings["as it is"].fastest
     print("| the yardstick | microseconds | takes | by the fastest |")

@@ -146,7 +146,10 @@ def test_a_picture() -> None:
 @pytest.mark.parametrize(
     ("options", "text"),
     [
-        ({"observation": "flt"}, "observation: expected 'dict' or 'flat', got 'flt'"),
+        (
+            {"observation": "flt"},
+            "observation: expected one of dict, flat, image, got 'flt'; did you mean 'flat'?",
+        ),
         ({"agent": "9"}, "no agent has the id '9'; known are '0'"),
     ],
 )

@@ -58,7 +58,7 @@ def test_the_quick_way_is_there_and_gives_exactly_what_the_public_one_gives() ->
 
 
 def test_without_it_ticks_go_the_public_way(monkeypatch: Any) -> None:
-    monkeypatch.setattr(_chipmunk, "_FAST", False)
+    monkeypatch.setattr(_chipmunk, "FAST", False)
     space, bodies = make_space()
     slow = drive(PUBLIC, stepper(space, 1 / 60), bodies)
     monkeypatch.undo()

@@ -1,7 +1,6 @@
-"""Rays ask the physics no more than they need, and the quick way gives what the public one does."""
+"""Rays ask the physics no more than they need."""
 
 import math
-import random
 from collections.abc import Sequence
 from types import SimpleNamespace
 from typing import Any
@@ -9,9 +8,7 @@ from typing import Any
 import pymunk
 import pytest
 
-from ai4u_edu.world import BoxShape, CircleShape, RayFan, RayGrid, World, _chipmunk
-from ai4u_edu.world._chipmunk import Segments, shape_key
-from tests.world.random_worlds import SIDE, make_world, shuffle
+from ai4u_edu.world import BoxShape, CircleShape, RayFan, RayGrid, World, _segments, rays
 
 
 class Queries:
@@ -37,10 +34,11 @@ def queries(monkeypatch: pytest.MonkeyPatch) -> Queries:
         counted.point += 1
         return point(*args)
 
-    real = vars(_chipmunk)["lib"]
+    real = vars(_segments)["lib"]
     functions = {name: getattr(real, name) for name in dir(real) if name.startswith("cp")}
     counting = functions | {"cpSpaceSegmentQueryFirst": counting_first}
-    monkeypatch.setattr(_chipmunk, "lib", SimpleNamespace(**counting))
+    monkeypatch.setattr(_segments, "lib", SimpleNamespace(**counting))
+    monkeypatch.setattr(rays, "segments", _segments.QuickSegments)
     monkeypatch.setattr(pymunk.Space, "segment_query", counting_every)
     monkeypatch.setattr(pymunk.Space, "point_query", counting_point)
     return counted
@@ -98,31 +96,3 @@ def test_only_rays_above_the_first_obstacle_ask_what_is_behind(queries: Queries)
     grid.cast(world["robot"])
     assert (queries.first, queries.every) == (2, 1)
     assert grid.codes.tolist() == [[2.0, 0.0], [1.0, 0.0], [1.0, 1.0]]
-
-
-def test_the_quick_way_gives_exactly_what_the_public_one_gives() -> None:
-    chance = random.Random(5)
-    met = 0
-    for _ in range(40):
-        world = make_world(chance, sticks=True)
-        quick, public = Segments(20), Segments(20, fast=False)
-        names = {shape_key(shape): shape_key(shape, fast=False) for shape in world.owners}
-        for _ in range(25):
-            shuffle(world, chance)
-            x, y = chance.uniform(-SIDE, SIDE), chance.uniform(-SIDE, SIDE)
-            mask = chance.choice((0xFFFFFFFF, 1, 2))
-            accept = world.filter_for(world["eye"], mask)
-            public.ends[:] = quick.ends[:] = [
-                (chance.uniform(-8, 8), chance.uniform(-8, 8)) for _ in range(20)
-            ]
-            quick.cast(world.space, x, y, accept)
-            public.cast(world.space, x, y, accept)
-            assert quick.alpha.tobytes() == public.alpha.tobytes()
-            assert [names.get(key, 0) for key in quick.shapes()] == public.shapes()
-            met += sum(map(bool, public.shapes()))
-    assert met > 5000, "of 20,000"
-
-
-def test_the_quick_way_is_there() -> None:
-    """Where it is not, with another pymunk, all goes on more slowly; here we want to know."""
-    assert Segments(1)._fast

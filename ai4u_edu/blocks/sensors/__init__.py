@@ -10,6 +10,7 @@ from ai4u_edu.blocks.sensors.ground_status import GroundStatusSensor
 from ai4u_edu.blocks.sensors.group_touch import GroupTouchSensor
 from ai4u_edu.blocks.sensors.heading import HeadingSensor
 from ai4u_edu.blocks.sensors.homeostatic import HomeostaticSensor
+from ai4u_edu.blocks.sensors.light import LightSensor
 from ai4u_edu.blocks.sensors.line import LineSensor
 from ai4u_edu.blocks.sensors.linear_ray_casting import LinearRayCastingSensor
 from ai4u_edu.blocks.sensors.local_grid import LocalGridSensor
@@ -48,6 +49,7 @@ __all__ = [
     "HomeostaticSensor",
     "IDSensor",
     "Legend",
+    "LightSensor",
     "LineSensor",
     "LinearRayCastingSensor",
     "LocalGridSensor",

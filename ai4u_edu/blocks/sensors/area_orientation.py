@@ -59,6 +59,14 @@ class AreaOrientationSensor(Sensor):
         low = np.tile(np.array([0.0, -1.0, 0.0], np.float32), self.max_detection_reported)
         return Box(low, np.ones_like(low))
 
+    def slots(self) -> tuple[str, ...]:
+        """Three for each body that can be reported."""
+        return tuple(
+            f"{part} {number}"
+            for number in range(1, self.max_detection_reported + 1)
+            for part in ("kind", "cosine", "nearness")
+        )
+
     def on_setup(self, agent: AgentView, view: WorldView) -> None:
         """Looks area, reference and group up."""
         if self.area and self.area not in view.areas:

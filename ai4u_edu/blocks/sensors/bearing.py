@@ -24,6 +24,10 @@ class BearingSensor(Sensor):
         """[sine, cosine]."""
         return Box(-1.0, 1.0, (2,))
 
+    def slots(self) -> tuple[str, ...]:
+        """Sine and cosine."""
+        return "sine", "cosine"
+
     def on_setup(self, agent: AgentView, view: WorldView) -> None:
         """Looks the target up."""
         _ = view[self.target]

@@ -24,6 +24,10 @@ class CellSensor(OnGrid, Sensor):
         last = np.array([self.rows - 1, self.columns - 1], np.int32)
         return Box(np.zeros_like(last), last, dtype=np.int32)
 
+    def slots(self) -> tuple[str, ...]:
+        """Row and column."""
+        return "row", "column"
+
     def on_setup(self, agent: AgentView, view: WorldView) -> None:
         """Lays the grid."""
         self._grid = self.grid()

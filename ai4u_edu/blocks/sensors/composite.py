@@ -1,6 +1,7 @@
 """Several sensors in one array."""
 
 import math
+from functools import partial
 from typing import Annotated
 
 import numpy as np
@@ -58,14 +59,14 @@ class FloatArrayCompositeSensor(Sensor):
                     "takes numbers only"
                 )
             place = np.zeros(child.observation_space().shape or (), DTYPES[kind])
-            child.attach(place, view.random(self._name_of(child)))
+            child.attach(place, partial(view.random, self._name_of(child)))
             self._places.append(place)
 
     def on_reset(self, agent: AgentView, view: WorldView) -> None:
         """Resets the children."""
         for child in self._children:
             child.on_reset(agent, view)
-            child.restart(view.random(self._name_of(child)))
+            child.restart()
 
     def space(self) -> Box:
         """As many numbers as all children read together."""

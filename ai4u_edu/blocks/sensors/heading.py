@@ -21,6 +21,10 @@ class HeadingSensor(Sensor):
         """[sine, cosine]."""
         return Box(-1.0, 1.0, (2,))
 
+    def slots(self) -> tuple[str, ...]:
+        """Sine and cosine."""
+        return "sine", "cosine"
+
     def read(self, body: BodyView, view: WorldView) -> tuple[float, float]:
         """One reading."""
         heading = body.heading

@@ -29,6 +29,10 @@ class HomeostaticSensor(Sensor):
         """One number a variable."""
         return Box(0.0, 1.0, (len(self._variables),))
 
+    def slots(self) -> tuple[str, ...]:
+        """The variables' names."""
+        return tuple(variable.name for variable in self._variables)
+
     def write(self, out: Array, body: BodyView, view: WorldView) -> None:
         """One reading."""
         out[:] = np.array([variable.normalised() for variable in self._variables])

@@ -54,6 +54,7 @@ class LinearRayCastingSensor(RaySensor):
             angles.tolist(), self.vision_max_distance, self.code_of, **self._options()
         )
         self._far = np.array(self.vision_max_distance)
+        self._shares = np.zeros(self.number_of_rays)
 
     def write(self, out: Array, body: BodyView, view: WorldView) -> None:
         """Casts the fan."""
@@ -69,7 +70,10 @@ class LinearRayCastingSensor(RaySensor):
     def _measured(self) -> Array:
         """The distances, in the unit in which they are read."""
         distances = self._fan.distances
-        return np.divide(distances, self._far) if self.normalize_distance else distances
+        if not self.normalize_distance:
+            return distances
+        np.divide(distances, self._far, self._shares)
+        return self._shares
 
     def picture(self) -> RayPicture:
         """The rays of the last reading."""

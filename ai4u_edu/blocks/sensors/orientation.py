@@ -44,6 +44,10 @@ class OrientationSensor(Sensor):
         low = np.array([-2.0, -1.0], np.float32)[self._part]
         return Box(low, np.array([1.0, self._reach], np.float32)[self._part])
 
+    def slots(self) -> tuple[str, ...]:
+        """The parts of it that are read."""
+        return ("cosine", "distance")[self._part]
+
     def scale(self) -> Any:
         """The cosine stays; the distance is divided by max_distance."""
         return np.array([1.0, self._reach])[self._part]

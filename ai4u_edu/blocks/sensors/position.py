@@ -39,6 +39,10 @@ class PositionSensor(Sensor):
         """As far as the world reaches, and a little more."""
         return Box(-self._far, self._far)
 
+    def slots(self) -> tuple[str, ...]:
+        """The axes of the frame."""
+        return ("x", "y", "z") if self.frame == "global" else ("forward", "left", "up")
+
     def on_setup(self, agent: AgentView, view: WorldView) -> None:
         """Looks the target up and measures the world."""
         if self.target:

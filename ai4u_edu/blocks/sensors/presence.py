@@ -28,6 +28,10 @@ class PresenceSensor(Sensor):
         """0 or 1 for each."""
         return Box(0.0, 1.0, (len(self._names),))
 
+    def slots(self) -> tuple[str, ...]:
+        """The bodies' names."""
+        return self._names
+
     def on_setup(self, agent: AgentView, view: WorldView) -> None:
         """Looks the group up."""
         view.check_group(self.group)

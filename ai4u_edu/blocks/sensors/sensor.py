@@ -111,6 +111,10 @@ class Sensor(Block):
         """Whether a raw reading stands for "nothing there": it is not normalised."""
         return False
 
+    def slots(self) -> tuple[str, ...]:
+        """What each number of one reading is called, to be shown; empty if they have no names."""
+        return ()
+
     def spots(self) -> SpotPicture | None:
         """The places at which the last reading looked, to be drawn; most sensors have none."""
         return None
@@ -154,12 +158,12 @@ class Sensor(Block):
         dtype: Any = np.float32 if self.normalized else space.dtype
         return spaces.Box(low.astype(dtype), high.astype(dtype), dtype=dtype)
 
-    def attach(self, out: Array, chance: np.random.Generator) -> None:
+    def attach(self, out: Array, chance: Callable[[], np.random.Generator]) -> None:
         """Prepares for an agent.
 
         Args:
             out: the reading's place in the agent's memory; every reading is written there.
-            chance: for noise and dropout.
+            chance: gives the episode's generator for noise and dropout; made where it is needed.
         """
         if self.stacked_observations > 1 and not self.stackable:
             raise BlockError(
@@ -188,9 +192,8 @@ class Sensor(Block):
             self._pack = Struct(f"={out.size}f").pack_into
             self._divisors = None if self._direct else tuple(self._scale.ravel().tolist())
 
-    def restart(self, chance: np.random.Generator) -> None:
+    def restart(self) -> None:
         """Begins an episode: the next reading fills stack and delay."""
-        self._chance = chance
         self._fresh = self.resetable or not self._ever_read
 
     def blank(self) -> None:
@@ -222,13 +225,13 @@ class Sensor(Block):
         self._pack(self._memory, 0, *numbers)
 
     def _take_through(self, body: BodyView, view: WorldView) -> None:
-        lost = self.dropout and not self._fresh and self._chance.random() < self.dropout
+        lost = self.dropout and not self._fresh and self._chance().random() < self.dropout
         if not lost:
             self.write(self._raw, body, view)
         reading = self._raw
         if self.noise:
             space = self._declared
-            reading = reading + self._chance.normal(0.0, self.noise, reading.shape)
+            reading = reading + self._chance().normal(0.0, self.noise, reading.shape)
             if isinstance(space, spaces.Box):
                 reading = np.clip(reading, space.low, space.high)
         if self.delay:

@@ -137,7 +137,7 @@ class ActionSensor(Sensor):
                 f"no actuator is called {self.action_name!r}; "
                 f"{suggest(self.action_name, actuators)}"
             )
-        self._agent = agent
+        self._agent, self._slots = agent, actuators[self.action_name].slots()
         low, high = actuators[self.action_name].limits()
         if self.action_size not in (None, len(low)):
             raise BlockError(
@@ -149,6 +149,10 @@ class ActionSensor(Sensor):
     def space(self) -> Box:
         """The actuator's own ranges, and zero."""
         return Box(np.minimum(self._low, 0), np.maximum(self._high, 0))
+
+    def slots(self) -> tuple[str, ...]:
+        """The actuator's own."""
+        return self._slots
 
     def write(self, out: Array, body: BodyView, view: WorldView) -> None:
         """One reading."""

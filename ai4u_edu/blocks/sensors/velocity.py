@@ -28,6 +28,10 @@ class VelocitySensor(Sensor):
         high = np.array([self.max_speed, self.max_speed, self.max_turn], np.float32)
         return Box(-high, high)
 
+    def slots(self) -> tuple[str, ...]:
+        """Speeds in the body's own frame."""
+        return "forward", "left", "turning"
+
     def read(self, body: BodyView, view: WorldView) -> tuple[float, float, float]:
         """One reading."""
         vx, vy = body.velocity

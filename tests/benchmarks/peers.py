@@ -1,0 +1,218 @@
+"""Other environments from the package index, each in a virtual environment of its own.
+
+They do other things than the yardstick, so their figures say in which class one is, no more. Each
+runs in a process of its own that waits for a word before every round, and so takes its turn like
+all other contenders. Made once, under ``.venvs/``, with ``python -m tests.benchmarks --peers``.
+"""
+
+import contextlib
+import subprocess
+import sys
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import NamedTuple
+
+from tests.benchmarks.interleaved import Work
+
+FOLDER = Path(__file__).resolve().parent.parent.parent / ".venvs"
+PATIENCE = 1200
+"""Seconds that an installation gets."""
+
+LOOP = """
+import sys
+print("ready", flush=True)
+for line in sys.stdin:
+    for i in range(int(line)):
+        step(i)
+    print("done", flush=True)
+"""
+
+
+class Peer(NamedTuple):
+    """One of them."""
+
+    title: str
+    package: str
+    steps: int
+    """In one round."""
+    program: str
+    """Defines ``step(i)``."""
+    worlds: int = 1
+    """How many worlds one step moves."""
+
+
+PEERS = {
+    "lander": Peer(
+        "LunarLander of Gymnasium, no rays",
+        "gymnasium[box2d]==1.2.3",
+        1000,
+        """
+import gymnasium
+env = gymnasium.make("LunarLander-v3")
+env.reset(seed=1)
+def step(i):
+    *_, terminated, truncated, _ = env.step(i % 4)
+    if terminated or truncated:
+        env.reset()
+""",
+    ),
+    "waterworld": Peer(
+        "Waterworld of PettingZoo, two agents with 30 rays",
+        "pettingzoo[sisl]==1.24.3",
+        100,
+        """
+import numpy
+from pettingzoo.sisl import waterworld_v4
+env = waterworld_v4.parallel_env(n_pursuers=2, n_sensors=30)
+env.reset(seed=1)
+chance = numpy.random.default_rng(1)
+def step(i):
+    if not env.agents:
+        env.reset()
+    env.step({name: chance.uniform(-1, 1, 2).astype("f4") for name in env.agents})
+""",
+    ),
+    "ir-sim": Peer(
+        "ir-sim, 32 lidar rays",
+        "ir-sim",
+        60,
+        """
+import os, tempfile
+import irsim, numpy
+WORLD = '''
+world: {height: 10, width: 10, step_time: 0.0667, sample_time: 0.0667, collision_mode: stop}
+robot:
+  - kinematics: {name: diff}
+    shape: {name: circle, radius: 0.3}
+    state: [5, 5, 0]
+    goal: [9, 9, 0]
+    sensors:
+      - {name: lidar2d, range_min: 0, range_max: 10, angle_range: 6.28, number: 32}
+obstacle:
+  - number: 10
+    distribution: {name: random, range_low: [1, 1, 0], range_high: [4, 4, 3.14]}
+    shape: {name: rectangle, length: 0.4, width: 0.4}
+'''
+folder = tempfile.mkdtemp()
+path = os.path.join(folder, "world.yaml")
+with open(path, "w") as file:
+    file.write(WORLD)
+env = irsim.make(path, display=False, disable_all_plot=True, log_level="CRITICAL")
+def step(i):
+    env.step(numpy.array([[0.3], [0.5]]))
+""",
+    ),
+    "vmas": Peer(
+        "VMAS, navigation with lidar, one world",
+        "vmas",
+        30,
+        """
+import torch, vmas
+torch.set_num_threads(1)
+env = vmas.make_env(scenario="navigation", num_envs=1, device="cpu", seed=1, n_agents=1)
+env.reset()
+def step(i):
+    env.step([torch.full((1, 2), 0.3)])
+""",
+    ),
+    "vmas-1024": Peer(
+        "VMAS, the same, 1,024 worlds at once",
+        "vmas",
+        10,
+        """
+import torch, vmas
+torch.set_num_threads(1)
+env = vmas.make_env(scenario="navigation", num_envs=1024, device="cpu", seed=1, n_agents=1)
+env.reset()
+def step(i):
+    env.step([torch.full((1024, 2), 0.3)])
+""",
+        1024,
+    ),
+    "highway": Peer(
+        "highway-env",
+        "highway-env",
+        2,
+        """
+import gymnasium, highway_env
+env = gymnasium.make("highway-v0")
+env.reset(seed=1)
+def step(i):
+    *_, terminated, truncated, _ = env.step(1)
+    if terminated or truncated:
+        env.reset()
+""",
+    ),
+}
+
+
+class PeerError(Exception):
+    """It can't be had, or doesn't run; the text says why."""
+
+
+@contextlib.contextmanager
+def running(name: str) -> Iterator[Callable[[], tuple[Work, int]]]:
+    """A peer as a contender, for as long as its process runs.
+
+    Raises:
+        PeerError: it can't be installed, or doesn't start.
+    """
+    peer = PEERS[name]
+    process = subprocess.Popen(
+        [installed(peer), "-W", "ignore", "-c", peer.program + LOOP],
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+    )
+    assert process.stdin
+    assert process.stdout
+    to_it, from_it = process.stdin, process.stdout
+
+    def wait_for(word: str) -> None:
+        last = ""
+        for line in from_it:  # some say a few words of their own first
+            if line.strip() == word:
+                return
+            last = line
+        raise PeerError("it ended: " + _last_words(last))
+
+    def work() -> None:
+        to_it.write(f"{peer.steps}\n")
+        to_it.flush()
+        wait_for("done")
+
+    try:
+        wait_for("ready")
+        yield lambda: (work, peer.steps * peer.worlds)
+    finally:
+        process.kill()
+        process.communicate()
+
+
+def installed(peer: Peer) -> Path:
+    """The Python of an environment that has a peer's package; made if it is not there."""
+    folder = FOLDER / f"peer-{peer.package.partition('=')[0].partition('[')[0]}"
+    python, stamp = folder / "bin" / "python", folder / "made-of.txt"
+    if stamp.exists() and stamp.read_text() == peer.package:
+        return python
+    print(f"Getting {peer.package} ...", file=sys.stderr, flush=True)
+    for command in (
+        [sys.executable, "-m", "venv", "--clear", str(folder)],
+        [str(python), "-m", "pip", "install", "--quiet", "--no-input", peer.package],
+    ):
+        try:
+            done = subprocess.run(
+                command, capture_output=True, text=True, timeout=PATIENCE, check=False
+            )
+        except subprocess.TimeoutExpired:
+            raise PeerError(f"not installed within {PATIENCE} s") from None
+        if done.returncode:
+            raise PeerError("can't be installed: " + _last_words(done.stdout + done.stderr))
+    stamp.write_text(peer.package)
+    return python
+
+
+def _last_words(text: str) -> str:
+    lines = [line.strip() for line in text.splitlines() if line.strip()]
+    return lines[-1] if lines else "without a word"

@@ -1,0 +1,52 @@
+"""Things are compared by the rectangles around them first: that may never miss one that meets."""
+
+import random
+
+import pymunk
+
+from ai4u_edu.world import AreaDescription, BodyDescription, RingShape
+from ai4u_edu.world.places import Places
+from tests.world.random_worlds import SIDE, _body_shape, _region_shape
+
+
+def test_what_meets_is_near() -> None:
+    chance, places = random.Random(3), Places(1)
+    met = apart = 0
+    for _ in range(3000):
+        one, other = (places._form(_thing(chance)).grown(chance.choice((0.0, 0.3))) for _ in "12")
+        space = pymunk.Space()
+        space.add(*one.solid)
+        if space.shape_query(other.solid[1]):
+            met += 1
+            assert one.near(other)
+            assert other.near(one)
+        apart += not one.near(other)
+    assert met > 300
+    assert apart > 1000, "and most of what is apart is told apart"
+
+
+def test_one_above_the_other_is_not_near() -> None:
+    places = Places(1)
+    shape = _body_shape(random.Random(1), True)
+    low, high, higher = (
+        places._form(BodyDescription(name="x", shape=shape, z=z)) for z in (0.0, 0.9, 1.0)
+    )
+    assert low.near(high)
+    assert not low.near(higher)
+
+
+def test_in_a_ring_is_near() -> None:
+    places = Places(1)
+    ring = places._form(AreaDescription(name="r", shape=RingShape(inner=3, outer=4)))
+    inside = places._form(BodyDescription(name="x", shape=_body_shape(random.Random(1), True)))
+    assert ring.near(inside)
+
+
+def _thing(chance: random.Random) -> BodyDescription | AreaDescription:
+    place = chance.uniform(-SIDE, SIDE), chance.uniform(-SIDE, SIDE)
+    heading = chance.choice((0.0, chance.uniform(-180, 180)))
+    if chance.random() < 0.1:
+        shape = _region_shape(chance)
+        return AreaDescription(name="x", shape=shape, position=place, heading_deg=heading)
+    body = _body_shape(chance, True)
+    return BodyDescription(name="x", shape=body, position=place, heading_deg=heading)
