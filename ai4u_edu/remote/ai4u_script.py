@@ -3,6 +3,7 @@
 import contextlib
 import socket
 import sys
+import threading
 import time
 
 from ai4u_edu.remote.errors import RemoteError
@@ -13,6 +14,8 @@ KNOCK_EVERY = 0.25
 """Seconds between two knocks while no script is there."""
 MOST_DRAINED = 1000
 """Datagrams thrown away before a request, at most."""
+LISTENING = 0.2
+"""Seconds after which whoever waits for a reply looks whether the script is still wanted."""
 FAREWELL = 0.3
 """Seconds for which a script's last reply is waited for."""
 
@@ -41,6 +44,8 @@ class AI4UScript:
         self.dialogue = dialogue
         self.ignored = 0
         """Datagrams that were no answer."""
+        self.is_over = threading.Event()
+        """To be set when no script is wanted any more: then nobody waits for this one."""
         self._patience = patience
         self._socket = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
         try:
@@ -59,7 +64,7 @@ class AI4UScript:
         Nothing is ever said twice, other than knocks: the script would take one more for the next.
 
         Returns:
-            The reply; None if nobody opens yet.
+            The reply; None if nobody opens yet, or the script is not wanted any more.
 
         Raises:
             ScriptGoneError: there is no reply.
@@ -71,14 +76,15 @@ class AI4UScript:
         try:
             self._socket.send(dialogue.request(state))
             while (left := until - time.monotonic()) > 0:
-                self._socket.settimeout(left)
+                self._socket.settimeout(min(left, LISTENING))
                 try:
                     return dialogue.hear(self._socket.recv(2**16))
                 except WireError:
                     self.ignored += 1
+                except TimeoutError:
+                    if self.is_over.is_set():
+                        return None
             error: OSError = TimeoutError(f"no answer for {self._patience:g} s")
-        except TimeoutError:
-            error = TimeoutError(f"no answer for {self._patience:g} s")
         except OSError as failed:
             error = failed
         dialogue.begin()

@@ -6,11 +6,12 @@ from typing import Any, Self
 from ai4u_edu.remote.address import address_of
 from ai4u_edu.remote.asynchronous_line import AsynchronousLine
 from ai4u_edu.remote.dialogue import Dialogue
+from ai4u_edu.remote.driven import Driven
 from ai4u_edu.remote.percept import RemotePercept
-from ai4u_edu.wire.native import Mode, Welcome
+from ai4u_edu.wire.native import Mode
 
 
-class AsyncRobot:
+class AsyncRobot(Driven):
     """The verbs of :class:`~ai4u_edu.remote.Robot`, to be awaited.
 
     ::
@@ -35,13 +36,15 @@ class AsyncRobot:
     ) -> None:
         address = address_of(url)
         self._line = AsynchronousLine(address)
-        self._dialogue = Dialogue(
-            agent,
-            token=token or address.token,
-            mode=mode,
-            keys=keys,
-            session=session,
-            patience=patience,
+        super().__init__(
+            Dialogue(
+                agent,
+                token=token or address.token,
+                mode=mode,
+                keys=keys,
+                session=session,
+                patience=patience,
+            )
         )
 
     async def open(self) -> Self:
@@ -64,21 +67,6 @@ class AsyncRobot:
     async def close(self) -> None:
         """Leaves the robot to the brain that it had before."""
         await self._line.run(self._dialogue.end())
-
-    @property
-    def percept(self) -> RemotePercept | None:
-        """The latest, without waiting; None before the first."""
-        return self._dialogue.percept
-
-    @property
-    def welcome(self) -> Welcome:
-        """What the world said of the agent."""
-        return self._dialogue.welcome
-
-    @property
-    def session(self) -> str:
-        """What another process needs to go on in this one's place; a secret."""
-        return self._dialogue.session
 
     async def __aiter__(self) -> AsyncIterator[RemotePercept]:
         """Every percept that needs an action, until the episode is over."""

@@ -4,7 +4,6 @@ AI4U's own protocol can't bear a lost or repeated datagram. On loopback none is 
 network between here and the world does is our protocol's affair. The script notices a delay.
 """
 
-import threading
 import time
 from collections.abc import Callable
 from secrets import token_urlsafe
@@ -102,7 +101,6 @@ class Bridge:
             repeat_action=welcome.repeat_action,
         )
         self._leave()
-        self._stopping = threading.Event()
         self._script = AI4UScript(port, dialogue, host=host, patience=patience)
 
     def run(self) -> None:
@@ -126,7 +124,7 @@ class Bridge:
 
     def stop(self) -> None:
         """Has :meth:`run` end, from another thread."""
-        self._stopping.set()
+        self._script.is_over.set()
 
     # -- the steps of it -------------------------------------------------------------------------
 
@@ -145,7 +143,7 @@ class Bridge:
     def _await_script(self) -> bool:
         """Knocks until a script is there, and asks it until it begins; whether it did."""
         script, told = self._script, False
-        while not self._stopping.is_set():
+        while not script.is_over.is_set():
             if script.dialogue.phase in (Phase.STARTED, Phase.PLAYING):
                 return True
             try:
@@ -153,7 +151,7 @@ class Bridge:
             except ScriptGoneError as gone:
                 self._tell(str(gone))
                 continue
-            if heard is None and not told:
+            if heard is None and not told and not script.is_over.is_set():
                 told = True
                 self._tell(f"no AI4U script listens at {script.where} yet; start it")
             elif heard is not None and heard.word is Word.HALT:
@@ -173,7 +171,7 @@ class Bridge:
         if starts:
             time.sleep(SETTLE)
         state, waits, said = self._state(percept), 0, 0.0
-        while not self._stopping.is_set():
+        while not script.is_over.is_set():
             heard = script.ask(state)
             word = heard.word if heard else Word.CONTROL
             if word is Word.HALT:

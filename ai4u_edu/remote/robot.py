@@ -1,32 +1,20 @@
 """A robot that is somewhere else."""
 
 from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING, Any, NamedTuple, Self
+from typing import Any, Self
 
 from ai4u_edu.remote.address import address_of
 from ai4u_edu.remote.dialogue import Dialogue
+from ai4u_edu.remote.driven import Driven
 from ai4u_edu.remote.percept import RemotePercept
 from ai4u_edu.remote.plain_line import PlainLine
-from ai4u_edu.wire.native import Mode, Welcome
-
-if TYPE_CHECKING:
-    from gymnasium import spaces
-
+from ai4u_edu.wire.native import Mode
 
 _robots: dict[tuple[str, str], "Robot"] = {}
 """Those of this process, by the world's address and the agent that was asked for."""
 
 
-class Spaces(NamedTuple):
-    """What an agent senses and can do, in Gymnasium's terms."""
-
-    observation: "spaces.Dict"
-    """By perception key; what a policy gets."""
-    action: "spaces.Space[Any]"
-    """Of its one actuator, or a Dict of several."""
-
-
-class Robot:
+class Robot(Driven):
     """An agent of a running world, driven from here. :func:`connect` gives one.
 
     Each decision is a percept and the action that answers it::
@@ -41,11 +29,9 @@ class Robot:
     """
 
     def __init__(self, line: PlainLine, dialogue: Dialogue) -> None:
+        super().__init__(dialogue)
         self._line = line
-        self._dialogue = dialogue
         line.run(dialogue.begin())
-
-    # -- the verbs -------------------------------------------------------------------------------
 
     def sense(self) -> RemotePercept:
         """What the robot senses now; after an action, as soon as its decision is over."""
@@ -94,36 +80,6 @@ class Robot:
 
     def __exit__(self, *_: object) -> None:
         self.close()
-
-    # -- what can be asked -----------------------------------------------------------------------
-
-    @property
-    def percept(self) -> RemotePercept | None:
-        """The latest, without waiting; None before the first."""
-        return self._dialogue.percept
-
-    @property
-    def welcome(self) -> Welcome:
-        """What the world said of the agent: its readings and outputs, ticks, names of rewards."""
-        return self._dialogue.welcome
-
-    @property
-    def session(self) -> str:
-        """What ``connect(..., session=...)`` needs to go on from another process; a secret."""
-        return self._dialogue.session
-
-    @property
-    def spaces(self) -> Spaces:
-        """What the robot senses and can do, as Gymnasium's spaces."""
-        from ai4u_edu.remote.spaces import action_space, observation_space
-
-        dialogue = self._dialogue
-        observation: Any = observation_space(dialogue.readings.values())
-        return Spaces(observation, action_space(dialogue.outputs))
-
-    def __repr__(self) -> str:
-        welcome = self._dialogue.welcome
-        return f"Robot({welcome.agent!r} in {welcome.title!r}, {welcome.mode})"
 
 
 def connect(

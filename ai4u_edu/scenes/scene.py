@@ -20,6 +20,8 @@ LIBRARY = Path(__file__).parent / "library"
 
 EPISODES = 20
 """So many are set up when a file is read, where some of it is random: in each must be room."""
+MOST_TOLD = 20
+"""Mistakes of a file that are told at once."""
 
 
 class Scene:
@@ -150,5 +152,8 @@ def _with_types(plain: dict[str, Any], description: SceneDescription) -> dict[st
 
 
 def _told(file: YamlFile, problems: "list[Problem] | tuple[Problem, ...]") -> SceneError:
-    lines = [f"{file.name}, line {file.line(each.path)}: {each}" for each in problems]
+    told = problems[:MOST_TOLD]
+    lines = [f"{file.name}, line {file.line(each.path)}: {each}" for each in told]
+    if len(problems) > len(told):
+        lines.append(f"{file.name}: and {len(problems) - len(told)} more like these")
     return SceneError("\n".join(lines))

@@ -1,41 +1,20 @@
-"""YAML text to plain data, with the line of everything."""
+"""YAML text to plain data, with the line of everything, and plain data to YAML text."""
 
 import io
 import re
 from typing import Any
 
 from ruamel.yaml import YAML
-from ruamel.yaml.comments import CommentedMap, CommentedSeq
-from ruamel.yaml.error import MarkedYAMLError, YAMLError
 from ruamel.yaml.scalarstring import DoubleQuotedScalarString
-from ruamel.yaml.tokens import (
-    AliasToken,
-    AnchorToken,
-    BlockEndToken,
-    BlockMappingStartToken,
-    BlockSequenceStartToken,
-    FlowMappingEndToken,
-    FlowMappingStartToken,
-    FlowSequenceEndToken,
-    FlowSequenceStartToken,
-    TagToken,
-)
 
 from ai4u_edu.errors import SceneError
+from ai4u_edu.scenes.yaml_tree import IS_QUICK, NotYamlError, read_tree
 
-MAX_SIZE = 1_000_000
-"""Characters that a scene file may have."""
-MAX_DEPTH = 24
+MAX_SIZE = 300_000 if IS_QUICK else 50_000
+"""Characters that a scene file may have: what is read in a second, whatever it is. With 500 bodies
+it has 60,000."""
 UNFOLDED = 1_000_000
 """Characters of a line that never ends."""
-
-OPENING = (
-    BlockMappingStartToken,
-    BlockSequenceStartToken,
-    FlowMappingStartToken,
-    FlowSequenceStartToken,
-)
-CLOSING = (BlockEndToken, FlowMappingEndToken, FlowSequenceEndToken)
 
 Path = tuple[str | int, ...]
 
@@ -62,63 +41,26 @@ class YamlFile:
         if len(text) > MAX_SIZE:
             raise SceneError(f"{name}: expected at most {MAX_SIZE} characters, got {len(text)}")
         try:
-            self._refuse_tricks(text)
-            self._document: Any = YAML(typ="rt", pure=True).load(text)
-        except MarkedYAMLError as error:
-            mark = error.problem_mark or error.context_mark
-            line = f", line {mark.line + 1}" if mark else ""
-            raise SceneError(f"{name}{line}: not YAML: {error.problem or error.context}") from None
-        except (YAMLError, RecursionError, ValueError) as error:
-            raise SceneError(f"{name}: not YAML: {error}") from None
-        except TypeError:  # as of a mapping that is to be a key
-            raise SceneError(f"{name}: expected words as keys, got lists or mappings") from None
-        if not isinstance(self._document, CommentedMap):
+            self._tree = read_tree(text)
+        except NotYamlError as problem:
+            line = f", line {problem.line}" if problem.line else ""
+            raise SceneError(f"{name}{line}: {problem}") from None
+        if not isinstance(self._tree.data, dict):
             raise SceneError(
                 f"{name}: expected a mapping (name: ..., bodies: ..., agents: ...), "
-                f"got {type(self._document).__name__}"
+                f"got {type(self._tree.data).__name__}"
             )
-        self.data: dict[str, Any] = self._plain(self._document, 0)
+        self.data: dict[str, Any] = self._tree.data
 
     def line(self, path: Path) -> int:
         """The line (from 1 on) of what stands at a path, or of the nearest thing above it."""
-        node, line = self._document, 0
+        node, line = self._tree, 1
         for part in path:
-            if isinstance(node, CommentedMap) and part in node:
-                line = node.lc.key(part)[0]
-            elif isinstance(node, CommentedSeq) and isinstance(part, int) and part < len(node):
-                line = node.lc.item(part)[0]
-            else:
+            if part not in node.parts:
                 break
-            node = node[part]
-        return int(line) + 1
-
-    def _refuse_tricks(self, text: str) -> None:
-        # aliases blow a small file up to a huge one, tags ask for objects; a scene needs neither
-        depth = 0
-        for token in YAML(typ="rt", pure=True).scan(io.StringIO(text)):
-            depth += isinstance(token, OPENING) - isinstance(token, CLOSING)
-            if depth > MAX_DEPTH + 1:  # told before the parser gets lost in it
-                raise SceneError(self._too_deep())
-            if isinstance(token, AliasToken | AnchorToken | TagToken):
-                raise SceneError(
-                    f"{self.name}, line {token.start_mark.line + 1}: expected plain values; "
-                    "anchors (&), aliases (*) and tags (!) are not used in scene files"
-                )
-
-    def _too_deep(self) -> str:
-        return f"{self.name}: nested more than {MAX_DEPTH} deep"
-
-    def _plain(self, node: Any, depth: int) -> Any:
-        if depth > MAX_DEPTH:
-            raise SceneError(self._too_deep())
-        if isinstance(node, CommentedMap):
-            return {str(key): self._plain(value, depth + 1) for key, value in node.items()}
-        if isinstance(node, CommentedSeq):
-            return [self._plain(value, depth + 1) for value in node]
-        for kind in (bool, int, float, str):
-            if isinstance(node, kind):
-                return kind(node)
-        return node
+            node = node.parts[part]
+            line = node.line
+        return line
 
 
 def write_yaml(data: dict[str, Any]) -> str:

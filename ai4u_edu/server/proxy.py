@@ -1,7 +1,9 @@
 """viser's WebSocket, passed through our port."""
 
 import asyncio
+from collections.abc import Callable
 from contextlib import suppress
+from typing import cast
 
 from starlette.datastructures import Headers
 from starlette.requests import HTTPConnection
@@ -9,8 +11,11 @@ from starlette.types import Receive, Scope, Send
 from starlette.websockets import WebSocket, WebSocketDisconnect
 from websockets.asyncio.client import ClientConnection, connect
 from websockets.exceptions import ConnectionClosed, InvalidHandshake
+from websockets.frames import DATA_OPCODES, Frame, Opcode
+from websockets.protocol import Event
 from websockets.typing import Subprotocol
 
+from ai4u_edu.server.frames import EXTENSION, FramesProtocol
 from ai4u_edu.server.guard import with_token
 from ai4u_edu.server.rate import Rate
 from ai4u_edu.server.side_door import KNOCK, KNOCK_HEADER
@@ -28,6 +33,25 @@ AGENT_HEADER = "X-AI4U-Edu-Agent"
 """By this viser is told which agent the page is about, percent-encoded; empty for none."""
 AGENT_COOKIE = "ai4u_edu_agent"
 """By this the page tells us: viser leaves the query out of the address that it connects to."""
+
+
+class _Viser(ClientConnection):
+    """A connection to viser that hands each frame to the page as it arrives, where it can."""
+
+    short_way: Callable[[bytes], bool] | None = None
+    waiting = 0
+    """Frames that the page could not take at once; those that follow wait behind them."""
+
+    def process_event(self, event: Event) -> None:
+        """Hands a frame on by the short way, or leaves it to whoever receives."""
+        if isinstance(event, Frame) and event.opcode in DATA_OPCODES:
+            whole = event.opcode is Opcode.BINARY and event.fin
+            short_way = self.short_way if whole and not self.waiting else None
+            if short_way is not None and short_way(bytes(event.data)):
+                return
+            self.waiting += event.fin
+        super().process_event(event)
+
 
 _SAYABLE = range(1000, 1004)  # other codes of a close can't be passed on
 
@@ -63,13 +87,14 @@ class ViserProxy:
                 max_size=None,
                 ping_interval=None,  # the page is asked for signs of life, that's enough
                 proxy=None,
+                create_connection=_Viser,
             )
         except (OSError, InvalidHandshake):
             await page.close(1013, "the viewer does not answer; reload the page in a moment")
             return
         upward = asyncio.create_task(_upward(page, viser))
         try:
-            await _downward(viser, page)
+            await _downward(cast(_Viser, viser), page)
         finally:
             upward.cancel()
             viser.transport.abort()  # a farewell would have to wait behind frames nobody reads
@@ -104,12 +129,15 @@ def page_agent(scope: Scope) -> str:
     return said if said.isascii() and said.isprintable() else ""
 
 
-async def _downward(viser: ClientConnection, page: WebSocket) -> None:
+async def _downward(viser: _Viser, page: WebSocket) -> None:
     with suppress(WebSocketDisconnect):
         await page.accept(viser.subprotocol)
+        frames: FramesProtocol | None = page.scope.get("extensions", {}).get(EXTENSION)
+        viser.short_way = frames.write if frames else None
         with suppress(ConnectionClosed):
             while True:
                 await page.send_bytes(await viser.recv(decode=False))
+                viser.waiting -= 1
         code = viser.close_code or 1001
         await page.close(code if code in _SAYABLE else 1001, viser.close_reason)
 

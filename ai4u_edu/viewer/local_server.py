@@ -7,6 +7,8 @@ from contextlib import contextmanager
 import rich
 from viser import ViserServer
 
+from ai4u_edu.viewer.fan_out import fan_out
+
 
 class LocalServer(ViserServer):
     """A viser server that only this machine can reach.
@@ -23,6 +25,7 @@ class LocalServer(ViserServer):
         warnings.filterwarnings("ignore", r"Queued a \w+ on a closed connection")
         with quiet():
             super().__init__(host="127.0.0.1", port=0, label=label, verbose=False)
+        fan_out(self)
 
     def request_share_url(self, verbose: bool = True) -> str | None:  # noqa: ARG002
         """Refuses."""

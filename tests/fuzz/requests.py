@@ -19,7 +19,8 @@ METHODS = (b"GET", b"GET", b"GET", b"HEAD", b"POST", b"PUT", b"OPTIONS", b"TRACE
 PATHS = (
     b"/", b"/healthz", b"/api/snapshot", b"/api/openapi.json", b"/web/main.js", b"/web/page.css",
     b"/web/../pyproject.toml", b"/web/..%2f..%2fREADME.md", b"/web/%00", b"//", b"/ws/remote",
-    b"/ws/input", b"/api/", b"/web/.", b"/web/" + b"a" * 5000, b"*", b"http://evil.example/healthz",
+    b"/ws/input", b"/api/", b"/api/past", b"/api/past/x.episode", b"/api/past/..%2f..%2fetc",
+    b"/web/.", b"/web/" + b"a" * 5000, b"*", b"http://evil.example/healthz",
 )  # fmt: skip
 HOSTS = (
     b"localhost", b"localhost:8080", b"127.0.0.1", b"[::1]:80", b"evil.example", b"localhost@evil",

@@ -4,7 +4,9 @@ One world at 60 ticks a second in which so many scripts drive an agent each, in 
 a second with 16 rays, while as many viewers look at the page. The scripts are real ones of
 ``ai4u_edu.remote``, the viewers bare clients of viser's socket that read every frame. World and
 server have one process, all brains another one, all viewers a third; how much of a core each took
-stands in the table, since they compete for the same cores.
+stands in the table, since they compete for the same cores. ``--apart`` gives the server a core of
+its own, as it has where scripts and pages are on other machines. How many others wanted the cores
+meanwhile (the load average) stands in the table too: a figure counts only where it is small.
 """
 
 import argparse
@@ -19,8 +21,10 @@ from tests.load import clients, world
 
 HEAD = """\
 | brains | viewers | besides | tick late p50 / p99 | observation old p50 / p99 | viewer frames/s \
-least / median | server, brains, viewers (cores) |
-|---|---|---|---|---|---|---|"""
+least / median | server, brains, viewers (cores) | load |
+|---|---|---|---|---|---|---|---|"""
+
+_CORES: dict[str, set[int]] = {"server": set(), "clients": set()}
 
 
 def main() -> None:
@@ -30,7 +34,10 @@ def main() -> None:
     parser.add_argument("--seconds", type=float, default=20)
     parser.add_argument("--quick", action="store_true", help="5 s each")
     parser.add_argument("--no-viewers", action="store_true")
+    parser.add_argument("--apart", action="store_true", help="a core for the server alone")
     options = parser.parse_args()
+    cores = sorted(os.sched_getaffinity(0)) if options.apart else []
+    _CORES.update(server=set(cores[:1]), clients=set(cores[1:] or cores))
     multiprocessing.set_start_method("spawn")
     seconds = 5.0 if options.quick else options.seconds
     load = ", ".join(f"{each:.1f}" for each in os.getloadavg())
@@ -60,6 +67,7 @@ def measure(
     here, there = multiprocessing.Pipe()
     served = multiprocessing.Process(target=world.serve, args=(brains, there), daemon=True)
     served.start()
+    _pin(served, "server")
     url = here.recv()
     parties: list[tuple[Any, Any, int]] = [(clients.brains, list(range(brains)), slow)]
     parties += [(clients.viewers, viewers, stopped)] if viewers else []
@@ -88,16 +96,24 @@ def measure(
     used = [told.processor / seconds, *(each.processor / took for each in found)]
     return (
         f"| {brains} | {viewers} | {'; '.join(besides) or '-'} | {_ms(told.late)} | {_ms(ages)} "
-        f"| {seen} | {', '.join(f'{each:.2f}' for each in used)} |"
+        f"| {seen} | {', '.join(f'{each:.2f}' for each in used)} | {os.getloadavg()[0]:.1f} |"
     )
 
 
 def _begin(party: Any, url: str, count: Any, odd: int, seconds: float) -> Connection:
     here, there = multiprocessing.Pipe()
-    multiprocessing.Process(
+    clients = multiprocessing.Process(
         target=party, args=(url, count, odd, seconds, there), daemon=True
-    ).start()
+    )
+    clients.start()
+    _pin(clients, "clients")
     return here
+
+
+def _pin(process: multiprocessing.process.BaseProcess, kind: str) -> None:
+    """Has a process stay on its cores; what it starts later stays there as well."""
+    if _CORES[kind] and process.pid is not None:
+        os.sched_setaffinity(process.pid, _CORES[kind])
 
 
 def _wait(end: Connection, seconds: float) -> None:

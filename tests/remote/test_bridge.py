@@ -193,6 +193,18 @@ def test_a_script_that_falls_silent() -> None:
         )
 
 
+def test_whoever_ends_the_bridge_waits_for_no_script() -> None:
+    with log_room() as room, udp_script() as script:
+        bridge = Bridge(room.url, port=script.port, patience=600.0)
+        thread = threading.Thread(target=bridge.run, daemon=True)
+        thread.start()
+        begin(script)  # and it does not answer what it is told
+        bridge.stop()
+        assert "__stop__" in script.hear(PATIENCE)
+        thread.join(PATIENCE)
+        assert not thread.is_alive()
+
+
 def test_no_world_is_there() -> None:
     with pytest.raises(LostError, match="is it running, and is the address right"):
         Bridge(f"ws://127.0.0.1:{free_port()}", port=free_port())

@@ -6,7 +6,7 @@ from ai4u_edu import BasicAgent
 from ai4u_edu.remote import RefusedError, connect
 from ai4u_edu.wire import native
 from tests.remote.rooms import Script, log_of, log_room
-from tests.server.rooms import until
+from tests.server.rooms import Room, until
 
 
 def test_each_action_is_the_answer_to_one_percept() -> None:
@@ -135,6 +135,48 @@ def test_in_realtime_the_world_does_not_wait_and_an_action_counts_once() -> None
         assert taken.index(13.0) > 0 or taken[0] == 13.0
         assert agent.brain.status().decisions == 1  # type: ignore[attr-defined]  # a RemoteBrain
         assert later.step > percept.step
+
+
+def answered_in_realtime(room: Room, script: Script) -> native.Percept:
+    """What a script is told that has answered with 1 in the middle of the decision before.
+
+    The world stands still; the decision before went on without the script.
+    """
+    room.runner.pause().result(5)
+    script.hello(mode="realtime")
+    room.runner.step().result(5)
+    script.act(script.percept(), 1)
+    until(lambda: answers(room) == 1)
+    room.runner.step().result(5)
+    return script.percept()
+
+
+def answers(room: Room) -> int:
+    """How many of the script's answers lie there."""
+    return len(room.sim.agents[0].brain._link._answers)  # type: ignore[attr-defined]
+
+
+def test_in_realtime_a_percept_comes_before_the_next_tick() -> None:
+    with log_room(skip_frame=1, time_scale=1.0) as room, Script(room) as script:
+        percept = answered_in_realtime(room, script)
+        assert (percept.step, percept.tick) == (room.sim.agents[0].steps, room.sim.world.ticks)
+
+
+def test_in_realtime_a_late_action_counts() -> None:
+    with log_room(skip_frame=1, time_scale=1.0) as room, Script(room) as script:
+        answered_in_realtime(room, script)
+        room.runner.step().result(5)
+        assert log_of(room)[-1][2] == 1.0
+
+
+def test_in_realtime_a_late_action_gives_way_to_one_in_time() -> None:
+    with log_room(skip_frame=1, time_scale=1.0) as room, Script(room) as script:
+        script.act(answered_in_realtime(room, script), 2)
+        until(lambda: answers(room) == 2)
+        room.runner.step(4).result(5)
+        assert [number for _, _, number in log_of(room)] == [2.0] * 4
+        status = room.sim.agents[0].brain.status()  # type: ignore[attr-defined]  # a RemoteBrain
+        assert (status.decisions, status.ignored) == (1, 1)
 
 
 def test_an_episode_that_is_over_wants_a_reset() -> None:

@@ -2,13 +2,16 @@
 
 import threading
 import time
+from contextlib import suppress
 from socket import SHUT_RDWR
 
 import pytest
+from websockets.exceptions import ConnectionClosed
 
 from ai4u_edu.remote import LostError, RefusedError, Robot, connect
 from ai4u_edu.remote.dialogue import Dialogue
 from ai4u_edu.remote.steps import Flow, LineLost, Open, Receive, Send, Step
+from ai4u_edu.server.remote.sockets import PER_SECOND
 from ai4u_edu.wire import native
 from tests.remote.rooms import SECRET, Script, log_of, log_room
 from tests.server.rooms import until
@@ -112,6 +115,59 @@ def test_in_realtime_a_lost_script_stops_its_agent_and_in_time_frees_it() -> Non
         until(lambda: agent.brain is agent.brains[0])
         print(f"stopped after {stopped:.2f} s, free after {time.monotonic() - lost:.2f} s")
         robot.close()
+
+
+FLOODED = f"expected at most {PER_SECOND} frames a second that answer nothing"
+
+
+def flood(script: Script, late: native.Percept, times: int = 3 * PER_SECOND) -> tuple[int, str]:
+    """Answers one percept again and again; how the connection ends."""
+    with suppress(ConnectionClosed):
+        for _ in range(times):
+            script.act(late, 99)
+    return script.end()
+
+
+def test_a_seated_script_that_floods_is_sent_away_and_may_come_back() -> None:
+    with log_room(2, grace=5.0, receive_timeout=5000) as room:
+        with Script(room) as script, connect(room.url, "b", mode="lockstep") as other:
+            welcome = script.hello()
+            assert isinstance(welcome, native.Welcome)
+            late = script.percept()
+            script.act(late, 1)
+            ended: list[tuple[int, str]] = []
+            flooding = threading.Thread(target=lambda: ended.append(flood(script, late)))
+            flooding.start()
+            other.sense()
+            flooding.join(10)
+            assert ended == [(native.PROBLEMS["too_fast"], FLOODED)]
+        with Script(room) as script:
+            assert script.hello(session=welcome.session) == welcome
+            percept = script.percept()
+            script.act(percept, 2)
+            script.percept()
+        assert [number for _, _, number in log_of(room)] == [1.0, 2.0]
+
+
+def test_who_answers_as_fast_as_it_can_is_no_flood() -> None:
+    with log_room() as room, Script(room) as script:
+        script.hello()
+        for number in range(2 * PER_SECOND):
+            script.act(script.percept(), number)
+        script.percept()
+        assert len(log_of(room)) == 2 * PER_SECOND
+
+
+def test_a_flooding_scripts_seat_is_free_after_the_grace_time() -> None:
+    with log_room(grace=0.2) as room:
+        with Script(room) as script:
+            script.hello()
+            late = script.percept()
+            script.act(late, 1)
+            assert flood(script, late) == (native.PROBLEMS["too_fast"], FLOODED)
+            until(lambda: room.runner.latest.agents[0].remote is None)
+        with Script(room) as another:
+            assert isinstance(another.hello(secret="another script's secret"), native.Welcome)
 
 
 def test_nothing_is_left_behind() -> None:

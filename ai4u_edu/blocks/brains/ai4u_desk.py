@@ -33,6 +33,12 @@ class Desk:
         self._thread = threading.Thread(target=self._run, name=name, daemon=True)
         self._thread.start()
 
+    def leave(self, situation: Situation) -> None:
+        """Leaves the latest situation."""
+        with self._news:
+            self._latest = situation
+            self._news.notify_all()
+
     def exchange(self, situation: Situation, timeout: float) -> Answered | None:
         """Leaves the latest situation, takes the answer that lies there.
 

@@ -109,6 +109,11 @@ class AI4ULink:
         if self._threaded:
             self._desk = Desk(self.talk, f"ai4u {self.where}")
 
+    def tell(self, situation: Situation) -> None:
+        """The thread that talks to the script sends it; where there is none, nobody can yet."""
+        if self._threaded and self.expecting:
+            self._desk.leave(situation)
+
     def ask(self, situation: Situation, timeout: float) -> Answered | None:
         """The script's answer."""
         if self._threaded:

@@ -130,6 +130,12 @@ class Link(Protocol):
     def open(self, offer: Offer) -> None:
         """Begins to look out for a script. What was open before is closed."""
 
+    def tell(self, situation: Situation) -> None:
+        """The agent's now, sooner than it is asked about, in a world that does not wait.
+
+        A link that can sends it at once, so that the script sees what is new and not a tick old.
+        """
+
     def ask(self, situation: Situation, timeout: float) -> Answered | None:
         """The script's answer, as soon as it is there.
 

@@ -101,6 +101,11 @@ class RemoteBrain(Brain):
         brain._given = link
         return brain
 
+    @property
+    def is_given(self) -> bool:
+        """Whether its script came by itself, and was told already what the agent senses."""
+        return self._given is not None
+
     # -- what a brain does -----------------------------------------------------------------------
 
     def on_setup(self, agent: AgentView, view: WorldView) -> None:
@@ -118,11 +123,18 @@ class RemoteBrain(Brain):
             )
         )
         self._link = link
+        if self.mode == "realtime":
+            agent.end_of_update_state.connect(self._tell)
 
     def on_reset(self, agent: AgentView, view: WorldView) -> None:
-        """A new episode; a script that didn't ask for it is told that its own was cut off."""
+        """A new episode; a script that didn't ask for it is told that its own was cut off.
+
+        One that goes on from the middle of a recording is no new one: were the script told, it
+        would ask for a reset, and lose it.
+        """
         told = self._told
-        self._cut_short = not self._resetting and told is not None and not told.done
+        is_new = not self._resetting and not agent.steps
+        self._cut_short = is_new and told is not None and not told.done
         self._resetting = self._stopped = False
         self._situation = None
 
@@ -162,6 +174,8 @@ class RemoteBrain(Brain):
         """Says goodbye to the script."""
         if self._link is not None:
             self._link.close(reason)
+            if self.mode == "realtime":
+                self._agent.end_of_update_state.disconnect(self._tell)
             self._link = self._situation = self._told = None
 
     def title(self) -> str:
@@ -222,6 +236,14 @@ class RemoteBrain(Brain):
         self._situation = now
         self._asked = time.monotonic()
         return now
+
+    def _tell(self, agent: AgentView) -> None:
+        """Has the script see at once what was sensed: until the next tick it may have answered."""
+        link = self._link
+        if link is not None and link.state is LinkState.CONNECTED:
+            link.tell(self._now(agent.percept))
+            if link.expecting:
+                self._told = self._situation
 
     def _outdated(self, answered: Answered, situation: Situation) -> bool:
         """Whether an answer belongs to what is over: it must not reach another episode."""

@@ -148,8 +148,8 @@ class Seat:
 
     def _give_back(self) -> None:
         agent, brain, before = self.agent, self._brain, self._before
-        if brain is None or before is None:
-            return
+        if brain is None or before is None or agent not in self._runner.sim.agents:
+            return  # it never had the agent, or another world runs by now
         if agent.brain is brain:
             agent.use_brain(before)
         agent.brains[:] = [each for each in agent.brains if each is not brain]

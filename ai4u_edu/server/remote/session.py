@@ -7,7 +7,7 @@ and is never held for long.
 import asyncio
 import time
 from collections import deque
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from threading import Lock, get_ident
 
 from ai4u_edu.blocks import Answer, Command
@@ -66,6 +66,12 @@ class Session:
     def open(self, offer: Offer) -> None:
         """Nothing: the script is here already, and knows."""
 
+    def tell(self, situation: Situation) -> None:
+        """The agent's now, unless the script still thinks about what it was told before."""
+        if self._line is not None and (self._told is None or self._is_answered):
+            self._count(situation)
+            self._tell(situation)
+
     def ask(self, situation: Situation, timeout: float) -> Answered | None:
         """The script's answer, if it is there; if not, the runner is called when it is."""
         self._count(situation)
@@ -75,9 +81,10 @@ class Session:
             if timeout:  # the world waits for it
                 self._runner.expect_call()
             return None
-        answered = self._answers.popleft()
-        self._told = None
-        if answered.situation is not situation:
+        answered = self._newest()
+        if self._told is answered.situation:
+            self._told = None
+        if answered.situation is not situation and self._told is None:
             self._tell(situation)  # it was late; what it says counts now, what it sees is new
         return answered
 
@@ -173,6 +180,14 @@ class Session:
                 )
                 return native.Problem("seed_refused", text, told.number)
         return None
+
+    def _newest(self) -> Answered:
+        """The answer that counts: an action that came too late gives way to one that did not."""
+        answered = self._answers.popleft()
+        while self._answers and isinstance(answered.answer, Mapping):
+            self.ignored += 1
+            answered = self._answers.popleft()
+        return answered
 
     def _count(self, situation: Situation) -> None:
         """Adds up what was paid since the last percept that the script was told."""

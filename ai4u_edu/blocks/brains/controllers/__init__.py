@@ -1,6 +1,8 @@
 """The controllers: what a LocalBrain can ask."""
 
+from ai4u_edu.blocks.brains.controllers.a_star import AStarController, a_star
 from ai4u_edu.blocks.brains.controllers.arrow import ArrowController
+from ai4u_edu.blocks.brains.controllers.breadth_first import BreadthFirstController, breadth_first
 from ai4u_edu.blocks.brains.controllers.controller import Controller
 from ai4u_edu.blocks.brains.controllers.discrete_arrow import DiscreteArrowController
 from ai4u_edu.blocks.brains.controllers.flee import FleeController
@@ -15,7 +17,9 @@ from ai4u_edu.blocks.brains.controllers.wasd import WASDRBMoveController
 from ai4u_edu.blocks.brains.controllers.wasd_drive import WASDController
 
 __all__ = [
+    "AStarController",
     "ArrowController",
+    "BreadthFirstController",
     "Controller",
     "DiscreteArrowController",
     "FleeController",
@@ -28,4 +32,6 @@ __all__ = [
     "StrikerController",
     "WASDController",
     "WASDRBMoveController",
+    "a_star",
+    "breadth_first",
 ]

@@ -8,6 +8,7 @@ from pydantic import Field
 from ai4u_edu.blocks.agent_view import AgentView
 from ai4u_edu.blocks.brains.command import Answer, Command
 from ai4u_edu.blocks.brains.controllers.controller import Controller
+from ai4u_edu.blocks.brains.controllers.keyboard import together
 from ai4u_edu.blocks.brains.controllers.wasd import Amount, Keys
 from ai4u_edu.blocks.percept import Percept
 from ai4u_edu.errors import BlockError, suggest
@@ -28,7 +29,7 @@ class ArrowController(Controller):
 
     Any key can be given any part: of each part the keys are listed (``KeyboardEvent.code``, places
     on the keyboard); strafing to the side has none until you give it some. Opposite keys cancel
-    out.
+    out. A stick, on a screen or a gamepad, drives and turns as fast as it is pushed.
 
     ``components`` says what each number of the action is. Left out, it is as the actuator takes
     them: two wheels (the inner one slows down), RBMoveActuator's four or CBMoveActuator's five;
@@ -74,12 +75,14 @@ class ArrowController(Controller):
 
     def get_action(self, percept: Percept) -> Answer:
         """One number a component, from the keys held now."""
-        keys = self._keyboard.read()
+        keys, stick = self._keyboard.read(), self._keyboard.stick()
         fresh, self._before = keys - self._before, keys
         if not fresh.isdisjoint(self.restart):
             return Command.RESTART
-        ahead = self.speed * (_any(keys, self.forward) - _any(keys, self.backward))
-        turn = self.turn_amount * (_any(keys, self.turn_right) - _any(keys, self.turn_left))
+        forward = _any(keys, self.forward) - _any(keys, self.backward)
+        right = _any(keys, self.turn_right) - _any(keys, self.turn_left)
+        ahead = self.speed * together(forward, stick.forward)
+        turn = self.turn_amount * together(right, stick.turn)
         parts: dict[str, float] = {
             "forward": ahead,
             "strafe": self.speed * (_any(keys, self.right) - _any(keys, self.left)),

@@ -7,6 +7,7 @@ from pydantic import Field
 from ai4u_edu.blocks.agent_view import AgentView
 from ai4u_edu.blocks.brains.command import Answer, Command
 from ai4u_edu.blocks.brains.controllers.controller import Controller
+from ai4u_edu.blocks.brains.controllers.keyboard import together
 from ai4u_edu.blocks.percept import Percept
 from ai4u_edu.parameters import quantity
 from ai4u_edu.world import WorldView
@@ -20,7 +21,8 @@ class WASDRBMoveController(Controller):
 
     The arrow keys drive too. Keys are places on the keyboard (``KeyboardEvent.code``), so W is
     where it is on an English keyboard whatever is printed there. Opposite keys cancel out. A key
-    that is released stops its part of the action at once.
+    that is released stops its part of the action at once. A stick, on a screen or a gamepad, drives
+    and turns as fast as it is pushed.
 
     Source: AI4U's WASDRBMoveController.
     """
@@ -44,7 +46,7 @@ class WASDRBMoveController(Controller):
 
     def get_action(self, percept: Percept) -> Answer:
         """[forward, turn, jump, forward jump] from the keys held now."""
-        keys = self._keyboard.read()
+        keys, stick = self._keyboard.read(), self._keyboard.stick()
         fresh, self._before = keys - self._before, keys
         if not fresh.isdisjoint(self.restart):
             return Command.RESTART
@@ -54,8 +56,8 @@ class WASDRBMoveController(Controller):
         leap = not keys.isdisjoint(self.jump_forward)
         return {
             self.actuator_name: (
-                ahead * self.speed,
-                turn * self.turn_amount,
+                together(ahead, stick.forward) * self.speed,
+                together(turn, stick.turn) * self.turn_amount,
                 jump * self.jump_power,
                 leap * self.jump_power,
             )

@@ -1,0 +1,48 @@
+"""What a script notices when its world is replaced, or goes back in time."""
+
+import pytest
+
+from ai4u_edu import Scene
+from ai4u_edu.recording import Recorder, Replay
+from ai4u_edu.remote import LostError, Robot, connect
+from tests.server.rooms import served
+
+AHEAD = [0.1, 0.0, 0.0, 0.0]
+
+
+def drive(robot: Robot, decisions: int) -> None:
+    for _ in range(decisions):
+        robot.act(move=AHEAD)
+
+
+def test_a_script_is_told_and_gets_the_agent_of_the_same_id_in_the_other_world() -> None:
+    with served(Scene.load("box_chase").build()) as room:
+        robot = connect(room.url)
+        robot.act(move=AHEAD)
+        other = Scene.load("box_chase").build()
+        room.runner.use(other, seed=3).result(5)
+        with pytest.raises(LostError, match="another world has taken its place; connect anew"):
+            drive(robot, 20)
+        with connect(room.url, mode="lockstep") as again:
+            again.act(move=AHEAD)
+            again.sense()
+            assert other.agents[0].brain.title() == "RemoteBrain(a script)"
+            assert other.agents[0].last_action["move"] == pytest.approx(AHEAD)
+
+
+def test_a_script_keeps_its_agent_when_the_world_goes_back_in_time() -> None:
+    sim = Scene.load("box_chase").build()
+    recorder = Recorder(sim)
+    with served(sim) as room:
+        room.runner.recorder = recorder
+        with connect(room.url, mode="lockstep") as robot:
+            first = robot.reset(seed=6)
+            drive(robot, 10)
+            assert robot.sense().step == 10
+            episode = room.runner.submit(recorder.now).result(5)
+            assert episode is not None
+            room.runner.continue_from(Replay(episode), 4).result(5)
+            drive(robot, 4)  # what it says of what it sensed before counts no more
+            percept = robot.sense()
+            assert percept.episode > first.episode
+            assert percept.step == 7

@@ -1,0 +1,205 @@
+"""Bare clients of viser's socket: what all get is packed once, and nobody misses anything."""
+
+import inspect
+import time
+from collections.abc import Iterator
+from typing import Any
+
+import msgspec
+import pytest
+import viser
+from viser.infra import _infra
+from viser.infra._messages import Message
+from websockets.sync.client import ClientConnection, connect
+from websockets.sync.connection import Connection
+from websockets.typing import Subprotocol
+from zstandard import ZstdDecompressor
+
+from ai4u_edu.viewer import fan_out
+from ai4u_edu.viewer.fan_out import FanOut
+from ai4u_edu.viewer.local_server import LocalServer
+from tests.server.rooms import until
+
+
+@pytest.fixture
+def server() -> Iterator[LocalServer]:
+    server = LocalServer("AI4U Edu")
+    yield server
+    server.stop()
+
+
+@pytest.fixture
+def packings(monkeypatch: pytest.MonkeyPatch) -> list[list[Message]]:
+    """What was packed."""
+    made: list[list[Message]] = []
+    pack = fan_out.packed
+
+    def packed(messages: list[Message]) -> bytes:
+        made.append(list(messages))
+        return pack(messages)
+
+    monkeypatch.setattr(fan_out, "packed", packed)
+    return made
+
+
+def client(server: viser.ViserServer) -> ClientConnection:
+    return connect(
+        f"ws://127.0.0.1:{server.get_port()}",
+        subprotocols=[Subprotocol(f"viser-v{viser.__version__}")],
+        compression=None,
+        max_size=None,
+        proxy=None,
+    )
+
+
+def told(frame: object) -> list[dict[str, Any]]:
+    """The messages in a frame."""
+    assert isinstance(frame, bytes)
+    size = int.from_bytes(frame[8:16], "little")
+    inside = ZstdDecompressor().decompress(frame[16 : 16 + size])
+    messages: list[dict[str, Any]] = msgspec.msgpack.decode(inside)["messages"]
+    return messages
+
+
+def frame_with(page: Connection, text: str) -> bytes:
+    """The first frame in which a text is."""
+    while True:
+        frame = page.recv(5)
+        assert isinstance(frame, bytes)
+        if text in str(told(frame)):
+            return frame
+
+
+def settled(server: LocalServer, pages: int) -> FanOut:
+    """The server's fan-out, as soon as so many pages are up to date."""
+    out: FanOut = server._websock_server._broadcast_buffer._ai4u_edu_fan_out  # type: ignore[attr-defined]
+    until(lambda: len(out._pages) == pages)
+    return out
+
+
+def test_it_fits_the_viser_that_is_there(server: LocalServer) -> None:
+    assert viser.__version__ == fan_out.KNOWN, "look whether viewer/fan_out.py still fits"
+    assert fan_out.fan_out(server)
+    ours, theirs = (inspect.signature(f) for f in (fan_out._produce, fan_out._viser_does))
+    assert list(ours.parameters) == list(theirs.parameters)
+    assert "_message_producer" in inspect.getsource(_infra.WebsockServer)
+
+
+def test_with_another_viser_all_goes_visers_way(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(fan_out, "KNOWN", "0.0.0")
+    server = LocalServer("AI4U Edu")
+    try:
+        with client(server) as page:
+            server.gui.add_markdown("hello")
+            frame_with(page, "hello")
+    finally:
+        server.stop()
+
+
+def test_a_server_that_is_not_ours_goes_visers_way(packings: list[list[Message]]) -> None:
+    server = viser.ViserServer(host="127.0.0.1", port=0, verbose=False)
+    try:
+        server.gui.add_markdown("hello")
+        with client(server) as page:
+            frame_with(page, "hello")
+        assert packings == []
+    finally:
+        server.stop()
+
+
+def test_pages_that_are_up_to_date_share_one_packing(
+    server: LocalServer, packings: list[list[Message]]
+) -> None:
+    pages = [client(server) for _ in range(5)]
+    settled(server, 5)
+    server.gui.add_markdown("hello")
+    frames = {frame_with(page, "hello") for page in pages}
+    assert len(frames) == 1
+    assert sum("hello" in str(messages) for messages in packings) == 1
+    for page in pages:
+        page.close()
+
+
+def test_who_comes_gets_what_there_is_then_the_mark_and_then_what_is_new(
+    server: LocalServer,
+) -> None:
+    text = server.gui.add_markdown("first")
+    for number in range(1000):
+        text.content = f"old {number}"
+    with client(server) as page:
+        settled(server, 1)
+        text.content = "new"
+        seen: list[dict[str, Any]] = []
+        while "new" not in str(seen[-1:]):
+            seen += told(page.recv(5))
+    kinds = [message["type"] for message in seen]
+    mark = kinds.index("ReplayDoneMessage")
+    assert kinds.count("ReplayDoneMessage") == 1
+    assert "old 999" in str(seen[:mark])
+    assert "old 998" not in str(seen)
+    assert "new" in str(seen[mark:])
+
+
+def test_what_belongs_together_comes_together(server: LocalServer) -> None:
+    with client(server) as page:
+        settled(server, 1)
+        with server.atomic():
+            for number in range(300):
+                server.scene.add_frame(f"/frame {number}")
+                if number == 150:
+                    time.sleep(0.1)
+        names = [
+            message.get("name")
+            for message in told(frame_with(page, "/frame 0"))
+            if message["type"] == "FrameMessage"
+        ]
+        assert names == [f"/frame {number}" for number in range(300)]
+
+
+def test_what_one_page_has_said_goes_to_all_others(server: LocalServer) -> None:
+    field = server.gui.add_text("Name", initial_value="before")
+    with client(server) as writer, client(server) as reader:
+        settled(server, 2)
+        update = {
+            "type": "GuiUpdateMessage",
+            "uuid": field._impl.uuid,
+            "updates": {"value": "mine"},
+        }
+        writer.send(msgspec.msgpack.encode(update))
+        frame_with(reader, "mine")
+        server.gui.add_markdown("later")
+        heard: list[dict[str, Any]] = []
+        while "later" not in str(heard[-1:]):
+            heard += told(writer.recv(5))
+        assert "mine" not in str(heard)
+
+
+def test_a_page_that_does_not_read_gets_the_newest_when_it_does(server: LocalServer) -> None:
+    slow, quick = client(server), client(server)
+    out = settled(server, 2)
+    text = server.gui.add_markdown("")
+    # more than the sockets and the client's queue take
+    for number in range(60):
+        text.content = f"{number} " + "".join(f"{number * each:x}" for each in range(100_000))
+        frame_with(quick, f"{number} ")
+    waiting = [page.transport.get_write_buffer_size() for page in out._pages.values()]
+    assert 0 < max(waiting) < 2_000_000  # one frame of it, and not sixty
+    text.content = "the last"
+    seen: list[str] = []
+    while not seen or "the last" not in seen[-1]:
+        seen += [str(message) for message in told(slow.recv(5))]
+    assert len(seen) < 55
+    for page in (slow, quick):
+        page.close()
+
+
+def test_nothing_is_left_of_pages_that_are_gone(server: LocalServer) -> None:
+    with client(server), client(server):
+        out = settled(server, 2)
+    settled(server, 0)
+    until(lambda: not out._buffer.generator_cursors)
+    assert out._sending is None
+    with client(server) as page:
+        settled(server, 1)
+        server.gui.add_markdown("again")
+        frame_with(page, "again")
