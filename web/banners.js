@@ -68,6 +68,7 @@ export class Banners {
     if (this.#fatal) return { kind: "error", text: this.#fatal, button: "Reload" };
     if (state?.error) return { kind: "error", text: state.error, button: "Reset" };
     if (this.#complaint) return { kind: "error", text: this.#complaint };
+    if (state?.past) return { kind: "paused", text: `Past: ${state.past}`, button: "Back to now" };
     if (state?.outcome) return ending(state, about);
     if (state?.paused) return { kind: "paused", text: "Paused", button: "Resume" };
     if (state?.goal && about.isNew && !about.name) return { kind: "task", text: state.goal };
@@ -82,7 +83,8 @@ export class Banners {
     const card = element("div", { className: "ai4u-banner" }, words);
     card.dataset.kind = kind;
     if (button) {
-      const does = { Reload: () => location.reload(), Resume: () => this.#order("resume") };
+      const resume = () => this.#order("resume");
+      const does = { Reload: () => location.reload(), Resume: resume, "Back to now": resume };
       const press = element("button", { type: "button", className: "ai4u-button", textContent: button });
       press.addEventListener("click", does[button] ?? (() => this.#order("reset")));
       card.append(press);

@@ -1,80 +1,77 @@
-/** The keys on the screen: they light up while held, can be pressed, and say who drives. */
+/** The keys on the screen: they light up while held, and can be pressed. */
 
 import { element } from "./dom.js";
-import { caption, label } from "./labels.js";
+import { label } from "./labels.js";
+import { cross } from "./places.js";
+import { Stick } from "./stick.js";
 
-/** What may lie at a place of the pad, first come first served. */
-const PLACES = {
-  up: ["forward", "up"],
-  left: ["turn_left", "left"],
-  down: ["backward", "down"],
-  right: ["turn_right", "right"],
-};
 /** How long a tap lasts that has no length of its own (ms), as from a screen reader. */
 const TAP = 150;
+const COARSE = matchMedia("(pointer: coarse)");
 
 export class Keycaps {
   #keys;
+  #keymap;
   #caps = new Map();
+  #stick;
   #pad = element("div", { className: "ai4u-pad" });
   #more = element("div", { className: "ai4u-more" });
-  #dot = element("span", { className: "ai4u-dot", ariaHidden: "true" });
-  #text = element("span");
-  #take = element("button", { type: "button", className: "ai4u-button", textContent: "Take over" });
+  #dock;
+  #arranged = [{}, false];
 
   /**
+   * @param {HTMLElement} dock where they lie
    * @param {import("./keys.js").HeldKeys} keys
-   * @param {() => void} take called when the person wants to drive
+   * @param {import("./keymap.js").KeyMap} keymap
    */
-  constructor(keys, take) {
+  constructor(dock, keys, keymap) {
+    this.#dock = dock;
     this.#keys = keys;
-    this.#take.addEventListener("click", take);
-    const status = element("span", { role: "status" }, this.#text);
-    document.body.append(
-      element(
-        "section",
-        { className: "ai4u-dock", ariaLabel: "Drive" },
-        element("div", { className: "ai4u-seat" }, this.#dot, status, this.#take),
-        element("div", { className: "ai4u-keys" }, this.#pad, this.#more),
-      ),
-    );
+    this.#keymap = keymap;
+    this.#stick = new Stick(keys);
+    dock.append(this.#pad, this.#more);
+    COARSE.addEventListener("change", () => this.arrange(...this.#arranged));
   }
 
-  /** Makes a cap for each action; `captions` says what some of them do here. */
-  arrange(bindings, captions = {}) {
+  /** Makes a cap for each action; a stick in place of four of them, where a thumb would push it. */
+  arrange(bindings, takesStick) {
+    this.#arranged = [bindings, takesStick];
     const made = new Map();
     this.#caps.clear();
     for (const [action, codes] of Object.entries(bindings)) {
-      made.set(action, this.#cap(action, codes[0], caption(action, captions)));
-      this.#caps.set(made.get(action), codes);
+      const cap = this.#cap(action, codes[0]);
+      made.set(action, cap);
+      this.#caps.set(cap, codes);
     }
     this.#pad.replaceChildren();
-    for (const [place, actions] of Object.entries(PLACES)) {
-      const action = actions.find((each) => made.has(each));
-      if (action === undefined) continue;
+    for (const [place, action] of cross(bindings)) {
       const cap = made.get(action);
       made.delete(action);
       cap.style.gridArea = place;
       this.#pad.append(cap);
     }
+    const hasStick = COARSE.matches && takesStick && this.#pad.hasChildNodes();
+    if (hasStick) this.#pad.replaceChildren(this.#stick.element);
+    this.#dock.toggleAttribute("data-touch", COARSE.matches);
+    this.#pad.toggleAttribute("data-stick", hasStick);
     this.#more.replaceChildren(...made.values());
   }
 
-  draw({ connected, hello, seat, held }) {
+  /** @param {string[]} held codes */
+  draw(held) {
     for (const [cap, codes] of this.#caps) {
       cap.toggleAttribute("data-held", codes.some((code) => held.includes(code)));
     }
-    const [kind, text] = standing({ connected, hello, seat });
-    this.#dot.dataset.kind = kind;
-    if (this.#text.textContent !== text) this.#text.textContent = text;
-    this.#take.hidden = kind !== "other";
   }
 
-  #cap(action, code, does) {
+  #cap(action, code) {
+    const does = this.#keymap.name(action);
+    const [key] = this.#keymap.keys[action];
+    const printed = key === undefined ? "" : label(key);
     const cap = element(
       "button",
-      { type: "button", className: "ai4u-cap", ariaLabel: `${does} (${label(code)})` },
-      element("kbd", { textContent: label(code) }),
+      { type: "button", className: "ai4u-cap", ariaLabel: `${does} (${printed || "no key"})` },
+      element("kbd", { textContent: printed }),
       element("span", { textContent: does }),
     );
     cap.dataset.action = action;
@@ -99,12 +96,4 @@ export class Keycaps {
     });
     return cap;
   }
-}
-
-function standing({ connected, hello, seat }) {
-  if (!connected) return ["lost", "Connecting …"];
-  if (Object.keys(hello.keys).length === 0) return ["none", `Driven by ${hello.brain}`];
-  if (seat.driver === null) return ["free", "Press a key to drive"];
-  if (seat.driver !== hello.you) return ["other", `Page ${seat.driver} drives`];
-  return ["mine", seat.pages > 1 ? `You drive (page ${hello.you})` : "You drive"];
 }

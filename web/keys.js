@@ -1,5 +1,5 @@
 /**
- * Which keys are held, on the keyboard and on the screen.
+ * Which keys are held and how far a stick is pushed, on the keyboard, the screen or a gamepad.
  *
  * Keys are places (KeyboardEvent.code), so they don't depend on the layout. viser moves its camera
  * with some of them, from a listener on `document`; this one comes first and lets nothing through.
@@ -7,6 +7,8 @@
 
 /** Milliseconds; the server lets go of keys that it hasn't heard of for three times as long. */
 const REPEAT = 100;
+/** Milliseconds between two words about a stick: the server doesn't listen to whoever says too many. */
+const PACE = 25;
 const MOST = 16;
 const CAMERA = [..."WASDQE"].map((letter) => `Key${letter}`).concat(
   ["Up", "Down", "Left", "Right"].map((side) => `Arrow${side}`),
@@ -16,14 +18,18 @@ const WITHOUT_TEXT = "button, checkbox, color, file, image, radio, range, reset,
 export class HeldKeys {
   /** Called with the code of each key that is pressed anew. */
   onpress = (_code) => {};
+  /** Whether the keyboard is somebody else's now. */
+  isAsleep = () => false;
 
-  #bound = new Set();
+  #means = new Map();
   #sources = new Map();
+  #sticks = new Map();
   #changed;
   #timer = 0;
+  #told = 0;
   #reachedByTab = null;
 
-  /** @param {(held: string[]) => void} changed called at each change, and while any key is held */
+  /** @param {() => void} changed called at each change, and while anything is held */
   constructor(changed) {
     this.#changed = changed;
     const first = { capture: true };
@@ -35,14 +41,24 @@ export class HeldKeys {
     document.addEventListener("visibilitychange", () => document.hidden && this.releaseAll());
   }
 
-  /** The codes that are held now. */
+  /** The codes that are held now, as the agent knows them. */
   get held() {
     return [...new Set(this.#sources.values())].slice(0, MOST);
   }
 
-  /** Says which codes mean something to the agent. */
-  bind(codes) {
-    this.#bound = new Set(codes);
+  /** How far all sticks together are pushed: ahead and to the right, each from -1 to 1. */
+  get stick() {
+    const sum = { forward: 0, turn: 0 };
+    for (const { forward, turn } of this.#sticks.values()) {
+      sum.forward = Math.max(-1, Math.min(1, sum.forward + forward));
+      sum.turn = Math.max(-1, Math.min(1, sum.turn + turn));
+    }
+    return sum;
+  }
+
+  /** @param {Map<string, string>} means for a key of this keyboard the code that the agent listens to */
+  bind(means) {
+    this.#means = means;
   }
 
   /** @param {string} source what holds the key: the key itself, or a finger on the screen */
@@ -53,20 +69,35 @@ export class HeldKeys {
     this.#tell();
   }
 
+  /** @param {{forward: number, turn: number}} how far the stick of a source is pushed */
+  push(source, { forward, turn }) {
+    const before = this.#sticks.get(source);
+    if ((before?.forward ?? 0) === forward && (before?.turn ?? 0) === turn) return;
+    if (forward || turn) this.#sticks.set(source, { forward, turn });
+    else this.#sticks.delete(source);
+    if (!before) this.onpress("");
+    const wait = forward || turn ? this.#told + PACE - performance.now() : 0;
+    if (wait <= 0) return this.#tell();
+    clearInterval(this.#timer);
+    this.#timer = setTimeout(() => this.#tell(), wait);
+  }
+
   release(source) {
     if (this.#sources.delete(source)) this.#tell();
   }
 
   releaseAll() {
-    if (this.#sources.size === 0) return;
+    if (this.#sources.size + this.#sticks.size === 0) return;
     this.#sources.clear();
+    this.#sticks.clear();
     this.#tell();
   }
 
   #tell() {
     clearInterval(this.#timer);
-    if (this.#sources.size) this.#timer = setInterval(() => this.#changed(this.held), REPEAT);
-    this.#changed(this.held);
+    this.#told = performance.now();
+    if (this.#sources.size + this.#sticks.size) this.#timer = setInterval(() => this.#changed(), REPEAT);
+    this.#changed();
   }
 
   #down(event) {
@@ -78,21 +109,22 @@ export class HeldKeys {
       this.releaseAll(); // while Meta is held, macOS tells of no key that goes up
       return;
     }
-    if (!this.#bound.has(code)) return;
+    const means = this.#means.get(code);
+    if (means === undefined) return;
     event.preventDefault();
-    if (!event.repeat) this.press(code, code);
+    if (!event.repeat) this.press(code, means);
   }
 
   #up(event) {
     this.release(event.code);
     if (this.#isForOthers(event)) return;
     event.stopPropagation();
-    if (this.#bound.has(event.code)) event.preventDefault(); // Space would press a button
+    if (this.#means.has(event.code)) event.preventDefault(); // Space would press a button
   }
 
   #isForOthers({ code, target, isComposing }) {
-    if (isComposing || isText(target)) return true;
-    if (!this.#bound.has(code) && !CAMERA.includes(code)) return true;
+    if (this.isAsleep() || isComposing || isText(target)) return true;
+    if (!this.#means.has(code) && !CAMERA.includes(code)) return true;
     // whoever walks through the controls by keyboard needs these keys there
     const walks = this.#reachedByTab === target && target !== document.body;
     return walks && (code === "Space" || code === "Enter" || code.startsWith("Arrow"));
@@ -100,7 +132,7 @@ export class HeldKeys {
 }
 
 /** Whether keys write into it. */
-function isText(target) {
+export function isText(target) {
   if (!(target instanceof HTMLElement)) return false;
   if (target instanceof HTMLInputElement) return !WITHOUT_TEXT.includes(target.type);
   return target.isContentEditable || target.matches("textarea, select, [role=textbox]");

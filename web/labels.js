@@ -5,8 +5,17 @@ const NAMES = {
   ArrowDown: "↓",
   ArrowLeft: "←",
   ArrowRight: "→",
-  Space: "Space",
-  Enter: "Enter",
+  ShiftLeft: "Shift",
+  ShiftRight: "Right Shift",
+  Comma: ",",
+  Period: ".",
+  Slash: "/",
+  Semicolon: ";",
+  Quote: "'",
+  BracketLeft: "[",
+  BracketRight: "]",
+  Minus: "-",
+  Equal: "=",
 };
 const CAPTIONS = { backward: "back", jump_forward: "leap", turn_left: "left", turn_right: "right" };
 

@@ -1,16 +1,23 @@
-/** The page's own part: keys that are held, who drives, and what has happened. viser draws the rest. */
+/** The page's own part: what is held, who drives, and what has happened. viser draws the rest. */
 
 import { Banners } from "./banners.js";
+import { element } from "./dom.js";
+import { Gamepads } from "./gamepad.js";
+import { Help } from "./help.js";
+import { KeyMap } from "./keymap.js";
 import { HeldKeys } from "./keys.js";
 import { Keycaps } from "./keycaps.js";
 import { label, learnLayout } from "./labels.js";
+import { Pill } from "./pill.js";
+import { cross } from "./places.js";
+import { followScene } from "./scene.js";
 import { foldSheet } from "./sheet.js";
 import { InputSocket } from "./socket.js";
 
 const query = new URLSearchParams(location.search);
 const agent = query.get("agent");
 
-let hello = { you: 0, keys: {}, captions: {}, brain: "", name: "" };
+let hello = { you: 0, agent, keys: {}, captions: {}, brain: "", name: "", stick: false, others: "", instead: "" };
 let seat = { driver: null, pages: 1 };
 let state = null;
 let connected = false;
@@ -22,17 +29,32 @@ tellAgent();
 addEventListener("focus", tellAgent);
 
 const socket = new InputSocket("ws/input" + (agent === null ? "" : `?agent=${encodeURIComponent(agent)}`));
-const keys = new HeldKeys((held) => {
-  socket.send({ type: "keys", held });
+const keymap = new KeyMap();
+const keys = new HeldKeys(() => {
+  socket.send({ type: "keys", held: keys.held, stick: keys.stick });
   draw();
 });
-const caps = new Keycaps(keys, () => socket.send({ type: "take" }));
+const row = element("div", { className: "ai4u-row" });
+const dock = element("section", { className: "ai4u-dock", ariaLabel: "Drive" });
+document.body.append(dock);
+const caps = new Keycaps(dock, keys, keymap);
+dock.append(row);
+const pill = new Pill(
+  row,
+  () => socket.send({ type: "take" }),
+  () => {
+    keys.releaseAll();
+    socket.send({ type: "let_go" });
+  },
+);
+const gamepads = new Gamepads(keys);
+const help = new Help(row, keys, keymap, arrange);
 const banners = new Banners((name) => socket.send({ type: "command", name }));
 
 keys.onpress = (code) => {
   hasActed = true;
-  // no decision is taken while the world stands, so nobody would hear the key
-  if (state?.error && hello.keys.restart?.includes(code)) {
+  // no decision is taken while the world stands, and whoever else drives hears no key
+  if ((state?.error || hello.others) && hello.keys.restart?.includes(code)) {
     socket.send({ type: "command", name: "reset" });
   }
 };
@@ -48,12 +70,15 @@ socket.onclose = (reason) => {
   banners.fatal(reason);
   draw();
 };
+socket.onanother = () => {
+  hasActed = false;
+  socket.path = `ws/input?after_another&agent=${encodeURIComponent(hello.agent ?? "")}`;
+};
 socket.onmessage = (message) => {
   switch (message.type) {
     case "hello":
       hello = message;
-      keys.bind(Object.values(hello.keys).flat());
-      caps.arrange(hello.keys, hello.captions);
+      arrange();
       break;
     case "seat":
       if (seat.driver === hello.you && message.driver !== hello.you) keys.releaseAll();
@@ -70,21 +95,43 @@ socket.onmessage = (message) => {
   draw();
 };
 
+/** Who is told which key, cap or button means what. */
+function arrange() {
+  keymap.arrange(hello.keys, hello.captions);
+  keys.bind(keymap.means);
+  caps.arrange(hello.keys, hello.stick);
+  gamepads.bind(hello.keys, hello.stick);
+  help.refresh();
+  draw();
+}
+
 function draw() {
   const mine = seat.driver === hello.you;
-  caps.draw({ connected, hello, seat, held: mine || keys.held.length ? keys.held : state?.held ?? [] });
-  const isDriven = Object.keys(hello.keys).length > 0;
+  const { held } = keys;
+  caps.draw(mine || held.length ? held : (state?.held ?? []));
+  pill.draw({ connected, hello, seat, way: way() });
+  help.tell(state?.goal || "This scene has none: look around.");
+  const isDriven = Object.keys(hello.keys).length > 0 && !hello.others;
   banners.draw(connected ? state : null, {
-    restart: label(hello.keys.restart?.[0] ?? ""),
+    restart: label(keymap.keys.restart?.[0] ?? ""),
     name: isDriven ? "" : hello.name,
     isNew: !hasActed,
   });
 }
 
+/** How one begins to drive, in words. */
+function way() {
+  if (dock.hasAttribute("data-touch")) return hello.stick ? "push the stick" : "tap a key";
+  if (!hello.others) return "press a key";
+  const first = [...cross(hello.keys).values(), ...Object.keys(hello.keys)][0];
+  return `press ${label(keymap.keys[first]?.[0] ?? "")}`;
+}
+
+// a notebook shows the frame that it made for us as soon as we are there
+if (window.parent !== window) window.parent.postMessage("ai4u-edu", "*");
+
 draw();
-learnLayout().then(() => {
-  caps.arrange(hello.keys, hello.captions);
-  draw();
-});
+learnLayout().then(arrange);
 socket.open();
+followScene();
 foldSheet();

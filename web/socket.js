@@ -4,26 +4,31 @@ const SOONEST = 250;
 const LATEST = 4000;
 /** The server's way of saying that it would say no again. */
 const REFUSED = 1008;
+/** The server's way of saying that another world has taken this one's place. */
+const ANOTHER = 1012;
 
 export class InputSocket {
   onopen = () => {};
   onclose = (_reason) => {};
   onmessage = (_message) => {};
+  /** Called before it comes back to another world. */
+  onanother = () => {};
 
-  #path;
+  /** Relative to the page, so that it holds under any prefix. */
+  path;
   #socket = null;
   #wait = SOONEST;
   #timer = 0;
 
-  /** @param {string} path relative to the page, so that it holds under any prefix */
+  /** @param {string} path relative to the page */
   constructor(path) {
-    this.#path = path;
+    this.path = path;
     addEventListener("online", () => this.#again());
     addEventListener("pageshow", (event) => event.persisted && this.#again());
   }
 
   open() {
-    const url = new URL(this.#path, document.baseURI);
+    const url = new URL(this.path, document.baseURI);
     url.protocol = url.protocol === "https:" ? "wss:" : "ws:";
     const socket = (this.#socket = new WebSocket(url));
     socket.onopen = () => {
@@ -35,6 +40,7 @@ export class InputSocket {
       this.#socket = null;
       this.onclose(code === REFUSED ? reason : "");
       if (code === REFUSED) return;
+      if (code === ANOTHER) this.onanother();
       this.#timer = setTimeout(() => this.#again(), this.#wait * (0.75 + Math.random() / 2));
       this.#wait = Math.min(2 * this.#wait, LATEST);
     };

@@ -106,6 +106,7 @@ class SnapshotView(_View):
     slow_tick: SlowTickView | None = Field(
         description="the slowest tick of the last 5 s, if one took more than 0.05 s"
     )
+    past: str = Field(description="which moment of the past it is; empty for now")
     agents: list[AgentView]
     bodies: list[BodyView]
 
@@ -124,6 +125,7 @@ class SnapshotView(_View):
             real_time_factor=picture.real_time_factor,
             error=picture.error,
             slow_tick=SlowTickView(seconds=slow.seconds, contacts=slow.contacts) if slow else None,
+            past=picture.past,
             agents=[AgentView.of(agent, bodies[agent.body]) for agent in picture.agents],
             bodies=[BodyView.of(body) for body in picture.bodies],
         )

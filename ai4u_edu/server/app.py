@@ -17,6 +17,7 @@ from ai4u_edu.server.guard import Guard
 from ai4u_edu.server.input import Inputs
 from ai4u_edu.server.openapi import openapi
 from ai4u_edu.server.page import Page
+from ai4u_edu.server.past import Past
 from ai4u_edu.server.proxy import ViserProxy
 from ai4u_edu.server.remote import RemoteSockets, Rules
 
@@ -44,6 +45,7 @@ def room_app(
     page = Page(title)
     guard = [Middleware(Guard, token=rules.token)]
     page_guard = [Middleware(Guard, token=rules.token, is_page=True)]
+    past = Past(runner)
     document = openapi()
 
     def healthz(_: Request) -> Response:
@@ -62,6 +64,8 @@ def room_app(
             Route("/web/{file}", page.file, middleware=guard),
             Route("/healthz", healthz, middleware=guard),
             Route("/api/snapshot", snapshot, middleware=guard),
+            Route("/api/past", past.list, middleware=guard),
+            Route("/api/past/{file}", past.file, middleware=guard),
             Route("/api/openapi.json", describe, middleware=guard),
             WebSocketRoute("/", ViserProxy(viser_port, rules.token), middleware=guard),
             WebSocketRoute("/ws/input", Inputs(runner), middleware=guard),

@@ -4,6 +4,7 @@ from ai4u_edu.agent import BasicAgent
 from ai4u_edu.blocks import (
     Actuator,
     ArrowController,
+    Brain,
     DiscreteActuator,
     DiscreteArrowController,
     WASDRBMoveController,
@@ -25,22 +26,33 @@ FEWEST = 4
 """An actuator of fewer numbers has none for a jump."""
 
 
-def useful_keys(agent: BasicAgent) -> dict[str, list[str]]:
-    """The keys of an agent, without those for what its body can't do."""
-    idle = _idle(agent)
-    return {action: codes for action, codes in keys_of(agent).items() if action not in idle}
+CHOICES = ("right", "left", "up", "down", "accept")
+"""What a DiscreteArrowController's choices are called, from 1 on."""
 
 
-def captions(agent: BasicAgent) -> dict[str, str]:
+def useful_keys(agent: BasicAgent, brain: Brain | None = None) -> dict[str, list[str]]:
+    """The keys of an agent, without those for what its body can't do.
+
+    Args:
+        agent: which.
+        brain: that it would have; left out, the one that it has.
+    """
+    brain = brain or agent.brain
+    idle = _idle(agent, brain)
+    return {action: codes for action, codes in keys_of(agent, brain).items() if action not in idle}
+
+
+def captions(agent: BasicAgent, brain: Brain | None = None) -> dict[str, str]:
     """What keys do in this scene, where it isn't what they are called."""
-    actuator = _actuator(agent)
-    controller = getattr(agent.brain, "controller", None)
+    brain = brain or agent.brain
+    actuator = _actuator(agent, brain)
+    controller = getattr(brain, "controller", None)
     if not isinstance(actuator, DiscreteActuator) or actuator.handler is not None:
         return {}
     if not isinstance(controller, DiscreteArrowController):
         return {}
     names = {}
-    for action, row in zip(("right", "left", "up", "down"), actuator.table[1:], strict=False):
+    for action, row in zip(CHOICES, actuator.table[1:], strict=False):
         forward, turn, jump, leap = row
         name = MOTIONS.get((_sign(forward), _sign(turn), _sign(jump + leap)))
         if name is not None:
@@ -48,9 +60,11 @@ def captions(agent: BasicAgent) -> dict[str, str]:
     return names
 
 
-def _idle(agent: BasicAgent) -> set[str]:
-    """The jumps that an agent's controller knows and its body can't do."""
-    controller, actuator = getattr(agent.brain, "controller", None), _actuator(agent)
+def _idle(agent: BasicAgent, brain: Brain) -> set[str]:
+    """What an agent's controller knows and its body can't do."""
+    controller, actuator = getattr(brain, "controller", None), _actuator(agent, brain)
+    if isinstance(actuator, Actuator) and isinstance(controller, DiscreteArrowController):
+        return set(CHOICES[int(actuator.limits()[1][0]) :])
     if actuator is None or not isinstance(controller, WASDRBMoveController | ArrowController):
         return set()
     numbers = len(actuator.limits()[0])
@@ -61,9 +75,9 @@ def _idle(agent: BasicAgent) -> set[str]:
     return {action for action in JUMPS if not can[action]}
 
 
-def _actuator(agent: BasicAgent) -> Actuator | None:
-    """The actuator that an agent's controller drives."""
-    controller = getattr(agent.brain, "controller", None)
+def _actuator(agent: BasicAgent, brain: Brain) -> Actuator | None:
+    """The actuator that a brain's controller drives."""
+    controller = getattr(brain, "controller", None)
     return agent.fitting.actuators.get(getattr(controller, "actuator_name", ""))
 
 

@@ -1,4 +1,4 @@
-"""The input socket: a page's keys, its wish to drive, and a few commands."""
+"""The input socket: a page's keys, its wish to drive or not to, and a few commands."""
 
 import asyncio
 import json
@@ -6,16 +6,20 @@ from collections.abc import Callable
 from concurrent.futures import Future
 from contextlib import suppress
 from itertools import count
+from typing import NamedTuple
 
 from starlette.types import Receive, Scope, Send
 from starlette.websockets import WebSocket, WebSocketDisconnect, WebSocketState
 
 from ai4u_edu.agent import BasicAgent
+from ai4u_edu.blocks.brains.controllers.keyboard import Stick
+from ai4u_edu.cycle import ControlRequestor
 from ai4u_edu.errors import NameNotFoundError
 from ai4u_edu.runner import Runner
 from ai4u_edu.server import messages, news
 from ai4u_edu.server.bindings import choose
 from ai4u_edu.server.frames import CAP, EXTENSION, FramesProtocol
+from ai4u_edu.server.hands import Hands
 from ai4u_edu.server.rate import Rate
 from ai4u_edu.server.seat import Seat
 
@@ -29,6 +33,10 @@ LOOK = 0.2
 """How often it is looked (s) whether a page has to be told something."""
 ORDERS = 4
 """Commands of one page that may wait for the runner."""
+ANOTHER = "another world"
+"""Why a page's socket is closed (1012) when another world has taken this one's place."""
+AFTER_ANOTHER = "after_another"
+"""With this in its address a page comes back: it takes any agent if its own is not there."""
 
 
 class Inputs:
@@ -36,7 +44,7 @@ class Inputs:
 
     def __init__(self, runner: Runner) -> None:
         self._runner = runner
-        self._seats: dict[str, Seat] = {}
+        self._places: dict[str, _Place] = {}
         self._numbers = count(1)
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
@@ -47,26 +55,47 @@ class Inputs:
         if frames:
             frames.cap(CAP)
         with suppress(WebSocketDisconnect):
+            sim, wanted = self._runner.sim, socket.query_params.get("agent")
             try:
-                agent = choose(self._runner.sim, socket.query_params.get("agent"))
+                agent = choose(sim, wanted)
             except NameNotFoundError as error:
-                await socket.send_json(news.error(str(error)))
-                await socket.close(1008, "there is no such agent")
-                return
-            seat = self._seats.setdefault(agent.id, Seat(agent.keyboard))
-            await _Page(socket, self._runner, agent, seat, next(self._numbers)).talk()
+                if AFTER_ANOTHER not in socket.query_params:
+                    await socket.send_json(news.error(str(error)))
+                    await socket.close(1008, "there is no such agent")
+                    return
+                agent = choose(sim, None)
+            await _Page(socket, self._runner, sim, self._place(agent), next(self._numbers)).talk()
+
+    def _place(self, agent: BasicAgent) -> "_Place":
+        """An agent's place; in another world the agent of the same id has another one."""
+        place = self._places.get(agent.id)
+        if place is None or place.agent is not agent:
+            hands = Hands(self._runner, agent)
+            place = self._places[agent.id] = _Place(agent, Seat(agent.keyboard, hands), hands)
+        return place
+
+
+class _Place(NamedTuple):
+    agent: BasicAgent
+    seat: Seat
+    hands: Hands
 
 
 class _Page:
-    """One page at its agent's seat."""
+    """One page at its agent's place."""
 
     def __init__(
-        self, socket: WebSocket, runner: Runner, agent: BasicAgent, seat: Seat, number: int
+        self,
+        socket: WebSocket,
+        runner: Runner,
+        sim: ControlRequestor,
+        place: _Place,
+        number: int,
     ) -> None:
         self._socket = socket
         self._runner = runner
-        self._agent = agent
-        self._seat = seat
+        self._sim = sim
+        self._agent, self._seat, self._hands = place
         self._number = number
         self._orders: set[asyncio.Task[None]] = set()
 
@@ -106,14 +135,19 @@ class _Page:
                     return
                 continue
             mistakes = 0
+            if self._runner.sim is not self._sim:
+                continue  # it is about to be told
             self._obey(message)
 
     def _obey(self, message: messages.Message) -> None:
         match message:
-            case messages.Keys(held=held):
-                self._seat.hold(self._number, held)
+            case messages.Keys(held=held, stick=stick):
+                pushed = Stick(stick.forward, stick.turn)
+                self._await(self._seat.hold(self._number, held, pushed))
             case messages.Take():
-                self._seat.take(self._number)
+                self._await(self._seat.take(self._number))
+            case messages.LetGo():
+                self._await(self._seat.let_go(self._number))
             case messages.Order(name="reset", seed=seed):
                 self._order(lambda: self._runner.reset(seed))
             case messages.Order(name="pause"):
@@ -123,7 +157,11 @@ class _Page:
 
     def _order(self, order: Callable[[], "Future[None]"]) -> None:
         if len(self._orders) < ORDERS:
-            task = asyncio.create_task(self._carry_out(order()))
+            self._await(order())
+
+    def _await(self, future: "Future[None] | None") -> None:
+        if future is not None:
+            task = asyncio.create_task(self._carry_out(future))
             self._orders.add(task)
             task.add_done_callback(self._orders.discard)
 
@@ -145,13 +183,15 @@ class _Page:
 
     async def _tell(self, changed: asyncio.Event) -> None:
         told: dict[str, str] = {}
-        while True:
+        while self._runner.sim is self._sim:
             changed.clear()
             for frame in (
-                news.hello(self._agent, self._number),
+                news.hello(self._agent, self._number, self._hands),
                 news.seating(self._seat),
                 news.state(self._runner.latest, self._agent.id),
             ):
+                if frame is None:
+                    continue
                 text = json.dumps(frame)
                 if told.get(frame["type"]) != text:
                     told[frame["type"]] = text
@@ -160,3 +200,4 @@ class _Page:
             with suppress(TimeoutError):
                 async with asyncio.timeout(LOOK):
                     await changed.wait()
+        await self._socket.close(1012, ANOTHER)

@@ -4,23 +4,29 @@ from typing import Any
 
 from ai4u_edu.agent import BasicAgent
 from ai4u_edu.server.api import finite
+from ai4u_edu.server.bindings import takes_a_stick
 from ai4u_edu.server.caps import captions, useful_keys
+from ai4u_edu.server.hands import Hands
 from ai4u_edu.server.seat import Seat
 from ai4u_edu.snapshot import AgentState, Snapshot
 
 Frame = dict[str, Any]
 
 
-def hello(agent: BasicAgent, number: int) -> Frame:
-    """Which page it is, which agent it is about, and what that one listens to."""
+def hello(agent: BasicAgent, number: int, hands: Hands) -> Frame:
+    """Which page it is, which agent it is about, and what that one listens to, or would."""
+    brain = hands.brain
     return {
         "type": "hello",
         "you": number,
         "agent": agent.id,
         "name": agent.body_name,
         "brain": agent.brain.title(),
-        "keys": useful_keys(agent),
-        "captions": captions(agent),
+        "keys": useful_keys(agent, brain),
+        "captions": captions(agent, brain),
+        "stick": takes_a_stick(brain),
+        "others": hands.others,
+        "instead": hands.instead,
     }
 
 
@@ -29,13 +35,16 @@ def seating(seat: Seat) -> Frame:
     return {"type": "seat", "driver": seat.driver, "pages": seat.pages}
 
 
-def state(picture: Snapshot, agent_id: str) -> Frame:
-    """How the world and the agent are, as far as the page speaks of it."""
-    agent = next(agent for agent in picture.agents if agent.id == agent_id)
+def state(picture: Snapshot, agent_id: str) -> Frame | None:
+    """How the world and the agent are, as far as the page speaks of it; None in another world."""
+    agent = next((agent for agent in picture.agents if agent.id == agent_id), None)
+    if agent is None:
+        return None
     body = next(body for body in picture.bodies if body.name == agent.body)
     return {
         "type": "state",
         "paused": picture.paused,
+        "past": picture.past,
         "error": picture.error,
         "episode": picture.episode,
         "terminated": agent.terminated,

@@ -6,11 +6,13 @@ from pydantic import BaseModel
 from pydantic.json_schema import models_json_schema
 
 from ai4u_edu.server.api import Health, SnapshotView
+from ai4u_edu.server.past import RECORDING, WRITERS, PastView
 from ai4u_edu.version import __version__
 
 _ANSWERS: dict[str, tuple[str, type[BaseModel]]] = {
     "/healthz": ("Whether the room is well.", Health),
     "/api/snapshot": ("Everything at the last tick.", SnapshotView),
+    "/api/past": ("The kept episodes.", PastView),
 }
 
 
@@ -24,6 +26,7 @@ def openapi() -> dict[str, Any]:
         path: _get(summary, {"$ref": f"#/components/schemas/{model.__name__}"})
         for path, (summary, model) in _ANSWERS.items()
     }
+    paths["/api/past/{file}"] = _file("A kept episode as a file.")
     paths["/api/openapi.json"] = _get("This document.", {"type": "object"})
     return {
         "openapi": "3.1.0",
@@ -47,3 +50,24 @@ def _get(summary: str, schema: dict[str, Any]) -> dict[str, Any]:
             },
         }
     }
+
+
+def _file(summary: str) -> dict[str, Any]:
+    known = "|".join((RECORDING, *WRITERS))
+    described = _get(summary, {})
+    found = described["get"]
+    found["parameters"] = [
+        {
+            "name": "file",
+            "in": "path",
+            "required": True,
+            "description": "the episode's number, and what to make of it",
+            "schema": {"type": "string", "pattern": rf"^[0-9]+\.({known})$"},
+        }
+    ]
+    found["responses"]["200"]["content"] = {"*/*": {}}
+    found["responses"] |= {
+        "404": {"description": "No such episode is kept; says which are."},
+        "409": {"description": "It can't be made; says why."},
+    }
+    return described

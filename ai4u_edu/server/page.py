@@ -11,7 +11,21 @@ from starlette.responses import FileResponse, PlainTextResponse, Response
 from ai4u_edu.errors import SetupError
 
 _PLACE = "<title>Viser</title>"
-_OURS = """<title>{title}</title>
+# viser is dark where its address says so, and never because the system is; it must be said before
+# viser looks, so it stands here. What the system wishes is not to stay in an address.
+_DARK = """<script>
+      (() => {
+        const address = new URL(location);
+        const wanted = address.searchParams.get("darkMode");
+        const dark = matchMedia("(prefers-color-scheme: dark)").matches;
+        if (wanted === null ? !dark : wanted !== "auto" || dark) return;
+        if (dark) address.searchParams.set("darkMode", "auto");
+        else address.searchParams.delete("darkMode");
+        history.replaceState(history.state, "", address);
+      })();
+    </script>"""
+_OURS = f"""<title>{{title}}</title>
+    {_DARK.replace("{", "{{").replace("}", "}}")}
     <link rel="stylesheet" href="./web/page.css" />
     <script type="module" src="./web/main.js"></script>"""
 # what a system says about endings can't be relied on: some call a .js plain text

@@ -7,6 +7,7 @@ import pytest
 from playwright.sync_api import Page, expect
 
 from ai4u_edu import BasicAgent
+from ai4u_edu.blocks.brains.controllers.keyboard import Stick
 from ai4u_edu.snapshot import BodyState
 from tests.browser.theatre import SPEED, TURN, Theatre, seat
 from tests.server.rooms import until
@@ -74,10 +75,10 @@ def test_letting_go_stops_within_two_decisions(theatre: Theatre) -> None:
 
     hold = agent.keyboard.hold
 
-    def noted_hold(codes: frozenset[str]) -> None:
+    def noted_hold(codes: list[str], stick: Stick) -> None:
         if not codes:
             released.append(agent.steps)
-        hold(codes)
+        hold(codes, stick)
 
     agent.end_of_step.connect(note)
     agent.keyboard.hold = noted_hold  # type: ignore[method-assign,assignment]

@@ -5,10 +5,10 @@ import re
 import pytest
 from playwright.sync_api import Locator, Page, expect
 
-from ai4u_edu import ArrowController, BasicAgent, LocalBrain, WASDRBMoveController
+from ai4u_edu import ArrowController, BasicAgent, LocalBrain, RemoteBrain, WASDRBMoveController
 from tests.browser.theatre import Theatre, seat
 from tests.builders import still
-from tests.server.rooms import until
+from tests.server.rooms import free_port, until
 
 pytestmark = pytest.mark.browser
 
@@ -70,27 +70,6 @@ def test_a_cap_can_be_pressed_with_the_mouse(theatre: Theatre) -> None:
     page.mouse.up()
 
 
-def test_fingers_press_several_caps_and_slide_between_them(theatre: Theatre) -> None:
-    page = theatre.page(width=390, height=844, touch=True)
-    session = page.context.new_cdp_session(page)
-
-    def touch(kind: str, **fingers: tuple[float, float]) -> None:
-        points = [{"x": x, "y": y, "id": ord(name)} for name, (x, y) in fingers.items()]
-        session.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": points})
-
-    w, d, jump = (centre(page, name) for name in ("forward", "right", "jump"))
-    touch("touchStart", a=w)
-    until(lambda: theatre.room.held == ["KeyW"])
-    touch("touchStart", a=w, b=jump)
-    until(lambda: theatre.room.held == ["KeyW", "Space"])
-    touch("touchMove", a=d, b=jump)
-    until(lambda: theatre.room.held == ["KeyD", "Space"])
-    touch("touchEnd", b=jump)
-    until(lambda: theatre.room.held == ["KeyD"])
-    touch("touchCancel")
-    until(lambda: theatre.room.held == [])
-
-
 def test_a_cap_is_a_button_for_whoever_uses_no_pointer(theatre: Theatre) -> None:
     page = theatre.page()
     cap(page, "forward").focus()
@@ -107,12 +86,18 @@ def test_caps_show_what_is_printed_on_this_keyboard(theatre: Theatre) -> None:
     assert cap(page, "right").locator("kbd").inner_text() == "D"
 
 
-def test_another_brain_takes_the_keys_away(theatre: Theatre) -> None:
+def test_another_brain_can_be_taken_over_and_one_elsewhere_takes_the_keys_away(
+    theatre: Theatre,
+) -> None:
     page = theatre.page()
     agent = theatre.room.sim.agents[0]
     theatre.room.runner.submit(lambda: agent.use_brain(LocalBrain(controller=still)))
-    expect(seat(page)).to_have_text("Driven by LocalBrain(ScriptController)")
+    expect(seat(page)).to_have_text("A script drives \u2013 press W to take over")
+    expect(page.locator(".ai4u-cap")).to_have_count(7)
+    theatre.room.runner.submit(lambda: agent.use_brain(RemoteBrain(port=free_port())))
+    expect(seat(page)).to_have_text("A script elsewhere drives")
     expect(page.locator(".ai4u-cap")).to_have_count(0)
+    expect(page.get_by_role("button", name="Take over")).to_be_hidden()
 
 
 def test_the_caps_lie_as_the_keys_do(theatre: Theatre) -> None:

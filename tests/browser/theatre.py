@@ -82,13 +82,25 @@ CALM = """() => new Promise((done) => {
 })"""
 
 
-def ready(page: Page) -> None:
-    """Waits until a page is connected, shows its keys, and has done its first, heavy drawing."""
+def connected(page: Page) -> None:
+    """Waits until a page is connected and shows its keys."""
     page.locator(".ai4u-seat", has_not_text="Connecting").wait_for()
     page.locator(".ai4u-cap").first.wait_for()
+
+
+def ready(page: Page) -> None:
+    """Waits until a page is connected, shows its keys, and has done its first, heavy drawing."""
+    connected(page)
     page.evaluate(CALM)
 
 
 def seat(page: Page) -> Locator:
     """Where a page says who drives."""
     return page.locator(".ai4u-seat [role=status]")
+
+
+def centre(thing: Locator) -> tuple[float, float]:
+    """Where the middle of something is on its page."""
+    box = thing.bounding_box()
+    assert box is not None
+    return box["x"] + box["width"] / 2, box["y"] + box["height"] / 2

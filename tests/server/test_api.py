@@ -42,7 +42,7 @@ def get(room: Room, path: str) -> Any:
     return json.loads(answer.text, parse_constant=lambda name: pytest.fail(f"{name} is no JSON"))
 
 
-@pytest.mark.parametrize("path", ["healthz", "api/snapshot"])
+@pytest.mark.parametrize("path", ["healthz", "api/snapshot", "api/past"])
 def test_an_answer_fits_its_description(room: Room, path: str) -> None:
     document = get(room, "api/openapi.json")
     described = document["paths"]["/" + path]["get"]["responses"]["200"]["content"]
@@ -61,9 +61,16 @@ def test_the_description_is_complete(room: Room) -> None:
     document = get(room, "api/openapi.json")
     assert document["openapi"] == "3.1.0"
     assert document["info"]["version"] == __version__
-    assert set(document["paths"]) == {"/healthz", "/api/snapshot", "/api/openapi.json"}
+    assert set(document["paths"]) == {
+        "/healthz",
+        "/api/snapshot",
+        "/api/past",
+        "/api/past/{file}",
+        "/api/openapi.json",
+    }
     for path in document["paths"]:
-        get(room, path[1:])
+        if "{" not in path:
+            get(room, path[1:])
     assert "$defs" not in json.dumps(document)
 
 
@@ -115,5 +122,5 @@ def test_what_json_has_no_word_for_becomes_null() -> None:
 
 
 def test_the_api_only_looks(room: Room) -> None:
-    for path in ("healthz", "api/snapshot", "api/openapi.json", ""):
+    for path in ("healthz", "api/snapshot", "api/past", "api/openapi.json", ""):
         assert httpx.post(room.url + path).status_code == 405

@@ -165,6 +165,23 @@ def test_viser_closing_closes_the_page_with_its_words() -> None:
         assert (closed.value.rcvd.code, closed.value.rcvd.reason) == (1000, "enough for today")
 
 
+def test_frames_keep_their_order_whether_the_page_is_slow_or_not() -> None:
+    """What waits for a slow page is not overtaken by what could go at once."""
+    frames = [str(number).encode() * (1 + number * 977 % 20_011) for number in range(600)]
+
+    async def pour(connection: ServerConnection) -> None:
+        for number, frame in enumerate(frames):
+            whole = number % 7
+            await connection.send(frame if whole else [frame[:1], frame[1:]])  # in two pieces
+        await connection.wait_closed()
+
+    with stand_in(pour) as port, served(viser_port=port) as room, client(room) as page:
+        for number, frame in enumerate(frames):
+            if number % 100 == 0:
+                time.sleep(0.1)
+            assert page.recv(5) == frame
+
+
 def test_a_viser_that_breaks_off_closes_the_page() -> None:
     async def break_off(connection: ServerConnection) -> None:
         connection.transport.abort()

@@ -1,0 +1,181 @@
+"""Thumbs on a phone and on tablets: a stick at the left, buttons at the right."""
+
+import itertools
+
+import pytest
+from playwright.sync_api import CDPSession, Locator, Page, expect
+
+from ai4u_edu import DiscreteActuator, DiscreteArrowController, LocalBrain
+from ai4u_edu.blocks.brains.controllers.keyboard import Stick
+from ai4u_edu.cycle import ControlRequestor
+from tests.browser.theatre import Theatre, centre, connected, seat
+from tests.builders import small_sim, still
+from tests.server.rooms import until
+
+pytestmark = pytest.mark.browser
+
+SIZES = {"phone": (390, 844), "tablet": (1024, 768), "upright": (768, 1024), "flat": (844, 390)}
+FINGER = 44
+"""Pixels that a finger needs."""
+
+
+class Fingers:
+    """Fingers on a page, by name; each is where it was put last."""
+
+    def __init__(self, page: Page) -> None:
+        self._session: CDPSession = page.context.new_cdp_session(page)
+
+    def touch(self, kind: str, **fingers: tuple[float, float]) -> None:
+        points = [{"x": x, "y": y, "id": ord(name)} for name, (x, y) in fingers.items()]
+        self._session.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": points})
+
+
+def stick_of(page: Page) -> Locator:
+    return page.locator(".ai4u-stick")
+
+
+def pushed(theatre: Theatre) -> Stick:
+    return theatre.room.sim.agents[0].keyboard.stick()
+
+
+def button(page: Page, name: str) -> Locator:
+    return page.locator(f".ai4u-cap[data-action={name}]")
+
+
+@pytest.fixture
+def phone(theatre: Theatre) -> Page:
+    return theatre.page(width=390, height=844, touch=True)
+
+
+def test_the_stick_drives_by_halves_and_rests_when_let_go(theatre: Theatre, phone: Page) -> None:
+    fingers, (x, y) = Fingers(phone), centre(stick_of(phone))
+    expect(seat(phone)).to_have_text("Push the stick to drive")
+    fingers.touch("touchStart", a=(x, y))
+    fingers.touch("touchMove", a=(x, y - 25))
+    until(lambda: 0.3 < pushed(theatre).forward < 0.8)
+    expect(seat(phone)).to_have_text("You drive")
+    until(lambda: theatre.pose()[0] > 0.1)
+    assert theatre.pose()[1] == 0, "a push that is nearly straight is straight"
+    fingers.touch("touchMove", a=(x + 4, y - 300))
+    until(lambda: pushed(theatre) == Stick(1, 0))
+    fingers.touch("touchMove", a=(x + 200, y))
+    until(lambda: pushed(theatre) == Stick(0, 1))
+    until(lambda: theatre.pose()[2] < -0.1)
+    fingers.touch("touchMove", a=(x - 100, y + 100))
+    until(lambda: pushed(theatre) == Stick(-1, -1))
+    fingers.touch("touchEnd")
+    until(lambda: pushed(theatre) == Stick())
+
+
+def test_the_other_thumb_jumps_and_slides_meanwhile(theatre: Theatre, phone: Page) -> None:
+    fingers, (x, y) = Fingers(phone), centre(stick_of(phone))
+    jump, leap = (centre(button(phone, name)) for name in ("jump", "jump_forward"))
+    fingers.touch("touchStart", a=(x, y - 55))
+    fingers.touch("touchStart", a=(x, y - 55), b=jump)
+    until(lambda: (theatre.room.held, pushed(theatre)) == (["Space"], Stick(1, 0)))
+    fingers.touch("touchMove", a=(x, y + 100), b=leap)
+    until(lambda: (theatre.room.held, pushed(theatre)) == (["KeyJ"], Stick(-1, 0)))
+    fingers.touch("touchEnd", a=(x, y + 100))
+    until(lambda: pushed(theatre) == Stick())
+    assert theatre.room.held == ["KeyJ"]
+    fingers.touch("touchCancel")
+    until(lambda: theatre.room.held == [])
+
+
+def test_a_page_that_is_put_away_lets_go_of_its_stick(theatre: Theatre, phone: Page) -> None:
+    fingers, (x, y) = Fingers(phone), centre(stick_of(phone))
+    fingers.touch("touchStart", a=(x, y - 55))
+    until(lambda: pushed(theatre) == Stick(1, 0))
+    phone.evaluate("window.dispatchEvent(new Event('blur'))")
+    until(lambda: pushed(theatre) == Stick())
+
+
+def test_a_push_takes_an_agent_over_and_let_go_gives_it_back(theatre: Theatre, phone: Page) -> None:
+    agent = theatre.room.sim.agents[0]
+    script = LocalBrain(controller=still)
+    theatre.room.runner.submit(lambda: agent.use_brain(script)).result(5)
+    expect(seat(phone)).to_contain_text("A script drives")
+    fingers, (x, y) = Fingers(phone), centre(stick_of(phone))
+    fingers.touch("touchStart", a=(x, y - 55))
+    until(lambda: theatre.pose()[0] > 0.1)
+    fingers.touch("touchEnd")
+    phone.get_by_role("button", name="Let go").tap()
+    until(lambda: agent.brain is script)
+
+
+@pytest.mark.parametrize("size", SIZES)
+def test_all_is_in_reach_and_nothing_in_the_way(theatre: Theatre, size: str) -> None:
+    width, height = SIZES[size]
+    theatre.inner.gui.main_panel.dock_right()  # as in every scene
+    page = theatre.page(width=width, height=height, touch=True, wait=False)
+    connected(page)
+    page.wait_for_timeout(1500)  # the sheet folds
+    things = [
+        stick_of(page),
+        *page.locator(".ai4u-cap").all(),
+        page.get_by_role("button", name="Help"),
+    ]
+    boxes = []
+    for thing in things:
+        box = thing.bounding_box()
+        assert box is not None
+        assert min(box["width"], box["height"]) >= min(FINGER, 40)
+        left, top = box["x"], box["y"]
+        right, bottom = left + box["width"], top + box["height"]
+        assert 0 <= left < right <= width
+        assert 0.5 * height <= top < bottom <= height, "in the lower half"
+        boxes.append((left, top, right, bottom))
+        hit = "([x, y]) => document.elementFromPoint(x, y).closest('section.ai4u-dock') !== null"
+        assert page.evaluate(hit, [(left + right) / 2, (top + bottom) / 2]), "nothing lies over it"
+    for one, other in itertools.combinations(boxes, 2):
+        apart = one[2] <= other[0] or other[2] <= one[0] or one[3] <= other[1] or other[3] <= one[1]
+        assert apart, f"{one} and {other} lie over each other"
+    scene = page.locator("#root canvas").first.bounding_box()
+    assert scene is not None
+    assert all(right <= scene["x"] + scene["width"] for _, _, right, _ in boxes), "beside the panel"
+    free = """([x, y]) => {
+        const part = document.elementFromPoint(x, y);
+        return part.tagName === "CANVAS" || !!part.closest(".mantine-Notification-root");
+    }"""
+    for across, down in itertools.product((0.1, 0.3, 0.5, 0.7, 0.9), (0.15, 0.3, 0.45)):
+        x = scene["x"] + across * scene["width"]
+        assert page.evaluate(free, [x, down * height])
+
+
+class TestOneThingAtATime:
+    """Where an agent takes no halves there are four keys, one cell or turn for each tap."""
+
+    @pytest.fixture
+    def sim(self) -> ControlRequestor:
+        return small_sim(
+            controller=DiscreteArrowController(), actuators=[DiscreteActuator(turn_amount=2)]
+        )
+
+    def test_fingers_press_keys_and_slide_between_them(self, theatre: Theatre) -> None:
+        page = theatre.page(width=390, height=844, touch=True)
+        expect(stick_of(page)).to_have_count(0)
+        expect(seat(page)).to_have_text("Tap a key to drive")
+        fingers = Fingers(page)
+        up, right, restart = (centre(button(page, each)) for each in ("up", "right", "restart"))
+        fingers.touch("touchStart", a=up)
+        until(lambda: theatre.room.held == ["ArrowUp"])
+        fingers.touch("touchMove", a=right)
+        until(lambda: theatre.room.held == ["ArrowRight"])
+        until(lambda: theatre.pose()[2] < -0.1)
+        episode = theatre.room.runner.latest.episode
+        fingers.touch("touchStart", a=right, b=restart)
+        until(lambda: theatre.room.held == ["ArrowRight", "KeyR"])
+        until(lambda: theatre.room.runner.latest.episode > episode)
+        fingers.touch("touchCancel")
+        until(lambda: theatre.room.held == [])
+
+
+def test_a_mouse_has_keys_and_no_stick(theatre: Theatre) -> None:
+    page = theatre.page(width=1024, height=768)
+    expect(stick_of(page)).to_have_count(0)
+    expect(button(page, "forward").locator("kbd")).to_be_visible()
+    page.context.new_cdp_session(page).send(
+        "Emulation.setTouchEmulationEnabled", {"enabled": True, "maxTouchPoints": 5}
+    )
+    expect(stick_of(page)).to_be_visible()  # a keyboard that was taken off a tablet
+    expect(button(page, "forward")).to_have_count(0)
