@@ -34,12 +34,24 @@ begins with the tick that takes place at last.
 """
 
 from collections.abc import Sequence
+from typing import NamedTuple
 
 from ai4u_edu.agent import BasicAgent
 from ai4u_edu.agent.agent import Numbers
 from ai4u_edu.blocks import Actuator, Command, Percept
 from ai4u_edu.errors import NameNotFoundError, SetupError, suggest
 from ai4u_edu.world import World
+
+
+class Phase(NamedTuple):
+    """How far an agent is in its decision."""
+
+    tick: int = 0
+    """How many ticks of it have passed; all of them once it is over, 0 before the first one."""
+    ticks: int = 1
+    """How many ticks it takes."""
+    repeats: bool = True
+    """Whether the actuators act at every tick, or only at the first."""
 
 
 class _Cycle:
@@ -96,6 +108,13 @@ class _Cycle:
             reward.on_tick(fitting.body, fitting.view)
         if self._tick >= self._ticks or fitting.body.fallen:
             self._end()
+
+    def phase(self) -> Phase:
+        """How far it is."""
+        if self.under_way or self.agent.steps:
+            return Phase(self._tick, self._ticks, self._repeat)
+        brain = self._fitting.brain
+        return Phase(0, brain.skip_frame + 1, brain.repeat_action)
 
     def can_hurry(self) -> bool:
         """Whether a step has begun, and nothing but acting and ticking happens until its end."""
@@ -233,6 +252,10 @@ class ControlRequestor:
         while cycle.under_way:
             self.tick()
         return agent.percept
+
+    def phase(self, agent: BasicAgent) -> Phase:
+        """How far an agent is in the decision that it takes, or took last."""
+        return self._cycle_of(agent).phase()
 
     def between_decisions(self) -> bool:
         """Whether no agent is in the middle of a step: the time to change things."""

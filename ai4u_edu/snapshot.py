@@ -4,21 +4,24 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
-from ai4u_edu.agent import BasicAgent
+from ai4u_edu.agent import BasicAgent, Entry
 from ai4u_edu.blocks import (
     FallReward,
     HomeostaticReward,
     Legend,
     Percept,
     RayPicture,
-    RaySensor,
     RemoteBrain,
     RemoteStatus,
     RewardFunc,
     SpotPicture,
 )
-from ai4u_edu.cycle import ControlRequestor
+from ai4u_edu.cycle import ControlRequestor, Phase
+from ai4u_edu.facts import Control, Sense, facts_of, pictures_of
 from ai4u_edu.world import AreaDescription, BodyDescription, FloorDescription, WorldSettings
+
+NOWHERE = Phase()
+"""Before the first decision."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -104,6 +107,14 @@ class AgentState:
     """The places that sensors looked at in their last reading, by perception key."""
     legends: dict[str, Legend] = field(default_factory=dict)
     """How readings are seen as pictures, by perception key."""
+    phase: Phase = NOWHERE
+    """How far it is in its decision."""
+    history: tuple[Entry, ...] = ()
+    """What its latest decisions were paid, if somebody wants to know."""
+    senses: tuple[Sense, ...] = ()
+    """What is known of its readings: the same object as long as it has these blocks."""
+    controls: tuple[Control, ...] = ()
+    """What is known of its actions, likewise."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -136,6 +147,8 @@ class Snapshot:
     agents: tuple[AgentState, ...]
     slow_tick: SlowTick | None = None
     """The slowest tick of the last seconds, if one took too long."""
+    past: str = ""
+    """Which moment of the past it is, in words; empty for now."""
 
 
 def picture_of(
@@ -171,7 +184,7 @@ def picture_of(
         real_time_factor=real_time_factor,
         error=error,
         bodies=body_states(sim),
-        agents=tuple(agent_state(agent, sim.success) for agent in sim.agents),
+        agents=tuple(agent_state(agent, sim.success, sim.phase(agent)) for agent in sim.agents),
         slow_tick=slow_tick,
     )
 
@@ -219,17 +232,15 @@ def body_states(sim: ControlRequestor) -> tuple[BodyState, ...]:
     return tuple(states)
 
 
-def agent_state(agent: BasicAgent, success: str = "") -> AgentState:
+def agent_state(agent: BasicAgent, success: str = "", phase: Phase = NOWHERE) -> AgentState:
     """What an agent sensed, did and got in its last decision.
 
     Args:
         agent: which.
         success: the reward term that is paid when the goal is reached.
+        phase: how far it is in its decision.
     """
-    ledger = agent.ledger
-    sensors = [sensor for sensor in agent.fitting.sensors if sensor.is_active]
-    spots = {sensor.perception_key: sensor.spots() for sensor in sensors}
-    legends = {sensor.perception_key: sensor.legend() for sensor in sensors}
+    ledger, facts, pictures = agent.ledger, facts_of(agent), pictures_of(agent)
     return AgentState(
         id=agent.id,
         body=agent.body_name,
@@ -246,18 +257,18 @@ def agent_state(agent: BasicAgent, success: str = "") -> AgentState:
         truncated=agent.truncated,
         paused=agent.paused,
         held_keys=agent.keyboard.held(),
-        rays={
-            sensor.perception_key: sensor.picture()
-            for sensor in sensors
-            if isinstance(sensor, RaySensor)
-        },
+        rays=pictures.rays,
         remote=agent.brain.status() if isinstance(agent.brain, RemoteBrain) else None,
         episode=agent.episode,
         succeeded=ledger.episode_terms.get(success, 0.0) > 0,
         fell=_fell(agent),
         needs=tuple(_needs(agent)),
-        spots={key: each for key, each in spots.items() if each is not None},
-        legends={key: each for key, each in legends.items() if each is not None},
+        spots=pictures.spots,
+        legends={sense.key: sense.legend for sense in facts.senses if sense.legend is not None},
+        phase=phase,
+        history=tuple(ledger.history),
+        senses=facts.senses,
+        controls=facts.controls,
     )
 
 

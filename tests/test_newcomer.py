@@ -29,8 +29,8 @@ from ai4u_edu.check import Outcome
 from ai4u_edu.errors import SceneError, SetupError
 from ai4u_edu.runner import Runner
 from ai4u_edu.viewer import Viewer
-from tests.viewer.pages import page
-from tests.viewer.test_agent_panel import panel_of, text_of
+from tests.viewer.pages import page, shown
+from tests.viewer.test_agent_tab import text_of
 
 HERE = Path(__file__).parent / "newcomer"
 
@@ -102,15 +102,15 @@ def test_all_of_it_appears_in_the_viewer(sim: ai4u_edu.ControlRequestor) -> None
     try:
         for _ in range(30):
             runner._tick()
+        runner._publish()
         with page(viewer):
-            for part in viewer._parts:
-                part._drawn_at = 0.0
-            viewer._draw(runner.latest)
-            told = text_of(panel_of(viewer))
+            shown(viewer)
+            told = text_of(viewer)
         (agent,) = sim.agents
         smell = float(agent.percept["smell"][0])
         assert 0.6 < smell < 1
-        assert f"<th>smell</th><td>{smell:.2f}</td>" in told
+        assert "<b>smell</b>" in told
+        assert f"<b>{smell:.2f}" in told
         paid = agent.ledger.episode_terms["cosy"]
         assert paid == 6
         assert f"<th>cosy</th><td>1.00</td><td>{paid:.2f}</td>" in told

@@ -2,6 +2,6 @@
 
 from ai4u_edu.agent.agent import BasicAgent
 from ai4u_edu.agent.events import EVENTS, Event
-from ai4u_edu.agent.ledger import Ledger
+from ai4u_edu.agent.ledger import Entry, Ledger
 
-__all__ = ["EVENTS", "BasicAgent", "Event", "Ledger"]
+__all__ = ["EVENTS", "BasicAgent", "Entry", "Event", "Ledger"]

@@ -165,6 +165,10 @@ class BasicAgent(Declared):
             self.end_of_update_state.fire(self)
         return self._percept
 
+    def see(self, percept: Percept) -> None:
+        """Puts another percept in place of the last one: what it is made from was changed."""
+        self._percept = percept
+
     def obey(self, command: Command) -> None:
         """What a brain's command changes in the agent itself."""
         match command:
@@ -211,6 +215,7 @@ class BasicAgent(Declared):
         if self.end_of_step.handlers:
             self.end_of_step.fire(self)
         self.steps += 1
+        self.ledger.close(self.steps)
         total = self.ledger.total
         self.terminated = (
             self._done_requested

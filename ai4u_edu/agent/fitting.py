@@ -1,8 +1,9 @@
 """How an agent's blocks sit on its body in one world: made once, at setup."""
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -32,12 +33,13 @@ class Fitting:
     Args:
         agent: whose blocks.
         world: where its body is.
+        goes_on: a brain that is set up already and stays as it is; left out, it is set up.
 
     Raises:
         SetupError: something does not fit; the message names it.
     """
 
-    def __init__(self, agent: "BasicAgent", world: World) -> None:
+    def __init__(self, agent: "BasicAgent", world: World, *, goes_on: Brain | None = None) -> None:
         self._agent = agent
         self._world = world
         with self._blamed(None):
@@ -68,7 +70,8 @@ class Fitting:
             self._set_up(actuator)
             with self._blamed(actuator):
                 actuator.prepare()
-        self._set_up(self.brain)
+        if self.brain is not goes_on:
+            self._set_up(self.brain)
 
     def swap_brain(self, brain: Brain) -> None:
         """Sets another brain up and enables it in place of the one before."""
@@ -82,6 +85,24 @@ class Fitting:
         if not any(each is brain for each in self._agent.brains):
             self._agent.brains.append(brain)
 
+    @property
+    def number_sensors(self) -> tuple[Sensor, ...]:
+        """Those whose readings are made of numbers."""
+        return tuple(self._number_sensors)
+
+    def take_up(self) -> None:
+        """Is the agent's fitting again, after another one could not be made."""
+        self._agent._fitting = self
+        self._attach()
+
+    def percept(self) -> Percept:
+        """What lies in memory now; only what is text is read."""
+        texts = (
+            str(each.read(self.body, self.view)) if each.is_active else ""
+            for each in self._text_sensors
+        )
+        return Percept(self.layout, bytes(self._memory), tuple(texts))
+
     def reset(self) -> None:
         """Resets every block, in the order of setup."""
         for reward in self.rewards:
@@ -90,7 +111,7 @@ class Fitting:
         for sensor in self.sensors:
             with self._blamed(sensor):
                 sensor.on_reset(self._agent, self.view)
-                sensor.restart(self._chance_of(sensor))
+                sensor.restart()
         for actuator in self.actuators.values():
             with self._blamed(actuator):
                 actuator.on_reset(self._agent, self.view)
@@ -168,13 +189,16 @@ class Fitting:
             [each.perception_key for each in self._text_sensors],
         )
         self._memory = bytearray(self.layout.size)
+        self._attach()
+
+    def _attach(self) -> None:
         for sensor in self._number_sensors:
             with self._blamed(sensor):
                 place = self.layout.view(self._memory, sensor.perception_key)
                 sensor.attach(place, self._chance_of(sensor))
 
-    def _chance_of(self, sensor: Sensor) -> np.random.Generator:
-        return self.view.random(f"{self._agent.id}/{sensor.perception_key}")
+    def _chance_of(self, sensor: Sensor) -> Callable[[], np.random.Generator]:
+        return partial(self.view.random, f"{self._agent.id}/{sensor.perception_key}")
 
     def _set_up(self, block: Block) -> None:
         with self._blamed(block):

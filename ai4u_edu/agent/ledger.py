@@ -1,7 +1,27 @@
 """Who paid what: the reward of a decision and of an episode, by named term."""
 
+from collections import deque
+from collections.abc import Mapping
+from typing import NamedTuple
+
 HANDLERS = "handlers"
 """The term under which ``agent.add_reward`` books what is given no other name."""
+
+
+class Entry(NamedTuple):
+    """What one decision was paid."""
+
+    step: int
+    """The number of the decision in its episode, from 1."""
+    terms: Mapping[str, float]
+    """By name."""
+    so_far: float
+    """The episode's total, this decision's reward included."""
+
+    @property
+    def total(self) -> float:
+        """What it was paid altogether."""
+        return sum(self.terms.values())
 
 
 class Ledger:
@@ -12,6 +32,7 @@ class Ledger:
         episode_terms: by name, what was paid in this episode.
         total: of the last decision.
         episode_total: of this episode.
+        history: the latest decisions of this episode, if :meth:`remember` was called.
 
     >>> ledger = Ledger()
     >>> ledger.pay("touch", 100.0); ledger.pay("step", -0.5)
@@ -27,6 +48,12 @@ class Ledger:
         self.episode_terms: dict[str, float] = {}
         self.total = 0.0
         self.episode_total = 0.0
+        self.history: deque[Entry] = deque(maxlen=0)
+
+    def remember(self, decisions: int) -> None:
+        """Keeps the latest decisions from now on, for those who look; training needs none."""
+        if self.history.maxlen != decisions:
+            self.history = deque(self.history, decisions)
 
     def open(self) -> None:
         """A decision begins: nothing is paid for it yet."""
@@ -41,8 +68,14 @@ class Ledger:
         self.total += amount
         self.episode_total += amount
 
+    def close(self, step: int) -> None:
+        """A decision is over, and all that it gets is paid."""
+        if self.history.maxlen:
+            self.history.append(Entry(step, self.terms, self.episode_total))
+
     def clear(self) -> None:
         """An episode begins."""
         self.open()
         self.episode_terms = {}
         self.episode_total = 0.0
+        self.history.clear()

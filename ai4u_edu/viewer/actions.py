@@ -1,6 +1,7 @@
 """What agents do: an arrow ahead or back, a bent one for a turn, a ring for a jump."""
 
 import math
+from functools import lru_cache
 
 import numpy as np
 from viser import LineSegmentsHandle
@@ -61,6 +62,7 @@ class Actions:
         return points.reshape(-1, 2, 3)
 
 
+@lru_cache(maxsize=1024)
 def action_marks(numbers: tuple[float, ...], radius: float) -> Array:
     """The strokes for an action, (n, 2, 2), in the frame of a body of that radius (metres)."""
     forward, right, jump, leap = (max(-1.0, min(1.0, number)) for number in numbers)

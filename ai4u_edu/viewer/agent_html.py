@@ -1,34 +1,111 @@
-"""An agent as HTML for the panel; whatever a scene can name is escaped."""
+"""An agent as HTML for its tab; whatever a scene can name is escaped."""
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from html import escape
 from typing import NamedTuple
 
 from ai4u_edu.look import Rgb, body_colour
 from ai4u_edu.snapshot import AgentState, Snapshot
+from ai4u_edu.viewer.bars import number
+from ai4u_edu.viewer.decision import decision
+from ai4u_edu.viewer.gaze import is_seen
+from ai4u_edu.viewer.labels import trouble
 from ai4u_edu.viewer.needs import needs
-from ai4u_edu.viewer.readings import action, block, heading, number, readings, rewards
+from ai4u_edu.viewer.payments import ledger
+from ai4u_edu.viewer.readings import action, block, heading, reading
+from ai4u_edu.viewer.senses import sense_html
+
+SIMPLE = {"DoneSensor", "TruncatedSensor", "IDSensor", "StepSensor"}
+"""Sensors whose reading is one word or number that needs no explanation."""
 
 
 class AgentHtml(NamedTuple):
-    """The parts of an agent's panel, from top to bottom; each is sent only if it has changed."""
+    """The parts of an agent's tab, from top to bottom; each is sent only if it has changed."""
 
+    everybody: str
+    """All agents, if there are several."""
     state: str
+    decision: str
     inside: str
-    senses: str
+    senses: dict[str, str]
+    """By perception key."""
+    also: str
+    """What it knows of its own episode."""
     action: str
-    reward: str
+    ledger: str
 
     @classmethod
-    def of(cls, agent: AgentState, colours: Mapping[str, Rgb]) -> "AgentHtml":
-        """An agent as it is; with the colours of the groups that it can see."""
+    def of(
+        cls,
+        agent: AgentState,
+        snapshot: Snapshot,
+        colours: Mapping[str, Rgb],
+        lit: Collection[str] = (),
+    ) -> "AgentHtml":
+        """An agent as it is.
+
+        Args:
+            agent: which.
+            snapshot: where it is in.
+            colours: of the groups that it can see.
+            lit: the keys of the sensors that are shown in the scene.
+        """
+        percept = agent.percept
+        senses = {
+            sense.key: sense_html(
+                sense,
+                percept[sense.key],
+                colours,
+                agent.rays.get(sense.key),
+                lit=sense.key in lit,
+                named=not is_seen(sense, agent),
+            )
+            for sense in agent.senses
+            if sense.block not in SIMPLE
+        }
         return cls(
-            state(agent),
-            needs(agent.needs),
-            readings(agent.percept, agent.legends, colours),
-            action(agent.action),
-            rewards(agent.reward_terms, agent.episode_terms),
+            everybody=overview(snapshot, agent.id) if len(snapshot.agents) > 1 else "",
+            state=state(agent),
+            decision=decision(agent, snapshot),
+            inside=needs(agent.needs),
+            senses=senses,
+            also=_also(agent),
+            action=action(agent.action, agent.controls),
+            ledger=ledger(agent),
         )
+
+
+class AgentWriter:
+    """Writes each agent once for all pages that look at it, and not once for each page."""
+
+    def __init__(self) -> None:
+        self._snapshot: Snapshot | None = None
+        self._written: dict[tuple[str, frozenset[str]], AgentHtml] = {}
+
+    def html(
+        self,
+        agent: AgentState,
+        snapshot: Snapshot,
+        colours: Mapping[str, Rgb],
+        lit: Collection[str] = (),
+    ) -> AgentHtml:
+        """As :meth:`AgentHtml.of`."""
+        if snapshot is not self._snapshot:
+            self._snapshot, self._written = snapshot, {}
+        key = agent.id, frozenset(lit)
+        if key not in self._written:
+            self._written[key] = AgentHtml.of(agent, snapshot, colours, lit)
+        return self._written[key]
+
+
+def _also(agent: AgentState) -> str:
+    """The simplest readings, in a line."""
+    told = [
+        f"<span><small>{escape(sense.key)}</small> {reading(agent.percept[sense.key])}</span>"
+        for sense in agent.senses
+        if sense.block in SIMPLE
+    ]
+    return block(*told) if told else ""
 
 
 def title(agent_id: str, body: str) -> str:
@@ -47,6 +124,8 @@ def state(agent: AgentState) -> str:
     end = ending(agent)
     if end:
         words.append(f"<br><b>{end}</b>")
+    if trouble(agent):
+        words.append(f"<br><strong>{trouble(agent)}</strong>")
     if agent.clipped:
         words.append(f"<br>{agent.clipped} numbers out of range, cut")
     return block(*words)

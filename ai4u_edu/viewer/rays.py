@@ -1,18 +1,18 @@
 """What the ray sensors saw: a line for each ray, a dot where it met something."""
 
-from collections.abc import Callable, Collection
+from collections.abc import Sequence
 
 import numpy as np
 import numpy.typing as npt
+from viser import SceneApi
 
 from ai4u_edu.blocks import RayPicture
 from ai4u_edu.look import NOTHING, UNKNOWN, group_colours
-from ai4u_edu.snapshot import Snapshot, Stage
+from ai4u_edu.snapshot import Stage
 from ai4u_edu.viewer.brush import Brush
 from ai4u_edu.viewer.geometry import Array, cap, circle
 from ai4u_edu.viewer.layers import Layers
 from ai4u_edu.viewer.light import strokes, surfaces
-from ai4u_edu.viewer.local_server import LocalServer
 from ai4u_edu.viewer.placing import size
 from ai4u_edu.viewer.root import Root
 
@@ -21,62 +21,60 @@ DOT = 0.0055
 """A dot's radius, as a share of the arena's size."""
 
 
+class StageLook:
+    """How rays are drawn on a stage: the colours of its groups, the size of the dots."""
+
+    def __init__(self, stage: Stage) -> None:
+        colours = {"?": UNKNOWN, "": NOTHING} | group_colours(stage)
+        self.numbers = {group: number for number, group in enumerate(colours)}
+        self.strokes = strokes(list(colours.values()))
+        self.fills = surfaces(list(colours.values()))
+        self.layers = Layers.of(stage)
+        self.dot = DOT * size(stage)
+
+
 class Rays:
-    """Draws the rays of agents' last readings.
+    """Draws rays on one page.
 
     Args:
-        server: viser's.
-        watched: gives the ids of the agents whose rays are drawn.
+        scene: the page's.
+        look: how large things are on the stage, and which colours they have.
     """
 
-    def __init__(self, server: LocalServer, watched: Callable[[], Collection[str]]) -> None:
-        self.shown = True
-        self._watched = watched
-        self._scene = server.scene
-        self._root = Root(server.scene, "rays")
-        self._count = 0
+    def __init__(self, scene: SceneApi, look: StageLook) -> None:
+        self._scene = scene
+        self._root = Root(scene, "rays")
+        self._look, self._count = look, 0
 
-    def build(self, stage: Stage) -> None:
-        """Learns the colours of a stage's groups."""
-        colours = {"?": UNKNOWN, "": NOTHING} | group_colours(stage)
-        self._numbers = {group: number for number, group in enumerate(colours)}
-        self._strokes = strokes(list(colours.values()))
-        self._fills = surfaces(list(colours.values()))
-        self._layers, self._dot = Layers.of(stage), DOT * size(stage)
-        self._count = 0
+    def build(self, look: StageLook) -> None:
+        """Draws anew from now on, on another stage."""
+        self._look, self._count = look, -1
 
-    def draw(self, snapshot: Snapshot) -> None:
-        """Draws the rays as they are."""
-        watched = self._watched()
-        gone = {body.name for body in snapshot.bodies if body.fallen}
-        pictures = [
-            picture
-            for agent in snapshot.agents
-            if agent.id in watched and agent.body not in gone and self.shown
-            for picture in agent.rays.values()
-        ]
+    def draw(self, pictures: Sequence[RayPicture]) -> None:
+        """Draws these rays, and no others."""
         groups = [group for picture in pictures for group in picture.groups]
         if len(groups) != self._count:
             self._make(len(groups))
         if not groups:
             return
+        look = self._look
         lines = np.concatenate([ray_lines(picture) for picture in pictures], dtype=np.float32)
-        lines[..., 2] += self._layers.body
-        numbers = np.array([self._numbers.get(group, 0) for group in groups])
+        lines[..., 2] += look.layers.body
+        numbers = np.array([look.numbers.get(group, 0) for group in groups])
         met = np.array([group != "" for group in groups])
         self._lines.points = lines
-        self._lines.colors = self._strokes[numbers][:, None].repeat(2, axis=1)
-        self._dots.batched_positions = ray_dots(lines, self._dot)
+        self._lines.colors = look.strokes[numbers][:, None].repeat(2, axis=1)
+        self._dots.batched_positions = ray_dots(lines, look.dot)
         self._dots.batched_scales = met.astype(np.float32)
         # a point cloud would do, but the page compiles its shader anew for every change of colour
-        self._dots.batched_colors = self._fills[numbers]
+        self._dots.batched_colors = look.fills[numbers]
 
     def _make(self, count: int) -> None:
         with self._root.rebuilt() as root:
             if count:
                 brush = Brush(self._scene, root)
                 self._lines = brush.moving_lines("lines", count)
-                dot = cap(circle(self._dot, corners=12))
+                dot = cap(circle(self._look.dot, corners=12))
                 self._dots = brush.batch("dots", dot, count * [NOTHING])
         self._count = count
 

@@ -2,15 +2,13 @@
 
 from collections.abc import Iterable, Mapping, Sequence
 from html import escape
-from types import MappingProxyType
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
-from ai4u_edu.blocks import Legend
-from ai4u_edu.look import Rgb
-from ai4u_edu.viewer.pictures import pictures
+from ai4u_edu.facts import Control
+from ai4u_edu.viewer.bars import amount, bars, number
 
 IN_FULL = 8
 """Arrays of at most so many numbers are shown in full; longer ones as bars."""
@@ -19,9 +17,9 @@ LONGEST_TEXT = 200
 BARS = "▁▂▃▄▅▆▇█"
 
 
-def block(*parts: str) -> str:
+def block(*parts: str, kind: str = "") -> str:
     """Pieces of HTML as one part of the panel."""
-    return f'<div class="ai4u">{"".join(parts)}</div>'
+    return f'<div class="ai4u{f" {kind}" if kind else ""}">{"".join(parts)}</div>'
 
 
 def heading(text: str) -> str:
@@ -38,47 +36,29 @@ def table(rows: Iterable[Sequence[str]]) -> str:
     return f"<table>{''.join(lines)}</table>"
 
 
-def readings(
-    percept: Mapping[str, Any],
-    legends: Mapping[str, Legend] = MappingProxyType({}),
-    colours: Mapping[str, Rgb] = MappingProxyType({}),
-) -> str:
-    """What an agent senses, by perception key.
+def action(numbers: Mapping[str, Sequence[float]], controls: Iterable[Control] = ()) -> str:
+    """What an agent does, each component by its name.
 
     Args:
-        percept: what it senses.
-        legends: of the readings that are pictures.
-        colours: of the groups in those.
+        numbers: the action.
+        controls: what is known of it beforehand.
     """
-    rows = [
-        f"<tr>{_picture(key, value, legends[key], colours)}</tr>"
-        if key in legends
-        else f"<tr>{_cells(key, value)}</tr>"
-        for key, value in percept.items()
-    ]
-    return block(heading("Senses"), f"<table>{''.join(rows)}</table>")
-
-
-def action(numbers: Mapping[str, Sequence[float]]) -> str:
-    """What an agent does: the components of each action by number."""
-    rows = [
-        (
-            escape(name),
-            "&ensp;".join(f"<small>{i}</small> {number(value)}" for i, value in enumerate(values)),
-        )
+    known = {control.name: control for control in controls}
+    parts = [
+        f"{_named(name, known.get(name))}{_components(values, known.get(name))}"
         for name, values in numbers.items()
     ]
-    return block(heading("Action"), table(rows) if rows else "<small>nothing yet</small>")
+    return block(heading("Action"), *(parts or ["<small>nothing yet</small>"]))
 
 
 def rewards(now: Mapping[str, float], so_far: Mapping[str, float]) -> str:
     """What an agent got by term: in this decision and in this episode so far."""
     names = dict.fromkeys([*so_far, *now])
     rows = [
-        (escape(name), number(now.get(name, 0.0)), number(so_far.get(name, 0.0))) for name in names
+        (escape(name), amount(now.get(name, 0.0)), amount(so_far.get(name, 0.0))) for name in names
     ]
     head = ("", "<small>this decision</small>", "<small>episode</small>")
-    total = ("sum", number(sum(now.values())), number(sum(so_far.values())))
+    total = ("sum", amount(sum(now.values())), amount(sum(so_far.values())))
     return block(heading("Reward"), table([head, *rows, total]))
 
 
@@ -96,30 +76,21 @@ def reading(value: Any) -> str:
     return _bars(array)
 
 
-def number(value: float) -> str:
-    """A number as it stands in the panel.
-
-    >>> [number(x) for x in (0.5, -0.25, 12.3456, 1234.5, 3, -0.0001, 1e9)]
-    ['0.50', '-0.25', '12.35', '1234', '3', '0.00', '1.00e+09']
-    """
-    if isinstance(value, int):
-        return str(value)
-    size = abs(value)
-    text = f"{value:.2f}" if size < 1000 else f"{value:.0f}" if size < 1e6 else f"{value:.2e}"
-    return "0.00" if text == "-0.00" else text
+def _named(name: str, control: Control | None) -> str:
+    block_name = f" {escape(control.block)}" if control is not None else ""
+    return f"<div>{escape(name)}<small>{block_name}</small></div>"
 
 
-def _cells(key: str, value: Any) -> str:
-    name = escape(key)
-    if np.ndim(value) and np.size(value) > IN_FULL:
-        return f'<th colspan="2">{name} {reading(value)}</th>'
-    return f"<th>{name}</th><td>{reading(value)}</td>"
-
-
-def _picture(key: str, value: Any, legend: Legend, colours: Mapping[str, Rgb]) -> str:
-    shape = " x ".join(map(str, np.shape(value)))
-    name = f"{escape(key)} <small>{shape}</small><br>"
-    return f'<th colspan="2">{name}{pictures(value, legend, colours)}</th>'
+def _components(values: Sequence[float], control: Control | None) -> str:
+    if control is None or len(control.components) != len(values):
+        return "&ensp;".join(number(value) for value in values)
+    if control.is_choice:
+        ((_, low, high),) = control.components
+        return f"choice <b>{values[0]:.0f}</b> <small>of {low:.0f} to {high:.0f}</small>"
+    return bars(
+        (each.name or str(index), value, each.low, each.high, "")
+        for index, (each, value) in enumerate(zip(control.components, values, strict=True))
+    )
 
 
 def _bars(array: npt.NDArray[Any]) -> str:

@@ -4,7 +4,8 @@ from html import escape
 
 from ai4u_edu.look import NOTHING, UNKNOWN, group_colours
 from ai4u_edu.snapshot import AgentState, Snapshot, Stage
-from ai4u_edu.viewer.readings import block, number
+from ai4u_edu.viewer.bars import number
+from ai4u_edu.viewer.readings import block
 
 MOST_GROUPS = 12
 """So many groups are explained at most."""
@@ -12,35 +13,6 @@ BEHIND = 0.9
 """What runs at less than this share of the speed it should have can't keep up."""
 MANY_CONTACTS = 6
 """So many contacts a body has at most where bodies lie beside each other."""
-STYLE = """<style>
-.ai4u {margin: 0 .9em .7em; font-size: .8em; line-height: 1.5; overflow-wrap: anywhere;
-  font-variant-numeric: tabular-nums}
-.ai4u table {width: 100%; border-collapse: collapse}
-.ai4u th {font-weight: 450; text-align: left; vertical-align: top; padding-right: 1em;
-  color: var(--mantine-color-dimmed)}
-.ai4u th b {font-weight: 700; color: var(--mantine-color-text)}
-.ai4u td {text-align: right}
-.ai4u p {margin: .5em 0 .1em; font-weight: 600}
-.ai4u pre {display: inline-block; margin: .1em .5em .2em 0; padding: 0 .15em; font-size: .85em;
-  line-height: 1.1; font-family: monospace; color: var(--mantine-color-text);
-  background: var(--mantine-color-default-hover)}
-.ai4u small {color: var(--mantine-color-dimmed)}
-.ai4u i {display: inline-block; width: .7em; height: .7em; border-radius: 50%; margin-right: .3em}
-.ai4u svg {margin: .2em .5em .2em 0; max-width: 100%;
-  background: var(--mantine-color-default-hover)}
-.ai4u .need {display: grid; grid-template-columns: 1fr auto; margin: .2em 0 .45em}
-.ai4u .need > div {grid-column: 1 / 3; position: relative; height: .8em; border-radius: 3px;
-  overflow: hidden; background: var(--mantine-color-default-hover);
-  box-shadow: inset 0 0 0 1px var(--mantine-color-default-border)}
-.ai4u .need u {position: absolute; top: 0; bottom: 0; background: #009e7366}
-.ai4u .need s {position: absolute; top: .2em; bottom: .2em; left: 0; background: #0072b2;
-  border-radius: 0 2px 2px 0}
-.ai4u .goal {line-height: 1.4}
-.ai4u span {white-space: nowrap; margin-right: .8em}
-.ai4u strong {color: #b34700}
-[data-mantine-color-scheme=dark] .ai4u strong {color: #f39c5a}
-</style>"""
-"""How all HTML in the panel looks."""
 
 
 def speed_name(speed: float) -> str:
@@ -60,7 +32,7 @@ def legend(stage: Stage) -> str:
         f'<span><i style="background: rgb{colour}"></i>{escape(group)}</span> '
         for group, colour in groups.items()
     ]
-    return block(*dots)
+    return "".join(dots)
 
 
 def status(snapshot: Snapshot) -> str:
@@ -72,7 +44,7 @@ def status(snapshot: Snapshot) -> str:
         f"<span><small>Episode</small> {snapshot.episode}</span>{steps}"
         f"<span><small>time</small> {number(snapshot.time)} s</span>"
     )
-    return block(place, "<br>", _pace(snapshot), *map(_script, agents))
+    return block(place, _pace(snapshot), *map(_script, agents), kind="status bare")
 
 
 def goal(stage: Stage) -> str:
@@ -106,10 +78,12 @@ def _script(agent: AgentState) -> str:
 def _pace(snapshot: Snapshot) -> str:
     if snapshot.error:
         return f"<strong>Stopped: {escape(snapshot.error)}</strong>"
+    if snapshot.past:
+        return "<strong>Past</strong>"
     if snapshot.paused:
         return "<strong>Paused</strong>"
     factor = snapshot.real_time_factor
-    speed = f"<small>runs at</small> {factor:.1f}x <small>real time</small>{_slow(snapshot)}"
+    speed = f"<small>runs at</small> {factor:.1f}x{_slow(snapshot)}"
     wanted = snapshot.time_scale
     if wanted != float("inf") and factor < BEHIND * wanted:
         return f"{speed} <strong>(can't keep up with {speed_name(wanted)})</strong>"

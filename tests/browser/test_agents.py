@@ -20,7 +20,7 @@ def opened(chromium: Browser, server: Played, query: str = "") -> Page:
     page = chromium.new_page(viewport={"width": 1280, "height": 800})
     page.goto(server.url + query)
     page.locator(".ai4u-seat", has_not_text="Connecting").wait_for()
-    page.get_by_text("Senses").wait_for()
+    page.get_by_text("Senses", exact=True).wait_for()
     return page
 
 

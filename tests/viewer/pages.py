@@ -4,7 +4,7 @@ import contextlib
 import threading
 import time
 from collections.abc import Callable, Iterator
-from typing import Any
+from typing import Any, TypeVar
 
 import msgspec
 import viser
@@ -14,7 +14,10 @@ from websockets.sync.connection import Connection
 from websockets.typing import Subprotocol
 
 from ai4u_edu.viewer import Viewer
-from ai4u_edu.viewer.agent_panel import AGENT_HEADER
+from ai4u_edu.viewer.onlooker import AGENT_HEADER
+from ai4u_edu.viewer.tabs import Tabs
+
+P = TypeVar("P")
 
 
 class Page:
@@ -51,6 +54,10 @@ class Page:
     def change(self, handle: Any, value: Any) -> None:
         """Changes a widget of the panel, or clicks on a button of a group."""
         self.say("GuiUpdateMessage", uuid=handle._impl.uuid, updates={"value": value})
+
+    def press(self, button: Any) -> None:
+        """Presses a button that stands alone."""
+        self.change(button, True)
 
     def submit(self, form: Any) -> None:
         self.say("GuiFormSubmitMessage", uuid=form._impl.uuid)
@@ -89,6 +96,25 @@ def page(viewer: Viewer, agent: str = "") -> Iterator[Page]:
         here.report_camera()
         until(lambda: viewer.server.get_clients())
         yield here
+
+
+def shown(viewer: Viewer) -> None:
+    """Draws the latest snapshot on all pages, whatever was drawn when."""
+    for part in viewer._parts:
+        part._drawn_at = 0.0
+    viewer._draw(viewer.runner.latest)
+
+
+def part_of(viewer: Viewer, kind: type[P]) -> P:
+    """The viewer's part of that kind."""
+    (part,) = (each._part for each in viewer._parts if isinstance(each._part, kind))
+    return part
+
+
+def tabs_of(viewer: Viewer, kind: type[P]) -> list[P]:
+    """The tabs of that kind, page by page."""
+    pages = part_of(viewer, Tabs)._pages
+    return [tab for _, each in sorted(pages.items()) for tab in each.tabs if isinstance(tab, kind)]
 
 
 def until(condition: Callable[[], Any], patience: float = 10.0) -> None:

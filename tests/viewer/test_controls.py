@@ -1,16 +1,16 @@
 """What a page asks for reaches the runner; what a page makes up does not."""
 
-import asyncio
 import math
 from collections.abc import Iterator
-from typing import Any
 
 import pytest
 
 from ai4u_edu.runner import Runner
 from ai4u_edu.viewer import Viewer
 from ai4u_edu.viewer.controls import Controls
-from tests.viewer.pages import Page, page, until
+from ai4u_edu.viewer.page_controls import PageControls, _Page
+from ai4u_edu.viewer.view import Mode
+from tests.viewer.pages import Page, page, part_of, until
 
 
 @pytest.fixture
@@ -24,7 +24,7 @@ def here(viewer: Viewer, runner: Runner) -> Iterator[Page]:
     runner.start()
     viewer.start()
     with page(viewer) as here:
-        until(lambda: viewer._views)
+        until(lambda: viewer._onlookers)
         yield here
     runner.stop()
 
@@ -38,12 +38,18 @@ def test_pause_and_resume(here: Page, controls: Controls, runner: Runner) -> Non
     until(lambda: "Pause" in controls._time.options)
 
 
-def test_step_pauses_and_lets_one_tick_pass(here: Page, controls: Controls, runner: Runner) -> None:
+@pytest.mark.parametrize(("button", "ticks"), [("Tick", 1), ("Decision", 5)])
+def test_steps_pause_and_let_so_many_ticks_pass(
+    here: Page, controls: Controls, runner: Runner, button: str, ticks: int
+) -> None:
+    runner.sim.agents[0].brain.skip_frame = 4
     here.change(controls._time, "Pause")
     until(lambda: runner.latest.paused)
+    while runner.latest.agents[0].phase.tick % 5:
+        runner.step().result(5)
     tick = runner.latest.tick
-    here.change(controls._time, "Step")
-    until(lambda: runner.latest.tick == tick + 1)
+    here.change(controls._time, button)
+    until(lambda: runner.latest.tick == tick + ticks)
     assert runner.latest.paused
 
 
@@ -94,28 +100,65 @@ def test_a_speed_that_is_set_elsewhere_is_shown(
     assert runner.latest.time_scale == math.inf  # showing it must not ask for it
 
 
+def test_the_fastest_speed_can_be_chosen(here: Page, controls: Controls, runner: Runner) -> None:
+    here.change(controls._speed, "as fast as it goes")
+    until(lambda: runner.latest.time_scale == math.inf)
+
+
+@pytest.fixture
+def camera(viewer: Viewer, here: Page) -> _Page:
+    controls = part_of(viewer, PageControls)
+    until(lambda: controls._pages)
+    (own,) = controls._pages.values()
+    return own
+
+
 @pytest.mark.parametrize("made_up", ["Explode", "", "1e999x"])
 def test_what_is_made_up_is_ignored(
-    here: Page, controls: Controls, runner: Runner, made_up: str
+    here: Page, camera: _Page, controls: Controls, runner: Runner, made_up: str
 ) -> None:
     before = (runner.latest.episode, runner.latest.time_scale)
     here.change(controls._time, made_up)
     here.change(controls._speed, made_up)
-    here.change(controls._camera, made_up)
-    here.change(controls._shown, False)
-    until(lambda: not controls._rays.shown)
+    here.change(camera.camera, made_up)
+    here.change(camera.dark, True)
+    until(lambda: camera.dark.value)
     assert (runner.latest.episode, runner.latest.time_scale) == before
     assert not runner.latest.paused
 
 
-def test_follow_and_back(here: Page, controls: Controls, viewer: Viewer) -> None:
-    (view,) = viewer._views.values()
-    here.change(controls._camera, "Follow")
-    until(lambda: view._followed == "robot")
-    here.change(controls._camera, "Whole arena")
-    until(lambda: view._followed == "")
+def test_the_camera_is_chosen_page_by_page(here: Page, camera: _Page, viewer: Viewer) -> None:
+    (onlooker,) = viewer._onlookers.values()
+    for place, mode in enumerate(Mode, start=1):
+        here.change(camera.camera, mode.value)
+        until(lambda mode=mode: onlooker.view.mode is mode)  # type: ignore[misc]
+        until(lambda place=place: f'data-on="{place}"' in camera._mark.content)  # type: ignore[misc]
 
 
-def test_a_command_of_nobody_is_no_error(controls: Controls) -> None:
-    event: Any = type("Event", (), {"client": None, "client_id": None, "target": controls._camera})
-    asyncio.run(controls._on_camera(event))
+def test_one_page_is_dark_and_another_is_not(
+    here: Page, camera: _Page, viewer: Viewer, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    asked: list[tuple[object, object]] = []
+    monkeypatch.setattr(
+        "viser.GuiApi.configure_theme",
+        lambda gui, **how: asked.append((gui._owner, how["dark_mode"])),
+    )
+    here.change(camera.dark, True)
+    until(lambda: asked)
+    (client,) = viewer.server.get_clients().values()
+    assert asked == [(client, True)]
+
+
+def test_of_an_agent_that_decides_no_more_a_single_tick_passes(runner: Runner) -> None:
+    agent = runner.sim.agents[0]
+    agent.brain.skip_frame = 4
+    agent.terminated = True
+    runner.step_decision("0")
+    runner.advance()
+    assert runner.latest.tick >= 1
+    tick = runner.sim.world.ticks
+    runner.paused = True
+    asked = runner.step_decision()
+    runner._carry_out_commands()
+    assert asked.done()
+    assert runner.sim.world.ticks == tick + 1

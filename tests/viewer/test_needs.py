@@ -38,5 +38,6 @@ def test_what_an_agent_needs_stands_in_its_panel() -> None:
     assert [need.name for need in agent.needs] == ["energy", "water"]
     assert agent.needs[0].level < 60
     assert agent.needs[0].comfort == (40.0, 80.0)
-    assert "energy" in AgentHtml.of(agent, {}).inside
-    assert not AgentHtml.of(replace(agent, needs=()), {}).inside
+    snapshot = picture_of(sim)
+    assert "energy" in AgentHtml.of(agent, snapshot, {}).inside
+    assert not AgentHtml.of(replace(agent, needs=()), snapshot, {}).inside

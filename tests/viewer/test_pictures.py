@@ -7,7 +7,6 @@ import numpy as np
 from ai4u_edu.blocks import ChannelLegend, CodeLegend, GridSensor, LocalGridSensor, RayCastingSensor
 from ai4u_edu.look import UNKNOWN, VOID
 from ai4u_edu.viewer.pictures import MOST_CELLS, pictures
-from ai4u_edu.viewer.readings import readings
 
 COLOURS = {"wall": (1, 2, 3), "dirty": (4, 5, 6)}
 
@@ -79,10 +78,21 @@ def test_a_huge_picture_is_drawn_in_part() -> None:
     assert len(svg) < 60_000
 
 
-def test_in_the_panel_pictures_replace_the_numbers() -> None:
-    legend = CodeLegend((1, 2), (50.0,), ("wall",))
-    reading = np.array([[50, 0]])
-    html = readings({"<map>": reading}, {"<map>": legend}, COLOURS)
-    assert "&lt;map&gt; <small>1 x 2</small>" in html
-    assert "<svg" in html
-    assert "<svg" not in readings({"map": reading})
+def test_older_readings_are_smaller_and_stand_first() -> None:
+    legend = GridSensor(rows=1, columns=2, group_code={"wall": 50, "dirty": 200}).legend()
+    stacked = np.array([[200, 0], [50, 0]])
+    older, latest = re.findall("<svg.*?</svg>", pictures(stacked, legend, COLOURS, stack=2))
+    assert cells(older) == {"(4, 5, 6)": {(0, 0)}}
+    assert cells(latest) == {"(1, 2, 3)": {(0, 0)}}
+    assert 'width="8"' in older
+    assert 'width="24"' in latest
+
+
+def test_older_pictures_with_channels_are_found_among_the_channels() -> None:
+    legend = LocalGridSensor(width=2, height=1, channels=["void", "wall"]).legend()
+    older = np.array([[[255, 0], [0, 0]]], np.uint8)
+    latest = np.array([[[0, 0], [0, 255]]], np.uint8)
+    stacked = np.concatenate([older, latest], axis=2)
+    first, second = re.findall("<svg.*?</svg>", pictures(stacked, legend, COLOURS, stack=2))
+    assert cells(first) == {str(VOID): {(0, 0)}}
+    assert cells(second) == {"(1, 2, 3)": {(1, 0)}}

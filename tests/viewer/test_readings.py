@@ -3,7 +3,9 @@ import re
 import numpy as np
 import pytest
 
-from ai4u_edu.viewer.readings import BARS, IN_FULL, action, reading, readings, rewards
+from ai4u_edu.facts import Component, Control, facts_of
+from ai4u_edu.viewer.readings import BARS, IN_FULL, action, reading, rewards
+from tests.builders import small_sim
 
 EVIL = "<script>alert('&')</script>"
 
@@ -16,9 +18,8 @@ def bars(html: str) -> list[list[str]]:
 @pytest.mark.parametrize(
     "html",
     [
-        readings({EVIL: EVIL}),
-        readings({EVIL: np.zeros(100)}),
         action({EVIL: (1.0,)}),
+        action({EVIL: (1.0,)}, [Control(EVIL, EVIL, (Component(EVIL, -1, 1),), False)]),
         rewards({EVIL: 1.0}, {EVIL: 2.0}),
     ],
 )
@@ -88,8 +89,29 @@ def test_rewards_are_shown_by_term_with_their_sum() -> None:
     ]
 
 
-def test_an_action_is_shown_by_the_numbers_of_its_components() -> None:
-    html = action({"move": (0.5, -1.0)})
-    assert "<small>0</small> 0.50" in html
-    assert "<small>1</small> -1.00" in html
+def test_small_rewards_do_not_vanish() -> None:
+    assert "<td>-0.0012</td>" in rewards({"step": -0.0012}, {"step": -0.0012})
+
+
+def test_an_action_is_shown_by_the_names_of_its_components() -> None:
+    (control,) = facts_of(small_sim().agents[0]).controls
+    html = action({"move": (0.5, -1.0, 0.0, 0.0)}, [control])
+    lines = re.findall('<span>(.*?)</span><div class="bar">(.*?)</div><b>(.*?)</b>', html)
+    assert [(name, number) for name, _, number in lines] == [
+        ("forward", "0.50"),
+        ("turn", "-1.00"),
+        ("jump", "0.00"),
+        ("forward jump", "0.00"),
+    ]
+    assert "left:50.0%;width:25.0%" in lines[0][1]  # from the middle to the right
+    assert "left:0.0%;width:50.0%" in lines[1][1]
     assert "nothing yet" in action({})
+
+
+def test_a_choice_is_a_number_out_of_some() -> None:
+    control = Control("move", "GridMoveActuator", (Component("", 0.0, 4.0),), True)
+    assert "choice <b>3</b> <small>of 0 to 4</small>" in action({"move": (3.0,)}, [control])
+
+
+def test_of_an_actuator_that_is_gone_the_numbers_are_shown() -> None:
+    assert "0.50&ensp;-1.00" in action({"move": (0.5, -1.0)})

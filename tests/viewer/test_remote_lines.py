@@ -7,15 +7,17 @@ from websockets.typing import Subprotocol
 from ai4u_edu.runner import Runner
 from ai4u_edu.server import Rules, ServerThread, room_app
 from ai4u_edu.viewer import Viewer
-from ai4u_edu.viewer.remote_lines import RemoteLines, lines
+from ai4u_edu.viewer.agent_tab import AgentTab
+from ai4u_edu.viewer.remote_lines import lines
 from tests.builders import small_sim
 from tests.remote.rooms import log_sim
-from tests.viewer.pages import Page, page, until
+from tests.viewer.pages import Page, page, shown, tabs_of, until
 
 
-def part_of(viewer: Viewer) -> RemoteLines:
-    (part,) = (each._part for each in viewer._parts if isinstance(each._part, RemoteLines))
-    return part
+def lines_on(viewer: Viewer) -> list[str]:
+    """The lines on each page."""
+    shown(viewer)
+    return [tab._lines.lines.content for tab in tabs_of(viewer, AgentTab)]
 
 
 def test_the_lines_are_python_for_this_agent() -> None:
@@ -35,7 +37,6 @@ def test_the_lines_are_python_for_this_agent() -> None:
 def test_each_page_has_them_with_the_address_by_which_it_came(
     viewer: Viewer, runner: Runner
 ) -> None:
-    part = part_of(viewer)
     with ServerThread(room_app(runner, viser_port=viewer.port, title="A room")) as server:
         address = server.url.rstrip("/").replace("127.0.0.1", "localhost")
         with connect(
@@ -48,16 +49,12 @@ def test_each_page_has_them_with_the_address_by_which_it_came(
         ) as connection:
             Page(connection).report_camera()
             until(viewer.server.get_clients)
-            part.draw(runner.latest)
-            (folder,) = part._pages.values()
-            assert f"connect({address!r}, agent=" in folder.lines.content
-        until(lambda: not viewer.server.get_clients())
-        part.draw(runner.latest)
-        assert part._pages == {}
+            (told,) = lines_on(viewer)
+            assert f"connect({address!r}, agent=" in told
 
 
 def test_a_page_that_knows_the_token_has_it_in_its_lines(viewer: Viewer, runner: Runner) -> None:
-    part, rules = part_of(viewer), Rules(token="open sesame")
+    rules = Rules(token="open sesame")
     room = room_app(runner, viser_port=viewer.port, title="A room", rules=rules)
     with ServerThread(room) as server:
         with connect(
@@ -69,24 +66,20 @@ def test_a_page_that_knows_the_token_has_it_in_its_lines(viewer: Viewer, runner:
         ) as connection:
             Page(connection).report_camera()
             until(viewer.server.get_clients)
-            part.draw(runner.latest)
-            (folder,) = part._pages.values()
-            assert f"connect('{server.url}?token=open%20sesame', agent=" in folder.lines.content
+            (told,) = lines_on(viewer)
+            assert f"connect('{server.url}?token=open%20sesame', agent=" in told
         until(lambda: not viewer.server.get_clients())
     with page(viewer):  # around the proxy, and so without having been asked
-        part.draw(runner.latest)
-        (folder,) = part._pages.values()
-        assert "sesame" not in folder.lines.content
+        (told,) = lines_on(viewer)
+        assert "sesame" not in told
 
 
-def test_of_several_agents_one_is_chosen() -> None:
+def test_they_are_those_of_the_agent_that_the_page_looks_at() -> None:
     runner = Runner(log_sim(2), seed=1)
     viewer = Viewer(runner)
-    part = part_of(viewer)
-    with page(viewer) as browser:
-        part.draw(runner.latest)
-        (folder,) = part._pages.values()
-        assert "agent='a'" in folder.lines.content
-        browser.change(folder.agent, "b")
-        until(lambda: "agent='b'" in folder.lines.content)
+    with page(viewer):
+        assert "agent='a'" in lines_on(viewer)[0]
+        (onlooker,) = viewer._onlookers.values()
+        onlooker.agent = "b"
+        assert "agent='b'" in lines_on(viewer)[0]
     viewer.stop()

@@ -1,7 +1,5 @@
 """Where a line sensor looks is seen, and whether it sees the line."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 
@@ -29,29 +27,15 @@ def test_the_spots_are_where_the_eyes_look(picture: Snapshot) -> None:
     assert spots.lit == (True,) * 5
 
 
-def test_spots_light_up_above_the_body(viewer: Viewer, picture: Snapshot) -> None:
+def test_spots_light_up_and_go(viewer: Viewer, picture: Snapshot) -> None:
     (agent,) = picture.agents
     some = agent.spots["line"]._replace(lit=(True, False, False, True, False))
-    part = Spots(viewer.server, lambda: {"0"})
-    part.build(picture.stage)
-    part.draw(replace(picture, agents=(replace(agent, spots={"line": some}),)))
+    part = Spots(viewer.server.scene)
+    part.draw([some], lift=1.5)
     expected = surfaces([LIT, UNLIT, UNLIT, LIT, UNLIT])
-    assert (part._dots.batched_colors == expected).all()
-    assert part._dots.batched_positions[:, 1] == pytest.approx(-3.5)
-    assert part._dots.batched_positions[:, 2].min() > 1.0
-
-
-def test_nobody_sees_spots_of_agents_that_nobody_looks_at(
-    viewer: Viewer, picture: Snapshot
-) -> None:
-    watched = {"0"}
-    part = Spots(viewer.server, lambda: watched)
-    part.build(picture.stage)
-    part.draw(picture)
     dots = part._dots
-    watched.clear()
-    part.draw(picture)
+    assert (dots.batched_colors == expected).all()
+    assert dots.batched_positions[:, 1] == pytest.approx(-3.5)
+    assert dots.batched_positions[:, 2].min() > 1.0
+    part.draw([], lift=1.5)
     assert dots._impl.removed
-    watched.add("0")
-    part.draw(replace(picture, bodies=tuple(replace(b, fallen=True) for b in picture.bodies)))
-    assert part._count == 0

@@ -57,3 +57,8 @@ def test_the_legend_names_all_groups_and_what_rays_can_meet(runner: Runner) -> N
 
 def test_speeds_have_names() -> None:
     assert speed_name(0.1) == "0.1x"
+
+
+def test_the_past_is_called_so(runner: Runner) -> None:
+    past = replace(runner.latest, paused=True, past="episode 1, step 3 of 9")
+    assert "<strong>Past</strong>" in status(past)

@@ -10,7 +10,7 @@ from ai4u_edu.snapshot import Snapshot
 from ai4u_edu.viewer import Viewer
 from ai4u_edu.viewer.framing import Frame, centred, frame
 from ai4u_edu.viewer.placing import seen_bounds
-from ai4u_edu.viewer.view import FOLLOWED, View
+from ai4u_edu.viewer.view import FOLLOWED, Mode, View
 from tests.viewer.pages import Page, page, until
 
 PLACE = (1.0, -2.0, 80.0)
@@ -65,7 +65,7 @@ def with_robot_at(snapshot: Snapshot, x: float, y: float) -> Snapshot:
 
 
 def test_a_page_sees_the_whole_arena_from_above(watched: Watched, runner: Runner) -> None:
-    watched.view.update(runner.latest)
+    watched.view.update(runner.latest, "0")
     shown, camera = whole(runner.latest), watched.camera
     assert camera.position == pytest.approx(place(shown))
     assert camera.look_at == pytest.approx([shown.x, shown.y, 0.0])
@@ -74,48 +74,48 @@ def test_a_page_sees_the_whole_arena_from_above(watched: Watched, runner: Runner
 
 
 def test_a_camera_is_left_alone_while_nothing_changes(watched: Watched, runner: Runner) -> None:
-    watched.view.update(runner.latest)
+    watched.view.update(runner.latest, "0")
     before = watched.sent()
     for _ in range(3):
-        watched.view.update(runner.latest)
+        watched.view.update(runner.latest, "0")
     assert watched.sent() == before
 
 
 def test_another_window_is_framed_anew(watched: Watched, runner: Runner) -> None:
-    watched.view.update(runner.latest)
+    watched.view.update(runner.latest, "0")
     watched.report(place(whole(runner.latest)))
     watched.report(place(whole(runner.latest)), size=(390, 844))
-    watched.view.update(runner.latest)
+    watched.view.update(runner.latest, "0")
     assert watched.camera.position == pytest.approx(place(whole(runner.latest, 390 / 844)))
 
 
 def test_a_camera_that_a_person_moved_is_theirs(watched: Watched, runner: Runner) -> None:
-    watched.view.update(runner.latest)
+    watched.view.update(runner.latest, "0")
     watched.report(place(whole(runner.latest)))
     watched.report(PLACE)
     watched.report(PLACE, size=(500, 800))
-    watched.view.update(runner.latest)
+    watched.view.update(runner.latest, "0")
     assert watched.camera.position == pytest.approx(PLACE)
 
 
 def test_until_a_page_has_followed_its_old_place_counts_for_nothing(
     watched: Watched, runner: Runner
 ) -> None:
-    watched.view.update(runner.latest)
+    watched.view.update(runner.latest, "0")
     watched.report((3.0, 3.0, 3.0), size=(500, 800))  # from before our message came
-    watched.view.update(runner.latest)
+    watched.view.update(runner.latest, "0")
     assert watched.camera.position == pytest.approx(place(whole(runner.latest, 500 / 800)))
 
 
 def test_another_arena_is_shown_whole_whoever_moved_the_camera(
     watched: Watched, runner: Runner
 ) -> None:
-    watched.view.update(runner.latest)
+    watched.view.update(runner.latest, "0")
     watched.report(place(whole(runner.latest)))
     watched.report(PLACE)
     stage = replace(runner.latest.stage, bounds=((0.0, 0.0), (40.0, 40.0)))
     other = replace(runner.latest, stage=stage)
-    watched.view.update(other)
+    watched.view.update(other, "0")
     assert watched.camera.position == pytest.approx(place(whole(other)))
 
 
@@ -125,43 +125,87 @@ def test_a_followed_agent_comes_to_the_middle_smoothly(
     now = 100.0
     monkeypatch.setattr("ai4u_edu.viewer.view.time.monotonic", lambda: now)
     view = watched.view
-    view.update(runner.latest)
-    view.follow_next(["robot"])
-    view.update(runner.latest)
+    view.update(runner.latest, "0")
+    view.choose(Mode.FOLLOW)
+    view.update(runner.latest, "0")
     assert watched.camera.look_at == pytest.approx(middle(0.0, 0.0, 0.4 * FOLLOWED))
     assert watched.camera.position[2] == pytest.approx(Frame(0, 0, 0.4 * FOLLOWED).distance)
     ways = []
     for _ in range(60):
         now += 1 / 60
-        view.update(with_robot_at(runner.latest, 2.0, -1.0))
+        view.update(with_robot_at(runner.latest, 2.0, -1.0), "0")
         ways.append(float(watched.camera.look_at[0]))
     assert np.diff([0.0, *ways]).min() >= 0.0
     assert ways[0] < 0.25
     assert ways[-1] == pytest.approx(2.0, abs=0.02)
     before = watched.sent()
     now += 1.0
-    view.update(with_robot_at(runner.latest, ways[-1], -1.0))
-    view.update(with_robot_at(runner.latest, ways[-1], -1.0))
+    view.update(with_robot_at(runner.latest, ways[-1], -1.0), "0")
+    view.update(with_robot_at(runner.latest, ways[-1], -1.0), "0")
     assert watched.sent() - before <= 4  # it has arrived: nothing more is sent
 
 
 def test_who_follows_may_zoom(watched: Watched, runner: Runner) -> None:
     view = watched.view
-    view.follow_next(["robot"])
-    view.update(runner.latest)
+    view.choose(Mode.FOLLOW)
+    view.update(runner.latest, "0")
     watched.report((0.0, 0.0, 60.0))
-    view.update(with_robot_at(runner.latest, 2.0, 0.0))
+    view.update(with_robot_at(runner.latest, 2.0, 0.0), "0")
     assert watched.camera.position[2] == pytest.approx(60.0)
 
 
-def test_following_goes_on_to_the_next_agent_and_ends(watched: Watched, runner: Runner) -> None:
+def test_following_goes_on_with_the_agent_that_is_looked_at_and_ends(
+    watched: Watched, runner: Runner
+) -> None:
+    (agent,) = runner.latest.agents
+    other = replace(agent, id="1", body="box")
+    both = replace(runner.latest, agents=(agent, other))
     view = watched.view
-    for expected in ("robot", "box", "robot"):
-        view.follow_next(["robot", "box"])
-        view.update(runner.latest)
+    view.choose(Mode.FOLLOW)
+    for agent_id, expected in (("0", "robot"), ("1", "box"), ("0", "robot")):
+        view.update(both, agent_id)
         body = next(body for body in runner.latest.bodies if body.name == expected)
         height = watched.view._frame.height
         assert watched.camera.look_at == pytest.approx(middle(body.x, body.y, height))
-    view.show_all()
-    view.update(runner.latest)
+    view.choose(Mode.ARENA)
+    view.update(runner.latest, "0")
     assert watched.camera.position == pytest.approx(place(whole(runner.latest)))
+
+
+def turned(snapshot: Snapshot, heading: float) -> Snapshot:
+    first, *others = snapshot.bodies
+    return replace(snapshot, bodies=(replace(first, heading=heading), *others))
+
+
+def test_a_camera_that_turns_has_ahead_on_top(watched: Watched, runner: Runner) -> None:
+    view = watched.view
+    view.choose(Mode.TURN)
+    for heading, up in ((0.0, (1, 0, 0)), (np.pi / 2, (0, 1, 0)), (np.pi, (-1, 0, 0))):
+        view.update(turned(runner.latest, heading), "0")
+        assert watched.camera.up_direction == pytest.approx(up, abs=1e-6)
+        assert watched.camera.position[2] > 50
+    view.choose(Mode.FOLLOW)
+    view.update(turned(runner.latest, 1.0), "0")
+    assert watched.camera.up_direction == pytest.approx((0, 1, 0))
+
+
+def test_through_its_eyes_the_camera_is_where_the_rays_begin(
+    watched: Watched, runner: Runner
+) -> None:
+    view = watched.view
+    view.choose(Mode.EYES)
+    view.update(turned(runner.latest, np.pi / 2), "0")
+    origin = runner.latest.agents[0].rays["fan"].origin
+    assert watched.camera.position == pytest.approx(origin, abs=0.1)  # as bodies are, a bit higher
+    ahead = watched.camera.look_at - watched.camera.position
+    assert ahead[:2] == pytest.approx([0, 1], abs=1e-6)
+    assert watched.camera.up_direction == pytest.approx((0, 0, 1))
+    assert watched.camera.fov > 1
+    lamps = [name for name in watched.client.scene._handle_from_node_name if "daylight/" in name]
+    assert lamps
+    view.choose(Mode.ARENA)
+    view.update(runner.latest, "0")
+    assert watched.camera.position == pytest.approx(place(whole(runner.latest)))
+    assert watched.camera.fov < 0.1
+    left = watched.client.scene._handle_from_node_name
+    assert not [name for name in left if name in lamps]

@@ -42,8 +42,6 @@ def test_the_scene_is_complete_before_anybody_watches(viewer: Viewer) -> None:
         "/bodies1/0/face",
         "/bodies1/0/shadow",
         "/bodies1/1/rings",
-        "/rays1/lines",
-        "/rays1/dots",
         "/actions",
         "/labels1/0",
     ):
@@ -163,7 +161,7 @@ def test_an_error_beside_the_parts_does_not_end_the_thread(
         failed.set()
         raise OSError("no clients")
 
-    monkeypatch.setattr(viewer, "_meet_clients", fail)
+    monkeypatch.setattr(viewer._onlookers, "meet", fail)
     viewer.start()
     assert failed.wait(5)
     failed.clear()
@@ -189,9 +187,9 @@ def test_pages_come_and_go(viewer: Viewer, runner: Runner) -> None:
     viewer.start()
     for _ in range(3):
         with page(viewer) as first, page(viewer) as second:
-            until(lambda: len(viewer._views) == 2)
+            until(lambda: len(viewer._onlookers) == 2)
             until(lambda: min(first.received, second.received) > 1000)
-        until(lambda: not viewer._views)
+        until(lambda: not viewer._onlookers)
         assert not viewer.server.get_clients()
     runner.stop()
 

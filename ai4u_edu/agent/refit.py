@@ -1,0 +1,117 @@
+"""Other blocks on an agent in the middle of an episode: same body, same world, same steps."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+from ai4u_edu.agent.agent import BasicAgent
+from ai4u_edu.agent.fitting import Fitting
+from ai4u_edu.blocks import Actuator, Brain, RemoteBrain, RewardFunc, Sensor
+from ai4u_edu.blocks.sensors.again import Memory, look_again
+from ai4u_edu.world import World
+
+FAREWELL = "the agent's blocks were changed; connect again to be told what it senses now"
+"""What a script hears that knew the agent as it was."""
+
+
+@dataclass(frozen=True)
+class Blocks:
+    """All blocks of an agent."""
+
+    sensors: Sequence[Sensor]
+    actuators: Sequence[Actuator]
+    rewards: Sequence[RewardFunc]
+    brains: Sequence[Brain]
+
+    @classmethod
+    def of(cls, agent: BasicAgent) -> "Blocks":
+        """Those that an agent has now."""
+        return cls(
+            tuple(agent.sensors), tuple(agent.actuators), tuple(agent.rewards), tuple(agent.brains)
+        )
+
+    def put_on(self, agent: BasicAgent) -> None:
+        """Gives them to an agent; they sit on it once it is fitted."""
+        agent.sensors, agent.actuators = list(self.sensors), list(self.actuators)
+        agent.rewards, agent.brains = list(self.rewards), list(self.brains)
+
+
+def refit(agent: BasicAgent, world: World, blocks: Blocks, *, brain_goes_on: bool = False) -> None:
+    """Puts blocks on an agent that is under way; those that it had already go on as they were.
+
+    What is new is reset, and reads at once; the brain decides next on a percept with all of it.
+
+    Args:
+        agent: whose.
+        world: where its body is.
+        blocks: all that it is to have.
+        brain_goes_on: whether the brain stays without being set up again, if it is the same one.
+
+    Raises:
+        SetupError: something does not fit; then the agent is as it was.
+        ReadingError: a new sensor reads what it has not declared; the same then.
+    """
+    had, before = Blocks.of(agent), agent.fitting
+    memories = {id(each): Memory.of(each) for each in before.number_sensors}
+
+    def fit(these: Blocks, known: Blocks, *, goes_on: bool) -> None:
+        these.put_on(agent)
+        fitting = Fitting(agent, world, goes_on=before.brain if goes_on else None)
+        _begin(agent, fitting, known, memories, looks=these is blocks)
+
+    try:
+        fit(blocks, had, goes_on=brain_goes_on)
+    except Exception:
+        for brain in (*had.brains, *blocks.brains):
+            brain.enabled = brain is before.brain
+        try:
+            fit(had, had, goes_on=True)
+        except Exception:  # somebody's block that fits once only
+            before.take_up()
+            for sensor in before.number_sensors:
+                memories[id(sensor)].give_back(sensor)
+        raise
+    gone = before.brain
+    if agent.brain is gone:
+        return
+    if isinstance(gone, RemoteBrain):
+        gone.close(FAREWELL)
+    else:
+        gone.close()
+
+
+def look_anew(agent: BasicAgent) -> None:
+    """Has an agent sense the same moment once more: somebody moved the world by hand."""
+    fitting = agent.fitting
+    for sensor in fitting.number_sensors:
+        _blank_or(lambda each: look_again(each, fitting.body, fitting.view), sensor)
+    agent.see(fitting.percept())
+
+
+def _begin(
+    agent: BasicAgent,
+    fitting: Fitting,
+    known: Blocks,
+    memories: dict[int, Memory],
+    *,
+    looks: bool,
+) -> None:
+    """Resets what is new, and hands what is not its memory."""
+    old = {id(each) for each in (*known.actuators, *known.rewards, *known.brains)}
+    for block in (*fitting.rewards, *fitting.actuators.values(), fitting.brain):
+        if id(block) not in old:
+            block.on_reset(agent, fitting.view)
+    for sensor in fitting.sensors:
+        memory = memories.get(id(sensor))
+        if memory is not None and memory.give_back(sensor):
+            continue
+        sensor.on_reset(agent, fitting.view)
+        if looks and sensor in fitting.number_sensors:
+            _blank_or(lambda each: each.take(fitting.body, fitting.view), sensor)
+    agent.see(fitting.percept())
+
+
+def _blank_or(read: Callable[[Sensor], None], sensor: Sensor) -> None:
+    if sensor.is_active:
+        read(sensor)
+    else:
+        sensor.blank()

@@ -1,0 +1,54 @@
+"""What each page chooses for itself: where its camera is, whether it is dark."""
+
+from viser import GuiButtonGroupHandle, GuiCheckboxHandle, GuiEvent
+
+from ai4u_edu.snapshot import Snapshot, Stage
+from ai4u_edu.viewer.onlooker import Onlooker, Onlookers
+from ai4u_edu.viewer.view import Mode
+
+MODES = tuple(mode.value for mode in Mode)
+
+
+class PageControls:
+    """In the main panel of each page, below what is the same for all."""
+
+    def __init__(self, onlookers: Onlookers) -> None:
+        self._onlookers = onlookers
+        self._pages: dict[int, _Page] = {}
+
+    def build(self, stage: Stage) -> None:
+        """Nothing: pages stay when a stage is built anew."""
+
+    def draw(self, _snapshot: Snapshot) -> None:
+        """Gives pages that have come their controls."""
+        for gone in self._pages.keys() - self._onlookers.keys():
+            del self._pages[gone]
+        for new in self._onlookers.keys() - self._pages.keys():
+            self._pages[new] = _Page(self._onlookers[new])
+
+
+class _Page:
+    def __init__(self, onlooker: Onlooker) -> None:
+        gui = onlooker.client.gui
+        self._onlooker = onlooker
+        self._mark = gui.add_html("")
+        self.camera = gui.add_button_group("Camera", MODES)
+        self.dark = gui.add_checkbox("Dark", initial_value=False)
+        self.camera.on_click(self._on_camera)
+        self.dark.on_update(self._on_dark)
+        self._show_mode()
+
+    async def _on_camera(self, event: GuiEvent[GuiButtonGroupHandle]) -> None:
+        if event.target.value in MODES:
+            self._onlooker.view.choose(Mode(event.target.value))
+            self._show_mode()
+
+    async def _on_dark(self, event: GuiEvent[GuiCheckboxHandle]) -> None:
+        self._onlooker.client.gui.configure_theme(
+            show_logo=False, show_share_button=False, dark_mode=bool(event.target.value)
+        )
+
+    def _show_mode(self) -> None:
+        """Marks the button of the camera that is on; viser's buttons can't be marked."""
+        place = 1 + MODES.index(self._onlooker.view.mode)
+        self._mark.content = f'<div class="ai4u mark bare" data-on="{place}"></div>'

@@ -1,0 +1,201 @@
+"""What a page costs: ``python -m tests.benchmarks.page_cost``.
+
+Thirty bodies, eight agents with 64 rays each, 60 ticks a second; the world and its viewer have a
+process of their own, and so many pages look on: bare clients of viser's socket, each at the agent
+that comes first, that read every frame and open none. The table has the frames in which bodies
+moved and the bytes that each page got a second, the processor time of the serving process, and how
+much of that went into drawing a picture for all pages (which other load on the machine changes
+least).
+"""
+
+import argparse
+import multiprocessing
+import threading
+import time
+from contextlib import ExitStack
+from multiprocessing.connection import Connection
+
+import msgspec
+import psutil
+import viser
+import zstandard
+from websockets.exceptions import ConnectionClosed
+from websockets.sync.client import connect
+from websockets.typing import Subprotocol
+
+from ai4u_edu import (
+    BasicAgent,
+    BoxShape,
+    CircleShape,
+    ControlRequestor,
+    LinearRayCastingSensor,
+    LocalBrain,
+    OrientationSensor,
+    RBMoveActuator,
+    TouchRewardFunc,
+    World,
+)
+from ai4u_edu.runner import Runner
+from ai4u_edu.snapshot import Snapshot
+from ai4u_edu.viewer import Viewer
+
+AGENTS, BODIES, RAYS = 8, 30, 64
+
+
+def crowd() -> ControlRequestor:
+    """Eight agents that drive in circles among boxes."""
+    world = World()
+    world.add_floor("plate", BoxShape(size=(24, 24)))
+    agents = []
+    for number in range(BODIES):
+        place = 4.0 * (number % 6) - 10, 4.0 * (number // 6) - 8
+        name = f"body {number}"
+        tags = ("robot",) if number < AGENTS else ("box",)
+        world.add_body(name, CircleShape(radius=0.5), position=place, tags=tags)
+        if number < AGENTS:
+            agents.append(
+                BasicAgent(
+                    id=str(number),
+                    body=name,
+                    sensors=[
+                        LinearRayCastingSensor(
+                            perception_key="fan",
+                            number_of_rays=RAYS,
+                            field_of_view=180,
+                            group_code={"robot": 1, "box": 2},
+                        ),
+                        OrientationSensor(target="body 29"),
+                    ],
+                    actuators=[RBMoveActuator(move_amount=2, turn_amount=2)],
+                    rewards=[TouchRewardFunc(target="body 29", reward=1)],
+                    brains=[
+                        LocalBrain(
+                            controller=lambda percept: {"move": [0.5, 0.5, 0, 0]}, skip_frame=4
+                        )
+                    ],
+                )
+            )
+    return ControlRequestor(world, agents)
+
+
+def serve(there: Connection) -> None:
+    """The world, until somebody says that it is enough."""
+    runner = Runner(crowd(), seed=1)
+    viewer = Viewer(runner)
+    drawn, draw = [0, 0.0], viewer._draw
+
+    def timed(snapshot: Snapshot) -> None:
+        began = time.thread_time()
+        draw(snapshot)
+        drawn[0] += 1
+        drawn[1] += time.thread_time() - began
+
+    viewer._draw = timed  # type: ignore[method-assign]
+    runner.start()
+    viewer.start()
+    there.send(viewer.port)
+    while there.recv() != "enough":
+        there.send(tuple(drawn))
+    viewer.stop()
+    runner.stop()
+
+
+class Reader:
+    """A page that reads what it is sent.
+
+    Args:
+        url: of viser's socket.
+    """
+
+    def __init__(self, url: str) -> None:
+        protocol = Subprotocol(f"viser-v{viser.__version__}")
+        self._connection = connect(
+            url, subprotocols=[protocol], max_size=None, compression=None, proxy=None
+        )
+        self._connection.send(msgspec.msgpack.encode(CAMERA))
+        self.bytes = self.frames = 0
+        self._thread = threading.Thread(target=self._read, daemon=True)
+        self._thread.start()
+
+    def __enter__(self) -> "Reader":
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._connection.close()
+
+    def _read(self) -> None:
+        unpack = zstandard.ZstdDecompressor()
+        try:
+            for frame in self._connection:
+                if isinstance(frame, str):
+                    continue
+                self.bytes += len(frame)
+                plain, packed = (int.from_bytes(frame[at : at + 8], "little") for at in (0, 8))
+                raw = unpack.decompress(frame[16 : 16 + packed], plain)
+                self.frames += b"/bodies" in raw
+        except ConnectionClosed:
+            pass
+
+
+CAMERA = {
+    "type": "ViewerCameraMessage",
+    "wxyz": (0.0, 1.0, 0.0, 0.0),
+    "position": (3.0, 3.0, 3.0),
+    "fov": 1.0,
+    "near": 0.1,
+    "far": 1000.0,
+    "image_height": 800,
+    "image_width": 1280,
+    "look_at": (3.0, 3.0, 0.0),
+    "up_direction": (0.0, 1.0, 0.0),
+}
+
+
+def measure(
+    url: str, process: psutil.Process, here: Connection, pages: int, seconds: float
+) -> tuple[float, ...]:
+    """Frames and bytes a second and page, the server's share of a core, ms to draw a picture."""
+    with ExitStack() as stack:
+        readers = [stack.enter_context(Reader(url)) for _ in range(pages)]
+        time.sleep(3.0)
+        before = [(reader.frames, reader.bytes) for reader in readers]
+        here.send("drawn")
+        count, spent = here.recv()
+        used, began = process.cpu_times(), time.perf_counter()
+        time.sleep(seconds)
+        took, now = time.perf_counter() - began, process.cpu_times()
+        share = (now.user + now.system - used.user - used.system) / took
+        here.send("drawn")
+        drawn, drew = here.recv()
+        frames = [r.frames - f for r, (f, _) in zip(readers, before, strict=True)]
+        sent = [r.bytes - b for r, (_, b) in zip(readers, before, strict=True)]
+    many = max(pages, 1)
+    each = 1000 * (drew - spent) / max(drawn - count, 1)
+    return min(frames, default=0) / took, sum(sent) / many / took, share, each
+
+
+def main() -> None:
+    """Measures and prints."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--seconds", type=float, default=10)
+    parser.add_argument("--pages", default="1,4,16")
+    options = parser.parse_args()
+    multiprocessing.set_start_method("spawn")
+    here, there = multiprocessing.Pipe()
+    served = multiprocessing.Process(target=serve, args=(there,), daemon=True)
+    served.start()
+    url = f"ws://127.0.0.1:{here.recv()}"
+    process = psutil.Process(served.pid)
+    print("| pages | frames/s, least | kB/s a page | server, of a core | ms to draw a picture |")
+    print("|---|---|---|---|---|")
+    *_, idle, _ = measure(url, process, here, 0, options.seconds)
+    print(f"| 0 | | | {idle:.0%} | |")
+    for pages in map(int, options.pages.split(",")):
+        frames, sent, share, each = measure(url, process, here, pages, options.seconds)
+        print(f"| {pages} | {frames:.0f} | {sent / 1000:.0f} | {share:.0%} | {each:.2f} |")
+    here.send("enough")
+    served.join(10)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,109 @@
+"""A ghost is where the recorded agent was at the same time, and says so where that is unfair."""
+
+from collections.abc import Iterator
+from dataclasses import replace
+from typing import Any
+
+import pytest
+
+from ai4u_edu import LocalBrain, Scene
+from ai4u_edu.recording import Episode, Recorder
+from ai4u_edu.runner import Runner
+from ai4u_edu.viewer import Viewer
+from tests.recording.takes import take
+from tests.viewer.pages import shown, until
+
+
+def driving(seed: int, steps: int, turn: float) -> tuple[Runner, list[Any], Episode]:
+    """An episode, and the robot's pose after each of its decisions; another one has just begun."""
+    scene = Scene.load("box_chase")
+    sim = scene.build()
+    sim.agents[0].use_brain(LocalBrain(controller=lambda _: {"move": [0.2, turn, 0, 0]}))
+    recorder = Recorder(sim, scene=scene.description)
+    runner = Runner(sim, seed=seed, recorder=recorder)
+    poses = []
+    for _ in range(steps):
+        sim.step()
+        poses.append(sim.world["robot"].pose)
+    sim.reset(seed)
+    return runner, poses, recorder.episodes[-1]
+
+
+@pytest.fixture
+def viewer() -> Iterator[Viewer]:
+    runner, poses, episode = driving(1, 30, 0.5)
+    viewer = Viewer(runner)
+    viewer.ghosts.race(episode, "episode <1>")
+    until(lambda: viewer.ghosts._ghost is not None)
+    viewer.poses, viewer.episode = poses, episode  # type: ignore[attr-defined]
+    yield viewer
+    viewer.stop()
+
+
+def step(viewer: Viewer, times: int = 1) -> None:
+    runner = viewer.runner
+    for _ in range(times):
+        runner.sim.step()
+    runner._publish()
+    shown(viewer)
+
+
+def test_it_follows_the_run_in_time_and_begins_anew_with_the_world(viewer: Viewer) -> None:
+    sim = viewer.runner.sim
+    sim.agents[0].use_brain(LocalBrain(controller=lambda _: {}))  # the living one stays
+    for round_ in range(2):
+        for number, pose in enumerate(viewer.poses[:20]):  # type: ignore[attr-defined]
+            step(viewer)
+            (body,) = viewer.ghosts._bodies
+            if number % 2:  # its poses are those of every other tick
+                assert body._frame.position[:2] == pytest.approx(pose[:2], abs=1e-5), round_
+            assert body._frame.visible
+        sim.reset(1)
+    x, y, _ = body._frame.position
+    assert body._label.position[0] == pytest.approx(x)
+    assert body._label.position[1] > y
+    assert body._label.text == "ghost"
+
+
+def test_it_stays_at_the_end_of_its_run(viewer: Viewer) -> None:
+    step(viewer, 32)
+    end = tuple(viewer.ghosts._bodies[0]._frame.position)
+    step(viewer, 5)
+    assert tuple(viewer.ghosts._bodies[0]._frame.position) == end
+
+
+def test_nothing_is_sent_while_it_stands(viewer: Viewer, monkeypatch: pytest.MonkeyPatch) -> None:
+    step(viewer)
+    body = viewer.ghosts._bodies[0]
+    monkeypatch.setattr(
+        type(body._frame), "position", property(fset=lambda *_: pytest.fail("sent"))
+    )
+    viewer.ghosts.draw(viewer.runner.latest)
+
+
+def test_it_says_whose_it_is_and_where_that_is_unfair(viewer: Viewer) -> None:
+    ghosts, runner = viewer.ghosts, viewer.runner
+    step(viewer)
+    assert ghosts.told(runner.latest) == "Ghost: episode &lt;1&gt;"
+    runner.sim.reset(2)
+    step(viewer)
+    assert "It began otherwise: with seed 1." in ghosts.told(runner.latest)
+    assert ghosts._bodies[0]._label.text == "ghost of another start"
+    ghosts.race(take("donut", decisions=5).episode, "donut")
+    until(lambda: ghosts._ghost is not None)
+    step(viewer)
+    assert "It ran in another scene." in ghosts.told(runner.latest)
+    assert ghosts._bodies == []
+    ghosts.race(None)
+    step(viewer)
+    assert ghosts.told(runner.latest) == ""
+
+
+def test_a_run_that_can_not_be_played_is_told(viewer: Viewer) -> None:
+    episode: Episode = viewer.episode  # type: ignore[attr-defined]
+    scene = episode.scene.model_copy(update={"agents": ({"body": "nobody"},)})
+    viewer.ghosts.race(replace(episode, scene=scene), "broken")
+    until(lambda: viewer.ghosts.problem)
+    assert viewer.ghosts.told(viewer.runner.latest).startswith(
+        "No ghost: the episode&#x27;s scene can&#x27;t be made"
+    )

@@ -1,0 +1,201 @@
+"""The tab for blocks, on pages without a browser."""
+
+from collections.abc import Callable, Iterator
+from functools import partial
+from typing import Any
+
+import pytest
+
+from ai4u_edu.viewer import Viewer
+from ai4u_edu.viewer.inspector import BlocksTab
+from ai4u_edu.viewer.inspector_form import BlockForm
+from ai4u_edu.workshop.autosave import Unsaved
+from tests.viewer.pages import Page, page, shown, tabs_of, until
+from tests.workshop.shops import TEXT, Shop
+
+
+@pytest.fixture
+def shop() -> Iterator[Shop]:
+    shop = Shop()
+    shop.runner.pause()
+    shop.runner.start()
+    yield shop
+    shop.runner.stop()
+
+
+@pytest.fixture
+def viewer(shop: Shop) -> Iterator[Viewer]:
+    viewer = Viewer(shop.runner, workshop=shop.workshop)
+    yield viewer
+    viewer.stop()
+
+
+def tab_of(viewer: Viewer, number: int = 0) -> BlocksTab:
+    shown(viewer)
+    return tabs_of(viewer, BlocksTab)[number]
+
+
+def seen(viewer: Viewer, condition: Callable[[], Any]) -> None:
+    def drawn() -> Any:
+        shown(viewer)
+        return condition()
+
+    until(drawn)
+
+
+def chosen(viewer: Viewer, here: Page, tab: BlocksTab, line: str) -> BlockForm:
+    here.change(tab.block, line)
+    seen(viewer, lambda: tab._form is not None and tab.block.value == line)
+    assert tab._form is not None
+    return tab._form
+
+
+def applied(viewer: Viewer, here: Page, tab: BlocksTab, **values: Any) -> None:
+    assert tab._form is not None
+    for name, value in values.items():
+        box: Any = tab._form.boxes[name]
+        here.change(box, value)
+        until(partial(_holds, box, value))
+    here.change(tab._form.apply, True)
+
+
+def _holds(box: Any, value: Any) -> bool:
+    return bool(box.value == value)
+
+
+def test_lists_of_blocks_and_of_who_may_drive(viewer: Viewer) -> None:
+    with page(viewer):
+        tab = tab_of(viewer)
+        assert tab.block.options == ("choose a block", "1 BearingSensor")
+        assert tab.driver.value == "Program: ReplayController"
+        assert "Keyboard: WASDRBMoveController" in tab.driver.options
+        assert any(line.startswith("RayCastingSensor: What lies in") for line in tab.new.options)
+        assert tab._form is None  # made when it is asked for
+        assert not tab.deeds.visible
+
+
+def test_a_form_is_filled_in_and_handed_in(viewer: Viewer, shop: Shop) -> None:
+    with page(viewer) as here:
+        tab = tab_of(viewer)
+        form = chosen(viewer, here, tab, "1 BearingSensor")
+        assert form.boxes["target"].value == "box"
+        applied(viewer, here, tab, noise="0,5", target="wall")
+        until(lambda: shop.agent.sensors[0].target == "wall")
+        assert shop.agent.sensors[0].noise == 0.5
+        seen(viewer, lambda: "it applies at the next decision" in tab._said.content)
+        assert tab._form is form  # the same boxes
+        assert form.boxes["noise"].value == "0.5"
+
+
+def test_what_is_wrong_stands_beside_its_field(viewer: Viewer, shop: Shop) -> None:
+    with page(viewer) as here:
+        tab = tab_of(viewer)
+        form = chosen(viewer, here, tab, "1 BearingSensor")
+        applied(viewer, here, tab, noise="-1", delay=-2)
+        seen(viewer, lambda: len(form._complaints) == 2)
+        assert "expected at least 0, got -1" in form._complaints["noise"].content
+        assert "delay (decisions): expected at least 0, got -2" in form._told.content
+        for name, complaint in form._complaints.items():
+            place = [field.name for field in form.fields].index(name)
+            assert complaint.order == place + 0.5
+        assert shop.workshop.can_undo == ""
+        applied(viewer, here, tab, noise="0.1", delay=0)
+        seen(viewer, lambda: not form._complaints)
+        assert "it applies" in form._told.content
+
+
+def test_what_can_not_be_read_is_not_handed_in(viewer: Viewer, shop: Shop) -> None:
+    with page(viewer) as here:
+        tab = tab_of(viewer)
+        here.change(tab.kind, "Brains")
+        seen(viewer, lambda: "1.controller ReplayController" in tab.block.options)
+        form = chosen(viewer, here, tab, "1.controller ReplayController")
+        assert not tab.deeds.visible
+        applied(viewer, here, tab, actions="[{move: [1, 0")
+        seen(viewer, lambda: "actions" in form._complaints)
+        assert "for a list" in form._complaints["actions"].content
+        applied(viewer, here, tab, actions="[{move: [0, 1, 0, 0]}]")
+        until(lambda: shop.agent.brain.controller.actions == [{"move": [0, 1, 0, 0]}])
+
+
+def test_deeds(viewer: Viewer, shop: Shop) -> None:
+    with page(viewer) as here:
+        tab = tab_of(viewer)
+        here.change(tab.kind, "Rewards")
+        seen(viewer, lambda: "2 ProgressReward" in tab.block.options)
+        chosen(viewer, here, tab, "2 ProgressReward")
+        here.change(tab.deeds, "Up")
+        until(lambda: type(shop.agent.rewards[0]).__name__ == "ProgressReward")
+        seen(viewer, lambda: tab.block.value == "1 ProgressReward")  # it is still looked at
+        here.change(tab.deeds, "Off")
+        seen(viewer, lambda: tab.block.value == "1 ProgressReward (off)")
+        assert tab.deeds.options[0] == "On"
+        here.change(tab.deeds, "Remove")
+        until(lambda: len(shop.agent.rewards) == 1)
+        here.change(tab.changes, "Undo")
+        until(lambda: len(shop.agent.rewards) == 2)
+        seen(viewer, lambda: "redo: remove ProgressReward" in tab._said.content)
+
+
+def test_a_new_block_is_added_and_looked_at(viewer: Viewer, shop: Shop) -> None:
+    with page(viewer) as here:
+        tab = tab_of(viewer)
+        assert tab.add.disabled
+        line = next(line for line in tab.new.options if line.startswith("LinearRayCasting"))
+        here.change(tab.new, line)
+        until(lambda: not tab.add.disabled)
+        here.change(tab.add, True)
+        until(lambda: "linear_ray_casting" in shop.agent.percept)
+        seen(viewer, lambda: tab.block.value == "2 LinearRayCastingSensor")
+        assert tab._form is not None
+        assert tab._form.boxes["group_code"].value == "{target: 1, wall: 2}"
+
+
+def test_a_page_can_send_what_it_likes(viewer: Viewer, shop: Shop) -> None:
+    with page(viewer) as here:
+        tab = tab_of(viewer)
+        before = shop.workshop.state
+        for handle in (tab.block, tab.new, tab.driver, tab.kind, tab.changes, tab.deeds):
+            here.change(handle, "nonsense")
+        here.change(tab.add, True)
+        form = chosen(viewer, here, tab, "1 BearingSensor")
+        applied(viewer, here, tab, target="<script>")
+        seen(viewer, lambda: "target" in form._complaints)
+        assert "&lt;script&gt;" in form._complaints["target"].content
+        assert shop.workshop.state == before
+
+
+def test_two_pages_have_a_form_each_and_see_each_others_changes(viewer: Viewer, shop: Shop) -> None:
+    with page(viewer) as mine, page(viewer) as theirs:
+        until(lambda: len(viewer.server.get_clients()) == 2)
+        one, two = tab_of(viewer, 0), tab_of(viewer, 1)
+        form = chosen(viewer, mine, one, "1 BearingSensor")
+        other = chosen(viewer, theirs, two, "1 BearingSensor")
+        assert form is not other
+        applied(viewer, mine, one, noise="0.25")
+        seen(viewer, lambda: other.boxes["noise"].value == "0.25")
+        assert "undo: change BearingSensor" in two._said.content
+
+
+def test_another_scene_has_other_lists(viewer: Viewer, shop: Shop) -> None:
+    with page(viewer) as here:
+        tab = tab_of(viewer)
+        chosen(viewer, here, tab, "1 BearingSensor")
+        other = "title: Another one\n" + TEXT.replace(
+            "BearingSensor, target: box, stacked_observations: 3", "HeadingSensor"
+        )
+        shop.workshop.load(other).result(5)
+        seen(viewer, lambda: "1 HeadingSensor" in tab.block.options)
+        assert viewer._title == "Another one"
+        seen(viewer, lambda: tab._form is None or tab._form._block["type"] == "HeadingSensor")
+
+
+def test_what_was_left_is_offered(viewer: Viewer, shop: Shop, tmp_path: Any) -> None:
+    text = TEXT.replace("position: [4, 0]", "position: [3, 3]")
+    shop.workshop.unsaved = Unsaved(tmp_path / "x", text, None, 0.0)
+    with page(viewer) as here:
+        tab = tab_of(viewer)
+        assert tab._offer.visible
+        here.change(tab._offered, "Bring it back")
+        until(lambda: shop.world["box"].position == (3, 3))
+        seen(viewer, lambda: not tab._offer.visible)

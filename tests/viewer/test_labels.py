@@ -1,0 +1,47 @@
+"""Names in the scene, and how it stands with the scripts that should drive."""
+
+from dataclasses import replace
+from typing import Any
+
+import pytest
+
+from ai4u_edu.blocks import RemoteStatus
+from ai4u_edu.runner import Runner
+from ai4u_edu.snapshot import Snapshot
+from ai4u_edu.viewer import Viewer
+from ai4u_edu.viewer.agent_html import state
+from ai4u_edu.viewer.labels import Labels, trouble
+from tests.viewer.pages import part_of
+
+
+def with_script(snapshot: Snapshot, state: Any) -> Snapshot:
+    status = RemoteStatus(state, "", 0, 0, 0, 0, 0)
+    return replace(snapshot, agents=(replace(snapshot.agents[0], remote=status),))
+
+
+def written(viewer: Viewer) -> list[str]:
+    handles: Any = part_of(viewer, Labels)._labels
+    return [label.handle.text for label in handles]
+
+
+@pytest.mark.parametrize(
+    ("how", "words"),
+    [("waiting", "waits for its script"), ("late", "script is late"), ("lost", "script is lost")],
+)
+def test_the_state_of_a_script_stands_at_its_agent_in_words(
+    viewer: Viewer, runner: Runner, how: str, words: str
+) -> None:
+    assert written(viewer)[0] == "robot"
+    part = part_of(viewer, Labels)
+    troubled = with_script(runner.latest, how)
+    part.draw(troubled)
+    assert written(viewer)[0].startswith("robot ")
+    assert words in written(viewer)[0]
+    assert words not in "".join(written(viewer)[1:])
+    assert words in state(troubled.agents[0])
+    part.draw(with_script(runner.latest, "connected"))
+    assert written(viewer)[0] == "robot"
+
+
+def test_who_has_no_script_has_no_trouble(runner: Runner) -> None:
+    assert trouble(runner.latest.agents[0]) == ""

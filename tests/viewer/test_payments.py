@@ -1,0 +1,60 @@
+"""Which term paid what, at which decision."""
+
+from dataclasses import replace
+
+from ai4u_edu.agent import Entry, Ledger
+from ai4u_edu.runner import Runner
+from ai4u_edu.snapshot import picture_of
+from ai4u_edu.viewer.payments import LAST, curves, ledger
+from tests.builders import small_sim
+
+
+def test_the_latest_decisions_in_which_something_was_paid(runner: Runner) -> None:
+    entries = [Entry(step, {"a<b": float(step % 2), "c": -0.001}, 1.0) for step in range(1, 10)]
+    idle = [Entry(10, {"a<b": 0.0}, 1.0)]
+    html = ledger(replace(runner.latest.agents[0], history=(*entries, *idle)))
+    assert html.count("<th>decision ") == LAST
+    assert html.index("decision 9") < html.index("decision 8")
+    assert "decision 10" not in html
+    assert "decision 3" not in html
+    assert "a&lt;b +1.00, c \u22120.001" in html
+
+
+def test_nothing_paid_is_nothing_told(runner: Runner) -> None:
+    assert "Paid last" not in ledger(replace(runner.latest.agents[0], history=()))
+
+
+def test_curves_have_a_point_for_each_decision() -> None:
+    steps, paid, so_far = curves([Entry(3, {"a": 1.0, "b": 0.5}, 4.0), Entry(4, {}, 4.0)])
+    assert (steps.tolist(), paid.tolist(), so_far.tolist()) == ([3, 4], [1.5, 0], [4, 4])
+    assert [len(each) for each in curves([])] == [1, 1, 1]
+
+
+def test_a_ledger_remembers_only_if_it_is_told_to() -> None:
+    sim = small_sim()
+    (agent,) = sim.agents
+    agent.end_of_step.connect(lambda agent: agent.add_reward(2.0, name="bonus"))
+    sim.reset(1)
+    sim.step()
+    assert picture_of(sim).agents[0].history == ()
+    agent.ledger.remember(2)
+    for _ in range(3):
+        sim.step()
+    assert picture_of(sim).agents[0].history == (
+        Entry(3, {"bonus": 2.0}, 6.0),
+        Entry(4, {"bonus": 2.0}, 8.0),
+    )
+    sim.reset(1)
+    assert picture_of(sim).agents[0].history == ()
+
+
+def test_what_is_kept_may_grow() -> None:
+    book = Ledger()
+    book.remember(1)
+    for step in (1, 2):
+        book.open()
+        book.pay("a", 1.0)
+        book.close(step)
+    book.remember(3)
+    assert [entry.step for entry in book.history] == [2]
+    assert book.history.maxlen == 3
