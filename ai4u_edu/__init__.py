@@ -9,6 +9,7 @@ from ai4u_edu.version import __version__
 _HOMES = {
     "agent": ("EVENTS", "BasicAgent", "Event"),
     "blocks": (
+        "AStarController",
         "Action",
         "ActionSensor",
         "Actuator",
@@ -20,6 +21,7 @@ _HOMES = {
         "Block",
         "BodyInAreaRewardFunc",
         "Brain",
+        "BreadthFirstController",
         "CBMoveActuator",
         "CarActuator",
         "CellSensor",
@@ -56,6 +58,7 @@ _HOMES = {
         "KeeperController",
         "Keyboard",
         "LineSensor",
+        "LightSensor",
         "LinearRayCastingSensor",
         "LocalBrain",
         "LocalGridSensor",
@@ -88,6 +91,8 @@ _HOMES = {
         "VelocitySensor",
         "WASDController",
         "WASDRBMoveController",
+        "a_star",
+        "breadth_first",
         "trained_brain",
     ),
     "check": (

@@ -8,10 +8,12 @@ from ai4u_edu.blocks import AgentArraySensor as AgentArraySensor
 from ai4u_edu.blocks import AndRewardFunc as AndRewardFunc
 from ai4u_edu.blocks import AreaOrientationSensor as AreaOrientationSensor
 from ai4u_edu.blocks import ArrowController as ArrowController
+from ai4u_edu.blocks import AStarController as AStarController
 from ai4u_edu.blocks import BearingSensor as BearingSensor
 from ai4u_edu.blocks import Block as Block
 from ai4u_edu.blocks import BodyInAreaRewardFunc as BodyInAreaRewardFunc
 from ai4u_edu.blocks import Brain as Brain
+from ai4u_edu.blocks import BreadthFirstController as BreadthFirstController
 from ai4u_edu.blocks import CarActuator as CarActuator
 from ai4u_edu.blocks import CBMoveActuator as CBMoveActuator
 from ai4u_edu.blocks import CellSensor as CellSensor
@@ -47,6 +49,7 @@ from ai4u_edu.blocks import HomeostaticVariable as HomeostaticVariable
 from ai4u_edu.blocks import IDSensor as IDSensor
 from ai4u_edu.blocks import KeeperController as KeeperController
 from ai4u_edu.blocks import Keyboard as Keyboard
+from ai4u_edu.blocks import LightSensor as LightSensor
 from ai4u_edu.blocks import LinearRayCastingSensor as LinearRayCastingSensor
 from ai4u_edu.blocks import LineSensor as LineSensor
 from ai4u_edu.blocks import LocalBrain as LocalBrain
@@ -80,6 +83,8 @@ from ai4u_edu.blocks import TruncatedSensor as TruncatedSensor
 from ai4u_edu.blocks import VelocitySensor as VelocitySensor
 from ai4u_edu.blocks import WASDController as WASDController
 from ai4u_edu.blocks import WASDRBMoveController as WASDRBMoveController
+from ai4u_edu.blocks import a_star as a_star
+from ai4u_edu.blocks import breadth_first as breadth_first
 from ai4u_edu.blocks import trained_brain as trained_brain
 from ai4u_edu.check import Finding as Finding
 from ai4u_edu.check import Report as Report

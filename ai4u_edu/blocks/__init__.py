@@ -27,6 +27,8 @@ from ai4u_edu.blocks.brains import (
 )
 from ai4u_edu.blocks.brains.controllers import (
     ArrowController,
+    AStarController,
+    BreadthFirstController,
     Controller,
     DiscreteArrowController,
     FleeController,
@@ -39,6 +41,8 @@ from ai4u_edu.blocks.brains.controllers import (
     StrikerController,
     WASDController,
     WASDRBMoveController,
+    a_star,
+    breadth_first,
 )
 from ai4u_edu.blocks.homeostasis import HomeostaticVariable
 from ai4u_edu.blocks.percept import Layout, Percept
@@ -81,6 +85,7 @@ from ai4u_edu.blocks.sensors import (
     HomeostaticSensor,
     IDSensor,
     Legend,
+    LightSensor,
     LinearRayCastingSensor,
     LineSensor,
     LocalGridSensor,
@@ -100,6 +105,7 @@ from ai4u_edu.blocks.sensors import (
 )
 
 __all__ = [
+    "AStarController",
     "Action",
     "ActionSensor",
     "Actuator",
@@ -112,6 +118,7 @@ __all__ = [
     "Block",
     "BodyInAreaRewardFunc",
     "Brain",
+    "BreadthFirstController",
     "CBMoveActuator",
     "CarActuator",
     "CellSensor",
@@ -151,6 +158,7 @@ __all__ = [
     "Keyboard",
     "Layout",
     "Legend",
+    "LightSensor",
     "LineSensor",
     "LinearRayCastingSensor",
     "LocalBrain",
@@ -188,5 +196,7 @@ __all__ = [
     "VelocitySensor",
     "WASDController",
     "WASDRBMoveController",
+    "a_star",
+    "breadth_first",
     "trained_brain",
 ]

@@ -19,6 +19,9 @@ class Moment(Protocol):
     def connect(self, handler: Callable[[Any], None]) -> Any:
         """Calls the handler with the agent at this moment from now on."""
 
+    def disconnect(self, handler: Callable[[Any], None]) -> None:
+        """Stops calling the handler."""
+
 
 class AgentView(Protocol):
     """An agent as its blocks see it (:class:`~ai4u_edu.agent.BasicAgent` is one)."""
@@ -37,6 +40,10 @@ class AgentView(Protocol):
     @property
     def begin_of_episode(self) -> Moment:
         """When a reset is over and the first percept is there."""
+
+    @property
+    def end_of_update_state(self) -> Moment:
+        """When all sensors have read."""
 
     @property
     def body(self) -> "BodyView":

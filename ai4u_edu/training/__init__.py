@@ -1,9 +1,51 @@
-"""Agents that learn: train, evaluate, export.
+"""Agents that learn: train, evaluate, export, clone.
+
+In a notebook or a script of one's own::
+
+    from ai4u_edu.training import clone, demonstrate, evaluate, export, train
+
+    run = train("box_chase", algo="ppo", out="runs/first")
+    evaluate(run)
+    export(run, "policy.onnx")
+
+:func:`q_learning` learns with a table, and needs nothing else.
 
 To train, to evaluate a model and to export it needs ``pip install "ai4u-edu[train]"``
 (Stable-Baselines3 and torch); to drive with an exported network, ``"ai4u-edu[onnx]"`` is enough.
-Nothing is loaded before it is needed.
+Nothing is loaded before it is needed. On Linux, pip takes a torch for graphics cards, which is
+gigabytes; to get the one without, install that first::
+
+    pip install torch --index-url https://download.pytorch.org/whl/cpu
+    pip install "ai4u-edu[train]"
 
 A model of Stable-Baselines3 (a .zip) has Python objects in it, and reading one can run any program:
 load your own, and share ONNX files.
 """
+
+from typing import TYPE_CHECKING
+
+from ai4u_edu.training.notebook import clone, demonstrate, evaluate, export, train
+
+if TYPE_CHECKING:
+    from ai4u_edu.training.tables import QTable, grid_state, q_learning, still
+
+__all__ = [
+    "QTable",
+    "clone",
+    "demonstrate",
+    "evaluate",
+    "export",
+    "grid_state",
+    "q_learning",
+    "still",
+    "train",
+]
+
+
+def __getattr__(name: str) -> object:
+    # a command line that only tells its commands needs no physics
+    if name in __all__:
+        from ai4u_edu.training import tables
+
+        return getattr(tables, name)
+    raise AttributeError(f"module 'ai4u_edu.training' has no attribute {name!r}")

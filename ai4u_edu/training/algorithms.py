@@ -9,6 +9,7 @@ import torch
 from gymnasium import spaces
 from stable_baselines3 import DQN, PPO, SAC
 from stable_baselines3.common.base_class import BaseAlgorithm
+from stable_baselines3.common.preprocessing import is_image_space
 from stable_baselines3.common.vec_env import VecEnv
 
 from ai4u_edu.errors import SetupError, suggest
@@ -18,6 +19,9 @@ CLASSES: dict[Algorithm, type[BaseAlgorithm]] = {"sac": SAC, "ppo": PPO, "dqn": 
 
 OURS = {"self", "policy", "env", "seed", "policy_kwargs", "tensorboard_log", "verbose", "device"}
 """What we decide, and no settings file does."""
+
+SMALLEST = 36
+"""Cells across a picture that is large enough for the layers of Stable-Baselines3's CnnPolicy."""
 
 THREADS = 1
 """Torch's threads: for layers as small as these a second one only waits for the first."""
@@ -87,7 +91,17 @@ def falling(rate: float) -> Callable[[float], float]:
 
 
 def _policy_for(space: spaces.Space[Any]) -> str:
-    return "MultiInputPolicy" if isinstance(space, spaces.Dict) else "MlpPolicy"
+    if isinstance(space, spaces.Dict):
+        return "MultiInputPolicy"
+    if not is_image_space(space):
+        return "MlpPolicy"
+    height, width, *_ = space.shape or ()
+    if min(height, width) < SMALLEST:
+        raise SetupError(
+            f"CnnPolicy: expected a picture of at least {SMALLEST} x {SMALLEST} cells, got "
+            f"{height} x {width}; make the sensor's width and height larger"
+        )
+    return "CnnPolicy"
 
 
 def _checked(algorithm: Algorithm, settings: AlgorithmSettings) -> dict[str, Any]:

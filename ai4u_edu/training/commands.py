@@ -2,7 +2,7 @@
 
 import json
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated
 
 import typer
 from rich.console import Console
@@ -35,8 +35,17 @@ def train(
     settings: Annotated[
         Path | None, typer.Option(help="A YAML file in place of the scene's own settings.")
     ] = None,
+    policy: Annotated[
+        str, typer.Option(help="MlpPolicy, CnnPolicy (one picture), or MultiInputPolicy.")
+    ] = "",
+    observe: Annotated[
+        list[str] | None, typer.Option(help="A perception key that it gets; once for each.")
+    ] = None,
     resume: Annotated[
         bool, typer.Option("--resume", help="Go on with the training in --out.")
+    ] = False,
+    overwrite: Annotated[
+        bool, typer.Option("--overwrite", help="Begin anew, and lose the training in --out.")
     ] = False,
     watch: Annotated[
         bool, typer.Option("--watch", help="Show the policy driving in the browser as it learns.")
@@ -46,33 +55,24 @@ def train(
 
     Needs: pip install "ai4u-edu\[train]"
     """
-    from ai4u_edu.extras import need
+    from ai4u_edu.training import train as trained
 
-    need("train", "torch", "stable_baselines3")
-    from ai4u_edu.scenes import Scene
-    from ai4u_edu.training import train as learning
-    from ai4u_edu.training.settings import ALGORITHMS, settings_for
+    if resume and out is None:
+        raise SetupError("--resume needs --out, the folder of the training to go on with")
 
-    if resume:
-        if out is None:
-            raise SetupError("--resume needs --out, the folder of the training to go on with")
-        done = learning.resume(out, steps=steps, watch=watch)
-    else:
-        loaded = Scene.load(scene or "box_chase")
-        name = loaded.description.name
-        how = settings_for(name, settings)
-        algorithm = algo or how.algorithm
-        if algorithm not in ALGORITHMS:
-            raise SetupError(f"--algo: expected one of {', '.join(ALGORITHMS)}, got {algo!r}")
-        done = learning.train(
-            loaded,
-            algorithm,
-            how,
-            out or Path("runs") / f"{name}-{algorithm}-{seed}",
-            steps=steps,
-            seed=seed,
-            watch=watch,
-        )
+    done = trained(
+        scene or "box_chase",
+        algo,
+        steps=steps,
+        seed=seed,
+        out=out,
+        settings=settings,
+        policy=policy,
+        observe=observe or (),
+        resume=resume,
+        overwrite=overwrite,
+        watch=watch,
+    )
     best = done.best
     success = "" if best.success is None else f"success {best.success:.0%}, "
     why = "interrupted" if done.interrupted else "good enough" if done.enough else "done"
@@ -109,12 +109,11 @@ def evaluate(
 
     A model of Stable-Baselines3 (.zip) can run any program when it is read: only name your own.
     """
-    from rich.progress import track
-
     from ai4u_edu.extras import need
     from ai4u_edu.scenes import Scene
     from ai4u_edu.training.entrants import entrant
-    from ai4u_edu.training.evaluate import evaluate as evaluated
+    from ai4u_edu.training.evaluating import evaluate as evaluated
+    from ai4u_edu.training.meter import counted
     from ai4u_edu.training.report import table
 
     if plot is not None:
@@ -125,14 +124,7 @@ def evaluate(
         raise SetupError(f"in which scene is {who} to drive? Expected --scene")
     loaded = Scene.load(where)
     seeds = range(seed, seed + episodes)
-    done = [
-        evaluated(
-            each,
-            loaded,
-            track(seeds, each.name, console=Console(stderr=True), transient=True),
-        )
-        for each in entrants
-    ]
+    done = [evaluated(each, loaded, counted(seeds, each.name)) for each in entrants]
     if json_file is None or str(json_file) != "-":
         Console().print(
             f"{loaded.description.name}: {episodes} episodes, seeds {seed}..{seed + episodes - 1}",
@@ -156,18 +148,12 @@ def export(
     out: Annotated[Path, typer.Option(help="The network's file.")] = Path("policy.onnx"),
 ) -> None:
     """Write a model as a network (.onnx) that drives without torch, and can be shared."""
-    from ai4u_edu.extras import need
-
-    need("train", "torch", "stable_baselines3", "onnx", "onnxscript")
-    from ai4u_edu.training.algorithms import load_model
-    from ai4u_edu.training.export import export as exported
+    from ai4u_edu.training import export as exported
     from ai4u_edu.training.run import Run
 
-    run = Run(model if model.is_dir() else model.parent)
-    config = run.config()
-    loaded: Any = load_model(config.algorithm, run.best if model.is_dir() else model)
-    path = exported(loaded, run.scene(), config, out)
+    path = exported(model, out)
+    name = Run(model if model.is_dir() else model.parent).config().scene
     typer.echo(
         f"{path}: {path.stat().st_size / 1000:.0f} kB\n"
-        f"let it drive:  ai4u-edu play {config.scene} --brain {path}"
+        f"let it drive:  ai4u-edu play {name} --brain {path}"
     )

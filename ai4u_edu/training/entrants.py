@@ -25,7 +25,7 @@ from ai4u_edu.errors import AI4UError, SetupError, suggest
 from ai4u_edu.extras import need
 from ai4u_edu.scenes import Scene
 from ai4u_edu.training.prepare import prepare
-from ai4u_edu.training.run import Run
+from ai4u_edu.training.run import Config, Run
 
 
 def _as_it_is(scene: Scene) -> Scene:
@@ -85,6 +85,32 @@ def entrant(spec: str) -> Entrant:
     )
 
 
+def entrant_of(who: Any) -> Entrant:
+    """Who drives, whatever it is that drives.
+
+    Args:
+        who: a function from percept to action, a Controller (or its class), what a training or
+            cloning gave, or as for :func:`entrant`.
+    """
+    if isinstance(who, Entrant):
+        return who
+    if isinstance(who, str | Path):
+        return entrant(str(who))
+    for place in ("folder", "path"):  # of a training, of a clone
+        if hasattr(who, place):
+            return entrant(str(getattr(who, place)))
+    if isinstance(who, Controller):
+        return Entrant(type(who).__name__, _in_rhythm(lambda: who))
+    if isinstance(who, type) and issubclass(who, Controller):
+        return Entrant(who.__name__, _in_rhythm(who))
+    if callable(who):
+        return Entrant(getattr(who, "__name__", "function"), _in_rhythm(lambda: who))
+    raise SetupError(
+        "expected a function from percept to action, a Controller, what train() or clone() gave, "
+        f"or a name as in ai4u-edu evaluate --help; got {who!r}"
+    )
+
+
 def _network(spec: str) -> Entrant:
     about = NeuralNetController(model_path=spec).network.about
     return Entrant(
@@ -95,7 +121,6 @@ def _network(spec: str) -> Entrant:
 def _model(path: Path) -> Entrant:
     need("train", "torch", "stable_baselines3")
     from ai4u_edu.training.algorithms import load_model
-    from ai4u_edu.training.worlds import table_for
 
     run = Run(path if path.is_dir() else path.parent)
     config = run.config()
@@ -103,16 +128,7 @@ def _model(path: Path) -> Entrant:
     model = load_model(config.algorithm, run.best if path.is_dir() else path)
 
     def brain(agent: BasicAgent) -> Brain:
-        observer = Observer(agent, settings.observation)
-        ((output, actuator),) = outputs_of(agent).items()
-        space: Any = actuator.space()
-        chooses = config.algorithm == "dqn" and hasattr(space, "low")
-        table = table_for(space, settings.actions) if chooses else None
-
-        def drive(percept: Percept) -> dict[str, Any]:
-            action, _ = model.predict(observer.observe(percept), deterministic=True)
-            return {output: action if table is None else table[action]}
-
+        drive = driver_of(config, agent, lambda: model)
         return LocalBrain(controller=drive, skip_frame=agent.brain.skip_frame)
 
     return Entrant(
@@ -122,6 +138,32 @@ def _model(path: Path) -> Entrant:
         fitted=lambda scene: prepare(scene, settings, learning=False),
         agent=settings.agent,
     )
+
+
+def driver_of(
+    config: Config, agent: BasicAgent, latest: Callable[[], Any]
+) -> Callable[[Percept], dict[str, Any]]:
+    """What lets a model of Stable-Baselines3 drive, by what it thinks best.
+
+    Args:
+        config: of its training.
+        agent: whom it drives.
+        latest: the model; asked at each decision.
+    """
+    from ai4u_edu.training.worlds import table_for
+
+    settings = config.settings
+    observer = Observer(agent, settings.observation)
+    ((output, actuator),) = outputs_of(agent).items()
+    space: Any = actuator.space()
+    chooses = config.algorithm == "dqn" and hasattr(space, "low")
+    table = table_for(space, settings.actions) if chooses else None
+
+    def drive(percept: Percept) -> dict[str, Any]:
+        action, _ = latest().predict(observer.observe(percept), deterministic=True)
+        return {output: action if table is None else table[action]}
+
+    return drive
 
 
 def _by_chance(agent: BasicAgent) -> Brain:

@@ -37,6 +37,8 @@ class Drive(nn.Module):  # type: ignore[misc]  # seen without its types
         self._kind = _kind_of(model)
         self._keys = tuple(keys)
         self._spaces = _spaces_of(model.observation_space)
+        seen = model.observation_space
+        self._picture = _seen_of(seen) if is_image_space(seen) else None
         action_space: Any = model.action_space
         self._continuous = isinstance(action_space, spaces.Box)
         if self._continuous:
@@ -72,6 +74,8 @@ class Drive(nn.Module):  # type: ignore[misc]  # seen without its types
         return torch.minimum(torch.maximum(numbers, self.low), self.high)
 
     def _observation(self, readings: Sequence[Tensor]) -> Any:
+        if self._picture:
+            return _as_seen(readings[0], self._picture)
         if not self._spaces:
             return torch.cat([each.to(torch.float32).flatten(1) for each in readings], dim=1)
         named = zip(self._keys, readings, strict=True)
@@ -102,14 +106,12 @@ def _spaces_of(space: spaces.Space[Any]) -> dict[str, _Seen]:
     """Of each reading; empty where they all come in one array."""
     if not isinstance(space, spaces.Dict):
         return {}
-    return {
-        key: _Seen(
-            int(each.n) if isinstance(each, spaces.Discrete) else 0,
-            is_image_space(each),
-            each.shape or (),
-        )
-        for key, each in space.spaces.items()
-    }
+    return {key: _seen_of(each) for key, each in space.spaces.items()}
+
+
+def _seen_of(space: spaces.Space[Any]) -> _Seen:
+    choices = int(space.n) if isinstance(space, spaces.Discrete) else 0
+    return _Seen(choices, is_image_space(space), space.shape or ())
 
 
 def _as_seen(reading: Tensor, seen: _Seen) -> Tensor:

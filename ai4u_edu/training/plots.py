@@ -8,7 +8,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
 from ai4u_edu.palette import PALETTE
-from ai4u_edu.training.evaluate import Evaluation
+from ai4u_edu.training.evaluating import Evaluation
 from ai4u_edu.training.run import Check
 
 COLOURS = ("blue", "orange", "green", "vermillion", "purple", "sky blue", "black")

@@ -6,13 +6,11 @@ from typing import Any
 
 import numpy as np
 from rich.console import Console
-from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
 from stable_baselines3.common.callbacks import BaseCallback
 
 from ai4u_edu.training.keeper import Keeper
+from ai4u_edu.training.meter import OFTEN, Meter, Silence, meter
 
-OFTEN = 0.2
-"""Seconds between two changes of what is shown."""
 WINDOW = 100
 """Episodes over which rewards and successes are averaged."""
 
@@ -23,12 +21,12 @@ class Bar(BaseCallback):  # type: ignore[misc]  # seen without its types
     Args:
         keeper: whose checks are told.
         until: the step at which the training ends at the latest.
-        console: where to show it.
+        console: a terminal to show it in; left out, where this runs.
         quiet: whether to show nothing.
     """
 
     def __init__(
-        self, keeper: Keeper, until: int, console: Console, *, quiet: bool = False
+        self, keeper: Keeper, until: int, console: Console | None, *, quiet: bool = False
     ) -> None:
         super().__init__()
         self._keeper = keeper
@@ -36,27 +34,13 @@ class Bar(BaseCallback):  # type: ignore[misc]  # seen without its types
         self._rewards: deque[float] = deque(maxlen=WINDOW)
         self._won: deque[bool] = deque(maxlen=WINDOW)
         self._told = len(keeper.checks)
-        self._progress = Progress(
-            BarColumn(bar_width=24),
-            TextColumn("{task.completed}/{task.total} steps"),
-            TextColumn("{task.fields[speed]:.0f}/s"),
-            TextColumn("reward {task.fields[reward]}"),
-            TextColumn("success {task.fields[success]}"),
-            TimeElapsedColumn(),
-            TextColumn("left"),
-            TimeRemainingColumn(),
-            console=console,
-            disable=quiet,
-            auto_refresh=False,
-        )
-        self._task = self._progress.add_task(
-            "learning", total=until, speed=0.0, reward="-", success="-"
-        )
+        self._console, self._quiet = console, quiet
+        self._meter: Meter = Silence()
 
     def _on_training_start(self) -> None:
         self._first = self.num_timesteps
         self._began = self._shown = time.perf_counter()
-        self._progress.start()
+        self._meter = meter(self._until, "steps", console=self._console, quiet=self._quiet)
 
     def _on_step(self) -> bool:
         infos: list[dict[str, Any]] = self.locals["infos"]
@@ -79,23 +63,21 @@ class Bar(BaseCallback):  # type: ignore[misc]  # seen without its types
 
     def close(self) -> None:
         """Lets go of the terminal."""
-        self._progress.stop()
+        self._meter.close()
 
     def _show(self) -> None:
         self._shown = time.perf_counter()
         for check in self._keeper.checks[self._told :]:
             success = "" if check.success is None else f"success {check.success:.0%}, "
-            self._progress.console.print(
-                f"[dim]after {check.steps} steps, {check.seconds:.0f} s:[/dim] {success}"
-                f"reward {check.reward:.2f} in {check.length:.0f} decisions",
-                highlight=False,
-            ) if not self._progress.disable else None
+            self._meter.note(
+                f"after {check.steps} steps, {check.seconds:.0f} s: {success}"
+                f"reward {check.reward:.2f} in {check.length:.0f} decisions"
+            )
         self._told = len(self._keeper.checks)
-        self._progress.update(
-            self._task,
-            completed=min(self.num_timesteps, self._until),
-            speed=(self.num_timesteps - self._first) / max(self._shown - self._began, 1e-9),
-            reward=f"{np.mean(self._rewards):.2f}" if self._rewards else "-",
-            success=f"{np.mean(self._won):.0%}" if self._won else "-",
+        speed = (self.num_timesteps - self._first) / max(self._shown - self._began, 1e-9)
+        reward = f"{np.mean(self._rewards):.2f}" if self._rewards else "-"
+        success = f"{np.mean(self._won):.0%}" if self._won else "-"
+        self._meter.show(
+            min(self.num_timesteps, self._until),
+            f"{speed:.0f}/s  reward {reward}  success {success}",
         )
-        self._progress.refresh()

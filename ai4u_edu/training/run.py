@@ -73,6 +73,13 @@ class Run:
         self.replay = folder / "replay.pkl"
         self.tensorboard = folder / "tensorboard"
 
+    def clear(self) -> None:
+        """Takes away what a training wrote, and nothing else that lies in the folder."""
+        for name in ("config.json", "scene.yaml", "checks.json", "watched.zip", "watched.pt"):
+            (self.folder / name).unlink(missing_ok=True)
+        for path in (self.best, self.last, self.replay, *self.tensorboard.glob("events.*")):
+            path.unlink(missing_ok=True)
+
     def begin(self, config: Config, scene: Scene) -> None:
         """Makes the folder.
 
@@ -81,8 +88,8 @@ class Run:
         """
         if (self.folder / "config.json").exists():
             raise SetupError(
-                f"{self.folder} holds a training already; go on with it (--resume), "
-                "or choose another folder (--out)"
+                f"{self.folder} holds a training already; go on with it (resume), choose another "
+                "folder (out), or begin anew in this one (overwrite)"
             )
         self.folder.mkdir(parents=True, exist_ok=True)
         scene.save(self.folder / "scene.yaml")

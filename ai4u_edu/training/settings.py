@@ -3,10 +3,11 @@
 ``settings/defaults.yaml`` holds for all scenes; a file by the scene's name says what is different.
 """
 
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
-from pydantic import BaseModel, ConfigDict, Field, ValidationError
+from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
 
 from ai4u_edu.errors import SceneError, SetupError
 from ai4u_edu.parameters import explain
@@ -16,6 +17,10 @@ FOLDER = Path(__file__).parent / "settings"
 
 Algorithm = Literal["sac", "ppo", "dqn"]
 ALGORITHMS: tuple[Algorithm, ...] = ("sac", "ppo", "dqn")
+
+Policy = Literal["MlpPolicy", "MultiInputPolicy", "CnnPolicy"]
+FORMS = {"MlpPolicy": "flat", "MultiInputPolicy": "dict", "CnnPolicy": "image"}
+"""What each kind of network observes."""
 
 Positive = Annotated[int, Field(ge=1)]
 
@@ -47,17 +52,42 @@ class AlgorithmSettings(BaseModel):
         return dict(self.model_extra or {})
 
 
+class DaggerSettings(BaseModel):
+    """How a scene is learned from a teacher; see :mod:`ai4u_edu.training.dagger`."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+    rounds: Positive = 10
+    """In the first one the teacher drives; then the pupil does, with her help."""
+    episodes: Positive = 25
+    """Of each round."""
+    updates: Positive = 3000
+    """Gradient steps after each round."""
+    layers: tuple[Positive, ...] = (128, 128)
+    """The hidden layers' sizes."""
+
+
 class Settings(BaseModel):
     """How a scene is learned."""
 
     model_config = ConfigDict(extra="forbid", frozen=True)
 
+    @model_validator(mode="before")
+    @classmethod
+    def _as_the_policy_wants_it(cls, given: dict[str, Any]) -> dict[str, Any]:
+        form = FORMS.get(str(given.get("policy")))
+        return given | {"observation": form} if form else given
+
     algorithm: Algorithm = "ppo"
     """What learns it, unless another is asked for."""
     agent: str = ""
     """The id of the agent that learns; left out, the one that acts first."""
-    observation: Literal["flat", "dict"] = "flat"
-    """One array of all readings, or one entry a sensor (for pictures)."""
+    policy: Policy | None = None
+    """Stable-Baselines3's name of the network's kind; left out, as ``observation`` says. CnnPolicy
+    looks at one picture, which has to be the only input (``observe``); MultiInputPolicy takes
+    pictures and other readings together."""
+    observation: Literal["flat", "dict", "image"] = "flat"
+    """One array of all readings, one entry a sensor, or the one sensor's picture."""
     observe: tuple[str, ...] = ()
     """The perception keys that the policy gets; left out: all that are inputs."""
     skip_frame: Annotated[int, Field(ge=0)] | None = None
@@ -74,6 +104,7 @@ class Settings(BaseModel):
     sac: AlgorithmSettings
     ppo: AlgorithmSettings
     dqn: AlgorithmSettings
+    dagger: DaggerSettings = DaggerSettings()
 
     def of(self, algorithm: Algorithm) -> AlgorithmSettings:
         """Those of one algorithm."""
@@ -81,28 +112,34 @@ class Settings(BaseModel):
         return found
 
 
-def settings_for(scene: str, file: Path | None = None) -> Settings:
+def settings_for(
+    scene: str, file: Path | None = None, changes: Mapping[str, Any] | None = None
+) -> Settings:
     """How a scene is learned.
 
     Args:
         scene: its name.
         file: a YAML file in place of the scene's own.
+        changes: what is different from that.
 
     Raises:
-        SetupError: something in the file is wrong; says what.
+        SetupError: something in it is wrong; says what.
 
     >>> settings_for("box_chase").sac.layers
     (64, 64)
+    >>> settings_for("box_chase", changes={"sac": {"layers": [32]}}).sac.layers
+    (32,)
     """
     own = file or FOLDER / f"{scene}.yaml"
     given = _read(FOLDER / "defaults.yaml")
     if file or own.is_file():
         given = _merged(given, _read(own))
     try:
-        return Settings.model_validate(given)
+        return Settings.model_validate(_merged(given, changes or {}))
     except ValidationError as error:
         problems = "; ".join(map(str, explain(error.errors(), Settings)))
-        raise SetupError(f"{own.name}: {problems}") from None
+        where = "settings" if changes else own.name
+        raise SetupError(f"{where}: {problems}") from None
 
 
 def _read(path: Path) -> dict[str, Any]:
@@ -114,10 +151,10 @@ def _read(path: Path) -> dict[str, Any]:
         raise SetupError(str(error)) from None
 
 
-def _merged(below: dict[str, Any], above: dict[str, Any]) -> dict[str, Any]:
+def _merged(below: Mapping[str, Any], above: Mapping[str, Any]) -> dict[str, Any]:
     both = {
         key: _merged(below[key], above[key])
         for key in above
-        if isinstance(below.get(key), dict) and isinstance(above[key], dict)
+        if isinstance(below.get(key), Mapping) and isinstance(above[key], Mapping)
     }
-    return below | above | both
+    return {**below, **above, **both}

@@ -1,8 +1,8 @@
 """Shows the policy driving in the browser while it learns: in a process of its own.
 
-The training writes its network into a file now and then; the other process drives with it in a
-world of its own, and takes the next one when it is there. It waits where the training wants the
-processor.
+The training writes its model into a file, and its weights into another one now and then, which
+takes a millisecond; the other process drives with them in a world of its own, and takes the next
+ones when they are there. It waits where the training wants the processor.
 """
 
 import os
@@ -10,17 +10,22 @@ import subprocess
 import sys
 import threading
 import time
+from copy import deepcopy
 from pathlib import Path
 
+import torch
 from stable_baselines3.common.callbacks import BaseCallback
 
-from ai4u_edu.training.export import Exported
-from ai4u_edu.training.run import Config, Run
+from ai4u_edu.training.run import Run
 
 OFTEN = 3.0
-"""Seconds between two networks."""
-NETWORK = "watched.onnx"
-"""The network's file in the training's folder."""
+"""Seconds between two files of weights, or more: ..."""
+SHARE = 0.01
+"""... to write them may take this share of the time."""
+MODEL = "watched.zip"
+"""The model's file in the training's folder, as it was at first."""
+WEIGHTS = "watched.pt"
+"""The policy's weights, as they are now."""
 
 
 class Watch(BaseCallback):  # type: ignore[misc]  # seen without its types
@@ -28,22 +33,18 @@ class Watch(BaseCallback):  # type: ignore[misc]  # seen without its types
 
     Args:
         run: of the training.
-        config: how it was set up.
         port: of the page; 0 for any free one.
         open_page: whether to open it in the browser.
     """
 
-    def __init__(
-        self, run: Run, config: Config, *, port: int = 8080, open_page: bool = True
-    ) -> None:
+    def __init__(self, run: Run, *, port: int = 8080, open_page: bool = True) -> None:
         super().__init__()
         self._run = run
-        self._config = config
         self._arguments = [str(run.folder), str(port), "open" if open_page else ""]
-        self._exported: Exported | None = None
         self._page: subprocess.Popen[bytes] | None = None
 
     def _on_training_start(self) -> None:
+        self._run.put(self._run.folder / MODEL, self.model.save)
         self.hand_on()
         # Ctrl-C is for the training; the page ends with it
         self._page = subprocess.Popen(  # noqa: S603 - our own module
@@ -51,18 +52,17 @@ class Watch(BaseCallback):  # type: ignore[misc]  # seen without its types
         )
 
     def _on_step(self) -> bool:
-        if time.perf_counter() - self._written > OFTEN:
+        if time.perf_counter() > self._next:
             self.hand_on()
         return True
 
     def hand_on(self) -> None:
         """Writes the policy as it is now to where the page looks for it."""
-        if self._exported is None:
-            self._exported = Exported(self.model, self._run.scene(), self._config)
-        else:
-            self._exported.refresh()
-        self._exported.write(self._run.folder / NETWORK)
-        self._written = time.perf_counter()
+        began = time.perf_counter()
+        weights = self.model.policy.state_dict()
+        self._run.put(self._run.folder / WEIGHTS, lambda path: torch.save(weights, path))
+        ended = time.perf_counter()
+        self._next = ended + max(OFTEN, (ended - began) / SHARE)
 
     def command(self) -> list[str]:
         """What runs the page."""
@@ -77,21 +77,24 @@ class Watch(BaseCallback):  # type: ignore[misc]  # seen without its types
 
 
 def show(folder: Path, port: int, *, open_page: bool) -> None:
-    """Serves the page until somebody ends it."""
-    from ai4u_edu.blocks import LocalBrain, NeuralNetController
+    """Serves the page until somebody ends it; at another port if that one is taken."""
+    from ai4u_edu.blocks import LocalBrain
     from ai4u_edu.runner import Runner
-    from ai4u_edu.server import open_on_desktop, room_app, serve, shut_side_door
+    from ai4u_edu.server import PortTakenError, open_on_desktop, room_app, serve, shut_side_door
+    from ai4u_edu.training.algorithms import load_model
+    from ai4u_edu.training.entrants import driver_of
     from ai4u_edu.training.prepare import prepare
     from ai4u_edu.viewer import Viewer
 
     run = Run(folder)
-    settings = run.config().settings
+    config = run.config()
+    settings = config.settings
     scene = prepare(run.scene(), settings)
     sim = scene.build()
     agent = sim.agent(settings.agent) if settings.agent else sim.agents[0]
-    network = folder / NETWORK
-    controller = NeuralNetController(model_path=str(network.absolute()))
-    agent.use_brain(LocalBrain(controller=controller, skip_frame=agent.brain.skip_frame))
+    model = load_model(config.algorithm, folder / MODEL)
+    drive = driver_of(config, agent, lambda: model)
+    agent.use_brain(LocalBrain(controller=drive, skip_frame=agent.brain.skip_frame))
     title = f"{scene.description.title or scene.description.name}, learning"
     runner = Runner(sim)
     viewer = Viewer(runner, title=title)
@@ -105,20 +108,26 @@ def show(folder: Path, port: int, *, open_page: bool) -> None:
             open_on_desktop(url)
 
     ended = threading.Event()
+    weights = folder / WEIGHTS
 
     def renew() -> None:
-        seen = network.stat().st_mtime_ns
+        seen = 0
         while not ended.wait(0.5):
-            now = network.stat().st_mtime_ns
+            now = weights.stat().st_mtime_ns
             if now != seen:
                 seen = now
-                runner.submit(controller.reload)
+                policy = deepcopy(model.policy)  # who decides meanwhile does so with the old one
+                policy.load_state_dict(torch.load(weights, weights_only=True))
+                model.policy = policy
 
     runner.start()
     viewer.start()
     threading.Thread(target=renew, name="renew", daemon=True).start()
     try:
-        serve(room, "127.0.0.1", port, on_ready=ready)
+        try:
+            serve(room, "127.0.0.1", port, on_ready=ready)
+        except PortTakenError:
+            serve(room, "127.0.0.1", 0, on_ready=ready)
     finally:
         ended.set()
         viewer.stop()
@@ -127,5 +136,5 @@ def show(folder: Path, port: int, *, open_page: bool) -> None:
 
 if __name__ == "__main__":
     if hasattr(os, "nice"):
-        os.nice(10)
+        os.nice(19)
     show(Path(sys.argv[1]), int(sys.argv[2]), open_page=sys.argv[3] == "open")

@@ -17,11 +17,11 @@ from typing import NamedTuple
 
 from ai4u_edu import Scene
 from ai4u_edu.training.entrants import entrant
-from ai4u_edu.training.evaluate import evaluate
+from ai4u_edu.training.evaluating import evaluate
+from ai4u_edu.training.learning import train
 from ai4u_edu.training.plots import plot_curves
 from ai4u_edu.training.run import Check
 from ai4u_edu.training.settings import Algorithm, settings_for
-from ai4u_edu.training.train import train
 
 SCENES = ("box_chase", "sample_scene")
 ALGORITHMS: tuple[Algorithm, ...] = ("sac", "ppo")

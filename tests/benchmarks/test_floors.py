@@ -6,10 +6,14 @@ import pytest
 from ai4u_edu import BodyView
 from ai4u_edu.envs import SceneEnv
 from tests.benchmarks.course import course
-from tests.benchmarks.floors import BareFloor, CffiFloor, PublicFloor
+from tests.benchmarks.floors import BareFloor, CffiFloor, CompiledFloor, PublicFloor, compiled
+
+in_c = pytest.mark.skipif(compiled() is None, reason="no C compiler here")
 
 
-@pytest.mark.parametrize("floor", [PublicFloor, CffiFloor, BareFloor])
+@pytest.mark.parametrize(
+    "floor", [PublicFloor, CffiFloor, BareFloor, pytest.param(CompiledFloor, marks=in_c)]
+)
 @pytest.mark.parametrize("seed", [1, 5, 14])
 def test_the_hand_written_loop_is_the_yardstick(floor: type[PublicFloor], seed: int) -> None:
     env = SceneEnv("yardstick", observation="flat")

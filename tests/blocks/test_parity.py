@@ -11,7 +11,7 @@ SENSORS = (
     "FloatArrayCompositeSensor OrientationSensor BearingSensor PositionSensor RayCastingSensor "
     "LinearRayCastingSensor TouchSensor GroupTouchSensor GroundStatusSensor AreaOrientationSensor "
     "AgentArraySensor LocalGridSensor VelocitySensor HeadingSensor HomeostaticSensor "
-    "LineSensor GridSensor CellSensor PresenceSensor"
+    "LineSensor GridSensor CellSensor PresenceSensor LightSensor"
 )
 ACTUATORS = (
     "RBMoveActuator CBMoveActuator DifferentialDriveActuator DiscreteActuator ContinuousActuator "

@@ -63,6 +63,9 @@ class PaperLink:
     def open(self, offer: Offer) -> None:
         self.offer = offer
 
+    def tell(self, situation: Situation) -> None:
+        self.told.append(situation)
+
     def ask(self, situation: Situation, timeout: float) -> Answered | None:
         self.timeouts.append(timeout)
         if not self.told or self.told[-1] is not situation:
@@ -252,6 +255,31 @@ def test_in_real_time_nobody_waits_and_a_late_answer_is_for_the_next_decision() 
     sim.tick()
     assert sim.agents[0].last_action == {}  # it was meant for another episode
     assert brain.status().ignored == 1
+
+
+def test_in_real_time_a_script_is_told_as_soon_as_the_agent_has_sensed() -> None:
+    link = PaperLink()
+    sim, brain = over(link, mode="realtime", skip_frame=1)
+    agent = sim.agents[0]
+    sim.tick()
+    assert [told.steps for told in link.told] == [0]
+    sim.tick()
+    assert [told.steps for told in link.told] == [0, 1]
+    assert link.told[-1].percept is agent.percept
+    assert link.told[-1].tick == sim.world.ticks == 2
+    link.answers.append(Answered(AHEAD, link.told[-1]))  # in time for the very next tick
+    sim.tick()
+    assert agent.last_action == {"move": (1.0, 0.0, 0.0, 0.0)}
+    before = len(agent.end_of_update_state.handlers)
+    brain.close()
+    assert len(agent.end_of_update_state.handlers) == before - 1
+
+
+def test_in_lockstep_a_script_is_told_when_it_is_asked() -> None:
+    link = PaperLink(AHEAD)
+    sim, _ = over(link)
+    sim.tick()
+    assert [told.steps for told in link.told] == [0]
 
 
 def test_a_reset_with_a_seed_is_the_worlds() -> None:

@@ -4,8 +4,8 @@ from pathlib import Path
 from typing import Any
 
 from ai4u_edu import Scene
+from ai4u_edu.training.learning import Trained, train
 from ai4u_edu.training.settings import Algorithm, Settings, settings_for
-from ai4u_edu.training.train import Trained, train
 
 SMALL: dict[str, dict[str, Any]] = {
     "sac": {"worlds": 2, "steps": 200, "check_every": 100, "learning_starts": 50, "batch_size": 16},

@@ -15,10 +15,10 @@ from ai4u_edu import LocalBrain, Percept, Scene
 from ai4u_edu.blocks.brains.network import Network
 from ai4u_edu.errors import SetupError
 from ai4u_edu.recording import Episode, Recorder
-from ai4u_edu.training.clone import Clone, clone
+from ai4u_edu.training.cloning import Clone, clone, levels_of
 from ai4u_edu.training.demonstrations import demonstrations
 from ai4u_edu.training.entrants import entrant
-from ai4u_edu.training.evaluate import evaluate
+from ai4u_edu.training.evaluating import evaluate
 from tests.recording.takes import take
 from tests.scenes.solvers import solver_of
 
@@ -109,9 +109,47 @@ def test_actions_without_a_range_can_not_be_learned() -> None:
         Clone(np.zeros((3, 2), np.float32), Box(-np.inf, np.inf, (2,)))
 
 
-def test_a_reading_that_was_always_the_same_does_not_shout() -> None:
+def test_a_reading_that_was_always_the_same_says_nothing() -> None:
     from gymnasium.spaces import Box
 
-    seen = np.ones((8, 2), np.float32)
+    seen = np.array([[1, 0], [1, 2]], np.float32)
     network: Any = Clone(seen, Box(-1.0, 1.0, (1,)))
-    assert network.spread.tolist() == [1.0, 1.0]
+    assert network.places.tolist() == [1]
+    one, other = (network(torch.tensor([[first, 0.5]])) for first in (1.0, 99.0))
+    assert torch.equal(one, other)
+    # unless all of them were: then there is nothing else to go by
+    network = Clone(np.ones((8, 2), np.float32), Box(-1.0, 1.0, (1,)))
+    assert (network.places.tolist(), network.spread.tolist()) == ([0, 1], [1.0, 1.0])
+
+
+def test_a_whole_number_has_an_input_for_each_value() -> None:
+    from gymnasium.spaces import Discrete
+
+    seen = np.array([[0, 0.5], [2, 0.7]], np.float32)
+    network: Any = Clone(seen, Discrete(3), levels=[4, 0])
+    assert network.layers[0].in_features == 1 + 4
+    assert levels_of(Scene.load("grid_world").build().agents[0])[-3:] == [0, 20, 20]
+    assert not any(levels_of(Scene.load("box_chase").build().agents[0]))
+
+
+def test_the_ends_of_a_range_are_reached_and_not_more() -> None:
+    """What nobody did must not be done a little: a small jump is a jump."""
+    from gymnasium.spaces import Box
+
+    seen = np.linspace(-1, 1, 64, dtype=np.float32)[:, None]
+    done = (seen > 0.0).astype(np.float32)
+    network: Any = Clone(seen, Box(0.0, 1.0, (1,)))
+    optimizer = torch.optim.Adam(network.parameters(), lr=3e-3)
+    for _ in range(300):
+        loss = network.loss(torch.from_numpy(seen), torch.from_numpy(done))
+        optimizer.zero_grad()
+        loss.backward()
+        optimizer.step()
+    answers = network(torch.from_numpy(seen)).detach().numpy()
+    assert set(answers[np.abs(seen) > 0.1].tolist()) == {0.0, 1.0}
+    # beyond an end is no error, on the wrong side of it is one
+    with torch.no_grad():
+        network.layers[-1].weight.zero_()
+        network.layers[-1].bias.fill_(3.0)
+        assert float(network.loss(torch.zeros(1, 1), torch.ones(1, 1))) == 0.0
+        assert float(network.loss(torch.zeros(1, 1), torch.zeros(1, 1))) > 1.0

@@ -2,18 +2,22 @@
 
 import json
 import re
+import shutil
+import socket
 import subprocess
-import sys
+import time
 from pathlib import Path
+from typing import Any
 
 import httpx
 import pytest
 from typer.testing import CliRunner
 
-from ai4u_edu import NeuralNetController, Scene
+from ai4u_edu import Scene
 from ai4u_edu.cli import _give_brain, app
 from ai4u_edu.errors import AI4UError
-from ai4u_edu.training.watch import NETWORK, Watch
+from ai4u_edu.training.algorithms import load_model
+from ai4u_edu.training.watch import MODEL, Watch
 from tests.training.small import small_settings, small_training
 
 
@@ -72,29 +76,55 @@ def test_what_is_wrong_on_the_command_line(tmp_path: Path) -> None:
 
 
 def test_watching_hands_the_policy_on(tmp_path: Path) -> None:
-    """The page's process serves the world in which the latest network drives."""
+    """The page's process serves the world in which the latest model drives."""
     done = small_training(tmp_path)
-    from ai4u_edu.training.algorithms import load_model
-
-    watch = Watch(done.run, done.run.config(), port=0, open_page=False)
-    watch.init_callback(load_model("ppo", done.run.last))
-    command = watch.command()
+    model = load_model("ppo", done.run.last)
+    watch = Watch(done.run, port=0, open_page=False)
+    watch.init_callback(model)
+    shutil.copy(done.run.last, tmp_path / MODEL)
     watch.hand_on()
-    with subprocess.Popen(command, stderr=subprocess.PIPE, text=True) as page:
+    with subprocess.Popen(watch.command(), stderr=subprocess.PIPE, text=True) as page:
         assert page.stderr is not None
         try:
             line = next(line for line in page.stderr if "watch it learn" in line)
             found = re.search(r"http://\S+", line)
             assert found
-            snapshot = httpx.get(found[0] + "api/snapshot", timeout=20).json()
+            address = found[0] + "api/snapshot"
+            before = httpx.get(address, timeout=20).json()["agents"][0]
+            # from now on it does nothing but turn
+            weights = model.policy.action_net
+            weights.weight.data.zero_()
+            weights.bias.data[:] = weights.bias.new_tensor([0.0, 1.0, 0.0, 0.0])
+            watch.hand_on()
+            for _ in range(100):
+                time.sleep(0.1)
+                after = httpx.get(address, timeout=20).json()["agents"][0]
+                if turning(after):
+                    break
         finally:
             page.terminate()
-    assert snapshot["agents"][0]["brain"] == "LocalBrain(NeuralNetController)"
-    assert command[0] == sys.executable
-    sim = Scene.load("box_chase").build()
-    controller = NeuralNetController(model_path=str(tmp_path / NETWORK))
-    controller.on_setup(sim.agents[0], sim.agents[0].view)
-    before = controller.network
-    watch.hand_on()
-    controller.reload()
-    assert controller.network is not before
+    assert before["brain"] == "LocalBrain(ScriptController)"
+    assert not turning(before)
+    assert turning(after)
+
+
+def turning(agent: dict[str, Any]) -> bool:
+    """Whether its last action was exactly a turn to the right."""
+    return bool(agent["action"].get("move") == [0.0, 1.0, 0.0, 0.0])
+
+
+def test_watching_takes_another_port_where_that_one_is_taken(tmp_path: Path) -> None:
+    done = small_training(tmp_path)
+    with socket.create_server(("127.0.0.1", 0)) as taken:
+        port = taken.getsockname()[1]
+        watch = Watch(done.run, port=port, open_page=False)
+        watch.init_callback(load_model("ppo", done.run.last))
+        shutil.copy(done.run.last, tmp_path / MODEL)
+        watch.hand_on()
+        with subprocess.Popen(watch.command(), stderr=subprocess.PIPE, text=True) as page:
+            assert page.stderr is not None
+            try:
+                line = next(line for line in page.stderr if "watch it learn" in line)
+            finally:
+                page.terminate()
+    assert f":{port}/" not in line

@@ -12,7 +12,7 @@ from ai4u_edu.cli import app
 from ai4u_edu.errors import AI4UError
 from ai4u_edu.training.entrants import Entrant, entrant
 from ai4u_edu.training.episode import wilson
-from ai4u_edu.training.evaluate import LONGEST, evaluate
+from ai4u_edu.training.evaluating import LONGEST, evaluate
 
 ROAD = """
 name: road

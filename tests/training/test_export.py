@@ -13,7 +13,7 @@ from stable_baselines3.common.vec_env import VecEnv
 from ai4u_edu import Command, Scene
 from ai4u_edu.blocks.brains.network import ABOUT, Network, Port
 from ai4u_edu.training.algorithms import load_model, new_model
-from ai4u_edu.training.export import Exported, export
+from ai4u_edu.training.exporting import export
 from ai4u_edu.training.prepare import prepare
 from ai4u_edu.training.run import Config
 from ai4u_edu.training.settings import ALGORITHMS, Algorithm, Settings
@@ -124,21 +124,6 @@ def test_what_the_file_says_of_itself(tmp_path: Path) -> None:
     # nothing of the machine on which it was made
     assert str(Path(__file__).parents[2]).encode() not in one.read_bytes()
     assert b".py" not in one.read_bytes()
-
-
-def test_refresh_takes_the_models_numbers_as_they_are_now(tmp_path: Path) -> None:
-    scene, settings = Scene.load("box_chase"), small_settings()
-    model, worlds = untrained(scene, "sac", settings)
-    exported = Exported(model, scene, config("sac", settings))
-    before = Network(exported.write(tmp_path / "policy.onnx"))
-    for weights in model.policy.parameters():
-        weights.data.add_(0.1)
-    keys = ["vision", "orientation", "last_action"]
-    assert disagreement(model, before, worlds, keys) > 0.1
-    exported.refresh()
-    after = Network(exported.write(tmp_path / "policy.onnx"))
-    assert disagreement(model, after, worlds, keys) < 1e-5
-    assert before.about["hash"] != after.about["hash"]
 
 
 def test_a_network_decides_as_its_model_does(tmp_path: Path) -> None:

@@ -12,9 +12,9 @@ from ai4u_edu import Scene, World
 from ai4u_edu.errors import SetupError
 from ai4u_edu.training.algorithms import load_model
 from ai4u_edu.training.keeper import Keeper
+from ai4u_edu.training.learning import resume, train
 from ai4u_edu.training.run import Check, Run
 from ai4u_edu.training.settings import ALGORITHMS, Algorithm
-from ai4u_edu.training.train import resume, train
 from tests.training.small import small_settings, small_training
 
 

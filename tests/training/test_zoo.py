@@ -5,8 +5,8 @@ import pytest
 from ai4u_edu import Scene, zoo
 from ai4u_edu.blocks.brains.network import Network
 from ai4u_edu.training.entrants import entrant
-from ai4u_edu.training.evaluate import evaluate
-from ai4u_edu.training.zoo import LARGEST, WANTED
+from ai4u_edu.training.evaluating import evaluate
+from ai4u_edu.training.zoo import LARGEST
 
 NAMES = zoo.names()
 
@@ -24,13 +24,25 @@ def test_it_is_small_and_says_where_it_learned(name: str) -> None:
     assert about["steps"] > 0
 
 
+def row(name: str) -> list[str]:
+    """The README's row of a network, cell by cell."""
+    lines = (zoo.FOLDER / "README.md").read_text(encoding="utf-8").splitlines()
+    (found,) = (line for line in lines if line.startswith(f"| {name} |"))
+    return [cell.strip() for cell in found.strip("|").split("|")]
+
+
 @pytest.mark.parametrize("name", NAMES)
-def test_it_still_drives_well(name: str) -> None:
+def test_it_still_drives_as_the_readme_says(name: str) -> None:
     """On fewer seeds than when it was made: a change of the scene or the physics shows here."""
+    said = row(name)[4]
     told = evaluate(entrant(f"zoo:{name}"), Scene.load(name), range(200, 220))
-    assert told.success is None or told.success >= WANTED - 0.1, told
+    if told.success is None:
+        assert said == "-"
+    else:
+        assert told.success >= float(said.rstrip("%")) / 100 - 0.15, told
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_the_readme_has_a_row_for_it(name: str) -> None:
-    assert f"| {name} |" in (zoo.FOLDER / "README.md").read_text()
+def test_the_readme_says_how_it_learned(name: str) -> None:
+    about = Network(zoo.network_of(name)).about
+    assert row(name)[1:4] == [str(about[key]) for key in ("algorithm", "steps", "seed")]

@@ -53,6 +53,10 @@ class Actuator(Block):
             f"{type(self).__name__} has no space(self): it must say what action it takes, as a Box"
         )
 
+    def slots(self) -> tuple[str, ...]:
+        """What each number of an action is called, to be shown; empty if they have no names."""
+        return ()
+
     def act(self, body: Body, action: tuple[float, ...]) -> None:
         """Carries an action out, for one tick.
 

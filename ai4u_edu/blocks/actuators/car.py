@@ -40,6 +40,10 @@ class CarActuator(Actuator):
         """[throttle, steering]."""
         return Box(-1.0, 1.0, (2,), np.float32)
 
+    def slots(self) -> tuple[str, ...]:
+        """Pedal and wheel."""
+        return "throttle", "steering"
+
     def act(self, body: Body, action: tuple[float, ...]) -> None:
         """Sets the body's speeds, if it stands on the ground."""
         if not body.on_ground:

@@ -42,6 +42,10 @@ class CBMoveActuator(GroundMotion):
         """Takes the episode's chance."""
         self._chance = view.random(f"{agent.id}/actuator/{self.action_name}")
 
+    def slots(self) -> tuple[str, ...]:
+        """As AI4U orders them."""
+        return "forward", "strafe", "turn", "jump", "forward jump"
+
     def act(self, body: Body, action: tuple[float, ...]) -> None:
         """Sets the body's speeds, if it stands on the ground."""
         if not body.on_ground:

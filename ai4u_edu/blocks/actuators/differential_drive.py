@@ -35,6 +35,10 @@ class DifferentialDriveActuator(Actuator):
         """[left, right]."""
         return Box(-1.0, 1.0, (2,), np.float32)
 
+    def slots(self) -> tuple[str, ...]:
+        """The wheels."""
+        return "left", "right"
+
     def act(self, body: Body, action: tuple[float, ...]) -> None:
         """Sets the body's speeds, if it stands on the ground."""
         if not body.on_ground:

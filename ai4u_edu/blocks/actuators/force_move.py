@@ -32,6 +32,10 @@ class ForceMoveActuator(Actuator):
         """[forward, turn]."""
         return Box(-1.0, 1.0, (2,))
 
+    def slots(self) -> tuple[str, ...]:
+        """Push and turn."""
+        return "forward", "turn"
+
     def act(self, body: Body, action: tuple[float, ...]) -> None:
         """Pushes for one tick, and sets how fast the body turns."""
         if body.on_ground:

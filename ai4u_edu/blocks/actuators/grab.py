@@ -38,6 +38,10 @@ class GrabActuator(Actuator):
         """Remembers the world."""
         self._view = view
 
+    def slots(self) -> tuple[str, ...]:
+        """The hand."""
+        return ("grip",)
+
     def act(self, body: Body, action: tuple[float, ...]) -> None:
         """Closes the hand, or opens it."""
         held = body.held

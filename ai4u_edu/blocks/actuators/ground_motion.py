@@ -65,4 +65,4 @@ def quiet(numbers: tuple[float, ...], dead_zone: float = SMALLEST) -> tuple[floa
     >>> quiet((0.5, -0.0005))
     (0.5, 0.0)
     """
-    return tuple(0.0 if abs(number) < dead_zone else number for number in numbers)
+    return tuple([0.0 if abs(number) < dead_zone else number for number in numbers])

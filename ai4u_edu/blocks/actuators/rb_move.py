@@ -27,6 +27,10 @@ class RBMoveActuator(GroundMotion):
         low = np.array([-1, -1, 0, 0], np.float32)
         return Box(low, np.ones(4, np.float32))
 
+    def slots(self) -> tuple[str, ...]:
+        """As AI4U orders them."""
+        return "forward", "turn", "jump", "forward jump"
+
     def act(self, body: Body, action: tuple[float, ...]) -> None:
         """Sets the body's speeds, if it stands on the ground."""
         if body.on_ground:

@@ -11,6 +11,8 @@ from ai4u_edu.blocks.sensors.sensor import Sensor
 from ai4u_edu.parameters import PositiveMetres
 from ai4u_edu.world import BodyView, WorldView
 
+_SLOTS = {"angle": "cosine", "distance": "distance"}
+
 
 class OrientationSensor(Sensor):
     """[cosine of the angle between the heading and the direction to the target, distance in m].
@@ -46,7 +48,7 @@ class OrientationSensor(Sensor):
 
     def slots(self) -> tuple[str, ...]:
         """The parts of it that are read."""
-        return ("cosine", "distance")[self._part]
+        return ("cosine", "distance") if self.info == "both" else (_SLOTS[self.info],)
 
     def scale(self) -> Any:
         """The cosine stays; the distance is divided by max_distance."""

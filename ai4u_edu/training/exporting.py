@@ -39,7 +39,7 @@ class Exported:
     ``ai4u_edu``, JSON) say where it was trained.
 
     Args:
-        model: trained by :func:`~ai4u_edu.training.train.train`.
+        model: trained by :func:`~ai4u_edu.training.learning.train`.
         scene: where.
         config: how.
     """
@@ -73,14 +73,6 @@ class Exported:
             },
             "actuators": {output: to_plain(actuator) | {"space": str(space)}},
         }
-
-    def refresh(self) -> None:
-        """Takes the model's numbers as they are now; the operations stay."""
-        state = self._drive.state_dict()
-        for weights in self._network.graph.initializer:
-            if weights.name in state:
-                numbers = state[weights.name].detach().numpy()
-                weights.CopyFrom(onnx.numpy_helper.from_array(numbers, weights.name))
 
     def write(self, path: Path) -> Path:
         """Writes it to a file; what was there is replaced whole, or not at all."""

@@ -12,9 +12,9 @@ import numpy.typing as npt
 import torch
 from gymnasium import spaces
 from rich.console import Console
-from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
 from torch import Tensor, nn
 
+from ai4u_edu.agent import BasicAgent
 from ai4u_edu.blocks.brains.network import ABOUT
 from ai4u_edu.envs.spaces_of import outputs_of
 from ai4u_edu.errors import SetupError
@@ -22,8 +22,9 @@ from ai4u_edu.recording import Episode
 from ai4u_edu.recording.player import Player
 from ai4u_edu.scenes.plain import to_plain
 from ai4u_edu.training.algorithms import THREADS
-from ai4u_edu.training.demonstrations import Demonstrations, demonstrations
-from ai4u_edu.training.export import graph_of, inputs_of
+from ai4u_edu.training.demonstrations import demonstrations
+from ai4u_edu.training.exporting import graph_of, inputs_of
+from ai4u_edu.training.meter import meter
 from ai4u_edu.version import __version__
 
 LAYERS = (128, 128)
@@ -33,6 +34,8 @@ UPDATES = 2000
 """Gradient steps; a handful of episodes is learned by then."""
 HELD_BACK = 0.1
 """The share of the decisions that is not learned from, but shows when to stop."""
+MOST_LEVELS = 64
+"""Whole numbers from a larger range are taken for amounts."""
 LOOK = 100
 """Updates between two looks at those."""
 
@@ -57,18 +60,22 @@ class Clone(nn.Module):  # type: ignore[misc]  # seen without its types
     Args:
         seen: (n, r) all readings that were shown, one row each; their mean and spread are kept.
         space: of the actions.
+        layers: the hidden layers' sizes.
+        levels: (r,) of a reading that is a whole number from 0 on, how many there are: each gets
+            an input of its own, as the next row of a grid may be quite another place. Else 0.
     """
 
-    def __init__(self, seen: Floats, space: spaces.Space[Any]) -> None:
+    def __init__(
+        self,
+        seen: Floats,
+        space: spaces.Space[Any],
+        layers: Sequence[int] = LAYERS,
+        levels: Sequence[int] = (),
+    ) -> None:
         super().__init__()
-        self.middle: Tensor
-        self.spread: Tensor
         self.low: Tensor
         self.high: Tensor
-        spread = seen.std(axis=0)
-        self.register_buffer("middle", torch.as_tensor(seen.mean(axis=0)))
-        # a reading that was always the same says nothing, and may not shout when it is another
-        self.register_buffer("spread", torch.as_tensor(np.where(spread < 1e-3, 1.0, spread)))
+        self._look_at(seen, levels)
         self.chooses = isinstance(space, spaces.Discrete)
         if isinstance(space, spaces.Discrete):
             count, self.first = int(space.n), int(space.start)
@@ -80,12 +87,29 @@ class Clone(nn.Module):  # type: ignore[misc]  # seen without its types
             raise SetupError(
                 f"expected an agent with one actuator whose numbers have a range, got {space}"
             )
-        layers: list[nn.Module] = []
-        width = seen.shape[1]
-        for size in LAYERS:
-            layers += [nn.Linear(width, size), nn.ReLU()]
+        hidden: list[nn.Module] = []
+        width = len(self.places) + len(self.wholes) * len(self.ladder)
+        for size in layers:
+            hidden += [nn.Linear(width, size), nn.ReLU()]
             width = size
-        self.layers = nn.Sequential(*layers, nn.Linear(width, count))
+        self.layers = nn.Sequential(*hidden, nn.Linear(width, count))
+
+    def _look_at(self, seen: Floats, levels: Sequence[int]) -> None:
+        self.middle: Tensor
+        self.spread: Tensor
+        self.places: Tensor
+        self.wholes: Tensor
+        self.ladder: Tensor
+        whole = np.array(levels if len(levels) else [0] * seen.shape[1])
+        spread = seen.std(axis=0)
+        # what was always the same says nothing, and may not shout when it is another
+        varied = (spread >= 1e-3) & (whole == 0)
+        places = np.flatnonzero(varied) if varied.any() or whole.any() else np.arange(len(spread))
+        self.register_buffer("places", torch.as_tensor(places))
+        self.register_buffer("middle", torch.as_tensor(seen.mean(axis=0)[places]))
+        self.register_buffer("spread", torch.as_tensor(np.where(varied, spread, 1.0)[places]))
+        self.register_buffer("wholes", torch.as_tensor(np.flatnonzero(whole)))
+        self.register_buffer("ladder", torch.arange(int(whole.max()), dtype=torch.float32))
 
     def forward(self, *readings: Tensor) -> Tensor:
         """An action for each row of the readings."""
@@ -94,12 +118,16 @@ class Clone(nn.Module):  # type: ignore[misc]  # seen without its types
         )
         if self.chooses:
             return numbers.argmax(dim=1) + self.first
-        return self.low + 0.5 * (torch.tanh(numbers) + 1.0) * (self.high - self.low)
+        # cut, not bent: a jump of nothing at all has to be possible
+        return self.low + 0.5 * (torch.clamp(numbers, -1.0, 1.0) + 1.0) * (self.high - self.low)
 
     def numbers(self, seen: Tensor) -> Tensor:
         """What the last layer says."""
         # cut: what lies far outside of all that was shown should not count for more than that
-        scaled = torch.clamp((seen - self.middle) / self.spread, -10.0, 10.0)
+        scaled = torch.clamp((seen[:, self.places] - self.middle) / self.spread, -10.0, 10.0)
+        if len(self.wholes):
+            each = seen[:, self.wholes].unsqueeze(2) == self.ladder
+            scaled = torch.cat([scaled, each.to(torch.float32).flatten(1)], 1)
         found: Tensor = self.layers(scaled)
         return found
 
@@ -110,9 +138,12 @@ class Clone(nn.Module):  # type: ignore[misc]  # seen without its types
             return nn.functional.cross_entropy(numbers, done.long().ravel() - self.first)
         wide = torch.clamp(self.high - self.low, min=1e-6)
         wanted = 2 * (done - self.low) / wide - 1
+        # beyond the end of the range is as good as at it
+        beyond = numbers.detach() * wanted.sign() > 1.0
+        wanted = torch.where((wanted.abs() >= 1.0) & beyond, numbers.detach(), wanted)
         # not the square: who drives with keys jumps from one end to the other, and between the two
         # lies what nobody does
-        return nn.functional.smooth_l1_loss(torch.tanh(numbers), wanted, beta=0.1)
+        return nn.functional.smooth_l1_loss(numbers, wanted, beta=0.1)
 
 
 def clone(
@@ -154,12 +185,23 @@ def clone(
     done = np.concatenate(
         [np.reshape(each.actions, (len(each), -1)) for each in shown.episodes]
     ).astype(np.float32)
+    driver = Player(episodes[0]).sim.agent(shown.agent)
     torch.set_num_threads(THREADS)
     with torch.random.fork_rng(devices=[]):
         torch.manual_seed(seed)
-        network = Clone(seen, shown.action_space)
-        loss = _learn(network, seen, done, seed, updates, console or Console(stderr=True), quiet)
-    _write(network.eval(), episodes[0], shown, seed, updates, path)
+        network = Clone(seen, shown.action_space, levels=levels_of(driver))
+        loss = _learn(network, seen, done, seed, updates, console, quiet)
+    about = {
+        "scene": shown.scene.name,
+        "algorithm": "clone",
+        "seed": seed,
+        "steps": updates,
+        "demonstrations": len(shown.episodes),
+        "decisions": shown.decisions,
+        "skip_frame": shown.skip_frame,
+        "repeat_action": shown.repeat_action,
+    }
+    write_network(network, driver, about, path)
     return Cloned(path, shown.decisions, loss)
 
 
@@ -169,7 +211,7 @@ def _learn(
     done: Floats,
     seed: int,
     updates: int,
-    console: Console,
+    console: Console | None,
     quiet: bool,
 ) -> float:
     chance = np.random.default_rng(seed)
@@ -179,16 +221,8 @@ def _learn(
     readings, wanted = torch.from_numpy(seen), torch.from_numpy(done)
     optimizer = torch.optim.AdamW(network.parameters(), lr=RATE, weight_decay=1e-2)
     best, state = float("inf"), network.state_dict()
-    with Progress(
-        BarColumn(bar_width=24),
-        TextColumn("{task.completed}/{task.total} updates"),
-        TextColumn("error {task.fields[error]}"),
-        TextColumn("left"),
-        TimeRemainingColumn(),
-        console=console,
-        disable=quiet,
-    ) as progress:
-        task = progress.add_task("cloning", total=updates, error="-")
+    shown = meter(updates, "updates", console=console, quiet=quiet)
+    try:
         for update in range(1, updates + 1):
             batch = chance.choice(rest, min(BATCH, len(rest)), replace=False)
             loss = network.loss(readings[batch], wanted[batch])
@@ -201,40 +235,45 @@ def _learn(
                 if error < best:
                     best = error
                     state = {name: each.clone() for name, each in network.state_dict().items()}
-                progress.update(task, completed=update, error=f"{error:.4f}")
+                shown.show(update, f"error {error:.4f}")
+    finally:
+        shown.close()
     network.load_state_dict(state)
     return best
 
 
-def _write(
-    network: Clone, episode: Episode, shown: Demonstrations, seed: int, updates: int, path: Path
-) -> None:
-    agent = Player(episode).sim.agent(shown.agent)
+def levels_of(agent: BasicAgent) -> list[int]:
+    """Of each number in a flat observation: how many whole numbers it can be, from 0 on, if few."""
+    levels: list[int] = []
+    for sensor in agent.fitting.sensors:
+        if sensor.is_input:
+            space = sensor.observation_space()
+            size = int(np.prod(space.shape or (1,)))
+            few = isinstance(space, spaces.Box) and np.issubdtype(space.dtype, np.signedinteger)
+            most = int(space.high.max()) + 1 if isinstance(space, spaces.Box) and few else 0
+            levels += [most if 2 < most <= MOST_LEVELS else 0] * size
+    return levels
+
+
+def write_network(network: Clone, agent: BasicAgent, about: dict[str, Any], path: Path) -> None:
+    """Writes a network as ONNX, with what is to be known of it and of who it drives."""
     inputs = inputs_of(agent)
     ((output, actuator),) = outputs_of(agent).items()
-    graph = graph_of(cast(Any, network), inputs, output)
+    graph = graph_of(cast(Any, network.eval()), inputs, output)
     graph.producer_name, graph.producer_version = "ai4u-edu", __version__
-    about = {
+    told = about | {
         "version": __version__,
-        "scene": shown.scene.name,
-        "algorithm": "clone",
-        "seed": seed,
-        "steps": updates,
-        "demonstrations": len(shown.episodes),
-        "decisions": shown.decisions,
-        "skip_frame": shown.skip_frame,
-        "repeat_action": shown.repeat_action,
         "sensors": {
             sensor.perception_key: to_plain(sensor)
             | {"shape": list(inputs[sensor.perception_key][0])}
             for sensor in agent.sensors
             if sensor.perception_key in inputs
         },
-        "actuators": {output: to_plain(actuator) | {"space": str(shown.action_space)}},
+        "actuators": {output: to_plain(actuator) | {"space": str(actuator.space())}},
         "hash": hashlib.sha256(graph.SerializeToString(deterministic=True)).hexdigest(),
     }
     entry = graph.metadata_props.add()
-    entry.key, entry.value = ABOUT, json.dumps(about, sort_keys=True)
+    entry.key, entry.value = ABOUT, json.dumps(told, sort_keys=True)
     beside = path.with_name(f".new-{path.name}")
     beside.write_bytes(graph.SerializeToString(deterministic=True))
     beside.replace(path)

@@ -49,6 +49,25 @@ class Trained:
         """The check of the model that was kept."""
         return max(self.checks, key=lambda check: check.rank)
 
+    @property
+    def folder(self) -> Path:
+        """Where everything is that came out."""
+        return self.run.folder
+
+    def __repr__(self) -> str:
+        """A line.
+
+        The dataclass's own would list every check.
+        """
+        best, config = self.best, self.run.config()
+        why = "interrupted" if self.interrupted else "good enough" if self.enough else "done"
+        success = "" if best.success is None else f"success {best.success:.0%}, "
+        return (
+            f"Trained({config.scene}, {config.algorithm}: {why} after {self.steps} steps and "
+            f"{self.checks[-1].seconds:.0f} s; best {success}reward {best.reward:.2f} "
+            f"after {best.steps} steps; in {self.folder})"
+        )
+
 
 def train(
     scene: Scene,
@@ -58,6 +77,7 @@ def train(
     *,
     steps: int | None = None,
     seed: int = 0,
+    overwrite: bool = False,
     console: Console | None = None,
     quiet: bool = False,
     watch: bool = False,
@@ -73,6 +93,7 @@ def train(
         folder: for everything that comes out; see :class:`~ai4u_edu.training.run.Run`.
         steps: decisions to learn from; left out, as the settings say.
         seed: of the network, the worlds and all chance.
+        overwrite: whether a training that is in the folder already may be lost.
         console: where to show how it goes.
         quiet: whether to show nothing.
         watch: whether to show the policy driving in the browser as it learns.
@@ -95,6 +116,8 @@ def train(
         settings=settings,
         versions={name: version(name) for name in PACKAGES},
     )
+    if overwrite:
+        run.clear()
     run.begin(config, scene)
     return _learn(run, config, prepared, model, worlds, console, quiet, watch)
 
@@ -160,12 +183,12 @@ def _learn(
         has_goal=prepared.description.success is not None,
     )
     interrupt = Interrupt()
-    bar = Bar(keeper, config.steps, console or Console(stderr=True), quiet=quiet)
+    bar = Bar(keeper, config.steps, console, quiet=quiet)
     formats = ["tensorboard"] if find_spec("tensorboard") else []
     model.set_logger(configure(str(run.tensorboard), formats))
     left = config.steps - model.num_timesteps
     callbacks: list[BaseCallback] = [interrupt, keeper, bar]
-    page = _page(run, config) if watch else None
+    page = _page(run) if watch else None
     if page:
         callbacks.append(page)
     try:
@@ -188,8 +211,8 @@ def _env(prepared: Scene, settings: Settings) -> SceneEnv:
     return SceneEnv(prepared, observation=settings.observation, agent=settings.agent or None)
 
 
-def _page(run: Run, config: Config) -> "Watch":
-    # only who watches needs what writes networks
+def _page(run: Run) -> "Watch":
+    # only who watches needs it
     from ai4u_edu.training.watch import Watch
 
-    return Watch(run, config)
+    return Watch(run)

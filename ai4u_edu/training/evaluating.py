@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
+from html import escape
 from typing import Any
 
 import numpy as np
@@ -16,7 +17,7 @@ LONGEST = 10_000
 """Decisions after which an episode is cut off in a scene that has no limit of its own."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Evaluation:
     """How somebody drove."""
 
@@ -36,6 +37,8 @@ class Evaluation:
         """Share of the episodes that reached the goal; None in a scene without one."""
         return self.successes / len(self.episodes) if self.has_goal else None
 
+    success_rate = success
+
     @property
     def interval(self) -> tuple[float, float] | None:
         """Where the true share lies, 19 times out of 20."""
@@ -50,6 +53,42 @@ class Evaluation:
     def lengths(self) -> list[int]:
         """Each episode's number of decisions."""
         return [each.length for each in self.episodes]
+
+    @property
+    def cells(self) -> dict[str, str]:
+        """What a table says of it, by heading."""
+        interval = self.interval
+        return {
+            "who": self.name,
+            "success": "-" if self.success is None else f"{self.success:.0%}",
+            "95% between": (
+                "-" if interval is None else f"{100 * interval[0]:.1f} and {100 * interval[1]:.1f}%"
+            ),
+            "return": f"{np.mean(self.rewards):.2f} ± {np.std(self.rewards):.2f}",
+            "length": f"{np.mean(self.lengths):.1f} ± {np.std(self.lengths):.1f}",
+        }
+
+    def __repr__(self) -> str:
+        """A table of one row."""
+        columns = [
+            (heading.ljust(width), cell.ljust(width))
+            for heading, cell in self.cells.items()
+            for width in [max(len(heading), len(cell))]
+        ]
+        rows = ["  ".join(row).rstrip() for row in zip(*columns, strict=True)]
+        return "\n".join((self._title, *rows))
+
+    def _repr_html_(self) -> str:
+        headings = "".join(f"<th>{escape(each)}</th>" for each in self.cells)
+        cells = "".join(f"<td>{escape(each)}</td>" for each in self.cells.values())
+        return (
+            f"<table><caption>{escape(self._title)}</caption>"
+            f"<thead><tr>{headings}</tr></thead><tbody><tr>{cells}</tr></tbody></table>"
+        )
+
+    @property
+    def _title(self) -> str:
+        return f"{self.scene}, {len(self.episodes)} episodes"
 
     def plain(self) -> dict[str, Any]:
         """All of it as plain data, for a file."""

@@ -1,0 +1,238 @@
+"""Learning in a few lines: what the commands of ``ai4u-edu`` do, for notebooks and scripts.
+
+What they need (torch, Stable-Baselines3) is loaded when they are called.
+"""
+
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from ai4u_edu.errors import SetupError, suggest
+from ai4u_edu.extras import need
+
+if TYPE_CHECKING:
+    from ai4u_edu.blocks import Controller
+    from ai4u_edu.recording import Episode
+    from ai4u_edu.scenes import Scene
+    from ai4u_edu.training.cloning import Cloned
+    from ai4u_edu.training.evaluating import Evaluation
+    from ai4u_edu.training.learning import Trained
+
+    SceneLike = str | Path | Scene
+    Who = str | Path | Trained | Cloned | Controller | Callable[..., Any]
+
+
+def train(
+    scene: "SceneLike" = "box_chase",
+    algo: str = "",
+    *,
+    steps: int | None = None,
+    seed: int = 0,
+    out: str | Path | None = None,
+    settings: str | Path | Mapping[str, Any] | None = None,
+    policy: str = "",
+    observe: Sequence[str] = (),
+    resume: bool = False,
+    overwrite: bool = False,
+    watch: bool = False,
+    quiet: bool = False,
+) -> "Trained":
+    """Lets an agent learn a scene; Ctrl-C (a notebook's stop button) keeps what it learned so far.
+
+    The same seed on the same machine gives the same model. It may end before the last step, when
+    the policy is good enough (``settings={"enough": 0}``: never).
+
+    Args:
+        scene: a scene of the library, a YAML file, or a Scene.
+        algo: ``"sac"``, ``"ppo"`` or ``"dqn"``; left out, as the scene's settings say.
+        steps: decisions to learn from; left out, as the settings say.
+        seed: of the network, the worlds and all chance.
+        out: the training's folder; left out, ``runs/SCENE-ALGO-SEED``.
+        settings: what is different from the scene's own settings, such as
+            ``{"ppo": {"learning_rate": 1e-4}}``; or a YAML file in place of them.
+        policy: Stable-Baselines3's name of the network's kind: ``"MlpPolicy"``, ``"CnnPolicy"`` for
+            an agent whose only input is a picture, ``"MultiInputPolicy"`` for pictures and others.
+        observe: the perception keys that the policy gets; left out, as the settings say.
+        resume: whether to go on with the training in ``out``, up to ``steps`` in all.
+        overwrite: whether a training that is in ``out`` already may be lost, as when a notebook's
+            cell runs for the second time.
+        watch: whether to show the policy driving in the browser as it learns.
+        quiet: whether to show nothing.
+
+    Returns:
+        What came of it: ``best`` (a check with ``success``, ``reward``, ``length``), ``checks``,
+        ``steps``, ``folder``. It can be evaluated and exported.
+
+    Raises:
+        SetupError: something is not as it has to be, or not installed; says what.
+    """
+    need("train", "torch", "stable_baselines3")
+    from ai4u_edu.training import learning
+    from ai4u_edu.training.settings import ALGORITHMS, settings_for
+
+    if resume:
+        if out is None:
+            raise SetupError("resume needs out, the folder of the training to go on with")
+        return learning.resume(Path(out), steps=steps, quiet=quiet, watch=watch)
+    loaded = _scene(scene)
+    name = loaded.description.name
+    changes = dict(settings) if isinstance(settings, Mapping) else {}
+    changes |= ({"policy": policy} if policy else {}) | ({"observe": observe} if observe else {})
+    file = Path(settings) if isinstance(settings, str | Path) else None
+    how = settings_for(name, file, changes)
+    algorithm = algo.lower() or how.algorithm
+    for each in ALGORITHMS:
+        if algorithm == each:
+            folder = Path(out) if out else Path("runs") / f"{name}-{each}-{seed}"
+            return learning.train(
+                loaded,
+                each,
+                how,
+                folder,
+                steps=steps,
+                seed=seed,
+                overwrite=overwrite,
+                quiet=quiet,
+                watch=watch,
+            )
+    raise SetupError(
+        f"algo: expected one of {', '.join(ALGORITHMS)}, got {algo!r}; {suggest(algo, ALGORITHMS)}"
+    )
+
+
+def evaluate(
+    who: "Who",
+    scene: "SceneLike | None" = None,
+    *,
+    episodes: int = 100,
+    seed: int = 0,
+    quiet: bool = False,
+) -> "Evaluation":
+    """Finds out how good somebody drives, on seeds that no training uses.
+
+    Args:
+        who: what :func:`train` or :func:`clone` gave; a function from percept to action, or a
+            Controller; a training's folder, a model (.zip), a network (.onnx, ``"zoo:SCENE"``), a
+            controller's name, ``"random"``, or ``"scene"`` for the scene's own controller.
+        scene: where; left out, where it was trained.
+        episodes: how many.
+        seed: of the first episode; then one by one.
+        quiet: whether to show nothing on the way.
+
+    Returns:
+        ``success_rate`` (0..1), ``interval``, ``rewards``, ``lengths``, ``episodes``; as text or in
+        a notebook, a table.
+
+    >>> from ai4u_edu.training import evaluate
+    >>> told = evaluate("random", "box_chase", episodes=2, quiet=True)
+    >>> [each.seed for each in told.episodes]
+    [0, 1]
+    """
+    from ai4u_edu.training.entrants import entrant_of
+    from ai4u_edu.training.evaluating import evaluate as evaluated
+    from ai4u_edu.training.meter import counted
+
+    driver = entrant_of(who)
+    where = scene if scene is not None else driver.scene
+    if not where:
+        raise SetupError(f"in which scene is {driver.name} to drive? Expected scene=...")
+    seeds: Iterable[int] = range(seed, seed + episodes)
+    return evaluated(driver, _scene(where), counted(seeds, driver.name, quiet=quiet))
+
+
+def export(model: "str | Path | Trained", out: str | Path = "policy.onnx") -> Path:
+    """Writes a model as a network (.onnx) that drives without torch, and can be shared.
+
+    Args:
+        model: what :func:`train` gave, its folder, or a model (.zip) in it.
+        out: the network's file.
+
+    Returns:
+        The file; ``trained_brain(file)`` and ``evaluate(file)`` take it.
+    """
+    need("train", "torch", "stable_baselines3", "onnx", "onnxscript")
+    from ai4u_edu.training.algorithms import load_model
+    from ai4u_edu.training.exporting import export as exported
+    from ai4u_edu.training.run import Run
+
+    path = Path(model) if isinstance(model, str | Path) else model.folder
+    run = Run(path if path.is_dir() else path.parent)
+    config = run.config()
+    loaded: Any = load_model(config.algorithm, run.best if path.is_dir() else path)
+    return exported(loaded, run.scene(), config, Path(out))
+
+
+def demonstrate(
+    who: "Who",
+    scene: "SceneLike | None" = None,
+    *,
+    episodes: int = 10,
+    seed: int = 1000,
+    quiet: bool = False,
+) -> "list[Episode]":
+    """Lets somebody drive, and keeps the episodes to learn from with :func:`clone`.
+
+    Args:
+        who: as in :func:`evaluate`.
+        scene: where; left out, where it was trained.
+        episodes: how many.
+        seed: of the first episode; then one by one.
+        quiet: whether to show nothing on the way.
+
+    >>> from ai4u_edu.training import demonstrate
+    >>> episodes = demonstrate("random", "box_chase", episodes=2, quiet=True)
+    >>> [episode.seed for episode in episodes]
+    [1000, 1001]
+    """
+    from ai4u_edu.training.entrants import entrant_of
+    from ai4u_edu.training.meter import counted
+    from ai4u_edu.training.showing import show
+
+    driver = entrant_of(who)
+    where = scene if scene is not None else driver.scene
+    if not where:
+        raise SetupError(f"in which scene is {driver.name} to drive? Expected scene=...")
+    return show(
+        driver, _scene(where), counted(range(seed, seed + episodes), driver.name, quiet=quiet)
+    )
+
+
+def clone(
+    data: "str | Path | Sequence[str | Path | Episode]",
+    out: str | Path = "policy.onnx",
+    *,
+    agent: str | None = None,
+    seed: int = 0,
+    updates: int = 2000,
+    quiet: bool = False,
+) -> "Cloned":
+    """Lets a network learn to do what somebody showed (behaviour cloning).
+
+    Args:
+        data: recorded episodes (what :func:`demonstrate` gave, .episode files, folders of them).
+        out: the network's file.
+        agent: the id of the agent that showed it; left out, the one that acts first.
+        seed: the same seed gives the same network.
+        updates: gradient steps.
+        quiet: whether to show nothing.
+
+    Returns:
+        ``path`` of the network, ``loss``, ``decisions`` learned from; it can be evaluated.
+    """
+    need("train", "torch", "stable_baselines3", "onnx", "onnxscript")
+    from ai4u_edu.recording import Episode
+    from ai4u_edu.training.cloning import clone as cloned
+    from ai4u_edu.training.demonstrations import load_episodes
+
+    given = [data] if isinstance(data, str | Path) else list(data)
+    episodes = [each for each in given if isinstance(each, Episode)]
+    paths = [Path(each) for each in given if isinstance(each, str | Path)]
+    if paths or not episodes:
+        episodes += load_episodes(paths)
+    return cloned(episodes, Path(out), agent=agent, seed=seed, updates=updates, quiet=quiet)
+
+
+def _scene(given: "SceneLike") -> "Scene":
+    from ai4u_edu.scenes import Scene
+
+    return given if isinstance(given, Scene) else Scene.load(str(given))

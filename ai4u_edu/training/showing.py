@@ -1,0 +1,32 @@
+"""Lets somebody drive, and keeps the episodes."""
+
+from collections.abc import Iterable
+
+from ai4u_edu.recording import Episode, Recorder
+from ai4u_edu.scenes import Scene
+from ai4u_edu.training.entrants import Entrant
+from ai4u_edu.training.evaluating import LONGEST
+
+MOST = 100_000
+"""Episodes; more are not kept."""
+
+
+def show(who: Entrant, scene: Scene, seeds: Iterable[int]) -> list[Episode]:
+    """One recorded episode for each seed.
+
+    Args:
+        who: drives the agent, by a new brain in each episode; the others do as their brains say.
+        scene: where; with its own limit of steps.
+        seeds: of the episodes.
+    """
+    fitted = who.fitted(scene)
+    sim = fitted.build()
+    agent = sim.agent(who.agent) if who.agent else sim.agents[0]
+    recorder = Recorder(sim, scene=fitted.description, keep=MOST)
+    for seed in seeds:
+        agent.use_brain(who.brain(agent))
+        sim.reset(seed)
+        while not agent.done and agent.steps < LONGEST and not (agent.stopped or agent.paused):
+            sim.step(agent)
+    recorder.finish()
+    return list(recorder.episodes)
