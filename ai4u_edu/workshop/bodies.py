@@ -1,0 +1,86 @@
+"""Changes of what is in a world, as data: a scene's state in, another one out."""
+
+import math
+from collections.abc import Mapping
+from typing import Any
+
+from pydantic import ValidationError
+
+from ai4u_edu.errors import NameNotFoundError, suggest
+from ai4u_edu.parameters import Problem, explain
+from ai4u_edu.workshop.errors import ChangeError
+from ai4u_edu.workshop.state import State
+from ai4u_edu.world import BodyDescription
+
+
+def body_named(state: State, name: str) -> BodyDescription:
+    """The description of a body."""
+    bodies = {body.name: body for body in state.description.bodies}
+    if name not in bodies:
+        raise NameNotFoundError(f"no body is named {name!r}; {suggest(name, bodies)}")
+    return bodies[name]
+
+
+def described(given: BodyDescription | Mapping[str, Any]) -> BodyDescription:
+    """A body's description, checked.
+
+    Raises:
+        ChangeError: some of it is wrong; each is told with its path.
+    """
+    if isinstance(given, BodyDescription):
+        return given
+    try:
+        return BodyDescription.model_validate(dict(given))
+    except ValidationError as error:
+        raise ChangeError(explain(error.errors(), BodyDescription)) from None
+
+
+def with_body(state: State, body: BodyDescription) -> State:
+    """With one body more, the last of them."""
+    if any(thing.name == body.name for thing in state.description.things):
+        text = f"something is named {body.name!r} already; expected another name, such as "
+        raise ChangeError([Problem(("name",), text + repr(free_name(state, body.name)))])
+    return state.describing(bodies=(*state.description.bodies, body))
+
+
+def without_body(state: State, name: str) -> State:
+    """Without a body."""
+    body_named(state, name)
+    for agent in state.description.agents:
+        if agent.get("body") == name:
+            text = f"it is the body of agent {agent.get('id', '0')!r}; an agent needs its body"
+            raise ChangeError([Problem((), text)])
+    bodies = tuple(body for body in state.description.bodies if body.name != name)
+    return state.describing(bodies=bodies)
+
+
+def with_other_body(state: State, name: str, values: Mapping[str, Any]) -> State:
+    """With other parameters of a body; None leaves one out, so that it is as by default."""
+    body = body_named(state, name)
+    given = body.model_dump(exclude_unset=True, exclude_defaults=True) | dict(values)
+    given["name"] = values.get("name", name)
+    if "shape" not in values:
+        given["shape"] = body.shape
+    other = described({key: value for key, value in given.items() if value is not None})
+    bodies = state.description.bodies
+    if other.name != name and any(each.name == other.name for each in state.description.things):
+        raise ChangeError([Problem(("name",), f"something is named {other.name!r} already")])
+    return state.describing(bodies=tuple(other if each is body else each for each in bodies))
+
+
+def placed(state: State, name: str, x: float, y: float, heading_deg: float) -> State:
+    """With a body somewhere else."""
+    if not math.isfinite(x + y + heading_deg):
+        raise ChangeError([Problem((), f"expected finite numbers, got {(x, y, heading_deg)}")])
+    values = {"position": (round(x, 4), round(y, 4)), "heading_deg": round(heading_deg, 3)}
+    return with_other_body(state, name, values)
+
+
+def free_name(state: State, like: str) -> str:
+    """A name that nothing has: ``box``, ``box 2``, ``box 3``."""
+    taken = {thing.name for thing in state.description.things}
+    stem = like.rstrip("0123456789 ") or like
+    name, number = like, 2
+    while name in taken:
+        name, number = f"{stem} {number}", number + 1
+    return name

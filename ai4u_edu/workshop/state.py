@@ -1,0 +1,56 @@
+"""What a person changes: a scene's description, and who drives besides what it says."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from types import MappingProxyType
+from typing import Any
+
+from ai4u_edu.errors import NameNotFoundError, suggest
+from ai4u_edu.scenes import Scene, SceneDescription
+
+NOBODY: Mapping[str, str] = MappingProxyType({})
+
+
+@dataclass(frozen=True)
+class State:
+    """Everything that undo takes back; never changed, only replaced."""
+
+    description: SceneDescription
+    folder: Path | None = None
+    """Where paths in the description begin."""
+    drivers: Mapping[str, str] = field(default_factory=lambda: NOBODY)
+    """Who drives in place of an agent's own brain, by its id; see :mod:`drivers`."""
+
+    @property
+    def scene(self) -> Scene:
+        """As a scene, to be saved or built."""
+        return Scene(self.description, self.folder)
+
+    def agent_index(self, agent_id: str) -> int:
+        """Where the agent of that id stands in the description."""
+        ids = [str(agent.get("id", "0")) for agent in self.description.agents]
+        if agent_id not in ids:
+            raise NameNotFoundError(f"no agent has the id {agent_id!r}; {suggest(agent_id, ids)}")
+        return ids.index(agent_id)
+
+    def agent(self, agent_id: str) -> Mapping[str, Any]:
+        """The parameters of an agent, blocks as mappings with a ``type``."""
+        return self.description.agents[self.agent_index(agent_id)]
+
+    def with_agent(self, agent_id: str, agent: Mapping[str, Any]) -> "State":
+        """The same with other parameters of an agent."""
+        agents = list(self.description.agents)
+        agents[self.agent_index(agent_id)] = agent
+        return self.describing(agents=tuple(agents))
+
+    def describing(self, **fields: Any) -> "State":
+        """The same with other fields of the description."""
+        return replace(self, description=self.description.model_copy(update=fields))
+
+    def driven(self, agent_id: str, driver: str) -> "State":
+        """The same with another driver; an empty one for the agent's own brain."""
+        drivers = {name: each for name, each in self.drivers.items() if name != agent_id}
+        if driver:
+            drivers[agent_id] = driver
+        return replace(self, drivers=MappingProxyType(drivers))

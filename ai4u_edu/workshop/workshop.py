@@ -1,0 +1,347 @@
+"""What a person changes in a running world, and takes back."""
+
+import math
+from collections.abc import Callable, Iterable, Mapping
+from concurrent.futures import Future
+from pathlib import Path as FilePath
+from typing import Any
+
+from ai4u_edu.errors import AI4UError, SetupError
+from ai4u_edu.runner import Runner
+from ai4u_edu.scenes import Scene
+from ai4u_edu.scenes.yaml_file import YamlFile, write_yaml
+from ai4u_edu.workshop import blocks, bodies, choice
+from ai4u_edu.workshop.autosave import Autosave, Unsaved
+from ai4u_edu.workshop.bench import Bench, Made
+from ai4u_edu.workshop.blocks import Path, Plain
+from ai4u_edu.workshop.drivers import Driver, Drivers
+from ai4u_edu.workshop.outcome import Outcome
+from ai4u_edu.workshop.state import State
+from ai4u_edu.world import BodyDescription, Pose
+
+
+class Workshop:
+    """What a person changes in a running world: its agents' blocks, brains, bodies, the scene.
+
+    Every verb is a command: it may be called from any thread, returns at once, and is carried out
+    in the runner's thread between two decisions. What comes of it is in the future: an
+    :class:`Outcome` that says when it applies, or a :class:`ChangeError` that says what is wrong,
+    field by field; then nothing was changed. Don't wait for a future in the runner's thread.
+
+    Args:
+        runner: whose world is changed.
+        scene: what that world was built from.
+        offers: Python files with drivers and recorded episodes, and folders of them, from which a
+            page may choose who drives.
+
+    >>> scene = Scene.load("box_chase")
+    >>> runner = Runner(scene.build(), seed=1)
+    >>> workshop = Workshop(runner, scene)
+    >>> future = workshop.add_block("0", "sensors", {"type": "BearingSensor", "target": "box"})
+    >>> runner.advance()
+    >>> str(future.result())
+    'it applies at the next decision'
+    >>> "bearing" in runner.sim.agents[0].percept
+    True
+    """
+
+    def __init__(
+        self,
+        runner: Runner,
+        scene: Scene,
+        *,
+        offers: Iterable[FilePath] = (),
+    ) -> None:
+        self._runner = runner
+        self._drivers = Drivers(offers)
+        self._bench = Bench(runner, State(scene.description, scene.folder), self._drivers)
+        self._do = self._bench.do
+        self.unsaved: Unsaved | None = None
+        """A scene that was left by a server that was killed, to be offered."""
+        self.autosave: Autosave | None = None
+        """Keeps what is changed; left out in notebooks and tests."""
+        self.listeners = self._bench.listeners
+        """Called with the state after each change, in the runner's thread: to be quick."""
+        self.listeners.append(self._keep)
+
+    # -- what can be asked, from any thread ------------------------------------------------------
+
+    @property
+    def state(self) -> State:
+        """What is wanted; replaced with every change, never changed itself."""
+        return self._bench.state
+
+    @property
+    def version(self) -> int:
+        """Grows with every change."""
+        return self._bench.version
+
+    @property
+    def is_as_opened(self) -> bool:
+        """Whether the scene is what it was when it was opened."""
+        return self._bench.state.description == self._bench.opened.description
+
+    @property
+    def scene(self) -> Scene:
+        """What is wanted, as a scene."""
+        return self.state.scene
+
+    @property
+    def waits_for_reset(self) -> bool:
+        """Whether something of it comes with the next reset only."""
+        return self._bench.waits_for_reset
+
+    @property
+    def can_undo(self) -> str:
+        """What would be taken back, in a few words; empty if there is nothing."""
+        last = self._bench.history.last
+        return last.label if last else ""
+
+    @property
+    def can_redo(self) -> str:
+        """What would be done again, in a few words; empty if there is nothing."""
+        step = self._bench.history.next
+        return step.label if step else ""
+
+    def text(self) -> str:
+        """The scene as a file: YAML."""
+        return self.scene.dumps()
+
+    def drivers(self, agent_id: str) -> list[Driver]:
+        """All who may drive an agent."""
+        return [*choice.offered(self.state, agent_id), *self._drivers.offered()]
+
+    def driver_of(self, agent_id: str) -> str:
+        """The name of who drives an agent, as :meth:`drivers` has it; "" for somebody else."""
+        state, agent = self.state, self._runner.sim.agent(agent_id)
+        known = [f"{choice.OWN}{index}" for index in range(len(state.agent(agent_id)["brains"]))]
+        known += [state.drivers[agent_id]] if agent_id in state.drivers else []
+        driving = [name for name, brain in zip(known, agent.brains, strict=False) if brain.enabled]
+        return driving[0] if driving else ""
+
+    # -- blocks ----------------------------------------------------------------------------------
+
+    def change_block(self, agent_id: str, path: Path, values: Plain) -> "Future[Outcome]":
+        """Gives a block other parameters.
+
+        Args:
+            agent_id: whose block.
+            path: of the block in its agent: ``("sensors", 2)``, ``("brains", 0, "controller")``.
+            values: parameters as plain data; None for one that is to be as by default.
+        """
+        return self._of_agent(agent_id, path, "change", lambda a: blocks.changed(a, path, values))
+
+    def add_block(
+        self, agent_id: str, kind: str | Path, block: Plain, index: int | None = None
+    ) -> "Future[Outcome]":
+        """Adds a block.
+
+        Args:
+            agent_id: to whom.
+            kind: ``sensors``, ``actuators``, ``rewards`` or ``brains``; or where in another block,
+                as in ``("rewards", 0, "children")``.
+            block: its ``type`` and parameters.
+            index: before which of its like; left out, it is the last one.
+        """
+
+        def make() -> Made:
+            where = (kind,) if isinstance(kind, str) else kind
+            agent, path = blocks.added(self.state.agent(agent_id), where, block, index)
+            if where == ("brains",) and len(agent["brains"]) > 1 and block.get("enabled", True):
+                agent = blocks.switched(agent, path, True)
+            state = self.state.with_agent(agent_id, agent)
+            return state, f"add {block['type']}", self._where(agent_id, path)
+
+        return self._do(make)
+
+    def remove_block(self, agent_id: str, path: Path) -> "Future[Outcome]":
+        """Takes a block away."""
+        return self._of_agent(agent_id, path, "remove", lambda a: blocks.removed(a, path))
+
+    def move_block(self, agent_id: str, path: Path, by: int) -> "Future[Outcome]":
+        """Moves a block up (-1) or down (1) among its like."""
+        return self._of_agent(agent_id, path, "move", lambda a: blocks.moved(a, path, by))
+
+    def switch_block(self, agent_id: str, path: Path, on: bool) -> "Future[Outcome]":
+        """Switches a block on or off; to switch a brain on switches the others off."""
+        word = "switch on" if on else "switch off"
+        return self._of_agent(agent_id, path, word, lambda a: blocks.switched(a, path, on))
+
+    def change_agent(self, agent_id: str, values: Plain) -> "Future[Outcome]":
+        """Gives an agent other parameters of its own, such as ``max_steps_per_episode``."""
+
+        def make() -> Made:
+            agent = {**self.state.agent(agent_id), **values}
+            agent = {name: value for name, value in agent.items() if value is not None}
+            where = self._where(agent_id, ())
+            return self.state.with_agent(agent_id, agent), f"change agent {agent_id}", where
+
+        return self._do(make)
+
+    # -- who drives ------------------------------------------------------------------------------
+
+    def drive(self, agent_id: str, name: str) -> "Future[Outcome]":
+        """Lets somebody else drive an agent: one of :meth:`drivers`, or an ``ai4u://`` address."""
+
+        def make() -> Made:
+            state = choice.driven_by(self.state, agent_id, name)
+            return state, f"{agent_id}: driven by {name}", self._where(agent_id, ("brains",))
+
+        return self._do(make, drives=agent_id)
+
+    # -- bodies ----------------------------------------------------------------------------------
+
+    def carry(
+        self, name: str, x: float, y: float, heading_deg: float | None = None
+    ) -> "Future[None]":
+        """Puts a body somewhere for as long as a hand holds it; :meth:`move_body` lets go of it.
+
+        Metres, degrees. Nothing is in its way, the scene does not know of it, and it can't be
+        taken back.
+        """
+        return self._runner.submit(lambda: self._bench.carry(name, x, y, heading_deg))
+
+    def put_back(self, name: str) -> "Future[None]":
+        """A body that was carried goes back to where it was taken up."""
+        return self._runner.submit(lambda: self._bench.put_back(name))
+
+    def move_body(
+        self, name: str, x: float, y: float, heading_deg: float | None = None
+    ) -> "Future[Outcome]":
+        """Puts a body somewhere, at rest, now and at each reset from now on.
+
+        Args:
+            name: of the body.
+            x: metres.
+            y: metres.
+            heading_deg: degrees; left out: as it looks now.
+        """
+
+        def make() -> Made:
+            pose = self._bench.pose(name)
+            degrees = math.degrees(pose[2]) if heading_deg is None else heading_deg
+            places[name] = (x, y, math.radians(degrees))
+            state = bodies.placed(self.state, name, x, y, degrees)
+            return state, f"move {name}", self.state.description.where_is(name)
+
+        places: dict[str, Pose] = {}
+        return self._do(make, places=places)
+
+    def add_body(self, body: BodyDescription | Mapping[str, Any]) -> "Future[Outcome]":
+        """Adds a body, from its description; :meth:`free_name` knows a name for it."""
+
+        def make() -> Made:
+            description = bodies.described(body)
+            index = len(self.state.description.bodies)
+            state = bodies.with_body(self.state, description)
+            return state, f"add {description.name}", ("bodies", index)
+
+        return self._do(make)
+
+    def remove_body(self, name: str) -> "Future[Outcome]":
+        """Takes a body out of the world; one that an agent has, or that a block needs, stays."""
+        return self._do(lambda: (bodies.without_body(self.state, name), f"remove {name}", ()))
+
+    def change_body(self, name: str, values: Mapping[str, Any]) -> "Future[Outcome]":
+        """Gives a body other parameters, those of :class:`BodyDescription`."""
+
+        def make() -> Made:
+            where = self.state.description.where_is(name)
+            return bodies.with_other_body(self.state, name, values), f"change {name}", where
+
+        return self._do(make)
+
+    def free_name(self, like: str) -> str:
+        """A name that nothing in the scene has."""
+        return bodies.free_name(self.state, like)
+
+    # -- whole scenes ----------------------------------------------------------------------------
+
+    def change_scene(self, values: Mapping[str, Any]) -> "Future[Outcome]":
+        """Gives the scene other words or settings: ``title``, ``goal``, ``world``, ``floors``..."""
+
+        def make() -> Made:
+            plain = {**self.scene.plain(), **values}
+            scene = Scene.loads(write_yaml(plain), folder=self.state.folder)
+            state = State(scene.description, self.state.folder, self.state.drivers)
+            return state, "change the scene", ()
+
+        return self._do(make)
+
+    def open(self, scene: Scene) -> "Future[Outcome]":
+        """Has another scene run in place of this one; undo brings this one back."""
+
+        def make() -> Made:
+            return State(scene.description, scene.folder), f"open {scene.description.name}", ()
+
+        return self._do(make, whole=True)
+
+    def load(self, text: str, name: str = "scene.yaml") -> "Future[Outcome]":
+        """Has a scene run that somebody wrote: YAML, which is read and checked, never run.
+
+        It is read in the caller's thread. The file's errors come with their lines.
+        """
+        try:
+            agents = YamlFile(text, name).data.get("agents", ())
+            self._bench.trust.check(agents)
+            scene = Scene.loads(text, name=name, folder=self.state.folder)
+        except AI4UError as error:
+            return _failed(error)
+        return self.open(scene)
+
+    def bring_back(self) -> "Future[Outcome]":
+        """Has the scene run that was left unsaved."""
+        unsaved, self.unsaved = self.unsaved, None
+        if unsaved is None:
+            return _failed(SetupError("there is no unsaved scene"))
+        try:
+            return self.open(unsaved.scene())
+        except AI4UError as error:
+            return _failed(error)
+
+    def forget(self) -> None:
+        """Nobody wants the scene that was left unsaved, or somebody has saved it."""
+        self.unsaved = None
+        if self.autosave is not None:
+            self.autosave.note(None)
+
+    # -- back and forth --------------------------------------------------------------------------
+
+    def undo(self) -> "Future[Outcome]":
+        """Takes the last change back; the time goes on."""
+        return self._runner.submit(self._bench.undo)
+
+    def redo(self) -> "Future[Outcome]":
+        """Makes the change again that was taken back last."""
+        return self._runner.submit(self._bench.redo)
+
+    def _keep(self, state: State) -> None:
+        """Has what was changed written down; of a scene that was only opened there is nothing."""
+        if self.autosave is None:
+            return
+        if not self.is_as_opened:
+            self.autosave.note(state)
+        elif self._bench.history.next is not None:  # all was taken back
+            self.autosave.note(None)
+
+    # -- how -------------------------------------------------------------------------------------
+
+    def _of_agent(
+        self, agent_id: str, path: Path, word: str, change: Callable[[Plain], Plain]
+    ) -> "Future[Outcome]":
+        def make() -> Made:
+            agent = self.state.agent(agent_id)
+            label = f"{word} {blocks.block_at(agent, path)['type']}"
+            state = self.state.with_agent(agent_id, change(agent))
+            return state, label, self._where(agent_id, path)
+
+        return self._do(make)
+
+    def _where(self, agent_id: str, path: Path) -> Path:
+        return ("agents", self.state.agent_index(agent_id), *path)
+
+
+def _failed(error: Exception) -> "Future[Outcome]":
+    failed: Future[Outcome] = Future()
+    failed.set_exception(error)
+    return failed
