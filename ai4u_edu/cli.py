@@ -15,6 +15,7 @@ from rich.table import Table
 
 from ai4u_edu import episode_commands
 from ai4u_edu.errors import AI4UError, SetupError
+from ai4u_edu.lessons import commands as course
 from ai4u_edu.training import commands as learning
 from ai4u_edu.version import __version__
 
@@ -108,8 +109,29 @@ def play(
     record: Annotated[
         Path | None, typer.Option(help="A folder in which every episode is kept as a file.")
     ] = None,
+    keep: Annotated[
+        int, typer.Option(help="So many episodes are kept, to go back to.", min=1, max=1000)
+    ] = episode_commands.KEPT,
+    ghost: Annotated[
+        Path | None,
+        typer.Option(help="A recorded episode (.episode) to play against; its seed is the first."),
+    ] = None,
+    offer: Annotated[
+        list[Path] | None,
+        typer.Option(
+            help="Python files with drivers, recorded episodes, or folders of them, from which the "
+            "page may choose who drives; a script is run when it is chosen."
+        ),
+    ] = None,
+    restore: Annotated[
+        bool, typer.Option("--restore", help="Go on with the scene that was left unsaved.")
+    ] = False,
+    autosave: Annotated[
+        bool, typer.Option("--autosave/--no-autosave", help="Keep what is changed in the page.")
+    ] = True,
 ) -> None:
     """Serve a scene in the browser; drive with W, A, S, D."""
+    from ai4u_edu.recording import Episode
     from ai4u_edu.runner import Runner
     from ai4u_edu.scenes import Scene
     from ai4u_edu.server import (
@@ -124,23 +146,40 @@ def play(
         with_token,
     )
     from ai4u_edu.viewer import Viewer
+    from ai4u_edu.workshop import Workshop
+    from ai4u_edu.workshop.autosave import Autosave, latest, unsaved_folder
 
     rules = Rules(token=token_for(host, token), seeded_resets=seeded_resets)
     _load(own_blocks)
-    loaded = Scene.load(scene)
+    unsaved = latest(unsaved_folder()) if autosave or restore else None
+    if restore and unsaved is None:
+        raise SetupError("there is no unsaved scene; expected: ai4u-edu play SCENE")
+    loaded = unsaved.scene() if restore and unsaved is not None else Scene.load(scene)
     title = loaded.description.title or loaded.description.name
     sim = loaded.build()
     for each in brain or ():
         _give_brain(sim, each, loaded.description.name)
-    recorder = episode_commands.recorder_into(record, sim, loaded) if record else None
+    recorder = episode_commands.recorder_into(record, sim, loaded, keep)
+    run = Episode.load(ghost) if ghost else None
+    if run is not None and seed is None:
+        seed = run.seed
     runner = Runner(sim, seed=seed, time_scale=time_scale, recorder=recorder)
-    viewer = Viewer(runner, title=title)
+    workshop = Workshop(runner, loaded, offers=[*(offer or ()), *([record] if record else ())])
+    saver = Autosave(unsaved_folder(), loaded.description.name) if autosave else None
+    workshop.autosave = saver
+    workshop.unsaved = None if restore else unsaved
+    viewer = Viewer(runner, title=title, workshop=workshop)
+    if run is not None and ghost is not None:
+        viewer.ghosts.race(run, ghost.name)
     shut_side_door(viewer.server)
     hosts = (*hosts_for(host), *(allow_host or ()))
     room = room_app(runner, viser_port=viewer.port, title=title, allowed_hosts=hosts, rules=rules)
 
     def ready(url: str) -> None:
         typer.echo(announcement(title, host, url, rules.token))
+        if workshop.unsaved is not None:
+            when = workshop.unsaved.when
+            typer.echo(f"an unsaved scene from {when} is there: ai4u-edu play --restore")
         if open_page:
             open_on_desktop(with_token(url, rules.token))
 
@@ -155,6 +194,8 @@ def play(
     finally:
         viewer.stop()
         runner.stop()
+        if saver is not None:
+            saver.stop()
 
 
 @app.command()
@@ -277,3 +318,4 @@ def schema() -> None:
 
 learning.add_to(app)
 episode_commands.add_to(app)
+course.add_to(app)

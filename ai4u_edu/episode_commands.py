@@ -17,6 +17,8 @@ if TYPE_CHECKING:
 
 LONGEST = 5000
 """Decisions after which an episode is cut off in a scene that has no limit of its own."""
+KEPT = 50
+"""So many episodes are kept in memory."""
 
 OwnBlocks = Annotated[
     list[Path] | None,
@@ -154,10 +156,10 @@ def clone(
 
     need("train", "torch", "stable_baselines3", "onnx", "onnxscript")
     from ai4u_edu.scenes import Scene
-    from ai4u_edu.training.clone import clone as cloned
+    from ai4u_edu.training.cloning import clone as cloned
     from ai4u_edu.training.demonstrations import load_episodes
     from ai4u_edu.training.entrants import entrant
-    from ai4u_edu.training.evaluate import evaluate as evaluated
+    from ai4u_edu.training.evaluating import evaluate as evaluated
     from ai4u_edu.training.report import table
 
     _load_blocks(own_blocks)
@@ -171,13 +173,25 @@ def clone(
     typer.echo(f"let it drive:  ai4u-edu play {episodes[0].scene.name} --brain {out}")
 
 
-def recorder_into(folder: Path, sim: "ControlRequestor", scene: "Scene") -> "Recorder":
-    """A recorder that writes every episode into a folder as soon as it is over."""
-    from ai4u_edu.recording import Recorder
+def recorder_into(
+    folder: Path | None, sim: "ControlRequestor", scene: "Scene", keep: int = KEPT
+) -> "Recorder":
+    """A recorder that keeps the last episodes, and writes each into a folder when it is over.
 
+    Args:
+        folder: where to; None: nothing is written.
+        sim: the world and its agents.
+        scene: what it was made from.
+        keep: how many episodes are kept in memory.
+    """
+    from ai4u_edu.recording import Archive, Recorder
+
+    episodes = Archive(keep)
+    if folder is None:
+        return Recorder(sim, scene=scene.description, episodes=episodes)
     folder.mkdir(parents=True, exist_ok=True)
 
-    def keep(episode: "Episode") -> None:
+    def write(episode: "Episode") -> None:
         name = f"{episode.scene.name}-{episode.seed}"
         path, count = folder / f"{name}.episode", 1
         while path.exists():
@@ -185,7 +199,7 @@ def recorder_into(folder: Path, sim: "ControlRequestor", scene: "Scene") -> "Rec
             path = folder / f"{name}-{count}.episode"
         episode.save(path)
 
-    return Recorder(sim, scene=scene.description, on_episode=keep)
+    return Recorder(sim, scene=scene.description, episodes=episodes, on_episode=write)
 
 
 def _with_brains(scene: "Scene", specs: list[str]) -> "tuple[ControlRequestor, Scene]":

@@ -9,6 +9,11 @@ from importlib.util import find_spec
 from ai4u_edu.errors import SetupError
 
 
+def has(*modules: str) -> bool:
+    """Whether some packages are installed, without loading them."""
+    return all(find_spec(module) is not None for module in modules)
+
+
 def need(extra: str, *modules: str) -> None:
     """Makes sure that an extra is installed, without loading it.
 

@@ -5,15 +5,19 @@ runner's thread. Whoever wants to look takes the latest snapshot, without a lock
 """
 
 import math
+import sys
 import threading
 import time
 from collections import deque
 from collections.abc import Callable
 from concurrent.futures import Future
+from dataclasses import replace
 from typing import Any, TypeVar
 
+from ai4u_edu.blocks import RemoteBrain
 from ai4u_edu.cycle import ControlRequestor
-from ai4u_edu.recording import Recorder
+from ai4u_edu.recording import Recorder, Replay
+from ai4u_edu.scenes import Scene
 from ai4u_edu.snapshot import SlowTick, Snapshot, Stage, picture_of, set_stage
 
 T = TypeVar("T")
@@ -25,6 +29,12 @@ PATIENCE = 0.25
 waits this long (s) for one, and then takes any moment between two ticks."""
 OFTEN_ENOUGH = 1 / 120
 """Seconds between two snapshots at least, while the world runs faster than anybody can look."""
+SHOWING = 0.25
+"""The share of the time that may go into snapshots: of a hundred agents there are fewer of them,
+rather than fewer ticks."""
+GIVE_WAY = 0.001
+"""Seconds after which a thread that computes lets another one go on. Python's own 5 ms would make a
+tick late whenever pages are drawn."""
 
 SLICE = 0.015
 """While a world waits for a call, it is looked so often (s) whether somebody wants something."""
@@ -35,6 +45,8 @@ SLOW = 0.05
 """A tick that takes longer (s) is reported."""
 LATELY = 5.0
 """For so long (s)."""
+
+ANOTHER_WORLD = "another world has taken its place; connect anew to drive there"
 
 
 class Runner:
@@ -75,11 +87,12 @@ class Runner:
         self._called = threading.Event()
         self._expected = 0
         self._due = 0.0
-        self._shown = 0.0
+        self._shown = self._showing = 0.0
         self._window: deque[tuple[float, int]] = deque(maxlen=60)
         self._ticked = 0
         self._slow: tuple[float, SlowTick] | None = None
         sim.reset(seed)
+        self._past: Snapshot | None = None
         self._generation = -1
         self._stage: Stage
         self.latest = self._picture()
@@ -132,7 +145,7 @@ class Runner:
 
         def carry_out() -> None:
             self.sim.reset(seed)
-            self.error = ""
+            self.error, self._past = "", None
 
         return self.submit(carry_out)
 
@@ -145,9 +158,102 @@ class Runner:
 
         return self.submit(carry_out)
 
+    def step_decision(self, agent_id: str | None = None) -> "Future[None]":
+        """Lets a paused world go on until an agent's decision is over.
+
+        Args:
+            agent_id: whose; left out, the first one's. Of an agent that takes no more decisions in
+                this episode, a single tick passes.
+        """
+
+        def carry_out() -> None:
+            sim = self.sim
+            agent = sim.agents[0] if agent_id is None else sim.agent(agent_id)
+            self._tick()
+            phase = sim.phase(agent)
+            while phase.tick < phase.ticks and not (agent.done or self.error or sim.held):
+                self._tick()
+                phase = sim.phase(agent)
+
+        return self.submit(carry_out)
+
     def scale_time(self, time_scale: float) -> "Future[None]":
         """Lets the time run faster or slower."""
         return self.submit(lambda: self.set_time_scale(time_scale))
+
+    def show(self, past: Snapshot | None, *, goes_on: bool = False) -> "Future[None]":
+        """Has all who look see a moment of the past; meanwhile the time stands still.
+
+        It goes on with the world as it is now, which nothing of this changes: as soon as somebody
+        has it go on, or begin anew, what is seen is what is now.
+
+        Args:
+            past: the moment; none: now, paused.
+            goes_on: whether it follows another one, and is not shown if the world goes on already.
+        """
+
+        def carry_out() -> None:
+            if goes_on and self._past is None:
+                return
+            if not self.paused:
+                self._set_paused(True)
+            self._past = None if past is None else self._as_past(past)
+
+        return self.submit(carry_out)
+
+    def continue_from(
+        self, replay: Replay, step: int, *, agent: str | None = None
+    ) -> "Future[None]":
+        """Brings the world to a moment of a recorded episode, and lets it go on from there.
+
+        Agents keep the brains that they have. An episode of another world, or of other blocks, is
+        continued in its own world, with the brains that its scene says. What is recorded then has
+        the episode up to that moment in it.
+
+        Args:
+            replay: of the episode.
+            step: the agent's decision, from 0 on, in place of which something else is done.
+            agent: its id; left out, the one that acts first.
+
+        Raises:
+            RecordingError: there was no such decision, or it can't be played again exactly.
+        """
+        replay.check(step, agent)  # here, since it may take longer than the world should wait
+
+        def carry_out() -> None:
+            if not replay.fits(self.sim):
+                other = Scene(replay.episode.scene).build()
+                other.reset(replay.episode.seed)
+                self._replace(other, None)
+            replay.continue_from(step, agent=agent, sim=self.sim)
+            self.error, self._past, self.paused = "", None, False
+
+        return self.submit(carry_out)
+
+    def use(
+        self, sim: ControlRequestor, recorder: Recorder | None = None, *, seed: int | None = None
+    ) -> "Future[None]":
+        """Lets another world run in place of this one; the pace and the pause stay.
+
+        Who held a key of the old one's lets go, and its agents' brains are closed, but for those
+        that drive agents of the new one. Whoever has hold of an agent finds out by looking whether
+        it is still among ``runner.sim.agents``.
+
+        Args:
+            sim: the other world. If it has begun no episode yet, one begins; else it goes on where
+                it stands.
+            recorder: of the other world. Left out, the one that there is listens to it from now on.
+            seed: of the episode that begins.
+        """
+        return self.submit(lambda: self.exchange(sim, recorder, seed=seed))
+
+    def exchange(
+        self, sim: ControlRequestor, recorder: Recorder | None = None, *, seed: int | None = None
+    ) -> None:
+        """Lets another world run, as :meth:`use` does, at once; only for the runner's thread."""
+        if not sim.episode:
+            sim.reset(seed)  # before anything else: if it fails, all stays as it was
+        self._replace(sim, recorder)
 
     # -- for those who are waited for ------------------------------------------------------------
 
@@ -183,6 +289,7 @@ class Runner:
 
     def start(self) -> None:
         """Begins to tick."""
+        sys.setswitchinterval(min(sys.getswitchinterval(), GIVE_WAY))
         self._thread = threading.Thread(target=self._run, name="runner", daemon=True)
         self._due = self._clock()
         self._thread.start()
@@ -244,7 +351,7 @@ class Runner:
         self._due = self._clock()
 
     def _tick(self) -> None:
-        began = self._clock()
+        began, self._past = self._clock(), None
         try:
             self.sim.tick()
         except Exception as error:  # a student's block may raise anything; the page shows it
@@ -269,9 +376,10 @@ class Runner:
         return self._slow[1]
 
     def _show(self) -> None:
-        """Publishes every tick, or of a world that runs fast as many as one can see."""
+        """Publishes every tick, or as many as one can see and as there is time for."""
         slow = self.sim.world.dt / self.time_scale >= OFTEN_ENOUGH
-        if slow or self.error or self._clock() - self._shown >= OFTEN_ENOUGH:
+        pause = max(0.0 if slow else OFTEN_ENOUGH, self._showing / SHOWING)
+        if self.error or self._clock() - self._shown >= pause:
             self._publish()
 
     def _keep_time(self) -> None:
@@ -295,15 +403,49 @@ class Runner:
 
     def _set_paused(self, paused: bool) -> None:
         self.paused = paused
-        if paused:
+        if not paused:
+            self._past = None
+        else:
             for agent in self.sim.agents:
                 agent.keyboard.release()
 
+    def _replace(self, sim: ControlRequestor, recorder: Recorder | None) -> None:
+        before, self.sim = self.sim, sim
+        if recorder is not None:
+            if self.recorder is not None and self.recorder is not recorder:
+                self.recorder.switch(False)
+            self.recorder = recorder
+        elif self.recorder is not None:
+            self.recorder.listen_to(sim)
+        self.error, self._slow, self._past, self._generation = "", None, None, -1
+        self._window.clear()
+        stay = [agent.brain for agent in sim.agents]
+        for agent in before.agents:
+            agent.keyboard.release()
+            brain = agent.brain
+            if any(brain is each for each in stay):
+                continue
+            if isinstance(brain, RemoteBrain):
+                brain.close(ANOTHER_WORLD)
+            else:
+                brain.close()
+
     def _publish(self) -> None:
         self._shown = self._clock()
-        self.latest = self._picture()
+        self.latest = self._past or self._picture()
+        self._showing = self._clock() - self._shown
         with self._published:
             self._published.notify_all()
+
+    def _as_past(self, past: Snapshot) -> Snapshot:
+        """A moment of the past, as it is shown; where it can be, on the stage that is there now."""
+        same = past.stage is self._stage or past.stage == self._stage
+        return replace(
+            past,
+            stage=self._stage if same else past.stage,
+            paused=True,
+            time_scale=self.time_scale,
+        )
 
     def _picture(self) -> Snapshot:
         sim = self.sim

@@ -3,12 +3,23 @@
 import threading
 import time
 from collections.abc import Iterator
+from dataclasses import replace
 from typing import Any
 
 import pytest
 
-from ai4u_edu import BasicAgent, CircleShape, ControlRequestor, LocalBrain, Scene, World
+from ai4u_edu import (
+    BasicAgent,
+    CircleShape,
+    ControlRequestor,
+    LocalBrain,
+    ReplayController,
+    Scene,
+    World,
+)
+from ai4u_edu.recording import Recorder, Replay
 from ai4u_edu.runner import Runner
+from ai4u_edu.snapshot import Snapshot
 from tests.builders import small_sim
 
 
@@ -44,6 +55,28 @@ def test_as_fast_as_it_goes() -> None:
     wait_for(runner, 600)
     runner.stop()
     assert runner.latest.real_time_factor > 1.0
+
+
+@pytest.mark.parametrize(("takes", "least", "most"), [(0.0, 60, 60), (0.02, 12, 17)])
+def test_snapshots_that_take_long_are_fewer_and_the_ticks_are_not(
+    takes: float, least: int, most: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    now, shown = 100.0, 0
+    runner = Runner(Scene.load("box_chase").build(), seed=1, clock=lambda: now)
+    picture = runner._picture
+
+    def slow_picture() -> Snapshot:
+        nonlocal now, shown
+        now += takes
+        shown += 1
+        return picture()
+
+    monkeypatch.setattr(runner, "_picture", slow_picture)
+    for _ in range(60):
+        runner._tick()
+        now += 1 / 60
+    assert runner.sim.world.ticks == 60
+    assert least <= shown <= most
 
 
 @pytest.mark.parametrize("scale", [0.0, -1.0, float("nan")])
@@ -143,3 +176,158 @@ def test_stop_cancels_what_still_waits() -> None:
     runner.stop()
     future = runner.submit(lambda: 1)
     assert future.cancelled()
+
+
+def test_another_world_takes_this_ones_place(runner: Runner) -> None:
+    before = runner.sim
+    before.agents[0].keyboard.hold(["KeyW"])
+    closed: list[str] = []
+    before.agents[0].brain.close = lambda: closed.append("old")  # type: ignore[method-assign]
+    other = Scene.load("donut").build()
+    runner.pause().result(5)
+    runner.use(other, seed=7).result(5)
+    assert runner.sim is other
+    assert (runner.latest.seed, runner.latest.tick, runner.latest.paused) == (7, 0, True)
+    assert {body.name for body in runner.latest.stage.bodies} == set(other.world.bodies)
+    assert closed == ["old"]
+    assert not before.agents[0].keyboard.held()
+    runner.resume().result(5)
+    wait_for(runner, 5)
+    assert other.world.ticks >= 5
+
+
+def test_another_world_goes_on_where_it_stands_with_the_brain_that_it_shares(
+    runner: Runner,
+) -> None:
+    runner.pause().result(5)
+    brain = runner.sim.agents[0].brain
+    brain.close = lambda: pytest.fail("it still drives")  # type: ignore[method-assign]
+    other = Scene.load("box_chase").build()
+    other.reset(3)
+    other.step()
+    other.agents[0].use_brain(brain)
+    ticks = other.world.ticks
+    runner.use(other).result(5)
+    assert (runner.latest.seed, runner.latest.tick) == (3, ticks)
+    del brain.close
+
+
+def test_a_world_that_can_not_begin_changes_nothing(runner: Runner) -> None:
+    before, other = runner.sim, Scene.load("box_chase").build()
+
+    def fail(_: BasicAgent) -> None:
+        raise ZeroDivisionError
+
+    other.agents[0].before_the_reset.connect(fail)
+    with pytest.raises(ZeroDivisionError):
+        runner.use(other).result(5)
+    assert runner.sim is before
+    wait_for(runner, runner.latest.tick + 5)
+
+
+def test_the_recorder_goes_along_to_another_world() -> None:
+    sim = Scene.load("box_chase").build()
+    recorder = Recorder(sim)
+    runner = Runner(sim, seed=1, recorder=recorder)
+    for _ in range(20):
+        sim.tick()
+    runner.use(Scene.load("donut").build(), seed=2)
+    runner.advance()
+    while runner.sim.agents[0].steps < 4:
+        runner.sim.tick()
+    runner.reset(3)
+    runner.advance()
+    assert [episode.seed for episode in recorder.episodes] == [1, 2]
+    assert recorder.episodes[0].changed is None
+    assert Replay(recorder.episodes[1]).verdict.exact
+
+
+def driven(runner: Runner, actions: list[dict[str, list[float]]]) -> list[tuple[Any, ...]]:
+    """What is sensed, paid and where all bodies are after each of some decisions."""
+    sim, found = runner.sim, []
+    sim.agents[0].use_brain(LocalBrain(controller=ReplayController(actions=actions)))
+    for _ in actions:
+        percept = sim.step()
+        poses = [
+            (body.pose, body.velocity, body.angular_velocity) for body in sim.world.bodies.values()
+        ]
+        found.append((percept.data, sim.agents[0].reward_terms, poses, sim.world.ticks))
+    return found
+
+
+TURNS: list[dict[str, list[float]]] = [
+    {"move": [0.1, 0.5 - 0.05 * step, 0.0, 0.0]} for step in range(20)
+]
+
+
+def test_the_past_is_seen_and_changes_nothing(runner: Runner) -> None:
+    runner.pause().result(5)
+    live = runner.latest
+    past = replace(live, past="step 1 of 3", tick=-7, paused=False)
+    runner.show(past).result(5)
+    seen = runner.latest
+    assert (seen.past, seen.tick, seen.paused, seen.stage) == ("step 1 of 3", -7, True, live.stage)
+    time.sleep(0.25)
+    assert runner.latest is seen  # nobody has to draw it again
+    runner.show(None).result(5)
+    assert (runner.latest.past, runner.latest.tick, runner.latest.paused) == ("", live.tick, True)
+
+
+def test_whoever_looks_at_the_past_has_the_time_stand_still(runner: Runner) -> None:
+    keyboard = runner.sim.agents[0].keyboard
+    keyboard.hold(["KeyW"])
+    runner.show(replace(runner.latest, past="then")).result(5)
+    ticks = runner.sim.world.ticks
+    assert not keyboard.held()
+    time.sleep(0.1)
+    assert runner.sim.world.ticks == ticks
+
+
+@pytest.mark.parametrize("order", ["resume", "reset", "step"])
+def test_as_soon_as_something_goes_on_it_is_now(runner: Runner, order: str) -> None:
+    runner.show(replace(runner.latest, past="then")).result(5)
+    getattr(runner, order)().result(5)
+    assert runner.latest.past == ""
+
+
+def test_a_world_goes_on_from_the_past_bit_for_bit() -> None:
+    sim = Scene.load("box_chase").build()
+    recorder = Recorder(sim)
+    runner = Runner(sim, seed=6, recorder=recorder)
+    there = driven(runner, TURNS)
+    runner.reset(7)
+    runner.advance()
+    brain = sim.agents[0].brain
+    done = runner.continue_from(Replay(recorder.episodes[-1]), 12)
+    runner.paused = True
+    runner._carry_out_commands()
+    done.result(0)
+    assert runner.sim is sim
+    assert sim.agents[0].brain is brain
+    assert (runner.latest.seed, runner.latest.tick, runner.latest.past) == (6, 60, "")
+    assert not runner.paused
+    assert driven(runner, TURNS[12:]) == there[12:]
+    runner.reset()
+    runner.advance()
+    continued = recorder.episodes[-1]
+    assert len(continued.agents[0]) == 20  # what came before belongs to it
+    assert Replay(continued).verdict.exact
+    assert continued.agents[0].driver == "Recording, LocalBrain(ReplayController)"
+
+
+def test_an_episode_of_another_world_is_continued_in_its_own() -> None:
+    other = Runner(Scene.load("donut").build(), seed=3)
+    recorder = Recorder(other.sim)
+    there = driven(other, TURNS)
+    recorder.finish()
+    sim = Scene.load("box_chase").build()
+    runner = Runner(sim, seed=1, recorder=Recorder(sim))
+    done = runner.continue_from(Replay(recorder.episodes[-1]), 5)
+    runner._carry_out_commands()
+    done.result(0)
+    assert runner.sim is not sim
+    assert driven(runner, TURNS[5:]) == there[5:]
+    assert runner.recorder is not None
+    runner.recorder.finish()
+    assert Replay(runner.recorder.episodes[-1]).verdict.exact
+    assert len(runner.recorder.episodes[-1].agents[0]) == 20

@@ -1,5 +1,6 @@
 """Episodes that are kept, played again exactly, and exported."""
 
+from ai4u_edu.recording.archive import Archive, Entry
 from ai4u_edu.recording.episode import AgentRecord, Decision, Episode
 from ai4u_edu.recording.errors import RecordingError
 from ai4u_edu.recording.ghost import Ghost, ghost_of
@@ -8,7 +9,9 @@ from ai4u_edu.recording.replay import Moment, Replay, Verdict
 
 __all__ = [
     "AgentRecord",
+    "Archive",
     "Decision",
+    "Entry",
     "Episode",
     "Ghost",
     "Moment",

@@ -16,6 +16,9 @@ from ai4u_edu.scenes import SceneDescription
 REPEAT, ENDED, TERMINATED, TRUNCATED = 1, 2, 4, 8
 """The bits of a decision's flags."""
 
+LONGEST_DRIVER = 200
+"""Characters of a driver's name."""
+
 Ticks = npt.NDArray[np.uint32]
 
 
@@ -64,6 +67,8 @@ class AgentRecord:
     """(m,) the agent's own episodes: how many decisions came before each."""
     firsts: npt.NDArray[np.uint32]
     """(m,) the checksum of the first percept of each."""
+    driver: str = ""
+    """The title of the brain that decided; of several, one after the other."""
 
     def __len__(self) -> int:
         return len(self.begin)

@@ -19,7 +19,7 @@ import numpy.typing as npt
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from ai4u_edu.parameters import Problem, explain
-from ai4u_edu.recording.episode import AgentRecord, Episode, Restart
+from ai4u_edu.recording.episode import LONGEST_DRIVER, AgentRecord, Episode, Restart
 from ai4u_edu.recording.errors import RecordingError
 from ai4u_edu.recording.sound import check_sound
 from ai4u_edu.recording.table import MOST_FORMS, Table
@@ -60,6 +60,7 @@ class _Agent(BaseModel):
     worlds: bytes
     starts: bytes
     firsts: bytes
+    driver: str = Field(default="", max_length=LONGEST_DRIVER)
 
 
 class _File(BaseModel):
@@ -128,6 +129,7 @@ def encode(episode: Episode) -> bytes:
                 "worlds": _packed(record.worlds),
                 "starts": _packed(record.starts),
                 "firsts": _packed(record.firsts),
+                "driver": record.driver,
             }
             for record in episode.agents
         ],
@@ -287,6 +289,7 @@ def _record(agent: _Agent) -> AgentRecord:
         worlds=_column(agent.worlds, np.uint32, "worlds"),
         starts=_column(agent.starts, np.uint32, "starts"),
         firsts=_column(agent.firsts, np.uint32, "firsts"),
+        driver=agent.driver,
     )
 
 

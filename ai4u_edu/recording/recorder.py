@@ -1,12 +1,13 @@
 """Keeps the last episodes of a world, whoever drives its agents."""
 
-from collections import deque
+import sys
 from collections.abc import Callable
 from typing import Any, TypeVar
 
 from ai4u_edu.agent import BasicAgent
 from ai4u_edu.blocks import Block
 from ai4u_edu.cycle import ControlRequestor
+from ai4u_edu.recording.archive import Archive
 from ai4u_edu.recording.episode import Episode
 from ai4u_edu.recording.errors import RecordingError
 from ai4u_edu.recording.fingerprint import everything
@@ -27,6 +28,7 @@ class Recorder:
         sim: the world and its agents. An episode that is under way already is left out.
         scene: where it comes from; its name, title and goal go into the episodes.
         keep: how many episodes are kept.
+        episodes: where they are kept; left out, in an archive for ``keep`` of them.
         on_episode: called with each one when it is over, in the thread that runs the world.
 
     >>> from ai4u_edu import Scene
@@ -48,11 +50,12 @@ class Recorder:
         *,
         scene: SceneDescription | None = None,
         keep: int = 50,
+        episodes: Archive | None = None,
         on_episode: Callable[[Episode], object] | None = None,
     ) -> None:
         self.sim = sim
         self.scene = scene
-        self.episodes: deque[Episode] = deque(maxlen=keep)
+        self.episodes = Archive(keep, sys.maxsize) if episodes is None else episodes
         """Those that are over, the latest last."""
         self.problem = ""
         """Why the episode that is under way can't be recorded; empty if it can."""
@@ -60,11 +63,15 @@ class Recorder:
         self._tape: Tape | None = None
         self._world_episode = sim.episode
         self._listening = False
-        self.switch(True)
-        if sim.episode and sim.world.ticks == 0 and sim.between_decisions():
-            self._begin()
-            for agent in sim.agents:
-                self._first(agent)
+        self._attend()
+
+    def listen_to(self, sim: ControlRequestor) -> None:
+        """Listens to another world from now on; what was heard of this one so far is kept."""
+        listened = self._listening
+        self.switch(False)
+        self.sim, self._world_episode = sim, sim.episode
+        if listened:
+            self._attend()
 
     def switch(self, on: bool) -> None:
         """On: listens from the next reset on. Off: what was heard so far is kept as an episode."""
@@ -113,6 +120,14 @@ class Recorder:
             same = self._tape is tape and tape.restarts == restarts
             if same and self.sim.world.ticks == ticks and self._all() != before:
                 tape.changed = ticks
+
+    def _attend(self) -> None:
+        """Begins to listen; an episode that has only just begun is heard from its beginning."""
+        self.switch(True)
+        if self.sim.episode and self.sim.world.ticks == 0 and self.sim.between_decisions():
+            self._begin()
+            for agent in self.sim.agents:
+                self._first(agent)
 
     # -- what it hears ---------------------------------------------------------------------------
 

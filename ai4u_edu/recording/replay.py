@@ -11,6 +11,7 @@ from ai4u_edu.errors import AI4UError, suggest
 from ai4u_edu.recording.episode import ENDED, AgentRecord, Decision, Episode
 from ai4u_edu.recording.errors import RecordingError
 from ai4u_edu.recording.player import Player
+from ai4u_edu.recording.portrait import scene_of, without_brains
 from ai4u_edu.recording.recorder import Recorder
 from ai4u_edu.recording.tape import VERSIONS
 from ai4u_edu.snapshot import Snapshot, Stage, picture_of, set_stage
@@ -208,6 +209,21 @@ class Replay:
         finally:
             player.hand_over(brains or {})
         return player.sim
+
+    def check(self, step: int, agent: str | None = None) -> None:
+        """Checks that a moment can be gone to; the first time that takes as long as to play it all.
+
+        Raises:
+            RecordingError: there was no such decision, or it can't be played again exactly.
+        """
+        self._find(step, agent)
+
+    def fits(self, sim: ControlRequestor) -> bool:
+        """Whether a world is one in which the episode can be continued: its own, or its like."""
+        try:
+            return without_brains(scene_of(sim)) == without_brains(self.episode.scene)
+        except RecordingError:  # a block that no file can hold: the episode has none of those
+            return False
 
     # -- how -------------------------------------------------------------------------------------
 

@@ -5,9 +5,11 @@ from importlib.metadata import version
 import numpy as np
 
 from ai4u_edu.agent import BasicAgent
+from ai4u_edu.blocks import Brain
 from ai4u_edu.cycle import ControlRequestor
 from ai4u_edu.recording.episode import (
     ENDED,
+    LONGEST_DRIVER,
     REPEAT,
     TERMINATED,
     TRUNCATED,
@@ -44,6 +46,8 @@ class _Column:
         self.worlds: list[int] = []
         self.starts: list[int] = []
         self.firsts: list[int] = []
+        self.brain: Brain | None = None
+        self.drivers: dict[str, None] = {}
         self.under_way = -1
         """The agent's own count of its decisions when the open one began; -1 for none."""
 
@@ -64,6 +68,7 @@ class _Column:
             worlds=np.array(self.worlds[:count], np.uint32),
             starts=np.array(self.starts, np.uint32),
             firsts=np.array(self.firsts, np.uint32),
+            driver=", ".join(self.drivers)[:LONGEST_DRIVER],
         )
 
 
@@ -136,6 +141,9 @@ class Tape:
         column.percepts.append(0)
         column.worlds.append(world_print(world))
         column.under_way = agent.steps
+        if brain is not column.brain:
+            column.brain = brain
+            column.drivers[brain.title()] = None
 
     def sensed(self, agent: BasicAgent) -> None:
         """What an agent senses first after a decision ends it: all is paid by then."""

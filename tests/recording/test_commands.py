@@ -111,3 +111,11 @@ def test_play_keeps_what_a_person_drove(tmp_path: Path) -> None:
     assert (episode.seed, episode.changed) == (3, None)
     assert len(episode.agents[0]) >= 5
     assert Replay(episode).verdict.exact
+
+
+def test_whoever_plays_against_a_ghost_begins_as_it_did(folder: Path) -> None:
+    with played("box_chase", "--ghost", str(folder / "box_chase-6.episode")) as server:
+        assert server.snapshot()["seed"] == 6
+    told = run("play", "--no-open", "--port", 0, "--ghost", folder.parent / "mine.py")
+    assert told.returncode == 1
+    assert told.stderr.startswith("error: mine.py: expected a recorded episode")

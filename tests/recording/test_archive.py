@@ -1,0 +1,79 @@
+"""The last episodes stay, as many as fit."""
+
+import threading
+from dataclasses import replace
+
+from ai4u_edu.recording import Archive, Episode
+from ai4u_edu.recording.archive import size_of
+from tests.recording.takes import take
+
+
+def episodes(count: int) -> list[Episode]:
+    first = take("box_chase", decisions=20).episode
+    return [replace(first, seed=seed) for seed in range(count)]
+
+
+def test_the_last_ones_are_kept_under_their_numbers() -> None:
+    archive = Archive(keep=3)
+    for episode in episodes(5):
+        archive.append(episode)
+    assert [entry.number for entry in archive.entries] == [3, 4, 5]
+    assert [episode.seed for episode in archive] == [2, 3, 4]
+    assert (len(archive), archive[-1].seed, archive.next_number) == (3, 4, 6)
+    assert [episode.seed for episode in archive[:2]] == [2, 3]
+    found = archive.find(4)
+    assert found is not None
+    assert found.episode.seed == 3
+    assert archive.find(1) is None
+
+
+def test_the_oldest_go_when_there_is_no_room() -> None:
+    several = episodes(6)
+    archive = Archive(largest=3 * size_of(several[0]) + 10)
+    for episode in several:
+        archive.append(episode)
+    assert [episode.seed for episode in archive] == [3, 4, 5]
+
+
+def test_the_latest_is_kept_however_large() -> None:
+    archive = Archive(largest=10)
+    for episode in episodes(2):
+        archive.append(episode, "friend.episode")
+    assert [entry.number for entry in archive.entries] == [2]
+    assert archive.entries[0].source == "friend.episode"
+
+
+def test_its_size_is_about_that_of_its_columns() -> None:
+    short, long = (take("box_chase", decisions=n).episode for n in (10, 100))
+    more = size_of(long) - size_of(short)
+    # an action has four numbers, and a decision some forty bytes beside it and its terms
+    assert 90 * 60 < more < 90 * 250
+
+
+def test_the_best_one_reached_the_goal() -> None:
+    assert Archive().best is None
+    archive = Archive()
+    drives = [take("box_chase", seed=seed, decisions=60).episode for seed in range(40)]
+    for episode in drives:
+        archive.append(episode)
+    assert any(each.success for each in drives)
+    lucky = archive.best
+    assert lucky is not None
+    assert lucky.success
+    assert lucky.first.total == max(each.agents[0].total for each in drives if each.success)
+    archive.append(lucky.episode, "friend.episode")
+    assert archive.best is lucky
+
+
+def test_no_number_is_given_twice() -> None:
+    archive = Archive(keep=1000)
+    first = episodes(1)[0]
+    threads = [
+        threading.Thread(target=lambda: [archive.append(first) for _ in range(100)])
+        for _ in range(4)
+    ]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert [entry.number for entry in archive.entries] == list(range(1, 401))
