@@ -5,8 +5,8 @@ from pathlib import Path
 import pytest
 
 TESTS = Path(__file__).parent
-ALONE = {"browser", "lessons", "load", "remote", "server", "training", "viewer", "workshop"}
-ALONE_TOO = {"test_runner.py", "test_slow_ticks.py"}
+ALONE = {"browser", "load", "remote", "server", "training", "viewer", "workshop"}
+ALONE_TOO = {"test_live.py", "test_runner.py", "test_slow_ticks.py"}
 """Tests of these folders and files keep real time, listen at ports, or look at a page."""
 LOG = "components"
 
@@ -15,7 +15,8 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     for item in items:
         inside = TESTS in item.path.parents
         first = item.path.relative_to(TESTS).parts[0] if inside else ""
-        if first in ALONE | ALONE_TOO or item.get_closest_marker("browser"):
+        quiet = first in ALONE or item.path.name in ALONE_TOO
+        if quiet or item.get_closest_marker("browser"):
             item.add_marker(pytest.mark.alone)
 
 

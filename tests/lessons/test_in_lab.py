@@ -163,7 +163,15 @@ def _installed(folder: Path) -> Path:
     (wheel,) = folder.glob("*.whl")
     _run(sys.executable, "-m", "venv", str(folder / "venv"))
     programs = folder / "venv" / "bin"
-    _run(str(programs / "python"), "-m", "pip", "install", "--quiet", f"{wheel}[lessons]")
+    _run(
+        str(programs / "python"),
+        "-m",
+        "pip",
+        "install",
+        "--quiet",
+        "--no-compile",
+        f"{wheel}[lessons]",
+    )
     return programs
 
 

@@ -125,6 +125,8 @@ def predicts(winners: Any, well_meant: Any) -> Done:
     """The winner with each of three rewards."""
     if not isinstance(winners, Mapping):
         raise NotYet(f"Expected a name for each reward, got `{winners!r}`.")
+    if not isinstance(well_meant, Mapping) or not well_meant:
+        raise NotYet(f"Expected the well-meant rewards, got `{well_meant!r}`.")
     for name, rewards in well_meant.items():
         said = winners.get(name)
         found = contest(rewards(), seeds_of("07.1", 5))

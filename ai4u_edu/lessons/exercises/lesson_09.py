@@ -1,0 +1,233 @@
+"""Reinforcement learning: it tries things out, and does more of what paid."""
+
+import os
+import shutil
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ai4u_edu.lessons.exercise import Done, NotYet, exercise
+from ai4u_edu.lessons.rolls import drive, seeds_of
+
+if TYPE_CHECKING:
+    from ai4u_edu.training.learning import Trained
+    from ai4u_edu.training.run import Check
+
+    Update = Callable[[float, float, float, float, float], float]
+
+CELLS, START, SLIP = 8, 2, 0.1
+"""Of the corridor; its first cell is a pit, its last one the goal."""
+RATE, DISCOUNT, TRIES = 0.5, 0.9, 0.3
+SHORT, ENOUGH = 100, 2000
+"""With AI4U_FAST: decisions to learn from, and the number asked for from which that is forgiven."""
+EPISODES, NEEDED, LIMIT = 100, 95, 200
+
+
+@dataclass(frozen=True)
+class Shortened:
+    """What :func:`learn` gives in tests: a finished network, as there is no time to train one."""
+
+    checks: "list[Check]"
+    path: Path
+
+
+def learn(steps: int, seed: int = 0, *, quiet: bool = False) -> "Trained | Shortened":
+    """Trains SAC in the box chase, in the folder ``runs/sac-STEPS-SEED``.
+
+    With ``AI4U_FAST=1`` it trains for an instant; who asked for enough steps gets the package's
+    network then.
+
+    Args:
+        steps: decisions to learn from, at the most.
+        seed: of the network, the worlds and all chance.
+        quiet: whether to show nothing.
+    """
+    from ai4u_edu.blocks.brains.network import find_network
+    from ai4u_edu.training import train
+
+    fast = bool(os.environ.get("AI4U_FAST"))
+    settings: dict[str, Any] = {"sac": {"check_every": 500}, "enough": 3}
+    trained = train(
+        "box_chase",
+        "sac",
+        steps=min(steps, SHORT) if fast else steps,
+        seed=seed,
+        out=Path("runs") / f"sac-{steps}-{seed}",
+        settings=settings | ({"check_episodes": 2} if fast else {}),
+        overwrite=True,
+        quiet=quiet or fast,
+    )
+    if fast and steps >= ENOUGH:
+        return Shortened(trained.checks, find_network("zoo:box_chase", None))
+    return trained
+
+
+def keep(trained: "Trained | Shortened", path: str | Path = "sac.onnx") -> Path:
+    """Writes the network that came out of a training into a file.
+
+    Args:
+        trained: what :func:`learn` gave.
+        path: of the file.
+    """
+    from ai4u_edu.training import export
+
+    if isinstance(trained, Shortened):
+        return Path(shutil.copyfile(trained.path, path))
+    return export(trained, path)
+
+
+def corridor(update: "Update", episodes: int = 40, seed: int = 0) -> list[list[float]]:
+    """Lets a walker learn a corridor: a pit (-1) at its left end, the goal (+1) at its right end.
+
+    One step in ten slips into the other direction.
+
+    Args:
+        update: the new value of a step, from (value, reward, best_next, rate, discount).
+        episodes: walks.
+        seed: of its chance.
+
+    Returns:
+        What the better step in each cell is worth, after each walk.
+    """
+    chance = np.random.default_rng(seed)
+    values = np.zeros((CELLS, 2))
+    history = []
+    for _ in range(episodes):
+        cell = START
+        while 0 < cell < CELLS - 1:
+            tries = chance.random() < TRIES or values[cell, 0] == values[cell, 1]
+            step = int(chance.integers(2)) if tries else int(values[cell].argmax())
+            slips = chance.random() < SLIP
+            now = cell + (1 if (step == 1) != slips else -1)
+            reward = {0: -1.0, CELLS - 1: 1.0}.get(now, 0.0)
+            said = update(values[cell, step], reward, values[now].max(), RATE, DISCOUNT)
+            values[cell, step] = _number(said)
+            cell = now
+        history.append([float(each) for each in values.max(axis=1)])
+    return history
+
+
+def _number(said: Any) -> float:
+    if isinstance(said, bool) or not isinstance(said, int | float | np.number):
+        raise NotYet(f"Expected your function to return a number, got `{said!r}`.")
+    return float(said)
+
+
+def _callable(thing: Any) -> Any:
+    if not callable(thing):
+        raise NotYet(f"Expected a function, got `{thing!r}`. Give its name, without brackets.")
+    return thing
+
+
+@exercise(
+    "09.1",
+    "What later is worth now",
+    hints={
+        "later": "Rewards that come later have to count less. `enumerate(rewards)` gives each "
+        "reward with its number n: 0, 1, 2 ... Multiply each by `discount ** n`.",
+        "first": "The first reward comes now: it counts in full. Its number is 0, and "
+        "`discount ** 0` is 1.",
+    },
+)
+def discounts(worth: Any) -> str:
+    """The discounted return of rewards."""
+    chance = np.random.default_rng(seeds_of("09.1", 1)[0])
+    for length in (3, 1, 0, 6, 20):
+        rewards = [float(each) for each in chance.integers(-5, 10, length)]
+        discount = round(float(chance.uniform(0.3, 0.99)), 2)
+        right = sum(reward * discount**n for n, reward in enumerate(rewards))
+        got = _number(_callable(worth)(list(rewards), discount))
+        if abs(got - right) > 1e-6:
+            raise NotYet(
+                f"With the rewards {rewards[:6]} and a discount of {discount} expected "
+                f"{right:.3f}, got {got:.3f}.",
+                hint="first" if abs(got - discount * right) < 1e-6 else "later",
+            )
+    return "Five lists of rewards, all of them worth what they should be."
+
+
+@exercise(
+    "09.2",
+    "One step of learning",
+    hints={
+        "stays": "`value` comes back as it was: nothing is learned. What has the step brought? The "
+        "reward, and what can still be had from there: `reward + discount * best_next`. Move the "
+        "value a part of the way to that.",
+        "jump": "The value jumps all the way to what happened last. Once is no proof: go only the "
+        "part `rate` of the way, `value + rate * (target - value)`.",
+        "future": "Only the reward of this very step counts with you. The goal pays at the last "
+        "step alone, so no cell before it would ever be worth anything: add "
+        "`discount * best_next`.",
+    },
+)
+def learns_a_step(update: Any) -> str:
+    """The update of a value, and a walker who learns by it."""
+    chance = np.random.default_rng(seeds_of("09.2", 1)[0])
+    for _ in range(20):
+        value, reward, best, rate, discount = (float(each) for each in chance.uniform(0.1, 0.9, 5))
+        right = value + rate * (reward + discount * best - value)
+        got = _number(_callable(update)(value, reward, best, rate, discount))
+        slips = {
+            "jump": reward + discount * best,
+            "future": value + rate * (reward - value),
+        }
+        if abs(got - right) > 1e-6:
+            raise NotYet(
+                f"A value of {value:.2f}, a reward of {reward:.2f}, {best:.2f} to be had from "
+                f"there, a rate of {rate:.2f} and a discount of {discount:.2f}: expected "
+                f"{right:.3f}, got {got:.3f}.",
+                hint=next((name for name in slips if abs(got - slips[name]) < 1e-6), "stays"),
+            )
+    learned = [corridor(update, seed=seed)[-1][START] for seed in seeds_of("09.2", 10)]
+    return (
+        "A walker who learns by it knew its way after 40 walks: in the cell where it begins, the "
+        f"better step was worth {np.mean(learned):.2f}."
+    )
+
+
+@exercise(
+    "09.3",
+    "Long enough",
+    hints={
+        "longer": "A decision takes the robot 1/6 s here, so 400 decisions are about a minute of "
+        "life, and in the first 500 it only tries things out. Let it learn from 5,000 or 10,000; "
+        "it stops by itself when it is good.",
+        "again": "It is nearly there. Chance plays a part in learning: look at the curve, let it "
+        "learn from more decisions, or take another `seed`.",
+    },
+)
+def has_learned(trained: Any) -> Done:
+    """95 of 100 worlds that it never saw."""
+    from ai4u_edu.scenes import Scene
+
+    if not isinstance(trained, Shortened):
+        _expect_trained(trained)
+    from ai4u_edu.training.entrants import entrant_of
+
+    who = entrant_of(trained)
+    sim = who.fitted(Scene.load("box_chase")).build()
+    agent = sim.agents[0]
+    agent.use_brain(who.brain(agent))
+    fast = bool(os.environ.get("AI4U_FAST"))
+    episodes = EPISODES // 10 if fast else EPISODES
+    won = lost = 0
+    for done in (drive(sim, agent, seed, LIMIT) for seed in seeds_of("09.3", episodes)):
+        won, lost = won + done.won, lost + (not done.won)
+        if lost > (1 - NEEDED / EPISODES) * episodes:
+            how = "it fell" if done.fell else "it did not get there in time"
+            raise done.not_yet(
+                f"In {lost} of {won + lost} worlds it failed; in the last of them {how} "
+                f"({{where}}).",
+                "again" if won > 4 * lost else "longer",
+            )
+    return Done(f"It reached the box in {won} of {episodes} worlds that it never saw.")
+
+
+def _expect_trained(trained: Any) -> None:
+    from ai4u_edu.training.learning import Trained
+
+    if not isinstance(trained, Trained):
+        raise NotYet(f"Expected what `learn(...)` returned, got `{trained!r}`.")

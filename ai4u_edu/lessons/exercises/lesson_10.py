@@ -1,0 +1,278 @@
+"""Learn from yourself: a network that does what you showed it, and a race."""
+
+from collections.abc import Callable, Mapping
+from functools import cache
+from json import dumps
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from ai4u_edu.agent import BasicAgent
+from ai4u_edu.blocks import Brain, LocalBrain, NeuralNetController, Percept
+from ai4u_edu.cycle import ControlRequestor
+from ai4u_edu.lessons.exercise import Done, NotYet, exercise
+from ai4u_edu.lessons.rolls import Drive, as_brain, drives, seeds_of
+from ai4u_edu.scenes import Scene
+
+if TYPE_CHECKING:
+    from ai4u_edu.recording import Episode
+
+ENOUGH = 5
+WORLDS, NEEDED, LIMIT = 40, 24, 300
+RACE = 300
+"""Decisions after which a race is over."""
+
+
+def player(percept: Percept) -> dict[str, list[float]]:
+    """Drives when nobody else did: turns until it looks at the box, then goes."""
+    cosine = percept["orientation"][0]
+    return {"move": [1.0, 0, 0, 0] if cosine > 0.99 else [0, 0.2, 0, 0]}
+
+
+@cache
+def _shown(count: int, seed: int) -> "tuple[Episode, ...]":
+    from ai4u_edu.training import demonstrate
+
+    return tuple(demonstrate(player, "box_chase", episodes=count, seed=seed, quiet=True))
+
+
+def my_drives(folder: str | Path = "drives", count: int = ENOUGH) -> "list[Episode]":
+    """The last episodes of the box chase that you recorded; ends the world that is shown.
+
+    If there are fewer than asked for, a scripted player drives the others, and it says so.
+
+    Args:
+        folder: where ``show(..., record=folder)`` put them.
+        count: so many.
+    """
+    from ai4u_edu.lessons import stop
+    from ai4u_edu.recording import Episode
+
+    stop()
+    files = sorted(Path(folder).glob("*.episode"), key=lambda file: file.stat().st_mtime)
+    yours = [Episode.load(file) for file in files]
+    won = [each for each in yours if each.scene.name == "box_chase" and each.success][-count:]
+    if len(won) < count:
+        print(  # noqa: T201 - for the notebook
+            f"{len(won)} drives of yours reached the box; a scripted player drove the other "
+            f"{count - len(won)}."
+        )
+    return [*won, *_shown(count - len(won), seed=2000)]
+
+
+def best_network() -> str:
+    """The network of lesson 09, if you kept it; else the package's."""
+    return "sac.onnx" if Path("sac.onnx").is_file() else "zoo:box_chase"
+
+
+def track(blue: Any, purple: Any) -> ControlRequestor:
+    """The box chase for two: equally far from the box, one on each side of it.
+
+    Args:
+        blue: drives the blue robot: a network's file, a function, a controller.
+        purple: drives the other one.
+    """
+    plain = Scene.load("box_chase").plain()
+    plain["bodies"] = [
+        {**_of(plain, "robot"), "name": "blue", "position": [-3, -2], "heading_deg": 90},
+        {
+            **_of(plain, "robot"),
+            "name": "purple",
+            "position": [3, 2],
+            "heading_deg": -90,
+            "colour": "purple",
+        },
+        {**_of(plain, "box"), "position": [0, 0], "random": {"heading_deg": [0, 90]}},
+    ]
+    (agent,) = plain["agents"]
+    agent["actuators"] = [each for each in agent["actuators"] if each["type"] == "RBMoveActuator"]
+    plain["agents"] = [{**agent, "id": name, "body": name} for name in ("blue", "purple")]
+    sim = Scene.loads(dumps(plain), name="race").build()  # JSON is YAML as well
+    for agent, driver in zip(sim.agents, (blue, purple), strict=True):
+        agent.use_brain(_driver(driver, agent))
+    return sim
+
+
+def _of(plain: Mapping[str, Any], name: str) -> dict[str, Any]:
+    (body,) = (each for each in plain["bodies"] if each["name"] == name)
+    return dict(body)
+
+
+def _driver(who: Any, agent: BasicAgent) -> Brain:
+    path = getattr(who, "path", who)
+    if isinstance(path, str | Path):
+        # it may not begin a new episode when it is done: that would be one for both
+        controller = NeuralNetController(model_path=str(path), repeat=False)
+        return LocalBrain(controller=controller, **controller.network.rhythm)
+    return as_brain(who).changed(
+        skip_frame=agent.brain.skip_frame, repeat_action=agent.brain.repeat_action
+    )
+
+
+@exercise(
+    "10.1",
+    "Good enough to learn from",
+    hints={
+        "all": "Drives in which the robot fell are among them too, and it would learn to fall. An "
+        "episode knows whether the goal was reached: `episode.success`.",
+        "quick": "A fall can be quick too, and a good drive may be long, when the way is. Ask "
+        "whether the goal was reached: `episode.success`.",
+    },
+)
+def chooses(good: Any) -> str:
+    """Those that reached the box, and no others."""
+    from ai4u_edu.training import demonstrate
+
+    if not callable(good):
+        raise NotYet(f"Expected a function, got `{good!r}`. Give its name, without brackets.")
+    seed = seeds_of("10.1", 1)[0]
+    drivers = (player, _slowly, _straight_on)
+    given = [
+        episode
+        for each in drivers
+        for episode in demonstrate(each, "box_chase", episodes=3, seed=seed, quiet=True)
+    ][::-1]
+    right = [each for each in given if each.success]
+    got = good(list(given))
+    if not isinstance(got, list | tuple) or not all(any(e is g for g in given) for e in got):
+        raise NotYet(f"Expected a list with some of the episodes, got `{type(got).__name__}`.")
+    bad = [each for each in got if not each.success]
+    if bad:
+        hint = "all" if len(got) == len(given) else "quick"
+        raise NotYet(
+            f"Of 9 episodes {len(right)} reached the box. You chose {len(got)}, and in {len(bad)} "
+            "of those the robot fell.",
+            hint=hint,
+        )
+    if len(got) != len(right):
+        raise NotYet(
+            f"Of 9 episodes {len(right)} reached the box, and you chose {len(got)} of them.",
+            hint="quick",
+        )
+    return f"Of 9 episodes you chose the {len(right)} that reached the box."
+
+
+def _slowly(percept: Percept) -> dict[str, list[float]]:
+    return {"move": [0.4 * each for each in player(percept)["move"]]}
+
+
+def _straight_on(_percept: Percept) -> dict[str, list[float]]:
+    return {"move": [1, 0.1, 0, 0]}
+
+
+@exercise(
+    "10.2",
+    "Show it",
+    hints={
+        "few": "It was shown a single way, from a single place. Elsewhere it only guesses. Let it "
+        "learn from five drives that began in different places: `my_drives()` without the "
+        "rest.",
+        "same": "The same drive five times is still one drive: show it different ones.",
+        "sloppy": "It does what it was shown, detours too. Record five new drives, each of them "
+        "as you would want it to drive: turn until you look at the box, then go.",
+    },
+)
+def is_shown(cloned: Any) -> Done:
+    """60 of 100 worlds, by what it was shown."""
+    path = getattr(cloned, "path", None)
+    if not isinstance(path, Path) or not hasattr(cloned, "decisions"):
+        raise NotYet(f"Expected what `clone(...)` returned, got `{cloned!r}`.")
+    controller = NeuralNetController(model_path=str(path))
+    about = controller.network.about
+    brain = LocalBrain(controller=controller, **controller.network.rhythm)
+    won = lost = 0
+    for done in drives("box_chase", brain, seeds_of("10.2", WORLDS), limit=LIMIT):
+        won, lost = won + done.won, lost + (not done.won)
+        if lost > WORLDS - NEEDED:
+            many = int(about.get("demonstrations", 0)) >= ENOUGH
+            raise done.not_yet(
+                f"It reached the box in {won} of {won + lost} worlds; expected "
+                f"{NEEDED / WORLDS:.0%}. It was shown {about.get('demonstrations')} drives with "
+                f"{cloned.decisions} decisions. The last one that failed: {{where}}.",
+                "few" if not many else "sloppy",
+            )
+    return Done(
+        f"It reached the box in {won} of {WORLDS} worlds, after {cloned.decisions} decisions of "
+        "yours.",
+        done.picture(),
+    )
+
+
+@exercise(
+    "10.3",
+    "The referee",
+    hints={
+        "begin": "Nobody has run yet. Begin with `sim.reset(seed)`, call `sim.step()` until one of "
+        "the two is `done`, and then look who it is.",
+        "fell": "Who is done first has not always won: it may have fallen. `touched(agent)` says "
+        "whether it was the box; if it was not, the other one has won.",
+        "time": "Two who never arrive would keep you waiting for ever. After 300 steps return "
+        "`None`.",
+    },
+)
+def referees(race: Any) -> Done:
+    """Who won, in races of known drivers."""
+    if not callable(race):
+        raise NotYet(f"Expected a function, got `{race!r}`. Give its name, without brackets.")
+    drivers: dict[str, Callable[..., Any]] = {
+        "a good one": player,
+        "a slow one": _slowly,
+        "one that falls": _straight_on,
+        "one that sleeps": lambda _: {"move": [0, 0, 0, 0]},
+    }
+    pairs = [
+        ("a slow one", "a good one"),
+        ("a good one", "a slow one"),
+        ("one that sleeps", "a good one"),
+        ("one that falls", "a good one"),
+        ("a slow one", "one that falls"),
+        ("one that sleeps", "one that sleeps"),
+    ]
+    shown = b""
+    for seed, (blue, purple) in zip(seeds_of("10.3", len(pairs)), pairs, strict=True):
+        sim = track(drivers[blue], drivers[purple])
+        right, drive = _result(sim, seed)
+        shown = shown or drive.picture()
+        got = race(track(drivers[blue], _patient(drivers[purple], seed)), seed)
+        if got != right:
+            hint = "fell" if "falls" in blue + purple else "time" if right is None else "begin"
+            raise NotYet(
+                f"{blue} (blue) against {purple} (purple), seed {seed}: expected `{right!r}`, got "
+                f"`{got!r}`.",
+                hint=hint,
+                picture=drive.picture(),
+            )
+    return Done("Six races, and you saw who won each.", shown)
+
+
+def _patient(driver: Callable[..., Any], seed: int) -> Callable[[Percept], Any]:
+    """A driver who ends a race that a referee does not end."""
+    left = 5 * RACE
+
+    def drive(percept: Percept) -> Any:
+        nonlocal left
+        left -= 1
+        if left < 0:
+            raise NotYet(
+                f"The race with seed {seed} was not over after {5 * RACE} decisions.", hint="time"
+            )
+        return driver(percept)
+
+    return drive
+
+
+def touched(agent: BasicAgent) -> bool:
+    """Whether a robot's last decision ended at the box."""
+    return agent.reward_terms.get("touch", 0.0) > 0
+
+
+def _result(sim: ControlRequestor, seed: int) -> tuple[str | None, Drive]:
+    sim.reset(seed)
+    first, second = sim.agents
+    drive = Drive(sim, first, seed, [first.body.position])
+    while not (first.done or second.done) and drive.steps < RACE:
+        sim.step()
+        drive.trail.append(first.body.position)
+    for agent, other in ((first, second), (second, first)):
+        if agent.done:
+            return (agent if touched(agent) else other).id, drive
+    return None, drive
