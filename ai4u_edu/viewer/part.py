@@ -6,6 +6,10 @@ from typing import Protocol
 from ai4u_edu.snapshot import Snapshot, Stage
 from ai4u_edu.viewer.complaints import Complaints
 
+MOST = 0.2
+"""The share of the time that one part may take: with a hundred agents, or as many pages, what takes
+long is drawn less often, and all else is as smooth as ever."""
+
 
 class Part(Protocol):
     """Something that is drawn."""
@@ -18,7 +22,9 @@ class Part(Protocol):
 
 
 class Paced:
-    """Draws a part so many times a second at most. A picture that lacks it is better than none.
+    """Draws a part so many times a second at most, and less often if it takes long.
+
+    A picture that lacks it is better than none.
 
     Args:
         part: what is drawn.
@@ -30,7 +36,7 @@ class Paced:
         self._part = part
         self._period = 1 / rate
         self._complaints = complaints
-        self._drawn_at = 0.0
+        self._drawn_at = self._took = 0.0
         self._ready = False
 
     def build(self, stage: Stage) -> None:
@@ -44,7 +50,8 @@ class Paced:
         """Shows a snapshot, if that is due."""
         now = time.monotonic()
         # pictures come when the world has ticked: a bit early is better than a tick late
-        if self._ready and now - self._drawn_at >= 0.8 * self._period:
+        if self._ready and now - self._drawn_at >= max(0.8 * self._period, self._took / MOST):
             self._drawn_at = now
             with self._complaints.caught():
                 self._part.draw(snapshot)
+            self._took = time.monotonic() - now

@@ -4,7 +4,7 @@ Text keeps a contrast of 4.5 or more on its ground, light and dark; what colours
 or by words as well.
 """
 
-MOST_OF_THE_TIME = "23em"
+MOST_OF_THE_TIME = "25em"
 """So high the upper panel is at most: the tabs below it get the rest."""
 
 _COLOURS = """

@@ -6,21 +6,29 @@ import time
 from ai4u_edu.runner import Runner
 from ai4u_edu.snapshot import Snapshot, Stage
 from ai4u_edu.viewer.actions import Actions
-from ai4u_edu.viewer.agent_panel import AgentPanel
+from ai4u_edu.viewer.agent_html import AgentWriter
+from ai4u_edu.viewer.agent_tab import AgentTab
 from ai4u_edu.viewer.bodies import Bodies
 from ai4u_edu.viewer.complaints import Complaints
 from ai4u_edu.viewer.controls import Controls
 from ai4u_edu.viewer.framing import FIELD_OF_VIEW, frame
+from ai4u_edu.viewer.gaze import Gaze
+from ai4u_edu.viewer.ghosts import Ghosts
 from ai4u_edu.viewer.ground import Ground
+from ai4u_edu.viewer.inspector import blocks_tab
 from ai4u_edu.viewer.labels import Labels
 from ai4u_edu.viewer.light import light
 from ai4u_edu.viewer.local_server import LocalServer
+from ai4u_edu.viewer.onlooker import Onlookers
+from ai4u_edu.viewer.page_controls import PageControls
 from ai4u_edu.viewer.part import Paced, Part
+from ai4u_edu.viewer.past import past
+from ai4u_edu.viewer.past_projector import Projector
+from ai4u_edu.viewer.payments import REMEMBERED
 from ai4u_edu.viewer.placing import seen_bounds
-from ai4u_edu.viewer.rays import Rays
-from ai4u_edu.viewer.remote_lines import RemoteLines
-from ai4u_edu.viewer.spots import Spots
-from ai4u_edu.viewer.view import View
+from ai4u_edu.viewer.tabs import TabKind, Tabs
+from ai4u_edu.viewer.world_tab import world_tab
+from ai4u_edu.workshop import State, Workshop
 
 PANEL_WIDTH = 320
 """Pixels."""
@@ -41,12 +49,16 @@ class Viewer:
     Args:
         runner: whose world is drawn.
         title: what the panel is called.
+        workshop: has the world changed; left out, it can be watched only.
     """
 
-    def __init__(self, runner: Runner, *, title: str = "AI4U Edu") -> None:
+    def __init__(
+        self, runner: Runner, *, title: str = "AI4U Edu", workshop: Workshop | None = None
+    ) -> None:
         self.runner = runner
         self.server = server = LocalServer(title)
-        self._views: dict[int, View] = {}
+        self._title = title
+        self._onlookers = onlookers = Onlookers(server, first=runner.sim.agents[0].id)
         self._stage: Stage | None = None
         self._complaints = Complaints()
         self._stopping = threading.Event()
@@ -55,18 +67,27 @@ class Viewer:
         server.gui.main_panel.dock_right()
         server.gui.main_panel.set_width(PANEL_WIDTH)
         light(server.scene)
-        panel = AgentPanel(server, first=runner.sim.agents[0].id)
-        rays = Rays(server, panel.watched)
+        writer = AgentWriter()
+        kinds = [
+            TabKind("Agent", lambda onlooker: AgentTab(onlooker, runner, writer)),
+        ]
+        if workshop is not None:
+            kinds += [blocks_tab(workshop), world_tab(workshop)]
+            workshop.listeners.append(self._rename)
+        self._projector, self.ghosts = Projector(runner), Ghosts(server)
+        if runner.recorder is not None:
+            kinds.append(past(runner, self._projector, self.ghosts))
         parts: list[tuple[Part, float]] = [
+            (onlookers, FRAMES),
             (Ground(server), 1),
-            (Bodies(server, panel.choose), FRAMES),
+            (Bodies(server, self._choose), FRAMES),
             (Labels(server), FRAMES),
-            (rays, 30),
-            (Spots(server, panel.watched), 30),
+            (self.ghosts, 30),
+            (Gaze(onlookers), 30),
             (Actions(server), 30),
-            (Controls(server, runner, self._views, rays, panel), 8),
-            (panel, 8),
-            (RemoteLines(server, runner), 2),
+            (Controls(server, runner, onlookers), 8),
+            (PageControls(onlookers), 8),
+            (Tabs(onlookers, kinds, self._complaints), 8),
         ]
         self._parts = [Paced(part, rate, self._complaints) for part, rate in parts]
         self._draw(runner.latest)
@@ -85,7 +106,15 @@ class Viewer:
         self._stopping.set()
         if self._thread.is_alive():
             self._thread.join()
+        self._projector.stop()
         self.server.stop()
+
+    def _rename(self, state: State) -> None:
+        """Another scene has another title."""
+        title = state.description.title or state.description.name
+        if title != self._title:
+            self._title = title
+            self.server.gui.set_panel_label(title)
 
     def _run(self) -> None:
         seen = self.runner.latest
@@ -93,20 +122,21 @@ class Viewer:
             seen = self.runner.wait(seen, IDLE)
             began = time.monotonic()
             with self._complaints.caught():
-                self._meet_clients()
-                if self._views or seen.stage is not self._stage:
+                self._onlookers.meet()
+                if self._onlookers or seen.stage is not self._stage:
                     self._draw(seen)
             spent = time.monotonic() - began
-            self._stopping.wait(max((PAUSE if self._views else IDLE) - spent, 0.001))
+            self._stopping.wait(max((PAUSE if self._onlookers else IDLE) - spent, 0.001))
 
-    def _meet_clients(self) -> None:
-        clients = self.server.get_clients()
-        for gone in self._views.keys() - clients.keys():
-            del self._views[gone]
-        for new in clients.keys() - self._views.keys():
-            self._views[new] = View(clients[new])
+    def _choose(self, client_id: int, body: str) -> None:
+        """On one page, looks at the agent with that body."""
+        onlooker, stage = self._onlookers.get(client_id), self._stage
+        if onlooker is not None and stage is not None and body in stage.agent_of:
+            onlooker.agent = stage.agent_of[body]
 
     def _draw(self, snapshot: Snapshot) -> None:
+        for agent in self.runner.sim.agents:
+            agent.ledger.remember(REMEMBERED)
         with self.server.atomic():
             if snapshot.stage is not self._stage:
                 self._stage = snapshot.stage
@@ -115,9 +145,9 @@ class Viewer:
                     part.build(snapshot.stage)
             for part in self._parts:
                 part.draw(snapshot)
-        for view in tuple(self._views.values()):
+        for onlooker in self._onlookers.values():
             with self._complaints.caught():
-                view.update(snapshot)
+                onlooker.view.update(snapshot, onlooker.agent)
 
     def _aim(self, stage: Stage) -> None:
         """Tells pages that are about to open where to look until their shape is known."""

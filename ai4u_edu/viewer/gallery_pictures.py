@@ -1,0 +1,73 @@
+"""The library's scenes as pictures, to choose one by what it looks like."""
+
+import base64
+import io
+from functools import cache
+from html import escape
+from typing import NamedTuple
+
+from PIL import Image
+
+from ai4u_edu.drawing import draw
+from ai4u_edu.scenes import Scene
+from ai4u_edu.snapshot import picture_of
+
+LONGEST = 144
+"""Pixels of a picture's longer side: twice what is shown, for sharp screens."""
+COLOURS = 32
+"""In a picture: there are few in a scene, and so a file has two kB or three."""
+
+
+class Card(NamedTuple):
+    """A scene of the library."""
+
+    name: str
+    title: str
+    goal: str
+    png: bytes
+    """What it looks like from above when an episode begins."""
+
+    @property
+    def html(self) -> str:
+        """The picture, and the words beside it; a button comes to lie over it."""
+        image = f"data:image/png;base64,{base64.b64encode(self.png).decode()}"
+        return (
+            f'<div class="ai4u card"><img src="{image}" alt=""><div><b>{escape(self.title)}</b>'
+            f"<br><small>{escape(self.goal)}</small></div></div>"
+        )
+
+
+STYLE = """<style>
+.ai4u-banners {display: none}
+.ai4u.card {display: flex; gap: .9em; align-items: center; height: 5.6em; margin: 0 0 .5em;
+  padding: 0 .6em; border: 1px solid var(--line); border-radius: 6px; overflow: hidden}
+.ai4u.card img {flex: 0 0 72px; width: 72px; height: 62px; object-fit: contain}
+.ai4u.card small {display: -webkit-box; -webkit-box-orient: vertical; -webkit-line-clamp: 3;
+  overflow: hidden; line-height: 1.3}
+.ai4u.card br {display: none}
+div:has(> .ai4u.card) + div {margin: -4.98em 0 .9em !important; padding: 0 !important}
+div:has(> .ai4u.card) + div button {height: 4.48em !important; padding: 0; opacity: 1;
+  background: none; border: 2px solid transparent; color: transparent}
+div:has(> .ai4u.card) + div button:hover, div:has(> .ai4u.card) + div button:focus-visible
+  {background: none; border-color: var(--mantine-primary-color-filled)}
+</style>"""
+"""Lays the button that follows a card over it, so that the picture is what is clicked on; what hangs
+over the picture of the world is out of the way meanwhile."""
+
+
+@cache
+def card(name: str) -> Card:
+    """A scene of the library; drawn once, which takes a moment."""
+    scene = Scene.load(name)
+    sim = scene.build()
+    sim.reset(1)
+    picture = Image.fromarray(draw(picture_of(sim), longest=LONGEST))
+    out = io.BytesIO()
+    picture.quantize(COLOURS).save(out, "PNG", optimize=True)
+    about = scene.description
+    return Card(name, about.title or name, about.goal, out.getvalue())
+
+
+def cards() -> list[Card]:
+    """All scenes of the library, by title."""
+    return sorted((card(name) for name in Scene.names()), key=lambda each: each.title.lower())
