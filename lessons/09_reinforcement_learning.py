@@ -88,7 +88,9 @@ plot(
 # After each step it knows more. The step brought a `reward`, and now it stands in another cell, from
 # which, as far as it knows, `best_next` can be had. So the step was worth
 #
-# $$\text{target} = \text{reward} + \text{discount} \cdot \text{best next}$$
+# ```python
+# target = reward + discount * best_next
+# ```
 #
 # Its old `value` was something else. But once is no proof, for example because it may have slipped. So it
 # moves the value only a part of the way to the target; the **learning rate** says which part.
@@ -170,7 +172,7 @@ plot(
 
 # %%
 keep(trained, "sac.onnx")
-film("box_chase", trained_brain("sac.onnx"), seed=5, limit=100)
+film("box_chase", trained_brain("sac.onnx"), seed=7, limit=100)
 
 # %%
 print(evaluate("sac.onnx", "box_chase", episodes=10, quiet=True))

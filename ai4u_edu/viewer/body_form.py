@@ -56,18 +56,24 @@ class BodyForm:
             self.apply = gui.add_button("Apply", color="blue")
         self.apply.on_click(on_apply)
 
-    def takes(self, body: BodyDescription | None) -> bool:
-        """Shows a body as it is now, if it is still the one whose form this is."""
+    def takes(self, body: BodyDescription | None, *, anew: bool) -> bool:
+        """Shows a body as it is now, if it is still the one whose form this is.
+
+        Args:
+            body: the one that is to be shown.
+            anew: whether all that a person wrote was handed in; else what is in the boxes stays,
+                but for what has changed meanwhile.
+        """
         if body is None or body.name != self.body.name:
             return False
-        if body == self.body:
+        if body == self.body and not anew:
             return True
         others = fields(body)
         if [each.name for each in others] != [each.name for each in self.fields]:
             return False
         for old, new in zip(self.fields, others, strict=True):
-            if old.value != new.value:  # what a person has just written elsewhere stays
-                box: Any = self.boxes[new.name]
+            box: Any = self.boxes[new.name]
+            if anew or old.value != new.value:
                 box.value = new.shown
         self.body, self.fields = body, others
         self.explain(())

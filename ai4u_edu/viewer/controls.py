@@ -1,5 +1,6 @@
 """The main panel: what the time does, and what a person can ask of it; the same on all pages."""
 
+import asyncio
 from typing import Any, TypeVar
 
 from viser import GuiButtonGroupHandle, GuiDropdownHandle, GuiEvent, GuiInputHandle
@@ -17,6 +18,8 @@ SPEEDS = {speed_name(speed): speed for speed in (0.1, 0.25, 0.5, 1.0, 2.0, 4.0, 
 """What can be chosen; 1 is real time."""
 RUNNING = ("Pause", "Tick", "Decision", "Reset")
 PAUSED = ("Resume", *RUNNING[1:])
+LATE = 0.15
+"""Seconds by which the last digit may come after the Enter: pages send numbers not so often."""
 
 
 class Controls:
@@ -88,6 +91,7 @@ class Controls:
             ask(event.client, self._runner.scale_time(speed))
 
     async def _on_seed(self, event: GuiEvent[Any]) -> None:
+        await asyncio.sleep(LATE)
         ask(event.client, self._runner.reset(int(self._seed.value)))
 
 

@@ -39,20 +39,22 @@ class Card(NamedTuple):
 
 STYLE = """<style>
 .ai4u-banners {display: none}
-.ai4u.card {display: flex; gap: .9em; align-items: center; height: 5.6em; margin: 0 0 .5em;
+.ai4u.card {display: flex; gap: .9em; align-items: center; height: 68px; margin: 0 0 8px;
   padding: 0 .6em; border: 1px solid var(--line); border-radius: 6px; overflow: hidden}
 .ai4u.card img {flex: 0 0 72px; width: 72px; height: 62px; object-fit: contain}
 .ai4u.card small {display: -webkit-box; -webkit-box-orient: vertical; -webkit-line-clamp: 3;
   overflow: hidden; line-height: 1.3}
 .ai4u.card br {display: none}
-div:has(> .ai4u.card) + div {margin: -4.98em 0 .9em !important; padding: 0 !important}
-div:has(> .ai4u.card) + div button {height: 4.48em !important; padding: 0; opacity: 1;
+div:has(> .ai4u.card) + div {margin: -76px 0 6px !important; padding: 0 !important}
+div:has(> .ai4u.card) + div button {height: 68px !important; padding: 0;
   background: none; border: 2px solid transparent; color: transparent}
 div:has(> .ai4u.card) + div button:hover, div:has(> .ai4u.card) + div button:focus-visible
   {background: none; border-color: var(--mantine-primary-color-filled)}
 </style>"""
-"""Lays the button that follows a card over it, so that the picture is what is clicked on; what hangs
-over the picture of the world is out of the way meanwhile."""
+"""Lays the button that follows a card over it, so that the picture is what is clicked on.
+
+Nothing else hangs over the picture of the world meanwhile.
+"""
 
 
 @cache

@@ -38,7 +38,7 @@ INK: Rgb = rgb("vermillion")
 BOX = prism([(0.5, 0.5), (-0.5, 0.5), (-0.5, -0.5), (0.5, -0.5)], 1.0, 0.0)
 
 
-class _Grip(NamedTuple):
+class Grip(NamedTuple):
     """How a hand holds a body."""
 
     name: str
@@ -73,7 +73,8 @@ class Handles:
         scene = onlooker.client.scene
         self._root, self._mark_root = Root(scene, "handles"), Root(scene, "chosen")
         self._lock = threading.Lock()
-        self._grip: _Grip | None = None
+        self.grip: Grip | None = None
+        """The body that is held just now."""
         self._goal: tuple[float, float, float | None] | None = None
         self._asked: Future[None] | None = None
         self._bodies: tuple[BodyDescription, ...] = ()
@@ -189,31 +190,33 @@ class Handles:
             if name:
                 x, y, _ = event.start_position
                 state = self._states[name]
-                self._take(_Grip(name, state.x - x, state.y - y, turns=False))
+                self._take(Grip(name, state.x - x, state.y - y, turns=False))
                 self._on_choose(name)
         self._follow(event)
 
     async def _on_turn(self, event: SceneNodeDragEvent[BatchedMeshHandle]) -> None:
         if event.phase == "start" and self._marked is not None:
             state = self._states[self._marked.name]
-            self._take(_Grip(state.name, state.x, state.y, turns=True))
+            self._take(Grip(state.name, state.x, state.y, turns=True))
         self._follow(event)
 
     def _name(self, index: int | None) -> str:
         bodies = self._bodies
         return bodies[index].name if index is not None and 0 <= index < len(bodies) else ""
 
-    def _take(self, grip: _Grip) -> None:
+    def _take(self, grip: Grip) -> None:
         with self._lock:
-            self._grip, self._goal = grip, None
+            self.grip, self._goal = grip, None
 
     def _follow(self, event: SceneNodeDragEvent[Any]) -> None:
         with self._lock:
-            grip = self._grip
+            grip = self.grip
             x, y, _ = event.end_position
-            if grip is None or not math.isfinite(x + y):
+            if grip is None:
                 return
-            if grip.turns:
+            if not math.isfinite(x + y):
+                pass  # a page may say what it likes: the body stays where it was last
+            elif grip.turns:
                 degrees = math.degrees(math.atan2(y - grip.y, x - grip.x))
                 self._goal = grip.x, grip.y, STEP * round(degrees / STEP)
             else:
@@ -227,12 +230,12 @@ class Handles:
         """Has a body that is held go where the hand is; also when only the world moved it."""
         with self._lock:
             idle = self._asked is None or self._asked.done()
-            if self._grip is not None and self._goal is not None and idle:
-                self._asked = self._workshop.carry(self._grip.name, *self._goal)
+            if self.grip is not None and self._goal is not None and idle:
+                self._asked = self._workshop.carry(self.grip.name, *self._goal)
 
     def _let_go(self) -> None:
         with self._lock:
-            grip, goal, self._grip = self._grip, self._goal, None
+            grip, goal, self.grip = self.grip, self._goal, None
             if grip is None or goal is None:
                 return
             future = self._workshop.move_body(grip.name, *goal)

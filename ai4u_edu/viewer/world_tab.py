@@ -52,6 +52,7 @@ class WorldTab:
         self._chosen, self._message, self._is_wrong = "", "", False
         self._problems: tuple[Problem, ...] | None = None
         self._form: BodyForm | None = None
+        self._is_applied = False
         self._seen: tuple[object, ...] = ()
         self._latest: Snapshot | None = None
         self.gallery = Gallery(onlooker.client, self._open)
@@ -87,6 +88,8 @@ class WorldTab:
         self.handles.draw(snapshot, self._chosen, on=self.moves.value)
         unsaved = workshop.unsaved
         seen = (workshop.version, self._chosen, self._message, unsaved)
+        if self._is_applied:
+            self._seen = ()
         if seen != self._seen:
             self._seen = seen
             self._show()
@@ -128,7 +131,8 @@ class WorldTab:
         self.said.content = block("<br>".join(line for line in lines if line))
 
     def _show_form(self, body: BodyDescription | None) -> None:
-        if self._form is not None and not self._form.takes(body):
+        anew, self._is_applied = self._is_applied, False
+        if self._form is not None and not self._form.takes(body, anew=anew):
             self._form.remove()
             self._form = None
         if body is not None and self._form is None:
@@ -245,7 +249,7 @@ class WorldTab:
             if error is None:
                 outcome = done.result()
                 self._chosen = self._chosen if then is None else then
-                self._problems = ()
+                self._problems, self._is_applied = (), self._is_applied or of_form
                 self._tell(f"{outcome.label}: {outcome}" if outcome.label else str(outcome))
             else:
                 if of_form and isinstance(error, ChangeError):

@@ -274,7 +274,7 @@ def test_the_tabs_have_most_of_the_panel_and_the_time_stays_in_sight(page: Page)
 def test_on_a_phone_it_is_all_there_in_the_sheet(server: Played, chromium: Browser) -> None:
     page = opened(chromium, server, 390, 844)
     expect(page.get_by_role("button", name="Decision")).not_to_be_in_viewport()  # it folds itself
-    page.get_by_text("Box chase").click()
+    page.get_by_text("Box chase").first.click()
     expect(page.get_by_role("button", name="Decision")).to_be_in_viewport()
     page.get_by_text(re.compile("^Agent( ·|$)")).click()
     page.get_by_text("Senses", exact=True).scroll_into_view_if_needed()

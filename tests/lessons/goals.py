@@ -43,7 +43,10 @@ GOALS: dict[str, Callable[[], bytes]] = {
     "13": lambda: solved("13.2"),
     "15": lambda: solved("15.2"),
     "07": lambda: solved("07.2"),
-    "09": lambda: way("box_chase", trained_brain("zoo:box_chase"), seed=5),
+    "08": lambda: solved("08.2"),
+    "09": lambda: way("box_chase", trained_brain("zoo:box_chase"), seed=7),
+    "10": lambda: solved("10.3"),
+    "11": lambda: solved("11.2"),
 }
 
 

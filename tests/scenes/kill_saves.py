@@ -14,7 +14,7 @@ from pathlib import Path
 
 from ai4u_edu.scenes import Scene
 
-PADDING = 900_000
+PADDING = 280_000
 """Characters by which a scene is longer, so that to write it takes a while."""
 SAVER = """
 import sys

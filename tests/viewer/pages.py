@@ -62,8 +62,8 @@ class Page:
     def submit(self, form: Any) -> None:
         self.say("GuiFormSubmitMessage", uuid=form._impl.uuid)
 
-    def click(self, node: str, instance: int | None) -> None:
-        """Clicks on a thing in the scene."""
+    def click(self, node: str, instance: int | None, owner: str = "") -> None:
+        """Clicks on a thing in the scene; an owner has those that are on one page only."""
         self.say(
             "SceneNodeClickMessage",
             name=node,
@@ -72,7 +72,7 @@ class Page:
             ray_direction=(0.0, 0.0, -1.0),
             screen_pos=(0.5, 0.5),
             modifier=None,
-            owner="",
+            owner=owner,
         )
 
     def _read(self) -> None:

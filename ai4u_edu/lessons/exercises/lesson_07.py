@@ -6,7 +6,6 @@ from typing import Any
 from ai4u_edu.agent import BasicAgent
 from ai4u_edu.blocks import (
     BearingSensor,
-    Controller,
     LocalBrain,
     OrientationSensor,
     Percept,
@@ -36,25 +35,24 @@ def _linger(percept: Percept) -> Action:
     return _steer(percept, 0.0 if percept["orientation"][1] < NEAR else 1.0)
 
 
-class _Dancer(Controller):
+def _dancer() -> Callable[[Percept], Action]:
     """To and fro before the box."""
-
     comes = True
 
-    def get_action(self, percept: Percept) -> Action:
+    def dance(percept: Percept) -> Action:
+        nonlocal comes
         away = percept["orientation"][1]
-        if away < NEAR:
-            self.comes = False
-        elif away > FAR:
-            self.comes = True
-        return _steer(percept, 1.0 if self.comes else -1.0)
+        comes = away > FAR or (comes and away >= NEAR)
+        return _steer(percept, 1.0 if comes else -1.0)
+
+    return dance
 
 
 TEMPERS: dict[str, Callable[[], Any]] = {
     "runner": lambda: _steer,
     "stroller": lambda: lambda percept: _steer(percept, 0.4),
     "lingerer": lambda: _linger,
-    "dancer": _Dancer,
+    "dancer": _dancer,
     "sleeper": lambda: lambda _: {"move": [0, 0, 0, 0]},
     "jumper": lambda: lambda _: {"move": [1, 0, 0, 0]},
 }

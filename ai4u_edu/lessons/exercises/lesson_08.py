@@ -1,0 +1,197 @@
+"""Remote control: a script drives a robot that is somewhere else."""
+
+import math
+from collections import deque
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from json import dumps
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ai4u_edu.agent import BasicAgent
+from ai4u_edu.blocks import (
+    BearingSensor,
+    FallReward,
+    LocalBrain,
+    Percept,
+    RBMoveActuator,
+    TouchRewardFunc,
+)
+from ai4u_edu.cycle import ControlRequestor
+from ai4u_edu.envs.spaces_of import outputs_of
+from ai4u_edu.lessons.exercise import Done, NotYet, exercise
+from ai4u_edu.lessons.rolls import Drive, drives, seeds_of
+from ai4u_edu.lessons.worlds import plate
+from ai4u_edu.scenes import Scene
+
+if TYPE_CHECKING:
+    from ai4u_edu.remote import Robot
+
+LIMIT = 300
+PATIENCE = 20_000
+"""Milliseconds for which the world waits for an action."""
+LAG = 3
+"""Decisions, of 1/12 s each."""
+SCENES = ("box_chase", "line_follow", "parking")
+
+
+@contextmanager
+def served(sim: ControlRequestor) -> "Iterator[Robot]":
+    """A robot of a world that is served on this machine, in lockstep and as fast as it goes."""
+    from ai4u_edu.remote import connect
+    from ai4u_edu.runner import Runner
+    from ai4u_edu.server import Rules, ServerThread, room_app
+
+    runner = Runner(sim, time_scale=math.inf)
+    # a machine that is busy with thirty students' checks may keep a script waiting
+    rules = Rules(receive_timeout=PATIENCE)
+    app = room_app(runner, viser_port=1, title="exercise", rules=rules)
+    runner.start()
+    try:
+        with ServerThread(app) as server, connect(server.url, mode="lockstep") as robot:
+            yield robot
+    finally:
+        runner.stop()
+
+
+def late(controller: Callable[[Any], Any], lag: int = LAG) -> ControlRequestor:
+    """A robot on a plate with a box, whose driver gets percepts that are some decisions old.
+
+    Args:
+        controller: the driver.
+        lag: so many decisions.
+    """
+    seen: deque[Percept] = deque(maxlen=lag + 1)
+
+    def drive(percept: Percept) -> Any:
+        if agent.steps == 0:
+            seen.clear()
+        seen.append(percept)
+        return controller(seen[0])
+
+    agent = BasicAgent(
+        body="robot",
+        sensors=[BearingSensor(target="box")],
+        actuators=[RBMoveActuator(move_amount=3, turn_amount=6)],
+        rewards=[
+            TouchRewardFunc(target="box", reward=1, cause_episode_to_end=True),
+            FallReward(),
+        ],
+        brains=[LocalBrain(controller=drive)],
+    )
+    return ControlRequestor(plate(), [agent], success="touch")
+
+
+def _callable(thing: Any) -> Any:
+    if not callable(thing):
+        raise NotYet(f"Expected a function, got `{thing!r}`. Give its name, without brackets.")
+    return thing
+
+
+def _short(name: str) -> ControlRequestor:
+    """A scene whose episodes end soon, whatever a script does."""
+    plain = Scene.load(name).plain()
+    plain["agents"][0]["max_steps_per_episode"] = LIMIT
+    return Scene.loads(dumps(plain), name=name).build()  # JSON is YAML as well
+
+
+@exercise(
+    "08.1",
+    "A script drives",
+    hints={
+        "loop": "One action is one decision, 1/12 s. Go on until the episode is over: "
+        "`for percept in robot:`, and in the loop one `robot.act(move=...)`.",
+        "look": 'It acts again and again, but never looks. `percept["orientation"][0]` is the '
+        "cosine of the direction to the box: turn until it is above 0.99, then go.",
+    },
+)
+def drives_from_afar(script: Any) -> Done:
+    """A script in three worlds that are served."""
+    drive = _callable(script)
+    sim = _short("box_chase")
+    agent = sim.agents[0]
+    with served(sim) as robot:
+        for seed in seeds_of("08.1", 3):
+            robot.reset(seed=seed)
+            done = Drive(sim, agent, seed, [agent.body.position])
+            drive(robot)
+            percept = robot.percept if robot.percept and robot.percept.done else robot.sense()
+            if percept.reward_terms.get("touch", 0.0) <= 0:
+                how = (
+                    f"The robot's episode ended without the box, after {percept.step} decisions"
+                    if percept.done
+                    else f"Your script ended after {percept.step} decisions, before the episode did"
+                )
+                raise NotYet(
+                    f"{how} (seed {seed}).",
+                    hint="look" if percept.done else "loop",
+                    picture=done.picture(),
+                )
+            done.trail.append(agent.body.position)
+    return Done("Over the network it found the box, in three worlds.", done.picture())
+
+
+@exercise(
+    "08.2",
+    "Late news",
+    hints={
+        "fast": "It turns on what was true a quarter of a second ago, and by then it looks "
+        "elsewhere. Turn less for the same sine, and drive more slowly: late news is less wrong "
+        "about a slow robot.",
+    },
+)
+def copes_with_lag(careful: Any) -> Done:
+    """Twenty worlds with percepts that are a quarter of a second old."""
+    worlds = 20
+    drive_late = _callable(careful)
+    for done in drives(lambda: late(drive_late), None, seeds_of("08.2", worlds), limit=LIMIT):
+        if not done.won:
+            how = "fell" if done.fell else "did not get there in time"
+            raise done.not_yet(
+                f"With percepts {LAG} decisions old the robot {how} ({{where}}).",
+                "fast",
+            )
+    return Done(
+        f"A quarter of a second late, and it found the box in {worlds} worlds.", done.picture()
+    )
+
+
+@exercise(
+    "08.3",
+    "A robot that you don't know",
+    hints={
+        "ask": "Robots differ: this one takes another number of numbers, or another range. Ask it: "
+        "`robot.spaces.action.high` are the highest numbers that it takes.",
+        "full": "The robot takes that, but it is not full power: each number should be the highest "
+        "that its range allows.",
+    },
+)
+def asks_the_robot(full_power: Any) -> str:
+    """Robots of three scenes."""
+    ask = _callable(full_power)
+    for name in SCENES:
+        sim = _short(name)
+        (output,) = outputs_of(sim.agents[0])
+        with served(sim) as robot:
+            robot.reset()
+            high = np.ravel(robot.spaces.action.high)  # type: ignore[attr-defined]
+            try:
+                got = np.array(ask(robot), float).ravel()
+            except (TypeError, ValueError):
+                got = np.array([])
+            if got.shape != high.shape:
+                raise NotYet(
+                    f"The robot of `{name}` takes {len(high)} numbers, and got {len(got)}.",
+                    hint="ask",
+                )
+            if not np.allclose(got, high):
+                raise NotYet(
+                    f"For the robot of `{name}` full power is {high.tolist()}, and it got "
+                    f"{got.tolist()}.",
+                    hint="full",
+                )
+            robot.sense()
+            robot.act({output: got})
+            robot.sense()
+    return "Three different robots, each at full power."

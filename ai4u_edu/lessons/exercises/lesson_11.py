@@ -1,0 +1,297 @@
+"""The network inside: what goes in, what comes out, and nothing but numbers in between."""
+
+from collections.abc import Mapping, Sequence
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from ai4u_edu.agent import BasicAgent
+from ai4u_edu.blocks import (
+    BearingSensor,
+    FallReward,
+    LocalBrain,
+    NeuralNetController,
+    Percept,
+    RBMoveActuator,
+    Sensor,
+    TouchRewardFunc,
+    trained_brain,
+)
+from ai4u_edu.cycle import ControlRequestor
+from ai4u_edu.errors import BlockError
+from ai4u_edu.extras import need
+from ai4u_edu.lessons.exercise import Done, NotYet, exercise
+from ai4u_edu.lessons.rolls import drives, seeds_of
+from ai4u_edu.lessons.worlds import plate
+from ai4u_edu.scenes import Scene
+
+Array = npt.NDArray[np.float64]
+Layer = tuple[Array, Array]
+
+ZOO = "zoo:box_chase"
+CLOSE = 1e-4
+
+
+def layers_of(path: str = ZOO) -> list[Layer]:
+    """The weights (outputs, inputs) and the biases (outputs,) of each layer of a network.
+
+    Args:
+        path: of a network such as PPO's: layers one after the other.
+    """
+    need("train", "onnx")
+    import onnx
+    from onnx import numpy_helper
+
+    graph = onnx.load(str(NeuralNetController(model_path=path).network.path)).graph
+    numbers = {each.name: numpy_helper.to_array(each) for each in graph.initializer}
+    return [
+        (np.array(numbers[node.input[1]], float), np.array(numbers[node.input[2]], float))
+        for node in graph.node
+        if node.op_type == "Gemm"
+    ]
+
+
+def inputs_of(percept: Mapping[str, Any], path: str = ZOO) -> Array:
+    """All that a network reads of a percept as one row of numbers, in its order."""
+    ports = NeuralNetController(model_path=path).network.inputs
+    return np.concatenate([np.ravel(percept[port.name]) for port in ports]).astype(float)
+
+
+def first_percept(seed: int = 1) -> Percept:
+    """What the robot of the box chase senses first."""
+    sim = Scene.load("box_chase").build()
+    sim.reset(seed)
+    return sim.agents[0].percept
+
+
+def decide(percept: Mapping[str, Any], **changes: Any) -> list[float]:
+    """What the network of the box chase does about a percept: forward, turn, jump, forward jump.
+
+    Args:
+        percept: as the robot senses it.
+        changes: readings that are different, such as ``orientation=[-1, 0.2]``.
+    """
+    network = NeuralNetController(model_path=ZOO).network
+    (action,) = network.decide({**percept, **changes}).values()
+    return [float(each) for each in action]
+
+
+def by_hand(weights: Any, bias: Any) -> ControlRequestor:
+    """A robot on a plate that is driven by two neurons: forward and turn.
+
+    Args:
+        weights: two rows (forward, turn) of two numbers (sine, cosine of the direction to the box).
+        bias: two numbers.
+    """
+    w, b = _array(weights, (2, 2), "weights"), _array(bias, (2,), "bias")
+
+    def drive(percept: Percept) -> dict[str, list[float]]:
+        forward, turn = np.tanh(w @ np.asarray(percept["bearing"]) + b)
+        return {"move": [float(forward), float(turn), 0, 0]}
+
+    agent = BasicAgent(
+        body="robot",
+        sensors=[BearingSensor(target="box")],
+        actuators=[RBMoveActuator(move_amount=2, turn_amount=3)],
+        rewards=[
+            TouchRewardFunc(target="box", reward=1, cause_episode_to_end=True),
+            FallReward(),
+        ],
+        brains=[LocalBrain(controller=drive)],
+    )
+    return ControlRequestor(plate(), [agent], success="touch")
+
+
+def put_to(sensors: Sequence[Sensor]) -> ControlRequestor:
+    """A robot on a plate with these sensors, driven by the network of the box chase."""
+    agent = BasicAgent(
+        body="robot",
+        sensors=list(sensors),
+        actuators=[RBMoveActuator(move_amount=5, turn_amount=5)],
+        rewards=[
+            TouchRewardFunc(target="box", reward=1, cause_episode_to_end=True),
+            FallReward(),
+        ],
+        brains=[trained_brain(ZOO)],
+    )
+    return ControlRequestor(plate(), [agent], success="touch")
+
+
+def _array(given: Any, shape: tuple[int, ...], name: str) -> Array:
+    try:
+        found = np.array(given, float)
+    except (TypeError, ValueError):
+        found = np.array(np.nan)
+    if found.shape != shape or not np.isfinite(found).all():
+        rows = "two rows of two numbers" if len(shape) == 2 else f"{shape[0]} numbers"
+        raise NotYet(f"`{name}`: expected {rows}, got `{given!r}`.")
+    return found
+
+
+def _callable(thing: Any) -> Any:
+    if not callable(thing):
+        raise NotYet(f"Expected a function, got `{thing!r}`. Give its name, without brackets.")
+    return thing
+
+
+@exercise(
+    "11.1",
+    "One neuron",
+    hints={
+        "sum": "Multiply each input by its weight, and add all that up: "
+        "`sum(w * x for w, x in zip(weights, inputs))`. Then the bias, then `math.tanh`.",
+        "bias": "The bias is added once, to the sum, before `math.tanh`.",
+        "squash": "The sum itself can be any number. A neuron's output lies between -1 and 1: "
+        "`math.tanh(...)` of the whole.",
+    },
+)
+def is_a_neuron(neuron: Any) -> str:
+    """One neuron's output."""
+    chance = np.random.default_rng(seeds_of("11.1", 1)[0])
+    for count in (2, 1, 5, 3, 8):
+        inputs, weights = chance.normal(size=(2, count)).round(2).tolist()
+        bias = round(float(chance.normal()), 2)
+        total = float(np.dot(inputs, weights))
+        got = _callable(neuron)(list(inputs), list(weights), bias)
+        if isinstance(got, bool) or not isinstance(got, int | float | np.number):
+            raise NotYet(f"Expected a number, got `{got!r}`.")
+        if abs(got - np.tanh(total + bias)) > CLOSE:
+            slips = {
+                "bias": (np.tanh(total), np.tanh(total) + bias),
+                "squash": (total + bias,),
+            }
+            near = (
+                name
+                for name, values in slips.items()
+                if any(abs(got - value) < CLOSE for value in values)
+            )
+            raise NotYet(
+                f"Inputs {inputs}, weights {weights}, bias {bias}: expected "
+                f"{np.tanh(total + bias):.3f}, got {got:.3f}.",
+                hint=next(near, "sum"),
+            )
+    return "Five neurons of different sizes, all of them right."
+
+
+@exercise(
+    "11.2",
+    "Two neurons by hand",
+    hints={
+        "begin": "All weights are 0, so whatever it senses, it does the same. Begin with the "
+        "forward neuron: a bias of 1 makes it drive, always. Then let the turn neuron look at the "
+        "sine.",
+        "mirrored": "It turns away from the box. The sine is above 0 when the box is on the left, "
+        "and turn above 0 is to the right: the weight between them has to be below 0.",
+    },
+)
+def drives_by_hand(weights: Any, bias: Any) -> Done:
+    """Weights with which two neurons find the box."""
+    worlds = 20
+    for done in drives(lambda: by_hand(weights, bias), None, seeds_of("11.2", worlds), limit=300):
+        if not done.won:
+            how = "fell" if done.fell else "did not get there"
+            away = _array(weights, (2, 2), "weights")[1, 0] > 0
+            raise done.not_yet(f"The robot {how} ({{where}}).", "mirrored" if away else "begin")
+    return Done(f"With six numbers it found the box in {worlds} worlds.", done.picture())
+
+
+@exercise(
+    "11.3",
+    "All of it",
+    hints={
+        "begin": "Go through the layers: `for weights, bias in layers`. What comes out of one goes "
+        "into the next: `signal = weights @ signal + bias`.",
+        "between": "Without `np.tanh` between the layers all of them together can do no more than "
+        "one. Squash what comes out of each layer but the last.",
+        "last": "The last layer is not squashed here: what it says is the action as it is. Leave "
+        "`np.tanh` out after it.",
+    },
+)
+def thinks(think: Any) -> Done:
+    """The whole network, and a robot that is driven by it."""
+    chance = np.random.default_rng(seeds_of("11.3", 1)[0])
+    for sizes in ((3, 4, 2), (2, 1), (5, 6, 4, 3), (126, 8, 4)):
+        layers = [
+            (chance.normal(size=(after, before)), chance.normal(size=after))
+            for before, after in pairwise(sizes)
+        ]
+        inputs = chance.normal(size=sizes[0])
+        right = _through(inputs, layers)
+        got = _numbers(_callable(think)(inputs.copy(), list(layers)), len(right))
+        if np.abs(got - right).max() > CLOSE:
+            slips = {
+                "between": _through(inputs, layers, between=False),
+                "last": _through(inputs, layers, last=True),
+            }
+            near = (name for name, each in slips.items() if np.abs(got - each).max() < CLOSE)
+            raise NotYet(
+                f"A network with {len(layers)} layers, {sizes[0]} inputs: expected "
+                f"{right.round(2).tolist()}, got {got.round(2).tolist()}.",
+                hint=next(near, "begin"),
+            )
+    layers = layers_of()
+
+    def drive(percept: Percept) -> dict[str, Any]:
+        return {"move": np.clip(think(inputs_of(percept), layers), [-1, -1, 0, 0], 1)}
+
+    brain = LocalBrain(controller=drive, skip_frame=9)
+    for done in drives("box_chase", brain, seeds_of("11.3", 5), limit=100):
+        if not done.won:
+            raise done.not_yet("With the weights of the box chase it did not get there ({where}).")
+    return Done("Your lines do what the network does, and drive to the box.", done.picture())
+
+
+def _through(
+    inputs: Array, layers: Sequence[Layer], *, between: bool = True, last: bool = False
+) -> Array:
+    signal = inputs
+    for number, (weights, bias) in enumerate(layers, 1):
+        signal = weights @ signal + bias
+        if last if number == len(layers) else between:
+            signal = np.tanh(signal)
+    return signal
+
+
+def _numbers(given: Any, count: int) -> Array:
+    try:
+        found = np.array(given, float).ravel()
+    except (TypeError, ValueError):
+        found = np.array([])
+    if len(found) != count:
+        raise NotYet(f"Expected {count} numbers, got `{given!r}`.")
+    return found
+
+
+@exercise(
+    "11.4",
+    "Sensors that fit",
+    hints={
+        "missing": "The message says which sensor is missing, and of which type it was. Add it to "
+        "the list, with the perception key that stands in quotes: `perception_key=...`.",
+        "shape": "A sensor has the right name, but gives another number of readings. The network's "
+        "inputs are (4, 2, 3, 5): 4 moments (`stacked_observations`), 2 numbers a ray (with "
+        "`return_distance`), 3 rows, 5 columns.",
+        "meaning": "The shapes fit, and yet it does not get there: the numbers mean something else "
+        "than they did when it learned.",
+    },
+)
+def fits(senses: Any) -> Done:
+    """Sensors with which the box chase's network finds the box."""
+    sensors = _callable(senses)()
+    if not isinstance(sensors, list | tuple) or not all(isinstance(s, Sensor) for s in sensors):
+        raise NotYet(f"Expected your function to return a list of sensors, got `{sensors!r}`.")
+    worlds = 10
+    lost = 0
+    try:
+        for done in drives(lambda: put_to(sensors), None, seeds_of("11.4", worlds), limit=100):
+            lost += not done.won
+            if lost > 1:
+                raise done.not_yet("It did not get to the box ({where}).", "meaning")
+    except BlockError as error:
+        hint = "shape" if "has the shape" in str(error) else "missing"
+        raise NotYet(f"It does not fit: {error}", hint=hint) from None
+    return Done(
+        f"It fits, and finds the box in {worlds - lost} of {worlds} worlds.", done.picture()
+    )

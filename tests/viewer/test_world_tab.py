@@ -1,0 +1,343 @@
+"""The tab for the world, on pages without a browser."""
+
+import time
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+from uuid import uuid4
+
+import pytest
+
+from ai4u_edu import Scene
+from ai4u_edu.snapshot import picture_of
+from ai4u_edu.viewer import Viewer
+from ai4u_edu.viewer.body_form import BodyForm
+from ai4u_edu.viewer.furnishing import THINGS, room_for
+from ai4u_edu.viewer.gallery_pictures import cards
+from ai4u_edu.viewer.world_tab import NOTHING, WorldTab
+from ai4u_edu.workshop.autosave import Unsaved
+from tests.viewer.pages import Page, page, shown, tabs_of, until
+from tests.workshop.shops import TEXT, Shop
+
+
+@pytest.fixture
+def shop() -> Iterator[Shop]:
+    shop = Shop()
+    shop.runner.pause()
+    shop.runner.start()
+    yield shop
+    shop.runner.stop()
+
+
+@pytest.fixture
+def viewer(shop: Shop) -> Iterator[Viewer]:
+    viewer = Viewer(shop.runner, workshop=shop.workshop)
+    yield viewer
+    viewer.stop()
+
+
+def tab_of(viewer: Viewer, number: int = 0) -> WorldTab:
+    shown(viewer)
+    return tabs_of(viewer, WorldTab)[number]
+
+
+def seen(viewer: Viewer, condition: Callable[[], Any]) -> None:
+    def drawn() -> Any:
+        shown(viewer)
+        return condition()
+
+    until(drawn)
+
+
+def moving(viewer: Viewer, here: Page, tab: WorldTab) -> None:
+    """Switches the handles on."""
+    here.change(tab.moves, True)
+    seen(viewer, lambda: tab.handles.node)
+
+
+def index(shop: Shop, name: str) -> int:
+    return [body.name for body in shop.scene.description.bodies].index(name)
+
+
+def drag(here: Page, tab: WorldTab, node: str, instance: int, *path: tuple[float, float]) -> None:
+    """Takes something up at the first place and lets go of it at the last."""
+    owner = tab._onlooker.client.scene._owner_id
+    phases = ["start", *["update"] * (len(path) - 1), "end"]
+    for phase, place in zip(phases, (*path, path[-1]), strict=True):
+        here.say(
+            "SceneNodeDragMessage",
+            phase=phase,
+            name=node,
+            instance_index=instance,
+            start_position=(*path[0], 1.0),
+            start_screen_pos=(0.5, 0.5),
+            end_position=(*place, 1.0),
+            end_screen_pos=(0.5, 0.5),
+            button="left",
+            modifier=None,
+            owner=owner,
+        )
+
+
+def chosen(viewer: Viewer, here: Page, tab: WorldTab, name: str) -> BodyForm:
+    here.change(tab.thing, name)
+    seen(viewer, lambda: tab._form is not None and tab._form.body.name == name)
+    assert tab._form is not None
+    return tab._form
+
+
+def applied(here: Page, form: BodyForm, **values: str) -> None:
+    for name, value in values.items():
+        box: Any = form.boxes[name]
+        here.change(box, value)
+        until(lambda: box.value == value)  # noqa: B023
+    here.press(form.apply)
+
+
+def upload(tab: WorldTab, here: Page, name: str, content: bytes) -> None:
+    transfer = str(uuid4())
+    here.say(
+        "FileTransferStartUpload",
+        source_component_uuid=tab.upload._impl.uuid,
+        transfer_uuid=transfer,
+        filename=name,
+        mime_type="application/yaml",
+        size_bytes=len(content),
+        part_count=1,
+    )
+    here.say(
+        "FileTransferPart",
+        source_component_uuid=tab.upload._impl.uuid,
+        transfer_uuid=transfer,
+        part_index=0,
+        content=content,
+    )
+
+
+def test_there_are_no_handles_until_they_are_asked_for(viewer: Viewer, shop: Shop) -> None:
+    with page(viewer) as here:
+        tab = tab_of(viewer)
+        assert tab.handles.node == ""
+        moving(viewer, here, tab)
+        here.change(tab.moves, False)
+        seen(viewer, lambda: tab.handles.node == "")
+
+
+def test_a_wall_is_dragged_while_the_time_stands_still(viewer: Viewer, shop: Shop) -> None:
+    with page(viewer) as here:
+        tab = tab_of(viewer)
+        moving(viewer, here, tab)
+        wall = index(shop, "wall")
+        drag(here, tab, tab.handles.node, wall, (-4.1, 1), (-3, 1), (-2.1, -1.5))
+        # it was taken up off its centre, and keeps to that
+        until(lambda: shop.workshop.can_undo == "move wall")
+        assert shop.world["wall"].position == pytest.approx((-2, -2.5))
+        seen(viewer, lambda: "move wall: it applies at once" in tab.said.content)
+        described = shop.workshop.state.description.bodies[wall]
+        assert described.position == pytest.approx((-2, -2.5))
+        assert tab.thing.value == "wall"
+        here.change(tab.changes, "Undo")
+        until(lambda: shop.world["wall"].position == (-4, 0))
+
+
+def test_where_it_can_not_stand_it_goes_back(viewer: Viewer, shop: Shop) -> None:
+    with page(viewer) as here:
+        tab = tab_of(viewer)
+        moving(viewer, here, tab)
+        drag(here, tab, tab.handles.node, index(shop, "wall"), (-4, 0), (-2, 0), (4, 0))
+        seen(viewer, lambda: "overlap" in tab.said.content)
+        assert shop.world["wall"].position == (-4, 0)
+        assert shop.workshop.can_undo == ""
+
+
+def test_the_knob_turns_what_was_chosen_in_steps(viewer: Viewer, shop: Shop) -> None:
+    with page(viewer) as here:
+        tab = tab_of(viewer)
+        moving(viewer, here, tab)
+        chosen(viewer, here, tab, "wall")
+        seen(viewer, lambda: tab.handles.knob)
+        assert tab.handles.knob is not None
+        drag(here, tab, tab.handles.knob.name, 0, (-3, 0), (-3.5, 0.4), (-3.98, 1.03))
+        until(lambda: shop.workshop.can_undo == "move wall")
+        assert shop.world["wall"].heading == pytest.approx(1.5707963)
+        assert shop.world["wall"].position == (-4, 0)
+
+
+def test_a_click_chooses(viewer: Viewer, shop: Shop) -> None:
+    with page(viewer) as here:
+        tab = tab_of(viewer)
+        moving(viewer, here, tab)
+        owner = tab._onlooker.client.scene._owner_id
+        here.click(tab.handles.node, index(shop, "box"), owner=owner)
+        seen(viewer, lambda: tab.thing.value == "box")
+        assert tab._form is not None
+        here.click(tab.handles.node, 77, owner=owner)
+        here.change(tab.thing, NOTHING)
+        seen(viewer, lambda: tab._form is None and tab.handles.knob is None)
+
+
+def test_a_page_can_drag_what_it_likes(viewer: Viewer, shop: Shop) -> None:
+    with page(viewer) as here:
+        tab = tab_of(viewer)
+        moving(viewer, here, tab)
+        before = shop.workshop.state
+        drag(here, tab, tab.handles.node, 99, (0, 0), (1, 1))
+        drag(here, tab, tab.handles.node, -1, (0, 0), (1, 1))
+        drag(here, tab, tab.handles.node, 2, (0, 0), (float("nan"), 1), (1, float("inf")))
+        until(lambda: tab.handles.grip is None)
+        for handle in (tab.thing, tab.new, tab.scene, tab.changes, tab.offered):
+            here.change(handle, "nonsense")
+        here.change(tab.moves, False)
+        seen(viewer, lambda: tab.handles.node == "")
+        shop.runner.submit(lambda: None).result(5)  # all that was asked for before is done
+        assert shop.workshop.state == before
+        assert shop.world["wall"].position == (-4, 0)
+
+
+def test_in_the_past_nothing_can_be_taken_up(viewer: Viewer, shop: Shop) -> None:
+    with page(viewer) as here:
+        tab = tab_of(viewer)
+        moving(viewer, here, tab)
+        tab.handles.draw(replace(shop.runner.latest, past="episode 1"), "wall", on=True)
+        assert tab.handles.node == ""
+
+
+@pytest.mark.parametrize("word", THINGS)
+def test_things_are_added_where_there_is_room(viewer: Viewer, shop: Shop, word: str) -> None:
+    with page(viewer) as here:
+        tab = tab_of(viewer)
+        name = shop.workshop.free_name(THINGS[word]["name"])
+        here.change(tab.new, word)
+        until(lambda: name in shop.world.bodies)
+        seen(viewer, lambda: tab._form is not None and tab._form.body.name == name)
+        assert tab.delete.label == f"Delete {name}"
+        assert tab.handles.node  # it can be dragged at once
+        here.press(tab.delete)
+        until(lambda: name not in shop.world.bodies)
+        seen(viewer, lambda: tab._form is None)
+        assert not tab.delete.visible
+
+
+def test_the_body_of_an_agent_stays(viewer: Viewer, shop: Shop) -> None:
+    with page(viewer) as here:
+        tab = tab_of(viewer)
+        chosen(viewer, here, tab, "robot")
+        here.press(tab.delete)
+        seen(viewer, lambda: "an agent needs its body" in tab.said.content)
+        assert "robot" in shop.world.bodies
+
+
+def test_a_form_changes_place_size_and_looks(viewer: Viewer, shop: Shop) -> None:
+    with page(viewer) as here:
+        tab = tab_of(viewer)
+        form = chosen(viewer, here, tab, "wall")
+        applied(here, form, x="-3,5", heading_deg="90")
+        seen(viewer, lambda: "move wall: it applies at once" in tab.said.content)
+        assert shop.world["wall"].position == (-3.5, 0)
+        seen(viewer, lambda: form.boxes["x"].value == "-3.5")
+        applied(here, form, length="0.5", width="3", colour="blue", label="gate", y="1")
+        seen(viewer, lambda: "change wall: it applies at once" in tab.said.content)
+        wall = shop.workshop.state.description.bodies[index(shop, "wall")]
+        assert wall.shape.model_dump() == {"type": "box", "size": (0.5, 3)}
+        assert (wall.colour, wall.label, wall.position) == ("blue", "gate", (-3.5, 1))
+        assert shop.world["wall"].position == (-3.5, 1)
+        here.change(tab.changes, "Undo")
+        seen(viewer, lambda: form.boxes["label"].value == "")
+        assert form.boxes["colour"].value == "(none)"
+
+
+def test_what_is_wrong_is_said_with_its_label(viewer: Viewer, shop: Shop) -> None:
+    with page(viewer) as here:
+        tab = tab_of(viewer)
+        form = chosen(viewer, here, tab, "wall")
+        applied(here, form, length="-1")
+        seen(viewer, lambda: "length (m): expected more than 0, got -1" in form._told.content)
+        applied(here, form, length="0.4", x="left")
+        seen(viewer, lambda: "x (m): expected a number" in form._told.content)
+        assert "&#x27;left&#x27;" in form._told.content
+        assert shop.workshop.can_undo == ""
+        applied(here, form, x="-4.5")
+        seen(viewer, lambda: not form._told.content)
+
+
+def test_the_gallery_has_a_picture_of_every_scene() -> None:
+    found = cards()
+    assert sorted(card.name for card in found) == Scene.names()
+    assert max(len(card.png) for card in found) < 10_000
+    assert len({card.png for card in found}) == len(found)
+    maze = next(card for card in found if card.name == "maze")
+    assert "Find the exit of the maze and touch it." in maze.html
+    assert "data:image/png;base64," in maze.html
+
+
+def test_a_scene_is_opened_from_the_gallery(viewer: Viewer, shop: Shop) -> None:
+    with page(viewer) as here:
+        tab = tab_of(viewer)
+        assert not tab.gallery.buttons  # made when it is asked for
+        here.change(tab.scene, "Choose a scene")
+        until(lambda: len(tab.gallery.buttons) == len(Scene.names()))
+        here.press(tab.gallery.buttons["maze"])
+        until(lambda: "exit" in shop.world.bodies)
+        assert not tab.gallery.buttons
+        seen(viewer, lambda: "exit" in tab.thing.options)
+        assert "<b>Maze</b>" in tab.said.content
+        here.change(tab.changes, "Undo")
+        until(lambda: "box" in shop.world.bodies)
+
+
+def test_a_scene_file_is_opened(viewer: Viewer, shop: Shop) -> None:
+    with page(viewer) as here:
+        tab = tab_of(viewer)
+        upload(tab, here, "mine.yaml", TEXT.replace("[4, 0]", "[3, 3]").encode())
+        until(lambda: shop.world["box"].position == (3, 3))
+
+
+@pytest.mark.parametrize(
+    ("content", "told"),
+    [
+        (TEXT.replace("radius: 0.5", "radius: -1").encode(), "mine.yaml, line 8"),
+        (b"name: !!python/object/apply:os.system ['true']", "mine.yaml, line 1"),
+        (b"\xff\xfe\x00", "expected a text file"),
+        (b"x" * 400_000, "expected at most"),
+    ],
+)
+def test_what_is_no_scene_is_refused(viewer: Viewer, shop: Shop, content: bytes, told: str) -> None:
+    with page(viewer) as here:
+        tab = tab_of(viewer)
+        before = shop.workshop.state
+        upload(tab, here, "mine.yaml", content)
+        seen(viewer, lambda: told in tab.said.content)
+        assert 'role="alert"' in tab.said.content
+        assert shop.workshop.state == before
+
+
+def test_what_was_left_is_offered_and_can_be_thrown_away(
+    viewer: Viewer, shop: Shop, tmp_path: Path
+) -> None:
+    text = TEXT.replace("[4, 0]", "[3, 3]")
+    shop.workshop.unsaved = Unsaved(tmp_path / "x", text, None, time.time())
+    with page(viewer) as here:
+        tab = tab_of(viewer)
+        assert tab.offered.visible
+        here.change(tab.offered, "Discard")
+        seen(viewer, lambda: not tab.offered.visible)
+        assert shop.world["box"].position == (4, 0)
+        shop.workshop.unsaved = Unsaved(tmp_path / "x", text, None, time.time())
+        seen(viewer, lambda: tab.offered.visible)
+        here.change(tab.offered, "Restore")
+        until(lambda: shop.world["box"].position == (3, 3))
+        seen(viewer, lambda: not tab.offered.visible)
+
+
+def test_room_is_found_beside_what_there_is_and_never_over_the_void() -> None:
+    sim = Scene.loads(TEXT).build()
+    sim.reset(1)
+    snapshot = picture_of(sim)
+    place = room_for(snapshot, THINGS["Disc"], 0, 0)
+    assert place is not None
+    assert 1.0 < abs(complex(*place)) < 2  # as near as the robot, at (0, 0), lets it be
+    far = room_for(snapshot, THINGS["Disc"], 5.9, 5.9)
+    assert far is not None
+    assert max(far) < 5.5  # the plate ends at 6
+    assert room_for(snapshot, THINGS["Disc"], 100, 0) is None
