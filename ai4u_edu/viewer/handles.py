@@ -150,7 +150,7 @@ class Handles:
             brush = Brush(scene, f"{root}/frame")
             rim = circle(KNOB * unit, corners=24)
             knob = brush.batch("knob", prism(rim, KNOB * unit, 0.0).moved(far, 0.0), [INK])
-            knob.batched_scales = np.ones(1)
+            knob.batched_scales = np.ones(1, np.float32)
             knob.on_drag(self._on_turn)
             self.knob = knob
 
