@@ -3,6 +3,8 @@
 import argparse
 from pathlib import Path
 
+from playwright.sync_api import Page
+
 from tests.playing import browser, played
 
 PICTURES = Path(__file__).parent / "pictures"
@@ -15,6 +17,7 @@ def main() -> None:
     parser.add_argument("--size", default="1280x800")
     parser.add_argument("--out", type=Path, default=PICTURES / "page.png")
     parser.add_argument("--dark", action="store_true")
+    parser.add_argument("--tab", default="Agent", help="Agent, Blocks, World or Past")
     options = parser.parse_args()
     width, height = map(int, options.size.split("x"))
     with played(options.scene, "--seed", "1") as server, browser() as chromium:
@@ -31,9 +34,31 @@ def main() -> None:
         page.wait_for_timeout(500)
         page.keyboard.down("KeyD")
         page.wait_for_timeout(300)
+        if options.tab != "Agent":
+            open_tab(page, options.tab)
+        page.wait_for_timeout(700)
         options.out.parent.mkdir(exist_ok=True)
         page.screenshot(path=options.out)
     print(options.out)
+
+
+def open_tab(page: Page, tab: str) -> None:
+    """Opens one of the lower tabs, and chooses the first thing in it; of the Past, a moment."""
+    for code in ("KeyW", "KeyD"):
+        page.keyboard.up(code)
+    if tab == "Past":
+        page.keyboard.press("KeyR")  # there is a past once an episode is over
+        page.wait_for_timeout(500)
+    page.get_by_role("tab", name=tab).click()
+    page.wait_for_timeout(2000)
+    page.locator(".mantine-Select-input:visible").last.click()
+    # the first option says what to do; of the Past, the second is the episode under way
+    page.get_by_role("option").nth(2 if tab == "Past" else 1).click()
+    page.wait_for_timeout(2000)
+    if tab == "Past":
+        for _ in range(12):
+            page.get_by_role("button", name="Step back").click()
+        page.wait_for_timeout(2000)
 
 
 if __name__ == "__main__":
