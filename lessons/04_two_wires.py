@@ -27,10 +27,10 @@ from ai4u_edu.lessons import check, film, hint, plot, progress, report, show, so
 def vehicle(wires, x=-5, y=2, heading_deg=0):
     """A vehicle with two eyes and two wheels, and a lamp in the middle."""
     world = World()
-    world.add_floor("plate", BoxShape(size=(24, 24)))
+    world.add_floor("plate", BoxShape(size=(16, 16)))
     shape = CircleShape(radius=0.5)
     world.add_body("vehicle", shape, position=(x, y), heading_deg=heading_deg)
-    world.add_body("lamp", CircleShape(radius=0.4), kind="static", tags=("lamp",))
+    world.add_body("lamp", CircleShape(radius=0.4), kind="static", tags=("lamp",), colour="yellow")
     agent = BasicAgent(
         body="vehicle",
         sensors=[

@@ -23,14 +23,14 @@ def _vehicle(wires: Any, seed: int) -> ControlRequestor:
     around, away = chance.uniform(-math.pi, math.pi), chance.uniform(4, 6)
     aside = math.radians(chance.uniform(20, 95)) * chance.choice([-1.0, 1.0])
     world = World()
-    world.add_floor("plate", BoxShape(size=(24, 24)))
+    world.add_floor("plate", BoxShape(size=(16, 16)))
     world.add_body(
         "vehicle",
         CircleShape(radius=0.5),
         position=(away * math.cos(around), away * math.sin(around)),
         heading_deg=math.degrees(around + math.pi + aside),
     )
-    world.add_body("lamp", CircleShape(radius=0.4), kind="static", tags=("lamp",))
+    world.add_body("lamp", CircleShape(radius=0.4), kind="static", tags=("lamp",), colour="yellow")
     agent = BasicAgent(
         body="vehicle",
         sensors=[
