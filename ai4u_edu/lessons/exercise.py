@@ -13,7 +13,7 @@ A lesson's exercises stand in ``exercises/lesson_03.py``::
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from importlib import import_module
-from typing import Any
+from typing import Any, cast
 
 from ai4u_edu.errors import SetupError, suggest
 
@@ -103,3 +103,14 @@ def find(exercise_id: Any) -> Exercise:
 def unfinished(thing: Any) -> bool:
     """Whether a student has put nothing yet where ``...`` stands."""
     return thing is ... or thing is None
+
+
+def a_function(thing: Any) -> Callable[..., Any]:
+    """What a student handed in, if it can be called.
+
+    Raises:
+        NotYet: it can't.
+    """
+    if not callable(thing):
+        raise NotYet(f"Expected a function, got `{thing!r}`. Give its name, without brackets.")
+    return cast("Callable[..., Any]", thing)

@@ -6,7 +6,7 @@ from typing import Any
 from ai4u_edu.agent import BasicAgent
 from ai4u_edu.blocks import BearingSensor, LocalBrain, OrientationSensor, RBMoveActuator
 from ai4u_edu.cycle import ControlRequestor
-from ai4u_edu.lessons.exercise import Done, NotYet, exercise
+from ai4u_edu.lessons.exercise import Done, NotYet, a_function, exercise
 from ai4u_edu.lessons.rolls import Drive, as_brain, drive, seeds_of
 from ai4u_edu.lessons.worlds import plate
 from ai4u_edu.world import Variation
@@ -16,8 +16,7 @@ DECISIONS_A_SECOND = 12
 
 def _number(made: Any, *given: float) -> int:
     """What a student's function says for some numbers."""
-    if not callable(made):
-        raise NotYet(f"Expected a function, got `{made!r}`. Give its name, without brackets.")
+    a_function(made)
     found = made(*given)
     shown = ", ".join(f"{each:g}" for each in given)
     if found is None or found is ...:

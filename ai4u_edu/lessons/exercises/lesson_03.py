@@ -17,7 +17,7 @@ from ai4u_edu.blocks import (
     TouchRewardFunc,
 )
 from ai4u_edu.cycle import ControlRequestor
-from ai4u_edu.lessons.exercise import Done, NotYet, exercise
+from ai4u_edu.lessons.exercise import Done, NotYet, a_function, exercise
 from ai4u_edu.lessons.pictures import picture
 from ai4u_edu.lessons.rolls import as_brain, drive, seeds_of
 from ai4u_edu.lessons.worlds import plate
@@ -71,8 +71,7 @@ def _same(one: Percept, other: Percept) -> bool:
 )
 def finds_the_twin(twin: Any) -> Done:
     """The other place of which the orientation is the same."""
-    if not callable(twin):
-        raise NotYet(f"Expected a function, got `{twin!r}`. Give its name, without brackets.")
+    a_function(twin)
     for x, y in ((3.0, 1.0), (2.0, -4.0), (-3.0, 2.5), (0.5, 3.0), (-4.0, -1.5)):
         given = twin(x, y)
         try:
@@ -163,8 +162,7 @@ def finds_by_turning(search: Any) -> Done:
 )
 def computes_the_angle(angle_to_box: Any) -> Done:
     """Degrees, from a sine and a cosine."""
-    if not callable(angle_to_box):
-        raise NotYet(f"Expected a function, got `{angle_to_box!r}`.")
+    a_function(angle_to_box)
     found: list[tuple[float, float]] = []
     for angle in (20, 75, -35, -80, 110, 160, -100, -170):
         turned = math.radians(angle)

@@ -11,6 +11,7 @@ from ai4u_edu.blocks import (
     LocalBrain,
     RayCastingSensor,
     RBMoveActuator,
+    RewardFunc,
     Sensor,
     TouchRewardFunc,
     TouchSensor,
@@ -26,13 +27,12 @@ ENOUGH = 6
 """Posts that have to be touched."""
 
 
-def _robot(brain: Brain, sensors: list[Sensor]) -> BasicAgent:
-    arrived = TouchRewardFunc(name="arrived", target="box", reward=1, cause_episode_to_end=True)
+def _robot(brain: Brain, sensors: list[Sensor], *rewards: RewardFunc) -> BasicAgent:
     return BasicAgent(
         body="robot",
         sensors=sensors,
         actuators=[RBMoveActuator(move_amount=2, turn_amount=3)],
-        rewards=[arrived] if any(isinstance(each, TouchSensor) for each in sensors[:1]) else [],
+        rewards=list(rewards),
         brains=[brain],
     )
 
@@ -78,14 +78,14 @@ def stays_on_the_plate(stroll: Any) -> Done:
     sim = ControlRequestor(world, [agent])
     agent.use_brain(brain)
     for seed in seeds_of("05.1", 10):
-        answers: dict[tuple[float, ...], tuple[float, ...]] = {}
+        turns: set[bool] = set()
 
-        def watch(done: Drive, answers: dict[Any, Any] = answers) -> None:
-            answers[tuple(done.agent.last_action.get("move", ()))] = done.agent.body.position
+        def watch(done: Drive, turns: set[bool] = turns) -> None:
+            turn = done.agent.last_action.get("move", (0.0, 0.0))[1]
+            if turn:
+                turns.add(turn > 0)
 
         done = drive(sim, agent, seed, 360, watch)
-        ways = [each for each in answers if each]
-        turns = {turn > 0 for _, turn, *_ in ways if turn}
         if done.fell:
             hint = "begin" if not turns else "brake" if len(turns) > 1 else "towards"
             raise done.not_yet("The robot fell off the plate ({where}).", hint)
@@ -167,7 +167,8 @@ def gets_around(machine: Any) -> Done:
         there = Variation(x=(3, 5), y=(-1, 1))
         world.add_body("box", BoxShape(size=(1, 1)), kind="static", tags=("target",), random=there)
         bumper = TouchSensor(target="wall", perception_key="bumper")
-        agent = _robot(as_brain(machine), [bumper, BearingSensor(target="box")])
+        arrived = TouchRewardFunc(name="arrived", target="box", reward=1, cause_episode_to_end=True)
+        agent = _robot(as_brain(machine), [bumper, BearingSensor(target="box")], arrived)
         sim = ControlRequestor(world, [agent])
         bumps: list[int] = []
 

@@ -5,7 +5,7 @@ from typing import Any
 from ai4u_edu.agent import BasicAgent
 from ai4u_edu.blocks import LocalBrain, Percept, RayCastingSensor, RBMoveActuator
 from ai4u_edu.cycle import ControlRequestor
-from ai4u_edu.lessons.exercise import Done, NotYet, exercise
+from ai4u_edu.lessons.exercise import Done, NotYet, a_function, exercise
 from ai4u_edu.lessons.rolls import drive
 from ai4u_edu.world import BoxShape, CircleShape, World
 
@@ -53,8 +53,7 @@ def _go(_: Percept) -> dict[str, list[float]]:
 )
 def computes_the_blind_way(blind_way: Any) -> Done:
     """Metres from one decision to the next."""
-    if not callable(blind_way):
-        raise NotYet(f"Expected a function, got `{blind_way!r}`.")
+    a_function(blind_way)
     for speed, skip_frame in ((2.0, 4), (3.0, 0), (1.0, 9), (4.0, 29), (2.5, 14)):
         sim = _runway(_go, skip_frame, speed=speed)
         done = drive(sim, sim.agents[0], 1, limit=1)
@@ -130,8 +129,7 @@ def is_lazy(skip_frame: Any) -> Done:
 )
 def keeps_a_diary(diary: Any) -> Done:
     """Begin, decisions, end."""
-    if not callable(diary):
-        raise NotYet(f"Expected a function, got `{diary!r}`.")
+    a_function(diary)
     for limit in (7, 3, 11):
         sim = _runway(_go, 4)
         agent = sim.agents[0].changed(max_steps_per_episode=limit)

@@ -20,7 +20,7 @@ from ai4u_edu.blocks import (
 )
 from ai4u_edu.cycle import ControlRequestor
 from ai4u_edu.envs.spaces_of import outputs_of
-from ai4u_edu.lessons.exercise import Done, NotYet, exercise
+from ai4u_edu.lessons.exercise import Done, NotYet, a_function, exercise
 from ai4u_edu.lessons.rolls import Drive, drives, seeds_of
 from ai4u_edu.lessons.worlds import plate
 from ai4u_edu.scenes import Scene
@@ -83,12 +83,6 @@ def late(controller: Callable[[Any], Any], lag: int = LAG) -> ControlRequestor:
     return ControlRequestor(plate(), [agent], success="touch")
 
 
-def _callable(thing: Any) -> Any:
-    if not callable(thing):
-        raise NotYet(f"Expected a function, got `{thing!r}`. Give its name, without brackets.")
-    return thing
-
-
 def _short(name: str) -> ControlRequestor:
     """A scene whose episodes end soon, whatever a script does."""
     plain = Scene.load(name).plain()
@@ -108,7 +102,7 @@ def _short(name: str) -> ControlRequestor:
 )
 def drives_from_afar(script: Any) -> Done:
     """A script in three worlds that are served."""
-    drive = _callable(script)
+    drive = a_function(script)
     sim = _short("box_chase")
     agent = sim.agents[0]
     with served(sim) as robot:
@@ -144,7 +138,7 @@ def drives_from_afar(script: Any) -> Done:
 def copes_with_lag(careful: Any) -> Done:
     """Twenty worlds with percepts that are a quarter of a second old."""
     worlds = 20
-    drive_late = _callable(careful)
+    drive_late = a_function(careful)
     for done in drives(lambda: late(drive_late), None, seeds_of("08.2", worlds), limit=LIMIT):
         if not done.won:
             how = "fell" if done.fell else "did not get there in time"
@@ -169,7 +163,7 @@ def copes_with_lag(careful: Any) -> Done:
 )
 def asks_the_robot(full_power: Any) -> str:
     """Robots of three scenes."""
-    ask = _callable(full_power)
+    ask = a_function(full_power)
     for name in SCENES:
         sim = _short(name)
         (output,) = outputs_of(sim.agents[0])

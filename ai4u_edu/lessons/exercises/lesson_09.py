@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ai4u_edu.lessons.exercise import Done, NotYet, exercise
+from ai4u_edu.lessons.exercise import Done, NotYet, a_function, exercise
 from ai4u_edu.lessons.rolls import drive, seeds_of
 
 if TYPE_CHECKING:
@@ -116,12 +116,6 @@ def _number(said: Any) -> float:
     return float(said)
 
 
-def _callable(thing: Any) -> Any:
-    if not callable(thing):
-        raise NotYet(f"Expected a function, got `{thing!r}`. Give its name, without brackets.")
-    return thing
-
-
 @exercise(
     "09.1",
     "What later is worth now",
@@ -139,7 +133,7 @@ def discounts(worth: Any) -> str:
         rewards = [float(each) for each in chance.integers(-5, 10, length)]
         discount = round(float(chance.uniform(0.3, 0.99)), 2)
         right = sum(reward * discount**n for n, reward in enumerate(rewards))
-        got = _number(_callable(worth)(list(rewards), discount))
+        got = _number(a_function(worth)(list(rewards), discount))
         if abs(got - right) > 1e-6:
             raise NotYet(
                 f"With the rewards {rewards[:6]} and a discount of {discount} expected "
@@ -169,7 +163,7 @@ def learns_a_step(update: Any) -> str:
     for _ in range(20):
         value, reward, best, rate, discount = (float(each) for each in chance.uniform(0.1, 0.9, 5))
         right = value + rate * (reward + discount * best - value)
-        got = _number(_callable(update)(value, reward, best, rate, discount))
+        got = _number(a_function(update)(value, reward, best, rate, discount))
         slips = {
             "jump": reward + discount * best,
             "future": value + rate * (reward - value),

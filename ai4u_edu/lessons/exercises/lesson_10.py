@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 from ai4u_edu.agent import BasicAgent
 from ai4u_edu.blocks import Brain, LocalBrain, NeuralNetController, Percept
 from ai4u_edu.cycle import ControlRequestor
-from ai4u_edu.lessons.exercise import Done, NotYet, exercise
+from ai4u_edu.lessons.exercise import Done, NotYet, a_function, exercise
 from ai4u_edu.lessons.rolls import Drive, as_brain, drives, seeds_of
 from ai4u_edu.scenes import Scene
 
@@ -128,8 +128,7 @@ def chooses(good: Any) -> str:
     """Those that reached the box, and no others."""
     from ai4u_edu.training import demonstrate
 
-    if not callable(good):
-        raise NotYet(f"Expected a function, got `{good!r}`. Give its name, without brackets.")
+    a_function(good)
     seed = seeds_of("10.1", 1)[0]
     drivers = (player, _slowly, _straight_on)
     given = [
@@ -223,8 +222,7 @@ def is_shown(cloned: Any) -> Done:
 )
 def referees(race: Any) -> Done:
     """Who won, in races of known drivers."""
-    if not callable(race):
-        raise NotYet(f"Expected a function, got `{race!r}`. Give its name, without brackets.")
+    a_function(race)
     drivers: dict[str, Callable[..., Any]] = {
         "a good one": player,
         "a slow one": _slowly,

@@ -22,7 +22,7 @@ from ai4u_edu.blocks import (
 from ai4u_edu.cycle import ControlRequestor
 from ai4u_edu.errors import BlockError
 from ai4u_edu.extras import need
-from ai4u_edu.lessons.exercise import Done, NotYet, exercise
+from ai4u_edu.lessons.exercise import Done, NotYet, a_function, exercise
 from ai4u_edu.lessons.rolls import drives, seeds_of
 from ai4u_edu.lessons.worlds import plate
 from ai4u_edu.scenes import Scene
@@ -130,12 +130,6 @@ def _array(given: Any, shape: tuple[int, ...], name: str) -> Array:
     return found
 
 
-def _callable(thing: Any) -> Any:
-    if not callable(thing):
-        raise NotYet(f"Expected a function, got `{thing!r}`. Give its name, without brackets.")
-    return thing
-
-
 @exercise(
     "11.1",
     "One neuron",
@@ -154,7 +148,7 @@ def is_a_neuron(neuron: Any) -> str:
         inputs, weights = chance.normal(size=(2, count)).round(2).tolist()
         bias = round(float(chance.normal()), 2)
         total = float(np.dot(inputs, weights))
-        got = _callable(neuron)(list(inputs), list(weights), bias)
+        got = a_function(neuron)(list(inputs), list(weights), bias)
         if isinstance(got, bool) or not isinstance(got, int | float | np.number):
             raise NotYet(f"Expected a number, got `{got!r}`.")
         if abs(got - np.tanh(total + bias)) > CLOSE:
@@ -219,7 +213,7 @@ def thinks(think: Any) -> Done:
         ]
         inputs = chance.normal(size=sizes[0])
         right = _through(inputs, layers)
-        got = _numbers(_callable(think)(inputs.copy(), list(layers)), len(right))
+        got = _numbers(a_function(think)(inputs.copy(), list(layers)), len(right))
         if np.abs(got - right).max() > CLOSE:
             slips = {
                 "between": _through(inputs, layers, between=False),
@@ -279,7 +273,7 @@ def _numbers(given: Any, count: int) -> Array:
 )
 def fits(senses: Any) -> Done:
     """Sensors with which the box chase's network finds the box."""
-    sensors = _callable(senses)()
+    sensors = a_function(senses)()
     if not isinstance(sensors, list | tuple) or not all(isinstance(s, Sensor) for s in sensors):
         raise NotYet(f"Expected your function to return a list of sensors, got `{sensors!r}`.")
     worlds = 10

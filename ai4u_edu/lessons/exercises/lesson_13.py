@@ -15,7 +15,7 @@ from ai4u_edu.blocks import (
     RBMoveActuator,
 )
 from ai4u_edu.cycle import ControlRequestor
-from ai4u_edu.lessons.exercise import Done, NotYet, exercise
+from ai4u_edu.lessons.exercise import Done, NotYet, a_function, exercise
 from ai4u_edu.lessons.rolls import Drive, as_brain, drive, seeds_of
 from ai4u_edu.world import BoxShape, CircleShape, Variation, World
 
@@ -117,8 +117,7 @@ def creature(controller: Any) -> ControlRequestor:
 )
 def computes_comfort(seconds: Any) -> Done:
     """Seconds until a level reaches 40."""
-    if not callable(seconds):
-        raise NotYet(f"Expected a function, got `{seconds!r}`.")
+    a_function(seconds)
     for level, loss in ((60.0, 4.0), (80.0, 2.0), (45.0, 0.5), (100.0, 3.0), (30.0, 2.0)):
         given = seconds(level, loss)
         try:
