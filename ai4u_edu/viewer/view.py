@@ -2,6 +2,7 @@
 
 import math
 import time
+from collections import deque
 from enum import StrEnum
 
 import numpy as np
@@ -48,6 +49,7 @@ class View:
         self._bounds: Bounds | None = None
         self._aspect = 0.0
         self._frame = Frame(0.0, 0.0, 1.0)
+        self._known: deque[Array] = deque(maxlen=4)
         self._has_arrived = False
         self._is_theirs = False
         self._followed = ""
@@ -123,12 +125,13 @@ class View:
     async def _on_report(self, camera: CameraHandle) -> None:
         """Finds out from what the page reports whether a person has moved the camera.
 
-        Until a pose that we sent has come back, the page may still speak of an older one.
+        A slow page may still speak of where the camera was before: until a pose that we sent has
+        come back, and, as a report is read while the camera is being put elsewhere, even later.
         """
         ours = np.array([self._frame.x, self._frame.y, self._frame.distance])
-        if np.allclose(camera.position, ours, rtol=1e-3, atol=1e-2):
+        if _same(camera.position, ours):
             self._has_arrived = True
-        elif self._has_arrived:
+        elif self._has_arrived and not any(_same(camera.position, each) for each in self._known):
             self._is_theirs = True
 
     def _leave_eye(self) -> None:
@@ -138,6 +141,7 @@ class View:
 
     def _put(self, wanted: Frame, up: tuple[float, float, float] = NORTH) -> None:
         camera, distance = self._client.camera, wanted.distance
+        self._known.append(camera.position)
         self._frame, self._has_arrived, self._is_theirs = wanted, False, False
         self._moved_at = time.monotonic()
         self._leave_eye()
@@ -171,3 +175,7 @@ class View:
                 camera.up_direction = up
             camera.position = centre + offset
             camera.look_at = centre
+
+
+def _same(place: Array, other: Array) -> bool:
+    return bool(np.allclose(place, other, rtol=1e-3, atol=1e-2))

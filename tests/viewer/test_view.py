@@ -107,6 +107,19 @@ def test_until_a_page_has_followed_its_old_place_counts_for_nothing(
     assert watched.camera.position == pytest.approx(place(whole(runner.latest, 500 / 800)))
 
 
+def test_a_report_that_comes_too_late_is_nobodys_move(watched: Watched, runner: Runner) -> None:
+    old, wide = place(whole(runner.latest)), place(whole(runner.latest, 1.6))
+    watched.view.update(runner.latest, "0")
+    watched.report(old)
+    watched.report(old, size=(1280, 800))
+    watched.view.update(runner.latest, "0")
+    watched.report(wide, size=(1280, 800))
+    watched.report(old, size=(1280, 800))
+    watched.report(wide, size=(390, 844))
+    watched.view.update(runner.latest, "0")
+    assert watched.camera.position == pytest.approx(place(whole(runner.latest, 390 / 844)))
+
+
 def test_another_arena_is_shown_whole_whoever_moved_the_camera(
     watched: Watched, runner: Runner
 ) -> None:
