@@ -3,8 +3,12 @@
 /** How long it may take to appear (ms). */
 const PATIENCE = 20_000;
 
+/** A wider window has no sheet, and asking for styles at each change costs it a tenth of a second. */
+const SMALL = "(max-width: 60em)";
+
 /** Folds the sheet once, if there is one; a tap on its handle opens it again. */
 export function foldSheet() {
+  if (!matchMedia(SMALL).matches) return;
   const observer = new MutationObserver(() => {
     const sheet = [...document.querySelectorAll("#root .mantine-Paper-root")].find((paper) => {
       const style = getComputedStyle(paper);

@@ -10,8 +10,6 @@ import numpy as np
 import numpy.typing as npt
 from viser import SceneApi
 
-from ai4u_edu.look import Rgb
-
 GAIN = 2.0
 """What a white surface that faces up sends out; more than 1, as the curve dims what is bright."""
 AMBIENT = 0.22
@@ -53,14 +51,8 @@ def light(scene: SceneApi) -> None:
     )
 
 
-def surface(colour: Rgb) -> Rgb:
-    """What colour a single mesh must be given (sRGB) to look like ``colour`` from above."""
-    red, green, blue = np.rint(255 * _encoded(_albedo(colour))).astype(int).tolist()
-    return red, green, blue
-
-
 def surfaces(colours: npt.ArrayLike) -> npt.NDArray[np.uint8]:
-    """The same for the (n, 3) colours of a batch, which the page takes as linear numbers."""
+    """What a batch must be given to look like the (n, 3) colours from above: linear numbers."""
     return np.rint(255 * _albedo(colours)).astype(np.uint8)
 
 
