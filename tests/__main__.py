@@ -25,8 +25,10 @@ CHECKS = {
     "ruff check": ["-m", "ruff", "check", "."],
     "mypy": ["-m", "mypy"],
     "imports": ["-c", LINT_IMPORTS],
-    # What needs the machine to itself (see conftest.py), then all else on every core.
-    "pytest alone": ["-m", "pytest", "-m", "alone"],
+    # What needs the machine to itself (see conftest.py), then all else on every core. The former
+    # looks at real pages in real time: what a machine's bad moment failed gets another chance, and
+    # the log names it.
+    "pytest alone": ["-m", "pytest", "-m", "alone", "--reruns", "2", "-r", "fER"],
     "pytest": ["-m", "pytest", "-m", "not alone", "-n", "auto"],
 }
 
@@ -54,7 +56,7 @@ def main() -> int:
             if for_pytest:  # a few tests, chosen by hand
                 return subprocess.call([str(python), "-m", "pytest", *for_pytest], cwd=ROOT)
             if "browser" in failed:
-                command = ["-m", "pytest", "-m", "alone and not browser"]
+                command = [*command, "-m", "alone and not browser"]
         if not passes(name, [str(python), *command]):
             failed.append(name)
     if failed:
