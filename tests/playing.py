@@ -71,7 +71,7 @@ def played(*args: str) -> Iterator[Played]:
 
 
 def _url(process: subprocess.Popen[str], told: list[str]) -> str:
-    deadline = time.monotonic() + 30
+    deadline = time.monotonic() + 90
     while time.monotonic() < deadline and process.poll() is None:
         found = re.search(r"http://\S+", "".join(told))
         if found:

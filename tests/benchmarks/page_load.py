@@ -1,0 +1,90 @@
+"""How long a page takes to load: ``python -m tests.benchmarks.page_load``.
+
+From the first byte asked for to the agent's senses in the panel, in a browser that has only just
+been started (nothing cached, nothing compiled), as a class does at the beginning of a lesson.
+What the browser's processes used of a processor is told too: other work on the machine changes it
+less.
+``--against CHECKOUT`` loads the page of another checkout in turns with this one's.
+"""
+
+import argparse
+import os
+import statistics
+import time
+from contextlib import ExitStack
+from pathlib import Path
+from typing import NamedTuple
+
+import psutil
+
+from tests.playing import browser, played
+
+ROOT = Path(__file__).resolve().parents[2]
+COUNT = """() => {
+    const find = WebGL2RenderingContext.prototype, link = find.linkProgram;
+    window.linked = 0;
+    find.linkProgram = function (...args) { window.linked++; return link.apply(this, args); };
+}"""
+
+
+class Load(NamedTuple):
+    """What it took until a fresh browser showed the senses."""
+
+    seconds: float
+    processor: float
+    programs: int
+    """How many the page had compiled for what it draws in 3D."""
+
+
+def used() -> float:
+    """Processor time of this script's children, in seconds."""
+    spent = 0.0
+    for child in psutil.Process().children(recursive=True):
+        if "chrom" in child.name():
+            times = child.cpu_times()
+            spent += times.user + times.system
+    return spent
+
+
+def load(url: str) -> Load:
+    """Loads it once."""
+    with browser() as chromium:
+        page = chromium.new_page(viewport={"width": 1280, "height": 800})
+        page.add_init_script(f"({COUNT})()")
+        began, before = time.perf_counter(), used()
+        page.goto(url, wait_until="commit")
+        page.locator(".ai4u.sense").first.wait_for(timeout=60_000)
+        took, spent = time.perf_counter() - began, used() - before
+        return Load(took, spent, int(page.evaluate("linked")))
+
+
+def main() -> None:
+    """Measures and prints."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--scene", default="box_chase")
+    parser.add_argument("--times", type=int, default=9)
+    parser.add_argument("--against", type=Path, metavar="CHECKOUT")
+    options = parser.parse_args()
+    folders = [ROOT] if options.against is None else [options.against.resolve(), ROOT]
+    with ExitStack() as stack:
+        urls = []
+        for folder in folders:
+            os.environ["PYTHONPATH"] = str(folder)
+            os.chdir(folder)
+            urls.append(stack.enter_context(played(options.scene)).url)
+        found = [[load(url) for url in urls] for _ in range(options.times)]
+    for folder, loads in zip(folders, zip(*found, strict=True), strict=True):
+        times = sorted(each.seconds for each in loads)
+        middle = statistics.median(each.processor for each in loads)
+        print(
+            f"{folder.name}: median {statistics.median(times):.2f} s, fastest {times[0]:.2f} s, "
+            f"{middle:.2f} s of a processor, {loads[-1].programs} programs"
+        )
+    if len(folders) == 2:
+        for name in ("seconds", "processor"):
+            ratios = [getattr(new, name) / getattr(old, name) for old, new in found]
+            print(f"{name}, median of the pairs' ratios: {statistics.median(ratios):.2f}")
+
+
+if __name__ == "__main__":
+    main()
