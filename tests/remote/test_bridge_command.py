@@ -54,13 +54,16 @@ def test_a_script_drives_and_ctrl_c_ends_the_bridge() -> None:
         own = room.sim.agents[0].brain
         url = room.url.replace("http", "ws", 1)
         with bridge(url, "--agent", "0", "--port", str(port), "--token", TOKEN) as process:
-            assert process.stdout is not None
-            assert process.stdout.readline() == (
-                f"no AI4U script listens at 127.0.0.1:{port} yet; start it\n"
-            )
-            log = run_script("steps.py", port, 20)["log"]
-            assert [each["steps"] for each in log] == list(range(1, 21))
-            process.send_signal(signal.SIGINT)
-            _, wrong = process.communicate(timeout=30)
+            try:
+                assert process.stdout is not None
+                assert process.stdout.readline() == (
+                    f"no AI4U script listens at 127.0.0.1:{port} yet; start it\n"
+                )
+                log = run_script("steps.py", port, 20)["log"]
+                assert [each["steps"] for each in log] == list(range(1, 21))
+                process.send_signal(signal.SIGINT)
+                _, wrong = process.communicate(timeout=30)
+            finally:
+                process.kill()
         assert (process.returncode, wrong) == (0, "")
         until(lambda: room.sim.agents[0].brain is own)
