@@ -25,6 +25,7 @@ from ai4u_edu.training.algorithms import THREADS
 from ai4u_edu.training.demonstrations import demonstrations
 from ai4u_edu.training.exporting import graph_of, inputs_of
 from ai4u_edu.training.meter import meter
+from ai4u_edu.training.rays import Rays
 from ai4u_edu.version import __version__
 
 LAYERS = (128, 128)
@@ -63,6 +64,7 @@ class Clone(nn.Module):  # type: ignore[misc]  # seen without its types
         layers: the hidden layers' sizes.
         levels: (r,) of a reading that is a whole number from 0 on, how many there are: each gets
             an input of its own, as the next row of a grid may be quite another place. Else 0.
+        rays: what is seen through them, in place of their bare readings.
     """
 
     def __init__(
@@ -71,10 +73,12 @@ class Clone(nn.Module):  # type: ignore[misc]  # seen without its types
         space: spaces.Space[Any],
         layers: Sequence[int] = LAYERS,
         levels: Sequence[int] = (),
+        rays: Sequence[Rays] = (),
     ) -> None:
         super().__init__()
         self.low: Tensor
         self.high: Tensor
+        self.rays = nn.ModuleList(rays)
         self._look_at(seen, levels)
         self.chooses = isinstance(space, spaces.Discrete)
         if isinstance(space, spaces.Discrete):
@@ -89,6 +93,7 @@ class Clone(nn.Module):  # type: ignore[misc]  # seen without its types
             )
         hidden: list[nn.Module] = []
         width = len(self.places) + len(self.wholes) * len(self.ladder)
+        width += sum(each.width for each in rays)
         for size in layers:
             hidden += [nn.Linear(width, size), nn.ReLU()]
             width = size
@@ -104,7 +109,10 @@ class Clone(nn.Module):  # type: ignore[misc]  # seen without its types
         spread = seen.std(axis=0)
         # what was always the same says nothing, and may not shout when it is another
         varied = (spread >= 1e-3) & (whole == 0)
-        places = np.flatnonzero(varied) if varied.any() or whole.any() else np.arange(len(spread))
+        for each in self.rays:
+            varied[np.concatenate([each.codes, each.distances])] = False
+        coded = whole.any() or len(self.rays)
+        places = np.flatnonzero(varied) if varied.any() or coded else np.arange(len(spread))
         self.register_buffer("places", torch.as_tensor(places))
         self.register_buffer("middle", torch.as_tensor(seen.mean(axis=0)[places]))
         self.register_buffer("spread", torch.as_tensor(np.where(varied, spread, 1.0)[places]))
@@ -128,6 +136,8 @@ class Clone(nn.Module):  # type: ignore[misc]  # seen without its types
         if len(self.wholes):
             each = seen[:, self.wholes].unsqueeze(2) == self.ladder
             scaled = torch.cat([scaled, each.to(torch.float32).flatten(1)], 1)
+        if len(self.rays):
+            scaled = torch.cat([scaled, *(each(seen) for each in self.rays)], 1)
         found: Tensor = self.layers(scaled)
         return found
 

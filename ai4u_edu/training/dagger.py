@@ -24,6 +24,7 @@ from ai4u_edu.training.algorithms import THREADS
 from ai4u_edu.training.cloning import BATCH, RATE, Clone, Floats, levels_of, write_network
 from ai4u_edu.training.evaluating import LONGEST
 from ai4u_edu.training.meter import meter
+from ai4u_edu.training.rays import rays_of
 from ai4u_edu.training.settings import DaggerSettings
 
 Drive = Callable[[Percept], Mapping[str, Any]]
@@ -55,6 +56,7 @@ class Lessons:
             "repeat_action": self.agent.brain.repeat_action,
         }
         self.levels = levels_of(self.agent)
+        self.rays = rays_of(self.agent)
         self.seen: list[Floats] = []
         self.said: list[Floats] = []
         self.episodes = 0
@@ -123,7 +125,9 @@ def imitate(
                 for _ in range(how.episodes):
                     lessons.episode(pupil)
                 seen, said = np.stack(lessons.seen), np.stack(lessons.said)
-                pupil = _as_scaled(Clone(seen, lessons.space, how.layers, lessons.levels), pupil)
+                rays = lessons.rays if how.kinds else []
+                new = Clone(seen, lessons.space, how.layers, lessons.levels, rays)
+                pupil = _as_scaled(new, pupil)
                 last = each == rounds
                 error = _study(pupil, seen, said, updates * (3 if last else 1), chance)
                 shown.show(each, f"{len(seen)} decisions  error {error:.4f}")

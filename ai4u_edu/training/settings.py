@@ -65,6 +65,9 @@ class DaggerSettings(BaseModel):
     """Gradient steps after each round."""
     layers: tuple[Positive, ...] = (128, 128)
     """The hidden layers' sizes."""
+    kinds: bool = False
+    """Whether a network is told how close each ray saw each kind of thing, in place of its code and
+    its distance; see :class:`~ai4u_edu.training.rays.Rays`."""
 
 
 class Settings(BaseModel):

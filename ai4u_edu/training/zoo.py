@@ -57,9 +57,9 @@ def make(scene: str, folder: Path) -> Evaluation | None:
     return None
 
 
-def take(scene: str, file: Path, told: Evaluation, wanted: float = WANTED) -> bool:
+def take(scene: str, file: Path, told: Evaluation) -> bool:
     """Takes a network in, if it is good and small enough; whether it was."""
-    good = told.success is None or told.success >= wanted
+    good = told.success is None or told.success >= WANTED
     if good and file.stat().st_size <= LARGEST:
         zoo.network_of(scene).write_bytes(file.read_bytes())
         return True

@@ -1,8 +1,8 @@
 """Makes networks that learn from a teacher: ``python -m tests.training.teach SCENE ...``.
 
 Each learns by DAgger, as its settings say; it is evaluated on 100 seeds that no lesson used, and
-taken if it is good enough. What falls short learns once more from another seed. ``--wanted 0.7``
-takes what succeeds less often, ``--seed N`` begins with another seed.
+taken if it is good enough. What falls short learns once more from another seed; ``--seed N`` begins
+with another one.
 """
 
 import argparse
@@ -15,11 +15,11 @@ from ai4u_edu.training.dagger import imitate
 from ai4u_edu.training.entrants import entrant
 from ai4u_edu.training.evaluating import evaluate
 from ai4u_edu.training.settings import settings_for
-from ai4u_edu.training.zoo import EPISODES, TRIES, WANTED, take, tell
+from ai4u_edu.training.zoo import EPISODES, TRIES, take, tell
 from tests.training.teachers import teacher_of
 
 
-def make(scene: str, folder: Path, seeds: range, wanted: float) -> bool:
+def make(scene: str, folder: Path, seeds: range) -> bool:
     """Teaches, evaluates, and takes what is good enough."""
     loaded = Scene.load(scene)
     for seed in seeds:
@@ -33,7 +33,7 @@ def make(scene: str, folder: Path, seeds: range, wanted: float) -> bool:
         told = evaluate(entrant(str(file)), loaded, range(EPISODES))
         kilobytes = file.stat().st_size / 1000
         sys.stderr.write(f"{scene}, seed {seed}, {kilobytes:.0f} kB\n{told}\n")
-        if take(scene, file, told, wanted):
+        if take(scene, file, told):
             return True
     return False
 
@@ -44,13 +44,10 @@ def main() -> int:
     parser.add_argument("scenes", nargs="+")
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--tries", type=int, default=TRIES)
-    parser.add_argument("--wanted", type=float, default=WANTED)
     chosen = parser.parse_args()
     seeds = range(chosen.seed, chosen.seed + chosen.tries)
     with tempfile.TemporaryDirectory() as folder:
-        failed = [
-            name for name in chosen.scenes if not make(name, Path(folder), seeds, chosen.wanted)
-        ]
+        failed = [name for name in chosen.scenes if not make(name, Path(folder), seeds)]
     (zoo.FOLDER / "README.md").write_text(tell(), encoding="utf-8")
     if failed:
         sys.stderr.write(f"not good enough: {', '.join(failed)}\n")

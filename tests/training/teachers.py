@@ -1,13 +1,26 @@
 """Who teaches a network: the few lines that solve a scene."""
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from functools import partial
 from typing import Any
 
 import numpy as np
 
 from ai4u_edu import Percept
 from tests.scenes.solvers import Driver, solver_of
+from tests.scenes.solvers.platform import (
+    AHEAD,
+    BOUNDS,
+    EDGES,
+    FRUIT,
+    LEAP,
+    LEFT,
+    RIGHT,
+    SPIKE,
+    Point,
+    found,
+)
 
 RADIUS = 2.6
 BEHIND = 0.4
@@ -39,7 +52,45 @@ def parking() -> Driver:
     return drive
 
 
-OWN: dict[str, Callable[[], Driver]] = {"parking": parking}
+def platform() -> Driver:
+    """Like the scene's own solver, but without a memory, and without leaps of the goal.
+
+    Where one step changes what is to be done, a network is of two minds: it turns left, and right
+    again, until it dies of hunger. So the goal wanders ahead of the robot, and bends smoothly.
+    """
+
+    def drive(percept: Percept) -> dict[str, Any]:
+        x, y = (percept["position"][:2] * BOUNDS).tolist()
+        heading = math.atan2(*percept["heading"])
+        see = partial(found, percept, place=(x, y), heading=heading)
+        fruit, spike = see(FRUIT), see(SPIKE)
+        edge, level = next((each for each in EDGES if x < each[0]), (math.inf, -2.0))
+        hungry = percept["inside"][0] < 0.25
+        leap = False
+        if hungry and fruit and fruit[0] < edge:
+            goal = fruit
+        elif edge < math.inf:
+            # along the line on which to leap; to it first, where little room is left
+            off = abs(y - level)
+            goal = x + np.clip(edge - 1.4 - x, -0.5, 1.5) + 6 * max(0.0, 0.6 - off), level
+            leap = off < 0.6 and x > edge - 0.8
+        else:
+            goal = x + 1.2, float(np.interp(x, *round_the(spike)))
+        aside = math.remainder(math.atan2(goal[1] - y, goal[0] - x) - heading, 2 * math.pi)
+        if abs(aside) > 0.3:
+            return {"move": LEFT if aside > 0 else RIGHT}
+        return {"move": LEAP if leap else AHEAD}
+
+    return drive
+
+
+def round_the(spike: Point | None) -> tuple[Sequence[float], Sequence[float]]:
+    """The way over the last platform, on the side on which there is more room: x and y."""
+    aside = -1.0 if spike is None else spike[1] + (1.7 if spike[1] < -1.5 else -1.7)
+    return (25.2, 26.4, 28.8, 30.3), (-1.0, aside, aside, -2.0)
+
+
+OWN: dict[str, Callable[[], Driver]] = {"parking": parking, "platform": platform}
 
 
 def teacher_of(scene: str) -> Driver:
