@@ -25,10 +25,8 @@ CHECKS = {
     "ruff check": ["-m", "ruff", "check", "."],
     "mypy": ["-m", "mypy"],
     "imports": ["-c", LINT_IMPORTS],
-    # What needs the machine to itself (see conftest.py), then all else on every core. The former
-    # looks at real pages in real time: what a machine's bad moment failed gets another chance, and
-    # the log names it.
-    "pytest alone": ["-m", "pytest", "-m", "alone", "--reruns", "2", "-r", "fER"],
+    # What needs the machine to itself (see conftest.py), then all else on every core.
+    "pytest alone": ["-m", "pytest", "-m", "alone"],
     "pytest": ["-m", "pytest", "-m", "not alone", "-n", "auto"],
 }
 

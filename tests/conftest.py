@@ -5,9 +5,12 @@ from pathlib import Path
 import pytest
 
 TESTS = Path(__file__).parent
-ALONE = {"browser", "load", "remote", "server", "training", "viewer", "workshop"}
-ALONE_TOO = {"test_live.py", "test_runner.py", "test_slow_ticks.py"}
-"""Tests of these folders and files keep real time, listen at ports, or look at a page."""
+ALONE = {"browser", "load"}
+"""Tests of these folders look at a page, and draw it without a graphics card."""
+REAL_TIME = ALONE | {"remote", "server", "training", "viewer", "workshop"}
+REAL_TIME_TOO = {"test_live.py", "test_runner.py", "test_slow_ticks.py"}
+"""Tests of these folders and files keep real time or listen at ports: what a machine's bad moment
+failed gets another chance, and the log names it. All others must pass at once."""
 LOG = "components"
 
 
@@ -15,9 +18,11 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     for item in items:
         inside = TESTS in item.path.parents
         first = item.path.relative_to(TESTS).parts[0] if inside else ""
-        quiet = first in ALONE or item.path.name in ALONE_TOO
-        if quiet or item.get_closest_marker("browser"):
+        looks = item.get_closest_marker("browser") is not None
+        if first in ALONE or looks:
             item.add_marker(pytest.mark.alone)
+        if first in REAL_TIME or item.path.name in REAL_TIME_TOO or looks:
+            item.add_marker(pytest.mark.flaky(reruns=2))
 
 
 def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
