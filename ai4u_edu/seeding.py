@@ -1,5 +1,6 @@
 """One seed an episode; all chance in it grows from that seed."""
 
+from typing import Any
 from zlib import crc32
 
 import numpy as np
@@ -37,7 +38,10 @@ class Seeds:
         """The generator that belongs to a name; the same object at every call."""
         child = self._children.get(name)
         if child is None:
-            sequence = np.random.SeedSequence([self.seed, crc32(name.encode())])
+            entropy: Any = [self.seed, crc32(name.encode())]
+            if self.seed < 2**32:  # an array gives the same numbers as a list, in half the time
+                entropy = np.array(entropy, np.uint32)
+            sequence = np.random.SeedSequence(entropy)
             child = self._children[name] = np.random.Generator(np.random.PCG64(sequence))
         return child
 

@@ -108,6 +108,26 @@ def let_go(space: pymunk.Space) -> None:
         handler._space = None
 
 
+def distances(shape: pymunk.Shape, other: pymunk.Shape, its_pm: pymunk.Body) -> list[float]:
+    """Metres between two shapes at the points where they touch; none if they don't.
+
+    Neither is in a space; both know where they are, by ``cache_bb``.
+
+    Args:
+        shape: one.
+        other: the other one.
+        its_pm: the other one's body.
+    """
+    if FAST:  # pymunk's own Shape.shapes_collide can't tell of two that don't touch
+        found = lib.cpShapesCollide(shape._shape, other._shape)
+        return [found.points[i].distance for i in range(found.count)]
+    space = pymunk.Space()
+    space.add(its_pm, other)
+    hits = space.shape_query(shape)
+    space.remove(its_pm, other)
+    return [point.distance for hit in hits for point in hit.contact_point_set.points]
+
+
 def shape_key(shape: pymunk.Shape) -> int:
     """The number by which a ray names the shape that it met."""
     if FAST:

@@ -1,5 +1,6 @@
 """Whether two shapes are in each other, and whether a body stands in another one."""
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import pymunk
@@ -20,22 +21,36 @@ def in_the_way(world: "World", body: "BodyView") -> "BodyView | None":
             if other is None or other is body or not (body.moves or other.moves):
                 continue
             level = body.z < other.z + other.height and other.z < body.z + body.height
-            if level and overlap(shape, body._pm, hit, other._pm):
+            found = [point.distance for point in hit.contact_point_set.points]
+            if level and overlap(shape, body._pm, hit.shape, other._pm, found):
                 return other
     return None
 
 
 def overlap(
-    shape: pymunk.Shape, pm: pymunk.Body, hit: pymunk.ShapeQueryInfo, other: pymunk.Body
+    shape: pymunk.Shape,
+    pm: pymunk.Body,
+    other: pymunk.Shape,
+    its_pm: pymunk.Body,
+    found: Sequence[float],
 ) -> bool:
-    """Whether a body's shape and another body's, which a query found there, are in each other."""
+    """Whether two shapes are in each other.
+
+    Args:
+        shape: of one body.
+        pm: that body.
+        other: of another body.
+        its_pm: the other body.
+        found: the distances at the points where pymunk says that the two touch.
+    """
+    if not found:
+        return False
     # for some pairs of shapes the distance comes with the wrong sign, and as 0 for two that lie
     # exactly upon each other
-    deepest = max(abs(point.distance) for point in hit.contact_point_set.points)
     return (
-        deepest > OVERLAP
-        or _depth(hit.shape, pm.local_to_world(shape.center_of_gravity)) > OVERLAP
-        or _depth(shape, other.local_to_world(hit.shape.center_of_gravity)) > OVERLAP
+        max(map(abs, found)) > OVERLAP
+        or _depth(other, pm.local_to_world(shape.center_of_gravity)) > OVERLAP
+        or _depth(shape, its_pm.local_to_world(other.center_of_gravity)) > OVERLAP
     )
 
 

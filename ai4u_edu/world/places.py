@@ -9,7 +9,8 @@ import pymunk
 
 from ai4u_edu.errors import WorldError
 from ai4u_edu.seeding import Seeds
-from ai4u_edu.world.build import core, dress, make_shape
+from ai4u_edu.world._chipmunk import distances
+from ai4u_edu.world.build import QuickBody, core, dress, make_shape
 from ai4u_edu.world.descriptions import AreaDescription, BodyDescription, FloorDescription
 from ai4u_edu.world.ground import Ground
 from ai4u_edu.world.overlap import overlap
@@ -68,16 +69,24 @@ class _Form:
             and other.low < self.high
         )
 
+    def overlaps(self, other: "_Form") -> bool:
+        """Whether the two are in each other in the plane, and would collide there."""
+        (pm, shape), (its_pm, its_shape) = self.solid, other.solid
+        return not shape.filter.rejects_collision(its_shape.filter) and overlap(
+            shape, pm, its_shape, its_pm, distances(shape, its_shape, its_pm)
+        )
+
     @cached_property
     def solid(self) -> tuple[pymunk.Body, pymunk.Shape]:
         """The same for pymunk; made only for what something comes near to, which is seldom."""
         thing = self._thing
-        pm = pymunk.Body(body_type=pymunk.Body.STATIC)
+        pm = QuickBody(body_type=pymunk.Body.STATIC)
         pm.position = thing.position
         pm.angle = math.radians(thing.heading_deg)
         shape = make_shape(self._shape, pm, self._more)
         if isinstance(thing, BodyDescription):
             dress(shape, thing, group=0)
+        shape.cache_bb()  # now it knows where it is, though it is in no space
         return pm, shape
 
 
@@ -86,8 +95,6 @@ class _Taken:
 
     def __init__(self) -> None:
         self._forms: list[tuple[_Form, str]] = []
-        self._solid: dict[pymunk.Shape, tuple[_Form, str]] = {}
-        self._space: pymunk.Space | None = None
 
     def keep(self, form: _Form, words: str) -> None:
         """Adds one."""
@@ -95,18 +102,8 @@ class _Taken:
 
     def met_by(self, form: _Form) -> str:
         """The words for one that another form overlaps; empty if there is none."""
-        near = [kept for kept in self._forms if form.near(kept[0])]
-        if not near:
-            return ""
-        space = self._space = self._space or pymunk.Space()
-        for kept in near:
-            if kept[0].solid[1] not in self._solid:
-                space.add(*kept[0].solid)
-                self._solid[kept[0].solid[1]] = kept
-        pm, shape = form.solid
-        for hit in space.shape_query(shape):
-            other, words = self._solid[hit.shape]
-            if form.near(other) and overlap(shape, pm, hit, other.solid[0]):
+        for kept, words in self._forms:
+            if form.near(kept) and form.overlaps(kept):
                 return words
         return ""
 
@@ -128,7 +125,8 @@ class Places:
         if isinstance(thing, FloorDescription):
             self._ground = Ground([*self._ground.floors, (thing.top, Region(thing))])
         else:
-            self._keep(thing, self._form(thing), clearance)
+            form = self._form(thing)
+            self._keep(thing, form, form.grown(clearance))
 
     def find(self, described: Some) -> Some:
         """Draws something until it has a free place, and takes that.
@@ -148,32 +146,37 @@ class Places:
                 self.take(drawn)
                 return drawn
             form = self._form(drawn)
-            words = self._in_the_way(drawn, form, vary.clearance)
+            wide = form.grown(vary.clearance)
+            words = self._in_the_way(drawn, form, wide)
             if not words:
-                self._keep(drawn, form, vary.clearance)
+                self._keep(drawn, form, wide)
                 return drawn
             in_the_way[words] = in_the_way.get(words, 0) + 1
         raise self._no_place(described, vary, in_the_way)
 
     def _in_the_way(
-        self, thing: BodyDescription | AreaDescription, form: _Form, clearance: float
+        self, thing: BodyDescription | AreaDescription, form: _Form, wide: _Form
     ) -> str:
-        """Why something can't be where it is described, in a few words; empty if it can."""
+        """Why something can't be where it is described, in a few words; empty if it can.
+
+        Args:
+            thing: what.
+            form: of it.
+            wide: the same with what is to be free around it; the form itself if nothing is.
+        """
         if isinstance(thing, AreaDescription):
-            return self._bodies.met_by(form.grown(clearance)) if clearance else ""
+            return self._bodies.met_by(wide) if wide is not form else ""
         return (
-            self._bodies.met_by(form.grown(clearance))
+            self._bodies.met_by(wide)
             or self._kept_free.met_by(form)
             or ("" if self._stands(thing, form) else "the end of the floor")
         )
 
-    def _keep(
-        self, thing: BodyDescription | AreaDescription, form: _Form, clearance: float
-    ) -> None:
+    def _keep(self, thing: BodyDescription | AreaDescription, form: _Form, wide: _Form) -> None:
         if isinstance(thing, BodyDescription):
             self._bodies.keep(form, f"body {thing.name!r}")
-        if clearance:
-            self._kept_free.keep(form.grown(clearance), f"the clearance of {thing.name!r}")
+        if wide is not form:
+            self._kept_free.keep(wide, f"the clearance of {thing.name!r}")
 
     def _stands(self, body: BodyDescription, form: _Form) -> bool:
         """Whether a floor bears a body's centre, and reaches as far as the body does."""

@@ -1,8 +1,9 @@
 """What a step costs, next to the same world written by hand: ``python -m tests.benchmarks``.
 
-All contenders drive the same course through the same worlds, in turns, in one process; what counts
-is the median of the rounds' ratios. It prints the table as Markdown; with ``--peers`` it has other
-environments from the package index in it, which are fetched first.
+All contenders drive the same course through the same worlds, each in turns with ours; what counts
+is the median of the rounds' ratios. Those with many worlds come one by one, for nobody has several
+of them in one process. It prints the table as Markdown; with ``--peers`` it has other environments
+from the package index in it, which are fetched first and get a limited time each.
 """
 
 import argparse
@@ -10,59 +11,31 @@ import contextlib
 import platform
 import time
 from collections.abc import Callable
-from typing import Any
 
 import gymnasium
-import numpy as np
-from stable_baselines3.common.vec_env import DummyVecEnv, VecEnv
+from stable_baselines3.common.vec_env import DummyVecEnv
 
 from ai4u_edu.envs import SceneEnv, SceneVectorEnv
 from ai4u_edu.envs.sb3 import SceneVecEnv
 from ai4u_edu.world import _segments as segments
-from tests.benchmarks.course import course
+from tests.benchmarks.contenders import (
+    SEED,
+    Contender,
+    many_floors,
+    many_worlds,
+    one_world,
+    resets,
+)
 from tests.benchmarks.floors import BareFloor, CffiFloor, CompiledFloor, PublicFloor, compiled
-from tests.benchmarks.interleaved import Timing, Work, race
+from tests.benchmarks.interleaved import Timing, race
 from tests.benchmarks.peers import PEERS, PeerError, running
 
-STEPS, SEED = 250, 5
 OURS = "`SceneEnv.step`"
 
-Contender = Callable[[], tuple[Work, int]]
 
-
-def one_world(make: Callable[[], Any]) -> Contender:
-    """Something with a ``step``, ready at the beginning of the episode."""
-
-    def prepare() -> tuple[Work, int]:
-        step, actions = make().step, list(course(STEPS, SEED))
-
-        def work() -> None:
-            ends = [any(step(action)[2:4]) for action in actions]
-            assert not any(ends), "a step after the end is no step"
-
-        return work, STEPS
-
-    return prepare
-
-
-def many_worlds(env: Any, count: int, steps: int) -> Contender:
-    """A vector environment, every world driven along the same course."""
-    actions = np.repeat(course(steps, SEED)[:, None], count, axis=1)
-
-    def prepare() -> tuple[Work, int]:
-        if isinstance(env, VecEnv):
-            env.seed(SEED)  # world i gets SEED + i there
-            env.reset()
-        else:
-            env.reset(seed=[SEED + index for index in range(count)])
-
-        def work() -> None:
-            for each in actions:
-                env.step(each)
-
-        return work, steps * count
-
-    return prepare
+def make() -> SceneEnv:
+    """One world of ours."""
+    return SceneEnv("yardstick", observation="flat")
 
 
 def main() -> None:
@@ -81,59 +54,62 @@ def main() -> None:
     options = parser.parse_args()
     if options.busy:
         options.workers, options.peers = 0, False
-
-    def make() -> SceneEnv:
-        return SceneEnv("yardstick", observation="flat")
-
-    env, count = make(), options.worlds
+    clock = time.process_time if options.busy else time.perf_counter
+    env = make()
 
     def ours() -> SceneEnv:
         env.reset(seed=SEED)
         return env
 
-    def floor(kind: type[PublicFloor]) -> Callable[[], PublicFloor]:
-        return lambda: kind(ours().sim)
+    def by_hand(kind: type[PublicFloor]) -> Contender:
+        return one_world(lambda: kind(ours().sim))
 
-    contenders = {
-        OURS: one_world(ours),
-        "by hand, pymunk's public interface": one_world(floor(PublicFloor)),
-        "by hand, rays through cffi": one_world(floor(CffiFloor)),
-        "by hand, everything through cffi": one_world(floor(BareFloor)),
+    def against_ours(others: dict[str, Contender]) -> dict[str, Timing]:
+        return race({OURS: one_world(ours), **others}, OURS, options.rounds, clock)
+
+    floors: dict[str, type[PublicFloor]] = {
+        "by hand, pymunk's public interface": PublicFloor,
+        "by hand, rays through cffi": CffiFloor,
+        "by hand, everything through cffi": BareFloor,
     }
     if compiled():
-        name = "by hand, everything through cffi, the loop over the rays in C"
-        contenders[name] = one_world(floor(CompiledFloor))
-    contenders |= {
-        f"`SceneVectorEnv`, {count} worlds": many_worlds(
-            SceneVectorEnv(count, "yardstick", observation="flat"), count, 20
-        ),
-        f"Gymnasium's `SyncVectorEnv`, {count} worlds": many_worlds(
-            gymnasium.vector.SyncVectorEnv([make] * count), count, 20
-        ),
-        f"`SceneVecEnv` for Stable-Baselines3, {count} worlds": many_worlds(
-            SceneVecEnv("yardstick", count), count, 20
-        ),
-        f"Stable-Baselines3's `DummyVecEnv`, {count} worlds": many_worlds(
-            DummyVecEnv([make] * count), count, 20
-        ),
-    }
+        floors["by hand, everything through cffi, the loop over the rays in C"] = CompiledFloor
+    timings = against_ours({name: by_hand(kind) for name, kind in floors.items()})
+
+    def alone(name: str, contender: Contender) -> None:
+        timings[name] = against_ours({name: contender})[name]
+
+    count, workers = options.worlds, options.workers
+    name, kind = list(floors.items())[-1]
+    alone(f"{name}, {count} worlds", many_floors(kind, env, count))
+    for name, several in vectors(count).items():
+        alone(f"{name}, {count} worlds", many_worlds(several(), count))
+    if workers:
+        parallel = gymnasium.vector.AsyncVectorEnv([make] * workers)
+        with contextlib.closing(parallel):
+            name = f"Gymnasium's `AsyncVectorEnv`, {workers} worlds and processes"
+            alone(name, many_worlds(parallel, workers))
     missing = {}
-    with contextlib.ExitStack() as stack:
-        if options.workers:
-            several = gymnasium.vector.AsyncVectorEnv([make] * options.workers)
-            stack.callback(several.close)
-            name = f"Gymnasium's `AsyncVectorEnv`, {options.workers} worlds and processes"
-            contenders[name] = many_worlds(several, options.workers, 40)
-        for key, peer in PEERS.items() if options.peers else ():
-            try:
-                contenders[peer.title] = stack.enter_context(running(key))
-            except PeerError as error:
-                missing[peer.title] = str(error)
-        clock = time.process_time if options.busy else time.perf_counter
-        timings = race(contenders, OURS, options.rounds, clock)
+    for key, peer in PEERS.items() if options.peers else ():
+        try:
+            with running(key) as contender:
+                alone(peer.title, contender)
+        except PeerError as error:
+            missing[peer.title] = str(error)
     show(timings)
     for title, why in missing.items():
         print(f"| {title} | not measured: {why} | | | |")
+    print(f"\nA reset of `SceneEnv`: {resets(env, clock, options.rounds):.0f} microseconds")
+
+
+def vectors(count: int) -> dict[str, Callable[[], object]]:
+    """Many worlds in one process, ours and those that come with the libraries."""
+    return {
+        "`SceneVectorEnv`": lambda: SceneVectorEnv(count, "yardstick", observation="flat"),
+        "Gymnasium's `SyncVectorEnv`": lambda: gymnasium.vector.SyncVectorEnv([make] * count),
+        "`SceneVecEnv` for Stable-Baselines3": lambda: SceneVecEnv("yardstick", count),
+        "Stable-Baselines3's `DummyVecEnv`": lambda: DummyVecEnv([make] * count),
+    }
 
 
 def show(timings: dict[str, Timing]) -> None:

@@ -17,7 +17,7 @@ from ai4u_edu import Scene
 from ai4u_edu.envs import SceneEnv
 from ai4u_edu.recording import Recorder
 from ai4u_edu.scenes import SceneDescription
-from tests.benchmarks.__main__ import SEED, Contender, one_world
+from tests.benchmarks.contenders import SEED, Contender, one_world
 from tests.benchmarks.interleaved import race
 
 

@@ -8,6 +8,7 @@ all other contenders. Made once, under ``.venvs/``, with ``python -m tests.bench
 import contextlib
 import subprocess
 import sys
+import threading
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import NamedTuple
@@ -15,8 +16,10 @@ from typing import NamedTuple
 from tests.benchmarks.interleaved import Work
 
 FOLDER = Path(__file__).resolve().parent.parent.parent / ".venvs"
-PATIENCE = 1200
+PATIENCE = 600
 """Seconds that an installation gets."""
+LIMIT = 120.0
+"""Seconds that one of them gets for all its rounds, ours between them included."""
 
 LOOP = """
 import sys
@@ -33,6 +36,7 @@ class Peer(NamedTuple):
 
     title: str
     package: str
+    """What pip is to install, the one that it is about first."""
     steps: int
     """In one round."""
     program: str
@@ -58,7 +62,8 @@ def step(i):
     ),
     "waterworld": Peer(
         "Waterworld of PettingZoo, two agents with 30 rays",
-        "pettingzoo[sisl]==1.24.3",
+        # its extra [sisl] wants Box2D compiled, for another environment
+        "pettingzoo==1.24.3 pymunk<7 pygame scipy numpy<2",
         100,
         """
 import numpy
@@ -100,6 +105,32 @@ with open(path, "w") as file:
 env = irsim.make(path, display=False, disable_all_plot=True, log_level="CRITICAL")
 def step(i):
     env.step(numpy.array([[0.3], [0.5]]))
+""",
+    ),
+    "playgrounds": Peer(
+        "simple-playgrounds, 32 lidar rays",
+        "simple-playgrounds==0.9.31 pymunk<7 numpy<2 scikit-image<0.25",
+        60,
+        """
+from simple_playgrounds.agents.agents import BaseAgent
+from simple_playgrounds.agents.parts.controllers import External
+from simple_playgrounds.agents.sensors.robotic_sensors import Lidar
+from simple_playgrounds.elements.collection.basic import Physical
+from simple_playgrounds.engine import Engine
+from simple_playgrounds.playgrounds.layouts import SingleRoom
+room = SingleRoom(size=(400, 400))
+for i in range(10):
+    box = Physical("square", radius=8, movable=True, mass=5)
+    room.add_element(box, ((50 + 70 * (i % 5), 60 + 250 * (i // 5)), 0))
+agent = BaseAgent(controller=External())
+base, own = agent.base_platform, agent.parts
+agent.add_sensor(Lidar(base, invisible_elements=own, fov=360, resolution=32, max_range=400))
+room.add_agent(agent, ((200, 200), 0))
+engine = Engine(room)
+forward, turn = agent.actuators[:2]
+def step(i):
+    engine.step({agent: {forward: 0.5, turn: 0.3}})
+    engine.update_observations()
 """,
     ),
     "vmas": Peer(
@@ -151,11 +182,15 @@ class PeerError(Exception):
 
 
 @contextlib.contextmanager
-def running(name: str) -> Iterator[Callable[[], tuple[Work, int]]]:
+def running(name: str, limit: float = LIMIT) -> Iterator[Callable[[], tuple[Work, int]]]:
     """A peer as a contender, for as long as its process runs.
 
+    Args:
+        name: out of :data:`PEERS`.
+        limit: seconds; whoever is not done by then is ended.
+
     Raises:
-        PeerError: it can't be installed, or doesn't start.
+        PeerError: it can't be installed, doesn't start, or takes too long.
     """
     peer = PEERS[name]
     process = subprocess.Popen(
@@ -168,6 +203,11 @@ def running(name: str) -> Iterator[Callable[[], tuple[Work, int]]]:
     assert process.stdin
     assert process.stdout
     to_it, from_it = process.stdin, process.stdout
+    late = threading.Event()
+
+    def stop() -> None:
+        late.set()
+        process.kill()
 
     def wait_for(word: str) -> None:
         last = ""
@@ -175,31 +215,38 @@ def running(name: str) -> Iterator[Callable[[], tuple[Work, int]]]:
             if line.strip() == word:
                 return
             last = line
+        if late.is_set():
+            raise PeerError(f"not done within {limit:g} s")
         raise PeerError("it ended: " + _last_words(last))
 
     def work() -> None:
-        to_it.write(f"{peer.steps}\n")
-        to_it.flush()
+        with contextlib.suppress(BrokenPipeError):  # it has ended; wait_for says why
+            to_it.write(f"{peer.steps}\n")
+            to_it.flush()
         wait_for("done")
 
+    timer = threading.Timer(limit, stop)
+    timer.start()
     try:
         wait_for("ready")
         yield lambda: (work, peer.steps * peer.worlds)
     finally:
+        timer.cancel()
         process.kill()
         process.communicate()
 
 
 def installed(peer: Peer) -> Path:
     """The Python of an environment that has a peer's package; made if it is not there."""
-    folder = FOLDER / f"peer-{peer.package.partition('=')[0].partition('[')[0]}"
+    packages = peer.package.split()
+    folder = FOLDER / f"peer-{packages[0].partition('=')[0].partition('[')[0]}"
     python, stamp = folder / "bin" / "python", folder / "made-of.txt"
     if stamp.exists() and stamp.read_text() == peer.package:
         return python
-    print(f"Getting {peer.package} ...", file=sys.stderr, flush=True)
+    print(f"Getting {packages[0]} ...", file=sys.stderr, flush=True)
     for command in (
         [sys.executable, "-m", "venv", "--clear", str(folder)],
-        [str(python), "-m", "pip", "install", "--quiet", "--no-input", peer.package],
+        [str(python), "-m", "pip", "install", "--quiet", "--no-input", *packages],
     ):
         try:
             done = subprocess.run(

@@ -43,6 +43,13 @@ def test_one_that_fails_says_why(program: str, peer: dict[str, Peer]) -> None:
         contender()[0]()
 
 
+def test_one_that_takes_too_long_is_ended(peer: dict[str, Peer]) -> None:
+    peer["slow"] = Peer("Slow", "slow", 1, "import time\ndef step(i): time.sleep(60)")
+    said = pytest.raises(PeerError, match=r"not done within 1 s")
+    with said, running("slow", limit=1) as contender:
+        contender()[0]()
+
+
 def test_one_that_can_not_be_had_says_why(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(peers, "FOLDER", tmp_path)
     monkeypatch.setattr(sys, "executable", "false")

@@ -1,10 +1,13 @@
 """Things are compared by the rectangles around them first: that may never miss one that meets."""
 
 import random
+from typing import Any
 
 import pymunk
+import pytest
 
-from ai4u_edu.world import AreaDescription, BodyDescription, RingShape
+from ai4u_edu.world import AreaDescription, BodyDescription, RingShape, _chipmunk
+from ai4u_edu.world._chipmunk import distances
 from ai4u_edu.world.places import Places
 from tests.world.random_worlds import SIDE, _body_shape, _region_shape
 
@@ -23,6 +26,44 @@ def test_what_meets_is_near() -> None:
         apart += not one.near(other)
     assert met > 300
     assert apart > 1000, "and most of what is apart is told apart"
+
+
+def test_what_touches_is_what_a_space_finds(monkeypatch: pytest.MonkeyPatch) -> None:
+    chance, places = random.Random(4), Places(1)
+    pairs = [
+        (
+            places._form(_thing(chance)).grown(chance.choice((0.0, 0.3))),
+            places._form(_thing(chance)),
+        )
+        for _ in range(3000)
+    ]
+
+    def found() -> list[list[float]]:
+        return [
+            distances(one.solid[1], other.solid[1], other.solid[0])
+            for pair in pairs
+            for one, other in (pair, pair[::-1])
+        ]
+
+    quick = found()
+    monkeypatch.setattr(_chipmunk, "FAST", False)
+    assert quick == found()
+    assert sum(bool(each) for each in quick) > 600
+
+
+def test_what_would_not_collide_is_not_in_the_way() -> None:
+    places = Places(1)
+
+    def overlap(**fields: Any) -> bool:
+        shape = _body_shape(random.Random(1), True)
+        one = BodyDescription(name="one", shape=shape, **fields)
+        other = BodyDescription(name="other", shape=shape, position=(0.01, 0))
+        return places._form(one).overlaps(places._form(other))
+
+    assert overlap()
+    assert not overlap(collision_mask=2)
+    assert overlap(collision_layer=2)
+    assert not overlap(position=(50, 0))
 
 
 def test_one_above_the_other_is_not_near() -> None:
