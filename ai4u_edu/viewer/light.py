@@ -13,9 +13,8 @@ from viser import SceneApi
 GAIN = 2.0
 """What a white surface that faces up sends out; more than 1, as the curve dims what is bright."""
 AMBIENT = 0.22
-"""The share of the light that comes from everywhere; the rest comes from the lamp."""
-GLOSS = 0.01 * GAIN * (1 - AMBIENT)
-"""What the lamp adds to every colour: even three.js's roughest surface shines a little."""
+"""The share of the light that comes from everywhere. The rest comes from the lamp: all of it to
+what faces about its way, as the page lights by steps, and half of it to walls."""
 LAMP = np.array([-0.15, 0.2, 1.0]) / math.sqrt(0.15**2 + 0.2**2 + 1.0)
 """Where the lamp is: up, and a little to the upper left, so shadows fall to the lower right."""
 
@@ -45,7 +44,7 @@ def light(scene: SceneApi) -> None:
     scene.add_light_ambient("/light/ambient", intensity=math.pi * GAIN * AMBIENT)
     scene.add_light_point(
         "/light/lamp",
-        intensity=math.pi * GAIN * (1 - AMBIENT) / LAMP[2],
+        intensity=math.pi * GAIN * (1 - AMBIENT),
         decay=0.0,
         position=tuple(1e6 * LAMP),
     )
@@ -72,12 +71,12 @@ def film(linear: npt.ArrayLike) -> Colours:
 
 def lit(albedo: npt.ArrayLike) -> Colours:
     """What a surface that faces up looks like (0..1, sRGB), by its own colour (0..1, linear)."""
-    return film(GAIN * np.asarray(albedo) + GLOSS)
+    return film(GAIN * np.asarray(albedo))
 
 
 def _albedo(colours: npt.ArrayLike) -> Colours:
     """The way back from :func:`lit`, for 0..255."""
-    return np.clip((_unfilmed(colours) - GLOSS) / GAIN, 0.0, 1.0)
+    return np.clip(_unfilmed(colours) / GAIN, 0.0, 1.0)
 
 
 def _unfilmed(colours: npt.ArrayLike) -> Colours:
