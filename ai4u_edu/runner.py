@@ -29,10 +29,16 @@ PATIENCE = 0.25
 waits this long (s) for one, and then takes any moment between two ticks."""
 OFTEN_ENOUGH = 1 / 120
 """Seconds between two snapshots at least, while the world runs faster than anybody can look."""
-SHOWING = 0.25
+SHOWING = 0.1
 """The share of the time that may go into snapshots: of a hundred agents there are fewer of them,
 rather than fewer ticks."""
-GIVE_WAY = 0.001
+ENOUGH = 0.8 / 30
+"""So many seconds between two of them, or a tick more: there are enough snapshots to see things
+move; rather than that there are fewer, they may take :data:`MOST_SHOWING` of the time."""
+MOST_SHOWING = 0.25
+GOOD_MOMENT = 1 / 31
+"""So long (s) a snapshot waits for a tick that leaves time for it: not longer than two ticks."""
+GIVE_WAY = 0.0002
 """Seconds after which a thread that computes lets another one go on. Python's own 5 ms would make a
 tick late whenever pages are drawn."""
 
@@ -45,6 +51,8 @@ SLOW = 0.05
 """A tick that takes longer (s) is reported."""
 LATELY = 5.0
 """For so long (s)."""
+FEW_TICKS = 1 / 16
+"""The share that the last tick has in how late ticks lately were."""
 
 ANOTHER_WORLD = "another world has taken its place; connect anew to drive there"
 
@@ -87,6 +95,8 @@ class Runner:
         self._called = threading.Event()
         self._expected = 0
         self._due = 0.0
+        self.lateness = 0.0
+        """How late (s) ticks lately began, on average."""
         self._shown = self._showing = 0.0
         self._window: deque[tuple[float, int]] = deque(maxlen=60)
         self._ticked = 0
@@ -343,6 +353,7 @@ class Runner:
 
     def _rest(self) -> None:
         self._window.clear()
+        self.lateness = 0.0
         with self._wake:
             self._wake.wait_for(lambda: self._commands or self._stopping, 0.1)
         for agent in self.sim.agents:
@@ -376,10 +387,21 @@ class Runner:
         return self._slow[1]
 
     def _show(self) -> None:
-        """Publishes every tick, or as many as one can see and as there is time for."""
-        slow = self.sim.world.dt / self.time_scale >= OFTEN_ENOUGH
-        pause = max(0.0 if slow else OFTEN_ENOUGH, self._showing / SHOWING)
-        if self.error or self._clock() - self._shown >= pause:
+        """Publishes every tick, or as many as one can see and as there is time for.
+
+        Where it would make the next tick late, in which a brain may wait for what it senses, a
+        picture waits for a tick that leaves more time.
+        """
+        period = self.sim.world.dt / self.time_scale
+        pause = max(
+            0.0 if period >= OFTEN_ENOUGH else OFTEN_ENOUGH,
+            min(self._showing / SHOWING, ENOUGH),
+            self._showing / MOST_SHOWING,
+        )
+        now = self._clock()
+        if OFTEN_ENOUGH <= period < GOOD_MOMENT and now + self._showing > self._due + period:
+            pause = max(pause, GOOD_MOMENT)
+        if self.error or now - self._shown >= pause:
             self._publish()
 
     def _keep_time(self) -> None:
@@ -388,7 +410,10 @@ class Runner:
         if self.sim.held:
             self._due = now  # the time stood still: there is nothing to catch up with
             return
-        self._due = max(self._due + self.sim.world.dt / self.time_scale, now - LATE)
+        period = self.sim.world.dt / self.time_scale
+        self._due = max(self._due + period, now - LATE)
+        late = max(now - self._due, 0.0) if period else 0.0  # as fast as it goes is never late
+        self.lateness += FEW_TICKS * (late - self.lateness)
         if self._due > now:
             time.sleep(self._due - now)
 

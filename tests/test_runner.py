@@ -57,7 +57,9 @@ def test_as_fast_as_it_goes() -> None:
     assert runner.latest.real_time_factor > 1.0
 
 
-@pytest.mark.parametrize(("takes", "least", "most"), [(0.0, 60, 60), (0.02, 12, 17)])
+@pytest.mark.parametrize(
+    ("takes", "least", "most"), [(0.0, 60, 60), (0.004, 28, 34), (0.02, 12, 17)]
+)
 def test_snapshots_that_take_long_are_fewer_and_the_ticks_are_not(
     takes: float, least: int, most: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -73,10 +75,39 @@ def test_snapshots_that_take_long_are_fewer_and_the_ticks_are_not(
 
     monkeypatch.setattr(runner, "_picture", slow_picture)
     for _ in range(60):
+        runner._due = now
         runner._tick()
         now += 1 / 60
     assert runner.sim.world.ticks == 60
     assert least <= shown <= most
+
+
+@pytest.mark.parametrize(("ticks", "shown"), [((1, 1), 60), ((16, 1), 30), ((16, 16), 30)])
+def test_a_picture_waits_for_a_tick_that_leaves_time_for_it(
+    ticks: tuple[int, int], shown: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    now, after = 100.0, []
+    runner = Runner(Scene.load("box_chase").build(), seed=1, clock=lambda: now)
+    picture, tick = runner._picture, runner.sim.tick
+
+    def slow_tick() -> None:
+        nonlocal now
+        tick()
+        now += ticks[runner.sim.world.ticks % 2] / 1000
+
+    def slow_picture() -> Snapshot:
+        nonlocal now
+        now += 0.001
+        after.append(ticks[runner.sim.world.ticks % 2])
+        return picture()
+
+    monkeypatch.setattr(runner.sim, "tick", slow_tick)
+    monkeypatch.setattr(runner, "_picture", slow_picture)
+    for number in range(60):
+        now = runner._due = 100 + number / 60
+        runner._tick()
+    assert len(after) == pytest.approx(shown, abs=1)
+    assert set(after[1:]) == {min(ticks)}
 
 
 @pytest.mark.parametrize("scale", [0.0, -1.0, float("nan")])

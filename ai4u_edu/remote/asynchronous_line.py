@@ -5,6 +5,7 @@ from typing import Any, TypeVar
 
 from websockets.asyncio.client import ClientConnection, connect
 from websockets.exceptions import ConnectionClosed, WebSocketException
+from websockets.protocol import State
 
 from ai4u_edu.remote.address import Address
 from ai4u_edu.remote.line_options import OPTIONS, lost_by
@@ -62,8 +63,14 @@ class AsynchronousLine:
             raise lost_by(error) from None
 
     async def _send(self, frame: bytes) -> None:
+        socket = self._there
         try:
-            await self._there.send(frame)
+            if socket.state is State.OPEN and not socket.transport.get_write_buffer_size():
+                # a small frame behind no other needs neither a lock nor flow control
+                socket.protocol.send_binary(frame)
+                socket.transport.write(b"".join(socket.protocol.data_to_send()))
+            else:
+                await socket.send(frame)
         except ConnectionClosed as closed:
             raise lost_by(closed) from None
 

@@ -15,6 +15,8 @@ from websockets.frames import DATA_OPCODES, Frame, Opcode
 from websockets.protocol import Event
 from websockets.typing import Subprotocol
 
+from ai4u_edu.direct import HEADER, Direct, left
+from ai4u_edu.post import Post
 from ai4u_edu.server.frames import EXTENSION, FramesProtocol
 from ai4u_edu.server.guard import with_token
 from ai4u_edu.server.rate import Rate
@@ -33,6 +35,10 @@ AGENT_HEADER = "X-AI4U-Edu-Agent"
 """By this viser is told which agent the page is about, percent-encoded; empty for none."""
 AGENT_COOKIE = "ai4u_edu_agent"
 """By this the page tells us: viser leaves the query out of the address that it connects to."""
+DARK_HEADER = "X-AI4U-Edu-Dark"
+"""By this viser is told that a page is to be dark."""
+DARK_COOKIE = "ai4u_edu_dark"
+"""By this the page tells us; empty for light."""
 
 
 class _Viser(ClientConnection):
@@ -60,7 +66,7 @@ class ViserProxy:
     """Connects each page to viser; an ASGI app.
 
     Each direction waits until the other side has taken a frame: a slow page slows its own stream
-    down, and nothing piles up here.
+    down, and nothing piles up here. For what viser says there is a direct way besides.
 
     Args:
         port: where viser listens, on 127.0.0.1.
@@ -70,17 +76,33 @@ class ViserProxy:
     def __init__(self, port: int, token: str = "") -> None:
         self._url = f"ws://127.0.0.1:{port}"
         self._token = token
+        self._post: Post | None = None
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """One page's connection, until one side closes it."""
-        page = WebSocket(scope, receive, send)
+        frames: FramesProtocol | None = scope.get("extensions", {}).get(EXTENSION)
+        if frames is None:
+            await self._serve(WebSocket(scope, receive, send))
+            return
+        frames.hold_nothing_back()
+        if self._post is None or not self._post.is_here():
+            self._post = Post()
+        with left(frames, self._post) as way:
+            await self._serve(WebSocket(scope, receive, send), frames, way)
+
+    async def _serve(
+        self, page: WebSocket, frames: FramesProtocol | None = None, way: Direct | None = None
+    ) -> None:
+        scope = page.scope
         try:
             viser = await connect(
                 self._url,
                 additional_headers={
                     PAGE_HEADER: with_token(page_address(scope), self._token),
                     AGENT_HEADER: page_agent(scope),
+                    DARK_HEADER: "1" if HTTPConnection(scope).cookies.get(DARK_COOKIE) else "",
                     KNOCK_HEADER: KNOCK,
+                    HEADER: way.ticket if way else "",
                 },
                 subprotocols=[Subprotocol(name) for name in scope["subprotocols"]] or None,
                 compression=None,  # viser compresses by itself
@@ -92,9 +114,9 @@ class ViserProxy:
         except (OSError, InvalidHandshake):
             await page.close(1013, "the viewer does not answer; reload the page in a moment")
             return
-        upward = asyncio.create_task(_upward(page, viser))
+        upward = asyncio.create_task(_upward(page, viser, frames))
         try:
-            await _downward(cast(_Viser, viser), page)
+            await _downward(cast(_Viser, viser), page, frames, way)
         finally:
             upward.cancel()
             viser.transport.abort()  # a farewell would have to wait behind frames nobody reads
@@ -129,20 +151,26 @@ def page_agent(scope: Scope) -> str:
     return said if said.isascii() and said.isprintable() else ""
 
 
-async def _downward(viser: _Viser, page: WebSocket) -> None:
+async def _downward(
+    viser: _Viser, page: WebSocket, frames: FramesProtocol | None, way: Direct | None
+) -> None:
+    ticket = way.ticket.encode() if way else None
     with suppress(WebSocketDisconnect):
         await page.accept(viser.subprotocol)
-        frames: FramesProtocol | None = page.scope.get("extensions", {}).get(EXTENSION)
         viser.short_way = frames.write if frames else None
         with suppress(ConnectionClosed):
             while True:
-                await page.send_bytes(await viser.recv(decode=False))
+                frame = await viser.recv(decode=False)
+                if way is not None and frame == ticket:
+                    way.open()
+                else:
+                    await page.send_bytes(frame)
                 viser.waiting -= 1
         code = viser.close_code or 1001
         await page.close(code if code in _SAYABLE else 1001, viser.close_reason)
 
 
-async def _upward(page: WebSocket, viser: ClientConnection) -> None:
+async def _upward(page: WebSocket, viser: ClientConnection, frames: FramesProtocol | None) -> None:
     rate = Rate(UPWARD)
     with suppress(ConnectionClosed):
         while (message := await page.receive())["type"] == "websocket.receive":
@@ -153,4 +181,6 @@ async def _upward(page: WebSocket, viser: ClientConnection) -> None:
                 await viser.send(frame)
             if wait := rate.take():
                 await asyncio.sleep(wait)
+            if frames is not None and frames.disconnected:
+                break  # who sent too much may be gone before all of that has been read
     await viser.close()

@@ -3,6 +3,7 @@
 viser lets every page gather, pack and compress the same messages anew. With a class that looks on
 (measured: sixty pages) most of the processor's time goes into that. Here pages that are up to date
 share one packing; a page that can't keep up skips what is outdated by then, and gets the newest.
+Where there is a direct way to a page, everything takes it once the page has what there was before.
 """
 
 import asyncio
@@ -10,6 +11,8 @@ import time
 from collections import defaultdict
 from collections.abc import Awaitable, Callable, Sequence
 from contextlib import suppress
+from threading import get_ident
+from weakref import WeakKeyDictionary
 
 import msgspec
 import viser
@@ -18,6 +21,8 @@ from viser.infra import _infra
 from viser.infra._async_message_buffer import AsyncMessageBuffer
 from viser.infra._messages import Message
 from websockets.asyncio.server import ServerConnection, broadcast
+
+from ai4u_edu.direct import HEADER, Direct, framed, taken
 
 KNOWN = "1.1.1"
 """The viser whose insides this fits. Any other one goes on in its own way."""
@@ -28,8 +33,67 @@ MOST = 0.4
 CHUNK = 128
 """Messages in a frame for a page that has just come."""
 
+SOON = 0.01
+"""Seconds after which it is looked again whether a page has taken what it was told."""
+
 _NAME = "_ai4u_edu_fan_out"
 Producer = Callable[..., Awaitable[None]]
+
+
+class Awakener(asyncio.Event):
+    """In place of a buffer's event, which viser sets from other threads too.
+
+    To wake who waits is for the loop's thread alone, and viser has that done besides: from another
+    one it may fail, since who waits comes and goes meanwhile.
+    """
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._thread = get_ident()
+
+    def set(self) -> None:
+        """Sets it; whoever waits is woken in the loop's thread."""
+        if get_ident() != self._thread:
+            self._value = True
+            return
+        self._value = False  # else those would not be woken who wait since before it was set
+        super().set()
+
+
+class Page:
+    """The way to one page: viser's connection, later the direct one if there is one.
+
+    Args:
+        connection: viser's.
+    """
+
+    def __init__(self, connection: ServerConnection) -> None:
+        self.connection = connection
+        self.way: Direct | None = None
+        """The direct way, which is taken from now on."""
+        headers = connection.request.headers if connection.request else {}
+        self._left = taken(headers.get(HEADER, ""))
+
+    def is_clear(self) -> bool:
+        """Whether it has taken all that it was told."""
+        if self.way is not None:
+            return self.way.is_clear()
+        return not self.connection.transport.get_write_buffer_size()
+
+    async def send(self, message: bytes) -> None:
+        """Tells it something after all else; viser's producers call this."""
+        if self.way is None:
+            await self.connection.send(message)
+            return
+        while not self.way.is_clear():
+            await asyncio.sleep(SOON)
+        self.way.tell(framed(message))
+
+    async def go_direct(self) -> None:
+        """Takes the direct way from now on, as soon as it is open; if there is one."""
+        if self._left is not None:
+            self.way = self._left  # first: nothing else may come behind the ticket
+            await self.connection.send(self.way.ticket)
 
 
 class FanOut:
@@ -41,14 +105,14 @@ class FanOut:
 
     def __init__(self, buffer: AsyncMessageBuffer) -> None:
         self._buffer = buffer
-        self._pages: dict[int, ServerConnection] = {}
+        self._pages: dict[int, Page] = {}
         self._sending: asyncio.Task[None] | None = None
 
-    async def serve(self, page: ServerConnection, number: int, replayed: Message | None) -> None:
+    async def serve(self, page: Page, number: int, replayed: Message | None) -> None:
         """One page: all that there is first, then what is new, until it is cancelled.
 
         Args:
-            page: its connection.
+            page: the way to it.
             number: the page's.
             replayed: is said after what there was when the page came.
         """
@@ -63,6 +127,7 @@ class FanOut:
                 await page.send(packed(there[first : first + CHUNK]))
             if replayed is not None:
                 await page.send(packed([replayed]))
+            await page.go_direct()
             cursors[number] = backlog
             self._pages[number] = page
             if self._sending is None:
@@ -100,10 +165,10 @@ class FanOut:
         for number, page in self._pages.items():
             if cursors[number] == last:
                 continue
-            if page.transport.get_write_buffer_size():
-                is_done = False
-            else:
+            if page.is_clear():
                 lacking[cursors[number]].append(number)
+            else:
+                is_done = False
         for since, numbers in lacking.items():
             messages = self._between(since, last)
             barred = {message.excluded_self_client for message in messages}
@@ -115,8 +180,14 @@ class FanOut:
         return is_done
 
     def _tell(self, numbers: Sequence[int], messages: Sequence[Message]) -> None:
-        if numbers and messages:
-            broadcast([self._pages[number] for number in numbers], packed(messages))
+        if not (numbers and messages):
+            return
+        pages, message = [self._pages[number] for number in numbers], packed(messages)
+        broadcast([page.connection for page in pages if page.way is None], message)
+        frame = framed(message)
+        for page in pages:
+            if page.way is not None:
+                page.way.tell(frame)
 
     def _between(self, since: int, last: int, number: int = -1) -> list[Message]:
         """The messages after one and up to another that are still of use, but for one page's."""
@@ -160,6 +231,7 @@ def fan_out(server: viser.ViserServer) -> bool:
     return True
 
 
+_pages: WeakKeyDictionary[ServerConnection, Page] = WeakKeyDictionary()
 _viser_does: Producer = _infra._message_producer
 
 
@@ -169,9 +241,15 @@ async def _produce(
     client_id: int,
     backlog_done_message: Message | None = None,
 ) -> None:
-    """In place of viser's function of that name; other buffers than ours go viser's way."""
+    """In place of viser's function of that name; other buffers than ours are packed its way."""
+    if not isinstance(buffer.message_event, Awakener):
+        buffer.message_event = Awakener()
+        buffer.message_event.set()
+    page = _pages.get(websocket)
+    if page is None:
+        page = _pages[websocket] = Page(websocket)
     ours: FanOut | None = getattr(buffer, _NAME, None)
     if ours is None:
-        await _viser_does(websocket, buffer, client_id, backlog_done_message)
+        await _viser_does(page, buffer, client_id, backlog_done_message)
     else:
-        await ours.serve(websocket, client_id, backlog_done_message)
+        await ours.serve(page, client_id, backlog_done_message)

@@ -7,8 +7,11 @@ from ai4u_edu.snapshot import Snapshot, Stage
 from ai4u_edu.viewer.complaints import Complaints
 
 MOST = 0.2
-"""The share of the time that one part may take: with a hundred agents, or as many pages, what takes
-long is drawn less often, and all else is as smooth as ever."""
+"""The share of the processor's time that one part may take: with a hundred agents what takes long
+is drawn less often, and all else is as smooth as ever."""
+EACH_PAGE = 0.1
+"""The same for a part that is drawn for each page anew: with a hundred pages it gives way to what
+all of them see."""
 
 
 class Part(Protocol):
@@ -30,11 +33,15 @@ class Paced:
         part: what is drawn.
         rate: how many times a second.
         complaints: gets to know what went wrong.
+        share: of the time that it may take.
     """
 
-    def __init__(self, part: Part, rate: float, complaints: Complaints) -> None:
+    def __init__(
+        self, part: Part, rate: float, complaints: Complaints, share: float = MOST
+    ) -> None:
         self._part = part
         self._period = 1 / rate
+        self._share = share
         self._complaints = complaints
         self._drawn_at = self._took = 0.0
         self._ready = False
@@ -50,8 +57,10 @@ class Paced:
         """Shows a snapshot, if that is due."""
         now = time.monotonic()
         # pictures come when the world has ticked: a bit early is better than a tick late
-        if self._ready and now - self._drawn_at >= max(0.8 * self._period, self._took / MOST):
-            self._drawn_at = now
+        if self._ready and now - self._drawn_at >= max(
+            0.8 * self._period, self._took / self._share
+        ):
+            self._drawn_at, began = now, time.thread_time()
             with self._complaints.caught():
                 self._part.draw(snapshot)
-            self._took = time.monotonic() - now
+            self._took = time.thread_time() - began

@@ -20,8 +20,9 @@ from ai4u_edu.viewer.labels import Labels
 from ai4u_edu.viewer.light import light
 from ai4u_edu.viewer.local_server import LocalServer
 from ai4u_edu.viewer.onlooker import Onlookers
+from ai4u_edu.viewer.pace import Pace
 from ai4u_edu.viewer.page_controls import PageControls
-from ai4u_edu.viewer.part import Paced, Part
+from ai4u_edu.viewer.part import EACH_PAGE, MOST, Paced, Part
 from ai4u_edu.viewer.past import past
 from ai4u_edu.viewer.past_projector import Projector
 from ai4u_edu.viewer.payments import REMEMBERED
@@ -33,9 +34,7 @@ from ai4u_edu.workshop import State, Workshop
 PANEL_WIDTH = 320
 """Pixels."""
 FRAMES = 60
-"""So many pictures a second, if the world ticks as often."""
-PAUSE = 0.8 / FRAMES
-"""At least so many seconds are between two pictures; less than a tick, so as to miss none."""
+"""So many pictures a second at most."""
 IDLE = 0.1
 """Seconds between two looks for somebody who watches, while nobody does."""
 
@@ -62,6 +61,7 @@ class Viewer:
         self._stage: Stage | None = None
         self._complaints = Complaints()
         self._stopping = threading.Event()
+        self._pace = Pace()
         self._thread = threading.Thread(target=self._run, name="viewer", daemon=True)
         server.gui.configure_theme(show_logo=False, show_share_button=False)
         server.gui.main_panel.dock_right()
@@ -77,19 +77,19 @@ class Viewer:
         self._projector, self.ghosts = Projector(runner), Ghosts(server)
         if runner.recorder is not None:
             kinds.append(past(runner, self._projector, self.ghosts))
-        parts: list[tuple[Part, float]] = [
-            (onlookers, FRAMES),
-            (Ground(server), 1),
-            (Bodies(server, self._choose), FRAMES),
-            (Labels(server), FRAMES),
-            (self.ghosts, 30),
-            (Gaze(onlookers), 30),
-            (Actions(server), 30),
-            (Controls(server, runner, onlookers), 8),
-            (PageControls(onlookers), 8),
-            (Tabs(onlookers, kinds, self._complaints), 8),
+        parts: list[tuple[Part, float, float]] = [
+            (onlookers, FRAMES, MOST),
+            (Ground(server), 1, MOST),
+            (Bodies(server, self._choose), FRAMES, MOST),
+            (Labels(server), FRAMES, MOST),
+            (self.ghosts, 30, MOST),
+            (Gaze(onlookers), 30, EACH_PAGE),
+            (Actions(server), 30, MOST),
+            (Controls(server, runner, onlookers), 8, MOST),
+            (PageControls(onlookers), 8, EACH_PAGE),
+            (Tabs(onlookers, kinds, self._complaints), 8, EACH_PAGE),
         ]
-        self._parts = [Paced(part, rate, self._complaints) for part, rate in parts]
+        self._parts = [Paced(part, rate, self._complaints, share) for part, rate, share in parts]
         self._draw(runner.latest)
 
     @property
@@ -111,22 +111,26 @@ class Viewer:
 
     def _rename(self, state: State) -> None:
         """Another scene has another title."""
-        title = state.description.title or state.description.name
-        if title != self._title:
-            self._title = title
-            self.server.gui.set_panel_label(title)
+        if state.title != self._title:
+            self._title = state.title
+            self.server.gui.set_panel_label(state.title)
 
     def _run(self) -> None:
         seen = self.runner.latest
         while not self._stopping.is_set():
             seen = self.runner.wait(seen, IDLE)
-            began = time.monotonic()
+            began, worked = time.monotonic(), time.thread_time()
             with self._complaints.caught():
                 self._onlookers.meet()
                 if self._onlookers or seen.stage is not self._stage:
                     self._draw(seen)
             spent = time.monotonic() - began
-            self._stopping.wait(max((PAUSE if self._onlookers else IDLE) - spent, 0.001))
+            period = self._pace.period(
+                pages=len(self._onlookers),
+                late=self.runner.lateness,
+                spent=time.thread_time() - worked,
+            )
+            self._stopping.wait(max((period if self._onlookers else IDLE) - spent, 0.001))
 
     def _choose(self, client_id: int, body: str) -> None:
         """On one page, looks at the agent with that body."""

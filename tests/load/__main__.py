@@ -7,17 +7,21 @@ server have one process, all brains another one, all viewers a third; how much o
 stands in the table, since they compete for the same cores. ``--apart`` gives the server a core of
 its own, as it has where scripts and pages are on other machines. How many others wanted the cores
 meanwhile (the load average) stands in the table too: a figure counts only where it is small.
+``--floor`` measures besides, in turns, a server that has no world and only says as much to the same
+clients: better than that no server can be on that machine.
 """
 
 import argparse
 import multiprocessing
 import os
+from collections.abc import Callable
 from multiprocessing.connection import Connection
 from typing import Any
 
 import numpy as np
 
 from tests.load import clients, world
+from tests.load.floor import serve_floor
 
 HEAD = """\
 | brains | viewers | besides | tick late p50 / p99 | observation old p50 / p99 | viewer frames/s \
@@ -34,6 +38,7 @@ def main() -> None:
     parser.add_argument("--seconds", type=float, default=20)
     parser.add_argument("--quick", action="store_true", help="5 s each")
     parser.add_argument("--no-viewers", action="store_true")
+    parser.add_argument("--floor", action="store_true", help="a server without a world, besides")
     parser.add_argument("--apart", action="store_true", help="a core for the server alone")
     options = parser.parse_args()
     cores = sorted(os.sched_getaffinity(0)) if options.apart else []
@@ -48,6 +53,8 @@ def main() -> None:
         print(measure(count, 0, seconds), flush=True)
         if not options.no_viewers:
             print(measure(count, count, seconds), flush=True)
+        for viewers in (0, count) if options.floor else ():
+            print(measure(count, viewers, seconds, serve=serve_floor), flush=True)
     least = min(counts)
     print(measure(least, 5, seconds, slow=5), flush=True)
     print(measure(least, 5, seconds, flooding=True), flush=True)
@@ -62,10 +69,11 @@ def measure(
     slow: int = 0,
     stopped: int = 0,
     flooding: bool = False,
+    serve: Callable[[int, Connection], None] = world.serve,
 ) -> str:
     """One line of the table."""
     here, there = multiprocessing.Pipe()
-    served = multiprocessing.Process(target=world.serve, args=(brains, there), daemon=True)
+    served = multiprocessing.Process(target=serve, args=(brains, there), daemon=True)
     served.start()
     _pin(served, "server")
     url = here.recv()
@@ -81,7 +89,8 @@ def measure(
     told = here.recv()
     here.send("end")
     served.join(20)
-    besides = [f"{slow} brains slow"] if slow else []
+    besides = ["no world"] if serve is serve_floor else []
+    besides += [f"{slow} brains slow"] if slow else []
     besides += [f"{stopped} viewers never read"] if stopped else []
     besides += [f"flood, closed: {found[-1].closes}"] if flooding else []
     ages = [

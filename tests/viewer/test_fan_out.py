@@ -1,13 +1,17 @@
 """Bare clients of viser's socket: what all get is packed once, and nobody misses anything."""
 
+import asyncio
 import inspect
+import re
 import time
 from collections.abc import Iterator
+from contextlib import ExitStack, suppress
 from typing import Any
 
 import msgspec
 import pytest
 import viser
+from viser import _assignable_props_api
 from viser.infra import _infra
 from viser.infra._messages import Message
 from websockets.sync.client import ClientConnection, connect
@@ -15,17 +19,28 @@ from websockets.sync.connection import Connection
 from websockets.typing import Subprotocol
 from zstandard import ZstdDecompressor
 
+from ai4u_edu import direct
 from ai4u_edu.viewer import fan_out
-from ai4u_edu.viewer.fan_out import FanOut
+from ai4u_edu.viewer.fan_out import FanOut, Page
 from ai4u_edu.viewer.local_server import LocalServer
-from tests.server.rooms import until
+from ai4u_edu.viewer.quick_props import quick_props
+from tests.load.clients import CAMERA
+from tests.server.rooms import served, until
+
+DOORS: dict[int, str] = {}
+"""Where pages go to, by viser's port, if not to viser itself."""
 
 
-@pytest.fixture
-def server() -> Iterator[LocalServer]:
+@pytest.fixture(params=["to viser", "to our port"])
+def server(request: pytest.FixtureRequest) -> Iterator[LocalServer]:
     server = LocalServer("AI4U Edu")
-    yield server
-    server.stop()
+    with ExitStack() as stack:
+        stack.callback(server.stop)
+        if request.param == "to our port":
+            room = stack.enter_context(served(viser_port=server.get_port()))
+            DOORS[server.get_port()] = room.url
+            stack.callback(DOORS.clear)
+        yield server
 
 
 @pytest.fixture
@@ -42,9 +57,11 @@ def packings(monkeypatch: pytest.MonkeyPatch) -> list[list[Message]]:
     return made
 
 
-def client(server: viser.ViserServer) -> ClientConnection:
+def client(server: viser.ViserServer, door: str = "") -> ClientConnection:
+    port = server.get_port()
+    url = door or DOORS.get(port) or f"http://127.0.0.1:{port}"
     return connect(
-        f"ws://127.0.0.1:{server.get_port()}",
+        url.rstrip("/").replace("http", "ws", 1),
         subprotocols=[Subprotocol(f"viser-v{viser.__version__}")],
         compression=None,
         max_size=None,
@@ -70,16 +87,34 @@ def frame_with(page: Connection, text: str) -> bytes:
             return frame
 
 
+def marks(messages: list[dict[str, Any]]) -> list[str]:
+    """What stands in angle brackets in each message, if anything does."""
+    found = (re.search(r"<(\w+)>", str(message)) for message in messages)
+    return [each[1] for each in found if each]
+
+
 def settled(server: LocalServer, pages: int) -> FanOut:
     """The server's fan-out, as soon as so many pages are up to date."""
     out: FanOut = server._websock_server._broadcast_buffer._ai4u_edu_fan_out  # type: ignore[attr-defined]
     until(lambda: len(out._pages) == pages)
+    until(lambda: all(page.is_clear() for page in out._pages.values()))
+    assert all((page.way is not None) == bool(DOORS) for page in out._pages.values())
     return out
+
+
+def waiting(page: Page) -> int:
+    """Bytes that a page has not taken yet, and that wait for it."""
+    socket: Any = page.way._socket if page.way else page.connection
+    size: int = socket.transport.get_write_buffer_size()
+    return size
 
 
 def test_it_fits_the_viser_that_is_there(server: LocalServer) -> None:
     assert viser.__version__ == fan_out.KNOWN, "look whether viewer/fan_out.py still fits"
     assert fan_out.fan_out(server)
+    assert quick_props()
+    source = inspect.getsource(_assignable_props_api)
+    assert set(re.findall(r"npt\.(\w+)", source)) == {"NDArray"}
     ours, theirs = (inspect.signature(f) for f in (fan_out._produce, fan_out._viser_does))
     assert list(ours.parameters) == list(theirs.parameters)
     assert "_message_producer" in inspect.getsource(_infra.WebsockServer)
@@ -182,8 +217,8 @@ def test_a_page_that_does_not_read_gets_the_newest_when_it_does(server: LocalSer
     for number in range(60):
         text.content = f"{number} " + "".join(f"{number * each:x}" for each in range(100_000))
         frame_with(quick, f"{number} ")
-    waiting = [page.transport.get_write_buffer_size() for page in out._pages.values()]
-    assert 0 < max(waiting) < 2_000_000  # one frame of it, and not sixty
+    # one frame of it, and not sixty
+    assert 0 < max(waiting(page) for page in out._pages.values()) < 2_000_000
     text.content = "the last"
     seen: list[str] = []
     while not seen or "the last" not in seen[-1]:
@@ -193,10 +228,67 @@ def test_a_page_that_does_not_read_gets_the_newest_when_it_does(server: LocalSer
         page.close()
 
 
+def test_one_page_s_own_things_come_in_their_order_and_all(server: LocalServer) -> None:
+    with client(server) as page:
+        settled(server, 1)
+        page.send(CAMERA)
+        until(server.get_clients)
+        (own,) = server.get_clients().values()
+        for number in range(300):
+            own.gui.add_markdown(f"<{number}>")
+            if number % 50 == 0:
+                time.sleep(0.02)
+        seen: list[str] = []
+        while "299" not in seen:
+            seen += marks(told(page.recv(5)))
+    assert list(dict.fromkeys(seen)) == [str(number) for number in range(300)]
+
+
+def test_the_direct_way_is_not_taken_before_it_is_open(monkeypatch: pytest.MonkeyPatch) -> None:
+    ways: list[direct.Direct] = []
+    opened = direct.Direct.open
+    monkeypatch.setattr(direct.Direct, "open", lambda way: ways.append(way))
+    server = LocalServer("AI4U Edu")
+    server.gui.add_markdown("<there>")
+    with ExitStack() as stack:
+        stack.callback(server.stop)
+        room = stack.enter_context(served(viser_port=server.get_port()))
+        page = stack.enter_context(client(server, room.url))
+        page.send(CAMERA)
+        until(lambda: ways and server.get_clients())
+        (own,) = server.get_clients().values()
+        seen: list[str] = []
+        with suppress(TimeoutError):
+            while True:
+                before, seen = seen, seen + marks(told(page.recv(0.3)))
+                if "there" in seen and "there" not in before:
+                    server.gui.add_markdown("<new>")
+                    own.gui.add_markdown("<own>")
+        assert set(seen) == {"there"}
+        opened(ways[0])
+        while not {"new", "own"} <= set(seen):
+            seen += marks(told(page.recv(5)))
+
+
+def test_from_another_thread_nobody_is_woken_and_nothing_is_forgotten() -> None:
+    async def main() -> None:
+        event = fan_out.Awakener()
+        waits = asyncio.create_task(event.wait())
+        await asyncio.sleep(0)
+        await asyncio.to_thread(event.set)
+        assert event.is_set()
+        assert not waits.done()
+        event.set()
+        await asyncio.wait_for(waits, 1)
+
+    asyncio.run(main())
+
+
 def test_nothing_is_left_of_pages_that_are_gone(server: LocalServer) -> None:
     with client(server), client(server):
         out = settled(server, 2)
     settled(server, 0)
+    until(lambda: not direct._left)
     until(lambda: not out._buffer.generator_cursors)
     assert out._sending is None
     with client(server) as page:

@@ -15,6 +15,9 @@ class Clock:
     def monotonic(self) -> float:
         return self.now
 
+    def thread_time(self) -> float:
+        return self.now
+
 
 class Drawn:
     """A part that takes its time."""

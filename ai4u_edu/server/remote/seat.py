@@ -9,6 +9,7 @@ from ai4u_edu.blocks import Brain
 from ai4u_edu.blocks.brains.link import LinkState
 from ai4u_edu.blocks.brains.remote import RemoteBrain
 from ai4u_edu.errors import AI4UError, NameNotFoundError
+from ai4u_edu.post import Post
 from ai4u_edu.runner import Runner
 from ai4u_edu.server.remote.line import Line
 from ai4u_edu.server.remote.refusal import RefusalError
@@ -29,6 +30,7 @@ class Seat:
         agent: whose seat it is.
         hello: what the script wants.
         rules: of the room.
+        post: of the room.
         on_left: called when the seat is free.
     """
 
@@ -38,6 +40,7 @@ class Seat:
         agent: BasicAgent,
         hello: native.Hello,
         rules: Rules,
+        post: Post,
         on_left: Callable[["Seat"], None],
     ) -> None:
         self.agent = agent
@@ -60,7 +63,11 @@ class Seat:
             raise RefusalError("unknown_key", str(error)) from None
         alone = len(runner.sim.agents) == 1
         self.session = Session(
-            excerpt, runner, self._taken_away, may_seed=alone or rules.seeded_resets
+            excerpt,
+            runner,
+            self._taken_away,
+            may_seed=alone or rules.seeded_resets,
+            post=post,
         )
         self._readings = excerpt.readings
         self.welcome = b""

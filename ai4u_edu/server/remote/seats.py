@@ -2,6 +2,7 @@
 
 from ai4u_edu.agent import BasicAgent
 from ai4u_edu.errors import suggest
+from ai4u_edu.post import Post
 from ai4u_edu.runner import Runner
 from ai4u_edu.server.guard import same
 from ai4u_edu.server.remote.line import Line
@@ -28,6 +29,7 @@ class Seats:
         self._title = title
         self._rules = rules
         self._seats: dict[str, Seat] = {}
+        self._post: Post | None = None
 
     async def enter(self, hello: native.Hello, line: Line) -> Seat:
         """Gives a script the agent that it wants, or the session back that it had.
@@ -52,7 +54,9 @@ class Seats:
         elif seat is not None:
             raise RefusalError("agent_taken", self._taken(agent))
         else:
-            seat = Seat(self._runner, agent, hello, self._rules, self._left)
+            if self._post is None or not self._post.is_here():
+                self._post = Post()
+            seat = Seat(self._runner, agent, hello, self._rules, self._post, self._left)
             self._seats[agent.id] = seat
             await seat.claim(self._title)
         seat.sit(line)

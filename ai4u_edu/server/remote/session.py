@@ -4,14 +4,15 @@ The runner's thread asks; the server's loop hears and speaks. What both touch is
 and is never held for long.
 """
 
-import asyncio
 import time
 from collections import deque
 from collections.abc import Callable, Mapping
-from threading import Lock, get_ident
+from threading import Lock
+from typing import Any
 
 from ai4u_edu.blocks import Answer, Command
 from ai4u_edu.blocks.brains.link import Answered, LinkState, Offer, Reset, Situation
+from ai4u_edu.post import Post
 from ai4u_edu.runner import Runner
 from ai4u_edu.server.remote.line import Line
 from ai4u_edu.server.remote.welcome import Excerpt
@@ -26,6 +27,7 @@ class Session:
         runner: the room's.
         on_close: called in the loop when the agent's brain is closed.
         may_seed: whether a reset may have a seed, which resets the whole world.
+        post: the way into the loop that all sessions of a room share; left out, one of its own.
     """
 
     def __init__(
@@ -35,6 +37,7 @@ class Session:
         on_close: Callable[[str], None],
         *,
         may_seed: bool = True,
+        post: Post | None = None,
     ) -> None:
         self.state = LinkState.CONNECTED
         self.reason = ""
@@ -42,10 +45,9 @@ class Session:
         self.heard = 0.0
         self._excerpt = excerpt
         self._runner = runner
-        self._thread = get_ident()
+        self._post = post or Post()
         self._on_close = on_close
         self._may_seed = may_seed
-        self._loop = asyncio.get_running_loop()
         self._lock = Lock()
         self._line: Line | None = None
         self._answers: deque[Answered] = deque()
@@ -97,7 +99,7 @@ class Session:
             again = self._told is None
             if again:
                 self._told, self._is_answered = situation, False
-        self._post(self._say, native.encode(native.Problem("bad_action", reason, situation.number)))
+        self._give(self._say, native.encode(native.Problem("bad_action", reason, situation.number)))
         return again
 
     def idle(self) -> None:
@@ -107,7 +109,7 @@ class Session:
         """The agent has another brain, or the world has ended."""
         self.state, self.reason = LinkState.WAITING, reason
         self._told = None
-        self._post(self._on_close, reason)
+        self._give(self._on_close, reason)
 
     # -- for the connections, in the loop --------------------------------------------------------
 
@@ -223,18 +225,15 @@ class Session:
         with self._lock:
             self._told, self._frame, self._is_answered = situation, frame, False
         if self._line is not None:  # else it is said when there is one again
-            self._post(self._say, frame)
+            self._give(self._say, frame)
 
     def _say(self, frame: bytes) -> None:
         if self._line is not None:
             self._line.say(frame)
 
-    def _post(self, function: Callable[..., None], argument: object) -> None:
-        if get_ident() == self._thread:
-            function(argument)
-            return
+    def _give(self, function: Callable[[Any], None], argument: object) -> None:
         try:
-            self._loop.call_soon_threadsafe(function, argument)
+            self._post.give(function, argument)
         except RuntimeError:  # the server has ended before the world
             self.state, self.reason = LinkState.LOST, "the server has ended"
 
