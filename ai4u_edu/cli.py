@@ -123,6 +123,14 @@ def play(
             "page may choose who drives; a script is run when it is chosen."
         ),
     ] = None,
+    kept_scenes: Annotated[
+        Path | None,
+        typer.Option(
+            "--scenes",
+            help="A folder in which pages can save scenes under a name; left out, they can only "
+            "download them.",
+        ),
+    ] = None,
     restore: Annotated[
         bool, typer.Option("--restore", help="Go on with the scene that was left unsaved.")
     ] = False,
@@ -148,6 +156,7 @@ def play(
     from ai4u_edu.viewer import Viewer
     from ai4u_edu.workshop import Workshop
     from ai4u_edu.workshop.autosave import Autosave, latest, unsaved_folder
+    from ai4u_edu.workshop.shelf import Shelf
 
     rules = Rules(token=token_for(host, token), seeded_resets=seeded_resets)
     _load(own_blocks)
@@ -168,12 +177,19 @@ def play(
     saver = Autosave(unsaved_folder(), loaded.description.name) if autosave else None
     workshop.autosave = saver
     workshop.unsaved = None if restore else unsaved
+    workshop.shelf = Shelf(kept_scenes) if kept_scenes is not None else None
     viewer = Viewer(runner, title=title, workshop=workshop)
     if run is not None and ghost is not None:
         viewer.ghosts.race(run, ghost.name)
     shut_side_door(viewer.server)
     hosts = (*hosts_for(host), *(allow_host or ()))
-    room = room_app(runner, viser_port=viewer.port, title=title, allowed_hosts=hosts, rules=rules)
+    room = room_app(
+        runner,
+        viser_port=viewer.port,
+        title=lambda: workshop.title,
+        allowed_hosts=hosts,
+        rules=rules,
+    )
 
     def ready(url: str) -> None:
         typer.echo(announcement(title, host, url, rules.token))

@@ -1,6 +1,7 @@
 """Takes the README's picture: ``python -m tests.screenshot``."""
 
 import argparse
+import re
 from pathlib import Path
 
 from playwright.sync_api import Page
@@ -49,7 +50,10 @@ def open_tab(page: Page, tab: str) -> None:
     if tab == "Past":
         page.keyboard.press("KeyR")  # there is a past once an episode is over
         page.wait_for_timeout(500)
-    page.get_by_role("tab", name=tab).click()
+    if page.viewport_size and page.viewport_size["width"] <= 576:
+        open_sheet(page, tab)
+    else:
+        page.get_by_role("tab", name=tab).click()
     page.wait_for_timeout(2000)
     page.locator(".mantine-Select-input:visible").last.click()
     # the first option says what to do; of the Past, the second is the episode under way
@@ -59,6 +63,17 @@ def open_tab(page: Page, tab: str) -> None:
         for _ in range(12):
             page.get_by_role("button", name="Step back").click()
         page.wait_for_timeout(2000)
+
+
+def open_sheet(page: Page, tab: str) -> None:
+    """On a small screen the panels are folded away."""
+    page.locator('#root .mantine-Paper-root div[style*="pointer"]').first.click()
+    page.wait_for_timeout(1000)
+    page.get_by_text(re.compile("^Agent( ·|$)")).click()
+    page.wait_for_timeout(1000)
+    page.get_by_role("tab", name=tab).click()
+    page.wait_for_timeout(500)
+    page.get_by_role("tab", name=tab).evaluate("tab => tab.scrollIntoView()")
 
 
 if __name__ == "__main__":

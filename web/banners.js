@@ -1,4 +1,7 @@
-/** What has happened, in a sentence at the top of the page, with a button that mends it. */
+/**
+ * What has happened, in a sentence at the top of the page, with a button that mends it; and the
+ * window's title.
+ */
 
 import { element } from "./dom.js";
 
@@ -55,6 +58,7 @@ export class Banners {
    */
   draw(state, about) {
     this.#drawn = [state, about];
+    if (state?.title) document.title = state.title;
     const banner = this.#banner(state, about);
     const key = JSON.stringify(banner);
     if (key === this.#shown) return;

@@ -1,7 +1,8 @@
 """One room: a world that runs, its viewer, and everything that a browser asks of them."""
 
 import time
-from collections.abc import Collection
+from collections.abc import Callable, Collection
+from functools import partial
 
 from starlette.applications import Starlette
 from starlette.middleware import Middleware
@@ -26,7 +27,7 @@ def room_app(
     runner: Runner,
     *,
     viser_port: int,
-    title: str,
+    title: str | Callable[[], str],
     allowed_hosts: Collection[str] = LOOPBACK,
     rules: Rules | None = None,
 ) -> Starlette:
@@ -35,21 +36,22 @@ def room_app(
     Args:
         runner: lets the world run; started by the caller.
         viser_port: where the room's viser listens, on 127.0.0.1.
-        title: of the page, and the scene's name in the API.
+        title: of the page, and the scene's name in the API; or what tells it, where it may change.
         allowed_hosts: names under which the room may be asked for; see :mod:`ai4u_edu.server.door`.
         rules: for scripts that drive agents from other machines; their token is asked for by the
             page and the API too.
     """
     began = time.monotonic()
     rules = rules or Rules()
-    page = Page(title)
+    called = title if callable(title) else partial(str, title)
+    page = Page(called)
     guard = [Middleware(Guard, token=rules.token)]
     page_guard = [Middleware(Guard, token=rules.token, is_page=True)]
     past = Past(runner)
     document = openapi()
 
     def healthz(_: Request) -> Response:
-        health = Health.of(runner.latest, title, time.monotonic() - began)
+        health = Health.of(runner.latest, called(), time.monotonic() - began)
         return _json(health.model_dump_json())
 
     def snapshot(_: Request) -> Response:
@@ -68,9 +70,9 @@ def room_app(
             Route("/api/past/{file}", past.file, middleware=guard),
             Route("/api/openapi.json", describe, middleware=guard),
             WebSocketRoute("/", ViserProxy(viser_port, rules.token), middleware=guard),
-            WebSocketRoute("/ws/input", Inputs(runner), middleware=guard),
+            WebSocketRoute("/ws/input", Inputs(runner, called), middleware=guard),
             # asks for the token itself, in the hello
-            WebSocketRoute("/ws/remote", RemoteSockets(runner, title, rules)),
+            WebSocketRoute("/ws/remote", RemoteSockets(runner, called(), rules)),
         ],
         middleware=[Middleware(Door, allowed_hosts=allowed_hosts)],
     )

@@ -19,6 +19,7 @@ from ai4u_edu.blocks import (
     GridMoveActuator,
     LocalBrain,
     RBMoveActuator,
+    RemoteBrain,
     WASDController,
     WASDRBMoveController,
 )
@@ -50,7 +51,7 @@ def keys_of(agent: BasicAgent, brain: Brain | None = None) -> dict[str, list[str
         brain: that it would have; left out, the one that it has.
 
     """
-    controller = getattr(brain or agent.brain, "controller", None)
+    controller = getattr(brain or acting(agent.brain), "controller", None)
     if not isinstance(controller, Controller):
         return {}
     found: dict[str, list[str]] = {}
@@ -59,6 +60,12 @@ def keys_of(agent: BasicAgent, brain: Brain | None = None) -> dict[str, list[str
             if _are_keys(keys):
                 found.setdefault(name, []).extend(keys)
     return found
+
+
+def acting(brain: Brain) -> Brain:
+    """The brain that decides: in place of a script elsewhere it may be a person's."""
+    hand = brain.hand if isinstance(brain, RemoteBrain) else None
+    return hand or brain
 
 
 def takes_a_stick(brain: Brain) -> bool:

@@ -7,7 +7,7 @@ from ai4u_edu.agent import BasicAgent
 from ai4u_edu.blocks import Brain, NeuralNetController, ReplayController, ScriptController
 from ai4u_edu.blocks.brains.remote import RemoteBrain
 from ai4u_edu.runner import Runner
-from ai4u_edu.server.bindings import keyboard_brain, keys_of
+from ai4u_edu.server.bindings import acting, keyboard_brain, keys_of
 
 RESTART = "restart"
 """What a person may ask for without driving."""
@@ -23,7 +23,7 @@ class Hands:
     """An agent whose brain gives way to a person, and comes back when that one lets go.
 
     Where the brain listens to keys itself there is nothing to do. A script on another machine keeps
-    its agent: it would find its session closed.
+    its place and goes on seeing what happens; only its actions are ignored meanwhile.
 
     Args:
         runner: changes brains, between two decisions.
@@ -43,7 +43,7 @@ class Hands:
     def brain(self) -> Brain:
         """The brain whose keys a page should know: the agent's, or the one that would take over."""
         agent = self._agent
-        return agent.brain if keys_of(agent) else self._reserve() or agent.brain
+        return acting(agent.brain) if keys_of(agent) else self._reserve() or agent.brain
 
     @property
     def others(self) -> str:
@@ -55,7 +55,7 @@ class Hands:
     def instead(self) -> str:
         """Who would go on if the person let go, in words; empty if nobody would."""
         before = self._before
-        return "" if before is None or self._agent.brain is not self._ours else who(before)
+        return "" if before is None or acting(self._agent.brain) is not self._ours else who(before)
 
     def are_called_by(self, codes: Collection[str]) -> bool:
         """Whether keys mean that somebody wants to drive; to restart one doesn't have to."""
@@ -81,8 +81,6 @@ class Hands:
     def _reserve(self) -> Brain | None:
         """The brain with which a person could take over."""
         now = self._agent.brain
-        if isinstance(now, RemoteBrain):
-            return None
         if self._spare is None or self._spare[0] is not now:
             self._spare = now, keyboard_brain(self._agent)
         return self._spare[1]
@@ -95,16 +93,22 @@ class Hands:
             return
         before = agent.brain
         self._is_made = not any(spare is brain for brain in agent.brains)
-        agent.use_brain(spare)
+        if isinstance(before, RemoteBrain):
+            before.lend(spare)
+        else:
+            agent.use_brain(spare)
         self._before, self._ours = before, spare
 
     def _give_back(self) -> None:
         agent, before, ours = self._agent, self._before, self._ours
         self._before = self._ours = None
-        if before is None or agent.brain is not ours or not self._is_here():
+        if before is None or acting(agent.brain) is not ours or not self._is_here():
             return
         agent.keyboard.release()
-        agent.use_brain(before)
+        if isinstance(before, RemoteBrain):
+            before.take_back()
+        else:
+            agent.use_brain(before)
         if self._is_made:
             agent.brains[:] = [brain for brain in agent.brains if brain is not ours]
 

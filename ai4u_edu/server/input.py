@@ -40,10 +40,15 @@ AFTER_ANOTHER = "after_another"
 
 
 class Inputs:
-    """The input sockets of a room; an ASGI app."""
+    """The input sockets of a room; an ASGI app.
 
-    def __init__(self, runner: Runner) -> None:
-        self._runner = runner
+    Args:
+        runner: whose agents are driven.
+        title: tells what the scene is called now.
+    """
+
+    def __init__(self, runner: Runner, title: Callable[[], str] = str) -> None:
+        self._runner, self._title = runner, title
         self._places: dict[str, _Place] = {}
         self._numbers = count(1)
 
@@ -64,7 +69,8 @@ class Inputs:
                     await socket.close(1008, "there is no such agent")
                     return
                 agent = choose(sim, None)
-            await _Page(socket, self._runner, sim, self._place(agent), next(self._numbers)).talk()
+            place, number = self._place(agent), next(self._numbers)
+            await _Page(socket, self._runner, sim, place, number, self._title).talk()
 
     def _place(self, agent: BasicAgent) -> "_Place":
         """An agent's place; in another world the agent of the same id has another one."""
@@ -91,7 +97,9 @@ class _Page:
         sim: ControlRequestor,
         place: _Place,
         number: int,
+        title: Callable[[], str],
     ) -> None:
+        self._title = title
         self._socket = socket
         self._runner = runner
         self._sim = sim
@@ -188,7 +196,7 @@ class _Page:
             for frame in (
                 news.hello(self._agent, self._number, self._hands),
                 news.seating(self._seat),
-                news.state(self._runner.latest, self._agent.id),
+                news.state(self._runner.latest, self._agent.id, self._title()),
             ):
                 if frame is None:
                     continue

@@ -35,7 +35,7 @@ def seating(seat: Seat) -> Frame:
     return {"type": "seat", "driver": seat.driver, "pages": seat.pages}
 
 
-def state(picture: Snapshot, agent_id: str) -> Frame | None:
+def state(picture: Snapshot, agent_id: str, title: str = "") -> Frame | None:
     """How the world and the agent are, as far as the page speaks of it; None in another world."""
     agent = next((agent for agent in picture.agents if agent.id == agent_id), None)
     if agent is None:
@@ -50,6 +50,7 @@ def state(picture: Snapshot, agent_id: str) -> Frame | None:
         "terminated": agent.terminated,
         "truncated": agent.truncated,
         "fallen": body.fallen,
+        "title": title,
         "goal": picture.stage.goal,
         "outcome": outcome(picture, agent),
         "reward": finite(agent.episode_reward),

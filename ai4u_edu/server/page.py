@@ -2,8 +2,10 @@
 
 import hashlib
 import html
+from collections.abc import Callable
 from importlib.util import find_spec
 from pathlib import Path
+from typing import NamedTuple
 
 from starlette.requests import Request
 from starlette.responses import FileResponse, PlainTextResponse, Response
@@ -11,23 +13,11 @@ from starlette.responses import FileResponse, PlainTextResponse, Response
 from ai4u_edu.errors import SetupError
 
 _PLACE = "<title>Viser</title>"
-# viser is dark where its address says so, and never because the system is; it must be said before
-# viser looks, so it stands here. What the system wishes is not to stay in an address.
-_DARK = """<script>
-      (() => {
-        const address = new URL(location);
-        const wanted = address.searchParams.get("darkMode");
-        const dark = matchMedia("(prefers-color-scheme: dark)").matches;
-        if (wanted === null ? !dark : wanted !== "auto" || dark) return;
-        if (dark) address.searchParams.set("darkMode", "auto");
-        else address.searchParams.delete("darkMode");
-        history.replaceState(history.state, "", address);
-      })();
-    </script>"""
-_OURS = f"""<title>{{title}}</title>
-    {_DARK.replace("{", "{{").replace("}", "}}")}
+_OURS = """<title>{title}</title>
+    <script src="./web/dark.js"></script>
     <link rel="stylesheet" href="./web/page.css" />
-    <script type="module" src="./web/main.js"></script>"""
+    <script type="module" src="./web/main.js"></script>
+    <script type="module" src="./web/names.js"></script>"""
 # what a system says about endings can't be relied on: some call a .js plain text
 _KINDS = {".css": "text/css", ".js": "text/javascript", ".svg": "image/svg+xml"}
 _FRESH = {"Cache-Control": "no-cache"}
@@ -37,26 +27,29 @@ class Page:
     """The page and its files.
 
     Args:
-        title: of the page; any text.
+        title: tells what the page is called now; any text.
 
     Raises:
         SetupError: viser's page or our files are not where they should be.
     """
 
-    def __init__(self, title: str) -> None:
+    def __init__(self, title: Callable[[], str]) -> None:
         self._folder = web_folder()
-        self._index = _index(title)
-        self._etag = f'"{hashlib.sha256(self._index).hexdigest()[:32]}"'
+        self._title = title
+        self._index = _index(title())
 
     def index(self, request: Request) -> Response:
         """The page itself."""
+        index = self._index
+        if index.title != self._title():  # another scene has been opened
+            index = self._index = _index(self._title())
         headers = _FRESH | {
-            "ETag": self._etag,
+            "ETag": index.etag,
             "Content-Security-Policy": _policy(request.headers["host"]),
         }
-        if request.headers.get("if-none-match") == self._etag:
+        if request.headers.get("if-none-match") == index.etag:
             return Response(status_code=304, headers=headers)
-        return Response(self._index, media_type="text/html", headers=headers)
+        return Response(index.content, media_type="text/html", headers=headers)
 
     def file(self, request: Request) -> Response:
         """One of our files; nothing outside their folder has a name here."""
@@ -78,7 +71,13 @@ def web_folder() -> Path:
     )
 
 
-def _index(title: str) -> bytes:
+class _Index(NamedTuple):
+    title: str
+    content: bytes
+    etag: str
+
+
+def _index(title: str) -> _Index:
     spec = find_spec("viser")
     if spec is None or spec.origin is None:
         raise SetupError("expected the package viser, found none; install ai4u-edu anew")
@@ -89,7 +88,8 @@ def _index(title: str) -> bytes:
             f"expected viser's page with {_PLACE} in {path}; install the viser that ai4u-edu asks "
             "for (pip install --force-reinstall ai4u-edu)"
         )
-    return text.replace(_PLACE, _OURS.format(title=html.escape(title))).encode()
+    content = text.replace(_PLACE, _OURS.format(title=html.escape(title))).encode()
+    return _Index(title, content, f'"{hashlib.sha256(content).hexdigest()[:32]}"')
 
 
 def _policy(host: str) -> str:

@@ -1,7 +1,7 @@
 """What a page can add to a world, and where there is room for it."""
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from typing import Any
 
 from ai4u_edu.snapshot import Snapshot
@@ -40,8 +40,29 @@ THINGS: dict[str, dict[str, Any]] = {
 """By the word on its button."""
 SPACING, RINGS = 0.5, 24
 """Places are tried in circles that are so far (m) apart, and in so many of them."""
+STEEP = 0.2
+"""A camera looks down if it goes down by this share of what it goes ahead."""
 CLEARANCE = 0.15
 """Metres that are left free between a new thing and what there is."""
+
+
+def looked_at(position: Iterable[float], look_at: Iterable[float]) -> tuple[float, float]:
+    """Where on the ground a camera has the middle of its picture.
+
+    Where it hardly looks down, as out of an agent's eye, that is far off; then it is what the
+    camera looks at.
+
+    >>> looked_at((3, 4, 10), (3, 4, 5))
+    (3.0, 4.0)
+    >>> looked_at((0, 0, 10), (2, 0, 5))
+    (4.0, 0.0)
+    >>> looked_at((0, 0, 1), (2, 0, 0.99))
+    (2.0, 0.0)
+    """
+    (x, y, z), (ahead, aside, level) = position, look_at
+    dx, dy, down = ahead - x, aside - y, z - level
+    share = z / down if down > STEEP * math.hypot(dx, dy) else 1.0
+    return float(x + share * dx), float(y + share * dy)
 
 
 def room_for(

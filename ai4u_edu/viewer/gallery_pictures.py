@@ -1,16 +1,18 @@
-"""The library's scenes as pictures, to choose one by what it looks like."""
+"""Scenes as pictures, to choose one by what it looks like."""
 
 import base64
 import io
-from functools import cache
+from functools import cache, lru_cache
 from html import escape
 from typing import NamedTuple
 
 from PIL import Image
 
 from ai4u_edu.drawing import draw
+from ai4u_edu.errors import AI4UError
 from ai4u_edu.scenes import Scene
 from ai4u_edu.snapshot import picture_of
+from ai4u_edu.workshop.shelf import MOST, Shelf
 
 LONGEST = 144
 """Pixels of a picture's longer side: twice what is shown, for sharp screens."""
@@ -19,7 +21,7 @@ COLOURS = 32
 
 
 class Card(NamedTuple):
-    """A scene of the library."""
+    """A scene, of the library or of a shelf."""
 
     name: str
     title: str
@@ -30,15 +32,15 @@ class Card(NamedTuple):
     @property
     def html(self) -> str:
         """The picture, and the words beside it; a button comes to lie over it."""
-        image = f"data:image/png;base64,{base64.b64encode(self.png).decode()}"
+        source = f"data:image/png;base64,{base64.b64encode(self.png).decode()}"
+        image = f'<img src="{source}" alt="">' if self.png else ""
         return (
-            f'<div class="ai4u card"><img src="{image}" alt=""><div><b>{escape(self.title)}</b>'
+            f'<div class="ai4u card">{image}<div><b>{escape(self.title)}</b>'
             f"<br><small>{escape(self.goal)}</small></div></div>"
         )
 
 
 STYLE = """<style>
-.ai4u-banners {display: none}
 .ai4u.card {display: flex; gap: .9em; align-items: center; height: 68px; margin: 0 0 8px;
   padding: 0 .6em; border: 1px solid var(--line); border-radius: 6px; overflow: hidden}
 .ai4u.card img {flex: 0 0 72px; width: 72px; height: 62px; object-fit: contain}
@@ -51,25 +53,44 @@ div:has(> .ai4u.card) + div button {height: 68px !important; padding: 0;
 div:has(> .ai4u.card) + div button:hover, div:has(> .ai4u.card) + div button:focus-visible
   {background: none; border-color: var(--mantine-primary-color-filled)}
 </style>"""
-"""Lays the button that follows a card over it, so that the picture is what is clicked on.
-
-Nothing else hangs over the picture of the world meanwhile.
-"""
+"""Lays the button that follows a card over it, so that the picture is what is clicked on."""
 
 
 @cache
 def card(name: str) -> Card:
     """A scene of the library; drawn once, which takes a moment."""
     scene = Scene.load(name)
-    sim = scene.build()
-    sim.reset(1)
-    picture = Image.fromarray(draw(picture_of(sim), longest=LONGEST))
-    out = io.BytesIO()
-    picture.quantize(COLOURS).save(out, "PNG", optimize=True)
-    about = scene.description
-    return Card(name, about.title or name, about.goal, out.getvalue())
+    return _card(name, scene.description.title or name, scene)
 
 
 def cards() -> list[Card]:
     """All scenes of the library, by title."""
     return sorted((card(name) for name in Scene.names()), key=lambda each: each.title.lower())
+
+
+def cards_of(shelf: Shelf) -> list[Card]:
+    """All scenes of a shelf, by name; one that can't be read says why."""
+    return [_kept(shelf, name, _stamp(shelf, name)) for name in shelf.names()]
+
+
+@lru_cache(MOST)
+def _kept(shelf: Shelf, name: str, _stamp: float) -> Card:
+    try:
+        return _card(name, name, shelf.load(name))
+    except AI4UError as error:
+        return Card(name, name, f"can't be read: {error}", b"")
+
+
+def _stamp(shelf: Shelf, name: str) -> float:
+    """When a scene was kept; it may have been taken away meanwhile."""
+    file = shelf.file(name)
+    return file.stat().st_mtime if file is not None else 0.0
+
+
+def _card(name: str, title: str, scene: Scene) -> Card:
+    sim = scene.build()
+    sim.reset(1)
+    picture = Image.fromarray(draw(picture_of(sim), longest=LONGEST))
+    out = io.BytesIO()
+    picture.quantize(COLOURS).save(out, "PNG", optimize=True)
+    return Card(name, title, scene.description.goal, out.getvalue())

@@ -9,6 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from viser import (
     BatchedMeshHandle,
+    CommandHandle,
     FrameHandle,
     SceneNodeDragEvent,
     SceneNodePointerEvent,
@@ -52,7 +53,9 @@ class Handles:
     """An unseen box over each body to take it by, and a knob by which the chosen one is turned.
 
     The picture follows from what the workshop does with the world. One call at a time is under way
-    while a body is carried, so a slow world gets no more of them than it can take.
+    while a body is carried, so a slow world gets no more of them than it can take. Escape puts back
+    what is held. A hand that is gone lets go where it was last: viser ends what a page drags when
+    that page goes, or when what it drags by is taken away.
 
     Args:
         onlooker: the page.
@@ -83,6 +86,8 @@ class Handles:
         self.knob: BatchedMeshHandle | None = None
         self._mark: FrameHandle | None = None
         self._marked: BodyDescription | None = None
+        self.escape: CommandHandle | None = None
+        """Listens to the key, while there is something to take up."""
 
     @property
     def node(self) -> str:
@@ -101,11 +106,14 @@ class Handles:
         self._states = {state.name: state for state in snapshot.bodies}
         is_on = on and not snapshot.past and self._onlooker.view.mode is not Mode.EYES
         wanted = stage.bodies if is_on else ()
+        body = next((each for each in wanted if each.name == chosen), None)
+        if wanted != self._bodies or (body != self._marked and self.grip and self.grip.turns):
+            self._lose_hold(stage.bodies)
         with self._onlooker.client.atomic():
             if wanted != self._bodies:
                 self._bodies = wanted
                 self._build(stage)
-            body = next((each for each in wanted if each.name == chosen), None)
+                self._listen(is_on)
             if body != self._marked:
                 self._marked = body
                 self._build_mark(stage)
@@ -199,6 +207,34 @@ class Handles:
             state = self._states[self._marked.name]
             self._take(Grip(state.name, state.x, state.y, turns=True))
         self._follow(event)
+
+    def _listen(self, is_on: bool) -> None:
+        """Has Escape mean something here, or no longer."""
+        if is_on and self.escape is None:
+            gui = self._onlooker.client.gui
+            self.escape = gui.add_command("Put back what is held", hotkey="escape")
+            self.escape.on_trigger(self._on_escape)
+        elif not is_on and self.escape is not None:
+            self.escape.remove()
+            self.escape = None
+
+    async def _on_escape(self, _event: Any) -> None:
+        self._put_back()
+
+    def _put_back(self) -> None:
+        with self._lock:
+            grip, goal, self.grip = self.grip, self._goal, None
+            if grip is not None and goal is not None:
+                self._workshop.put_back(grip.name)
+
+    def _lose_hold(self, now: tuple[BodyDescription, ...]) -> None:
+        """What a hand holds its body by is about to go; so may be the body, with its scene."""
+        grip = self.grip
+        held = next((body for body in self._bodies if grip and body.name == grip.name), None)
+        if held in now:
+            self._let_go()
+        else:
+            self._put_back()
 
     def _name(self, index: int | None) -> str:
         bodies = self._bodies

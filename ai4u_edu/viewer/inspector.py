@@ -12,10 +12,13 @@ from ai4u_edu.snapshot import Snapshot
 from ai4u_edu.viewer.inspector_form import BlockForm
 from ai4u_edu.viewer.inspector_words import ADD, BARE, KINDS, NO_BLOCK, marked, menu, said, titles
 from ai4u_edu.viewer.onlooker import Onlooker
+from ai4u_edu.viewer.settings_form import SettingsForm
 from ai4u_edu.viewer.tabs import TabKind
 from ai4u_edu.workshop import ChangeError, Outcome, Workshop
 from ai4u_edu.workshop.blocks import Path, block_at, is_on
+from ai4u_edu.workshop.forms import Field
 from ai4u_edu.workshop.names import Names
+from ai4u_edu.workshop.settings import agent_form
 from ai4u_edu.workshop.suggestion import suggestion
 
 UNDO, REDO = "Undo", "Redo"
@@ -45,6 +48,9 @@ class BlocksTab:
         gui.add_html(BARE)
         self.changes = gui.add_button_group("Changes", (UNDO, REDO))
         self.driver = gui.add_dropdown("Driven by", ("",))
+        self.settings = SettingsForm(
+            onlooker.client, "Agent's settings", self._settings, self._on_settings
+        )
         self._mark = gui.add_html(marked(self._kind))
         self.kind = gui.add_button_group("Blocks", tuple(KINDS))
         self.new = gui.add_dropdown("New", (ADD,))
@@ -84,6 +90,7 @@ class BlocksTab:
             except AI4UError:
                 return  # another scene has just come: what is shown and what is wanted differ
             self._seen = seen
+        self.settings.draw(agent, workshop.version)
         if self._problems is not None and self._form is not None:
             problems, self._problems = self._problems, None
             self._form.explain(problems)
@@ -141,6 +148,9 @@ class BlocksTab:
             told = f"<b>An unsaved scene from {escape(unsaved.when)} is there.</b>"
             self._offer.content = f'<div class="ai4u">{told}</div>'
 
+    def _settings(self) -> list[Field]:
+        return agent_form(self._workshop.state.agent(self._onlooker.agent))
+
     # -- what people ask for; in viser's loop, one after the other -------------------------------
 
     async def _on_apply(self, _event: Any) -> None:
@@ -153,6 +163,11 @@ class BlocksTab:
             self._problems = error.problems
             return
         self._ask(self._workshop.change_block(self._onlooker.agent, path, values), of_form=True)
+
+    def _on_settings(self, values: dict[str, Any]) -> "Future[Outcome]":
+        future = self._workshop.change_agent(self._onlooker.agent, values)
+        self._ask(future)
+        return future
 
     async def _on_deed(self, event: GuiEvent[GuiButtonGroupHandle]) -> None:
         agent, path = self._onlooker.agent, self._path

@@ -1,31 +1,19 @@
 """The form of one block, on one page."""
 
-from collections.abc import Callable, Coroutine, Iterable
+from collections.abc import Callable, Coroutine
 from html import escape
 from typing import Any
 
-from viser import (
-    ClientHandle,
-    GuiCheckboxHandle,
-    GuiDropdownHandle,
-    GuiFolderHandle,
-    GuiHtmlHandle,
-    GuiNumberHandle,
-    GuiTextHandle,
-)
+from viser import ClientHandle
 
-from ai4u_edu.parameters import Problem, dotted
-from ai4u_edu.viewer.readings import block as paragraph
-from ai4u_edu.workshop import ChangeError
+from ai4u_edu.viewer.field_form import FieldForm
 from ai4u_edu.workshop.blocks import Path, Plain
-from ai4u_edu.workshop.forms import Field, about, form
+from ai4u_edu.workshop.forms import about, form
 from ai4u_edu.workshop.names import Names
 
-Box = GuiCheckboxHandle | GuiDropdownHandle[str] | GuiNumberHandle[int] | GuiTextHandle
 
-
-class BlockForm:
-    """A box for each parameter; what is wrong stands right below the box that it is about.
+class BlockForm(FieldForm):
+    """The parameters of one block.
 
     Args:
         client: the page; the form comes to stand where its ``gui`` is.
@@ -44,29 +32,8 @@ class BlockForm:
         on_apply: Callable[[Any], Coroutine[Any, Any, None]],
     ) -> None:
         self._block, self._path, self._names = block, path, names
-        self._gui = client.gui
-        self.fields = form(block, names)
-        self.boxes: dict[str, Box] = {}
-        self._complaints: dict[str, GuiHtmlHandle] = {}
-        self._form = self._gui.add_form(None)
-        self._form.on_submit(on_apply)
-        self._more: GuiFolderHandle | None = None
-        with self._form:
-            told = f"<b>{escape(str(block['type']))}</b><br><small>{escape(about(block))}</small>"
-            self._gui.add_html(paragraph(told), order=-1.0)
-            for place, field in enumerate(self.fields):
-                if not field.is_common:
-                    self.boxes[field.name] = self._box(field, place)
-            if any(field.is_common for field in self.fields):
-                more = self._gui.add_folder("More", expand_by_default=False, order=1000.0)
-                self._more = more
-                with more:
-                    for place, field in enumerate(self.fields):
-                        if field.is_common:
-                            self.boxes[field.name] = self._box(field, place)
-            self._told = self._gui.add_html("", order=1999.0)
-            self.apply = self._gui.add_button("Apply", order=2000.0, color="blue")
-        self.apply.on_click(on_apply)
+        heading = f"<b>{escape(str(block['type']))}</b><br><small>{escape(about(block))}</small>"
+        super().__init__(client, heading, form(block, names), on_apply)
 
     def takes(self, block: Plain | None, path: Path | None) -> bool:
         """Shows a block as it is now, if it is still the one whose form this is."""
@@ -74,112 +41,7 @@ class BlockForm:
             return False
         if block == self._block:
             return True
-        fields = form(block, self._names)
-        if [_sort_of(each) for each in fields] != [_sort_of(each) for each in self.fields]:
+        if not self.shows(form(block, self._names)):
             return False
-        self._block, self.fields = block, fields
-        for field in fields:
-            box: Any = self.boxes[field.name]
-            box.value = _of_its_kind(field, box.value)
-        self.explain(())
+        self._block = block
         return True
-
-    def tell(self, text: str) -> None:
-        """Says something above the button."""
-        self._told.content = paragraph(f"<small>{escape(text)}</small>") if text else ""
-
-    def changes(self) -> dict[str, Any]:
-        """What a person has written that is other than it was, as plain data.
-
-        Raises:
-            ChangeError: some of it can't be read at all.
-        """
-        values: dict[str, Any] = {}
-        problems: list[Problem] = []
-        for field in self.fields:
-            said = self.boxes[field.name].value
-            if said == (bool(field.value) if field.kind == "switch" else field.shown):
-                continue
-            try:
-                value = field.read(said)
-            except ChangeError as error:
-                problems += error.problems
-                continue
-            if value != field.value and (value, field.value) != (None, ""):
-                values[field.name] = value
-        if problems:
-            raise ChangeError(problems)
-        return values
-
-    def explain(self, problems: Iterable[Problem]) -> None:
-        """Says what is wrong, each beside its box; above the button what belongs to none."""
-        told: dict[str, list[str]] = {}
-        rest = []
-        for problem in problems:
-            name = str(problem.path[0]) if problem.path else ""
-            if name in self.boxes:
-                inside = dotted(problem.path[1:])
-                told.setdefault(name, []).append(
-                    f"{inside}: {problem.text}" if inside else problem.text
-                )
-            else:
-                rest.append(str(problem))
-        for name in self._complaints.keys() - told.keys():
-            self._complaints.pop(name).remove()
-        for place, field in enumerate(self.fields):
-            if field.name in told:
-                self._complain(field, place, "; ".join(told[field.name]))
-        # said again here: the box may be out of sight, or folded away
-        wrong = [
-            f"{field.label}: {'; '.join(told[field.name])}"
-            for field in self.fields
-            if field.name in told
-        ]
-        text = "; ".join((*rest, *wrong))
-        self._told.content = paragraph(f"<strong>{escape(text)}</strong>") if text else ""
-
-    def remove(self) -> None:
-        """Takes it off the page."""
-        self._form.remove()
-
-    def _complain(self, field: Field, place: int, text: str) -> None:
-        html = paragraph(f'<strong role="alert">{escape(text)}</strong>')
-        if field.name in self._complaints:
-            self._complaints[field.name].content = html
-            return
-        with self._more if field.is_common and self._more else self._form:
-            self._complaints[field.name] = self._gui.add_html(html, order=place + 0.5)
-
-    def _box(self, field: Field, place: int) -> Box:
-        gui, order = self._gui, float(place)
-        hint = field.hint or None
-        match field.kind:
-            case "switch":
-                on = bool(field.value)
-                return gui.add_checkbox(field.label, on, hint=hint, order=order)
-            case "choice":
-                choices = tuple(str(each) for each in field.choices)
-                shown = field.shown
-                if shown not in choices:
-                    choices = (shown, *choices)
-                return gui.add_dropdown(
-                    field.label, choices, initial_value=shown, hint=hint, order=order
-                )
-            case "whole" if isinstance(field.value, int):
-                # without its bounds: the box would cut what is out of range, without a word
-                return gui.add_number(field.label, field.value, step=1, hint=hint, order=order)
-            case _:
-                # a box for numbers would round what has more digits than the value before
-                return gui.add_text(field.label, field.shown, hint=hint, order=order)
-
-
-def _sort_of(field: Field) -> tuple[object, ...]:
-    """What a box is made for; only its value can change."""
-    return field.name, field.kind, field.choices, field.value is None
-
-
-def _of_its_kind(field: Field, before: Any) -> Any:
-    """A field's value as its box takes it."""
-    if field.kind == "switch":
-        return bool(field.value)
-    return field.value if isinstance(before, int) else field.shown

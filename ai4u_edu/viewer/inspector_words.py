@@ -19,6 +19,7 @@ BARE = '<div class="ai4u mark bare"></div>'
 """Before a group of buttons that needs no label: they get all of the width."""
 NO_BLOCK = "choose a block"
 ADD = "choose what to add"
+WAITS = "Something waits for the next reset."
 LONGEST = 72
 """Characters of a line in a list."""
 
@@ -57,7 +58,7 @@ def said(workshop: Workshop, agent: AgentState, message: str) -> str:
     if message:
         lines.append(f'<span role="status" style="white-space: normal">{escape(message)}</span>')
     if workshop.waits_for_reset:
-        lines.append("<small>Something waits for the next reset.</small>")
+        lines.append(f"<small>{WAITS}</small>")
     back, forth = workshop.can_undo, workshop.can_redo
     if back or forth:
         told = " · ".join(

@@ -13,6 +13,8 @@ AGENT_HEADER = "X-AI4U-Edu-Agent"
 """By this our proxy tells viser which agent a page is about, percent-encoded."""
 PAGE_HEADER = "X-AI4U-Edu-Page"
 """By this our proxy tells viser the address under which a browser has the page."""
+DARK_HEADER = "X-AI4U-Edu-Dark"
+"""By this our proxy tells viser that a page is to be dark; empty for light."""
 
 
 class Onlooker:
@@ -22,11 +24,15 @@ class Onlooker:
         client: the page.
         asked: the id of the agent that the page is about; empty if it is about none.
         address: under which the browser has the page; empty if nobody knows.
+        is_dark: whether its person likes it dark.
     """
 
-    def __init__(self, client: ClientHandle, asked: str = "", address: str = "") -> None:
+    def __init__(
+        self, client: ClientHandle, asked: str = "", address: str = "", *, is_dark: bool = False
+    ) -> None:
         self.client = client
         self.address = address
+        self.is_dark = is_dark
         self.view = View(client)
         """Its camera."""
         self.agent = asked
@@ -93,7 +99,8 @@ class Onlookers(Mapping[int, Onlooker]):
             del self._all[gone]
         for new in sorted(clients.keys() - self._all.keys()):
             asked, address = unquote(self._told(new, AGENT_HEADER)), self._told(new, PAGE_HEADER)
-            onlooker = Onlooker(clients[new], asked, address)
+            is_dark = bool(self._told(new, DARK_HEADER))
+            onlooker = Onlooker(clients[new], asked, address, is_dark=is_dark)
             onlooker.settle(self._ids)
             self._all[new] = onlooker
 

@@ -33,10 +33,13 @@ class _Page:
         self._onlooker = onlooker
         self._mark = gui.add_html("")
         self.camera = gui.add_button_group("Camera", MODES)
-        self.dark = gui.add_checkbox("Dark", initial_value=False)
+        # the page remembers what is chosen here, by the box's name
+        self.dark = gui.add_checkbox("Dark", initial_value=onlooker.is_dark)
         self.camera.on_click(self._on_camera)
         self.dark.on_update(self._on_dark)
         self._show_mode()
+        if onlooker.is_dark:
+            self._dress(dark=True)
 
     async def _on_camera(self, event: GuiEvent[GuiButtonGroupHandle]) -> None:
         if event.target.value in MODES:
@@ -44,8 +47,11 @@ class _Page:
             self._show_mode()
 
     async def _on_dark(self, event: GuiEvent[GuiCheckboxHandle]) -> None:
+        self._dress(dark=bool(event.target.value))
+
+    def _dress(self, *, dark: bool) -> None:
         self._onlooker.client.gui.configure_theme(
-            show_logo=False, show_share_button=False, dark_mode=bool(event.target.value)
+            show_logo=False, show_share_button=False, dark_mode=dark
         )
 
     def _show_mode(self) -> None:

@@ -85,6 +85,10 @@ div:has(> .ai4u.mark[data-on="2"]) + div button:nth-of-type(2),
 div:has(> .ai4u.mark[data-on="3"]) + div button:nth-of-type(3),
 div:has(> .ai4u.mark[data-on="4"]) + div button:nth-of-type(4)
   {{background: var(--mantine-primary-color-filled); color: #fff; font-weight: 700}}
+div:has(> .ai4u.fold) + div > button {{height: 1.9em !important; padding: 0 .6em; background: none;
+  font-size: .8em; color: var(--mantine-color-text);
+  border: 1px solid var(--mantine-color-default-border)}}
+div:has(> .ai4u.fold) + div > button .mantine-Button-inner {{justify-content: flex-start}}
 div:has(> button):has(+ div > .ai4u.sense)
   {{margin: .35em .75em .15em !important; padding: 0 !important}}
 div:has(+ div > .ai4u.sense) > button {{height: 1.65em !important; padding: 0 .45em;

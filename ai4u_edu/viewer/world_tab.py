@@ -14,28 +14,34 @@ from viser import (
     GuiUploadButtonHandle,
 )
 
+from ai4u_edu.errors import AI4UError
 from ai4u_edu.parameters import Problem
 from ai4u_edu.scenes import Scene
 from ai4u_edu.scenes.yaml_file import MAX_SIZE
 from ai4u_edu.snapshot import Snapshot
 from ai4u_edu.viewer.body_form import BodyForm
-from ai4u_edu.viewer.furnishing import THINGS, room_for
-from ai4u_edu.viewer.gallery import Gallery
+from ai4u_edu.viewer.furnishing import THINGS, looked_at, room_for
+from ai4u_edu.viewer.gallery import Gallery, Load
 from ai4u_edu.viewer.handles import Handles
+from ai4u_edu.viewer.inspector_words import WAITS
 from ai4u_edu.viewer.onlooker import Onlooker
 from ai4u_edu.viewer.readings import block
+from ai4u_edu.viewer.save_window import SaveWindow
+from ai4u_edu.viewer.settings_form import SettingsForm
 from ai4u_edu.viewer.tabs import TabKind
 from ai4u_edu.viewer.uploads import limit_uploads
 from ai4u_edu.workshop import ChangeError, Outcome, Workshop
+from ai4u_edu.workshop.forms import Field
+from ai4u_edu.workshop.settings import scene_form
 from ai4u_edu.world import BodyDescription
 
 UNDO, REDO = "Undo", "Redo"
-CHOOSE, DOWNLOAD = "Choose a scene", "Download"
+CHOOSE, SAVE, DOWNLOAD = "Choose a scene", "Save", "Download"
 RESTORE, DISCARD = "Restore", "Discard"
 NOTHING = "choose one, or click on it"
 BARE = block(kind="mark bare")
 HINT = "Switch on <b>Move things</b>, then drag with the mouse what you like in the picture."
-MOVING = "Drag anything in the picture. Click on it, and a knob turns it."
+MOVING = "Drag anything in the picture; Escape puts it back. Click on it, and a knob turns it."
 
 
 class WorldTab:
@@ -56,16 +62,25 @@ class WorldTab:
         self._seen: tuple[object, ...] = ()
         self._latest: Snapshot | None = None
         self.gallery = Gallery(onlooker.client, self._open)
+        self.saving: SaveWindow | None = None
+        """There if scenes can be kept here."""
+        if workshop.shelf is not None:
+            client, shelf = onlooker.client, workshop.shelf
+            self.saving = SaveWindow(client, shelf, lambda: workshop.scene, self._on_saved)
         self.handles = Handles(onlooker, workshop, self._choose, self._ask)
         self._offer = gui.add_html("", visible=False)
         self._bare = gui.add_html(BARE, visible=False)
         self.offered = gui.add_button_group("Unsaved", (RESTORE, DISCARD), visible=False)
         self.said = gui.add_html("")
         gui.add_html(BARE)
-        self.scene = gui.add_button_group("Scene", (CHOOSE, DOWNLOAD))
+        words = (CHOOSE, DOWNLOAD) if self.saving is None else (CHOOSE, SAVE, DOWNLOAD)
+        self.scene = gui.add_button_group("Scene", words)
         gui.add_html(BARE)
         self.changes = gui.add_button_group("Changes", (UNDO, REDO))
-        self.moves = gui.add_checkbox("Move things", False, hint="with the mouse, in the picture")
+        self.settings = SettingsForm(
+            onlooker.client, "Scene's settings", self._settings, self._on_settings
+        )
+        self.moves = gui.add_checkbox("Move things", False)
         self._hint = gui.add_html(block(f"<small>{HINT}</small>"))
         self.thing = gui.add_dropdown("Thing", (NOTHING,))
         self.new = gui.add_button_group("Add", tuple(THINGS))
@@ -87,7 +102,9 @@ class WorldTab:
         workshop, self._latest = self._workshop, snapshot
         self.handles.draw(snapshot, self._chosen, on=self.moves.value)
         unsaved = workshop.unsaved
-        seen = (workshop.version, self._chosen, self._message, unsaved)
+        self.settings.draw("scene", workshop.version)
+        waits = workshop.waits_for_reset
+        seen = (workshop.version, self._chosen, self._message, unsaved, waits)
         if self._is_applied:
             self._seen = ()
         if seen != self._seen:
@@ -124,8 +141,9 @@ class WorldTab:
         style = "white-space: normal"
         told = escape(self._message).replace("\n", "<br>")
         lines = [
-            f"<b>{escape(description.title or description.name)}</b>",
+            f"<b>{escape(workshop.title)}</b>",
             told and f'<span role="{word}" style="{style}">{told}</span>',
+            f"<small>{WAITS}</small>" if workshop.waits_for_reset else "",
             f"<small>{' · '.join(steps)}</small>" if steps else "",
         ]
         self.said.content = block("<br>".join(line for line in lines if line))
@@ -145,22 +163,33 @@ class WorldTab:
     def _choose(self, name: str) -> None:
         self._chosen = name
 
+    def _settings(self) -> list[Field]:
+        return scene_form(self._workshop.state.description)
+
     # -- what people ask for; in viser's loop, one after the other -------------------------------
 
-    async def _open(self, name: str) -> None:
-        scene = await asyncio.to_thread(Scene.load, name)
+    async def _open(self, load: Load) -> None:
+        try:
+            scene = await asyncio.to_thread(load)
+        except AI4UError as error:
+            self._tell(str(error), is_wrong=True)
+            return
         self._chosen = ""
         self._ask(self._workshop.open(scene))
 
+    def _on_saved(self, name: str) -> None:
+        self._workshop.forget()
+        self._tell(f"the scene is saved as {name!r}; it is among the scenes that you can choose")
+
     async def _on_scene(self, event: GuiEvent[GuiButtonGroupHandle]) -> None:
         if event.target.value == CHOOSE:
-            await self.gallery.open()
+            await self.gallery.open(self._workshop.shelf)
+        elif event.target.value == SAVE and self.saving is not None:
+            self.saving.open(_file_name(self._workshop.scene))
         elif event.target.value == DOWNLOAD:
             scene = self._workshop.scene
-            name = "".join(c if c.isalnum() or c in "-_" else "_" for c in scene.description.name)
-            content = scene.dumps().encode()
             self._onlooker.client.send_file_download(
-                f"{name[:80] or 'scene'}.yaml", content, save_immediately=True
+                f"{_file_name(scene)}.yaml", scene.dumps().encode(), save_immediately=True
             )
             self._workshop.forget()
             self._tell("the scene's file is among your downloads")
@@ -182,8 +211,8 @@ class WorldTab:
         thing, snapshot = THINGS.get(event.target.value), self._latest
         if thing is None or snapshot is None:
             return
-        x, y, _ = self._onlooker.client.camera.look_at
-        place = room_for(snapshot, thing, float(x), float(y))
+        camera = self._onlooker.client.camera
+        place = room_for(snapshot, thing, *looked_at(camera.position, camera.look_at))
         if place is None:
             self._tell("there is no room for it around the middle of the picture", is_wrong=True)
             return
@@ -191,6 +220,11 @@ class WorldTab:
         # it is put where there is room; mostly it is to be elsewhere
         self.moves.value = True  # type: ignore[misc]
         self._ask(self._workshop.add_body(thing | {"name": name, "position": place}), name)
+
+    def _on_settings(self, values: dict[str, Any]) -> "Future[Outcome]":
+        future = self._workshop.change_settings(values)
+        self._ask(future)
+        return future
 
     async def _on_apply(self, _event: Any) -> None:
         form = self._form
@@ -257,6 +291,11 @@ class WorldTab:
                 self._tell(str(error), is_wrong=True)
 
         future.add_done_callback(tell)
+
+
+def _file_name(scene: Scene) -> str:
+    name = "".join(c if c.isalnum() or c in "-_" else "_" for c in scene.description.name)
+    return name[:60].strip("_") or "scene"
 
 
 def world_tab(workshop: Workshop) -> TabKind:

@@ -153,6 +153,7 @@ class Bench:
 
     def _bring_about(self, state: State, places: dict[str, Pose], whole: bool) -> When:
         if whole:
+            self._held = {}
             self._live.build_anew(state)
             return "now"
         return self._live.bring_about(state, places)

@@ -2,7 +2,7 @@
 
 import json
 import re
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from inspect import get_annotations
 from typing import Any, Literal, get_args
@@ -76,7 +76,13 @@ def form(block: Plain, names: Names) -> list[Field]:
     schema = cls.json_schema()
     common = {name for base in BASES if issubclass(cls, base) for name in base.parameters()}
     fields = [
-        _field(name, about, block.get(name, about.get("default")), names, name in common)
+        field_of(
+            name,
+            about,
+            block.get(name, about.get("default")),
+            known=names.fitting(name),
+            is_common=name in common,
+        )
         for name, about in schema.get("properties", {}).items()
         if name not in SWITCHES and not _holds_blocks(cls, name)
     ]
@@ -99,7 +105,23 @@ def _distance(cls: type[Block], name: str) -> int:
     return declared.index(True) if True in declared else len(declared)
 
 
-def _field(name: str, about: Mapping[str, Any], value: Any, names: Names, common: bool) -> Field:
+def field_of(
+    name: str,
+    about: Mapping[str, Any],
+    value: Any,
+    *,
+    known: Iterable[str] | None = None,
+    is_common: bool = False,
+) -> Field:
+    """The field for a parameter.
+
+    Args:
+        name: the parameter's.
+        about: what the JSON Schema says of it.
+        value: as it is now, plain.
+        known: names in the scene that it may be, if it is a name.
+        is_common: whether every block of the kind has it.
+    """
     options = [each for each in about.get("anyOf", ()) if each.get("type") != "null"]
     can_be_none = len(options) < len(about.get("anyOf", ()))
     what = {**about, **options[0]} if options else dict(about)
@@ -107,9 +129,8 @@ def _field(name: str, about: Mapping[str, Any], value: Any, names: Names, common
     is_number = what.get("type") in {"number", "integer"}
     words = name.replace("_", " ")
     label = f"{words} ({unit})" if is_number and unit not in {"", "1"} else words
-    described = str(about.get("description", "")).rstrip(".")
+    described = str(about.get("description", "")).rstrip(".").replace("``", "")
     hint = f"{name}: " + ". ".join(filter(None, (described, _range(what))))
-    known = names.fitting(name)
     choices: tuple[Any, ...] = ()
     kind: Kind = "text"
     if "enum" in what:
@@ -125,7 +146,7 @@ def _field(name: str, about: Mapping[str, Any], value: Any, names: Names, common
         kind = "whole" if what["type"] == "integer" else "number"
     if kind == "choice" and (can_be_none or value is None):
         choices = (NONE, *(each for each in choices if each != ""))
-    return Field(name, label, kind, value, hint.removesuffix(": "), choices, common)
+    return Field(name, label, kind, value, hint.removesuffix(": "), choices, is_common)
 
 
 def _range(what: Mapping[str, Any]) -> str:

@@ -27,6 +27,11 @@ class State:
         """As a scene, to be saved or built."""
         return Scene(self.description, self.folder)
 
+    @property
+    def title(self) -> str:
+        """What the scene is called."""
+        return self.description.title or self.description.name
+
     def agent_index(self, agent_id: str) -> int:
         """Where the agent of that id stands in the description."""
         ids = [str(agent.get("id", "0")) for agent in self.description.agents]

@@ -24,13 +24,13 @@ class Trust:
     """
 
     def __init__(self, named: Any) -> None:
-        self._known = {(name, value) for _, name, value in _outward(named, ())}
+        self._known = {(name, value) for _, name, value in outward(named)}
 
     def check(self, agents: Any, where: tuple[str | int, ...] = ("agents",)) -> None:
         """Raises ChangeError if they name what they may not."""
         problems = [
             Problem(path, text)
-            for path, name, value in _outward(agents, where)
+            for path, name, value in outward(agents, where)
             if (name, value) not in self._known and (text := _fault(name, value))
         ]
         if problems:
@@ -50,14 +50,14 @@ def _fault(name: str, value: str) -> str:
     return ""
 
 
-def _outward(data: Any, path: tuple[str | int, ...]) -> Found:
-    """All hosts and files that blocks name, with their paths."""
+def outward(data: Any, path: tuple[str | int, ...] = ()) -> Found:
+    """All hosts and files that blocks name: path, name of the parameter, value."""
     if isinstance(data, Mapping):
         for name, value in data.items():
             if name in {"host", "model_path"} and isinstance(value, str):
                 yield (*path, str(name)), str(name), value
             else:
-                yield from _outward(value, (*path, str(name)))
+                yield from outward(value, (*path, str(name)))
     elif isinstance(data, list | tuple):
         for index, value in enumerate(data):
-            yield from _outward(value, (*path, index))
+            yield from outward(value, (*path, index))

@@ -3,6 +3,7 @@
 import math
 from collections.abc import Callable, Iterable, Mapping
 from concurrent.futures import Future
+from dataclasses import replace
 from pathlib import Path as FilePath
 from typing import Any
 
@@ -10,12 +11,13 @@ from ai4u_edu.errors import AI4UError, SetupError
 from ai4u_edu.runner import Runner
 from ai4u_edu.scenes import Scene
 from ai4u_edu.scenes.yaml_file import YamlFile, write_yaml
-from ai4u_edu.workshop import blocks, bodies, choice
+from ai4u_edu.workshop import blocks, bodies, choice, settings
 from ai4u_edu.workshop.autosave import Autosave, Unsaved
 from ai4u_edu.workshop.bench import Bench, Made
 from ai4u_edu.workshop.blocks import Path, Plain
 from ai4u_edu.workshop.drivers import Driver, Drivers
 from ai4u_edu.workshop.outcome import Outcome
+from ai4u_edu.workshop.shelf import Shelf
 from ai4u_edu.workshop.state import State
 from ai4u_edu.world import BodyDescription, Pose
 
@@ -60,6 +62,8 @@ class Workshop:
         """A scene that was left by a server that was killed, to be offered."""
         self.autosave: Autosave | None = None
         """Keeps what is changed; left out in notebooks and tests."""
+        self.shelf: Shelf | None = None
+        """Where pages keep scenes by name; none, and they can only take them home."""
         self.listeners = self._bench.listeners
         """Called with the state after each change, in the runner's thread: to be quick."""
         self.listeners.append(self._keep)
@@ -85,6 +89,11 @@ class Workshop:
     def scene(self) -> Scene:
         """What is wanted, as a scene."""
         return self.state.scene
+
+    @property
+    def title(self) -> str:
+        """What the scene is called."""
+        return self.state.title
 
     @property
     def waits_for_reset(self) -> bool:
@@ -168,11 +177,13 @@ class Workshop:
         return self._of_agent(agent_id, path, word, lambda a: blocks.switched(a, path, on))
 
     def change_agent(self, agent_id: str, values: Plain) -> "Future[Outcome]":
-        """Gives an agent other parameters of its own, such as ``max_steps_per_episode``."""
+        """Gives an agent other parameters of its own, such as ``max_steps_per_episode``.
+
+        ``skip_frame`` and ``repeat_action`` are those of the brain that is on.
+        """
 
         def make() -> Made:
-            agent = {**self.state.agent(agent_id), **values}
-            agent = {name: value for name, value in agent.items() if value is not None}
+            agent = settings.with_agent_settings(self.state.agent(agent_id), values)
             where = self._where(agent_id, ())
             return self.state.with_agent(agent_id, agent), f"change agent {agent_id}", where
 
@@ -265,6 +276,18 @@ class Workshop:
             scene = Scene.loads(write_yaml(plain), folder=self.state.folder)
             state = State(scene.description, self.state.folder, self.state.drivers)
             return state, "change the scene", ()
+
+        return self._do(make)
+
+    def change_settings(self, values: Plain) -> "Future[Outcome]":
+        """Gives the scene another ``title`` or ``goal``, its world other settings: ``gravity``...
+
+        Words apply at once; what holds for the whole world at the next reset.
+        """
+
+        def make() -> Made:
+            description = settings.with_scene_settings(self.state.description, values)
+            return replace(self.state, description=description), "change the scene", ()
 
         return self._do(make)
 

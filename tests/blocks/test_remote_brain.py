@@ -108,6 +108,38 @@ def test_an_action_is_carried_out_and_the_next_situation_is_told() -> None:
     assert brain.status().decisions == 2
 
 
+def test_who_drives_in_its_place_decides_and_its_answers_are_counted() -> None:
+    back = {"move": [-1, 0, 0, 0]}
+    link = PaperLink(AHEAD, AHEAD, None, Command.STOP, Reset(7), AHEAD)
+    sim, brain = over(link)
+    sim.tick()
+    brain.lend(LocalBrain(controller=lambda _: back))
+    for _ in range(3):
+        sim.tick()
+        assert sim.agents[0].last_action["move"][0] == -1
+        assert not sim.held  # nobody waits for it
+    assert [each.steps for each in link.told] == [0, 1, 2, 3]
+    assert link.timeouts[1:] == [0.0] * 3
+    assert (brain.status().ignored, brain.status().decisions) == (2, 1)
+    assert brain.status().state == "connected"
+    sim.tick()  # a reset is not an action
+    assert (sim.episode, sim.world.seeds.seed) == (2, 7)
+    brain.take_back()
+    sim.tick()
+    assert sim.agents[0].last_action["move"][0] == 1
+
+
+def test_a_person_who_restarts_asks_for_no_seed_of_the_scripts() -> None:
+    link = PaperLink(Reset(7))
+    sim, brain = over(link)
+    sim.tick()
+    assert brain.restart_seed() == 7
+    brain.lend(LocalBrain(controller=lambda _: Command.RESTART))
+    sim.tick()
+    assert sim.episode == 3
+    assert sim.world.seeds.seed != 7
+
+
 def test_hold_lets_no_time_pass_and_asks_the_same_again() -> None:
     link = PaperLink(None, None, AHEAD)
     sim, _ = over(link)

@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from typing import Any
 
 import pytest
-from playwright.sync_api import Locator, Page, expect
+from playwright.sync_api import Browser, Locator, Page, expect
 
 from ai4u_edu import (
     BasicAgent,
@@ -291,7 +291,8 @@ def test_all_that_is_written_can_be_read(theatre: Theatre, scheme: str) -> None:
 
     dimmed = "color: var(--mantine-color-dimmed)"
     theatre.inner.gui.add_html(f"<div class='ai4u'><small style='{dimmed}'>dimmed</small></div>")
-    page, watcher = (theatre.page(prepare=dress, wait=False) for _ in range(2))
+    query = "?darkMode" if scheme == "dark" else ""
+    page, watcher = (theatre.page(query, prepare=dress, wait=False) for _ in range(2))
     for each in (page, watcher):
         connected(each)
         each.get_by_text("dimmed").wait_for(state="attached")
@@ -317,29 +318,86 @@ def test_all_that_is_written_can_be_read(theatre: Theatre, scheme: str) -> None:
     assert [(text, ratio) for text, ratio in found if ratio < 4.5] == []
 
 
-def test_who_wants_it_dark_has_all_of_it_dark(theatre: Theatre) -> None:
-    def darken(page: Page) -> None:
-        page.emulate_media(color_scheme="dark")
+LIGHTNESS = r"""name => {
+    const part = document.querySelector(name);
+    return getComputedStyle(part).backgroundColor.match(/[\d.]+/g).slice(0, 3).map(Number);
+}"""
+SCHEME = "data-mantine-color-scheme"
 
-    page = theatre.page(prepare=darken, wait=False)
+
+def panel(page: Page) -> Locator:
+    """The box in viser's panel that makes it dark."""
     connected(page)
-    page.get_by_text("Name", exact=True).wait_for(state="attached")
-    lightness = """name => {
-        const part = document.querySelector(name);
-        return getComputedStyle(part).backgroundColor.match(/[\\\\d.]+/g).slice(0, 3).map(Number);
-    }""".replace("\\\\", "\\")
-    for part in (".ai4u-cap", ".ai4u-seat", "#root .mantine-Paper-root, #root input"):
-        assert max(page.evaluate(lightness, part)) < 80, part
-    page.emulate_media(color_scheme="light")
-    page.reload()
+    return page.get_by_role("checkbox", name="Dark", exact=True)
+
+
+def test_it_is_dark_where_the_system_is_until_somebody_says_otherwise(chromium: Browser) -> None:
+    with played("box_chase") as server:
+        page = chromium.new_page(color_scheme="dark", reduced_motion="reduce")
+        page.set_default_timeout(60_000)
+        page.goto(server.url)
+        expect(panel(page)).to_be_checked(timeout=40_000)
+        expect(page.locator("html")).to_have_attribute(SCHEME, "dark", timeout=40_000)
+        expect(page.locator("body")).to_be_visible()
+        for part in (".ai4u-cap", ".ai4u-seat", "#root .mantine-Paper-root, #root input"):
+            until(lambda: max(page.evaluate(LIGHTNESS, part)) < 80, timeout=40)  # noqa: B023
+        panel(page).click()
+        expect(page.locator("html")).to_have_attribute(SCHEME, "light", timeout=40_000)
+        until(lambda: min(page.evaluate(LIGHTNESS, ".ai4u-cap")) > 180, timeout=40)
+        page.reload()  # it is remembered, against the system's wish
+        expect(panel(page)).not_to_be_checked(timeout=40_000)
+        expect(page.locator("html")).to_have_attribute(SCHEME, "light", timeout=40_000)
+        panel(page).click()
+        expect(page.locator("html")).to_have_attribute(SCHEME, "dark", timeout=40_000)
+        page.emulate_media(color_scheme="light")
+        page.reload()
+        expect(panel(page)).to_be_checked(timeout=40_000)
+        expect(page.locator("html")).to_have_attribute(SCHEME, "dark", timeout=40_000)
+        page.close()
+
+
+NAMELESS = """() => [...document.querySelectorAll(
+    "input:not([type=hidden]), textarea, button:not([hidden], [type=submit]), [role=slider]"
+)].filter((part) => part.type === "file" || part.checkVisibility()).filter((part) => {
+    const name = part.ariaLabel || part.labels?.[0]?.textContent
+        || (part.tagName === "BUTTON" && part.textContent.trim());
+    return !name && part.ariaHidden !== "true" && part.tabIndex >= 0;
+}).map((part) => part.outerHTML.slice(0, 200))"""
+
+
+def test_all_that_can_be_used_has_a_name(chromium: Browser) -> None:
+    with played("box_chase", "--seed", "1") as server:
+        page = chromium.new_page(viewport={"width": 1280, "height": 1200})
+        page.set_default_timeout(60_000)
+        page.goto(server.url)
+        connected(page)
+        page.keyboard.press("KeyR")  # there is a past then
+        for tab, last in {
+            "Agent": "Decision",
+            "Blocks": "Add",
+            "World": "Open a scene file",
+            "Past": "Open a recording",
+        }.items():
+            page.get_by_role("tab", name=tab).click()
+            page.get_by_role("button", name=last, exact=True).wait_for()
+            if tab == "Blocks":
+                page.get_by_role("button", name="Agent's settings").click()
+                page.get_by_role("textbox", name="reward scale").wait_for()
+            if tab == "Past":
+                page.get_by_label("Episode", exact=True).click()
+                page.get_by_role("option").nth(1).click()
+                page.get_by_role("slider", name="Moment").wait_for()
+            until(lambda: page.evaluate(NAMELESS) == [], timeout=40)
+        for name in ("Open a scene file", "Open a recording"):
+            expect(page.locator(f"input[type=file][aria-label='{name}']")).to_have_count(1)
+        page.close()
+
+
+def test_an_address_may_ask_for_the_dark(theatre: Theatre) -> None:
+    page = theatre.page("?darkMode", wait=False)
     connected(page)
-    assert "darkMode" not in page.url
-    assert min(page.evaluate(lightness, ".ai4u-cap")) > 180
-    asked = theatre.page("?darkMode", wait=False)
-    connected(asked)
-    expect(asked.locator("html")).to_have_attribute("data-mantine-color-scheme", "dark")
-    assert max(asked.evaluate(lightness, ".ai4u-cap")) < 80
-    assert "auto" not in asked.url
+    expect(page.locator("html")).to_have_attribute(SCHEME, "dark")
+    assert max(page.evaluate(LIGHTNESS, ".ai4u-cap")) < 80
 
 
 def test_who_wants_no_motion_has_none(theatre: Theatre) -> None:

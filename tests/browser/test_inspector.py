@@ -162,6 +162,25 @@ def test_off_on_remove_undo_and_redo(opened: Callable[[], Page], server: Played)
     page.get_by_text("there is nothing to undo").wait_for()
 
 
+def test_how_often_an_agent_decides_is_changed_in_a_form(
+    opened: Callable[[], Page], server: Played
+) -> None:
+    page = opened()
+    page.get_by_role("button", name="Agent's settings").click()
+    steps = row(page, "max steps per episode").locator("input")
+    steps.fill("-5")
+    press(page, "Apply")
+    page.get_by_role("alert").filter(has_text="expected at least 0, got -5").first.wait_for()
+    steps.fill("3")
+    row(page, "skip frame").locator("input").fill("9")
+    press(page, "Apply")
+    told = page.get_by_text("change agent 0: it applies at the next decision").first
+    told.wait_for(timeout=40_000)
+    soon(lambda: agent(server)["truncated"])
+    page.get_by_role("tab", name="Agent").click()
+    page.get_by_text("10 ticks").first.wait_for(timeout=40_000)
+
+
 def test_who_drives_is_swapped_live(opened: Callable[[], Page], server: Played) -> None:
     page = opened()
     episode = server.snapshot()["episode"]

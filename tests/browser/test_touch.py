@@ -133,6 +133,10 @@ def test_all_is_in_reach_and_nothing_in_the_way(theatre: Theatre, size: str) -> 
     scene = page.locator("#root canvas").first.bounding_box()
     assert scene is not None
     assert all(right <= scene["x"] + scene["width"] for _, _, right, _ in boxes), "beside the panel"
+    if size == "phone":
+        sheet = page.locator('#root .mantine-Paper-root[style*="fixed"]').bounding_box()
+        assert sheet is not None
+        assert (sheet["x"], sheet["width"]) == (0, width), "no gap beside it"
     free = """([x, y]) => {
         const part = document.elementFromPoint(x, y);
         return part.tagName === "CANVAS" || !!part.closest(".mantine-Notification-root");

@@ -113,6 +113,43 @@ def test_the_mouse_moves_and_turns_a_wall_while_the_time_stands_still(
     assert server.snapshot()["paused"]
 
 
+def test_escape_puts_back_what_is_held_and_the_mouse_holds_nothing_then(
+    opened: Callable[[], Page], server: Played
+) -> None:
+    page = opened()
+    press(page, "Pause")
+    until(lambda: server.snapshot()["paused"], timeout=40)
+    moving(page)
+    take(page, (2, 0), HALF)
+    carry(page, (2, 0), (3, -3), HALF)
+    until(lambda: near(server, "wall", 3, -3), timeout=40)
+    page.keyboard.press("Escape")
+    until(lambda: where(server, "wall") == (2, 0), timeout=40)
+    carry(page, (3, -3), (0, -3), HALF, steps=2)  # the button is still down
+    page.mouse.up()
+    press(page, "Undo")
+    page.get_by_text("there is nothing to undo").first.wait_for(timeout=40_000)
+    assert where(server, "wall") == (2, 0)
+
+
+def test_a_page_that_is_closed_in_the_middle_lets_go(
+    opened: Callable[[], Page], server: Played
+) -> None:
+    page = opened()
+    press(page, "Pause")
+    until(lambda: server.snapshot()["paused"], timeout=40)
+    moving(page)
+    take(page, (2, 0), HALF)
+    carry(page, (2, 0), (3, -3), HALF)
+    until(lambda: near(server, "wall", 3, -3), timeout=40)
+    page.close()
+    other = opened()
+    other.get_by_text("undo: move wall").wait_for(timeout=40_000)
+    assert near(server, "wall", 3, -3)
+    press(other, "Undo")
+    until(lambda: where(server, "wall") == (2, 0), timeout=40)
+
+
 def test_a_robot_is_dragged_while_the_time_runs_and_no_wall_onto_it(
     opened: Callable[[], Page], server: Played
 ) -> None:
@@ -166,12 +203,43 @@ def test_a_scene_is_chosen_by_its_picture_and_all_pages_follow(
     page.mouse.click(box["x"] + 40, box["y"] + box["height"] / 2)  # on the picture
     until(lambda: body(server, "exit"))
     expect(page.locator(".ai4u.card")).to_have_count(0)
+    for each in (page, other):
+        expect(each).to_have_title("Maze", timeout=40_000)
     other.locator(".ai4u", has_text="Find the exit of the maze").first.wait_for()
     pose = body(server, "robot")
     assert pose is not None
     other.keyboard.down("KeyD")  # their keys drive the new robot
     until(lambda: (body(server, "robot") or pose)[3] != pose[3])
     other.keyboard.up("KeyD")
+
+
+ON_TOP = """selector => {
+    const {x, y, width, height} = document.querySelector(selector).getBoundingClientRect();
+    return Boolean(document.elementFromPoint(x + width / 2, y + height / 2).closest(selector));
+}"""
+
+
+def test_news_lies_under_a_window_that_asks_something(
+    opened: Callable[[], Page], server: Played
+) -> None:
+    page = opened()
+    press(page, "Pause")
+    page.locator(".ai4u-banner", has_text="Paused").wait_for(timeout=40_000)
+    assert page.evaluate(ON_TOP, ".ai4u-banner")
+    press(page, "Choose a scene")
+    page.get_by_role("dialog").wait_for(timeout=40_000)
+    until(lambda: not page.evaluate(ON_TOP, ".ai4u-banner"), timeout=40)
+    page.get_by_role("button", name="Stay here").click()
+    until(lambda: page.evaluate(ON_TOP, ".ai4u-banner"), timeout=40)
+
+
+def test_a_thing_comes_where_the_page_looks(opened: Callable[[], Page], server: Played) -> None:
+    page = opened()
+    page.get_by_role("button", name="Follow", exact=True).click()
+    page.wait_for_timeout(700)
+    press(page, "Disc")
+    until(lambda: body(server, "disc"), timeout=40)
+    assert math.dist(where(server, "disc"), (-2, 0)) < 1.7  # the robot is in the middle
 
 
 def test_a_scene_is_taken_home_and_brought_back(
@@ -187,7 +255,7 @@ def test_a_scene_is_taken_home_and_brought_back(
     download.value.save_as(file)
     press(page, "Delete target")
     until(lambda: body(server, "target") is None)
-    upload = page.locator("input[type=file]").first
+    upload = page.locator("input[type=file][aria-label='Open a scene file']")
     upload.set_input_files(str(file))
     until(lambda: body(server, "target"))
     wrong = file.with_name("wrong.yaml")
@@ -195,3 +263,64 @@ def test_a_scene_is_taken_home_and_brought_back(
     upload.set_input_files(str(wrong))
     page.get_by_role("alert").filter(has_text="wrong.yaml, line").first.wait_for()
     assert body(server, "target")
+
+
+def test_a_scene_is_saved_on_the_server_and_chosen_beside_the_librarys(
+    chromium: Browser, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path / "state"))
+    (tmp_path / "bare.yaml").write_text(SCENE)
+    kept = tmp_path / "kept"
+    with played(str(tmp_path / "bare.yaml"), "--scenes", str(kept)) as server:
+        page = chromium.new_page(viewport={"width": 1280, "height": 800})
+        page.set_default_timeout(60_000)
+        page.goto(server.url)
+        ready(page)
+        page.get_by_role("tab", name="World").click()
+        press(page, "Save")
+        window = page.get_by_role("dialog")
+        name = window.get_by_role("textbox")
+        name.fill("../out")
+        press(page, "Save")
+        window.get_by_text("expected a name of letters").wait_for()
+        name.fill("Mine")
+        press(page, "Save")
+        page.get_by_role("status").get_by_text("saved as 'Mine'").wait_for()
+        assert [file.name for file in kept.iterdir()] == ["Mine.yaml"]
+        press(page, "Target")
+        until(lambda: body(server, "target"), timeout=40)
+        press(page, "Save")
+        name.fill("Mine")
+        press(page, "Save")
+        window.get_by_text("'Mine' is there already").wait_for()
+        window.get_by_role("button", name="Cancel").click()
+        assert "target" not in (kept / "Mine.yaml").read_text()
+        press(page, "Choose a scene")
+        window.get_by_role("button", name="Open Mine").click()
+        until(lambda: body(server, "target") is None, timeout=40)
+        expect(page.get_by_role("dialog")).to_have_count(0)
+        page.context.close()
+        assert "Traceback" not in "".join(server.told)
+    assert sorted(file.name for file in tmp_path.iterdir()) == ["bare.yaml", "kept", "state"]
+
+
+def test_the_worlds_settings_are_changed_in_a_form_and_come_with_the_reset(
+    opened: Callable[[], Page], server: Played
+) -> None:
+    page = opened()
+    page.get_by_role("button", name="Scene's settings").click()
+    row(page, "title").fill("On the moon")
+    row(page, "gravity (m/s^2)").fill("-1")
+    press(page, "Apply")
+    page.get_by_role("alert").filter(has_text="expected at least 0, got -1").first.wait_for()
+    row(page, "gravity (m/s^2)").fill("1.6")
+    press(page, "Apply")
+    page.get_by_text("change the scene: it applies at the next reset").wait_for(timeout=40_000)
+    expect(page).to_have_title("On the moon", timeout=40_000)
+    page.get_by_text("Something waits for the next reset.").first.wait_for(timeout=40_000)
+    press(page, "Reset")
+    waits = page.locator(".ai4u:visible").get_by_text("Something waits for the next reset.")
+    expect(waits).to_have_count(0, timeout=40_000)
+    press(page, "Undo")
+    expect(row(page, "gravity (m/s^2)")).to_have_value("9.81", timeout=40_000)
+    expect(page).to_have_title("A bare robot", timeout=40_000)

@@ -47,7 +47,7 @@ def served(
     sim: ControlRequestor | None = None,
     *,
     viser_port: int = NOWHERE,
-    title: str = "A room",
+    title: str | Callable[[], str] = "A room",
     wrap: Callable[[ASGIApp], ASGIApp] = lambda app: app,
     **options: Any,
 ) -> Iterator[Room]:

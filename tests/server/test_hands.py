@@ -1,6 +1,8 @@
 """Taking an agent over from a network or a script, and giving it back."""
 
 import asyncio
+import contextlib
+import threading
 from collections.abc import Iterator
 from typing import Any
 
@@ -30,6 +32,7 @@ from ai4u_edu import (
 )
 from ai4u_edu.blocks import trained_brain
 from ai4u_edu.blocks.brains.controllers.keyboard import Stick
+from ai4u_edu.remote import LostError, RemoteError, connect
 from ai4u_edu.runner import Runner
 from ai4u_edu.server.bindings import takes_a_stick
 from ai4u_edu.server.caps import useful_keys
@@ -127,18 +130,73 @@ def test_a_brain_that_lies_ready_is_used_and_stays() -> None:
         assert agent.brains == [mine, ready]
 
 
-def test_a_script_elsewhere_keeps_its_agent() -> None:
+def test_where_a_script_is_waited_for_a_person_may_drive() -> None:
     remote = RemoteBrain(port=free_port())
     ready = LocalBrain(controller=WASDRBMoveController(), enabled=False)
     with served(small_sim(brains=[remote, ready])) as room, room.page() as page:
+        agent = room.sim.agents[0]
         hello = page.hear("hello")
-        assert (hello["others"], hello["keys"]) == ("A script elsewhere", {})
-        page.say("take")
+        assert (hello["others"], hello["keys"]["forward"][0]) == ("A script elsewhere", "KeyW")
         page.hold("KeyW")
-        page.hear("seat", driver=1)
-        page.say("nonsense")
-        page.hear("error")
-        assert room.sim.agents[0].brain is remote
+        page.hear("hello", others="", instead="A script elsewhere")
+        until(lambda: room.runner.latest.agents[0].action["move"][0] == 1)
+        assert agent.brain is remote
+        page.say("let_go")
+        page.hear("hello", others="A script elsewhere", instead="")
+        assert agent.brains == [remote, ready]
+
+
+@pytest.mark.parametrize("mode", ["realtime", "lockstep"])
+def test_a_script_elsewhere_is_not_listened_to_while_a_person_drives(mode: Any) -> None:
+    steps: list[int] = []
+    with served(small_sim(controller=still)) as room:
+        agent = room.sim.agents[0]
+
+        def drive() -> None:
+            with contextlib.suppress(RemoteError, LostError):
+                for percept in robot:
+                    steps.append(percept.step)
+                    robot.act(move=[-0.5, 0, 0, 0])
+
+        def does(forward: float) -> bool:
+            return room.runner.latest.agents[0].action.get("move", (0,))[0] == forward
+
+        with connect(room.url, mode=mode) as robot, room.page() as page:
+            script = threading.Thread(target=drive, daemon=True)
+            script.start()
+            until(lambda: does(-0.5))
+            page.hold("KeyW")
+            page.hear("hello", others="", instead="A script elsewhere")
+            until(lambda: does(1))
+            brain = agent.brain
+            assert isinstance(brain, RemoteBrain)
+            seen, ignored = len(steps), brain.status().ignored
+            until(lambda: len(steps) > seen + 3)  # it goes on seeing
+            until(lambda: brain.status().ignored > ignored + 2)
+            assert does(1)
+            assert "a person drives" in brain.status().reason
+            page.hold()
+            page.say("let_go")
+            page.hear("hello", others="A script elsewhere", instead="")
+            until(lambda: does(-0.5))
+            assert agent.brain is brain
+            assert brain.status().reason == ""
+            assert steps == sorted(steps)
+        script.join(10)
+        until(lambda: brain_of(room) == "LocalBrain(ScriptController)")
+
+
+def test_a_script_that_leaves_meanwhile_takes_nobody_along() -> None:
+    sim = small_sim(controller=still)
+    with served(sim) as room, connect(room.url) as robot, room.page() as page:
+        page.hold("KeyW")
+        page.hear("hello", others="", instead="A script elsewhere")
+        robot.close()
+        until(lambda: brain_of(room) == "LocalBrain(ScriptController)")
+        page.hold()  # a page says again and again what it holds
+        page.say("let_go")
+        page.hear("hello", others="A script", instead="")
+        assert brain_of(room) == "LocalBrain(ScriptController)"
 
 
 def test_whoever_changes_the_brain_meanwhile_has_the_last_word(room: Room) -> None:

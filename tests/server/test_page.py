@@ -1,13 +1,16 @@
 """viser's page with ours inside, and our files."""
 
+import json
 import re
 from collections.abc import Iterator
 
 import httpx
 import pytest
+from websockets.sync.client import connect
+from websockets.sync.connection import Connection
 
 from ai4u_edu.server.page import web_folder
-from tests.server.rooms import Room, raw_answer, served
+from tests.server.rooms import Room, raw_answer, served, until
 
 
 @pytest.fixture(scope="module")
@@ -28,6 +31,24 @@ def test_a_title_is_text(room: Room) -> None:
     text = httpx.get(room.url).text
     assert "<title>&lt;script&gt;alert(&quot;x&quot;)&lt;/script&gt;</title>" in text
     assert 'alert("x")' not in text
+
+
+def test_the_title_follows_the_scene() -> None:
+    called = ["one"]
+    with served(title=lambda: called[0]) as room:
+        first = httpx.get(room.url)
+        assert "<title>one</title>" in first.text
+        with connect(f"{room.url.replace('http', 'ws')}ws/input") as socket:
+            called[0] = "two & more"
+            until(lambda: title_in(socket) == "two & more")
+        again = httpx.get(room.url, headers={"If-None-Match": first.headers["ETag"]})
+        assert "<title>two &amp; more</title>" in again.text
+        assert httpx.get(f"{room.url}healthz").json()["scene"] == "two & more"
+
+
+def title_in(socket: Connection) -> str:
+    """What the next message says that the scene is called; "" if it doesn't."""
+    return str(json.loads(socket.recv(timeout=10)).get("title", ""))
 
 
 def test_the_page_may_talk_to_nobody_but_us(room: Room) -> None:

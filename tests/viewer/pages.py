@@ -14,7 +14,7 @@ from websockets.sync.connection import Connection
 from websockets.typing import Subprotocol
 
 from ai4u_edu.viewer import Viewer
-from ai4u_edu.viewer.onlooker import AGENT_HEADER
+from ai4u_edu.viewer.onlooker import AGENT_HEADER, DARK_HEADER
 from ai4u_edu.viewer.tabs import Tabs
 
 P = TypeVar("P")
@@ -82,12 +82,12 @@ class Page:
 
 
 @contextlib.contextmanager
-def page(viewer: Viewer, agent: str = "") -> Iterator[Page]:
+def page(viewer: Viewer, agent: str = "", *, dark: bool = False) -> Iterator[Page]:
     """Opens a page; it is about an agent, percent-encoded, as the proxy tells it."""
     protocol = Subprotocol(f"viser-v{viser.__version__}")
     with connect(
         f"ws://127.0.0.1:{viewer.port}",
-        additional_headers={AGENT_HEADER: agent},
+        additional_headers={AGENT_HEADER: agent, DARK_HEADER: "1" if dark else ""},
         subprotocols=[protocol],
         max_size=None,
         compression=None,

@@ -10,7 +10,7 @@ from ai4u_edu.viewer import Viewer
 from ai4u_edu.viewer.controls import Controls
 from ai4u_edu.viewer.page_controls import PageControls, _Page
 from ai4u_edu.viewer.view import Mode
-from tests.viewer.pages import Page, page, part_of, until
+from tests.viewer.pages import Page, page, part_of, shown, until
 
 
 @pytest.fixture
@@ -147,6 +147,18 @@ def test_one_page_is_dark_and_another_is_not(
     until(lambda: asked)
     (client,) = viewer.server.get_clients().values()
     assert asked == [(client, True)]
+
+
+def test_who_likes_it_dark_has_it_dark_from_the_beginning(viewer: Viewer, runner: Runner) -> None:
+    with page(viewer, dark=True):
+        shown(viewer)
+        (dark,) = part_of(viewer, PageControls)._pages.values()
+        assert dark.dark.value
+        with page(viewer):
+            until(lambda: len(viewer.server.get_clients()) == 2)
+            shown(viewer)
+            light = max(part_of(viewer, PageControls)._pages.items())[1]
+            assert not light.dark.value
 
 
 def test_of_an_agent_that_decides_no_more_a_single_tick_passes(runner: Runner) -> None:

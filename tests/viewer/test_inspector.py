@@ -7,6 +7,7 @@ from typing import Any
 import pytest
 
 from ai4u_edu.viewer import Viewer
+from ai4u_edu.viewer.field_form import FieldForm
 from ai4u_edu.viewer.inspector import BlocksTab
 from ai4u_edu.viewer.inspector_form import BlockForm
 from ai4u_edu.workshop.autosave import Unsaved
@@ -199,3 +200,36 @@ def test_what_was_left_is_offered(viewer: Viewer, shop: Shop, tmp_path: Any) -> 
         here.change(tab._offered, "Bring it back")
         until(lambda: shop.world["box"].position == (3, 3))
         seen(viewer, lambda: not tab._offer.visible)
+
+
+def test_an_agents_own_settings_have_a_form(viewer: Viewer, shop: Shop) -> None:
+    with page(viewer) as here:
+        tab = tab_of(viewer)
+        here.press(tab.settings.button)  # the form is made when it is asked for
+        seen(viewer, lambda: tab.settings.form)
+        form = tab.settings.form
+        assert form is not None
+        assert form.boxes["skip_frame"].value == 0
+        hand_in(here, form, skip_frame=3, max_steps_per_episode=50, repeat_action=False)
+        until(lambda: shop.agent.brain.skip_frame == 3)
+        assert shop.agent.max_steps_per_episode == 50
+        assert shop.agent.brain.repeat_action is False
+        seen(viewer, lambda: "change agent 0: it applies at the next decision" in tab._said.content)
+        hand_in(here, form, skip_frame=-2)
+        seen(viewer, lambda: "skip frame: expected at least 0, got -2" in form._told.content)
+        assert shop.agent.brain.skip_frame == 3
+        here.change(tab.changes, "Undo")
+        seen(viewer, lambda: form.boxes["skip_frame"].value == 0)
+        assert tab.settings.form is form
+        assert shop.agent.brain.skip_frame == 0
+        hand_in(here, form, priority=2)
+        seen(viewer, lambda: "it applies at the next reset" in tab._said.content)
+        here.press(tab.settings.button)
+        seen(viewer, lambda: tab.settings.form is None)
+
+
+def hand_in(here: Page, form: FieldForm, **values: Any) -> None:
+    for name, value in values.items():
+        here.change(form.boxes[name], value)
+        until(partial(_holds, form.boxes[name], value))
+    here.press(form.apply)

@@ -14,9 +14,10 @@ from ai4u_edu.snapshot import picture_of
 from ai4u_edu.viewer import Viewer
 from ai4u_edu.viewer.body_form import BodyForm
 from ai4u_edu.viewer.furnishing import THINGS, room_for
-from ai4u_edu.viewer.gallery_pictures import cards
+from ai4u_edu.viewer.gallery_pictures import cards, cards_of
 from ai4u_edu.viewer.world_tab import NOTHING, WorldTab
 from ai4u_edu.workshop.autosave import Unsaved
+from ai4u_edu.workshop.shelf import Shelf
 from tests.viewer.pages import Page, page, shown, tabs_of, until
 from tests.workshop.shops import TEXT, Shop
 
@@ -60,11 +61,18 @@ def index(shop: Shop, name: str) -> int:
     return [body.name for body in shop.scene.description.bodies].index(name)
 
 
-def drag(here: Page, tab: WorldTab, node: str, instance: int, *path: tuple[float, float]) -> None:
+def drag(
+    here: Page,
+    tab: WorldTab,
+    node: str,
+    instance: int,
+    *path: tuple[float, float],
+    lets_go: bool = True,
+) -> None:
     """Takes something up at the first place and lets go of it at the last."""
     owner = tab._onlooker.client.scene._owner_id
-    phases = ["start", *["update"] * (len(path) - 1), "end"]
-    for phase, place in zip(phases, (*path, path[-1]), strict=True):
+    phases = ["start", *["update"] * (len(path) - 1), *(["end"] if lets_go else [])]
+    for phase, place in zip(phases, (*path, path[-1]), strict=False):
         here.say(
             "SceneNodeDragMessage",
             phase=phase,
@@ -195,6 +203,73 @@ def test_a_page_can_drag_what_it_likes(viewer: Viewer, shop: Shop) -> None:
         assert shop.world["wall"].position == (-4, 0)
 
 
+def test_escape_puts_back_what_is_held(viewer: Viewer, shop: Shop) -> None:
+    with page(viewer) as here:
+        tab = tab_of(viewer)
+        moving(viewer, here, tab)
+        node, wall = tab.handles.node, index(shop, "wall")
+        drag(here, tab, node, wall, (-4, 0), (-3, 1), lets_go=False)
+        seen(viewer, lambda: shop.world["wall"].position == (-3, 1))
+        escape = tab.handles.escape
+        assert escape is not None
+        here.say("CommandTriggerMessage", uuid=escape._impl.uuid)
+        until(lambda: shop.world["wall"].position == (-4, 0))
+        shop.runner.submit(lambda: None).result(5)
+        seen(viewer, lambda: tab.handles._states["wall"].x == -4)
+        drag(here, tab, node, wall, (-4, 0), (-2, 2))  # the next time it is held as ever
+        until(lambda: shop.workshop.can_undo == "move wall")
+        assert shop.world["wall"].position == (-2, 2)
+        here.say("CommandTriggerMessage", uuid=escape._impl.uuid)  # nothing is held
+        here.change(tab.changes, "Undo")
+        until(lambda: shop.world["wall"].position == (-4, 0))
+        assert shop.workshop.can_undo == ""
+        here.change(tab.moves, False)
+        seen(viewer, lambda: tab.handles.escape is None)
+
+
+def test_a_page_that_vanishes_lets_go_of_what_it_holds(viewer: Viewer, shop: Shop) -> None:
+    with page(viewer) as here:
+        tab = tab_of(viewer)
+        moving(viewer, here, tab)
+        drag(here, tab, tab.handles.node, index(shop, "wall"), (-4, 0), (-3, 1), lets_go=False)
+        seen(viewer, lambda: shop.world["wall"].position == (-3, 1))
+    until(lambda: shop.workshop.can_undo == "move wall")
+    assert tab.handles.grip is None
+    assert not shop.workshop._bench._held
+    assert shop.workshop.state.description.bodies[index(shop, "wall")].position == (-3, 1)
+    shop.workshop.undo().result(5)
+    assert shop.world["wall"].position == (-4, 0)
+
+
+def test_what_is_held_while_the_handles_go_is_let_go_of(viewer: Viewer, shop: Shop) -> None:
+    with page(viewer) as here:
+        tab = tab_of(viewer)
+        moving(viewer, here, tab)
+        node, wall = tab.handles.node, index(shop, "wall")
+        drag(here, tab, node, wall, (-4, 0), (-3, 1), lets_go=False)
+        seen(viewer, lambda: shop.world["wall"].position == (-3, 1))
+        here.change(tab.moves, False)
+        seen(viewer, lambda: tab.handles.node == "")
+        until(lambda: shop.workshop.can_undo == "move wall")
+        assert tab.handles.grip is None
+
+
+def test_a_hand_lets_nothing_fall_into_another_scene(viewer: Viewer, shop: Shop) -> None:
+    with page(viewer) as here:
+        tab = tab_of(viewer)
+        moving(viewer, here, tab)
+        wall = index(shop, "wall")
+        drag(here, tab, tab.handles.node, wall, (-4, 0), (-3, 1), lets_go=False)
+        seen(viewer, lambda: shop.world["wall"].position == (-3, 1))
+        other = Scene.loads(TEXT.replace("position: [-4, 0]", "position: [-5, 0]"))
+        shop.workshop.open(other).result(5)
+        seen(viewer, lambda: tab.handles.grip is None)
+        shop.runner.submit(lambda: None).result(5)
+        assert shop.world["wall"].position == (-5, 0)
+        assert not shop.workshop._bench._held
+        assert shop.workshop.can_undo == "open small"
+
+
 def test_in_the_past_nothing_can_be_taken_up(viewer: Viewer, shop: Shop) -> None:
     with page(viewer) as here:
         tab = tab_of(viewer)
@@ -217,6 +292,23 @@ def test_things_are_added_where_there_is_room(viewer: Viewer, shop: Shop, word: 
         until(lambda: name not in shop.world.bodies)
         seen(viewer, lambda: tab._form is None)
         assert not tab.delete.visible
+
+
+def test_a_thing_comes_where_the_page_looks(viewer: Viewer, shop: Shop) -> None:
+    with page(viewer) as here:
+        tab = tab_of(viewer)
+        camera = tab._onlooker.client.camera
+        for number, place in enumerate([(3.0, 3.0), (-3.0, 4.0)]):
+            here.report_camera(position=(*place, 30.0))
+            until(lambda place=place: tuple(camera.look_at[:2]) == place)  # type: ignore[misc]
+            here.change(tab.new, "Disc")
+            name = "disc" if number == 0 else "disc 2"
+            until(lambda name=name: name in shop.world.bodies)  # type: ignore[misc]
+            assert shop.world[name].position == place
+        here.report_camera(position=(50.0, 0.0, 30.0))
+        until(lambda: camera.look_at[0] == 50)
+        here.change(tab.new, "Disc")
+        seen(viewer, lambda: "there is no room" in tab.said.content)
 
 
 def test_the_body_of_an_agent_stays(viewer: Viewer, shop: Shop) -> None:
@@ -284,6 +376,103 @@ def test_a_scene_is_opened_from_the_gallery(viewer: Viewer, shop: Shop) -> None:
         assert "<b>Maze</b>" in tab.said.content
         here.change(tab.changes, "Undo")
         until(lambda: "box" in shop.world.bodies)
+
+
+def test_a_scene_is_saved_by_name_and_chosen_again(
+    shop: Shop, tmp_path: Path, viewer: Viewer
+) -> None:
+    with page(viewer) as here:
+        assert tab_of(viewer).saving is None  # nowhere to save
+    shop.workshop.shelf = Shelf(tmp_path / "kept")
+    left: Unsaved | None = Unsaved(tmp_path / "x", TEXT, None, time.time())
+    shop.workshop.unsaved = left
+    with page(viewer) as here:
+        seen(viewer, lambda: any(tab.saving for tab in tabs_of(viewer, WorldTab)))
+        (tab,) = (each for each in tabs_of(viewer, WorldTab) if each.saving)
+        window = tab.saving
+        assert window is not None
+        here.change(tab.scene, "Save")
+        until(lambda: window.is_open)
+        assert window.name.value == "small"
+        for name, told in (("../mine", "expected a name of letters"), ("", "expected a name, got")):
+            here.change(window.name, name)
+            here.press(window.save)
+            until(lambda told=told: told in window.told.content)  # type: ignore[misc]
+        here.change(window.name, "Mine")
+        here.press(window.save)
+        until(lambda: not window.is_open)
+        seen(viewer, lambda: "saved as &#x27;Mine&#x27;" in tab.said.content)
+        assert not shop.workshop.unsaved
+        assert shop.workshop.shelf.load("Mine") == shop.workshop.scene
+        shop.workshop.remove_body("wall").result(5)
+        here.change(tab.scene, "Save")
+        until(lambda: window.is_open)
+        here.change(window.name, "mine")
+        here.press(window.save)
+        until(lambda: window.save.label == "Replace it")
+        assert "wall" in shop.workshop.shelf.load("Mine").dumps()
+        here.change(window.name, "other")
+        here.press(window.save)  # that is not what was asked about
+        until(lambda: not window.is_open)
+        assert shop.workshop.shelf.names() == ["Mine", "other"]
+        here.change(tab.scene, "Save")
+        until(lambda: window.is_open)
+        here.change(window.name, "mine")
+        here.press(window.save)
+        until(lambda: window.save.label == "Replace it")
+        here.change(window.name, "other")
+        here.press(window.save)  # it is asked about each
+        until(lambda: "&#x27;other&#x27; is there already" in window.told.content)
+        here.change(window.name, "mine")
+        here.press(window.save)
+        until(lambda: "&#x27;Mine&#x27; is there already" in window.told.content)
+        here.press(window.save)
+        until(lambda: not window.is_open)
+        assert "wall" not in shop.workshop.shelf.load("Mine").dumps()
+        here.change(tab.new, "Disc")
+        until(lambda: "disc" in shop.world.bodies)
+        here.change(tab.scene, "Choose a scene")
+        until(lambda: len(tab.gallery.buttons) == len(Scene.names()))
+        here.press(tab.gallery.kept["Mine"])
+        until(lambda: "disc" not in shop.world.bodies)
+
+
+def test_the_scenes_own_settings_have_a_form(viewer: Viewer, shop: Shop) -> None:
+    with page(viewer) as here:
+        tab = tab_of(viewer)
+        here.press(tab.settings.button)
+        seen(viewer, lambda: tab.settings.form)
+        form = tab.settings.form
+        assert form is not None
+        for name, value in {"gravity": "1,6", "title": "On the <moon>"}.items():
+            here.change(form.boxes[name], value)
+        here.press(form.apply)
+        seen(viewer, lambda: "it applies at the next reset" in tab.said.content)
+        assert "On the &lt;moon&gt;" in tab.said.content
+        assert "waits for the next reset" in tab.said.content
+        assert form.boxes["gravity"].value == "1.6"
+        assert shop.world.settings.gravity == 9.81
+        shop.runner.reset(3).result(5)
+        seen(viewer, lambda: "waits for" not in tab.said.content)
+        assert shop.world.settings.gravity == 1.6
+        here.change(form.boxes["damping"], "2")
+        here.press(form.apply)
+        seen(viewer, lambda: "damping: expected at most 1, got 2" in form._told.content)
+        here.change(tab.changes, "Undo")
+        seen(viewer, lambda: form.boxes["gravity"].value == "9.81")
+
+
+def test_what_is_kept_can_be_spoilt_from_outside(tmp_path: Path) -> None:
+    shelf = Shelf(tmp_path)
+    shelf.save("good", Scene.loads(TEXT))
+    (tmp_path / "bad.yaml").write_text("name: <b>")
+    bad, good = cards_of(shelf)
+    assert good.png
+    assert good.title == "good"
+    assert "can&#x27;t be read: bad.yaml, line" in bad.html
+    assert "<img" not in bad.html
+    shelf.save("good", Scene.load("maze"), over=True)
+    assert cards_of(shelf)[1].goal == Scene.load("maze").description.goal
 
 
 def test_a_scene_file_is_opened(viewer: Viewer, shop: Shop) -> None:

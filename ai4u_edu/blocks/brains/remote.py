@@ -22,6 +22,8 @@ somebody wants something else, and asks again."""
 GIVE_WAY = 0.05
 """Seconds for which a script that asks for time has a world with other agents wait. One script may
 drive several of them in turn; if the world waited for all, it would wait for ever."""
+BY_HAND = "a person drives; its actions are ignored"
+"""What is said of a script meanwhile."""
 BRIEFLY = 0.001
 """Seconds for which it is listened to after that, at each tick."""
 
@@ -65,6 +67,9 @@ class RemoteBrain(Brain):
     ``stop`` gives zeros to all actuators. Numbers that are out of range are cut to it; what no
     actuator can carry out (another shape, NaN, an unknown name) is refused, and counts as missing.
 
+    A person may take the agent over, and let it go again: meanwhile the script goes on seeing what
+    the agent senses, its actions are ignored and counted, and a reset that it asks for is done.
+
     A reset that the script asks for is the world's; if other agents are there too, it is a new
     episode for this one alone.
 
@@ -83,6 +88,8 @@ class RemoteBrain(Brain):
     on_missing: Literal["hold", "coast", "stop"] = "hold"
 
     def __post_init__(self) -> None:
+        self.hand: Brain | None = None
+        """Who decides in the script's place for now: a person's keyboard."""
         self._given: Link | None = None
         self._link: Link | None = None
         self._situation: Situation | None = None
@@ -106,11 +113,22 @@ class RemoteBrain(Brain):
         """Whether its script came by itself, and was told already what the agent senses."""
         return self._given is not None
 
+    def lend(self, hand: Brain) -> None:
+        """Has another brain decide in the script's place, which stays connected."""
+        hand.on_setup(self._agent, self._view)
+        hand.on_reset(self._agent, self._view)
+        self.hand = hand
+
+    def take_back(self) -> None:
+        """The script decides again, from the next decision on."""
+        self.hand = None
+
     # -- what a brain does -----------------------------------------------------------------------
 
     def on_setup(self, agent: AgentView, view: WorldView) -> None:
         """Begins to look out for a script."""
         self.close("the agent is set up anew")
+        self.hand = None
         self._agent, self._view = agent, view
         self._actuators = {each.action_name: each for each in agent.actuators if each.is_active}
         link = self._given or self._own_link()
@@ -137,6 +155,8 @@ class RemoteBrain(Brain):
         self._cut_short = is_new and told is not None and not told.done
         self._resetting = self._stopped = False
         self._situation = None
+        if self.hand is not None:
+            self.hand.on_reset(agent, view)
 
     def decide(self, percept: Percept) -> Answer:
         """What the script says, or what is done without it."""
@@ -146,14 +166,9 @@ class RemoteBrain(Brain):
                 f"{self.title()} was closed; expected agent.use_brain(...) to open it again"
             )
         situation = self._situation or self._now(percept)
-        answered = link.ask(situation, self._time_for(link))
-        if link.state is not LinkState.CONNECTED:
-            self._told = None
-        elif link.expecting or answered is not None:
-            self._told = situation
-        if answered is not None and self._outdated(answered, situation):
-            self._dropped += 1
-            answered = None
+        if self.hand is not None:
+            return self._by_hand(self.hand, link, situation)
+        answered = self._ask(link, situation, self._time_for(link))
         if answered is None:
             return self._without_answer(link)
         self._situation = None
@@ -188,9 +203,10 @@ class RemoteBrain(Brain):
         link = self._link
         state = LinkState.WAITING if link is None else link.state
         here = state is LinkState.CONNECTED
+        said = BY_HAND if self.hand is not None else self._reason
         return RemoteStatus(
             state="late" if here and self._late else state.value,
-            reason=(self._reason if here else "") or (link.reason if link else ""),
+            reason=(said if here else "") or (link.reason if link else ""),
             decisions=self._decisions,
             missing=self._missing,
             ignored=self._dropped + (link.ignored if link else 0),
@@ -199,6 +215,28 @@ class RemoteBrain(Brain):
         )
 
     # -- the steps of it -------------------------------------------------------------------------
+
+    def _ask(self, link: Link, situation: Situation, timeout: float) -> Answered | None:
+        """The script's answer, if there is one that counts."""
+        answered = link.ask(situation, timeout)
+        if link.state is not LinkState.CONNECTED:
+            self._told = None
+        elif link.expecting or answered is not None:
+            self._told = situation
+        if answered is not None and self._outdated(answered, situation):
+            self._dropped += 1
+            return None
+        return answered
+
+    def _by_hand(self, hand: Brain, link: Link, situation: Situation) -> Answer:
+        """What a person does; the script sees it, and nobody waits for what it would do."""
+        answered = self._ask(link, situation, 0.0)
+        self._situation, self._seed, self._late = None, None, False
+        if answered is not None:
+            if isinstance(answered.answer, Reset):
+                return self._obeyed(link, answered, situation)
+            self._dropped += 1
+        return hand.decide(situation.percept)
 
     def _own_link(self) -> Link:
         from ai4u_edu.blocks.brains.ai4u_link import AI4ULink
