@@ -26,8 +26,9 @@ from ai4u_edu.direct import HEADER, Direct, framed, taken
 
 KNOWN = "1.1.1"
 """The viser whose insides this fits. Any other one goes on in its own way."""
-PERIOD = 1 / 60
-"""Seconds between two pictures at least."""
+PERIOD = 1 / 120
+"""Seconds between two sendings at least: less than between two pictures, of which one that comes a
+bit early would go together with the next."""
 MOST = 0.4
 """The share of the time that may go into sending pictures: then there are fewer of them."""
 CHUNK = 128
