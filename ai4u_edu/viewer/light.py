@@ -13,10 +13,8 @@ from viser import SceneApi
 GAIN = 2.0
 """What a white surface that faces up sends out; more than 1, as the curve dims what is bright."""
 AMBIENT = 0.22
-"""The share of the light that comes from everywhere. The rest comes from the lamp: all of it to
-what faces about its way, as the page lights by steps, and half of it to walls."""
-LAMP = np.array([-0.15, 0.2, 1.0]) / math.sqrt(0.15**2 + 0.2**2 + 1.0)
-"""Where the lamp is: up, and a little to the upper left, so shadows fall to the lower right."""
+"""The share of the light that comes from everywhere. The rest comes from straight above: the page
+lights by steps, so what faces up gets all of it, rims get three quarters and walls half."""
 
 _INTO = np.array(
     [
@@ -46,7 +44,7 @@ def light(scene: SceneApi) -> None:
         "/light/lamp",
         intensity=math.pi * GAIN * (1 - AMBIENT),
         decay=0.0,
-        position=tuple(1e6 * LAMP),
+        position=(0.0, 0.0, 1e6),
     )
 
 
