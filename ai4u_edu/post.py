@@ -54,3 +54,8 @@ class Post:
             if self._errands and not self._is_called:
                 self._is_called = True
                 self._loop.call_soon(self._carry_out)
+
+
+def post_here(post: Post | None) -> Post:
+    """That post, if its loop is the one that runs here; else a new one."""
+    return post if post is not None and post.is_here() else Post()

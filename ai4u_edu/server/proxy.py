@@ -16,7 +16,7 @@ from websockets.protocol import Event
 from websockets.typing import Subprotocol
 
 from ai4u_edu.direct import HEADER, Direct, left
-from ai4u_edu.post import Post
+from ai4u_edu.post import Post, post_here
 from ai4u_edu.server.frames import EXTENSION, FramesProtocol
 from ai4u_edu.server.guard import with_token
 from ai4u_edu.server.rate import Rate
@@ -85,8 +85,7 @@ class ViserProxy:
             await self._serve(WebSocket(scope, receive, send))
             return
         frames.hold_nothing_back()
-        if self._post is None or not self._post.is_here():
-            self._post = Post()
+        self._post = post_here(self._post)
         with left(frames, self._post) as way:
             await self._serve(WebSocket(scope, receive, send), frames, way)
 

@@ -113,16 +113,21 @@ def test_the_mouse_moves_and_turns_a_wall_while_the_time_stands_still(
     assert server.snapshot()["paused"]
 
 
-def test_escape_puts_back_what_is_held_and_the_mouse_holds_nothing_then(
-    opened: Callable[[], Page], server: Played
-) -> None:
-    page = opened()
+def carry_wall(page: Page, server: Played) -> None:
+    """Has the wall in the hand, somewhere else, while the world stands still."""
     press(page, "Pause")
     until(lambda: server.snapshot()["paused"], timeout=40)
     moving(page)
     take(page, (2, 0), HALF)
     carry(page, (2, 0), (3, -3), HALF)
     until(lambda: near(server, "wall", 3, -3), timeout=40)
+
+
+def test_escape_puts_back_what_is_held_and_the_mouse_holds_nothing_then(
+    opened: Callable[[], Page], server: Played
+) -> None:
+    page = opened()
+    carry_wall(page, server)
     page.keyboard.press("Escape")
     until(lambda: where(server, "wall") == (2, 0), timeout=40)
     carry(page, (3, -3), (0, -3), HALF, steps=2)  # the button is still down
@@ -136,12 +141,7 @@ def test_a_page_that_is_closed_in_the_middle_lets_go(
     opened: Callable[[], Page], server: Played
 ) -> None:
     page = opened()
-    press(page, "Pause")
-    until(lambda: server.snapshot()["paused"], timeout=40)
-    moving(page)
-    take(page, (2, 0), HALF)
-    carry(page, (2, 0), (3, -3), HALF)
-    until(lambda: near(server, "wall", 3, -3), timeout=40)
+    carry_wall(page, server)
     page.close()
     other = opened()
     other.get_by_text("undo: move wall").wait_for(timeout=40_000)

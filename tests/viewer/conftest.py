@@ -7,6 +7,7 @@ import pytest
 from ai4u_edu.runner import Runner
 from ai4u_edu.viewer import Viewer
 from tests.viewer.worlds import busy_sim
+from tests.workshop.shops import Shop
 
 
 @pytest.fixture
@@ -19,3 +20,12 @@ def viewer(runner: Runner) -> Iterator[Viewer]:
     viewer = Viewer(runner)
     yield viewer
     viewer.stop()
+
+
+@pytest.fixture
+def shop() -> Iterator[Shop]:
+    shop = Shop()
+    shop.runner.pause()
+    shop.runner.start()
+    yield shop
+    shop.runner.stop()

@@ -105,6 +105,16 @@ def shown(viewer: Viewer) -> None:
     viewer._draw(viewer.runner.latest)
 
 
+def seen(viewer: Viewer, condition: Callable[[], Any]) -> None:
+    """Waits until something is so after a picture."""
+
+    def drawn() -> Any:
+        shown(viewer)
+        return condition()
+
+    until(drawn)
+
+
 def part_of(viewer: Viewer, kind: type[P]) -> P:
     """The viewer's part of that kind."""
     (part,) = (each._part for each in viewer._parts if isinstance(each._part, kind))

@@ -1,6 +1,6 @@
 """The tab for blocks, on pages without a browser."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from functools import partial
 from typing import Any
 
@@ -11,17 +11,8 @@ from ai4u_edu.viewer.field_form import FieldForm
 from ai4u_edu.viewer.inspector import BlocksTab
 from ai4u_edu.viewer.inspector_form import BlockForm
 from ai4u_edu.workshop.autosave import Unsaved
-from tests.viewer.pages import Page, page, shown, tabs_of, until
+from tests.viewer.pages import Page, page, seen, shown, tabs_of, until
 from tests.workshop.shops import TEXT, Shop
-
-
-@pytest.fixture
-def shop() -> Iterator[Shop]:
-    shop = Shop()
-    shop.runner.pause()
-    shop.runner.start()
-    yield shop
-    shop.runner.stop()
 
 
 @pytest.fixture
@@ -34,14 +25,6 @@ def viewer(shop: Shop) -> Iterator[Viewer]:
 def tab_of(viewer: Viewer, number: int = 0) -> BlocksTab:
     shown(viewer)
     return tabs_of(viewer, BlocksTab)[number]
-
-
-def seen(viewer: Viewer, condition: Callable[[], Any]) -> None:
-    def drawn() -> Any:
-        shown(viewer)
-        return condition()
-
-    until(drawn)
 
 
 def chosen(viewer: Viewer, here: Page, tab: BlocksTab, line: str) -> BlockForm:

@@ -1,7 +1,7 @@
 """The tab for the world, on pages without a browser."""
 
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -18,17 +18,8 @@ from ai4u_edu.viewer.gallery_pictures import cards, cards_of
 from ai4u_edu.viewer.world_tab import NOTHING, WorldTab
 from ai4u_edu.workshop.autosave import Unsaved
 from ai4u_edu.workshop.shelf import Shelf
-from tests.viewer.pages import Page, page, shown, tabs_of, until
+from tests.viewer.pages import Page, page, seen, shown, tabs_of, until
 from tests.workshop.shops import TEXT, Shop
-
-
-@pytest.fixture
-def shop() -> Iterator[Shop]:
-    shop = Shop()
-    shop.runner.pause()
-    shop.runner.start()
-    yield shop
-    shop.runner.stop()
 
 
 @pytest.fixture
@@ -41,14 +32,6 @@ def viewer(shop: Shop) -> Iterator[Viewer]:
 def tab_of(viewer: Viewer, number: int = 0) -> WorldTab:
     shown(viewer)
     return tabs_of(viewer, WorldTab)[number]
-
-
-def seen(viewer: Viewer, condition: Callable[[], Any]) -> None:
-    def drawn() -> Any:
-        shown(viewer)
-        return condition()
-
-    until(drawn)
 
 
 def moving(viewer: Viewer, here: Page, tab: WorldTab) -> None:

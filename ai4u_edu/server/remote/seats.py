@@ -2,7 +2,7 @@
 
 from ai4u_edu.agent import BasicAgent
 from ai4u_edu.errors import suggest
-from ai4u_edu.post import Post
+from ai4u_edu.post import Post, post_here
 from ai4u_edu.runner import Runner
 from ai4u_edu.server.guard import same
 from ai4u_edu.server.remote.line import Line
@@ -54,8 +54,7 @@ class Seats:
         elif seat is not None:
             raise RefusalError("agent_taken", self._taken(agent))
         else:
-            if self._post is None or not self._post.is_here():
-                self._post = Post()
+            self._post = post_here(self._post)
             seat = Seat(self._runner, agent, hello, self._rules, self._post, self._left)
             self._seats[agent.id] = seat
             await seat.claim(self._title)
