@@ -288,9 +288,10 @@ class Runner:
             end = self._clock() + SPRINT
             while self._may_sprint() and self._clock() < end:
                 self._expected = 0
-                self.advance()
+                self._tick(leaps=True)
                 if self.sim.held:
                     return
+                self._keep_time()
         finally:
             self._turn.release()
         self._called.set()
@@ -333,7 +334,7 @@ class Runner:
         if self.paused or self.error:
             self._rest()
         else:
-            self._tick()
+            self._tick(leaps=math.isinf(self.time_scale))
             self._keep_time()
 
     def _may_sprint(self) -> bool:
@@ -346,10 +347,9 @@ class Runner:
             with self._turn:
                 self._expected = 0
                 self.advance()
-                waits = self.sim.held and self._expected > 0
-            if waits:
+            self._called.clear()  # whoever called before others were asked called for nothing
+            if self.sim.held and self._expected > 0:
                 self._called.wait(SLICE)
-                self._called.clear()
 
     def _rest(self) -> None:
         self._window.clear()
@@ -361,22 +361,26 @@ class Runner:
         self._publish()  # keys that are held, and the like, go on
         self._due = self._clock()
 
-    def _tick(self) -> None:
+    def _tick(self, *, leaps: bool = False) -> None:
+        """A tick, or as many as make a decision."""
         began, self._past = self._clock(), None
+        ticks = 1
         try:
-            self.sim.tick()
+            if leaps:
+                ticks = self.sim.leap() or 1
+            else:
+                self.sim.tick()
         except Exception as error:  # a student's block may raise anything; the page shows it
             self.error = _sentence(error)
-        self._watch(began)
-        self._ticked += not self.sim.held
-        self._show()
-
-    def _watch(self, began: float) -> None:
-        """Notices a tick that took too long; to count the contacts takes time, and is done then."""
         ended = self._clock()
-        took = ended - began
-        if took <= SLOW or self.sim.held:  # a world that waits for a script is not slow
-            return
+        if not self.sim.held:  # a world that waits for a script is not slow
+            self._ticked += ticks
+            if ended - began > SLOW * ticks:
+                self._report_slow(ended, (ended - began) / ticks)
+        self._show(ended)
+
+    def _report_slow(self, ended: float, took: float) -> None:
+        """To count the contacts takes time, and is done only now."""
         before = self._slow_lately()
         if before is None or took > before.seconds:
             self._slow = ended, SlowTick(took, self.sim.world.count_contacts())
@@ -386,19 +390,20 @@ class Runner:
             return None
         return self._slow[1]
 
-    def _show(self) -> None:
+    def _show(self, now: float) -> None:
         """Publishes every tick, or as many as one can see and as there is time for.
 
         Where it would make the next tick late, in which a brain may wait for what it senses, a
         picture waits for a tick that leaves more time.
         """
         period = self.sim.world.dt / self.time_scale
+        if period < OFTEN_ENOUGH and now - self._shown < OFTEN_ENOUGH and not self.error:
+            return
         pause = max(
             0.0 if period >= OFTEN_ENOUGH else OFTEN_ENOUGH,
             min(self._showing / SHOWING, ENOUGH),
             self._showing / MOST_SHOWING,
         )
-        now = self._clock()
         if OFTEN_ENOUGH <= period < GOOD_MOMENT and now + self._showing > self._due + period:
             pause = max(pause, GOOD_MOMENT)
         if self.error or now - self._shown >= pause:

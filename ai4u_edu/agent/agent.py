@@ -7,6 +7,7 @@ from ai4u_edu.agent.fitting import Fitting
 from ai4u_edu.agent.ledger import HANDLERS, Ledger
 from ai4u_edu.agent.table import table
 from ai4u_edu.blocks import Action, Actuator, Brain, Command, Keyboard, Percept, RewardFunc, Sensor
+from ai4u_edu.blocks.brains.command import Accepted
 from ai4u_edu.blocks.declared import Declared
 from ai4u_edu.errors import ActionError, SetupError, suggest
 from ai4u_edu.parameters import Count, Name, Number
@@ -186,6 +187,10 @@ class BasicAgent(Declared):
             ActionError: it names an actuator that there is not, or its numbers don't fit.
         """
         actuators = self.fitting.actuators
+        if type(action) is Accepted:
+            self.last_action = dict(action)
+            known = [(actuators[name], numbers) for name, numbers in action.items()]
+            return [each for each in known if each[0].is_active]
         accepted, numbers = [], {}
         try:
             for name in action:

@@ -8,6 +8,7 @@ from websockets.exceptions import ConnectionClosed, WebSocketException
 from websockets.protocol import State
 
 from ai4u_edu.remote.address import Address
+from ai4u_edu.remote.limit import Limit
 from ai4u_edu.remote.line_options import OPTIONS, lost_by
 from ai4u_edu.remote.steps import Close, Flow, LineLost, Open, Pause, Receive, Send, Step
 
@@ -20,6 +21,7 @@ class AsynchronousLine:
     def __init__(self, address: Address) -> None:
         self._address = address
         self._socket: ClientConnection | None = None
+        self._limit: Limit
 
     async def run(self, flow: Flow[T]) -> T:
         """Carries out what a dialogue wants, and gives back what it comes to."""
@@ -52,6 +54,7 @@ class AsynchronousLine:
         return None
 
     async def _open(self, timeout: float) -> None:
+        self._limit = Limit()
         try:
             self._socket = await connect(
                 self._address.url,
@@ -75,9 +78,10 @@ class AsynchronousLine:
             raise lost_by(closed) from None
 
     async def _receive(self, timeout: float) -> bytes | None:
+        socket = self._there
         try:
-            async with asyncio.timeout(timeout):
-                return await self._there.recv(decode=False)
+            with self._limit.of(timeout):
+                return await socket.recv(decode=False)
         except TimeoutError:
             return None
         except ConnectionClosed as closed:

@@ -1,12 +1,13 @@
 """A connection for scripts that wait: the steps of a dialogue, one after another."""
 
 import time
-from typing import Any, TypeVar
+from typing import Any, TypeVar, cast
 
 from websockets.exceptions import ConnectionClosed, WebSocketException
-from websockets.sync.client import ClientConnection, connect
+from websockets.sync.client import connect
 
 from ai4u_edu.remote.address import Address
+from ai4u_edu.remote.direct_socket import DirectSocket
 from ai4u_edu.remote.line_options import OPTIONS, lost_by
 from ai4u_edu.remote.steps import Close, Flow, LineLost, Open, Pause, Receive, Send, Step
 
@@ -18,7 +19,7 @@ class PlainLine:
 
     def __init__(self, address: Address) -> None:
         self._address = address
-        self._socket: ClientConnection | None = None
+        self._socket: DirectSocket | None = None
 
     def run(self, flow: Flow[T]) -> T:
         """Carries out what a dialogue wants, and gives back what it comes to."""
@@ -51,12 +52,17 @@ class PlainLine:
         return None
 
     def _open(self, timeout: float) -> None:
+        ours: Any = DirectSocket  # has what connect() calls, and no more of websockets' own
         try:
-            self._socket = connect(
-                self._address.url,
-                open_timeout=timeout,
-                proxy=None if self._address.is_loopback else True,
-                **OPTIONS,
+            self._socket = cast(
+                "DirectSocket",
+                connect(
+                    self._address.url,
+                    open_timeout=timeout,
+                    proxy=None if self._address.is_loopback else True,
+                    create_connection=ours,
+                    **OPTIONS,
+                ),
             )
         except (OSError, WebSocketException) as error:
             raise lost_by(error) from None
@@ -69,12 +75,11 @@ class PlainLine:
 
     def _receive(self, timeout: float) -> bytes | None:
         try:
-            frame = self._there.recv(timeout, decode=False)
+            return self._there.recv(timeout)
         except TimeoutError:
             return None
         except ConnectionClosed as closed:
             raise lost_by(closed) from None
-        return frame
 
     def _close(self) -> None:
         if self._socket is not None:
@@ -82,7 +87,7 @@ class PlainLine:
             self._socket = None
 
     @property
-    def _there(self) -> ClientConnection:
+    def _there(self) -> DirectSocket:
         if self._socket is None:
             raise LineLost("there is no connection")
         return self._socket

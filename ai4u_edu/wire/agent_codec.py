@@ -1,13 +1,13 @@
 """An agent in the terms of AI4U's protocol."""
 
 import base64
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any, Protocol
 
 import numpy as np
 from gymnasium import spaces
 
-from ai4u_edu.wire.ai4u import Field, Kind, Order, packed
+from ai4u_edu.wire.ai4u import Kind, Order, packer
 from ai4u_edu.wire.ai4u_dialogue import STANDARD
 from ai4u_edu.wire.ai4u_metadata import ModelInput, ModelOutput, metadata
 from ai4u_edu.wire.png import grey_png
@@ -77,8 +77,8 @@ class AgentCodec:
     """
 
     def __init__(self, readings: Sequence[Reading], outputs: Sequence[Output]) -> None:
-        self._readings = [
-            (each, _wire_kind(each)) for each in readings if each.name not in STANDARD
+        self._packers = [
+            (each.name, _packer(each)) for each in readings if each.name not in STANDARD
         ]
         inputs = [each for each in readings if each.is_input and each.kind != "sstring"]
         driven = [each for each in outputs if each.is_output][:1]
@@ -87,7 +87,7 @@ class AgentCodec:
 
     def sensors(self, percept: Mapping[str, Any]) -> list[bytes]:
         """The readings that a script is told, packed."""
-        return [_field(each, kind, percept[each.name]) for each, kind in self._readings]
+        return [pack(percept[name]) for name, pack in self._packers]
 
     def action(self, orders: Sequence[Order]) -> dict[str, tuple[str, ...]]:
         """The action in a reply: its command, and of its fields those that name an actuator."""
@@ -101,14 +101,20 @@ def _wire_kind(reading: Reading) -> Kind:
     return KINDS.get(reading.kind, Kind.FLOATS)
 
 
-def _field(reading: Reading, kind: Kind, value: Any) -> bytes:
-    if kind is Kind.TEXTS:
-        value = [base64.b64encode(grey_png(each)).decode() for each in _channels_first(value)]
-    elif kind is Kind.BYTES:
-        value = np.asarray(value).tobytes()
-    elif kind is Kind.FLOATS and not np.size(value):
-        value = np.zeros(1)  # the script's side stumbles over a row of nothing
-    return packed(Field(reading.name, kind, value))
+def _packer(reading: Reading) -> Callable[[Any], bytes]:
+    """Makes a field of each of its readings."""
+    kind = _wire_kind(reading)
+    pack = packer(reading.name, kind)
+    match kind:
+        case Kind.TEXTS:
+            return lambda picture: pack(
+                [base64.b64encode(grey_png(each)).decode() for each in _channels_first(picture)]
+            )
+        case Kind.BYTES:
+            return lambda value: pack(np.asarray(value).tobytes())
+        case Kind.FLOATS if not np.prod(reading.space.shape or (1,)):
+            return lambda _: pack(np.zeros(1))  # the script's side stumbles over a row of nothing
+    return pack
 
 
 def _channels_first(picture: Any) -> Any:

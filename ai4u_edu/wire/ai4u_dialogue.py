@@ -34,6 +34,7 @@ from ai4u_edu.wire.ai4u import (
     encode_request,
     joined,
     packed,
+    packer,
 )
 from ai4u_edu.wire.strict import WireError
 
@@ -153,6 +154,9 @@ class Dialogue:
                 Field("config", Kind.INT, 1),
             )
         )
+        self._reward, self._steps = packer("reward", Kind.FLOAT), packer("steps", Kind.INT)
+        self._told: tuple[State, Phase, bytes] | None = None
+        """What was told last, and how: a script that asks for time is told the same again."""
         self._always = [
             packed(field)
             for field in (
@@ -176,13 +180,14 @@ class Dialogue:
             state: of the agent; needed when started and while playing.
         """
         self.in_flight = True
-        if self.phase is Phase.GREETING:
-            return self._handshake
-        if state is not None and self.phase is Phase.STARTED:
-            return self._state(state._replace(done=True))
-        if state is not None and self.phase is Phase.PLAYING:
-            return self._state(state)
-        return self._poll()
+        phase = self.phase
+        if state is None or phase not in _TOLD:
+            return self._handshake if phase is Phase.GREETING else self._poll()
+        told = self._told
+        if told is None or told[0] is not state or told[1] is not phase:
+            request = self._state(state, done=state.done or phase is Phase.STARTED)
+            self._told = told = state, phase, request
+        return told[2]
 
     def hear(self, reply: bytes) -> Heard:
         """Takes a reply.
@@ -192,7 +197,7 @@ class Dialogue:
         """
         orders = decode_reply(reply)
         name = orders[0].name
-        word = Word(name) if name in _NAMES else Word.ACTION
+        word = _WORDS.get(name, Word.ACTION)
         if word not in WORDS[self.phase]:
             raise WireError(f"nothing that can be said while {self.phase.value}: {name!r}")
         if word is Word.CONFIGURED and Order("id", (self.agent,)) not in orders[1:]:
@@ -204,6 +209,8 @@ class Dialogue:
         if word is Word.CONFIGURED and self._meant is not Word.NOOP:
             word = self._meant
         match word:
+            case Word.ACTION | Word.WAIT:
+                pass  # most replies
             case Word.CONFIGURED | Word.CONTROL:
                 self.phase = Phase.POLLING
             case Word.START:
@@ -237,16 +244,26 @@ class Dialogue:
             )
         )
 
-    def _state(self, state: State) -> bytes:
-        flags = (
-            Field("done", Kind.BOOL, state.done),
-            Field("reward", Kind.FLOAT, state.reward),
-            Field("steps", Kind.INT, state.steps),
-            Field("truncated", Kind.BOOL, state.truncated),
-            Field("__ctrl_paused__", Kind.BOOL, state.paused),
-            Field("__ctrl_stopped__", Kind.BOOL, state.stopped),
+    def _state(self, state: State, *, done: bool) -> bytes:
+        return joined(
+            [
+                *state.sensors,
+                _DONE[done],
+                self._reward(state.reward),
+                self._steps(state.steps),
+                _TRUNCATED[state.truncated],
+                _PAUSED[state.paused],
+                _STOPPED[state.stopped],
+                *self._always,
+            ]
         )
-        return joined([*state.sensors, *map(packed, flags), *self._always])
 
 
-_NAMES = {word.value for word in Word if word is not Word.ACTION}
+def _switch(name: str) -> dict[bool, bytes]:
+    return {on: packed(Field(name, Kind.BOOL, on)) for on in (False, True)}
+
+
+_DONE, _TRUNCATED = _switch("done"), _switch("truncated")
+_PAUSED, _STOPPED = _switch("__ctrl_paused__"), _switch("__ctrl_stopped__")
+_TOLD = (Phase.PLAYING, Phase.STARTED)
+_WORDS = {word.value: word for word in Word if word is not Word.ACTION}

@@ -16,9 +16,7 @@ Readings are one piece of memory, little-endian, as the welcome lays it out.
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass, fields
-from operator import attrgetter
-from typing import Annotated, Any, Literal
+from typing import Annotated, Literal, NamedTuple
 
 import msgpack
 
@@ -37,8 +35,7 @@ LONGEST_READ = 4000
 Mode = Literal["lockstep", "realtime"]
 
 
-@dataclass(frozen=True, slots=True)
-class Hello:
+class Hello(NamedTuple):
     """A script wants an agent, or the session back that it had."""
 
     version: int
@@ -54,8 +51,7 @@ class Hello:
     """Made up by the script. Who knows it may come back to the session."""
 
 
-@dataclass(frozen=True, slots=True)
-class Reading:
+class Reading(NamedTuple):
     """One reading: its space, and where it lies in a percept."""
 
     key: str
@@ -75,8 +71,7 @@ class Reading:
     """Whether a policy gets it as part of its observation."""
 
 
-@dataclass(frozen=True, slots=True)
-class Output:
+class Output(NamedTuple):
     """One actuator: what an action of it may be."""
 
     name: str
@@ -87,8 +82,7 @@ class Output:
     """Whether a policy drives it."""
 
 
-@dataclass(frozen=True, slots=True)
-class Welcome:
+class Welcome(NamedTuple):
     """The script has the agent."""
 
     version: int
@@ -112,8 +106,7 @@ class Welcome:
     outputs: tuple[Output, ...]
 
 
-@dataclass(frozen=True, slots=True)
-class Percept:
+class Percept(NamedTuple):
     """What the agent senses, and what its last decision brought."""
 
     episode: int
@@ -137,8 +130,7 @@ class Percept:
     texts: tuple[Annotated[str, LONGEST_READ], ...]
 
 
-@dataclass(frozen=True, slots=True)
-class Action:
+class Action(NamedTuple):
     """What the agent shall do, as the answer to one percept."""
 
     episode: int
@@ -148,8 +140,7 @@ class Action:
     """Numbers by the actuator's name; what is left out does nothing."""
 
 
-@dataclass(frozen=True, slots=True)
-class Reset:
+class Reset(NamedTuple):
     """A new episode shall begin, as the answer to one percept."""
 
     seq: int
@@ -157,8 +148,7 @@ class Reset:
     """With a seed the whole world begins anew; without, the agent alone if there are others."""
 
 
-@dataclass(frozen=True, slots=True)
-class Order:
+class Order(NamedTuple):
     """Something other than an action, as the answer to one percept."""
 
     seq: int
@@ -166,8 +156,7 @@ class Order:
     """``wait`` is no answer: the script needs more time, and a world in lockstep gives it."""
 
 
-@dataclass(frozen=True, slots=True)
-class Problem:
+class Problem(NamedTuple):
     """Something was wrong; the text says what, and what to do."""
 
     code: Annotated[str, 40]
@@ -178,8 +167,7 @@ class Problem:
     """Of the percept whose answer it was; 0 where it was none."""
 
 
-@dataclass(frozen=True, slots=True)
-class Bye:
+class Bye(NamedTuple):
     """The end; from the script: the seat is free."""
 
     reason: str
@@ -208,9 +196,6 @@ _KINDS: dict[str, type[Message]] = {
     for kind in (Hello, Welcome, Percept, Action, Reset, Order, Problem, Bye)
 }
 _NAMES = {kind: name for name, kind in _KINDS.items()}
-_VALUES = {
-    kind: attrgetter(*(field.name for field in fields(kind))) for kind in (*_NAMES, Reading, Output)
-}
 _READERS = {name: reader(kind) for name, kind in _KINDS.items()}
 
 
@@ -220,9 +205,7 @@ def encode(message: Message) -> bytes:
     >>> len(encode(Bye("enough")))
     12
     """
-    packed: bytes = msgpack.packb(
-        (_NAMES[type(message)], *_values(message)), default=_values, unicode_errors="replace"
-    )
+    packed: bytes = msgpack.packb((_NAMES[type(message)], *message), unicode_errors="replace")
     return packed
 
 
@@ -262,8 +245,3 @@ order, problem, bye), got 'rest'
     if read is None:
         raise WireError(f"expected a message ({', '.join(_READERS)}), got {shown(name)}")
     return read(parts[1:])
-
-
-def _values(message: Any) -> tuple[Any, ...]:
-    values = _VALUES[type(message)](message)
-    return values if type(values) is tuple else (values,)

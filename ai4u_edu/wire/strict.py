@@ -1,11 +1,10 @@
 """Checks that what came over a wire is what a message declares, field by field.
 
-A message is a frozen dataclass. Its annotations say what may stand in each field, and
+A message is a NamedTuple. Its annotations say what may stand in each field, and
 :func:`reader` makes of them, once, a function that lets nothing else through.
 """
 
 from collections.abc import Callable, Mapping
-from dataclasses import fields
 from types import NoneType, UnionType
 from typing import Annotated, Any, Literal, TypeVar, Union, get_args, get_origin, get_type_hints
 
@@ -34,9 +33,8 @@ def reader(message: type[M]) -> Callable[[tuple[Any, ...]], M]:
     ``Annotated[..., n]`` of up to n characters or bytes), ``Literal``, ``| None``,
     ``tuple[x, ...]``, ``Mapping[str, x]``, and other messages.
 
-    >>> from dataclasses import dataclass
-    >>> @dataclass(frozen=True)
-    ... class Step:
+    >>> from typing import NamedTuple
+    >>> class Step(NamedTuple):
     ...     number: int
     ...     rewards: tuple[float, ...]
     >>> reader(Step)((7, (1, 2.5)))
@@ -47,22 +45,19 @@ def reader(message: type[M]) -> Callable[[tuple[Any, ...]], M]:
     ai4u_edu.wire.strict.WireError: number: expected a whole number from 0 on, got -7
     """
     hints = get_type_hints(message, include_extras=True)
-    names = [field.name for field in fields(message)]  # type: ignore[arg-type]
-    checks = [_check(hints[name]) for name in names]
+    checks = {name: _check(hints[name]) for name in hints}
+    every = tuple(checks.values())
 
     def read(values: tuple[Any, ...]) -> M:
-        if len(values) != len(checks):
+        if len(values) != len(every):
             raise WireError(
-                f"expected {len(checks)} fields ({', '.join(names)}), got {len(values)}"
+                f"expected {len(every)} fields ({', '.join(checks)}), got {len(values)}"
             )
-        name = ""
         try:
-            found = []
-            for name, check, value in zip(names, checks, values, strict=True):  # noqa: B007
-                found.append(check(value))
-        except WireError as error:
-            raise WireError(f"{name}: {error}") from None
-        return message(*found)
+            return message(*[check(value) for check, value in zip(every, values, strict=True)])
+        except WireError:
+            _name_the_wrong_one(checks, values)
+            raise
 
     return read
 
@@ -74,6 +69,14 @@ def shown(value: object) -> str:
     except RecursionError:  # a frame may hold lists in lists, a thousand deep
         text = f"a {type(value).__name__} that is nested too deep"
     return text if len(text) <= 40 else text[:37] + "..."
+
+
+def _name_the_wrong_one(checks: Mapping[str, Check], values: tuple[Any, ...]) -> None:
+    for (name, check), value in zip(checks.items(), values, strict=True):
+        try:
+            check(value)
+        except WireError as error:
+            raise WireError(f"{name}: {error}") from None
 
 
 def _check(kind: Any, size: int | None = None) -> Check:

@@ -102,8 +102,8 @@ def test_an_action_is_carried_out_and_the_next_situation_is_told() -> None:
     sim, brain = over(link)
     for _ in range(2):
         sim.tick()
-    assert [each.number for each in link.told] == [1, 2]
-    assert [each.steps for each in link.told] == [0, 1]
+    assert [each.number for each in link.told] == [1, 2, 3]
+    assert [each.steps for each in link.told] == [0, 1, 2]
     assert link.told[1].percept is not link.told[0].percept
     assert brain.status().decisions == 2
 
@@ -118,7 +118,7 @@ def test_who_drives_in_its_place_decides_and_its_answers_are_counted() -> None:
         sim.tick()
         assert sim.agents[0].last_action["move"][0] == -1
         assert not sim.held  # nobody waits for it
-    assert [each.steps for each in link.told] == [0, 1, 2, 3]
+    assert [each.steps for each in link.told] == [0, 1, 2, 3, 4]
     assert link.timeouts[1:] == [0.0] * 3
     assert (brain.status().ignored, brain.status().decisions) == (2, 1)
     assert brain.status().state == "connected"
@@ -150,7 +150,7 @@ def test_hold_lets_no_time_pass_and_asks_the_same_again() -> None:
     sim.tick()
     assert not sim.held
     assert sim.world.ticks == 1
-    assert len(link.told) == 1
+    assert [each.steps for each in link.told] == [0, 1]
 
 
 def pair(link: PaperLink, controller: Any) -> ControlRequestor:
@@ -307,11 +307,12 @@ def test_in_real_time_a_script_is_told_as_soon_as_the_agent_has_sensed() -> None
     assert len(agent.end_of_update_state.handlers) == before - 1
 
 
-def test_in_lockstep_a_script_is_told_when_it_is_asked() -> None:
+def test_in_lockstep_a_script_thinks_while_the_world_finishes_its_tick() -> None:
     link = PaperLink(AHEAD)
     sim, _ = over(link)
     sim.tick()
-    assert [told.steps for told in link.told] == [0]
+    assert [told.steps for told in link.told] == [0, 1]
+    assert link.told[1].percept is sim.agents[0].percept
 
 
 def test_a_reset_with_a_seed_is_the_worlds() -> None:
@@ -365,7 +366,7 @@ def test_where_the_transport_can_say_so_the_script_answers_again() -> None:
     assert sim.held
     assert link.refused == ["agent '0' has no actuator 'mvoe'; did you mean 'move'?"]
     sim.tick()
-    assert [each.number for each in link.told] == [1]
+    assert [each.number for each in link.told] == [1, 2]  # 1 was not told twice
     assert (brain.status().decisions, brain.status().missing) == (1, 0)
 
 

@@ -2,7 +2,6 @@
 
 import random
 from collections.abc import Mapping
-from dataclasses import fields, is_dataclass
 from types import NoneType, UnionType
 from typing import Annotated, Any, Literal, Union, get_args, get_origin, get_type_hints
 
@@ -25,10 +24,9 @@ def example(kind: Any, chance: random.Random) -> Any:
         return tuple(example(parts[0], chance) for _ in range(chance.randrange(4)))
     if origin is Mapping:
         return {name: example(parts[1], chance) for name in chance.sample(NAMES, 2)}
-    if is_dataclass(kind):
+    if hasattr(kind, "_fields"):
         hints = get_type_hints(kind, include_extras=True)
-        make: Any = kind
-        return make(**{each.name: example(hints[each.name], chance) for each in fields(kind)})
+        return kind(**{name: example(hints[name], chance) for name in kind._fields})
     leaves: dict[Any, Any] = {
         int: chance.choice((0, 1, 2, 7, 2**31)),
         float: chance.choice((0.0, 1.0, -0.5, 60.0)),

@@ -48,9 +48,9 @@ class TimedRunner(Runner):
 
     late: list[float]
 
-    def _tick(self) -> None:
+    def _tick(self, *, leaps: bool = False) -> None:
         self.late.append(self._clock() - self._due)
-        super()._tick()
+        super()._tick(leaps=leaps)
 
 
 class Told(NamedTuple):

@@ -71,6 +71,17 @@ def test_a_session(script: UDPScript) -> None:
     brain.close()
 
 
+def test_a_script_is_told_as_soon_as_the_agent_has_sensed(script: UDPScript) -> None:
+    sim, brain = remote_sim(script)
+    script.meet(sim)
+    script.say(AHEAD)
+    while sim.agents[0].steps < 1:
+        assert script.heard() is None
+        sim.tick()
+    assert script.hear()["steps"] == 1  # and not only when the next tick asks for an action
+    brain.close()
+
+
 def test_the_handshake_tells_of_the_sensors_and_of_the_actuator(script: UDPScript) -> None:
     sim, brain = remote_sim(script, max_steps_per_episode=300)
     script.next(sim)

@@ -60,6 +60,22 @@ def test_floats_come_back_as_the_same_float32(numbers: list[float]) -> None:
     assert np.array(read, np.float32).tobytes() == sent.tobytes()
 
 
+@pytest.mark.parametrize("kind", ["<f4", ">f4", "<f8", "<i8", "|u1", "|b1"])
+@pytest.mark.parametrize("shape", [(), (0,), (5,), (0, 40), (4, 0), (3, 2), (3, 2, 40)])
+def test_rows_are_written_as_if_they_stood_alone(shape: tuple[int, ...], kind: str) -> None:
+    numbers = (np.arange(np.prod(shape, dtype=int)).reshape(shape) % 97).astype(kind)
+    written = " ".join(f"{each:.9g}" for each in numbers.ravel().tolist())
+    assert floats(numbers) == written
+    assert floats(np.roll(numbers, 1)) != written or numbers.size < 2
+    assert floats(numbers) == written
+
+
+def test_the_same_bytes_are_other_numbers_in_another_type() -> None:
+    numbers = np.ones((2, 32), np.int64)
+    assert floats(numbers) == " ".join(["1"] * 64)
+    assert floats(numbers.view(np.float64)) == " ".join(["4.94065646e-324"] * 64)
+
+
 @given(st.floats(allow_nan=False, allow_infinity=False))
 def test_a_reward_comes_back_as_the_same_double(reward: float) -> None:
     (field,) = decode_request(encode_request([Field("reward", Kind.FLOAT, reward)]))
@@ -245,6 +261,24 @@ def test_a_session_from_its_beginning() -> None:
     assert dialogue.phase.value == "polling"
     assert decode_request(dialogue.farewell())[1] == Field("__stop__", Kind.TEXT, "stop")
     assert dialogue.hear(b"halt").word is Word.HALT
+
+
+def test_who_asks_for_time_is_told_the_same_again() -> None:
+    dialogue = playing()
+    request = dialogue.request(STATE)
+    dialogue.hear(b"__waitnewaction__;1;0")
+    assert dialogue.request(STATE) is request
+    dialogue.hear(b"move;1;1")
+    assert asked(dialogue, STATE._replace(steps=4))["steps"] == 4
+
+
+def test_what_can_not_be_told_is_not_told_as_something_else() -> None:
+    dialogue = playing()
+    dialogue.request(STATE)
+    odd = STATE._replace(reward=float("nan"))
+    for _ in range(2):
+        with pytest.raises(WireError, match="field 'reward': nan is no FLOAT"):
+            dialogue.request(odd)
 
 
 @pytest.mark.parametrize(

@@ -123,6 +123,8 @@ class Actuator(Block):
 
     def _numbers(self, values: Any) -> tuple[float, ...]:
         try:
+            if type(values) in (tuple, list):
+                return tuple(map(float, values))
             if isinstance(values, np.ndarray | np.generic):
                 values = values.tolist()
             if isinstance(values, int | float):

@@ -1,9 +1,7 @@
 """AI4U's protocol over UDP: the world knocks, a script listens."""
 
-import contextlib
 import os
 import socket
-import sys
 import time
 import weakref
 from collections.abc import Callable
@@ -12,6 +10,7 @@ from functools import partial
 from ai4u_edu.blocks.brains.ai4u_codec import AI4UCodec
 from ai4u_edu.blocks.brains.ai4u_desk import Desk
 from ai4u_edu.blocks.brains.command import Command
+from ai4u_edu.blocks.brains.datagrams import Datagrams
 from ai4u_edu.blocks.brains.link import Answered, LinkState, Offer, Reset, Situation
 from ai4u_edu.errors import SetupError
 from ai4u_edu.wire.ai4u_dialogue import Dialogue, Heard, Phase, State, Word
@@ -32,8 +31,6 @@ MOST_PATIENT = 0.004
 EAGER = 2e-4
 """Seconds for which a fast script's reply is looked for without going to sleep: waking up again
 takes as long as the reply itself (measured: 3,050 round trips a second in place of 1,700)."""
-MOST_DRAINED = 1000
-"""Datagrams thrown away before a request, at most: somebody may send faster than we read."""
 FAREWELL = 0.3
 """Seconds for which a script's last reply is waited for."""
 NEVER = float("-inf")
@@ -77,13 +74,12 @@ class AI4ULink:
         self._peer = _address_of(host, port)
         self._timeout = receive_timeout
         self._threaded = threaded
-        self._socket: socket.socket | None = None
-        self._buffer = bytearray(2**16)
+        self._datagrams: Datagrams | None = None
 
     @property
     def expecting(self) -> bool:
         """Whether the script owes an answer."""
-        return self._socket is not None and self._dialogue.phase is Phase.PLAYING
+        return self._datagrams is not None and self._dialogue.phase is Phase.PLAYING
 
     def open(self, offer: Offer) -> None:
         """Begins to knock."""
@@ -103,16 +99,19 @@ class AI4ULink:
         self._open: Situation | None = None
         self._told: tuple[Situation, State] | None = None
         self._kept: Answered | None = None
-        self._socket = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
-        self._closed = weakref.finalize(self, self._socket.close)
-        _report_refusals(self._socket)
+        self._datagrams = Datagrams(self._peer)
+        self._closed = weakref.finalize(self, self._datagrams.close)
         if self._threaded:
             self._desk = Desk(self.talk, f"ai4u {self.where}")
 
     def tell(self, situation: Situation) -> None:
-        """The thread that talks to the script sends it; where there is none, nobody can yet."""
-        if self._threaded and self.expecting:
+        """Sends it, or has the thread that talks to the script do so."""
+        if not self.expecting:
+            return
+        if self._threaded:
             self._desk.leave(situation)
+        elif self._kept is None and not self._dialogue.in_flight:
+            self._send(situation, NEVER)
 
     def ask(self, situation: Situation, timeout: float) -> Answered | None:
         """The script's answer."""
@@ -129,21 +128,21 @@ class AI4ULink:
 
     def idle(self) -> None:
         """Goes on asking a script that asked for time, and polling one that has not begun."""
-        if self._threaded or self._socket is None or self._kept is not None:
+        if self._threaded or self._datagrams is None or self._kept is not None:
             return
         if self._open is not None or not self.expecting:
             self._kept = self.talk(self._open, time.monotonic())
 
     def close(self, reason: str) -> None:
         """Tells the script that the world has ended."""
-        if self._socket is None:
+        if self._datagrams is None:
             return
         if self._threaded:
             self._desk.close()
         if self.state is LinkState.CONNECTED:
             self._say_goodbye()
         self._closed()
-        self._socket = None
+        self._datagrams = None
         self.state, self.reason = LinkState.WAITING, reason
 
     # -- the conversation ------------------------------------------------------------------------
@@ -165,8 +164,9 @@ class AI4ULink:
         now = time.monotonic()
         due = self._sent + self._pause()
         if due > now:
-            until = self._patience(until)
-            time.sleep(max(0.0, min(due, until) - now))
+            until = min(due, self._patience(until))
+            if until > now:
+                time.sleep(until - now)
             if due > until:
                 return False
         if self._dialogue.phase in (Phase.STARTED, Phase.PLAYING):
@@ -175,11 +175,12 @@ class AI4ULink:
             self._open = situation
             if self._told is None or self._told[0] is not situation:
                 self._told = situation, self._codec.state(situation)
-        self._drain()
+        wire = self._wire
+        self.ignored += wire.drain()
         request = self._dialogue.request(self._told[1] if self._told else None)
         self._sent = time.monotonic()
         try:
-            self._wire.sendto(request, self._peer)
+            wire.send(request)
         except OSError as error:
             self._unreachable(error)
             return False
@@ -192,6 +193,8 @@ class AI4ULink:
     def _pause(self) -> float:
         """Seconds that have to pass from one request to the next."""
         match self._dialogue.phase:
+            case Phase.PLAYING if self._waits <= PATIENT_AFTER:
+                return 0.0
             case Phase.KNOCKING:
                 return KNOCK_EVERY
             case Phase.GREETING:
@@ -206,31 +209,33 @@ class AI4ULink:
         """The reply to what is on its way; None if it is not there yet, or never comes."""
         while True:
             try:
-                size, sender = self._read(self._patience(until))
-            except (BlockingIOError, TimeoutError):
+                reply, is_the_scripts = self._read(self._patience(until))
+            except BlockingIOError:
                 self._look_at_the_clock()
                 return None
             except OSError as error:
                 self._unreachable(error)
                 return None
-            if sender == self._peer:
+            if is_the_scripts:
                 try:
-                    return self._dialogue.hear(bytes(memoryview(self._buffer)[:size]))
+                    return self._dialogue.hear(reply)
                 except WireError:
                     pass
             self.ignored += 1
 
-    def _read(self, until: float) -> tuple[int, object]:
-        """The next datagram: its size, and who sent it; raises what a socket raises."""
+    def _read(self, until: float) -> tuple[bytes, bool]:
+        """The next datagram, and whether it is the script's; raises what a socket raises."""
         wire = self._wire
         if self.expecting and not self._threaded:
-            wire.settimeout(0.0)
-            while time.monotonic() < min(until, self._sent + EAGER):
-                with contextlib.suppress(BlockingIOError):
-                    return wire.recvfrom_into(self._buffer)
+            eager = min(until, self._sent + EAGER)
+            while not wire.is_there(0):
+                if time.monotonic() > eager:
+                    break
                 _give_way()
-        wire.settimeout(max(0.0, until - time.monotonic()))
-        return wire.recvfrom_into(self._buffer)
+            else:
+                return wire.take()
+        wire.is_there(max(0.0, until - time.monotonic()) * 1000)
+        return wire.take()
 
     def _understood(self, heard: Heard) -> Answered | None:
         """What a reply asks of the agent; None if it asks for nothing."""
@@ -252,18 +257,6 @@ class AI4ULink:
             case _ if self.expecting:
                 return Answered(COMMANDS[word], situation)
         return None
-
-    def _drain(self) -> None:
-        """What came before a request is no reply to it."""
-        self._wire.settimeout(0.0)
-        for _ in range(MOST_DRAINED):
-            try:
-                self._wire.recvfrom_into(self._buffer)
-                self.ignored += 1
-            except BlockingIOError:
-                return
-            except OSError:
-                continue  # some datagram of before found nobody; the next one will tell
 
     def _look_at_the_clock(self) -> None:
         silent = time.monotonic() - self._sent
@@ -298,21 +291,21 @@ class AI4ULink:
 
     def _say_goodbye(self) -> None:
         until = time.monotonic() + FAREWELL
+        wire = self._wire
         try:
-            self._wire.sendto(self._dialogue.farewell(), self._peer)
-            while time.monotonic() < until:
-                self._wire.settimeout(FAREWELL)
-                size, sender = self._wire.recvfrom_into(self._buffer)
-                if sender == self._peer and self._buffer[:size] == b"halt":
+            wire.send(self._dialogue.farewell())
+            while (left := until - time.monotonic()) > 0:
+                wire.is_there(left * 1000)
+                if wire.take() == (b"halt", True):
                     return
         except OSError:
             return  # then it has gone already
 
     @property
-    def _wire(self) -> socket.socket:
-        if self._socket is None:
+    def _wire(self) -> Datagrams:
+        if self._datagrams is None:
             raise SetupError(f"the link to {self.where} is closed; expected open() first")
-        return self._socket
+        return self._datagrams
 
 
 def _address_of(host: str, port: int) -> tuple[str, int]:
@@ -324,10 +317,3 @@ def _address_of(host: str, port: int) -> tuple[str, int]:
         ) from None
     address = found[0][4]
     return str(address[0]), int(address[1])
-
-
-def _report_refusals(udp: socket.socket) -> None:
-    """Has the system tell when nobody listens at a port: on Linux it does so only if asked."""
-    ip_recverr = 11
-    if sys.platform == "linux":  # elsewhere it takes the timeout to find out
-        udp.setsockopt(socket.IPPROTO_IP, ip_recverr, 1)

@@ -27,4 +27,9 @@ class Command(StrEnum):
 Action = Mapping[str, Any]
 """An action by the actuator's name: numbers for each. What is left out gets no action."""
 
+
+class Accepted(dict[str, tuple[float, ...]]):
+    """An action whose numbers the agent's actuators have accepted; they aren't asked again."""
+
+
 Answer = Action | Command

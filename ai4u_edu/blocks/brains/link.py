@@ -65,8 +65,7 @@ class Offer:
     """The names of the reward's terms."""
 
 
-@dataclass(frozen=True, slots=True)
-class Situation:
+class Situation(NamedTuple):
     """What a script is told before each of its answers."""
 
     number: int

@@ -1,15 +1,14 @@
 """A brain on the other end of a network."""
 
 import time
-from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Annotated, Any, Literal, Self, assert_never
 
 from pydantic import Field
 
 from ai4u_edu.blocks.agent_view import AgentView
 from ai4u_edu.blocks.brains.brain import Brain
-from ai4u_edu.blocks.brains.command import Action, Answer, Command
+from ai4u_edu.blocks.brains.command import Accepted, Action, Answer, Command
 from ai4u_edu.blocks.brains.link import Answered, Link, LinkState, Reset, Situation, offer_of
 from ai4u_edu.blocks.percept import Percept
 from ai4u_edu.errors import ActionError, SetupError, suggest
@@ -141,8 +140,7 @@ class RemoteBrain(Brain):
             )
         )
         self._link = link
-        if self.mode == "realtime":
-            agent.end_of_update_state.connect(self._tell)
+        agent.end_of_update_state.connect(self._tell)
 
     def on_reset(self, agent: AgentView, view: WorldView) -> None:
         """A new episode; a script that didn't ask for it is told that its own was cut off.
@@ -168,9 +166,10 @@ class RemoteBrain(Brain):
         situation = self._situation or self._now(percept)
         if self.hand is not None:
             return self._by_hand(self.hand, link, situation)
-        answered = self._ask(link, situation, self._time_for(link))
+        timeout = self._time_for(link)
+        answered = self._ask(link, situation, timeout)
         if answered is None:
-            return self._without_answer(link)
+            return self._without_answer(link, waits=timeout == SLICE)
         self._situation = None
         self._late = False
         return self._obeyed(link, answered, situation)
@@ -189,8 +188,7 @@ class RemoteBrain(Brain):
         """Says goodbye to the script."""
         if self._link is not None:
             self._link.close(reason)
-            if self.mode == "realtime":
-                self._agent.end_of_update_state.disconnect(self._tell)
+            self._agent.end_of_update_state.disconnect(self._tell)
             self._link = self._situation = self._told = None
 
     def title(self) -> str:
@@ -253,8 +251,8 @@ class RemoteBrain(Brain):
         self._number += 1
         if self._cut_short and self._told is not None:
             self._cut_short = False
-            now = replace(
-                self._told, number=self._number, reward=0.0, terms={}, done=True, truncated=True
+            now = self._told._replace(
+                number=self._number, reward=0.0, terms={}, done=True, truncated=True
             )
         else:
             agent = self._agent
@@ -311,17 +309,26 @@ class RemoteBrain(Brain):
 
     def _time_for(self, link: Link) -> float:
         """Seconds to wait for an answer now."""
+        if self.mode == "lockstep" and time.monotonic() - self._asked <= GIVE_WAY:
+            return SLICE  # whatever the script said meanwhile
         if not self._patient(link):
             return 0.0
         return BRIEFLY if self._gives_way(link) else SLICE
 
-    def _without_answer(self, link: Link) -> Answer:
-        """The world waits, or goes on without the script."""
+    def _without_answer(self, link: Link, *, waits: bool) -> Answer:
+        """The world waits, or goes on without the script.
+
+        Args:
+            link: to the script.
+            waits: whether the world waited just now.
+        """
         if link.state is LinkState.WAITING:
             return Command.WAIT
         if link.state is LinkState.CONNECTED:
             if not link.expecting:
                 return Command.WAIT
+            if waits:
+                return Command.HOLD
             if self._patient(link):
                 return Command.WAIT if self._gives_way(link) else Command.HOLD
         if not self._can_act():
@@ -377,9 +384,9 @@ class RemoteBrain(Brain):
         self._reason = ""
         return action
 
-    def _checked(self, action: Action) -> Mapping[str, tuple[float, ...]]:
+    def _checked(self, action: Action) -> Accepted:
         """An action as the actuators take it; numbers out of range are cut."""
-        checked = {}
+        checked = Accepted()
         for name, numbers in action.items():
             actuator = self._actuators.get(name)
             if actuator is None:
