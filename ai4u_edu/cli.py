@@ -1,6 +1,5 @@
 """The command line; each command is a few lines around what the package offers."""
 
-import gc
 import json
 import signal
 import sys
@@ -199,10 +198,6 @@ def play(
         if open_page:
             open_on_desktop(with_token(url, rules.token))
 
-    # what is there now stays; looking through it again and again, the garbage collector would stop
-    # the world for a tenth of a second at a time
-    gc.collect()
-    gc.freeze()
     runner.start()
     viewer.start()
     try:

@@ -47,6 +47,15 @@ SLICE = 0.015
 SPRINT = 0.002
 """Seconds for which somebody who called may keep the world; a tick more, at most."""
 
+MUCH, UNUSUAL = 0.1, 1.5
+"""In a tick that takes more than this share of its time, and so many times as long as others,
+many agents sense."""
+
+LONGEST_TICK = 0.01
+"""Seconds for which somebody who draws waits for the end of a tick."""
+HOPELESS = 0.02
+"""A world whose ticks are late by so much (s), always, is not helped by waiting."""
+
 SLOW = 0.05
 """A tick that takes longer (s) is reported."""
 LATELY = 5.0
@@ -92,11 +101,13 @@ class Runner:
         self._stopping = False
         self._thread: threading.Thread | None = None
         self._turn = threading.Lock()  # whoever has it may let the world go on
+        self._is_ticking = threading.Lock()
         self._called = threading.Event()
         self._expected = 0
         self._due = 0.0
         self.lateness = 0.0
         """How late (s) ticks lately began, on average."""
+        self._took = 0.0
         self._shown = self._showing = 0.0
         self._window: deque[tuple[float, int]] = deque(maxlen=60)
         self._ticked = 0
@@ -115,6 +126,16 @@ class Runner:
         with self._published:
             self._published.wait_for(lambda: self.latest is not seen, timeout)
         return self.latest
+
+    def give_way(self) -> None:
+        """Waits until no tick is under way; not for long, and not in a world without a pause.
+
+        One thread computes at a time. A tick between others that compute takes as many times as
+        long; so who only draws says this between one thing and the next.
+        """
+        is_on_time = math.isfinite(self.time_scale) and self.lateness < HOPELESS
+        if is_on_time and self._is_ticking.acquire(timeout=LONGEST_TICK):
+            self._is_ticking.release()
 
     # -- for those who ask -----------------------------------------------------------------------
 
@@ -365,19 +386,20 @@ class Runner:
         """A tick, or as many as make a decision."""
         began, self._past = self._clock(), None
         ticks = 1
-        try:
-            if leaps:
-                ticks = self.sim.leap() or 1
-            else:
-                self.sim.tick()
-        except Exception as error:  # a student's block may raise anything; the page shows it
-            self.error = _sentence(error)
-        ended = self._clock()
-        if not self.sim.held:  # a world that waits for a script is not slow
-            self._ticked += ticks
-            if ended - began > SLOW * ticks:
-                self._report_slow(ended, (ended - began) / ticks)
-        self._show(ended)
+        with self._is_ticking:
+            try:
+                if leaps:
+                    ticks = self.sim.leap() or 1
+                else:
+                    self.sim.tick()
+            except Exception as error:  # a student's block may raise anything; the page shows it
+                self.error = _sentence(error)
+            ended = self._clock()
+            if not self.sim.held:  # a world that waits for a script is not slow
+                self._ticked += ticks
+                if ended - began > SLOW * ticks:
+                    self._report_slow(ended, (ended - began) / ticks)
+            self._show(ended, ended - began)
 
     def _report_slow(self, ended: float, took: float) -> None:
         """To count the contacts takes time, and is done only now."""
@@ -390,11 +412,15 @@ class Runner:
             return None
         return self._slow[1]
 
-    def _show(self, now: float) -> None:
+    def _show(self, now: float, took: float) -> None:
         """Publishes every tick, or as many as one can see and as there is time for.
 
-        Where it would make the next tick late, in which a brain may wait for what it senses, a
-        picture waits for a tick that leaves more time.
+        Where it would make the next tick late, or would come between agents that have just sensed
+        and their scripts, a picture waits for a tick that leaves more time.
+
+        Args:
+            now: by the clock.
+            took: seconds of this tick.
         """
         period = self.sim.world.dt / self.time_scale
         if period < OFTEN_ENOUGH and now - self._shown < OFTEN_ENOUGH and not self.error:
@@ -404,7 +430,11 @@ class Runner:
             min(self._showing / SHOWING, ENOUGH),
             self._showing / MOST_SHOWING,
         )
-        if OFTEN_ENOUGH <= period < GOOD_MOMENT and now + self._showing > self._due + period:
+        many_sensed = took > MUCH * period and took > UNUSUAL * self._took
+        self._took += FEW_TICKS * (took - self._took) if self._took else took
+        if OFTEN_ENOUGH <= period < GOOD_MOMENT and (
+            many_sensed or now + self._showing > self._due + period
+        ):
             pause = max(pause, GOOD_MOMENT)
         if self.error or now - self._shown >= pause:
             self._publish()

@@ -19,7 +19,7 @@ from ai4u_edu import (
 )
 from ai4u_edu.recording import Recorder, Replay
 from ai4u_edu.runner import Runner
-from ai4u_edu.snapshot import Snapshot
+from ai4u_edu.snapshot import Snapshot, picture_of
 from tests.builders import small_sim
 
 
@@ -47,6 +47,64 @@ def test_it_keeps_the_wall_clock() -> None:
     # never faster than asked; slower only as far as the machine is busy
     assert took >= 0.95
     assert runner.latest.real_time_factor == pytest.approx(4.0, rel=0.5)
+
+
+def test_who_draws_gives_way_to_a_tick(monkeypatch: pytest.MonkeyPatch) -> None:
+    runner = Runner(Scene.load("box_chase").build(), seed=1)
+    is_in_it, goes_on, order = threading.Event(), threading.Event(), []
+    tick = runner.sim.tick
+
+    def slow_tick() -> None:
+        is_in_it.set()
+        goes_on.wait(5)
+        tick()
+        order.append("tick")
+
+    monkeypatch.setattr(runner.sim, "tick", slow_tick)
+    monkeypatch.setattr("ai4u_edu.runner.LONGEST_TICK", 5.0)
+    ticking = threading.Thread(target=runner._tick)
+    ticking.start()
+    assert is_in_it.wait(5)
+
+    def draw() -> None:
+        runner.give_way()
+        order.append("picture")
+
+    drawing = threading.Thread(target=draw)
+    drawing.start()
+    drawing.join(0.1)
+    assert not order
+    goes_on.set()
+    ticking.join()
+    drawing.join()
+    assert order == ["tick", "picture"]
+
+
+@pytest.mark.parametrize(("time_scale", "late"), [(1.0, 1.0), (float("inf"), 0.0)])
+def test_who_draws_does_not_wait_for_a_world_that_never_rests(
+    time_scale: float, late: float
+) -> None:
+    class Barred:
+        def acquire(self, timeout: float) -> bool:
+            raise AssertionError("it waits")
+
+    runner = Runner(Scene.load("box_chase").build(), seed=1, time_scale=time_scale)
+    runner.lateness = late
+    runner._is_ticking = Barred()  # type: ignore[assignment]
+    runner.give_way()
+
+
+def test_at_one_go_a_decision_is_what_it_is_tick_by_tick() -> None:
+    seen = []
+    for leaps in (False, True):
+        sim = Scene.load("box_chase").build()
+        runner = Runner(sim, seed=3)
+        while sim.agents[0].steps < 20:
+            runner._tick(leaps=leaps)
+        state = picture_of(sim)
+        seen.append((state.tick, state.bodies, state.agents[0].percept, state.agents[0].reward))
+        assert runner._ticked == sim.world.ticks == 100
+    assert seen[0] == seen[1]
 
 
 def test_as_fast_as_it_goes() -> None:
@@ -82,7 +140,9 @@ def test_snapshots_that_take_long_are_fewer_and_the_ticks_are_not(
     assert least <= shown <= most
 
 
-@pytest.mark.parametrize(("ticks", "shown"), [((1, 1), 60), ((16, 1), 30), ((16, 16), 30)])
+@pytest.mark.parametrize(
+    ("ticks", "shown"), [((1, 1), 60), ((16, 1), 30), ((16, 16), 30), ((4, 1), 30), ((4, 4), 60)]
+)
 def test_a_picture_waits_for_a_tick_that_leaves_time_for_it(
     ticks: tuple[int, int], shown: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:

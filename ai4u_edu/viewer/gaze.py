@@ -1,5 +1,7 @@
 """What the agents that somebody looks at sense, in the scene: on each page its own agent's."""
 
+from collections.abc import Callable
+
 from ai4u_edu.facts import Sense
 from ai4u_edu.snapshot import AgentState, Snapshot, Stage
 from ai4u_edu.viewer.layers import Layers
@@ -20,10 +22,16 @@ def shows_by_itself(sense: Sense, agent: AgentState) -> bool:
 
 
 class Gaze:
-    """Draws the rays, spots and targets of sensors; nothing for agents that nobody looks at."""
+    """Draws the rays, spots and targets of sensors; nothing for agents that nobody looks at.
 
-    def __init__(self, onlookers: Onlookers) -> None:
+    Args:
+        onlookers: the pages.
+        give_way: called between two pages.
+    """
+
+    def __init__(self, onlookers: Onlookers, give_way: Callable[[], None]) -> None:
         self._onlookers = onlookers
+        self._give_way = give_way
         self._pages: dict[int, _Page] = {}
 
     def build(self, stage: Stage) -> None:
@@ -45,6 +53,7 @@ class Gaze:
                 self._pages[number] = _Page(onlooker, self._look)
             agent = agents.get(onlooker.agent)
             if agent is not None:
+                self._give_way()
                 self._pages[number].draw(snapshot, agent, self._lifts[agent.body])
 
 

@@ -38,11 +38,17 @@ class Tabs:
         onlookers: the pages.
         kinds: the tabs, from left to right.
         complaints: gets to know what went wrong; the other tabs are drawn all the same.
+        give_way: called between two pages.
     """
 
     def __init__(
-        self, onlookers: Onlookers, kinds: Sequence[TabKind], complaints: Complaints
+        self,
+        onlookers: Onlookers,
+        kinds: Sequence[TabKind],
+        complaints: Complaints,
+        give_way: Callable[[], None],
     ) -> None:
+        self._give_way = give_way
         self._onlookers = onlookers
         self._kinds = tuple(kinds)
         self._complaints = complaints
@@ -58,6 +64,7 @@ class Tabs:
         for new in self._onlookers.keys() - self._pages.keys():
             self._pages[new] = _Page(self._onlookers[new], self._kinds, self._complaints)
         for page in self._pages.values():
+            self._give_way()
             for tab in page.tabs:
                 with self._complaints.caught():
                     tab.draw(snapshot)

@@ -15,6 +15,7 @@ from ai4u_edu.viewer.framing import FIELD_OF_VIEW, frame
 from ai4u_edu.viewer.gaze import Gaze
 from ai4u_edu.viewer.ghosts import Ghosts
 from ai4u_edu.viewer.ground import Ground
+from ai4u_edu.viewer.housekeeping import Housekeeping
 from ai4u_edu.viewer.inspector import blocks_tab
 from ai4u_edu.viewer.labels import Labels
 from ai4u_edu.viewer.light import light
@@ -83,11 +84,11 @@ class Viewer:
             (Bodies(server, self._choose), FRAMES, MOST),
             (Labels(server), FRAMES, MOST),
             (self.ghosts, 30, MOST),
-            (Gaze(onlookers), 30, EACH_PAGE),
+            (Gaze(onlookers, runner.give_way), 30, EACH_PAGE),
             (Actions(server), 30, MOST),
             (Controls(server, runner, onlookers), 8, MOST),
             (PageControls(onlookers), 8, EACH_PAGE),
-            (Tabs(onlookers, kinds, self._complaints), 8, EACH_PAGE),
+            (Tabs(onlookers, kinds, self._complaints, runner.give_way), 8, EACH_PAGE),
         ]
         self._parts = [Paced(part, rate, self._complaints, share) for part, rate, share in parts]
         self._draw(runner.latest)
@@ -116,7 +117,7 @@ class Viewer:
             self.server.gui.set_panel_label(state.title)
 
     def _run(self) -> None:
-        seen = self.runner.latest
+        seen, housekeeping = self.runner.latest, Housekeeping()
         while not self._stopping.is_set():
             seen = self.runner.wait(seen, IDLE)
             began, worked = time.monotonic(), time.thread_time()
@@ -130,7 +131,9 @@ class Viewer:
                 late=self.runner.lateness,
                 spent=time.thread_time() - worked,
             )
+            housekeeping.look(self._onlookers.keys())
             self._stopping.wait(max((period if self._onlookers else IDLE) - spent, 0.001))
+        housekeeping.end()
 
     def _choose(self, client_id: int, body: str) -> None:
         """On one page, looks at the agent with that body."""
@@ -148,6 +151,7 @@ class Viewer:
                 for part in self._parts:
                     part.build(snapshot.stage)
             for part in self._parts:
+                self.runner.give_way()
                 part.draw(snapshot)
         for onlooker in self._onlookers.values():
             with self._complaints.caught():

@@ -103,8 +103,9 @@ def measure(
     seen = f"{frames[0]:.0f} / {np.median(frames):.0f}" if frames else "-"
     took = clients.WARM + seconds
     used = [told.processor / seconds, *(each.processor / took for each in found)]
+    late = told.late[: int(60 * (seconds - 1))]  # then they all go at once
     return (
-        f"| {brains} | {viewers} | {'; '.join(besides) or '-'} | {_ms(told.late)} | {_ms(ages)} "
+        f"| {brains} | {viewers} | {'; '.join(besides) or '-'} | {_ms(late)} | {_ms(ages)} "
         f"| {seen} | {', '.join(f'{each:.2f}' for each in used)} | {os.getloadavg()[0]:.1f} |"
     )
 

@@ -1,6 +1,5 @@
 """The world under load, in a process of its own, that notes when its ticks begin."""
 
-import gc
 import time
 from multiprocessing.connection import Connection
 from typing import Any, NamedTuple
@@ -100,8 +99,6 @@ def serve(agents: int, ends: Connection) -> None:
     viewer = Viewer(runner, title="Load")
     shut_side_door(viewer.server)
     app = room_app(runner, viser_port=viewer.port, title="Load", rules=Rules(grace=1.0))
-    gc.collect()
-    gc.freeze()  # as ai4u-edu play does
     runner.start()
     viewer.start()
     with ServerThread(app) as server:
