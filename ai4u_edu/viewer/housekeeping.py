@@ -3,7 +3,7 @@
 import gc
 import math
 import time
-from collections.abc import Callable, Collection
+from collections.abc import Callable, Set
 
 SETTLED = 2.0
 """Seconds after which pages that have come are complete."""
@@ -29,7 +29,7 @@ class Housekeeping:
         self._gone = 0
         self._due = clock() + SETTLED
 
-    def look(self, pages: Collection[int]) -> None:
+    def look(self, pages: Set[int]) -> None:
         """Does what is due; to be called now and then.
 
         Args:

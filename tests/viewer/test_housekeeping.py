@@ -51,10 +51,10 @@ def test_what_stays_is_set_aside_when_pages_have_settled(clock: Clock) -> None:
 def test_it_is_done_once(clock: Clock) -> None:
     housekeeping = Housekeeping(clock)
     clock.now += SETTLED
-    housekeeping.look(())
+    housekeeping.look(frozenset())
     knot = ref(Knot())
     clock.now += 100
-    housekeeping.look(())
+    housekeeping.look(frozenset())
     assert knot() is not None
 
 
