@@ -1,5 +1,6 @@
 """What is known of an agent's readings and actions beforehand: names, units, ranges."""
 
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 from weakref import WeakKeyDictionary
@@ -96,10 +97,37 @@ class Facts(NamedTuple):
     controls: tuple[Control, ...]
 
 
+class RayPictures(Mapping[str, RayPicture]):
+    """The rays of one percept by perception key; each picture is made when it is looked at.
+
+    Args:
+        makers: of each picture.
+    """
+
+    def __init__(self, makers: Mapping[str, Callable[[], RayPicture]]) -> None:
+        self._makers = makers
+        self._made: dict[str, RayPicture] = {}
+
+    def __getitem__(self, key: str) -> RayPicture:
+        made = self._made.get(key)
+        if made is None:
+            made = self._made[key] = self._makers[key]()
+        return made
+
+    def __contains__(self, key: object) -> bool:
+        return key in self._makers
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._makers)
+
+    def __len__(self) -> int:
+        return len(self._makers)
+
+
 class Pictures(NamedTuple):
     """What sensors looked at for one percept, by perception key."""
 
-    rays: dict[str, RayPicture]
+    rays: Mapping[str, RayPicture]
     spots: dict[str, SpotPicture]
 
 
@@ -126,11 +154,13 @@ def pictures_of(agent: BasicAgent) -> Pictures:
     if known is None or known[0] is not percept:
         active = [sensor for sensor in fitting.sensors if sensor.is_active]
         spots = {sensor.perception_key: sensor.spots() for sensor in active}
-        rays = {
-            sensor.perception_key: sensor.picture()
-            for sensor in active
-            if isinstance(sensor, RaySensor)
-        }
+        rays = RayPictures(
+            {
+                sensor.perception_key: sensor.later()
+                for sensor in active
+                if isinstance(sensor, RaySensor)
+            }
+        )
         seen = Pictures(rays, {key: each for key, each in spots.items() if each is not None})
         known = _pictures[fitting] = percept, seen
     return known[1]

@@ -1,6 +1,6 @@
 """One frozen picture of everything, for the page, the API and the recorder."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
@@ -92,7 +92,7 @@ class AgentState:
     truncated: bool
     paused: bool
     held_keys: frozenset[str]
-    rays: dict[str, RayPicture]
+    rays: Mapping[str, RayPicture]
     """The rays of the last reading, by perception key."""
     remote: RemoteStatus | None = None
     """How it stands with the script that drives, if it is one's turn."""

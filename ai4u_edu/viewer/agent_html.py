@@ -11,7 +11,7 @@ from ai4u_edu.viewer.decision import decision
 from ai4u_edu.viewer.gaze import is_seen
 from ai4u_edu.viewer.labels import trouble
 from ai4u_edu.viewer.needs import needs
-from ai4u_edu.viewer.payments import ledger
+from ai4u_edu.viewer.payments import Curves, curves, ledger
 from ai4u_edu.viewer.readings import action, block, heading, reading
 from ai4u_edu.viewer.senses import sense_html
 
@@ -81,6 +81,7 @@ class AgentWriter:
     def __init__(self) -> None:
         self._snapshot: Snapshot | None = None
         self._written: dict[tuple[str, frozenset[str]], AgentHtml] = {}
+        self._curves: dict[str, Curves] = {}
 
     def html(
         self,
@@ -91,11 +92,17 @@ class AgentWriter:
     ) -> AgentHtml:
         """As :meth:`AgentHtml.of`."""
         if snapshot is not self._snapshot:
-            self._snapshot, self._written = snapshot, {}
+            self._snapshot, self._written, self._curves = snapshot, {}, {}
         key = agent.id, frozenset(lit)
         if key not in self._written:
             self._written[key] = AgentHtml.of(agent, snapshot, colours, lit)
         return self._written[key]
+
+    def curves(self, agent: AgentState) -> Curves:
+        """The agent's rewards, of the snapshot that was written last."""
+        if agent.id not in self._curves:
+            self._curves[agent.id] = curves(agent.history)
+        return self._curves[agent.id]
 
 
 def _also(agent: AgentState) -> str:

@@ -70,7 +70,7 @@ class AgentTab:
         self._inside.content, self._also.content = html.inside, html.also
         self._action.content, self._ledger.content = html.action, html.ledger
         self._senses.show(html.senses)
-        self._plot.draw(agent.history)
+        self._plot.draw(agent.history, lambda: self._writer.curves(agent))
         self._lines.draw()
 
     def _meet(self, stage: Stage) -> None:

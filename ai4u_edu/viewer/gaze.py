@@ -9,6 +9,7 @@ from ai4u_edu.viewer.onlooker import Onlooker, Onlookers
 from ai4u_edu.viewer.pointers import Pointers, has_pointer
 from ai4u_edu.viewer.rays import Rays, StageLook
 from ai4u_edu.viewer.spots import Spots
+from ai4u_edu.viewer.turns import Turns
 
 
 def is_seen(sense: Sense, agent: AgentState) -> bool:
@@ -31,7 +32,7 @@ class Gaze:
 
     def __init__(self, onlookers: Onlookers, give_way: Callable[[], None]) -> None:
         self._onlookers = onlookers
-        self._give_way = give_way
+        self._give_way, self._turns = give_way, Turns()
         self._pages: dict[int, _Page] = {}
 
     def build(self, stage: Stage) -> None:
@@ -48,7 +49,8 @@ class Gaze:
         for gone in self._pages.keys() - self._onlookers.keys():
             del self._pages[gone]
         agents = {agent.id: agent for agent in snapshot.agents}
-        for number, onlooker in self._onlookers.items():
+        for number in self._turns.next(self._onlookers.keys()):
+            onlooker = self._onlookers[number]
             if number not in self._pages:
                 self._pages[number] = _Page(onlooker, self._look)
             agent = agents.get(onlooker.agent)

@@ -7,6 +7,8 @@ from collections.abc import Callable, Set
 
 SETTLED = 2.0
 """Seconds after which pages that have come are complete."""
+NEW = 50_000
+"""Things that are new, after which they are searched: many times what a picture is made of."""
 MANY = 20
 """Pages that have gone, after which everything is searched, which takes longest."""
 
@@ -17,7 +19,8 @@ class Housekeeping:
     To find garbage in cycles, Python looks at everything that there is, and nobody else computes
     meanwhile: with sixty pages for 20 ms, every other second. Nearly all of it stays. So when pages
     have come or gone it is searched once, and what is left is set aside; from then on only what is
-    new is looked at. What pages leave behind that was set aside waits until many have gone.
+    new is looked at, and when there is much of it. What pages leave behind that was set aside waits
+    until many have gone.
 
     Args:
         clock: seconds; to be replaced in tests.
@@ -25,6 +28,8 @@ class Housekeeping:
 
     def __init__(self, clock: Callable[[], float] = time.monotonic) -> None:
         self._clock = clock
+        self._before = gc.get_threshold()
+        gc.set_threshold(NEW, *self._before[1:])
         self._pages: frozenset[int] = frozenset()
         self._gone = 0
         self._due = clock() + SETTLED
@@ -47,5 +52,6 @@ class Housekeeping:
             gc.freeze()
 
     def end(self) -> None:
-        """Nothing is set aside any more."""
+        """Python does as it did before."""
         gc.unfreeze()
+        gc.set_threshold(*self._before)

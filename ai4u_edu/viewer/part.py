@@ -1,6 +1,7 @@
 """A part of the picture, drawn at its own pace; what goes wrong in it stays in it."""
 
 import time
+from collections.abc import Callable
 from typing import Protocol
 
 from ai4u_edu.snapshot import Snapshot, Stage
@@ -34,12 +35,18 @@ class Paced:
         rate: how many times a second.
         complaints: gets to know what went wrong.
         share: of the time that it may take.
+        rounds: so many times it has to be drawn until all pages have had their turn.
     """
 
     def __init__(
-        self, part: Part, rate: float, complaints: Complaints, share: float = MOST
+        self,
+        part: Part,
+        rate: float,
+        complaints: Complaints,
+        share: float = MOST,
+        rounds: Callable[[], int] = lambda: 1,
     ) -> None:
-        self._part = part
+        self._part, self._rounds = part, rounds
         self._period = 1 / rate
         self._share = share
         self._complaints = complaints
@@ -58,7 +65,7 @@ class Paced:
         now = time.monotonic()
         # pictures come when the world has ticked: a bit early is better than a tick late
         if self._ready and now - self._drawn_at >= max(
-            0.8 * self._period, self._took / self._share
+            0.8 * self._period / self._rounds(), self._took / self._share
         ):
             self._drawn_at, began = now, time.thread_time()
             with self._complaints.caught():

@@ -14,6 +14,7 @@ from ai4u_edu.viewer.readings import block, heading, rewards, table
 REMEMBERED = 240
 """So many decisions are kept for the page."""
 MINUS = "\u2212"
+Curves = tuple[npt.NDArray[np.float64], ...]
 LAST = 6
 """So many of them stand in the table; one in which nothing was paid says nothing."""
 
@@ -39,7 +40,7 @@ def signed(paid: float) -> str:
     return text if not float(text) else ("+" if paid > 0 else MINUS) + text
 
 
-def curves(history: Sequence[Entry]) -> tuple[npt.NDArray[np.float64], ...]:
+def curves(history: Sequence[Entry]) -> Curves:
     """What is plotted: the decisions' numbers, what each was paid, and the episode's sum so far.
 
     An empty history is a single point at zero, since a plot needs one.

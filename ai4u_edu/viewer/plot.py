@@ -1,12 +1,12 @@
 """The reward as curves: what each decision was paid, and the episode's sum."""
 
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 from viser import GuiApi, uplot
 
 from ai4u_edu.agent import Entry
-from ai4u_edu.viewer.payments import curves
+from ai4u_edu.viewer.payments import Curves, curves
 
 PERIOD = 0.4
 """Seconds between two pictures at least."""
@@ -43,10 +43,15 @@ class RewardPlot:
             padding=(8, 0, 0, 0),
         )
 
-    def draw(self, history: Sequence[Entry]) -> None:
-        """Draws the latest decisions, if there are others than before and it is time again."""
+    def draw(self, history: Sequence[Entry], drawn: Callable[[], Curves]) -> None:
+        """Draws the latest decisions, if there are others than before and it is time again.
+
+        Args:
+            history: of the agent.
+            drawn: gives its curves.
+        """
         last, now = history[-1] if history else None, time.monotonic()
         if last is self._drawn or now - self._drawn_at < PERIOD:
             return
         self._drawn, self._drawn_at = last, now
-        self._plot.data = curves(history)
+        self._plot.data = drawn()

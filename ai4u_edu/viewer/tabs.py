@@ -8,6 +8,7 @@ from viser import PanelHandle
 from ai4u_edu.snapshot import Snapshot, Stage
 from ai4u_edu.viewer.complaints import Complaints
 from ai4u_edu.viewer.onlooker import Onlooker, Onlookers
+from ai4u_edu.viewer.turns import Turns
 
 
 class Tab(Protocol):
@@ -48,7 +49,7 @@ class Tabs:
         complaints: Complaints,
         give_way: Callable[[], None],
     ) -> None:
-        self._give_way = give_way
+        self._give_way, self._turns = give_way, Turns()
         self._onlookers = onlookers
         self._kinds = tuple(kinds)
         self._complaints = complaints
@@ -63,9 +64,9 @@ class Tabs:
             del self._pages[gone]
         for new in self._onlookers.keys() - self._pages.keys():
             self._pages[new] = _Page(self._onlookers[new], self._kinds, self._complaints)
-        for page in self._pages.values():
+        for number in self._turns.next(self._pages.keys()):
             self._give_way()
-            for tab in page.tabs:
+            for tab in self._pages[number].tabs:
                 with self._complaints.caught():
                     tab.draw(snapshot)
 

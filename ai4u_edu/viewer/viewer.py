@@ -29,6 +29,7 @@ from ai4u_edu.viewer.past_projector import Projector
 from ai4u_edu.viewer.payments import REMEMBERED
 from ai4u_edu.viewer.placing import seen_bounds
 from ai4u_edu.viewer.tabs import TabKind, Tabs
+from ai4u_edu.viewer.turns import Turns
 from ai4u_edu.viewer.world_tab import world_tab
 from ai4u_edu.workshop import State, Workshop
 
@@ -78,19 +79,28 @@ class Viewer:
         self._projector, self.ghosts = Projector(runner), Ghosts(server)
         if runner.recorder is not None:
             kinds.append(past(runner, self._projector, self.ghosts))
+
+        def rounds() -> int:
+            return Turns.rounds(len(onlookers))
+
         parts: list[tuple[Part, float, float]] = [
             (onlookers, FRAMES, MOST),
             (Ground(server), 1, MOST),
             (Bodies(server, self._choose), FRAMES, MOST),
             (Labels(server), FRAMES, MOST),
             (self.ghosts, 30, MOST),
-            (Gaze(onlookers, runner.give_way), 30, EACH_PAGE),
             (Actions(server), 30, MOST),
             (Controls(server, runner, onlookers), 8, MOST),
             (PageControls(onlookers), 8, EACH_PAGE),
-            (Tabs(onlookers, kinds, self._complaints, runner.give_way), 8, EACH_PAGE),
+        ]
+        in_turn: list[tuple[Part, float]] = [
+            (Gaze(onlookers, runner.give_way), 30),
+            (Tabs(onlookers, kinds, self._complaints, runner.give_way), 8),
         ]
         self._parts = [Paced(part, rate, self._complaints, share) for part, rate, share in parts]
+        self._parts += [
+            Paced(part, rate, self._complaints, EACH_PAGE, rounds) for part, rate in in_turn
+        ]
         self._draw(runner.latest)
 
     @property

@@ -9,7 +9,7 @@ from ai4u_edu.world.descriptions import (
     WorldSettings,
 )
 from ai4u_edu.world.ray_grid import RayGrid
-from ai4u_edu.world.rays import RayFan
+from ai4u_edu.world.rays import Cast, RayFan
 from ai4u_edu.world.region import Region
 from ai4u_edu.world.renovate import Pose, arrange, bring_in, rework
 from ai4u_edu.world.shapes import (
@@ -31,6 +31,7 @@ __all__ = [
     "BodyView",
     "BoxShape",
     "CapsuleShape",
+    "Cast",
     "CircleShape",
     "FloorDescription",
     "PolygonShape",

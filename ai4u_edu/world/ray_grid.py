@@ -9,7 +9,7 @@ import numpy.typing as npt
 
 from ai4u_edu.world._grid import compiled_grid
 from ai4u_edu.world.body import BodyView
-from ai4u_edu.world.rays import Caster, CodeOf, Floats, Obstacle
+from ai4u_edu.world.rays import Cast, Caster, CodeOf, Floats, Obstacle
 
 if TYPE_CHECKING:
     from ai4u_edu.world.world import World
@@ -52,6 +52,10 @@ class RayGrid(Caster):
         self.codes: Floats = np.zeros((len(self.pitches), len(self.angles)))
         self.distances: Floats = np.zeros_like(self.codes)
         self._compiled = compiled_grid(self)
+
+    def kept(self) -> Cast:
+        """The last cast."""
+        return Cast(self.origin, self.directions.copy(), self.distances.copy(), self.codes.copy())
 
     def cast(self, body: BodyView) -> None:
         """Fills ``codes`` and ``distances``.

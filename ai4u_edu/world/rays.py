@@ -42,6 +42,17 @@ class Obstacle(NamedTuple):
     code: float
 
 
+class Cast(NamedTuple):
+    """What a fan or a grid met at one cast, kept for later."""
+
+    origin: tuple[float, float, float]
+    """Where the eye was: world frame, metres."""
+    directions: Floats
+    """Where each column looked."""
+    distances: Floats
+    codes: Floats
+
+
 class Caster:
     """What the fan and the grid share: directions, codes, and the first hit of each direction."""
 
@@ -182,6 +193,10 @@ class RayFan(Caster):
         self._codes_known = False
         if not self._simple():
             self._look_at_heights()
+
+    def kept(self) -> Cast:
+        """The last cast."""
+        return Cast(self.origin, self.directions.copy(), self.distances.copy(), self.codes.copy())
 
     @property
     def codes(self) -> Floats:

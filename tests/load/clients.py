@@ -10,6 +10,7 @@ from typing import Any, NamedTuple
 
 import msgspec
 import viser
+import zstandard
 from websockets.asyncio.client import connect
 from websockets.exceptions import ConnectionClosed
 from websockets.typing import Subprotocol
@@ -76,8 +77,8 @@ def viewers(url: str, count: int, stopped: int, seconds: float, ends: Connection
             with suppress(TimeoutError, ConnectionClosed):
                 async with asyncio.timeout(end - time.monotonic()):
                     while True:
-                        await page.recv(decode=False)
-                        frames[number] += time.monotonic() > warm
+                        frame = await page.recv(decode=False)
+                        frames[number] += time.monotonic() > warm and is_picture(frame)
             page.transport.abort()
 
     async def main(end: float) -> None:
@@ -120,6 +121,12 @@ def flood(url: str, _count: int, _unused: int, seconds: float, ends: Connection)
                 await pour(_page(url), CAMERA)
 
     _run(main, seconds, ends, lambda: Found({}, [], closes, 0.0))
+
+
+def is_picture(frame: bytes) -> bool:
+    """Whether the bodies have moved in a page's frame; others have what a page alone gets."""
+    plain, small = (int.from_bytes(frame[at : at + 8], "little") for at in (0, 8))
+    return b"/bodies" in zstandard.decompress(frame[16 : 16 + small], max_output_size=plain)
 
 
 def _page(url: str) -> Any:

@@ -14,6 +14,7 @@ from multiprocessing.connection import Connection
 from threading import Thread
 
 import numpy as np
+import zstandard
 from websockets.asyncio.server import ServerConnection, broadcast, serve
 from websockets.exceptions import ConnectionClosed
 from websockets.typing import Subprotocol
@@ -44,7 +45,10 @@ class Floor:
 
     def __init__(self, agents: int) -> None:
         self.late: list[float] = []
-        self._picture = os.urandom(BYTES[0] + agents * BYTES[1])
+        plain = b"/bodies" + os.urandom(BYTES[0] + agents * BYTES[1])
+        small = zstandard.compress(plain)
+        sizes = (len(each).to_bytes(8, "little") for each in (plain, small))
+        self._picture = b"".join((*sizes, small))
         self._pages: set[ServerConnection] = set()
         self._owed: dict[ServerConnection, int] = {}
         """The number of each script's last percept, if it has answered that."""

@@ -6,7 +6,7 @@ from weakref import ref
 
 import pytest
 
-from ai4u_edu.viewer.housekeeping import MANY, SETTLED, Housekeeping
+from ai4u_edu.viewer.housekeeping import MANY, NEW, SETTLED, Housekeeping
 
 
 class Knot:
@@ -25,14 +25,18 @@ class Clock:
 
 @pytest.fixture
 def clock() -> Iterator[Clock]:
+    before = gc.get_threshold()
     gc.disable()
     yield Clock()
     gc.enable()
     gc.unfreeze()
+    gc.set_threshold(*before)
 
 
 def test_what_stays_is_set_aside_when_pages_have_settled(clock: Clock) -> None:
+    usual = gc.get_threshold()
     housekeeping, pages = Housekeeping(clock), {1: "page"}
+    assert gc.get_threshold()[0] == NEW
     housekeeping.look(pages.keys())
     knot, stays = ref(Knot()), Knot()
     clock.now += SETTLED / 2
@@ -46,6 +50,7 @@ def test_what_stays_is_set_aside_when_pages_have_settled(clock: Clock) -> None:
     assert not any(each is stays for each in gc.get_objects())
     housekeeping.end()
     assert gc.get_freeze_count() == 0
+    assert gc.get_threshold() == usual
 
 
 def test_it_is_done_once(clock: Clock) -> None:

@@ -1,5 +1,7 @@
 """A flat fan of rays."""
 
+from collections.abc import Callable, Mapping
+from functools import partial
 from typing import Annotated, Any
 
 import numpy as np
@@ -8,10 +10,10 @@ from gymnasium.spaces import Box
 from pydantic import Field
 
 from ai4u_edu.blocks.agent_view import AgentView
-from ai4u_edu.blocks.sensors.ray_sensor import RayPicture, RaySensor, spread
+from ai4u_edu.blocks.sensors.ray_sensor import RayPicture, RaySensor, groups_met, spread
 from ai4u_edu.blocks.sensors.sensor import Array
 from ai4u_edu.errors import BlockError
-from ai4u_edu.world import BodyView, WorldView
+from ai4u_edu.world import BodyView, Cast, WorldView
 
 
 class LinearRayCastingSensor(RaySensor):
@@ -75,17 +77,20 @@ class LinearRayCastingSensor(RaySensor):
         np.divide(distances, self._far, self._shares)
         return self._shares
 
-    def picture(self) -> RayPicture:
-        """The rays of the last reading."""
-        fan = self._fan
-        hit = fan.distances > 0
-        length = np.where(hit, fan.distances, self.vision_max_distance)[:, None]
-        x, y, z = fan.origin
-        flat = length * fan.directions + (x, y)
-        ends = np.column_stack([flat, np.full(len(flat), z)])
-        return RayPicture(fan.origin, ends, self._groups(fan.codes, hit))
+    def later(self) -> Callable[[], RayPicture]:
+        """Makes the picture of the last reading when it is called."""
+        return partial(_picture, self._fan.kept(), self.vision_max_distance, self._names())
 
     def _by_ray(self, code: float, distance: float) -> npt.NDArray[np.float64]:
         """What holds for codes and for distances, as the reading has them."""
         parts = [code] * self.return_code + [distance] * self.return_distance
         return np.tile(np.array(parts), self.number_of_rays)
+
+
+def _picture(cast: Cast, reach: float, names: Mapping[float, str]) -> RayPicture:
+    hit = cast.distances > 0
+    length = np.where(hit, cast.distances, reach)[:, None]
+    x, y, z = cast.origin
+    flat = length * cast.directions + (x, y)
+    ends = np.column_stack([flat, np.full(len(flat), z)])
+    return RayPicture(cast.origin, ends, groups_met(names, cast.codes, hit))

@@ -1,17 +1,20 @@
 """A grid of rays in perspective."""
 
+from collections.abc import Callable, Mapping
+from functools import partial
 from typing import Annotated, Any
 
 import numpy as np
+import numpy.typing as npt
 from gymnasium.spaces import Box
 from pydantic import Field
 
 from ai4u_edu.blocks.agent_view import AgentView
 from ai4u_edu.blocks.sensors.pictures import CodeLegend
-from ai4u_edu.blocks.sensors.ray_sensor import RayPicture, RaySensor, spread
+from ai4u_edu.blocks.sensors.ray_sensor import RayPicture, RaySensor, groups_met, spread
 from ai4u_edu.blocks.sensors.sensor import Array
 from ai4u_edu.parameters import Degrees, quantity
-from ai4u_edu.world import BodyView, WorldView
+from ai4u_edu.world import BodyView, Cast, WorldView
 
 
 class RayCastingSensor(RaySensor):
@@ -74,23 +77,10 @@ class RayCastingSensor(RaySensor):
             far = self.vision_max_distance / self.farthest
             np.divide(grid.distances, far, out=planes[1], casting="unsafe")
 
-    def picture(self) -> RayPicture:
-        """The rays of the last reading, row by row."""
+    def later(self) -> Callable[[], RayPicture]:
+        """Makes the picture of the last reading when it is called; the rays row by row."""
         grid = self._grid
-        hit = grid.distances > 0
-        length = np.where(hit, grid.distances, self.vision_max_distance)
-        along = length * np.cos(grid.pitches)[:, None]
-        x, y, z = grid.origin
-        ends = np.stack(
-            [
-                x + along * grid.directions[:, 0],
-                y + along * grid.directions[:, 1],
-                z + length * np.sin(grid.pitches)[:, None],
-            ],
-            axis=-1,
-        )
-        groups = self._groups(grid.codes.ravel(), hit.ravel())
-        return RayPicture(grid.origin, ends.reshape(-1, 3), groups)
+        return partial(_picture, grid.kept(), grid.pitches, self.vision_max_distance, self._names())
 
     def legend(self) -> CodeLegend:
         """The groups by their codes."""
@@ -99,3 +89,22 @@ class RayCastingSensor(RaySensor):
         planes = 2 if self.return_distance else 1
         groups, nothing = tuple(self.group_code), self.no_object_code / scale
         return CodeLegend((self.rows, self.columns), codes, groups, planes, nothing)
+
+
+def _picture(
+    cast: Cast, pitches: npt.NDArray[np.float64], reach: float, names: Mapping[float, str]
+) -> RayPicture:
+    hit = cast.distances > 0
+    length = np.where(hit, cast.distances, reach)
+    along = length * np.cos(pitches)[:, None]
+    x, y, z = cast.origin
+    ends = np.stack(
+        [
+            x + along * cast.directions[:, 0],
+            y + along * cast.directions[:, 1],
+            z + length * np.sin(pitches)[:, None],
+        ],
+        axis=-1,
+    )
+    groups = groups_met(names, cast.codes.ravel(), hit.ravel())
+    return RayPicture(cast.origin, ends.reshape(-1, 3), groups)

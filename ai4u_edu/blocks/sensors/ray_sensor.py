@@ -1,6 +1,6 @@
 """What the ray sensors share: codes of groups, and a picture of the last cast for the viewer."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Annotated, Any, NamedTuple
 
 import numpy as np
@@ -65,9 +65,16 @@ class RaySensor(Sensor):
         """The largest distance that can be read."""
         return 1.0 if self.normalize_distance else self.vision_max_distance
 
+    def later(self) -> Callable[[], RayPicture]:
+        """Makes the picture of the last reading when it is called, and as often as it is.
+
+        It has numbers of its own, and holds on to neither the sensor nor its world.
+        """
+        raise NotImplementedError  # each ray sensor has its own
+
     def picture(self) -> RayPicture:
         """The rays of the last reading."""
-        raise NotImplementedError  # each ray sensor has its own
+        return self.later()()
 
     def _options(self) -> dict[str, Any]:
         return {
@@ -76,12 +83,18 @@ class RaySensor(Sensor):
             "exclude_self": self.self_exclude,
         }
 
-    def _groups(self, codes: npt.NDArray[np.float64], hit: npt.NDArray[np.bool_]) -> Any:
-        names = {float(code): name for name, code in reversed(self.group_code.items())}
-        return tuple(
-            names.get(code, "?") if met else ""
-            for code, met in zip(codes.tolist(), hit.tolist(), strict=True)
-        )
+    def _names(self) -> dict[float, str]:
+        return {float(code): name for name, code in reversed(self.group_code.items())}
+
+
+def groups_met(
+    names: Mapping[float, str], codes: npt.NDArray[np.float64], hit: npt.NDArray[np.bool_]
+) -> tuple[str, ...]:
+    """What each ray met, as a :class:`RayPicture` has it."""
+    return tuple(
+        names.get(code, "?") if met else ""
+        for code, met in zip(codes.tolist(), hit.tolist(), strict=True)
+    )
 
 
 def spread(count: int, field_of_view: float) -> npt.NDArray[np.float64]:
