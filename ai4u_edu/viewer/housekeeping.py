@@ -32,7 +32,8 @@ class Housekeeping:
         gc.set_threshold(NEW, *self._before[1:])
         self._pages: frozenset[int] = frozenset()
         self._gone = 0
-        self._due = clock() + SETTLED
+        self._due = math.inf
+        _set_aside()
 
     def look(self, pages: Set[int]) -> None:
         """Does what is due; to be called now and then.
@@ -48,10 +49,14 @@ class Housekeeping:
             if self._gone >= MANY or not pages:
                 self._gone = 0
                 gc.unfreeze()
-            gc.collect()
-            gc.freeze()
+            _set_aside()
 
     def end(self) -> None:
         """Python does as it did before."""
         gc.unfreeze()
         gc.set_threshold(*self._before)
+
+
+def _set_aside() -> None:
+    gc.collect()
+    gc.freeze()
