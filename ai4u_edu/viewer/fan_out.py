@@ -61,6 +61,10 @@ class Awakener(asyncio.Event):
         super().set()
 
 
+def do_nothing() -> None:
+    """Gives way to nobody."""
+
+
 class Page:
     """The way to one page: viser's connection, later the direct one if there is one.
 
@@ -70,6 +74,8 @@ class Page:
 
     def __init__(self, connection: ServerConnection) -> None:
         self.connection = connection
+        self.give_way: Callable[[], None] = do_nothing
+        """Waits, if something has to be done first: said before each message of the page's own."""
         self.way: Direct | None = None
         """The direct way, which is taken from now on."""
         headers = connection.request.headers if connection.request else {}
@@ -83,6 +89,7 @@ class Page:
 
     async def send(self, message: bytes) -> None:
         """Tells it something after all else; viser's producers call this."""
+        self.give_way()
         if self.way is None:
             await self.connection.send(message)
             return
@@ -102,10 +109,14 @@ class FanOut:
 
     Args:
         buffer: viser's, of the messages for all pages.
+        give_way: waits, if something has to be done before pages are told anything.
     """
 
-    def __init__(self, buffer: AsyncMessageBuffer) -> None:
+    def __init__(
+        self, buffer: AsyncMessageBuffer, give_way: Callable[[], None] = do_nothing
+    ) -> None:
         self._buffer = buffer
+        self.give_way = give_way
         self._pages: dict[int, Page] = {}
         self._sending: asyncio.Task[None] | None = None
 
@@ -145,6 +156,7 @@ class FanOut:
     async def _send(self) -> None:
         buffer = self._buffer
         while True:
+            self.give_way()
             began = time.monotonic()
             is_done = self._send_news()
             spent = time.monotonic() - began
@@ -221,12 +233,17 @@ def packed(messages: Sequence[Message]) -> bytes:
     return b"".join(parts)
 
 
-def fan_out(server: viser.ViserServer) -> bool:
-    """Has a server pack once what all pages get; whether it can be done with this viser."""
+def fan_out(server: viser.ViserServer, give_way: Callable[[], None] = do_nothing) -> bool:
+    """Has a server pack once what all pages get; whether it can be done with this viser.
+
+    Args:
+        server: viser's.
+        give_way: called in its loop, which waits meanwhile, before pages are told anything.
+    """
     if viser.__version__ != KNOWN:
         return False
     buffer = server._websock_server._broadcast_buffer
-    setattr(buffer, _NAME, FanOut(buffer))
+    setattr(buffer, _NAME, FanOut(buffer, give_way))
     if _infra._message_producer is _viser_does:
         _infra._message_producer = _produce
     return True
@@ -253,4 +270,5 @@ async def _produce(
     if ours is None:
         await _viser_does(page, buffer, client_id, backlog_done_message)
     else:
+        page.give_way = ours.give_way
         await ours.serve(page, client_id, backlog_done_message)

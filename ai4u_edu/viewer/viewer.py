@@ -57,7 +57,7 @@ class Viewer:
         self, runner: Runner, *, title: str = "AI4U Edu", workshop: Workshop | None = None
     ) -> None:
         self.runner = runner
-        self.server = server = LocalServer(title)
+        self.server = server = LocalServer(title, runner.give_way)
         self._title = title
         self._onlookers = onlookers = Onlookers(server, first=runner.sim.agents[0].id)
         self._stage: Stage | None = None

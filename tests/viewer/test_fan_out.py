@@ -6,6 +6,7 @@ import re
 import time
 from collections.abc import Iterator
 from contextlib import ExitStack, suppress
+from threading import Event
 from typing import Any
 
 import msgspec
@@ -93,6 +94,15 @@ def marks(messages: list[dict[str, Any]]) -> list[str]:
     return [each[1] for each in found if each]
 
 
+def said(page: Connection) -> bool:
+    """Whether a page is told anything within a moment."""
+    try:
+        page.recv(0.3)
+    except TimeoutError:
+        return False
+    return True
+
+
 def settled(server: LocalServer, pages: int) -> FanOut:
     """The server's fan-out, as soon as so many pages are up to date."""
     out: FanOut = server._websock_server._broadcast_buffer._ai4u_edu_fan_out  # type: ignore[attr-defined]
@@ -118,6 +128,31 @@ def test_it_fits_the_viser_that_is_there(server: LocalServer) -> None:
     ours, theirs = (inspect.signature(f) for f in (fan_out._produce, fan_out._viser_does))
     assert list(ours.parameters) == list(theirs.parameters)
     assert "_message_producer" in inspect.getsource(_infra.WebsockServer)
+
+
+def test_what_has_to_be_on_time_goes_before() -> None:
+    may_go = Event()
+    may_go.set()
+
+    def give_way() -> None:
+        may_go.wait(5)
+
+    server = LocalServer("AI4U Edu", give_way)
+    try:
+        with client(server) as page:
+            page.send(CAMERA)
+            until(lambda: len(server.get_clients()) == 1)
+            (mine,) = server.get_clients().values()
+            for guis, mark in ((server, "all"), (mine, "one")):
+                until(lambda: not said(page))
+                may_go.clear()
+                guis.gui.add_markdown(f"<{mark}>")
+                assert not said(page)
+                may_go.set()
+                frame_with(page, f"<{mark}>")
+    finally:
+        may_go.set()
+        server.stop()
 
 
 def test_with_another_viser_all_goes_visers_way(monkeypatch: pytest.MonkeyPatch) -> None:

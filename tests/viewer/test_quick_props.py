@@ -1,5 +1,8 @@
 """viser's properties and poses, set with less ado."""
 
+import inspect
+import re
+
 import numpy as np
 import pytest
 from viser import _scene_handles as handles
@@ -14,6 +17,11 @@ def _quick() -> None:
 
 def test_viser_sets_poses_so() -> None:
     assert handles._set_pose_vector is set_pose
+    source = inspect.getsource(handles)
+    (replaced,) = re.findall(r"def _set_pose_vector\(.*?\n\n\ndef", source, re.DOTALL)
+    wanted = re.findall(r"^    (\w+):", replaced.partition(") -> None:")[0], re.MULTILINE)
+    assert wanted == list(inspect.signature(set_pose).parameters)
+    assert "if np.allclose(value_arr, current):" in replaced
 
 
 @pytest.mark.parametrize("old", [0.0, 1.0, -250.0])

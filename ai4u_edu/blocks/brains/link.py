@@ -130,9 +130,10 @@ class Link(Protocol):
         """Begins to look out for a script. What was open before is closed."""
 
     def tell(self, situation: Situation) -> None:
-        """The agent's now, sooner than it is asked about, in a world that does not wait.
+        """The agent's now, sooner than it is asked about.
 
-        A link that can sends it at once, so that the script sees what is new and not a tick old.
+        A link that can sends it at once: a script sees what is new and not a tick old, and thinks
+        while the world finishes its tick.
         """
 
     def ask(self, situation: Situation, timeout: float) -> Answered | None:
