@@ -58,6 +58,13 @@ class FramesProtocol(WebSocketsSansIOProtocol):
             extensions: MutableMapping[str, Any] = self.scope["extensions"]
             extensions[EXTENSION] = self
 
+    def shutdown(self) -> None:
+        """Ends the connection with the server, also where its farewell is on its way already."""
+        try:
+            super().shutdown()
+        except InvalidState:  # uvicorn would say goodbye a second time, and not end at all
+            self.transport.close()
+
     def send_receive_event_to_app(self) -> None:
         """Hands a frame to the listener first."""
         if self.listener is not None and self.curr_msg_data_type == "bytes" and self.queue.empty():

@@ -1,5 +1,6 @@
 """What is no message: said what was expected, and not listened to for ever."""
 
+import asyncio
 import json
 import re
 from contextlib import suppress
@@ -8,9 +9,13 @@ from typing import Any
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from uvicorn.config import Config
+from uvicorn.server import ServerState
 from websockets.exceptions import ConnectionClosed
+from websockets.protocol import State
 
 from ai4u_edu.server import messages
+from ai4u_edu.server.frames import FramesProtocol
 from ai4u_edu.server.input import LARGEST, MISTAKES, PER_SECOND
 from tests.server.rooms import served, until
 
@@ -127,3 +132,25 @@ def test_a_busy_driver_is_no_flood() -> None:
             page.hold("KeyW") if index % 2 else page.hold("KeyA")
         page.hold("KeyS")
         until(lambda: room.held == ["KeyS"])
+
+
+class Transport:
+    """The end of a connection that has not taken yet what was written."""
+
+    is_closed = False
+
+    def close(self) -> None:
+        self.is_closed = True
+
+
+def test_a_server_ends_while_a_page_is_leaving() -> None:
+    async def end() -> bool:
+        config = Config(lambda: None, ws="none", lifespan="off")
+        protocol = FramesProtocol(config, ServerState(), {})
+        transport: Any = Transport()
+        protocol.transport, protocol.handshake_complete = transport, True
+        protocol.conn.state = State.CLOSING
+        protocol.shutdown()
+        return bool(transport.is_closed)
+
+    assert asyncio.run(end())
