@@ -30,7 +30,7 @@ def listen(host: str, port: int) -> socket.socket:
         AddressError: there is no listening there, for another reason.
     """
     try:
-        family, kind, _, _, address = socket.getaddrinfo(
+        family, kind, protocol, _, address = socket.getaddrinfo(
             host, port, type=socket.SOCK_STREAM, flags=socket.AI_PASSIVE
         )[0]
     except (OSError, UnicodeError) as error:
@@ -38,7 +38,9 @@ def listen(host: str, port: int) -> socket.socket:
             f"expected an address of this machine, got --host {host!r} ({error}); "
             "use --host 127.0.0.1"
         ) from None
-    listener = socket.socket(family, kind)
+    # asyncio sends small frames at once only where it is told that it is TCP: else one that follows
+    # another, as what an agent senses follows the answer to a ping, waits for up to 40 ms
+    listener = socket.socket(family, kind, protocol)
     try:
         if os.name == "posix":  # elsewhere it would let two programs share a port
             listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)

@@ -9,12 +9,14 @@ import threading
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
+from typing import Any
 
 import httpx
 import pytest
 
 from ai4u_edu.errors import AI4UError
 from ai4u_edu.server import AddressError, PortTakenError, ServerThread, serve
+from ai4u_edu.server.frames import FramesProtocol
 from tests.server.rooms import UPGRADE, Page, free_port, raw_request, served, until
 
 PROGRAM = """
@@ -133,6 +135,22 @@ def test_ipv6_is_written_in_brackets() -> None:
     with server:
         assert server.url.startswith("http://[::1]:")
         assert httpx.get(server.url).status_code == 200
+
+
+def test_small_frames_wait_for_no_others(monkeypatch: pytest.MonkeyPatch) -> None:
+    at_once = []
+    meet = FramesProtocol.handle_connect
+
+    def look(protocol: FramesProtocol, event: Any) -> None:
+        end = protocol.transport.get_extra_info("socket")
+        at_once.append(end.getsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY))
+        meet(protocol, event)
+
+    monkeypatch.setattr(FramesProtocol, "handle_connect", look)
+    with served() as room, room.page():
+        pass
+    assert at_once
+    assert all(at_once)
 
 
 def test_stopping_with_pages_open_takes_little_time_and_frees_the_seat() -> None:
