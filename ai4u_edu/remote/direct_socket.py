@@ -21,8 +21,9 @@ from ai4u_edu.remote.channel import Channel
 from ai4u_edu.remote.readiness import is_readable
 from ai4u_edu.remote.watch import Watch
 
-_FRESH = 0.01
-"""Seconds after a message in which nobody looks for a close before saying something."""
+_FRESH = 0.0005
+"""Seconds after a message in which nobody looks for a close before saying something: as long as a
+script takes that answers at once. One that thinks has the time to look."""
 
 
 class DirectSocket:
