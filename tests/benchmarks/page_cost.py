@@ -18,7 +18,6 @@ from multiprocessing.connection import Connection
 import msgspec
 import psutil
 import viser
-import zstandard
 from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import connect
 from websockets.typing import Subprotocol
@@ -38,6 +37,7 @@ from ai4u_edu import (
 from ai4u_edu.runner import Runner
 from ai4u_edu.snapshot import Snapshot
 from ai4u_edu.viewer import Viewer
+from tests.load.clients import is_picture
 
 AGENTS, BODIES, RAYS = 8, 30, 64
 
@@ -124,15 +124,12 @@ class Reader:
         self._connection.close()
 
     def _read(self) -> None:
-        unpack = zstandard.ZstdDecompressor()
         try:
             for frame in self._connection:
                 if isinstance(frame, str):
                     continue
                 self.bytes += len(frame)
-                plain, packed = (int.from_bytes(frame[at : at + 8], "little") for at in (0, 8))
-                raw = unpack.decompress(frame[16 : 16 + packed], plain)
-                self.frames += b"/bodies" in raw
+                self.frames += is_picture(frame)
         except ConnectionClosed:
             pass
 
