@@ -31,6 +31,11 @@ is still asked, and two of its answers count:
 
 A brain that answers HOLD has the world wait: the others are asked as well, and what they decide
 begins with the tick that takes place at last.
+
+Where many agents decide equally often, one tick has all the work of sensing and deciding, and the
+next ones have none. With ``spread_decisions`` each has a turn: the first agent decides at ticks 0,
+4, 8, the second one at 1, 5, 9. A decision that begins at another agent's turn, as an episode's
+first one does, is shorter: it ends at its own agent's turn.
 """
 
 from collections.abc import Sequence
@@ -86,6 +91,15 @@ class _Cycle:
         self.under_way = True
         agent.begin_step()
         return None
+
+    def end_in_turn(self, ticks: int) -> None:
+        """Has a decision end at the agent's turn, if one has just begun, and not there.
+
+        Args:
+            ticks: how long ago a turn of it was, any of them.
+        """
+        if self.under_way:
+            self._ticks -= ticks % self._ticks
 
     def apply(self) -> None:
         """Lets the actuators act, if it is a tick on which they do."""
@@ -158,6 +172,8 @@ class ControlRequestor:
         default_time_scale: how fast a viewer lets the time run; 1 is real time.
         goal: what is to be done, in words, for those who look.
         success: the reward term that is paid when it is done; empty if there is none.
+        spread_decisions: whether agents take turns in deciding; else all decide in the same tick,
+            if they decide equally often.
 
     >>> from ai4u_edu import BasicAgent, CircleShape, LocalBrain, RBMoveActuator, World
     >>> world = World()
@@ -183,6 +199,7 @@ class ControlRequestor:
         default_time_scale: float = 1.0,
         goal: str = "",
         success: str = "",
+        spread_decisions: bool = False,
     ) -> None:
         if not agents:
             raise SetupError("expected at least one agent, got none")
@@ -195,6 +212,7 @@ class ControlRequestor:
         self.default_time_scale = default_time_scale
         self.goal = goal
         self.success = success
+        self.spread_decisions = spread_decisions
         self.episode = 0
         """How many episodes of the world have begun."""
         self.held = False
@@ -281,11 +299,13 @@ class ControlRequestor:
         """Asks the brains whose turn it is; whether there is a tick then."""
         self._respawning = []
         self.held = False
-        for cycle in self._cycles:
+        for turn, cycle in enumerate(self._cycles):
             if cycle.under_way:
                 continue
             command = cycle.decide()
             if command is None:
+                if self.spread_decisions:
+                    cycle.end_in_turn(self.world.ticks - turn)
                 continue
             if command is Command.RESTART:
                 self.reset(cycle.agent.brain.restart_seed())

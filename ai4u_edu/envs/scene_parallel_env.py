@@ -62,6 +62,7 @@ class SceneParallelEnv(ParallelEnv):  # type: ignore[misc]  # PettingZoo has no 
         self._agents: dict[str, BasicAgent] = {agent.id: agent for agent in self.sim.agents}
         self._brains = {name: take_over(agent) for name, agent in self._agents.items()}
         # one action a step, and no reward between two steps: so all need the same time for one
+        self.sim.spread_decisions = False
         skip_frame = max(brain.skip_frame for brain in self._brains.values())
         for brain in self._brains.values():
             brain.skip_frame = skip_frame

@@ -181,6 +181,7 @@ def _new_world(episode: Episode, brains: list[RecordedBrain]) -> ControlRequesto
             default_time_scale=scene.time_scale,
             goal=scene.goal,
             success=scene.success or "",
+            spread_decisions=scene.spread_decisions,
         )
     except AI4UError as error:
         raise RecordingError(f"the episode's scene can't be made: {error}") from None

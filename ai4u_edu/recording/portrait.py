@@ -29,6 +29,7 @@ def scene_of(sim: ControlRequestor, like: SceneDescription | None = None) -> Sce
     things = sim.world.described
     fields: dict[str, Any] = {
         "time_scale": sim.default_time_scale,
+        "spread_decisions": sim.spread_decisions,
         "world": sim.world.settings,
         "floors": tuple(each for each in things if isinstance(each, FloorDescription)),
         "areas": tuple(each for each in things if isinstance(each, AreaDescription)),
@@ -45,7 +46,8 @@ def scene_of(sim: ControlRequestor, like: SceneDescription | None = None) -> Sce
 def without_brains(scene: SceneDescription) -> list[Any]:
     """What of a scene decides how its world goes on once the actions are given."""
     agents = [{k: v for k, v in agent.items() if k != "brains"} for agent in scene.agents]
-    return [scene.world, scene.floors, scene.areas, scene.bodies, agents]
+    things = [scene.floors, scene.areas, scene.bodies]
+    return [scene.world, scene.spread_decisions, *things, agents]
 
 
 def _agent(agent: BasicAgent) -> dict[str, Any]:

@@ -26,6 +26,8 @@ class SceneDescription(Description):
     success: Name | None = None
     """The reward term that is paid when the goal is reached."""
     time_scale: Annotated[float, quantity("1", gt=0, le=100)] = 1.0
+    spread_decisions: bool = False
+    """Whether agents take turns in deciding: for many of them, so that no tick has all the work."""
     world: WorldSettings = WorldSettings()
     floors: tuple[FloorDescription, ...] = ()
     areas: tuple[AreaDescription, ...] = ()

@@ -104,6 +104,7 @@ class Scene:
             default_time_scale=description.time_scale,
             goal=description.goal,
             success=description.success or "",
+            spread_decisions=description.spread_decisions,
         )
 
     def plain(self) -> dict[str, Any]:

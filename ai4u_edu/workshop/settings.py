@@ -22,6 +22,8 @@ RHYTHM = ("skip_frame", "repeat_action")
 """What a person takes for the agent's own; its brain has them."""
 WORDS = ("title", "goal")
 """What a scene says of itself."""
+TURNS = ("spread_decisions",)
+"""What it says of its agents together."""
 
 
 def agent_form(agent: Plain) -> list[Field]:
@@ -36,12 +38,13 @@ def agent_form(agent: Plain) -> list[Field]:
 
 
 def scene_form(scene: SceneDescription) -> list[Field]:
-    """A scene's words and its world's settings, as they are now."""
+    """A scene's words, and what holds for all agents and for its world, as it is now."""
     schema = TypeAdapter(SceneDescription).json_schema()
     world = WorldSettings.model_json_schema()
     settings = scene.world.model_dump()
     return [
         *_fields(schema, WORDS, {name: getattr(scene, name) for name in WORDS}),
+        *_later(_fields(schema, TURNS, {name: getattr(scene, name) for name in TURNS})),
         *_later(_fields(world, tuple(WorldSettings.model_fields), settings)),
     ]
 
@@ -62,19 +65,20 @@ def with_agent_settings(agent: Plain, values: Plain) -> Plain:
 
 
 def with_scene_settings(scene: SceneDescription, values: Plain) -> SceneDescription:
-    """With other words of a scene, or settings of its world; None for one as by default.
+    """With other words or turns of a scene, or settings of its world; None for one as by default.
 
     Raises:
         ChangeError: some are wrong, or nothing of the scene is called so.
     """
-    words = {name: values[name] for name in WORDS if name in values}
+    own = {name: values[name] for name in _OWN if name in values}
     settings = scene.world.model_dump(exclude_defaults=True)
-    settings |= {name: value for name, value in values.items() if name not in words}
+    settings |= {name: value for name, value in values.items() if name not in own}
     problems: list[Problem] = []
     fields: dict[str, Any] = {}
-    for name, value in words.items():
+    for name, value in own.items():
+        default = SceneDescription.model_fields[name].default
         try:
-            fields[name] = _TEXTS[name].validate_python(value or "")
+            fields[name] = _OWN[name].validate_python(default if value is None else value)
         except ValidationError as error:
             problems += [Problem((name,), each.text) for each in explain(error.errors(), ())]
     try:
@@ -103,6 +107,6 @@ def _later(fields: list[Field]) -> list[Field]:
     return [replace(each, hint=f"{each.hint}; applies at the next reset") for each in fields]
 
 
-_TEXTS: dict[str, TypeAdapter[str]] = {
-    name: TypeAdapter(SceneDescription.__annotations__[name]) for name in WORDS
+_OWN: dict[str, TypeAdapter[Any]] = {
+    name: TypeAdapter(SceneDescription.__annotations__[name]) for name in (*WORDS, *TURNS)
 }

@@ -88,7 +88,7 @@ def crowd(agents: int) -> ControlRequestor:
                 brains=[LocalBrain(controller=still, skip_frame=SKIP)],
             )
         )
-    return ControlRequestor(world, crew)
+    return ControlRequestor(world, crew, spread_decisions=True)
 
 
 def serve(agents: int, ends: Connection) -> None:

@@ -20,7 +20,9 @@ def test_the_forms_come_from_the_declarations() -> None:
     assert scene["gravity"].shown == "9.81"
     assert "nothing pulls in the plane" in scene["gravity"].hint
     later = {name for name, field in (agent | scene).items() if "next reset" in field.hint}
-    assert later == {"priority", "ticks_per_second", "damping", "gravity", "fall_threshold"}
+    world = {"ticks_per_second", "damping", "gravity", "fall_threshold"}
+    assert later == {"priority", "spread_decisions"} | world
+    assert scene["spread_decisions"].kind == "switch"
     assert set(scene) >= {"title", "goal", "damping", "ticks_per_second", "fall_threshold"}
 
 
@@ -70,12 +72,25 @@ def test_a_worlds_settings_apply_at_the_next_reset_and_its_words_at_once() -> No
     assert shop.done(shop.workshop.change_settings({"title": "Moon"})).when == "now"
 
 
+def test_agents_take_turns_from_the_next_reset_on() -> None:
+    shop = Shop()
+    outcome = shop.done(shop.workshop.change_settings({"spread_decisions": True}))
+    before = shop.runner.sim.spread_decisions
+    shop.done(shop.runner.reset(5))
+    shop.done(shop.runner.submit(lambda: None))
+    assert (outcome.when, before) == ("next reset", False)
+    assert shop.runner.sim.spread_decisions
+    shop.done(shop.workshop.change_settings({"spread_decisions": None}))
+    assert "spread_decisions" not in shop.workshop.text()
+
+
 @pytest.mark.parametrize(
     ("values", "told"),
     [
         ({"gravity": -1}, "gravity: expected at least 0"),
         ({"gravity": "much"}, "gravity: expected a number"),
         ({"ticks_per_second": 0, "title": "x" * 3000}, "title: expected at most 2000 characters"),
+        ({"spread_decisions": "now and then"}, "spread_decisions: expected true or false"),
         ({"gravty": 1}, "did you mean 'gravity'"),
         ({"agents": []}, "agents: unknown"),
     ],
