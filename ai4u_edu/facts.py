@@ -95,6 +95,8 @@ class Facts(NamedTuple):
 
     senses: tuple[Sense, ...]
     controls: tuple[Control, ...]
+    legends: Mapping[str, Legend]
+    """How readings are seen as pictures, by perception key."""
 
 
 class RayPictures(Mapping[str, RayPicture]):
@@ -140,9 +142,11 @@ def facts_of(agent: BasicAgent) -> Facts:
     fitting = agent.fitting
     known = _facts.get(fitting)
     if known is None:
+        senses = tuple(_sense(sensor) for sensor in fitting.sensors)
         known = _facts[fitting] = Facts(
-            tuple(_sense(sensor) for sensor in fitting.sensors),
+            senses,
             tuple(_control(actuator) for actuator in fitting.actuators.values()),
+            {sense.key: sense.legend for sense in senses if sense.legend is not None},
         )
     return known
 

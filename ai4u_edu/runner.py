@@ -53,6 +53,8 @@ many agents sense."""
 
 LONGEST_TICK = 0.01
 """Seconds for which somebody who draws waits for the end of a tick."""
+SOON = 0.0003
+"""Who would begin to draw so shortly (s) before a tick waits for it too."""
 HOPELESS = 0.02
 """A world whose ticks are late by so much (s), always, is not helped by waiting."""
 
@@ -102,6 +104,7 @@ class Runner:
         self._thread: threading.Thread | None = None
         self._turn = threading.Lock()  # whoever has it may let the world go on
         self._is_ticking = threading.Lock()
+        self._is_asleep = False  # until the next tick is due
         self._called = threading.Event()
         self._expected = 0
         self._due = 0.0
@@ -128,13 +131,17 @@ class Runner:
         return self.latest
 
     def give_way(self) -> None:
-        """Waits until no tick is under way; not for long, and not in a world without a pause.
+        """Waits until no tick is due or under way; not long, nor in a world without a pause.
 
         One thread computes at a time. A tick between others that compute takes as many times as
         long; so who only draws says this between one thing and the next.
         """
-        is_on_time = math.isfinite(self.time_scale) and self.lateness < HOPELESS
-        if is_on_time and self._is_ticking.acquire(timeout=LONGEST_TICK):
+        if math.isinf(self.time_scale) or self.lateness > HOPELESS:
+            return
+        enough = self._clock() + LONGEST_TICK
+        while self._is_asleep and self._due - SOON < self._clock() < enough:
+            time.sleep(GIVE_WAY)  # it would not get the processor when it wakes up
+        if self._is_ticking.acquire(timeout=LONGEST_TICK):
             self._is_ticking.release()
 
     # -- for those who ask -----------------------------------------------------------------------
@@ -313,6 +320,9 @@ class Runner:
                 if self.sim.held:
                     return
                 self._keep_time()
+                if all(agent.brain.keeps_waiting for agent in self.sim.agents):
+                    self._expected = len(self.sim.agents)
+                    return
         finally:
             self._turn.release()
         self._called.set()
@@ -450,7 +460,9 @@ class Runner:
         late = max(now - self._due, 0.0) if period else 0.0  # as fast as it goes is never late
         self.lateness += FEW_TICKS * (late - self.lateness)
         if self._due > now:
+            self._is_asleep = True
             time.sleep(self._due - now)
+            self._is_asleep = False
 
     def _carry_out_commands(self) -> None:
         while self._commands:

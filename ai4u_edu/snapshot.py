@@ -1,8 +1,9 @@
 """One frozen picture of everything, for the page, the API and the recorder."""
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
-from typing import NamedTuple
+from dataclasses import dataclass
+from types import MappingProxyType
+from typing import Any, NamedTuple
 
 from ai4u_edu.agent import BasicAgent, Entry
 from ai4u_edu.blocks import (
@@ -22,6 +23,7 @@ from ai4u_edu.world import AreaDescription, BodyDescription, FloorDescription, W
 
 NOWHERE = Phase()
 """Before the first decision."""
+EMPTY: Mapping[str, Any] = MappingProxyType({})
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,9 +57,12 @@ class Need(NamedTuple):
     """The ends of the zone in which the agent feels well."""
 
 
-@dataclass(frozen=True, slots=True)
-class BodyState:
-    """Where a body is: metres, radians, m/s, rad/s, in the world's frame."""
+class BodyState(NamedTuple):
+    """Where a body is: metres, radians, m/s, rad/s, in the world's frame.
+
+    A named tuple, as :class:`AgentState`: for a crowd there are thousands a second, and a frozen
+    dataclass takes several times as long to make.
+    """
 
     name: str
     x: float
@@ -72,8 +77,7 @@ class BodyState:
     fallen: bool
 
 
-@dataclass(frozen=True, slots=True)
-class AgentState:
+class AgentState(NamedTuple):
     """What an agent sensed, did and got in its last decision."""
 
     id: str
@@ -103,9 +107,9 @@ class AgentState:
     fell: bool = False
     """Whether its episode ended because it fell."""
     needs: tuple[Need, ...] = ()
-    spots: dict[str, SpotPicture] = field(default_factory=dict)
+    spots: Mapping[str, SpotPicture] = EMPTY
     """The places that sensors looked at in their last reading, by perception key."""
-    legends: dict[str, Legend] = field(default_factory=dict)
+    legends: Mapping[str, Legend] = EMPTY
     """How readings are seen as pictures, by perception key."""
     phase: Phase = NOWHERE
     """How far it is in its decision."""
@@ -264,9 +268,9 @@ def agent_state(agent: BasicAgent, success: str = "", phase: Phase = NOWHERE) ->
         fell=_fell(agent),
         needs=tuple(_needs(agent)),
         spots=pictures.spots,
-        legends={sense.key: sense.legend for sense in facts.senses if sense.legend is not None},
+        legends=facts.legends,
         phase=phase,
-        history=tuple(ledger.history),
+        history=ledger.latest(),
         senses=facts.senses,
         controls=facts.controls,
     )

@@ -80,6 +80,22 @@ def test_who_draws_gives_way_to_a_tick(monkeypatch: pytest.MonkeyPatch) -> None:
     assert order == ["tick", "picture"]
 
 
+@pytest.mark.parametrize(("before", "waits"), [(0.002, False), (0.0002, True), (-0.002, True)])
+def test_who_draws_gives_way_to_a_runner_that_is_about_to_wake_up(
+    monkeypatch: pytest.MonkeyPatch, before: float, *, waits: bool
+) -> None:
+    monkeypatch.setattr("ai4u_edu.runner.LONGEST_TICK", 5.0)
+    runner = Runner(Scene.load("box_chase").build(), seed=1, clock=lambda: 100.0)
+    runner._due, runner._is_asleep = 100.0 + before, True
+    drawing = threading.Thread(target=runner.give_way)
+    drawing.start()
+    drawing.join(0.1 if waits else 5)
+    assert drawing.is_alive() == waits
+    runner._is_asleep = False
+    drawing.join(5)
+    assert not drawing.is_alive()
+
+
 @pytest.mark.parametrize(("time_scale", "late"), [(1.0, 1.0), (float("inf"), 0.0)])
 def test_who_draws_does_not_wait_for_a_world_that_never_rests(
     time_scale: float, late: float

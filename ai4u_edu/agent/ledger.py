@@ -49,11 +49,13 @@ class Ledger:
         self.total = 0.0
         self.episode_total = 0.0
         self.history: deque[Entry] = deque(maxlen=0)
+        self._latest: tuple[Entry, ...] | None = None
 
     def remember(self, decisions: int) -> None:
         """Keeps the latest decisions from now on, for those who look; training needs none."""
         if self.history.maxlen != decisions:
             self.history = deque(self.history, decisions)
+            self._latest = None
 
     def open(self) -> None:
         """A decision begins: nothing is paid for it yet."""
@@ -72,6 +74,7 @@ class Ledger:
         """A decision is over, and all that it gets is paid."""
         if self.history.maxlen:
             self.history.append(Entry(step, self.terms, self.episode_total))
+            self._latest = None
 
     def clear(self) -> None:
         """An episode begins."""
@@ -79,3 +82,10 @@ class Ledger:
         self.episode_terms = {}
         self.episode_total = 0.0
         self.history.clear()
+        self._latest = None
+
+    def latest(self) -> tuple[Entry, ...]:
+        """The history as it is now: the same object until another decision is over."""
+        if self._latest is None:
+            self._latest = tuple(self.history)
+        return self._latest

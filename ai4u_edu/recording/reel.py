@@ -269,7 +269,7 @@ class Reel:
         pairs = enumerate(zip(frame.picture.agents, frame.decisions, strict=True))
         agents = [self._with_decision(index, *pair) for index, pair in pairs]
         named = [
-            replace(state, brain=record.driver or state.brain)
+            state._replace(brain=record.driver or state.brain)
             for state, record in zip(agents, self.episode.agents, strict=True)
         ]
         return replace(
@@ -283,8 +283,8 @@ class Reel:
         done = self._results[index].get(decision)
         if done is None:  # it never came to its end
             taken = self.episode.agents[index][decision]
-            return replace(state, action=taken.action, reward=0.0, reward_terms={})
-        return replace(state, **done)
+            return state._replace(action=taken.action, reward=0.0, reward_terms={})
+        return state._replace(**done)
 
 
 class _Results:

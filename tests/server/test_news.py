@@ -22,7 +22,7 @@ def sim_of(scene: str) -> ControlRequestor:
 def picture(scene: str, changes: dict[str, dict[str, Any]]) -> Snapshot:
     """A scene in which some agents are as said."""
     whole = picture_of(sim_of(scene))
-    agents = (replace(agent, **changes.get(agent.id, {})) for agent in whole.agents)
+    agents = (agent._replace(**changes.get(agent.id, {})) for agent in whole.agents)
     return replace(whole, agents=tuple(agents))
 
 
@@ -48,14 +48,14 @@ OVER = {"terminated": True}
 )
 def test_alone(ended: dict[str, Any], word: str) -> None:
     whole = picture("box_chase", {})
-    agent = replace(whole.agents[0], **ended)
+    agent = whole.agents[0]._replace(**ended)
     assert outcome(replace(whole, agents=(agent,)), agent) == word
 
 
 def test_where_no_success_is_named_what_is_paid_at_the_end_is_one() -> None:
     whole = picture("box_chase", {})
     nameless = replace(whole, stage=replace(whole.stage, success=""))
-    agent = replace(whole.agents[0], terminated=True, episode_reward=3.0)
+    agent = whole.agents[0]._replace(terminated=True, episode_reward=3.0)
     assert outcome(replace(nameless, agents=(agent,)), agent) == "goal"
 
 

@@ -79,7 +79,7 @@ def test_only_what_changed_is_sent(viewer: Viewer, runner: Runner) -> None:
         shown(viewer)
         assert buffer.message_counter == before
         (tab,) = tabs_of(viewer, AgentTab)
-        tab.draw(replace(runner.latest, agents=(replace(runner.latest.agents[0], clipped=3),)))
+        tab.draw(replace(runner.latest, agents=(runner.latest.agents[0]._replace(clipped=3),)))
         assert buffer.message_counter == before + 1
 
 
@@ -156,27 +156,27 @@ def test_a_sensor_is_shown_and_hidden_by_its_button(viewer: Viewer, runner: Runn
 def test_each_agent_has_a_row_of_its_own(crowd: Runner) -> None:
     first, second, *others = crowd.latest.agents
     agents = (
-        replace(first, steps=7, episode_reward=-2.5, terminated=True, fell=True),
-        replace(second, truncated=True, succeeded=True),
+        first._replace(steps=7, episode_reward=-2.5, terminated=True, fell=True),
+        second._replace(truncated=True, succeeded=True),
         *others,
     )
     html = overview(replace(crowd.latest, agents=agents), chosen="two")
     assert "one</th><td>7</td><td>-2.50</td><td><small>fell</small>" in html
     assert "<b>two</b></th><td>0</td><td>0.00</td><td><small>reached the goal</small>" in html
     assert "episode" not in html
-    ahead = (replace(first, episode=3), second, *others)
+    ahead = (first._replace(episode=3), second, *others)
     assert "one</th><td>3</td><td>0</td>" in overview(replace(crowd.latest, agents=ahead), "two")
 
 
 def test_the_state_of_an_agent(runner: Runner) -> None:
-    agent = replace(runner.latest.agents[0], brain="<script>")
+    agent = runner.latest.agents[0]._replace(brain="<script>")
     assert "&lt;script&gt;" in state(agent)
-    assert "over" in state(replace(agent, terminated=True))
-    assert "fell" in state(replace(agent, terminated=True, fell=True))
-    assert "reached" in state(replace(agent, terminated=True, fell=True, succeeded=True))
-    assert "cut off" in state(replace(agent, truncated=True))
-    assert "paused" in state(replace(agent, paused=True))
-    assert "3 numbers" in state(replace(agent, clipped=3))
+    assert "over" in state(agent._replace(terminated=True))
+    assert "fell" in state(agent._replace(terminated=True, fell=True))
+    assert "reached" in state(agent._replace(terminated=True, fell=True, succeeded=True))
+    assert "cut off" in state(agent._replace(truncated=True))
+    assert "paused" in state(agent._replace(paused=True))
+    assert "3 numbers" in state(agent._replace(clipped=3))
 
 
 def test_an_agent_that_is_called_as_its_body_is_named_once() -> None:

@@ -14,7 +14,7 @@ from tests.builders import small_sim
 
 def strip(runner: Runner, phase: Phase, *, paused: bool = True, speed: float = 1.0) -> str:
     snapshot = replace(runner.latest, paused=paused, time_scale=speed)
-    return decision(replace(snapshot.agents[0], phase=phase), snapshot)
+    return decision(snapshot.agents[0]._replace(phase=phase), snapshot)
 
 
 def ticks(html: str) -> list[str]:

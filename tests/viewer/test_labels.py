@@ -16,7 +16,7 @@ from tests.viewer.pages import part_of
 
 def with_script(snapshot: Snapshot, state: Any) -> Snapshot:
     status = RemoteStatus(state, "", 0, 0, 0, 0, 0)
-    return replace(snapshot, agents=(replace(snapshot.agents[0], remote=status),))
+    return replace(snapshot, agents=(snapshot.agents[0]._replace(remote=status),))
 
 
 def written(viewer: Viewer) -> list[str]:

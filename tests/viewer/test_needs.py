@@ -1,5 +1,4 @@
 import re
-from dataclasses import replace
 
 from ai4u_edu import Scene
 from ai4u_edu.snapshot import Need, picture_of
@@ -40,4 +39,4 @@ def test_what_an_agent_needs_stands_in_its_panel() -> None:
     assert agent.needs[0].comfort == (40.0, 80.0)
     snapshot = picture_of(sim)
     assert "energy" in AgentHtml.of(agent, snapshot, {}).inside
-    assert not AgentHtml.of(replace(agent, needs=()), snapshot, {}).inside
+    assert not AgentHtml.of(agent._replace(needs=()), snapshot, {}).inside

@@ -16,7 +16,7 @@ def robot_at(**changes: Any) -> tuple[Poses, Layers]:
     sim.reset(seed=1)
     snapshot = picture(sim)
     first, *others = snapshot.bodies
-    snapshot = replace(snapshot, bodies=(replace(first, **changes), *others))
+    snapshot = replace(snapshot, bodies=(first._replace(**changes), *others))
     layers = Layers.of(snapshot.stage)
     return poses(snapshot, layers), layers
 

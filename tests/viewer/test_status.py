@@ -19,8 +19,7 @@ def test_what_can_not_keep_up_says_so(runner: Runner) -> None:
 
 
 def test_how_it_stands_with_a_script_is_shown_escaped(runner: Runner) -> None:
-    agent = replace(
-        runner.latest.agents[0],
+    agent = runner.latest.agents[0]._replace(
         remote=RemoteStatus(
             state="lost",
             reason="no answer from <b>",
@@ -45,7 +44,7 @@ def test_the_goal_is_told_escaped(runner: Runner) -> None:
 
 def test_steps_are_those_of_the_only_agent(runner: Runner) -> None:
     (agent,) = runner.latest.agents
-    snapshot = replace(runner.latest, agents=(replace(agent, steps=41),))
+    snapshot = replace(runner.latest, agents=(agent._replace(steps=41),))
     assert "<small>step</small> 41" in status(snapshot)
     assert "step" not in status(replace(snapshot, agents=(agent, agent)))
 

@@ -61,7 +61,7 @@ def middle(x: float, y: float, height: float) -> list[float]:
 
 def with_robot_at(snapshot: Snapshot, x: float, y: float) -> Snapshot:
     first, *others = snapshot.bodies
-    return replace(snapshot, bodies=(replace(first, x=x, y=y), *others))
+    return replace(snapshot, bodies=(first._replace(x=x, y=y), *others))
 
 
 def test_a_page_sees_the_whole_arena_from_above(watched: Watched, runner: Runner) -> None:
@@ -171,7 +171,7 @@ def test_following_goes_on_with_the_agent_that_is_looked_at_and_ends(
     watched: Watched, runner: Runner
 ) -> None:
     (agent,) = runner.latest.agents
-    other = replace(agent, id="1", body="box")
+    other = agent._replace(id="1", body="box")
     both = replace(runner.latest, agents=(agent, other))
     view = watched.view
     view.choose(Mode.FOLLOW)
@@ -187,7 +187,7 @@ def test_following_goes_on_with_the_agent_that_is_looked_at_and_ends(
 
 def turned(snapshot: Snapshot, heading: float) -> Snapshot:
     first, *others = snapshot.bodies
-    return replace(snapshot, bodies=(replace(first, heading=heading), *others))
+    return replace(snapshot, bodies=(first._replace(heading=heading), *others))
 
 
 def test_a_camera_that_turns_has_ahead_on_top(watched: Watched, runner: Runner) -> None:

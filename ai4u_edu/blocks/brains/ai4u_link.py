@@ -81,6 +81,11 @@ class AI4ULink:
         """Whether the script owes an answer."""
         return self._datagrams is not None and self._dialogue.phase is Phase.PLAYING
 
+    @property
+    def will_call(self) -> bool:
+        """Never: it is asked again and again."""
+        return False
+
     def open(self, offer: Offer) -> None:
         """Begins to knock."""
         self.close("the agent is set up anew")

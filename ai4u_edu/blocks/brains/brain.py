@@ -29,6 +29,11 @@ class Brain(Block):
             f"{type(self).__name__} has no decide(self, percept): it must return an action"
         )
 
+    @property
+    def keeps_waiting(self) -> bool:
+        """Whether it answers HOLD, until the runner is called; then to ask it is in vain."""
+        return False
+
     def restart_seed(self) -> int | None:
         """The seed of the episode that it asks for with RESTART; None: it follows from the last."""
         return None

@@ -126,6 +126,10 @@ class Link(Protocol):
     def expecting(self) -> bool:
         """Whether the script owes an answer, so that a world in lockstep has to wait for it."""
 
+    @property
+    def will_call(self) -> bool:
+        """Whether it owes one, and the world's runner is called as soon as it is there."""
+
     def open(self, offer: Offer) -> None:
         """Begins to look out for a script. What was open before is closed."""
 

@@ -174,6 +174,18 @@ class RemoteBrain(Brain):
         self._late = False
         return self._obeyed(link, answered, situation)
 
+    @property
+    def keeps_waiting(self) -> bool:
+        """Whether a world in lockstep waits for an answer that will come with a call."""
+        link = self._link
+        return (
+            link is not None
+            and link.will_call
+            and self.mode == "lockstep"
+            and self.hand is None
+            and self._told is self._situation is not None
+        )
+
     def restart_seed(self) -> int | None:
         """The seed that the script asked for, if it did."""
         return self._seed

@@ -65,6 +65,11 @@ class Session:
         """Whether the script owes an answer."""
         return self._told is not None
 
+    @property
+    def will_call(self) -> bool:
+        """Whether it owes one that it has not given."""
+        return self._told is not None and not self._is_answered
+
     def open(self, offer: Offer) -> None:
         """Nothing: the script is here already, and knows."""
 
