@@ -146,7 +146,10 @@ class _Cycle:
         began = world.ticks
         body, tick = self._fitting.body, world.tick
         acts = [(actuator.act, numbers) for actuator, numbers in self._action]
-        for index in range(self._tick, self._ticks):
+        gone = self._drive(world)
+        if gone and body.fallen:
+            gone = self._ticks  # there are no others
+        for index in range(self._tick + gone, self._ticks):
             if self._repeat or not index:
                 for act, numbers in acts:
                     act(body, numbers)
@@ -156,6 +159,17 @@ class _Cycle:
         ticks = world.ticks - began
         self._end()
         return ticks
+
+    def _drive(self, world: World) -> int:
+        """As many ticks at one go as can be had; how many."""
+        body = self._fitting.body
+        if not self._repeat or len(self._action) != 1 or not body.on_ground:
+            return 0
+        ((actuator, numbers),) = self._action
+        drive = actuator.steady_drive(numbers)
+        if drive is None:
+            return 0
+        return world.drive(body, drive, self._ticks - self._tick)
 
     def _end(self) -> None:
         self.under_way = False

@@ -131,16 +131,20 @@ def distances(shape: pymunk.Shape, other: pymunk.Shape, its_pm: pymunk.Body) -> 
 def shape_key(shape: pymunk.Shape) -> int:
     """The number by which a ray names the shape that it met."""
     if FAST:
-        pointer: Any = shape._shape
-        return int(ffi.cast("uintptr_t", pointer))
+        return address(shape._shape)
     return id(shape)
+
+
+def address(pointer: Any) -> int:
+    """Where something of Chipmunk's lies, for the compiled part."""
+    return int(ffi.cast("uintptr_t", pointer))
 
 
 def c_function(name: str, form: str) -> Any:
     """A function of the compiled part, to be called through cffi; None where there is none.
 
     Args:
-        name: as in rays.c.
+        name: as in the C source.
         form: its type, as ``"void (*)(void *)"``.
     """
     made = library() if FAST else None

@@ -18,10 +18,19 @@ import tempfile
 from functools import cache
 from pathlib import Path
 
-SOURCE = Path(__file__).with_name("rays.c")
+SOURCES = tuple(Path(__file__).with_name(name) for name in ("rays.c", "ticks.c"))
 SWITCH = "AI4U_COMPILED"
-# without contraction: a * b + c is rounded twice, as in Python
-FLAGS = ("-std=c11", "-O2", "-ffp-contract=off", "-shared", "-fPIC")
+# without contraction: a * b + c is rounded twice, as in Python; and cos and sin are called one by
+# one, as Python does: what some compilers make of the two is a third function
+FLAGS = (
+    "-std=c11",
+    "-O2",
+    "-ffp-contract=off",
+    "-fno-builtin-cos",
+    "-fno-builtin-sin",
+    "-shared",
+    "-fPIC",
+)
 PATIENCE = 60.0
 """Seconds that a compiler gets; it takes a tenth of one."""
 
@@ -52,9 +61,9 @@ def _load(kept: Path) -> ctypes.CDLL | None:
     Raises:
         OSError: there is no room for it, or it can't be loaded.
     """
-    source = SOURCE.read_bytes()
-    key = repr((source, FLAGS, sysconfig.get_platform(), sys.maxsize)).encode()
-    path = kept / f"rays-{hashlib.sha256(key).hexdigest()[:20]}.so"
+    sources = [source.read_bytes() for source in SOURCES]
+    key = repr((sources, FLAGS, sysconfig.get_platform(), sys.maxsize)).encode()
+    path = kept / f"compiled-{hashlib.sha256(key).hexdigest()[:20]}.so"
     kept.mkdir(mode=0o700, parents=True, exist_ok=True)
     if not _ours(kept):
         return None
@@ -77,7 +86,7 @@ def _make(path: Path) -> bool:
         return False
     with tempfile.TemporaryDirectory(dir=path.parent) as here:
         made = Path(here) / path.name
-        if not _run(compiler, *FLAGS, "-o", str(made), str(SOURCE)):
+        if not _run(compiler, *FLAGS, "-o", str(made), *map(str, SOURCES), "-lm"):
             return False
         made.replace(path)
     return True

@@ -13,7 +13,7 @@ import numpy.typing as npt
 import pymunk
 from numpy import add, fmod, multiply
 
-from ai4u_edu.world._chipmunk import FAST, c_function, ffi, lib, shape_key
+from ai4u_edu.world._chipmunk import FAST, address, c_function, ffi, lib, shape_key
 
 _HIT = np.dtype(
     [("shape", "u8"), ("px", "f8"), ("py", "f8"), ("nx", "f8"), ("ny", "f8"), ("alpha", "f8")]
@@ -130,7 +130,7 @@ class CompiledSegments(QuickSegments):
         if accept is not self._accept:
             self._accept = accept
             self._memory[:] = _FAN.pack(
-                _address(ffi.addressof(lib, "cpSpaceSegmentQueryFirst")),
+                address(ffi.addressof(lib, "cpSpaceSegmentQueryFirst")),
                 len(self.directions),
                 *accept,
                 *self.addresses(),
@@ -139,7 +139,7 @@ class CompiledSegments(QuickSegments):
 
     def addresses(self) -> tuple[int, int, int]:
         """Where directions, hits and distances lie, for what goes on with them in C."""
-        hits = _address(self._hit_memory)
+        hits = address(self._hit_memory)
         return self.directions.ctypes.data, hits, self.distances.ctypes.data
 
 
@@ -170,7 +170,3 @@ def _as_expected() -> bool:
         and all(ffi.offsetof(name, field) == offset for field, offset in offsets.items())
         for name, (size, offsets) in _LAYOUT.items()
     )
-
-
-def _address(pointer: Any) -> int:
-    return int(ffi.cast("uintptr_t", pointer))

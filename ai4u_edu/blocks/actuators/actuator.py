@@ -9,7 +9,7 @@ from gymnasium import spaces
 
 from ai4u_edu.blocks.block import Block, default_name
 from ai4u_edu.errors import ActionError, BlockError
-from ai4u_edu.world import Body, WorldView
+from ai4u_edu.world import Body, Drive, WorldView
 
 
 class Actuator(Block):
@@ -47,6 +47,12 @@ class Actuator(Block):
     def __post_init__(self) -> None:
         self.action_name = self.action_name or default_name(type(self), "Actuator")
 
+    def __init_subclass__(cls, **options: Any) -> None:
+        super().__init_subclass__(**options)
+        says, *does = (_depth(cls, name) for name in ("steady_drive", "act", "drive"))
+        if min(does) < says:  # what it inherits was said of another act
+            cls.steady_drive = Actuator.steady_drive  # type: ignore[method-assign]
+
     def space(self) -> spaces.Space[Any]:
         """A Box of shape (n,), or a Discrete space: what an action of this actuator may be."""
         raise BlockError(
@@ -65,6 +71,17 @@ class Actuator(Block):
             action: n finite numbers within :meth:`space`.
         """
         raise BlockError(f"{type(self).__name__} has no act(self, body, action)")
+
+    def steady_drive(self, action: tuple[float, ...]) -> Drive | None:
+        """What :meth:`act` tells a body on the ground, if that is all, and at every tick the same.
+
+        Optional: where it is known, the ticks of a decision may pass at one go, without a call of
+        act for each. A class with another act does not inherit it.
+
+        Returns:
+            None if act may do anything else with this action.
+        """
+        return None
 
     def on_tick(self, body: Body, view: WorldView) -> None:
         """Called after every tick of a decision, acted or not; only where a subclass fills it.
@@ -136,3 +153,9 @@ class Actuator(Block):
         raise ActionError(
             f"action {self.action_name!r}: expected {len(self._limits)} numbers, got {values!r}"
         )
+
+
+def _depth(cls: type, name: str) -> int:
+    """How many classes one has to go up from a class until one says this; all, if none does."""
+    order = cls.__mro__
+    return next((up for up, each in enumerate(order) if name in vars(each)), len(order))

@@ -7,9 +7,9 @@ import numpy as np
 from gymnasium.spaces import Box
 
 from ai4u_edu.blocks.actuators.actuator import Actuator
-from ai4u_edu.blocks.actuators.ground_motion import quiet, roll
+from ai4u_edu.blocks.actuators.ground_motion import Speeds, quiet, roll
 from ai4u_edu.parameters import PositiveMetres, quantity
-from ai4u_edu.world import Body
+from ai4u_edu.world import Body, Drive
 
 
 class CarActuator(Actuator):
@@ -46,10 +46,16 @@ class CarActuator(Actuator):
 
     def act(self, body: Body, action: tuple[float, ...]) -> None:
         """Sets the body's speeds, if it stands on the ground."""
-        if not body.on_ground:
-            return
+        if body.on_ground:
+            roll(body, *self._speeds(action))
+
+    def steady_drive(self, action: tuple[float, ...]) -> Drive:
+        """All that it does."""
+        return Drive(*self._speeds(action))
+
+    def _speeds(self, action: tuple[float, ...]) -> Speeds:
         throttle, steering = quiet(action)
         speed = throttle * self.max_speed
         angle = -steering * math.radians(self.max_steering_deg)
         turning = speed * math.tan(angle) / self.wheelbase
-        roll(body, speed, turning * self.wheelbase / 2, turning)
+        return speed, turning * self.wheelbase / 2, turning

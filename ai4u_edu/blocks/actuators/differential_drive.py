@@ -6,9 +6,9 @@ import numpy as np
 from gymnasium.spaces import Box
 
 from ai4u_edu.blocks.actuators.actuator import Actuator
-from ai4u_edu.blocks.actuators.ground_motion import quiet, roll
+from ai4u_edu.blocks.actuators.ground_motion import Speeds, quiet, roll
 from ai4u_edu.parameters import PositiveMetres, quantity
-from ai4u_edu.world import Body
+from ai4u_edu.world import Body, Drive
 
 
 class DifferentialDriveActuator(Actuator):
@@ -41,7 +41,13 @@ class DifferentialDriveActuator(Actuator):
 
     def act(self, body: Body, action: tuple[float, ...]) -> None:
         """Sets the body's speeds, if it stands on the ground."""
-        if not body.on_ground:
-            return
+        if body.on_ground:
+            roll(body, *self._speeds(action))
+
+    def steady_drive(self, action: tuple[float, ...]) -> Drive:
+        """All that it does."""
+        return Drive(*self._speeds(action))
+
+    def _speeds(self, action: tuple[float, ...]) -> Speeds:
         left, right = (wheel * self.max_wheel_speed for wheel in quiet(action))
-        roll(body, (left + right) / 2, 0.0, (right - left) / self.axle_width)
+        return (left + right) / 2, 0.0, (right - left) / self.axle_width

@@ -5,7 +5,10 @@ from typing import Annotated
 
 from ai4u_edu.blocks.actuators.actuator import Actuator
 from ai4u_edu.parameters import quantity
-from ai4u_edu.world import Body
+from ai4u_edu.world import Body, Drive
+
+Speeds = tuple[float, float, float]
+"""(forward, left, turning) in a body's own frame: m/s, m/s, rad/s (counter-clockwise positive)."""
 
 SMALLEST = 0.001
 """A number closer to 0 than this counts as 0."""
@@ -45,10 +48,19 @@ class GroundMotion(Actuator):
             leap: share of ``jump_forward_power`` forward and of ``jump_power`` upward.
             strafe: share of ``move_amount``; above 0 to the right.
         """
-        ahead = forward * self.move_amount + leap * self.jump_forward_power
-        roll(body, ahead, -strafe * self.move_amount, -turn * self.turn_amount)
+        roll(body, *self._speeds(forward, turn, leap, strafe))
         if jump or leap:
             body.jump((jump + leap) * self.jump_power)
+
+    def without_jump(
+        self, forward: float, turn: float, jump: float, leap: float, strafe: float = 0.0
+    ) -> Drive | None:
+        """What :meth:`drive` tells the body; None if it jumps."""
+        return None if jump or leap else Drive(*self._speeds(forward, turn, leap, strafe))
+
+    def _speeds(self, forward: float, turn: float, leap: float, strafe: float) -> Speeds:
+        ahead = forward * self.move_amount + leap * self.jump_forward_power
+        return ahead, -strafe * self.move_amount, -turn * self.turn_amount
 
 
 def roll(body: Body, forward: float, left: float, turning: float) -> None:

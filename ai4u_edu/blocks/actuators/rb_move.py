@@ -4,7 +4,7 @@ import numpy as np
 from gymnasium.spaces import Box
 
 from ai4u_edu.blocks.actuators.ground_motion import GroundMotion, quiet
-from ai4u_edu.world import Body
+from ai4u_edu.world import Body, Drive
 
 
 class RBMoveActuator(GroundMotion):
@@ -35,3 +35,7 @@ class RBMoveActuator(GroundMotion):
         """Sets the body's speeds, if it stands on the ground."""
         if body.on_ground:
             self.drive(body, *quiet(action))
+
+    def steady_drive(self, action: tuple[float, ...]) -> Drive | None:
+        """All that it does, unless it jumps."""
+        return self.without_jump(*quiet(action))
