@@ -136,13 +136,17 @@ class Runner:
         One thread computes at a time. A tick between others that compute takes as many times as
         long; so who only draws says this between one thing and the next.
         """
-        if math.isinf(self.time_scale) or self.lateness > HOPELESS:
+        if self.is_unpaced() or self.lateness > HOPELESS:
             return
         enough = self._clock() + LONGEST_TICK
         while self._is_asleep and self._due - SOON < self._clock() < enough:
             time.sleep(GIVE_WAY)  # it would not get the processor when it wakes up
         if self._is_ticking.acquire(timeout=LONGEST_TICK):
             self._is_ticking.release()
+
+    def is_unpaced(self) -> bool:
+        """Whether the time runs as fast as it can, and not by the clock."""
+        return math.isinf(self.time_scale)
 
     # -- for those who ask -----------------------------------------------------------------------
 
@@ -365,13 +369,13 @@ class Runner:
         if self.paused or self.error:
             self._rest()
         else:
-            self._tick(leaps=math.isinf(self.time_scale))
+            self._tick(leaps=self.is_unpaced())
             self._keep_time()
 
     def _may_sprint(self) -> bool:
         """Whether there is nothing to wait for but ticks, and a thread that would do them."""
         standing = self.paused or self.error or self._commands or self._stopping
-        return math.isinf(self.time_scale) and self._thread is not None and not standing
+        return self.is_unpaced() and self._thread is not None and not standing
 
     def _run(self) -> None:
         while not self._stopping:

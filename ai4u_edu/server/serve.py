@@ -77,6 +77,7 @@ class _Server(uvicorn.Server):
         super().__init__(
             uvicorn.Config(
                 app,
+                loop="ai4u_edu.server.eager:new_loop",
                 ws=FramesProtocol,
                 ws_max_size=_LARGEST,
                 ws_per_message_deflate=False,

@@ -14,6 +14,7 @@ from ai4u_edu.blocks import Answer, Command
 from ai4u_edu.blocks.brains.link import Answered, LinkState, Offer, Reset, Situation
 from ai4u_edu.post import Post
 from ai4u_edu.runner import Runner
+from ai4u_edu.server.eager import look_out
 from ai4u_edu.server.remote.line import Line
 from ai4u_edu.server.remote.welcome import Excerpt
 from ai4u_edu.wire import native
@@ -161,6 +162,8 @@ class Session:
             self._is_answered = True
         self._answers.append(answered)
         self._runner.call()
+        if self._runner.is_unpaced():
+            look_out()  # the next answer is as good as here
         return None
 
     # -- what they are made of -------------------------------------------------------------------
