@@ -146,12 +146,14 @@ def bare_processes(url: str, agents: int, seconds: float) -> float:
     return _spread(bare_one, url, agents, seconds)
 
 
-def ours_one(url: str, number: int, seconds: float, rate: Any) -> None:
+def ours_one(url: str, number: int, seconds: float, rate: Any, all_here: Any) -> None:
     with connect(url, str(number), mode="lockstep") as robot:
+        all_here.wait()
         rate.put(_timed(lambda: decide(robot), seconds))
 
 
-def bare_one(url: str, _number: int, seconds: float, rate: Any) -> None:
+def bare_one(url: str, _number: int, seconds: float, rate: Any, all_here: Any) -> None:
+    all_here.wait()
     rate.put(bare_plain(url, 1, seconds))
 
 
@@ -180,8 +182,12 @@ def _timed(once: Callable[[], object], seconds: float) -> float:
 
 def _spread(one: Any, url: str, agents: int, seconds: float) -> float:
     rates: Any = multiprocessing.Queue()
+    # while some of them still start, the others have the machine for themselves, or not at all
+    all_here = multiprocessing.Barrier(agents)
     scripts = [
-        multiprocessing.Process(target=one, args=(url, number, seconds, rates), daemon=True)
+        multiprocessing.Process(
+            target=one, args=(url, number, seconds, rates, all_here), daemon=True
+        )
         for number in range(agents)
     ]
     for script in scripts:
