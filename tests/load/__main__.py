@@ -1,7 +1,8 @@
 """A class at work: ``python -m tests.load --brains 30,60,100``.
 
 One world at 60 ticks a second in which so many scripts drive an agent each, in realtime, 15 times
-a second with 16 rays, while as many viewers look at the page. The scripts are real ones of
+a second with 16 rays, while as many viewers look at the page. Agents take turns in deciding
+(``spread_decisions``), unless it is ``--at-once``. The scripts are real ones of
 ``ai4u_edu.remote``, the viewers bare clients of viser's socket that read every frame. World and
 server have one process, all brains another one, all viewers a third; how much of a core each took
 stands in the table, since they compete for the same cores. ``--apart`` gives the server a core of
@@ -15,6 +16,7 @@ import argparse
 import multiprocessing
 import os
 from collections.abc import Callable
+from functools import partial
 from multiprocessing.connection import Connection
 from typing import Any
 
@@ -40,7 +42,9 @@ def main() -> None:
     parser.add_argument("--no-viewers", action="store_true")
     parser.add_argument("--floor", action="store_true", help="a server without a world, besides")
     parser.add_argument("--apart", action="store_true", help="a core for the server alone")
+    parser.add_argument("--at-once", action="store_true", help="all agents decide in one tick")
     options = parser.parse_args()
+    ours = partial(world.serve, in_turn=not options.at_once)
     cores = sorted(os.sched_getaffinity(0)) if options.apart else []
     _CORES.update(server=set(cores[:1]), clients=set(cores[1:] or cores))
     multiprocessing.set_start_method("spawn")
@@ -50,15 +54,15 @@ def main() -> None:
     print(HEAD, flush=True)
     counts = [int(each) for each in options.brains.split(",")]
     for count in counts:
-        print(measure(count, 0, seconds), flush=True)
+        print(measure(count, 0, seconds, serve=ours), flush=True)
         if not options.no_viewers:
-            print(measure(count, count, seconds), flush=True)
+            print(measure(count, count, seconds, serve=ours), flush=True)
         for viewers in (0, count) if options.floor else ():
             print(measure(count, viewers, seconds, serve=serve_floor), flush=True)
     least = min(counts)
-    print(measure(least, 5, seconds, slow=5), flush=True)
-    print(measure(least, 5, seconds, flooding=True), flush=True)
-    print(measure(least, 30, seconds, stopped=25), flush=True)
+    print(measure(least, 5, seconds, slow=5, serve=ours), flush=True)
+    print(measure(least, 5, seconds, flooding=True, serve=ours), flush=True)
+    print(measure(least, 30, seconds, stopped=25, serve=ours), flush=True)
 
 
 def measure(

@@ -63,8 +63,8 @@ class Told(NamedTuple):
     """Decisions without an action of the script, by agent."""
 
 
-def crowd(agents: int) -> ControlRequestor:
-    """So many robots on a plate with some boxes, each with 16 rays."""
+def crowd(agents: int, *, in_turn: bool = True) -> ControlRequestor:
+    """So many robots on a plate, each with 16 rays, which decide in turn or in the same tick."""
     world = World()
     side = int(np.ceil(np.sqrt(agents)))
     world.add_floor("plate", BoxShape(size=(4.0 * side + 8, 4.0 * side + 8)))
@@ -88,14 +88,14 @@ def crowd(agents: int) -> ControlRequestor:
                 brains=[LocalBrain(controller=still, skip_frame=SKIP)],
             )
         )
-    return ControlRequestor(world, crew, spread_decisions=True)
+    return ControlRequestor(world, crew, spread_decisions=in_turn)
 
 
-def serve(agents: int, ends: Connection) -> None:
+def serve(agents: int, ends: Connection, *, in_turn: bool = True) -> None:
     """Serves such a world; each word that comes is answered with what happened, until it ends."""
     runner = TimedRunner.__new__(TimedRunner)
     runner.late = []
-    runner.__init__(crowd(agents), seed=1)  # type: ignore[misc]
+    runner.__init__(crowd(agents, in_turn=in_turn), seed=1)  # type: ignore[misc]
     viewer = Viewer(runner, title="Load")
     shut_side_door(viewer.server)
     app = room_app(runner, viser_port=viewer.port, title="Load", rules=Rules(grace=1.0))
