@@ -16,9 +16,11 @@ from typing import Any, TypeVar
 
 from ai4u_edu.blocks import RemoteBrain
 from ai4u_edu.cycle import ControlRequestor
+from ai4u_edu.publisher import Publisher
 from ai4u_edu.recording import Recorder, Replay
 from ai4u_edu.scenes import Scene
-from ai4u_edu.snapshot import SlowTick, Snapshot, Stage, picture_of, set_stage
+from ai4u_edu.slow_ticks import SlowTicks
+from ai4u_edu.snapshot import Snapshot, Stage, picture_of, set_stage
 
 T = TypeVar("T")
 
@@ -27,17 +29,6 @@ LATE = 0.25
 PATIENCE = 0.25
 """Where agents decide at different times there may be no moment between all decisions; a command
 waits this long (s) for one, and then takes any moment between two ticks."""
-OFTEN_ENOUGH = 1 / 120
-"""Seconds between two snapshots at least, while the world runs faster than anybody can look."""
-SHOWING = 0.1
-"""The share of the time that may go into snapshots: of a hundred agents there are fewer of them,
-rather than fewer ticks."""
-ENOUGH = 0.8 / 30
-"""So many seconds between two of them, or a tick more: there are enough snapshots to see things
-move; rather than that there are fewer, they may take :data:`MOST_SHOWING` of the time."""
-MOST_SHOWING = 0.25
-GOOD_MOMENT = 1 / 31
-"""So long (s) a snapshot waits for a tick that leaves time for it: not longer than two ticks."""
 GIVE_WAY = 0.0002
 """Seconds after which a thread that computes lets another one go on. Python's own 5 ms would make a
 tick late whenever pages are drawn."""
@@ -47,10 +38,6 @@ SLICE = 0.015
 SPRINT = 0.002
 """Seconds for which somebody who called may keep the world; a tick more, at most."""
 
-MUCH, UNUSUAL = 0.1, 1.5
-"""In a tick that takes more than this share of its time, and so many times as long as others,
-many agents sense."""
-
 LONGEST_TICK = 0.01
 """Seconds for which somebody who draws waits for the end of a tick."""
 SOON = 0.0003
@@ -58,10 +45,6 @@ SOON = 0.0003
 HOPELESS = 0.02
 """A world whose ticks are late by so much (s), always, is not helped by waiting."""
 
-SLOW = 0.05
-"""A tick that takes longer (s) is reported."""
-LATELY = 5.0
-"""For so long (s)."""
 FEW_TICKS = 1 / 16
 """The share that the last tick has in how late ticks lately were."""
 
@@ -99,7 +82,6 @@ class Runner:
         self._clock = clock
         self._commands: deque[tuple[float, Callable[[], None], Future[Any]]] = deque()
         self._wake = threading.Condition()
-        self._published = threading.Condition()
         self._stopping = False
         self._thread: threading.Thread | None = None
         self._turn = threading.Lock()  # whoever has it may let the world go on
@@ -110,25 +92,25 @@ class Runner:
         self._due = 0.0
         self.lateness = 0.0
         """How late (s) ticks lately began, on average."""
-        self._took = 0.0
-        self._shown = self._showing = 0.0
         self._window: deque[tuple[float, int]] = deque(maxlen=60)
         self._ticked = 0
-        self._slow: tuple[float, SlowTick] | None = None
+        self._slow = SlowTicks(clock)
         sim.reset(seed)
         self._past: Snapshot | None = None
         self._generation = -1
         self._stage: Stage
-        self.latest = self._picture()
-        """What everything looked like after the last tick; replaced, never changed."""
+        self._publisher = Publisher(self._picture(), clock)
 
     # -- for those who look ----------------------------------------------------------------------
 
+    @property
+    def latest(self) -> Snapshot:
+        """What everything looked like after the last tick; replaced, never changed."""
+        return self._publisher.latest
+
     def wait(self, seen: Snapshot, timeout: float) -> Snapshot:
         """The latest snapshot, as soon as it is another one than ``seen`` (or after timeout s)."""
-        with self._published:
-            self._published.wait_for(lambda: self.latest is not seen, timeout)
-        return self.latest
+        return self._publisher.wait(seen, timeout)
 
     def give_way(self) -> None:
         """Waits until no tick is due or under way; not long, nor in a world without a pause.
@@ -411,46 +393,15 @@ class Runner:
             ended = self._clock()
             if not self.sim.held:  # a world that waits for a script is not slow
                 self._ticked += ticks
-                if ended - began > SLOW * ticks:
-                    self._report_slow(ended, (ended - began) / ticks)
+                self._slow.note((ended - began) / ticks, self.sim.world.count_contacts)
             self._show(ended, ended - began)
 
-    def _report_slow(self, ended: float, took: float) -> None:
-        """To count the contacts takes time, and is done only now."""
-        before = self._slow_lately()
-        if before is None or took > before.seconds:
-            self._slow = ended, SlowTick(took, self.sim.world.count_contacts())
-
-    def _slow_lately(self) -> SlowTick | None:
-        if self._slow is None or self._clock() - self._slow[0] > LATELY:
-            return None
-        return self._slow[1]
-
     def _show(self, now: float, took: float) -> None:
-        """Publishes every tick, or as many as one can see and as there is time for.
-
-        Where it would make the next tick late, or would come between agents that have just sensed
-        and their scripts, a picture waits for a tick that leaves more time.
-
-        Args:
-            now: by the clock.
-            took: seconds of this tick.
-        """
+        """Publishes how it looks after a tick, if there is time for that, or something is wrong."""
         period = self.sim.world.dt / self.time_scale
-        if period < OFTEN_ENOUGH and now - self._shown < OFTEN_ENOUGH and not self.error:
-            return
-        pause = max(
-            0.0 if period >= OFTEN_ENOUGH else OFTEN_ENOUGH,
-            min(self._showing / SHOWING, ENOUGH),
-            self._showing / MOST_SHOWING,
-        )
-        many_sensed = took > MUCH * period and took > UNUSUAL * self._took
-        self._took += FEW_TICKS * (took - self._took) if self._took else took
-        if OFTEN_ENOUGH <= period < GOOD_MOMENT and (
-            many_sensed or now + self._showing > self._due + period
-        ):
-            pause = max(pause, GOOD_MOMENT)
-        if self.error or now - self._shown >= pause:
+        next_due = self._due + period
+        is_due = self._publisher.is_due(now, took=took, next_due=next_due, period=period)
+        if is_due or self.error:
             self._publish()
 
     def _keep_time(self) -> None:
@@ -493,7 +444,8 @@ class Runner:
             self.recorder = recorder
         elif self.recorder is not None:
             self.recorder.listen_to(sim)
-        self.error, self._slow, self._past, self._generation = "", None, None, -1
+        self.error, self._past, self._generation = "", None, -1
+        self._slow.clear()
         self._window.clear()
         stay = [agent.brain for agent in sim.agents]
         for agent in before.agents:
@@ -507,11 +459,7 @@ class Runner:
                 brain.close()
 
     def _publish(self) -> None:
-        self._shown = self._clock()
-        self.latest = self._past or self._picture()
-        self._showing = self._clock() - self._shown
-        with self._published:
-            self._published.notify_all()
+        self._publisher.publish(lambda: self._past or self._picture())
 
     def _as_past(self, past: Snapshot) -> Snapshot:
         """A moment of the past, as it is shown; where it can be, on the stage that is there now."""
@@ -537,7 +485,7 @@ class Runner:
             time_scale=self.time_scale,
             real_time_factor=self._real_time_factor(),
             error=self.error,
-            slow_tick=self._slow_lately(),
+            slow_tick=self._slow.slowest,
         )
 
     def _real_time_factor(self) -> float:

@@ -6,8 +6,9 @@ import pytest
 
 from ai4u_edu import BasicAgent, CircleShape, ControlRequestor, LocalBrain, World
 from ai4u_edu.errors import WorldError
-from ai4u_edu.runner import LATELY, SLOW, Runner
+from ai4u_edu.runner import Runner
 from ai4u_edu.server.api import SnapshotView
+from ai4u_edu.slow_ticks import LATELY, SLOW
 from ai4u_edu.viewer.status import status
 from tests.builders import small_sim, still
 
