@@ -2,6 +2,7 @@
 
 import json
 import math
+import threading
 import time
 from typing import Any
 
@@ -53,6 +54,7 @@ class PaperLink:
         self.ignored = 0
         self.heard = 0.0
         self.expecting = True
+        self.will_call = False
         self.told: list[Situation] = []
         self.refused: list[str] = []
         self.may_try_again = False
@@ -151,6 +153,41 @@ def test_hold_lets_no_time_pass_and_asks_the_same_again() -> None:
     assert not sim.held
     assert sim.world.ticks == 1
     assert [each.steps for each in link.told] == [0, 1]
+
+
+def test_who_waits_for_a_call_keeps_the_world_waiting() -> None:
+    link = PaperLink(None, AHEAD)
+    sim, brain = over(link)
+    sim.tick()
+    assert (sim.held, brain.keeps_waiting) == (True, False)  # it has to be asked
+    link.will_call = True
+    assert brain.keeps_waiting
+    brain.lend(LocalBrain(controller=lambda _: {}))
+    assert not brain.keeps_waiting
+    brain.take_back()
+    link.will_call = False
+    sim.tick()
+    link.will_call = True
+    assert (sim.held, brain.keeps_waiting) == (False, True)  # it was told what it brought
+    brain.mode = "realtime"
+    assert not brain.keeps_waiting
+
+
+@pytest.mark.parametrize(("will_call", "asked"), [(True, 1), (False, 2)])
+def test_a_world_that_was_called_is_not_asked_again_in_vain(will_call: bool, asked: int) -> None:
+    link = PaperLink(Reset(7))
+    sim, _ = over(link)
+    runner = Runner(sim, time_scale=math.inf)
+    runner._thread = threading.current_thread()  # it has one
+    runner.advance()
+    runner.advance()
+    assert sim.held
+    link.answers.append(AHEAD)
+    link.will_call = will_call
+    link.timeouts.clear()
+    runner.expect_call()
+    runner.call()
+    assert (sim.world.ticks, len(link.timeouts)) == (1, asked)
 
 
 def pair(link: PaperLink, controller: Any) -> ControlRequestor:

@@ -99,6 +99,9 @@ class _World:
     def call(self) -> None:
         pass
 
+    def is_unpaced(self) -> bool:
+        return False
+
 
 class _Excerpt:
     def of(self, percept: Any) -> tuple[bytes, tuple[str, ...]]:

@@ -40,7 +40,7 @@ from ai4u_edu import Controller
 def ahead(percept):
     return {"move": [1, 0, 0, 0]}
 
-class Still(Controller):
+class Standing(Controller):
     '''Stands still.'''
     def get_action(self, percept):
         return {"move": [0, 0, 0, 0]}
@@ -130,7 +130,7 @@ def test_who_can_drive(tmp_path: Path) -> None:
     assert evaluate(entrant(f"{file}:ahead"), scene, range(6)).episodes == (
         evaluate(driver(ahead), scene, range(6)).episodes
     )
-    assert evaluate(entrant(f"{file}:Still"), scene, range(2)).success == 0.0
+    assert evaluate(entrant(f"{file}:Standing"), scene, range(2)).success == 0.0
     assert evaluate(entrant("scene"), scene, range(2)).success == 0.0  # nobody holds a key
     assert evaluate(entrant("WASDRBMoveController"), scene, range(2)).success == 0.0
 

@@ -19,6 +19,7 @@ class Line:
     ignored = 0
     heard = 0.0
     expecting = False
+    will_call = False
 
     def __init__(self) -> None:
         self.opened: list[Any] = []
