@@ -57,9 +57,7 @@ class Fitting:
         self.tick_actuators = [
             actuator for actuator in active if type(actuator).on_tick is not Actuator.on_tick
         ]
-        self.tick_rewards = [
-            reward for reward in self.rewards if type(reward).on_tick is not RewardFunc.on_tick
-        ]
+        self.tick_rewards = [reward for reward in self.rewards if reward.has_ticks]
         agent._fitting = self
         for reward in self.rewards:
             self._set_up(reward)

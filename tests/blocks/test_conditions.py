@@ -304,3 +304,21 @@ def test_an_end_by_any_of_two() -> None:
         while not sim.agents[0].done:
             sim.step()
         assert sim.agents[0].reward_terms == {"end": -10.0}
+
+
+def test_ticks_are_passed_on_only_where_a_child_wants_them() -> None:
+    class Counting(OrRewardFunc):
+        """Wants them itself."""
+
+        def on_tick(self, body: Any, view: Any) -> None: ...
+
+    grounded = EvalBoolValue(property="on_ground")
+    rewards = {
+        "deep": AndRewardFunc(children=[OrRewardFunc(children=[Pays(amounts=[0.0])])]),
+        "own": Counting(children=[grounded]),
+        "none": OrRewardFunc(children=[grounded]),
+    }
+    for name, reward in rewards.items():
+        reward.name = name
+    sim = small_sim(rewards=list(rewards.values()), skip_frame=4)
+    assert [each.name for each in sim.agents[0].fitting.tick_rewards] == ["deep", "own"]

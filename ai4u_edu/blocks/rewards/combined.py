@@ -41,6 +41,12 @@ class CombinedRewardFunc(RewardFunc):
         for child in self._children:
             child.on_reset(agent, view)
 
+    @property
+    def has_ticks(self) -> bool:
+        """Whether a child's on_tick is filled, or that of a class of one's own."""
+        is_own = type(self).on_tick is not CombinedRewardFunc.on_tick
+        return is_own or any(child.has_ticks for child in self.children)
+
     def on_tick(self, body: BodyView, view: WorldView) -> None:
         """Passes the tick on."""
         for child in self._children:

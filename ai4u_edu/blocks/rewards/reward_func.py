@@ -58,5 +58,10 @@ class RewardFunc(Block):
         """
         return paid != 0.0
 
+    @property
+    def has_ticks(self) -> bool:
+        """Whether on_tick is filled; where none is, all ticks of a decision may pass at one go."""
+        return type(self).on_tick is not RewardFunc.on_tick
+
     def on_tick(self, body: BodyView, view: WorldView) -> None:
         """Called after every tick of a decision; only where a subclass fills it."""
