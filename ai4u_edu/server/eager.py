@@ -5,18 +5,14 @@ scripts, and the next answer is due any moment, it is quicker to look out for it
 """
 
 import asyncio
-import os
 import selectors
 import sys
 import time
-from collections.abc import Callable
-from functools import partial
+
+from ai4u_edu.lookout import give_way
 
 EAGER = 2e-4
 """Seconds."""
-
-_give_way: Callable[[], object] = getattr(os, "sched_yield", partial(time.sleep, 0))
-"""Lets others on this processor go first."""
 
 
 class EagerSelector(selectors.DefaultSelector):
@@ -36,7 +32,7 @@ class EagerSelector(selectors.DefaultSelector):
             found = super().select(0)
             if found:
                 return found
-            _give_way()
+            give_way()
         return super().select(timeout)
 
 

@@ -33,7 +33,7 @@ def test_it_is_found_without_sleeping(
     with here, there, EagerSelector() as selector:
         selector.register(here, selectors.EVENT_READ)
         selector.until = float("inf")
-        monkeypatch.setattr(eager, "_give_way", lambda: len(asked) == 3 and there.send(b"x"))
+        monkeypatch.setattr(eager, "give_way", lambda: len(asked) == 3 and there.send(b"x"))
         assert [key.fileobj for key, _ in selector.select()] == [here]
     assert asked == [0, 0, 0, 0]
 

@@ -1,11 +1,8 @@
 """AI4U's protocol over UDP: the world knocks, a script listens."""
 
-import os
 import socket
 import time
 import weakref
-from collections.abc import Callable
-from functools import partial
 
 from ai4u_edu.blocks.brains.ai4u_codec import AI4UCodec
 from ai4u_edu.blocks.brains.ai4u_desk import Desk
@@ -13,6 +10,7 @@ from ai4u_edu.blocks.brains.command import Command
 from ai4u_edu.blocks.brains.datagrams import Datagrams
 from ai4u_edu.blocks.brains.link import Answered, LinkState, Offer, Reset, Situation
 from ai4u_edu.errors import SetupError
+from ai4u_edu.lookout import give_way
 from ai4u_edu.wire.ai4u_dialogue import Dialogue, Heard, Phase, State, Word
 from ai4u_edu.wire.strict import WireError
 
@@ -34,9 +32,6 @@ takes as long as the reply itself (measured: 3,050 round trips a second in place
 FAREWELL = 0.3
 """Seconds for which a script's last reply is waited for."""
 NEVER = float("-inf")
-
-_give_way: Callable[[], object] = getattr(os, "sched_yield", partial(time.sleep, 0))
-"""Lets others on this processor go first."""
 
 COMMANDS = {
     Word.NOOP: Command.WAIT,
@@ -236,7 +231,7 @@ class AI4ULink:
             while not wire.is_there(0):
                 if time.monotonic() > eager:
                     break
-                _give_way()
+                give_way()
             else:
                 return wire.take()
         wire.is_there(max(0.0, until - time.monotonic()) * 1000)
