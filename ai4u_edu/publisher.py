@@ -23,7 +23,7 @@ MUCH, UNUSUAL = 0.1, 1.5
 """In a tick that takes more than this share of its time, and so many times as long as others,
 many agents sense."""
 FEW_TICKS = 1 / 16
-"""The share that the last tick has in how long ticks took lately."""
+"""The share that the last tick has in how long ticks took lately, and in how late they were."""
 
 
 class Publisher:

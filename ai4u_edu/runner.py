@@ -16,7 +16,7 @@ from typing import Any, TypeVar
 
 from ai4u_edu.blocks import RemoteBrain
 from ai4u_edu.cycle import ControlRequestor
-from ai4u_edu.publisher import Publisher
+from ai4u_edu.publisher import FEW_TICKS, Publisher
 from ai4u_edu.recording import Recorder, Replay
 from ai4u_edu.scenes import Scene
 from ai4u_edu.slow_ticks import SlowTicks
@@ -44,9 +44,6 @@ SOON = 0.0003
 """Who would begin to draw so shortly (s) before a tick waits for it too."""
 HOPELESS = 0.02
 """A world whose ticks are late by so much (s), always, is not helped by waiting."""
-
-FEW_TICKS = 1 / 16
-"""The share that the last tick has in how late ticks lately were."""
 
 ANOTHER_WORLD = "another world has taken its place; connect anew to drive there"
 

@@ -23,8 +23,10 @@ class SlowTicks:
 
     def note(self, took: float, count_contacts: Callable[[], int]) -> None:
         """A tick took so many seconds; what touches is counted only if it was slow."""
+        if took <= SLOW:
+            return
         before = self.slowest
-        if took > SLOW and (before is None or took > before.seconds):
+        if before is None or took > before.seconds:
             self._slowest = self._clock(), SlowTick(took, count_contacts())
 
     @property
