@@ -9,6 +9,7 @@ import subprocess
 import sys
 import threading
 import time
+import urllib.error
 import urllib.request
 from collections.abc import Iterator
 from dataclasses import dataclass, field
@@ -46,7 +47,18 @@ class Played:
 
     def snapshot(self) -> dict[str, Any]:
         """What ``/api/snapshot`` answers."""
-        with urllib.request.urlopen(f"{self.url}api/snapshot", timeout=5) as answer:  # noqa: S310
+        return self._get("api/snapshot")
+
+    def health(self) -> dict[str, Any]:
+        """What ``/healthz`` answers, whatever its status."""
+        return self._get("healthz")
+
+    def _get(self, path: str) -> dict[str, Any]:
+        try:
+            answer = urllib.request.urlopen(f"{self.url}{path}", timeout=5)  # noqa: S310  # our own
+        except urllib.error.HTTPError as error:
+            answer = error
+        with answer:
             found: dict[str, Any] = json.load(answer)
             return found
 

@@ -1,22 +1,29 @@
-"""Long play by a script: ``python -m tests.soak --minutes 30``.
+"""Long play by machines: ``python -m tests.soak --minutes 60``.
 
-Random keys, resets, two pages that come and go. It fails on any exception, in the server or in a
-page, and when the server's memory grows by more than five per cent after the first fifth.
+Random keys, resets, two pages that come and go, a script that drives and connects anew. It fails on
+any exception, in the server or in a page, and when the server's memory still grows after the first
+fifth: by more than five per cent, or, in a run of half an hour or more, by more than 5 MB an hour.
 """
 
 import argparse
 import random
 import statistics
 import sys
+import threading
 import time
 
 import psutil
 from playwright.sync_api import Browser, Page
 
+from ai4u_edu.errors import AI4UError
+from ai4u_edu.remote import RemoteError, connect
 from tests.playing import Played, browser, played
 
 KEYS = ["KeyW", "KeyS", "KeyA", "KeyD", "Space", "KeyJ", "ArrowUp", "ArrowLeft"]
 GROWTH = 1.05
+GROWTH_MB_PER_H = 5.0
+SLOPE_AFTER_MIN = 30.0
+"""Shorter runs (minutes) are too noisy for a growth per hour."""
 
 
 class Player:
@@ -55,12 +62,55 @@ class Player:
             page.keyboard.press("KeyR")
 
 
+class Script:
+    """A remote script that drives for some seconds, leaves, and connects anew."""
+
+    def __init__(self, url: str, chance: random.Random) -> None:
+        self._url, self._chance = url, chance
+        self._over = threading.Event()
+        self._thread = threading.Thread(target=self._run, daemon=True)
+        self.connections = 0
+
+    def __enter__(self) -> "Script":
+        self._thread.start()
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._over.set()
+        self._thread.join(10)
+
+    def _run(self) -> None:
+        while not self._over.wait(self._chance.uniform(0.5, 5.0)):
+            try:
+                self._drive(self._chance.uniform(0.5, 5.0))
+            except RemoteError:  # refused while a page drives
+                continue
+
+    def _drive(self, seconds: float) -> None:
+        with connect(self._url, agent="0") as robot:
+            self.connections += 1
+            robot.reset()
+            end = time.monotonic() + seconds
+            while time.monotonic() < end and not self._over.is_set():
+                try:
+                    robot.act(move=[1, self._chance.uniform(-1, 1), 0, 0])
+                    robot.sense()
+                except RemoteError:
+                    raise
+                except AI4UError:  # the episode is over
+                    robot.reset()
+
+
 def soak(minutes: float, scene: str, seed: int) -> list[str]:
     """Plays and looks; what went wrong, in sentences."""
     chance = random.Random(seed)
-    memory: list[int] = []
+    memory: list[tuple[float, int]] = []  # (seconds, bytes)
     wrong: list[str] = []
-    with played(scene) as server, browser() as chromium:
+    with (
+        played(scene) as server,
+        browser() as chromium,
+        Script(server.url, random.Random(seed + 1)) as script,
+    ):
         players = [Player(chromium, server.url, chance) for _ in range(2)]
         process = psutil.Process(server.process.pid)
         began = time.monotonic()
@@ -68,7 +118,7 @@ def soak(minutes: float, scene: str, seed: int) -> list[str]:
         episodes = 0
         while (elapsed := time.monotonic() - began) < minutes * 60:
             chance.choice(players).act()
-            memory.append(process.memory_info().rss)
+            memory.append((elapsed, process.memory_info().rss))
             snapshot = server.snapshot()
             episodes = max(episodes, snapshot["episode"])
             if snapshot["error"]:
@@ -76,23 +126,33 @@ def soak(minutes: float, scene: str, seed: int) -> list[str]:
                 break
             if elapsed - told > 60:
                 told = elapsed
-                print(f"{elapsed / 60:5.1f} min  {memory[-1] / 1e6:6.1f} MB", flush=True)
+                print(f"{elapsed / 60:5.1f} min  {memory[-1][1] / 1e6:6.1f} MB", flush=True)
         wrong += _judge(server, players, memory)
         visits = sum(player.visits for player in players)
-        print(f"{elapsed / 60:.1f} minutes, {episodes} episodes, {visits} visits of a page")
+        print(
+            f"{elapsed / 60:.1f} minutes, {episodes} episodes, {visits} visits of a page, "
+            f"{script.connections} connections of a script"
+        )
     return wrong
 
 
-def _judge(server: Played, players: list[Player], memory: list[int]) -> list[str]:
+def _judge(server: Played, players: list[Player], memory: list[tuple[float, int]]) -> list[str]:
     wrong = [f"a page raised: {error}" for player in players for error in player.errors]
     if any("Traceback" in line for line in server.told):
         wrong.append("the server raised:\n" + "".join(server.told))
-    fifth = max(1, len(memory) // 5)
-    before = statistics.median(memory[fifth : 2 * fifth])
-    after = statistics.median(memory[-fifth:])
-    print(f"memory {before / 1e6:.1f} -> {after / 1e6:.1f} MB ({after / before - 1:+.1%})")
+    later = memory[len(memory) // 5 :]
+    quarter = max(1, len(later) // 4)
+    before = statistics.median(size for _, size in later[:quarter])
+    after = statistics.median(size for _, size in later[-quarter:])
+    slope = statistics.linear_regression(*zip(*later, strict=True)).slope * 3600 / 1e6
+    print(
+        f"memory {before / 1e6:.1f} -> {after / 1e6:.1f} MB ({after / before - 1:+.1%}), "
+        f"{slope:+.1f} MB/h"
+    )
     if after > before * GROWTH:
         wrong.append(f"memory grew by {after / before - 1:.1%}; expected at most 5%")
+    if memory[-1][0] > SLOPE_AFTER_MIN * 60 and slope > GROWTH_MB_PER_H:
+        wrong.append(f"memory grew by {slope:.1f} MB/h; expected at most {GROWTH_MB_PER_H:g}")
     return wrong
 
 

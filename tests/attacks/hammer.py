@@ -1,0 +1,206 @@
+"""Four pages and two scripts at one world, all at once: ``python -m tests.attacks.hammer``.
+
+Pages use every element of their panel with likely values, hold keys, ask for resets and pauses;
+scripts drive, reset and come back. Afterwards the world has to go on, the log has to be free of
+tracebacks, and the first SIGTERM has to end the server.
+"""
+
+import argparse
+import json
+import random
+import signal
+import sys
+import threading
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Any
+
+from websockets.exceptions import ConnectionClosed, InvalidHandshake
+from websockets.sync.client import connect as open_socket
+
+from ai4u_edu.errors import ActionError
+from ai4u_edu.remote import RemoteError, connect
+from tests.attacks.panel import Panel
+from tests.playing import Played, played
+
+ENDS_WITHIN_S = 3.0
+KEYS = ("KeyW", "KeyS", "KeyA", "KeyD", "Space")
+GONE = (ConnectionClosed, InvalidHandshake, OSError, EOFError, TimeoutError)
+
+
+@dataclass
+class Tally:
+    """Counts of what was done, and sentences about what went wrong."""
+
+    done: dict[str, int] = field(default_factory=dict)
+    wrong: list[str] = field(default_factory=list)
+
+    def count(self, name: str) -> None:
+        """Count one more of something."""
+        self.done[name] = self.done.get(name, 0) + 1
+
+
+def hammer(seconds: float, scene: str, seed: int) -> Tally:
+    """Hammer a served scene, and judge how it stands afterwards."""
+    tally = Tally()
+    with played(scene, "--no-autosave") as server:
+        over = threading.Event()
+        workers: list[Callable[[Played, random.Random, Tally, threading.Event], None]] = [
+            *[use_panel] * 4,
+            *[drive_by_keys] * 2,
+            *[drive_by_script] * 2,
+        ]
+        threads = [
+            threading.Thread(
+                target=_guarded, args=(work, server, random.Random(n + seed), tally, over)
+            )
+            for n, work in enumerate(workers)
+        ]
+        for thread in threads:
+            thread.start()
+        over.wait(seconds)
+        over.set()
+        for thread in threads:
+            thread.join(20)
+        tally.wrong += ["a worker did not end"] * sum(each.is_alive() for each in threads)
+        tally.wrong += _goes_on(server)
+        tally.wrong += ends_at_once(server.process)
+    log = "".join(server.told)
+    if "Traceback" in log or "never retrieved" in log:
+        tally.wrong.append("the log has a traceback:\n" + log[-4000:])
+    return tally
+
+
+def use_panel(server: Played, chance: random.Random, tally: Tally, over: threading.Event) -> None:
+    """Use the elements of a panel; leave and come back now and then."""
+    while not over.is_set():
+        with Panel(server.url) as panel:
+            over.wait(0.3)
+            for _ in range(chance.randint(20, 200)):
+                if over.is_set() or not panel.is_open:
+                    break
+                panel.use_any(chance)
+                tally.count("uses of an element")
+                over.wait(chance.uniform(0.0, 0.05))
+
+
+def drive_by_keys(
+    server: Played, chance: random.Random, tally: Tally, over: threading.Event
+) -> None:
+    """Hold keys, take over, let go, reset, pause and resume."""
+    url = server.url.replace("http", "ws", 1) + "ws/input"
+    orders = ("reset", "pause", "resume", "resume")
+    while not over.is_set():
+        with open_socket(url, origin=server.url.rstrip("/"), proxy=None) as page:  # type: ignore[arg-type]  # a NewType of str
+            for _ in range(chance.randint(20, 100)):
+                if over.is_set():
+                    break
+                said: dict[str, Any] = {"type": "keys", "held": chance.sample(KEYS, 2)}
+                if chance.random() < 0.1:
+                    said = {"type": "command", "name": chance.choice(orders)}
+                elif chance.random() < 0.1:
+                    said = {"type": chance.choice(("take", "let_go"))}
+                page.send(json.dumps(said))
+                tally.count("messages of a keyboard")
+                over.wait(chance.uniform(0.01, 0.05))
+
+
+def drive_by_script(
+    server: Played, chance: random.Random, tally: Tally, over: threading.Event
+) -> None:
+    """Drive the first agent that is free, in either mode; reset, and come back."""
+    while not over.is_set():
+        mode = chance.choice(("realtime", "lockstep"))
+        try:
+            with connect(server.url, agent="0", mode=mode, patience=2.0) as robot:  # type: ignore[arg-type]  # one of two
+                if chance.random() < 0.5:
+                    robot.reset()
+                for _ in range(chance.randint(1, 100)):
+                    if over.is_set():
+                        break
+                    try:
+                        robot.act(move=[1, chance.uniform(-1, 1), 0, 0])
+                        robot.sense()
+                        tally.count("decisions of a script")
+                    except ActionError:  # the episode is over, or a page took the actuator away
+                        robot.reset()
+                        tally.count("resets of a script")
+        except RemoteError:
+            tally.count("refusals to a script")
+            over.wait(0.2)
+
+
+def ends_at_once(process: Any) -> list[str]:
+    """Send the first SIGTERM; say so if the process has not ended in time, or not well."""
+    process.send_signal(signal.SIGTERM)
+    try:
+        code = process.wait(ENDS_WITHIN_S)
+    except Exception as error:  # psutil's and subprocess's time-outs are no relatives
+        process.kill()
+        return [f"it did not end within {ENDS_WITHIN_S} s of the first SIGTERM: {error}"]
+    return [] if code == 0 else [f"it ended with exit code {code}"]
+
+
+def _goes_on(server: Played) -> list[str]:
+    """Reset and resume from a page that has just come, and look whether ticks pass."""
+    with Panel(server.url) as panel:
+        _until(lambda: panel.labelled("Time"))
+        (time_buttons,) = panel.labelled("Time")
+        panel.set_value(time_buttons, "Reset")
+        panel.set_value(time_buttons, "Resume")
+        try:
+            before = server.snapshot()
+            _until(lambda: _place(server.snapshot()) > _place(before))
+        except TimeoutError:
+            return [f"the world stands still: {server.snapshot()}"]
+    health = server.health()
+    return [] if health["status"] == "ok" else [f"it is not well: {health}"]
+
+
+def _place(snapshot: dict[str, Any]) -> tuple[int, int]:
+    return int(snapshot["episode"]), int(snapshot["tick"])
+
+
+def _until(condition: Callable[[], object], timeout: float = 10.0) -> None:
+    deadline = time.monotonic() + timeout
+    while not condition():
+        if time.monotonic() > deadline:
+            raise TimeoutError
+        time.sleep(0.05)
+
+
+def _guarded(
+    work: Callable[[Played, random.Random, Tally, threading.Event], None],
+    server: Played,
+    chance: random.Random,
+    tally: Tally,
+    over: threading.Event,
+) -> None:
+    while not over.is_set():
+        try:
+            work(server, chance, tally, over)
+        except GONE as error:
+            tally.count(f"{work.__name__}: {type(error).__name__}")
+            over.wait(0.1)
+        except Exception as error:
+            tally.wrong.append(f"{work.__name__}: {error!r}")
+            return
+
+
+def main() -> None:
+    """Read the command line, hammer, and print the tally."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--seconds", type=float, default=60)
+    parser.add_argument("--scene", default="box_chase")
+    parser.add_argument("--seed", type=int, default=1)
+    options = parser.parse_args()
+    tally = hammer(options.seconds, options.scene, options.seed)
+    for name, number in sorted(tally.done.items()):
+        print(f"{number:>8} {name}")
+    print("\n".join(tally.wrong) or "nothing went wrong")
+    sys.exit(bool(tally.wrong))
+
+
+if __name__ == "__main__":
+    main()
