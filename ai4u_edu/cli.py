@@ -91,6 +91,14 @@ def play(
             show_default=False,
         ),
     ] = "",
+    connections: Annotated[
+        int,
+        typer.Option(
+            help="Connections from one address, at most; each page has two. This machine's own "
+            "are not counted.",
+            min=1,
+        ),
+    ] = 120,
     seeded_resets: Annotated[
         bool,
         typer.Option(
@@ -201,7 +209,7 @@ def play(
     runner.start()
     viewer.start()
     try:
-        serve(room, host, port, on_ready=ready)
+        serve(room, host, port, on_ready=ready, per_address=connections)
     finally:
         viewer.stop()
         runner.stop()
