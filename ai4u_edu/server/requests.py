@@ -153,8 +153,8 @@ class RequestProtocol(H11Protocol):
             self._restart_deadline()
         elif not self._has_begun:
             self.transport.close()
-        elif self.cycle is not None and self.cycle.response_started:
-            self.transport.abort()
+        elif self.conn.their_state is h11.SEND_BODY and self.cycle.response_started:
+            self.transport.abort()  # it was answered all the same
         else:
             expected = f"expected the whole request within {REQUEST_TIMEOUT_S:g} s"
             self.end(refusal(HTTPStatus.REQUEST_TIMEOUT, expected))
