@@ -189,12 +189,12 @@ def play(
     if run is not None and ghost is not None:
         viewer.ghosts.race(run, ghost.name)
     shut_side_door(viewer.server)
-    hosts = (*hosts_for(host), *(allow_host or ()))
     room = room_app(
         runner,
         viser_port=viewer.port,
         title=lambda: workshop.title,
-        allowed_hosts=hosts,
+        allowed_hosts=hosts_for(host),
+        proxy_hosts=allow_host or (),
         rules=rules,
     )
 

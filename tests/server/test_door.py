@@ -115,7 +115,7 @@ def test_answers_are_not_for_other_pages(room: Room) -> None:
 
 
 def test_a_name_can_be_allowed_and_then_drives_through_a_proxy_too() -> None:
-    with served(allowed_hosts=(*LOOPBACK, "Hub.Example")) as room:
+    with served(proxy_hosts=["Hub.Example"]) as room:
         assert raw_answer(room.url + "healthz", "Host: hub.example:443")[0] == 200
         assert raw_answer(room.url + "healthz", "Host: evil.example")[0] == 403
         with Page(
