@@ -22,6 +22,7 @@ from ai4u_edu.server.page import Page
 from ai4u_edu.server.past import Past
 from ai4u_edu.server.proxy import ViserProxy
 from ai4u_edu.server.remote import RemoteSockets, Rules
+from ai4u_edu.snapshot import Snapshot
 from ai4u_edu.wire.native import PROBLEMS
 
 
@@ -55,13 +56,18 @@ def room_app(
     script_guard = [Middleware(LimitScripts, attempts=attempts, code=PROBLEMS["bad_token"])]
     past = Past(runner)
     document = openapi()
+    described: tuple[Snapshot | None, str] = None, ""
 
     async def healthz(_: Request) -> Response:
         health = Health.of(runner.latest, called(), time.monotonic() - began)
         return _json(health.model_dump_json())
 
     async def snapshot(_: Request) -> Response:
-        return _json(SnapshotView.of(runner.latest).model_dump_json())
+        nonlocal described
+        latest = runner.latest
+        if described[0] is not latest:  # however many ask, it is described once
+            described = latest, SnapshotView.of(latest).model_dump_json()
+        return _json(described[1])
 
     async def describe(_: Request) -> Response:
         return JSONResponse(document)

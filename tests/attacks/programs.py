@@ -28,7 +28,7 @@ sim = small_sim(controller=WASDRBMoveController())
 recorder = Recorder(sim)
 runner = Runner(sim, seed=1, recorder=recorder)
 for seed in range(int(sys.argv[1])):
-    for _ in range(600):
+    for _ in range(300):
         sim.step()
     sim.reset(seed)
 runner.start()
