@@ -191,9 +191,10 @@ def test_odd_paths_are_not_there(room: Room, path: str) -> None:
 
 
 @pytest.mark.parametrize("method", ["POST", "PUT", "DELETE", "TRACE", "OPTIONS", "X" * 1000])
-@pytest.mark.parametrize("path", ["", "healthz", "web/main.js", "api/past/1.gif"])
-def test_other_methods_are_not_allowed(room: Room, method: str, path: str) -> None:
-    assert httpx.request(method, room.url + path).status_code == 405
+def test_other_methods_are_not_allowed(room: Room, method: str) -> None:
+    with httpx.Client(base_url=room.url) as client:
+        for path in ("", "healthz", "web/main.js", "api/past/1.gif"):
+            assert client.request(method, path).status_code == 405
 
 
 def test_a_socket_whose_app_does_not_answer_ends(monkeypatch: pytest.MonkeyPatch) -> None:
