@@ -60,7 +60,7 @@ def test_endless_many_keys_take_neither_memory_nor_lines() -> None:
 def test_threads_that_log_at_once_lose_no_count() -> None:
     clock = Clock()
     limiter = LogLimiter(clock=clock)
-    admitted = []
+    admitted: list[int | None] = []
 
     def log() -> None:
         admitted.extend(limiter.admit("key") for _ in range(1000))

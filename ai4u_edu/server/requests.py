@@ -42,24 +42,24 @@ class RequestProtocol(H11Protocol):
     _is_ending = False
     _unread = 0
 
-    def connection_made(self, transport: asyncio.Transport) -> None:
+    def connection_made(self, transport: asyncio.BaseTransport) -> None:
         """Begin to wait for a request."""
-        super().connection_made(transport)
+        super().connection_made(cast(asyncio.Transport, transport))
         self._wait_for_request()
 
     def data_received(self, data: bytes) -> None:
         """Hear the next bytes; the time for a head begins with its first byte."""
-        if self._is_ending:
+        if self.is_ending():
             return
         if not self._has_begun:
             self._has_begun = True
             self._restart_deadline()
         before = self.conn.their_state
-        while data and not self._is_ending and self.conn.their_state is h11.IDLE:
+        while data and not self.is_ending() and self.conn.their_state is h11.IDLE:
             # h11 has a limit for heads that are incomplete; one that came whole would pass it
             super().data_received(data[:PART_BYTES])
             data = data[PART_BYTES:]
-        if self._is_ending:
+        if self.is_ending():
             return
         if data and self.transport.get_protocol() is self:
             super().data_received(data)
@@ -97,13 +97,17 @@ class RequestProtocol(H11Protocol):
 
     def shutdown(self) -> None:
         """End the connection with the server, whatever state it is in."""
-        if self._is_ending:
+        if self.is_ending():
             self.transport.abort()
             return
         try:
             super().shutdown()
         except h11.LocalProtocolError:
             self.transport.abort()
+
+    def is_ending(self) -> bool:
+        """Return True once the connection's last answer is on its way."""
+        return self._is_ending
 
     def pause_writing(self) -> None:
         """Look from time to time whether the other side reads at all."""

@@ -20,7 +20,7 @@ from ai4u_edu.server.requests import RequestProtocol, ServerConfig
 
 _LARGEST = 64 * 2**20  # bytes of a WebSocket message; viser itself takes 50 MB
 _GRACE = 1  # seconds that open connections have when the server ends
-_UNFINISHED = 0.5  # seconds after which those that still wait for an answer are cut off
+_UNFINISHED = 0.3  # seconds after which those that still wait for an answer are cut off
 
 
 def serve(

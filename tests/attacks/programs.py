@@ -1,7 +1,6 @@
 """Servers in processes of their own, and the many connections of those who attack them."""
 
 import asyncio
-import resource
 import signal
 import subprocess
 import sys
@@ -83,6 +82,8 @@ def program(folder: Path, *, episodes: int = 0, descriptors: int = 1024) -> Iter
 @contextmanager
 def many_descriptors(wanted: int) -> Iterator[None]:
     """Let this process have so many descriptors for a while."""
+    import resource  # not there on Windows
+
     soft, hard = resource.getrlimit(resource.RLIMIT_NOFILE)
     enough = soft if hard != resource.RLIM_INFINITY and hard < wanted else max(soft, wanted)
     resource.setrlimit(resource.RLIMIT_NOFILE, (enough, hard))

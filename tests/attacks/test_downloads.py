@@ -52,7 +52,7 @@ MANY = httpx.Limits(max_connections=COUNT)
 
 def _drive(url: str, page: Page) -> None:
     before = httpx.get(url + "api/snapshot").json()["tick"]
-    held = []
+    held: list[str] = []
     while held != ["KeyW"]:
         page.hold("KeyW")
         held = page.hear("state")["held"]

@@ -48,7 +48,7 @@ def _drive(url: str, page: Page) -> None:
     """Everything that those who are there, and those who come, want to do."""
     before = httpx.get(url + "api/snapshot").json()["tick"]
     for code in ("KeyW", "KeyA"):
-        held = []
+        held: list[str] = []
         while held != [code]:
             page.hold(code)  # as a page does, which says it ten times a second
             held = page.hear("state")["held"]

@@ -130,10 +130,10 @@ def test_beyond_the_limit_a_connection_is_refused_with_a_sentence(
 ) -> None:
     with ExitStack() as stack:
         for _ in range(20):
-            page = stack.enter_context(
+            taken = stack.enter_context(
                 raw_request(small.url + "ws/input", "Host: localhost", *UPGRADE)
             )
-            assert page.recv(1000).startswith(b"HTTP/1.1 101 ")
+            assert taken.recv(1000).startswith(b"HTTP/1.1 101 ")
         for _ in range(10):
             answer = httpx.get(small.url + "healthz")
             assert answer.status_code == 503
