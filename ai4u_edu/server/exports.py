@@ -12,6 +12,8 @@ from ai4u_edu.recording import Episode
 
 MAX_QUEUED = 16
 """Files that may wait to be made."""
+MAX_WAITING = 64
+"""Requests that may wait for files, equal ones too: each has a connection as long as it waits."""
 RETRY_AFTER_S = 10
 MAX_CACHED_BYTES = 64 * 2**20
 MAX_CACHED = 32
@@ -47,6 +49,7 @@ class Exports:
         self._lock = Lock()
         self._thread: Thread | None = None
         self._queue: deque[_Job] = deque()
+        self._waiting = 0
         self._jobs: dict[_Key, _Job] = {}
         self._cached: OrderedDict[_Key, tuple[Episode, bytes]] = OrderedDict()
 
@@ -56,7 +59,7 @@ class Exports:
         Cancelled, it gives up its place.
 
         Raises:
-            BusyError: too many files wait to be made.
+            BusyError: too many files wait to be made, or requests for them.
             AI4UError: it can't be made.
         """
         key = id(episode), ending  # the job, or the cache, keeps the episode: so it stays its own
@@ -64,13 +67,20 @@ class Exports:
             if key in self._cached:
                 self._cached.move_to_end(key)
                 return self._cached[key][1]
+            if self._waiting >= MAX_WAITING:
+                raise BusyError(
+                    f"expected at most {MAX_WAITING} requests that wait for files, got another "
+                    "one; try again in a moment"
+                )
             job = self._jobs.get(key) or self._enqueue(key, episode, ending)
             job.waiting += 1
+            self._waiting += 1
         try:
             return await asyncio.shield(asyncio.wrap_future(job.made))
         finally:
             with self._lock:
                 job.waiting -= 1
+                self._waiting -= 1
                 if not job.waiting and not job.made.done():
                     self._drop(job)
 

@@ -131,7 +131,7 @@ class RequestProtocol(H11Protocol):
 
     def _wait_for_request(self) -> None:
         self._has_begun = bool(self.conn.trailing_data[0])
-        self._set_idle(True)
+        self._set_idle(not self.transport.get_write_buffer_size())  # else it still reads
         self._restart_deadline()
 
     def _restart_deadline(self) -> None:

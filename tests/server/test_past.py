@@ -136,6 +136,26 @@ def test_many_at_once_get_the_same_one_and_too_many_are_told_when_to_come_again(
     assert len(made) == 2
 
 
+def test_those_who_wait_leave_connections_for_others(
+    fresh: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(exports, "MAX_WAITING", 2)
+    is_going_on = Event()
+
+    def write(replay: Replay, path: Path) -> Path:
+        assert is_going_on.wait(20)
+        path.write_text("made")
+        return path
+
+    monkeypatch.setattr(past, "WRITERS", {"csv": ("text/csv", write)})
+    with ThreadPoolExecutor(5) as pool:
+        asked = [pool.submit(get, fresh, "/1.csv") for _ in range(5)]
+        for refused in islice(as_completed(asked), 3):
+            assert refused.result().status_code == 503
+        is_going_on.set()
+        assert sorted(each.result().status_code for each in asked) == [200, 200, 503, 503, 503]
+
+
 def test_nothing_is_made_for_those_who_have_gone(
     fresh: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
