@@ -91,6 +91,14 @@ def play(
             show_default=False,
         ),
     ] = "",
+    connections: Annotated[
+        int,
+        typer.Option(
+            help="Connections from one address, at most; each page has two. This machine's own "
+            "are not counted.",
+            min=1,
+        ),
+    ] = 120,
     seeded_resets: Annotated[
         bool,
         typer.Option(
@@ -181,12 +189,12 @@ def play(
     if run is not None and ghost is not None:
         viewer.ghosts.race(run, ghost.name)
     shut_side_door(viewer.server)
-    hosts = (*hosts_for(host), *(allow_host or ()))
     room = room_app(
         runner,
         viser_port=viewer.port,
         title=lambda: workshop.title,
-        allowed_hosts=hosts,
+        allowed_hosts=hosts_for(host),
+        proxy_hosts=allow_host or (),
         rules=rules,
     )
 
@@ -201,7 +209,7 @@ def play(
     runner.start()
     viewer.start()
     try:
-        serve(room, host, port, on_ready=ready)
+        serve(room, host, port, on_ready=ready, per_address=connections)
     finally:
         viewer.stop()
         runner.stop()

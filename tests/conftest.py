@@ -5,8 +5,8 @@ from pathlib import Path
 import pytest
 
 TESTS = Path(__file__).parent
-ALONE = {"browser", "load"}
-"""Tests of these folders look at a page, and draw it without a graphics card."""
+ALONE = {"attacks", "browser", "load"}
+"""Tests of these folders look at a page, and draw it without a graphics card; or are many."""
 REAL_TIME = ALONE | {"remote", "server", "training", "viewer", "workshop"}
 REAL_TIME_TOO = {"test_live.py", "test_runner.py", "test_slow_ticks.py"}
 """Tests of these folders and files keep real time or listen at ports: what a machine's bad moment

@@ -80,9 +80,13 @@ def write_mp4(replay: Replay, path: Path, *, longest: int = 640) -> Path:
     with subprocess.Popen(  # noqa: S603 - a program of the extra's, and nothing but a path is given
         command, stdin=subprocess.PIPE, stderr=subprocess.PIPE
     ) as ffmpeg:
-        with contextlib.suppress(BrokenPipeError):  # it says itself what is wrong
-            for frame in chain([first], frames):
-                cast(IO[bytes], ffmpeg.stdin).write(frame.data)
+        try:
+            with contextlib.suppress(BrokenPipeError):  # it says itself what is wrong
+                for frame in chain([first], frames):
+                    cast(IO[bytes], ffmpeg.stdin).write(frame.data)
+        except BaseException:
+            ffmpeg.kill()  # nobody wants what there is so far
+            raise
         _, told = ffmpeg.communicate()
     if ffmpeg.returncode:
         raise RecordingError(f"{path}: the video can't be written: {told.decode().strip()}")

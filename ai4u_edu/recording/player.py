@@ -1,6 +1,6 @@
 """A world in which recorded actions are taken again, by the same decision cycle."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import Any, cast
 
 from ai4u_edu.blocks import Answer, Brain, Command, Percept
@@ -38,13 +38,21 @@ class Player:
     Args:
         episode: which.
         sim: a world to play it in, as it was recorded; left out, a new one is made.
+        on_step: called before each step; what it raises ends the playing.
 
     Raises:
         RecordingError: the episode's scene can't be made, or the world is another one.
     """
 
-    def __init__(self, episode: Episode, sim: ControlRequestor | None = None) -> None:
+    def __init__(
+        self,
+        episode: Episode,
+        sim: ControlRequestor | None = None,
+        *,
+        on_step: Callable[[], object] | None = None,
+    ) -> None:
         self.episode = episode
+        self._on_step = on_step
         self.brains = [RecordedBrain() for _ in episode.agents]
         self.sim = _new_world(episode, self.brains) if sim is None else _same(sim, episode)
         self._hurries = len(episode.agents) == 1 and not episode.restarts
@@ -74,6 +82,8 @@ class Player:
 
     def go_on(self, *, tick_by_tick: bool = False) -> None:
         """One thing more happens: a restart, or a tick, or (where that is the same) a decision."""
+        if self._on_step is not None:
+            self._on_step()
         if self._restart_is_due():
             self._restart()
             return

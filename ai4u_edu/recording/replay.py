@@ -1,6 +1,6 @@
 """Goes back in time: the moments of an episode, exactly as they were."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -52,6 +52,7 @@ class Replay:
 
     Args:
         episode: which.
+        on_step: called at each step that is played; what it raises ends the playing.
 
     >>> from ai4u_edu import LocalBrain, Scene
     >>> sim = Scene.load("box_chase").build()
@@ -68,9 +69,9 @@ class Replay:
     (True, {'move': (1.0, 0.5, 0.0, 0.0)}, 60)
     """
 
-    def __init__(self, episode: Episode) -> None:
+    def __init__(self, episode: Episode, *, on_step: Callable[[], object] | None = None) -> None:
         self.episode = episode
-        self._player = Player(episode)
+        self._player = Player(episode, on_step=on_step)
         self._stage: tuple[int, Stage] | None = None
         self._near: dict[tuple[int, int], Moment] = {}
         self._last = (0, -1)

@@ -13,6 +13,7 @@ from starlette.types import Scope
 
 from ai4u_edu.runner import Runner
 from ai4u_edu.server.api import Health, SnapshotView
+from ai4u_edu.server.attempts import Attempts, LimitScripts
 from ai4u_edu.server.door import LOOPBACK, Door
 from ai4u_edu.server.guard import Guard
 from ai4u_edu.server.input import Inputs
@@ -21,6 +22,8 @@ from ai4u_edu.server.page import Page
 from ai4u_edu.server.past import Past
 from ai4u_edu.server.proxy import ViserProxy
 from ai4u_edu.server.remote import RemoteSockets, Rules
+from ai4u_edu.snapshot import Snapshot
+from ai4u_edu.wire.native import PROBLEMS
 
 
 def room_app(
@@ -29,6 +32,7 @@ def room_app(
     viser_port: int,
     title: str | Callable[[], str],
     allowed_hosts: Collection[str] = LOOPBACK,
+    proxy_hosts: Collection[str] = (),
     rules: Rules | None = None,
 ) -> Starlette:
     """The ASGI app of one room; may be put under any path with :class:`RoomMount`.
@@ -38,6 +42,7 @@ def room_app(
         viser_port: where the room's viser listens, on 127.0.0.1.
         title: of the page, and the scene's name in the API; or what tells it, where it may change.
         allowed_hosts: names under which the room may be asked for; see :mod:`ai4u_edu.server.door`.
+        proxy_hosts: names under which a proxy gives out the page; see there.
         rules: for scripts that drive agents from other machines; their token is asked for by the
             page and the API too.
     """
@@ -45,19 +50,26 @@ def room_app(
     rules = rules or Rules()
     called = title if callable(title) else partial(str, title)
     page = Page(called)
-    guard = [Middleware(Guard, token=rules.token)]
-    page_guard = [Middleware(Guard, token=rules.token, is_page=True)]
+    attempts = Attempts()
+    guard = [Middleware(Guard, token=rules.token, attempts=attempts)]
+    page_guard = [Middleware(Guard, token=rules.token, attempts=attempts, is_page=True)]
+    script_guard = [Middleware(LimitScripts, attempts=attempts, code=PROBLEMS["bad_token"])]
     past = Past(runner)
     document = openapi()
+    described: tuple[Snapshot | None, str] = None, ""
 
-    def healthz(_: Request) -> Response:
+    async def healthz(_: Request) -> Response:
         health = Health.of(runner.latest, called(), time.monotonic() - began)
         return _json(health.model_dump_json())
 
-    def snapshot(_: Request) -> Response:
-        return _json(SnapshotView.of(runner.latest).model_dump_json())
+    async def snapshot(_: Request) -> Response:
+        nonlocal described
+        latest = runner.latest
+        if described[0] is not latest:  # however many ask, it is described once
+            described = latest, SnapshotView.of(latest).model_dump_json()
+        return _json(described[1])
 
-    def describe(_: Request) -> Response:
+    async def describe(_: Request) -> Response:
         return JSONResponse(document)
 
     return Starlette(
@@ -72,9 +84,11 @@ def room_app(
             WebSocketRoute("/", ViserProxy(viser_port, rules.token), middleware=guard),
             WebSocketRoute("/ws/input", Inputs(runner, called), middleware=guard),
             # asks for the token itself, in the hello
-            WebSocketRoute("/ws/remote", RemoteSockets(runner, called(), rules)),
+            WebSocketRoute(
+                "/ws/remote", RemoteSockets(runner, called(), rules), middleware=script_guard
+            ),
         ],
-        middleware=[Middleware(Door, allowed_hosts=allowed_hosts)],
+        middleware=[Middleware(Door, allowed_hosts=allowed_hosts, proxy_hosts=proxy_hosts)],
     )
 
 

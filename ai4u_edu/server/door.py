@@ -1,8 +1,12 @@
 """Who may come in: browsers on our own page, and programs that are no browsers.
 
 Two things are looked at. The name under which we were asked for (``Host``): a foreign page that
-has its own name point at this machine still sends its own name. And, where a WebSocket is opened,
-the page that opens it (``Origin``): browsers let any page open one to anywhere.
+has its own name point at this machine still sends its own name. And the page that asks (``Origin``,
+``Sec-Fetch-Site``): browsers let any page open a WebSocket to anywhere, and load our answers as
+pictures or scripts, which takes our time. Another port of the same machine is another site's too.
+
+What another site may do is lead a person to the page: by a link, or in a frame, as notebooks have
+it. Programs that are no browsers send none of these headers, but for ``Host``.
 """
 
 import ipaddress
@@ -19,6 +23,12 @@ LOOPBACK = ("localhost", "127.0.0.1", "[::1]")
 ADDRESSES = "<any address>"
 """Among the allowed hosts: every IP address. No page can have one of those as its own name."""
 
+LONGEST_SHOWN = 200
+"""Characters of a header that a refusal repeats."""
+
+_PORTS = {"http": 80, "https": 443}
+_OWN_SITES = {"same-origin", "none"}  # "none": typed in, or opened from a bookmark
+_VISITS = {"document", "iframe", "frame"}
 _HOST = re.compile(r"(\[[0-9a-f:.]+\]|[a-z0-9._-]+)(:\d{1,5})?")
 
 
@@ -56,20 +66,27 @@ class Door:
     Args:
         app: what is behind the door.
         allowed_hosts: names (without port) under which we may be asked for, :data:`ADDRESSES`, or
-            ``"*"`` for any. A page of a name listed here, other than those in :data:`LOOPBACK`,
-            may open WebSockets even where a proxy in front has changed the ``Host``.
+            ``"*"`` for any.
+        proxy_hosts: more such names, under which a proxy in front gives out the page. It may have
+            changed the ``Host``, and ended TLS: so pages of these names count as ours, at any port.
     """
 
-    def __init__(self, app: ASGIApp, allowed_hosts: Collection[str] = LOOPBACK) -> None:
+    def __init__(
+        self,
+        app: ASGIApp,
+        allowed_hosts: Collection[str] = LOOPBACK,
+        proxy_hosts: Collection[str] = (),
+    ) -> None:
         self._app = app
-        self._hosts = {name.lower() for name in allowed_hosts}
+        self._proxies = {name.lower() for name in proxy_hosts}
+        self._hosts = {name.lower() for name in allowed_hosts} | self._proxies
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Lets a request in, or answers it with 403 and the reason."""
         if scope["type"] not in ("http", "websocket"):
             await self._app(scope, receive, send)
             return
-        refusal = self.refusal(Headers(scope=scope), websocket=scope["type"] == "websocket")
+        refusal = self.refusal(scope)
         if refusal:
             await PlainTextResponse(refusal + "\n", 403)(scope, receive, send)
             return
@@ -84,29 +101,37 @@ class Door:
 
         await self._app(scope, receive, send_guarded)
 
-    def refusal(self, headers: Headers, *, websocket: bool) -> str:
+    def refusal(self, scope: Scope) -> str:
         """Why a request is turned away; empty if it is not.
 
         >>> door = Door(lambda *_: None)
-        >>> door.refusal(Headers({"host": "localhost:8080"}), websocket=False)
+        >>> door.refusal({"type": "http", "headers": [(b"host", b"localhost:8080")]})
         ''
-        >>> door.refusal(Headers({"host": "evil.example"}), websocket=False)
+        >>> door.refusal({"type": "http", "headers": [(b"host", b"evil.example")]})
         "Host: expected one of 127.0.0.1, [::1], localhost, got 'evil.example'; a name is allowed \
 with --allow-host NAME"
         """
+        headers = Headers(scope=scope)
         hosts = headers.getlist("host")
         host = hosts[0].lower() if len(hosts) == 1 else ""
         parts = _HOST.fullmatch(host)
         if parts is None or not self._knows(parts[1]):
             return (
-                f"Host: expected one of {', '.join(sorted(self._hosts))}, got {', '.join(hosts)!r};"
-                " a name is allowed with --allow-host NAME"
+                f"Host: expected one of {', '.join(sorted(self._hosts))}, got "
+                f"{_cut(', '.join(hosts))!r}; a name is allowed with --allow-host NAME"
             )
-        origins = headers.getlist("origin") if websocket else []
-        if not all(self._is_ours(origin.lower(), host) for origin in origins):
+        scheme = "https" if scope.get("scheme") in ("https", "wss") else "http"
+        origins = headers.getlist("origin")
+        if not all(self._is_ours(origin.lower(), host, scheme) for origin in origins):
             return (
-                f"Origin: expected http://{host} (the page that this server gives out), got "
-                f"{', '.join(origins)!r}; behind a proxy, start with --allow-host NAME"
+                f"Origin: expected {scheme}://{host} (the page that this server gives out), got "
+                f"{_cut(', '.join(origins))!r}; behind a proxy, start with --allow-host NAME"
+            )
+        sites = [site.lower() for site in headers.getlist("sec-fetch-site")]
+        if not origins and not set(sites) <= _OWN_SITES and not _is_visit(scope, headers):
+            return (
+                f"Sec-Fetch-Site: expected same-origin (the page that this server gives out), got "
+                f"{_cut(', '.join(sites))!r}; open the page itself"
             )
         return ""
 
@@ -121,15 +146,36 @@ with --allow-host NAME"
             return False
         return True
 
-    def _is_ours(self, origin: str, host: str) -> bool:
-        scheme, _, place = origin.partition("://")
+    def _is_ours(self, origin: str, host: str, scheme: str) -> bool:
+        theirs, _, place = origin.partition("://")
         parts = _HOST.fullmatch(place)
-        if scheme not in ("http", "https") or parts is None:
+        if theirs not in _PORTS or parts is None:
             return False
-        if _short(place) == _short(host):
+        if parts[1] in self._proxies:
             return True
-        return parts[1] in self._hosts and parts[1] not in LOOPBACK
+        if (theirs, _with_port(place, theirs)) == (scheme, _with_port(host, scheme)):
+            return True
+        # where any name is allowed there is a proxy, which may have ended TLS and passes Host on
+        is_secure = theirs == "https" and "*" in self._hosts
+        return is_secure and _with_port(place, theirs) == _with_port(host, theirs)
 
 
-def _short(place: str) -> str:
-    return place.removesuffix(":80").removesuffix(":443")
+def _is_visit(scope: Scope, headers: Headers) -> bool:
+    """Return True for a person who is led to the page by another site."""
+    path = scope["path"].removeprefix(scope.get("root_path", ""))
+    return (
+        scope["type"] == "http"
+        and scope["method"] in ("GET", "HEAD")
+        and path in ("", "/")
+        and headers.get("sec-fetch-mode") == "navigate"
+        and headers.get("sec-fetch-dest", "document") in _VISITS
+    )
+
+
+def _with_port(place: str, scheme: str) -> str:
+    """Return name and port, also where the port is the scheme's own."""
+    return place if re.search(r":\d+$", place) else f"{place}:{_PORTS[scheme]}"
+
+
+def _cut(text: str) -> str:
+    return text if len(text) <= LONGEST_SHOWN else f"{text[:LONGEST_SHOWN]}..."

@@ -7,6 +7,8 @@ may be made a frame once for all of them. Everything else, the handshake, pings,
 uvicorn's and ASGI's.
 """
 
+import asyncio
+from asyncio.transports import BaseTransport
 from collections.abc import Callable, MutableMapping
 from typing import Any
 
@@ -15,10 +17,17 @@ from websockets.exceptions import InvalidState
 from websockets.http11 import Request
 from websockets.protocol import State
 
+from ai4u_edu.server.refusal import refusal
+
 CAP = 2**20
 """Bytes that no message needs, other than those to viser."""
 EXTENSION = "ai4u_edu.frames"
 """Where an ASGI app finds it, in ``scope["extensions"]``."""
+
+HANDSHAKE_TIMEOUT_S = 15.0
+"""Time in which an app has to accept a socket. viser is waited for up to 10 s."""
+CLOSE_TIMEOUT_S = 3.0
+"""Time that the other side has to answer a close."""
 
 Listener = Callable[[bytes], bool]
 """Gets a frame as it arrives; whether it took it. What it does not take goes on through ASGI."""
@@ -28,6 +37,38 @@ class FramesProtocol(WebSocketsSansIOProtocol):
     """uvicorn's protocol, with the short way in its extensions."""
 
     listener: Listener | None = None
+    _handshake_timer: asyncio.TimerHandle | None = None
+
+    def connection_made(self, transport: BaseTransport) -> None:
+        """Begin to wait for the handshake."""
+        super().connection_made(transport)
+        self.close_timeout = CLOSE_TIMEOUT_S
+        self._handshake_timer = self.loop.call_later(HANDSHAKE_TIMEOUT_S, self._end_handshake)
+
+    def connection_lost(self, exc: Exception | None) -> None:
+        """End the timer too."""
+        self._stop_handshake_timer()
+        super().connection_lost(exc)
+
+    def data_received(self, data: bytes) -> None:
+        """Hear the next bytes; a head that websockets can't read is refused."""
+        super().data_received(data)
+        if not self.handshake_initiated and self.conn.handshake_exc is not None:
+            # websockets ends here without a word, and uvicorn would wait for the request
+            self.handshake_initiated = self.handshake_complete = self.close_sent = True
+            why = "expected at most 128 headers of at most 8 KiB each, such as its cookies"
+            self.transport.write(refusal(431, why))
+            self.transport.close()
+
+    def keepalive_timeout(self) -> None:
+        """End the connection of who does not answer, also if it does not read either."""
+        super().keepalive_timeout()
+        self.loop.call_later(CLOSE_TIMEOUT_S, self.transport.abort)
+
+    def on_task_complete(self, task: asyncio.Task[None]) -> None:
+        """End the connection after its app, also if the other side does not read the rest."""
+        super().on_task_complete(task)
+        self.loop.call_later(2 * CLOSE_TIMEOUT_S, self.transport.abort)
 
     def cap(self, size: int) -> None:
         """From now on a message has at most so many bytes; a larger one is not even read.
@@ -64,6 +105,17 @@ class FramesProtocol(WebSocketsSansIOProtocol):
             super().shutdown()
         except InvalidState:  # uvicorn would say goodbye a second time, and not end at all
             self.transport.close()
+
+    def _end_handshake(self) -> None:
+        self._handshake_timer = None
+        if not self.handshake_complete:
+            self.send_500_response()
+            self.transport.close()
+
+    def _stop_handshake_timer(self) -> None:
+        if self._handshake_timer is not None:
+            self._handshake_timer.cancel()
+            self._handshake_timer = None
 
     def send_receive_event_to_app(self) -> None:
         """Hands a frame to the listener first."""

@@ -17,6 +17,7 @@ from starlette.types import ASGIApp, Receive, Scope, Send
 from starlette.websockets import WebSocket
 
 from ai4u_edu.errors import SetupError
+from ai4u_edu.server.attempts import TOO_MANY, Attempts, Verdict, client_address, too_many
 from ai4u_edu.server.door import is_loopback
 
 SHORTEST = 8
@@ -67,12 +68,21 @@ class Guard:
     Args:
         app: what is guarded.
         token: empty to let everybody in.
+        attempts: limits the wrong tokens of an address, over all routes of a room.
         is_page: whether it is the page, which gives the cookie.
     """
 
-    def __init__(self, app: ASGIApp, token: str, *, is_page: bool = False) -> None:
+    def __init__(
+        self,
+        app: ASGIApp,
+        token: str,
+        *,
+        attempts: Attempts | None = None,
+        is_page: bool = False,
+    ) -> None:
         self._app = app
         self._token = token
+        self._attempts = attempts or Attempts()
         self._is_page = is_page
         # a cookie goes to all ports of a machine: so each world's has a name of its own, and the
         # token itself, which may have characters that a cookie can't, is not in it
@@ -81,15 +91,24 @@ class Guard:
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Lets a request in, or answers it with 401 (a socket: closes it with 1008) and why."""
-        given = HTTPConnection(scope)
         if not self._token:
             await self._app(scope, receive, send)
+            return
+        given = HTTPConnection(scope)
+        verdict = Verdict.WRONG
+        if self._says_something(given):
+            address = client_address(scope)
+            verdict = await self._attempts.look(address, lambda: self._is_known(given))
+        if verdict is not Verdict.RIGHT:
+            await self._refuse(given, verdict, scope, receive, send)
         elif self._is_page and scope["type"] == "http" and self._is_in_address(given):
             await self._without_token(given)(scope, receive, send)
-        elif self._is_known(given):
-            await self._app(scope, receive, send)
         else:
-            await self._refuse(given, scope, receive, send)
+            await self._app(scope, receive, send)
+
+    def _says_something(self, given: HTTPConnection) -> bool:
+        """Return True if a token is given, right or wrong."""
+        return _says_token(given) or self._cookie in given.cookies
 
     def _is_in_address(self, given: HTTPConnection) -> bool:
         return same(self._token, given.query_params.get("token", ""))
@@ -118,15 +137,29 @@ class Guard:
         return response
 
     async def _refuse(
-        self, given: HTTPConnection, scope: Scope, receive: Receive, send: Send
+        self,
+        given: HTTPConnection,
+        verdict: Verdict,
+        scope: Scope,
+        receive: Receive,
+        send: Send,
     ) -> None:
-        said = "token" in given.query_params or "authorization" in given.headers
-        why = WHY.format(got="another one" if said else "none")
+        why = WHY.format(got="another one" if _says_token(given) else "none")
+        seconds = self._attempts.retry_after(client_address(scope)) or 1
+        if verdict is Verdict.TOO_MANY:
+            why = TOO_MANY.format(seconds=seconds)
         if scope["type"] == "websocket":
             socket = WebSocket(scope, receive, send)
             # browsers show no script why a handshake failed, but why a socket was closed
             await socket.accept(next(iter(scope["subprotocols"]), None))
-            await socket.close(1008, why)
+            await socket.close(1013 if verdict is Verdict.TOO_MANY else 1008, why)
+            return
+        if verdict is Verdict.TOO_MANY:
+            await too_many(seconds)(scope, receive, send)
             return
         headers = {"WWW-Authenticate": "Bearer", "Cache-Control": "no-store"}
         await PlainTextResponse(f"token: {why}\n", 401, headers)(scope, receive, send)
+
+
+def _says_token(given: HTTPConnection) -> bool:
+    return "token" in given.query_params or "authorization" in given.headers

@@ -46,7 +46,8 @@ def _get(summary: str, schema: dict[str, Any]) -> dict[str, Any]:
             "responses": {
                 "200": {"description": "OK", "content": content},
                 "401": {"description": "The room has a token, and it was not said."},
-                "403": {"description": "Asked for under a name that is not allowed."},
+                "403": {"description": "Asked for under a name that is not allowed, or by a page."},
+                "429": {"description": "Too many wrong tokens; says when to try again."},
             },
         }
     }
@@ -69,5 +70,6 @@ def _file(summary: str) -> dict[str, Any]:
     found["responses"] |= {
         "404": {"description": "No such episode is kept; says which are."},
         "409": {"description": "It can't be made; says why."},
+        "503": {"description": "Too many files are being made; says when to try again."},
     }
     return described

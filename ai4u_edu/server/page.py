@@ -38,7 +38,7 @@ class Page:
         self._title = title
         self._index = _index(title())
 
-    def index(self, request: Request) -> Response:
+    async def index(self, request: Request) -> Response:
         """The page itself."""
         index = self._index
         if index.title != self._title():  # another scene has been opened
@@ -51,13 +51,13 @@ class Page:
             return Response(status_code=304, headers=headers)
         return Response(index.content, media_type="text/html", headers=headers)
 
-    def file(self, request: Request) -> Response:
+    async def file(self, request: Request) -> Response:
         """One of our files; nothing outside their folder has a name here."""
         wanted = request.path_params["file"]
         for path in self._folder.iterdir():
             if path.name == wanted and path.suffix in _KINDS and path.is_file():
                 return FileResponse(path, media_type=_KINDS[path.suffix], headers=_FRESH)
-        return PlainTextResponse(f"no file is called {wanted!r}\n", 404)
+        return PlainTextResponse(f"no file is called {wanted[:80]!r}\n", 404)
 
 
 def web_folder() -> Path:

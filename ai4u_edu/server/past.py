@@ -1,23 +1,24 @@
 """The kept episodes over HTTP: their list, and each of them as a file."""
 
+import asyncio
 import tempfile
-from collections.abc import Callable
+from collections.abc import AsyncIterator, Callable
 from pathlib import Path
-from threading import Lock
 from typing import Annotated
 
 from pydantic import BaseModel, ConfigDict, Field
 from starlette.requests import Request
-from starlette.responses import PlainTextResponse, Response
+from starlette.responses import PlainTextResponse, Response, StreamingResponse
 
 from ai4u_edu.errors import AI4UError
-from ai4u_edu.recording import Entry, Replay
+from ai4u_edu.recording import Entry, Episode, Replay
 from ai4u_edu.recording.csv_file import write_csv
 from ai4u_edu.recording.file import encode
 from ai4u_edu.recording.movie import write_gif, write_mp4
 from ai4u_edu.recording.page import write_html
 from ai4u_edu.runner import Runner
 from ai4u_edu.server.api import Number
+from ai4u_edu.server.exports import RETRY_AFTER_S, BusyError, Exports
 
 WRITERS: dict[str, tuple[str, Callable[[Replay, Path], Path]]] = {
     "html": ("text/html; charset=utf-8", write_html),
@@ -27,6 +28,9 @@ WRITERS: dict[str, tuple[str, Callable[[Replay, Path], Path]]] = {
 }
 """What an episode can be made into, and how."""
 RECORDING = "episode"
+RECORDING_KIND = "application/octet-stream"
+PART_BYTES = 64 * 2**10
+"""Bytes of a file that are sent at a time: a slow reader has no more of it in memory."""
 HEADERS = {
     "Cache-Control": "no-store",
     # whoever opens it all the same gets a page that may not speak in our name
@@ -83,15 +87,21 @@ class Past:
 
     def __init__(self, runner: Runner) -> None:
         self._runner = runner
-        self._turn = Lock()  # to play and to draw takes a processor: one after the other
+        # to play and to draw takes a processor: one after the other. Recordings need not wait
+        self._recordings, self._files = Exports(_recording), Exports(_file)
+        self._listed: tuple[tuple[Entry, ...], str] = ((), "")
 
     def list(self, _: Request) -> Response:
         """All of them, as JSON."""
-        view = PastView(episodes=[EpisodeView.of(entry) for entry in self._entries()])
+        entries, text = self._listed
+        if not text or entries is not self._entries():
+            entries = self._entries()
+            text = PastView(episodes=[*map(EpisodeView.of, entries)]).model_dump_json()
+            self._listed = entries, text
         headers = {"Cache-Control": "no-store"}
-        return Response(view.model_dump_json(), media_type="application/json", headers=headers)
+        return Response(text, media_type="application/json", headers=headers)
 
-    def file(self, request: Request) -> Response:
+    async def file(self, request: Request) -> Response:
         """One as a file: ``3.episode``, ``3.html``, ..."""
         name = str(request.path_params["file"])
         number, _, ending = name.partition(".")
@@ -104,23 +114,57 @@ class Past:
             kept = ", ".join(str(each.number) for each in self._entries()) or "none"
             return PlainTextResponse(f"no episode {number[:20]} is kept; there are {kept}\n", 404)
         try:
-            kind, data = self._made(entry, ending)
+            data = await self._made(entry.episode, ending, request)
+        except BusyError as error:
+            headers = {"Retry-After": str(RETRY_AFTER_S), "Cache-Control": "no-store"}
+            return PlainTextResponse(f"{error}\n", 503, headers)
         except AI4UError as error:
             return PlainTextResponse(f"{error}\n", 409)
+        kind = RECORDING_KIND if ending == RECORDING else WRITERS[ending][0]
         attached = f'attachment; filename="{_plain(entry)}.{ending}"'
-        return Response(data, media_type=kind, headers=HEADERS | {"Content-Disposition": attached})
+        about = {"Content-Disposition": attached, "Content-Length": str(len(data))}
+        return StreamingResponse(_parts(data), media_type=kind, headers=HEADERS | about)
 
-    def _made(self, entry: Entry, ending: str) -> tuple[str, bytes]:
-        if ending == RECORDING:
-            return "application/octet-stream", encode(entry.episode)
-        kind, write = WRITERS[ending]
-        with self._turn, tempfile.TemporaryDirectory(prefix="ai4u-edu-") as folder:
-            path = write(Replay(entry.episode), Path(folder) / f"episode.{ending}")
-            return kind, path.read_bytes()
+    async def _made(self, episode: Episode, ending: str, request: Request) -> bytes:
+        """Wait for a file, as long as somebody waits for the answer."""
+        exports = self._recordings if ending == RECORDING else self._files
+        making = asyncio.ensure_future(exports.get(episode, ending))
+        leaving = asyncio.ensure_future(_has_left(request))
+        try:
+            await asyncio.wait({making, leaving}, return_when=asyncio.FIRST_COMPLETED)
+            return making.result() if making.done() else b""  # nobody reads that
+        finally:
+            making.cancel()
+            leaving.cancel()
 
     def _entries(self) -> tuple[Entry, ...]:
         recorder = self._runner.recorder
-        return () if recorder is None else recorder.episodes.entries
+        return _NONE if recorder is None else recorder.episodes.entries
+
+
+_NONE: tuple[Entry, ...] = ()
+
+
+async def _has_left(request: Request) -> None:
+    while (await request.receive())["type"] != "http.disconnect":
+        pass
+
+
+async def _parts(data: bytes) -> AsyncIterator[bytes]:
+    for begin in range(0, len(data), PART_BYTES):
+        yield data[begin : begin + PART_BYTES]
+
+
+def _recording(episode: Episode, _: str, check: Callable[[], None]) -> bytes:
+    check()
+    return encode(episode)
+
+
+def _file(episode: Episode, ending: str, check: Callable[[], None]) -> bytes:
+    _, write = WRITERS[ending]
+    with tempfile.TemporaryDirectory(prefix="ai4u-edu-") as folder:
+        replay = Replay(episode, on_step=check)
+        return write(replay, Path(folder) / f"episode.{ending}").read_bytes()
 
 
 def _plain(entry: Entry) -> str:

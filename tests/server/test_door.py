@@ -1,12 +1,15 @@
 """Foreign pages neither read nor drive."""
 
 from collections.abc import Iterator
+from itertools import product
 
 import httpx
 import pytest
+from starlette.applications import Starlette
+from starlette.types import ASGIApp
 from websockets.exceptions import InvalidStatus
 
-from ai4u_edu.server import LOOPBACK, hosts_for
+from ai4u_edu.server import LOOPBACK, RoomMount, hosts_for
 from ai4u_edu.server.door import ADDRESSES
 from tests.server.rooms import UPGRADE, Page, Room, raw_answer, served
 
@@ -19,6 +22,12 @@ EVERYWHERE = "0.0.0.0"  # noqa: S104 - a name to be asked by, nothing listens th
 def room() -> Iterator[Room]:
     with served() as room:
         yield room
+
+
+@pytest.fixture(scope="module")
+def client() -> Iterator[httpx.Client]:
+    with httpx.Client() as client:
+        yield client
 
 
 def port_of(room: Room) -> str:
@@ -115,7 +124,7 @@ def test_answers_are_not_for_other_pages(room: Room) -> None:
 
 
 def test_a_name_can_be_allowed_and_then_drives_through_a_proxy_too() -> None:
-    with served(allowed_hosts=(*LOOPBACK, "Hub.Example")) as room:
+    with served(proxy_hosts=["Hub.Example"]) as room:
         assert raw_answer(room.url + "healthz", "Host: hub.example:443")[0] == 200
         assert raw_answer(room.url + "healthz", "Host: evil.example")[0] == 403
         with Page(
@@ -143,3 +152,110 @@ def test_listening_everywhere_allows_addresses_but_no_foreign_names() -> None:
             assert raw_answer(room.url + "healthz", f"Host: {host}")[0] == 200
         for host in ("evil.example", "999.1.1.1", "[::g]"):
             assert raw_answer(room.url + "healthz", f"Host: {host}")[0] == 403
+
+
+FETCHED = {"Sec-Fetch-Mode": "no-cors", "Sec-Fetch-Dest": "image"}
+VISIT = {"Sec-Fetch-Mode": "navigate", "Sec-Fetch-Dest": "document"}
+EVERY_PATH = (*PATHS, "api/past", "api/past/1.gif", "web/page.css", "ws/input", "ws/remote")
+
+
+@pytest.mark.parametrize("site", ["cross-site", "same-site", "Cross-Site", "anything"])
+def test_another_site_is_refused_everywhere(client: httpx.Client, room: Room, site: str) -> None:
+    for path, how in product(EVERY_PATH, (FETCHED, {})):
+        answer = client.get(room.url + path, headers={"Sec-Fetch-Site": site, **how})
+        assert answer.status_code == 403
+        assert answer.text.startswith("Sec-Fetch-Site: expected same-origin (the page that")
+
+
+@pytest.mark.parametrize("method", ["GET", "HEAD", "POST", "PUT", "DELETE", "OPTIONS"])
+def test_another_origin_is_refused_with_any_method(
+    client: httpx.Client, room: Room, method: str
+) -> None:
+    origins = ("http://evil.example", "null", "http://127.0.0.1:1", "https://127.0.0.1")
+    for path, origin in product(EVERY_PATH, origins):
+        answer = client.request(method, room.url + path, headers={"Origin": origin})
+        assert answer.status_code == 403
+
+
+@pytest.mark.parametrize("kind", ["document", "iframe"])
+@pytest.mark.parametrize("site", ["cross-site", "same-site"])
+def test_a_link_and_a_notebooks_frame_open_the_page(
+    client: httpx.Client, room: Room, site: str, kind: str
+) -> None:
+    headers = {"Sec-Fetch-Site": site, "Sec-Fetch-Mode": "navigate", "Sec-Fetch-Dest": kind}
+    assert client.get(room.url, headers=headers).status_code == 200
+    assert client.get(room.url + "?agent=0", headers=headers).status_code == 200
+    for path in EVERY_PATH[1:]:
+        assert client.get(room.url + path, headers=headers).status_code == 403
+    for method in ("POST", "PUT"):
+        assert client.request(method, room.url, headers=headers).status_code == 403
+    headers["Sec-Fetch-Dest"] = "object"
+    assert client.get(room.url, headers=headers).status_code == 403
+
+
+def test_what_our_own_page_and_a_person_ask_for_is_given(client: httpx.Client, room: Room) -> None:
+    for site in ("same-origin", "none"):
+        for path in ("", "healthz", "web/main.js", "api/past"):
+            for how in (FETCHED, VISIT):
+                headers = {"Sec-Fetch-Site": site, **how}
+                assert client.get(room.url + path, headers=headers).status_code == 200
+    headers = {"Origin": room.url.rstrip("/"), "Sec-Fetch-Site": "same-origin"}
+    assert client.get(room.url + "api/snapshot", headers=headers).status_code == 200
+
+
+def test_another_site_opens_no_socket_that_says_no_origin(room: Room) -> None:
+    for path in SOCKETS:
+        with pytest.raises(InvalidStatus, match="403"):
+            Page(room.url + path, additional_headers={"Sec-Fetch-Site": "same-site"})
+
+
+@pytest.mark.parametrize("prefix", ["/lab", "/user/ann/proxy"])
+def test_a_room_under_a_path_is_guarded_too(client: httpx.Client, prefix: str) -> None:
+    def under(app: ASGIApp) -> ASGIApp:
+        return Starlette(routes=[RoomMount(prefix, app)])
+
+    with served(wrap=under) as room:
+        base = room.url.rstrip("/") + prefix
+        foreign = {"Sec-Fetch-Site": "same-site"}
+        for path in ("/healthz", "/api/past/1.gif", "/"):
+            assert client.get(base + path, headers=foreign | FETCHED).status_code == 403
+        assert client.get(base + "/", headers=foreign | VISIT).status_code == 200
+        assert client.get(base + "/healthz", headers=foreign | VISIT).status_code == 403
+        with pytest.raises(InvalidStatus, match="403"):
+            Page(base + "/ws/input", additional_headers={"Origin": "http://evil.example"})
+
+
+@pytest.mark.parametrize("path", SOCKETS)
+def test_another_port_of_our_own_names_opens_no_socket(path: str) -> None:
+    names = hosts_for(EVERYWHERE)
+    own = names[4]
+    with served(allowed_hosts=names) as room:
+        port = port_of(room)
+        for name in (own, "192.168.1.5", EVERYWHERE, "localhost"):
+            lines = (f"Host: {name}:{port}", *UPGRADE)
+            for origin in (f"http://{name}:9", f"http://{name}", f"https://{name}:{port}"):
+                answer = raw_answer(room.url + path, *lines, f"Origin: {origin}")
+                assert answer[0] == 403, origin
+            ours = raw_answer(room.url + "ws/input", *lines, f"Origin: http://{name}:{port}")
+            assert ours[0] == 101
+
+
+def test_a_hub_that_ends_tls_passes_our_page_on_and_no_other() -> None:
+    with served(allowed_hosts=("*",)) as room:
+        lines = ("Host: hub.example", *UPGRADE)
+        for origin, status in (
+            ("https://hub.example", 101),
+            ("https://hub.example:443", 101),
+            ("http://hub.example", 101),
+            ("http://hub.example:443", 403),
+            ("https://hub.example:8443", 403),
+            ("https://other.hub.example", 403),
+        ):
+            answer = raw_answer(room.url + "ws/input", *lines, f"Origin: {origin}")
+            assert answer[0] == status, origin
+
+
+def test_a_refusal_repeats_no_endless_header(client: httpx.Client, room: Room) -> None:
+    answer = client.get(room.url, headers={"Origin": "http://" + "x" * 6000})
+    assert answer.status_code == 403
+    assert len(answer.text) < 600

@@ -8,7 +8,7 @@ import sys
 import threading
 import time
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from typing import Any
 
 import httpx
@@ -17,7 +17,7 @@ import pytest
 from ai4u_edu.errors import AI4UError
 from ai4u_edu.server import AddressError, PortTakenError, ServerThread, serve
 from ai4u_edu.server.frames import FramesProtocol
-from tests.server.rooms import UPGRADE, Page, free_port, raw_request, served, until
+from tests.server.rooms import UPGRADE, Page, free_port, raw_answer, raw_request, served, until
 
 PROGRAM = """
 import sys
@@ -79,6 +79,40 @@ def test_a_signal_ends_it_cleanly_with_pages_open(number: signal.Signals) -> Non
         assert "ENDED" in out
         assert err == ""
         assert time.monotonic() - began < 5
+
+
+@posix
+def test_it_ends_with_half_requests_and_readers_that_take_nothing() -> None:
+    ask = b"GET /api/openapi.json HTTP/1.1\r\nHost: localhost\r\n\r\n"
+    with program() as (process, url), ExitStack() as stack:
+        place = ("127.0.0.1", int(url.rstrip("/").rpartition(":")[2]))
+        for said in (
+            b"",
+            b"GET /heal",
+            b"POST / HTTP/1.1\r\nHost: localhost\r\nContent-Length: 9\r\n\r\n",
+            ask * 2000,
+        ):
+            connection = stack.enter_context(socket.create_connection(place))
+            connection.sendall(said)
+        assert connection.recv(1).startswith(b"H")
+        assert httpx.get(url + "healthz").status_code == 200
+        process.send_signal(signal.SIGTERM)
+        out, err = process.communicate(timeout=10)
+        assert process.returncode == 0
+        assert "ENDED" in out
+        assert err == ""
+
+
+def test_malformed_messages_write_a_line_of_each_kind(caplog: pytest.LogCaptureFixture) -> None:
+    with served() as room:
+        for _ in range(20):
+            with room.page() as page:
+                page.socket.send(b"\xff", text=True)
+                assert page.end()[0] == 1007
+            assert raw_answer(room.url, "no header")[0] == 400
+    messages = [record.getMessage() for record in caplog.records]
+    assert len(messages) == len(set(messages)) <= 2
+    assert sum(record.exc_info is not None for record in caplog.records) <= 1
 
 
 def test_a_taken_port_is_told_with_what_to_do() -> None:

@@ -1,0 +1,158 @@
+"""Files of kept episodes, made one after another beside everything else that the server does."""
+
+import asyncio
+from collections import OrderedDict, deque
+from collections.abc import Callable
+from concurrent.futures import Future
+from dataclasses import dataclass, field
+from threading import Lock, Thread
+
+from ai4u_edu.errors import AI4UError
+from ai4u_edu.recording import Episode
+
+MAX_QUEUED = 16
+"""Files that may wait to be made."""
+MAX_WAITING = 64
+"""Requests that may wait for files, equal ones too: each has a connection as long as it waits."""
+RETRY_AFTER_S = 10
+MAX_CACHED_BYTES = 64 * 2**20
+MAX_CACHED = 32
+"""Files that are kept, the latest ones; each keeps its episode too."""
+
+Make = Callable[[Episode, str, Callable[[], None]], bytes]
+"""Makes a file, of an episode and an ending; calls the third one often, which raises to stop it."""
+
+
+class BusyError(AI4UError):
+    """Too many files wait to be made."""
+
+
+class StoppedError(Exception):
+    """Nobody waits any more for what is being made."""
+
+
+class Exports:
+    """Makes files, and keeps the latest.
+
+    Who wants a file that is being made already, or was, gets the same one. When all who wait for it
+    have gone, it is not made, or no further.
+
+    The event loop calls :meth:`get`; a thread of its own, which ends when nothing waits, makes the
+    files. What both touch is guarded by a lock. The thread keeps no process from ending.
+
+    Args:
+        make: makes a file.
+    """
+
+    def __init__(self, make: Make) -> None:
+        self._make = make
+        self._lock = Lock()
+        self._thread: Thread | None = None
+        self._queue: deque[_Job] = deque()
+        self._waiting = 0
+        self._jobs: dict[_Key, _Job] = {}
+        self._cached: OrderedDict[_Key, tuple[Episode, bytes]] = OrderedDict()
+
+    async def get(self, episode: Episode, ending: str) -> bytes:
+        """Return an episode as a file.
+
+        Cancelled, it gives up its place.
+
+        Raises:
+            BusyError: too many files wait to be made, or requests for them.
+            AI4UError: it can't be made.
+        """
+        key = id(episode), ending  # the job, or the cache, keeps the episode: so it stays its own
+        with self._lock:
+            if key in self._cached:
+                self._cached.move_to_end(key)
+                return self._cached[key][1]
+            if self._waiting >= MAX_WAITING:
+                raise BusyError(
+                    f"expected at most {MAX_WAITING} requests that wait for files, got another "
+                    "one; try again in a moment"
+                )
+            job = self._jobs.get(key) or self._enqueue(key, episode, ending)
+            job.waiting += 1
+            self._waiting += 1
+        try:
+            return await asyncio.shield(asyncio.wrap_future(job.made))
+        finally:
+            with self._lock:
+                job.waiting -= 1
+                self._waiting -= 1
+                if not job.waiting and not job.made.done():
+                    self._drop(job)
+
+    def _enqueue(self, key: "_Key", episode: Episode, ending: str) -> "_Job":
+        if len(self._queue) >= MAX_QUEUED:
+            raise BusyError(
+                f"expected at most {MAX_QUEUED} files that wait to be made, got another one; try "
+                "again in a moment"
+            )
+        job = self._jobs[key] = _Job(key, episode, ending)
+        self._queue.append(job)
+        if self._thread is None:
+            self._thread = Thread(target=self._work, name="exports", daemon=True)
+            self._thread.start()
+        return job
+
+    def _drop(self, job: "_Job") -> None:
+        job.is_stopped = True
+        if job in self._queue:
+            self._queue.remove(job)
+        if self._jobs.get(job.key) is job:
+            del self._jobs[job.key]
+
+    def _work(self) -> None:
+        while True:
+            with self._lock:
+                if not self._queue:
+                    self._thread = None
+                    return
+                job = self._queue.popleft()
+            try:
+                data = self._make(job.episode, job.ending, job.check)
+            except StoppedError:
+                continue
+            except Exception as error:  # a student's block may raise anything
+                self._finish(job, error)
+            else:
+                self._finish(job, data)
+
+    def _finish(self, job: "_Job", outcome: bytes | Exception) -> None:
+        with self._lock:
+            if self._jobs.get(job.key) is job:
+                del self._jobs[job.key]
+            if isinstance(outcome, bytes):
+                self._keep(job, outcome)
+            if job.is_stopped:
+                return  # the loop may be closed
+            if isinstance(outcome, bytes):
+                job.made.set_result(outcome)
+            else:
+                job.made.set_exception(outcome)
+
+    def _keep(self, job: "_Job", data: bytes) -> None:
+        self._cached[job.key] = job.episode, data
+        size = sum(len(each) for _, each in self._cached.values())
+        while self._cached and (size > MAX_CACHED_BYTES or len(self._cached) > MAX_CACHED):
+            _, (_, dropped) = self._cached.popitem(last=False)
+            size -= len(dropped)
+
+
+_Key = tuple[int, str]
+
+
+@dataclass(eq=False)
+class _Job:
+    key: _Key
+    episode: Episode
+    ending: str
+    made: "Future[bytes]" = field(default_factory=Future)
+    waiting: int = 0
+    is_stopped: bool = False
+
+    def check(self) -> None:
+        if self.is_stopped:
+            raise StoppedError

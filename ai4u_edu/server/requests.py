@@ -1,0 +1,182 @@
+"""HTTP as uvicorn has it, with time limits: a connection that asks for nothing ends.
+
+uvicorn waits for a request's first complete head, and for its body, for as long as the other side
+likes; and for who does not read an answer too.
+"""
+
+import asyncio
+import sys
+from collections.abc import Callable
+from http import HTTPStatus
+from typing import cast
+
+import h11
+import uvicorn
+from uvicorn.protocols.http.h11_impl import H11Protocol
+
+from ai4u_edu.server.connections import Connections
+from ai4u_edu.server.refusal import refusal
+
+REQUEST_TIMEOUT_S = 5.0
+"""Time for a request's head, from the connection's or its own first byte on; and for its body."""
+PART_BYTES = 4096
+"""Bytes of a head that are read at a time, until it is complete."""
+STALL_TIMEOUT_S = 20.0
+"""Time without any progress after which an answer that nobody reads is dropped."""
+LINGER_S = 1.0
+"""Time that the other side has to read why its connection ends."""
+
+
+class ServerConfig(uvicorn.Config):
+    """uvicorn's configuration, with the server's connections: the protocols find them here."""
+
+    connections: Connections | None = None
+
+
+class RequestProtocol(H11Protocol):
+    """uvicorn's protocol with time limits for requests and answers."""
+
+    _deadline: asyncio.TimerHandle | None = None
+    _stall: asyncio.TimerHandle | None = None
+    _has_begun = False  # whether something of the next request has come
+    _is_ending = False
+    _unread = 0
+
+    def connection_made(self, transport: asyncio.BaseTransport) -> None:
+        """Begin to wait for a request."""
+        super().connection_made(cast(asyncio.Transport, transport))
+        self._wait_for_request()
+
+    def data_received(self, data: bytes) -> None:
+        """Hear the next bytes; the time for a head begins with its first byte."""
+        if self.is_ending():
+            return
+        if not self._has_begun:
+            self._has_begun = True
+            self._restart_deadline()
+        before = self.conn.their_state
+        while data and not self.is_ending() and self.conn.their_state is h11.IDLE:
+            # h11 has a limit for heads that are incomplete; one that came whole would pass it
+            super().data_received(data[:PART_BYTES])
+            data = data[PART_BYTES:]
+        if self.is_ending():
+            return
+        if data and self.transport.get_protocol() is self:
+            super().data_received(data)
+        state = self.conn.their_state
+        if self.transport.get_protocol() is not self or state not in (h11.IDLE, h11.SEND_BODY):
+            self._stop_waiting()
+        elif state is h11.SEND_BODY and before is h11.IDLE:
+            self._restart_deadline()
+
+    def on_response_complete(self) -> None:
+        """Wait for the next request, which may have come already."""
+        super().on_response_complete()
+        if self.transport.is_closing():
+            self._watch_reader()
+        elif self.conn.their_state is h11.IDLE:
+            self._wait_for_request()
+        elif self.conn.their_state is h11.SEND_BODY and self._deadline is None:
+            self._restart_deadline()
+
+    def connection_lost(self, exc: Exception | None) -> None:
+        """End the timers too."""
+        for timer in (self._deadline, self._stall):
+            if timer is not None:
+                timer.cancel()
+        self._deadline = self._stall = None
+        super().connection_lost(exc)
+
+    def send_400_response(self, msg: str) -> None:
+        """Answer what is no request; one that is too long gets its own status."""
+        error = sys.exception()  # uvicorn calls this where it has caught it
+        hint = error.error_status_hint if isinstance(error, h11.RemoteProtocolError) else 400
+        if hint == HTTPStatus.REQUEST_HEADER_FIELDS_TOO_LARGE:
+            msg = "expected a request whose address and headers are shorter, such as its cookies"
+        self.end(refusal(hint, msg))
+
+    def shutdown(self) -> None:
+        """End the connection with the server, whatever state it is in."""
+        if self.is_ending():
+            self.transport.abort()
+            return
+        try:
+            super().shutdown()
+        except h11.LocalProtocolError:
+            self.transport.abort()
+
+    def is_ending(self) -> bool:
+        """Return True once the connection's last answer is on its way."""
+        return self._is_ending
+
+    def pause_writing(self) -> None:
+        """Look from time to time whether the other side reads at all."""
+        super().pause_writing()
+        self._watch_reader()
+
+    def end(self, answer: bytes = b"") -> None:
+        """End the connection with an answer, and give the other side time to read it."""
+        self._is_ending = True
+        if self.cycle is not None:  # its app may still be at work
+            self.cycle.disconnected = True
+            self.cycle.message_event.set()
+        self._set_idle(True)
+        self.transport.write(answer)
+        if not self.transport.can_write_eof():
+            self.transport.close()
+            return
+        # closed at once, with bytes that were not read, it would be reset and the answer lost
+        self.transport.write_eof()
+        self._set_deadline(LINGER_S, self.transport.abort)
+
+    def _wait_for_request(self) -> None:
+        self._has_begun = bool(self.conn.trailing_data[0])
+        self._set_idle(not self.transport.get_write_buffer_size())  # else it still reads
+        self._restart_deadline()
+
+    def _restart_deadline(self) -> None:
+        self._set_deadline(REQUEST_TIMEOUT_S, self._time_out)
+
+    def _stop_waiting(self) -> None:
+        self._set_idle(False)
+        if self._deadline is not None:
+            self._deadline.cancel()
+            self._deadline = None
+
+    def _set_deadline(self, seconds: float, end: Callable[[], object]) -> None:
+        if self._deadline is not None:
+            self._deadline.cancel()
+        self._deadline = self.loop.call_later(seconds, end)
+
+    def _time_out(self) -> None:
+        self._deadline = None
+        if self.transport.is_closing():
+            self._watch_reader()
+        elif self.transport.get_write_buffer_size():  # it still reads what it asked for before
+            self._watch_reader()
+            self._restart_deadline()
+        elif not self._has_begun:
+            self.transport.close()
+        elif self.conn.their_state is h11.SEND_BODY and self.cycle.response_started:
+            self.transport.abort()  # it was answered all the same
+        else:
+            expected = f"expected the whole request within {REQUEST_TIMEOUT_S:g} s"
+            self.end(refusal(HTTPStatus.REQUEST_TIMEOUT, expected))
+
+    def _watch_reader(self) -> None:
+        if self._stall is None and self.transport.get_write_buffer_size():
+            self._unread = self.transport.get_write_buffer_size()
+            self._stall = self.loop.call_later(STALL_TIMEOUT_S, self._look_at_reader)
+
+    def _look_at_reader(self) -> None:
+        self._stall = None
+        unread = self.transport.get_write_buffer_size()
+        if unread and unread >= self._unread:
+            self.transport.abort()
+        elif unread:
+            self._watch_reader()
+
+    def _set_idle(self, idle: bool) -> None:
+        connections = cast(ServerConfig, self.config).connections
+        if connections is not None:
+            connections.set_idle(self.transport, idle)
