@@ -76,6 +76,8 @@ from ai4u_edu import (
     TargetFallReward,
     TouchRewardFunc,
     TouchSensor,
+    TrainController,
+    Trainer,
     TruncatedSensor,
     VelocitySensor,
     WASDController,
@@ -101,6 +103,23 @@ def pushing() -> ContinuousActuator:
     actuator = ContinuousActuator(size=2)
     actuator.handler = push
     return actuator
+
+
+class Weaving(Trainer):
+    """Drives to the left and to the right in turns."""
+
+    def on_reset(self) -> None:
+        self.side = 1
+
+    def state_updated(self, percept: Any) -> None:
+        self.side = -self.side
+        self.controller.request_continuous_action("move", [1, self.side, 0, 0])
+
+
+def trained() -> TrainController:
+    controller = TrainController()
+    controller.trainer = Weaving()
+    return controller
 
 
 def energy() -> HomeostaticVariable:
@@ -182,6 +201,7 @@ SAMPLES: tuple[Block, ...] = (
     ReplayController(actions=[{"move": [1, 0, 0, 0]}, {"move": [0, 1, 0, 0]}], ending="repeat"),
     ScriptController(function=circle),
     StrikerController(),
+    trained(),
     WASDController(),
     WASDRBMoveController(),
 )
