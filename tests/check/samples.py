@@ -129,7 +129,7 @@ def energy() -> HomeostaticVariable:
 SAMPLES: tuple[Block, ...] = (
     ActionSensor(),
     AgentArraySensor(size=2),
-    AreaOrientationSensor(target_group="target", group_code=CODES, radius=3),
+    AreaOrientationSensor(target_group="target", group_code={"target": 2, "wall": 4}, radius=3),
     BearingSensor(target="box"),
     CellSensor(rows=14, columns=14, cell_size=0.5),
     DoneSensor(),
