@@ -21,15 +21,20 @@ KINDS: dict[str, type[Block]] = {
     "controllers": Controller,
 }
 
+PARTS = "parts"
+"""Blocks that other blocks are made of: the internal variables of a HomeostaticReward."""
+
 
 def built_in_blocks() -> dict[str, list[type[Block]]]:
     """All blocks of this package by kind, each kind in the order of their names."""
     blocks = [Block.types[name] for name in sorted(Block.types)]
     own = [cls for cls in blocks if is_built_in(cls) and not cls.__dict__.get("abstract")]
-    return {
+    found = {
         name: [cls for cls in own if issubclass(cls, kind) and cls is not kind]
         for name, kind in KINDS.items()
     }
+    kinds = tuple(KINDS.values())
+    return found | {PARTS: [cls for cls in own if not issubclass(cls, kinds)]}
 
 
 def summary(cls: type[Block]) -> str:
