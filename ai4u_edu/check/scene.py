@@ -83,14 +83,16 @@ def _all_of(record: Record) -> Any:
 
 
 def _warn(report: Report, agents: Sequence[BasicAgent]) -> None:
-    blocks: list[tuple[str, Block]] = [
-        (f"agent {agent.id!r}, {title_of(block)}: ", block)
-        for agent in agents
-        for block in (*agent.sensors, *agent.actuators, *agent.rewards)
-        if block.is_active
-    ]
+    blocks: list[tuple[str, Block]] = []
+    rewards: list[tuple[str, RewardFunc]] = []
+    for agent in agents:
+        fitting = agent.fitting  # what is switched off sits on no body
+        for block in (*fitting.sensors, *fitting.actuators.values(), *fitting.rewards):
+            words = f"agent {agent.id!r}, {title_of(block)}: "
+            blocks.append((words, block))
+            if isinstance(block, RewardFunc):
+                rewards.append((words, block))
     warn_of_groups(report, blocks, agents[0].view)
-    rewards = [(words, block) for words, block in blocks if isinstance(block, RewardFunc)]
     warn_of_no_end(report, rewards)
 
 

@@ -93,7 +93,7 @@ class TrainController(Controller):
         Raises:
             ActionError: there is no such actuator, or these are no finite numbers.
         """
-        self._request(name, values, np.floating, "finite numbers")
+        self._request(name, values, "finite numbers")
 
     def request_action(self, name: str, values: Sequence[int]) -> None:
         """Request an action of whole numbers for the next decision: one choice, as a list.
@@ -105,7 +105,7 @@ class TrainController(Controller):
         Raises:
             ActionError: there is no such actuator, or these are no whole numbers.
         """
-        self._request(name, values, np.integer, "whole numbers")
+        self._request(name, values, "whole numbers", are_whole=True)
 
     def request_restart(self) -> None:
         """Request a new episode in place of the next decision."""
@@ -145,16 +145,17 @@ class TrainController(Controller):
     def _forget(self) -> None:
         self._requested, self._wants_restart = {}, False
 
-    def _request(self, name: str, values: Any, kind: type[np.generic], expected: str) -> None:
+    def _request(self, name: str, values: Any, expected: str, *, are_whole: bool = False) -> None:
         if self._agent is not None:
             known = {each.action_name for each in self._agent.actuators if each.is_active}
             if name not in known:
                 raise ActionError(f"no actuator is called {name!r}; {suggest(name, known)}")
         try:
             numbers = np.asarray(values)
-            if kind is np.floating:
+            if not are_whole:
                 numbers = numbers.astype(np.float64)
-            fits = np.issubdtype(numbers.dtype, kind) and bool(np.isfinite(numbers).all())
+            kinds = "iu" if are_whole else "f"
+            fits = numbers.dtype.kind in kinds and bool(np.isfinite(numbers).all())
         except (TypeError, ValueError):
             fits = False
         if not fits or numbers.ndim != 1:
