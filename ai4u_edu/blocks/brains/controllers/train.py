@@ -1,7 +1,7 @@
 """A controller that does what a script requests, one action at a time."""
 
 from collections.abc import Sequence
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -75,6 +75,9 @@ class TrainController(Controller):
     >>> robot.reward_terms["touch"]
     100.0
     """
+
+    needs_script: ClassVar[bool] = True
+    """The page offers no driver that does nothing by itself."""
 
     def __post_init__(self) -> None:
         self.trainer: Trainer | None = None
