@@ -87,6 +87,8 @@ _HOMES = {
         "TargetFallReward",
         "TouchRewardFunc",
         "TouchSensor",
+        "TrainController",
+        "Trainer",
         "TruncatedSensor",
         "VelocitySensor",
         "WASDController",

@@ -79,6 +79,8 @@ from ai4u_edu.blocks import StrikerController as StrikerController
 from ai4u_edu.blocks import TargetFallReward as TargetFallReward
 from ai4u_edu.blocks import TouchRewardFunc as TouchRewardFunc
 from ai4u_edu.blocks import TouchSensor as TouchSensor
+from ai4u_edu.blocks import TrainController as TrainController
+from ai4u_edu.blocks import Trainer as Trainer
 from ai4u_edu.blocks import TruncatedSensor as TruncatedSensor
 from ai4u_edu.blocks import VelocitySensor as VelocitySensor
 from ai4u_edu.blocks import WASDController as WASDController

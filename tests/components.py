@@ -17,16 +17,40 @@ from tests.check.samples import INSIDE_OTHERS, SAMPLES
 TESTS = Path(__file__).parent
 
 AI4U = (
-    "ActionSensor AgentArraySensor AreaOrientationSensor DoneSensor FloatArrayCompositeSensor "
-    "GroundStatusSensor GroupTouchSensor IDSensor LinearRayCastingSensor OrientationSensor "
-    "PositionSensor RayCastingSensor RewardSensor StepSensor TouchSensor TruncatedSensor "
-    "CBMoveActuator ContinuousActuator DiscretActuator RBMoveActuator RespawnActuator "
-    "AndRewardFunc CollisionWithRewardFunc DistanceToTargetRewardFunc DynamicFallReward "
-    "EvalBoolValue EvalFloatValue EvalIntValue FallReward MinDistReward ORRewardFunc "
-    "RestlessnessRewardFunc2D TouchRewardFunc RemoteBrain ArrowPhysicsMoveController "
-    "DiscretArrowController WASDRBMoveController NeuralNetController"
+    "ActionSensor AgentArraySensor AreaOrientationSensor Camera Camera3DSensor DoneSensor "
+    "FloatArrayCompositeSensor GroundStatusSensor GroupTouchSensor IDSensor LinearRayCastingSensor "
+    "LinearRayCastingSensor2D OrientationSensor PositionSensor RayCastingSensor RaycastMapping "
+    "RewardSensor ScreenSensor Sensor StepSensor TouchSensor TruncatedSensor "
+    "Actuator CBMoveActuator CBMoveActuator2D CBRespawnActuator CBRespawnActuator2D "
+    "ContinuousActuator DiscretActuator RBMoveActuator RBMoveActuator2D RBRespawnActuator "
+    "AgentRewardFunc AndRewardFunc CollisionWithRewardFunc DistanceToTargetRewardFunc "
+    "DynamicFallReward EvalBoolValue EvalFloatValue EvalIntValue FallReward MinDistReward "
+    "MinDistReward2D ORRewardFunc RestlessnessRewardFunc RestlessnessRewardFunc2D RewardFunc "
+    "TouchRewardFunc TouchRewardFunc2D HomeostaticVariable "
+    "BasicAgent RLAgent ControlRequestor Brain LocalBrain RemoteBrain Controller "
+    "ArrowPhysicsMoveController ArrowPhysicsMoveController2D DiscretArrowController "
+    "WASDRBMoveController NeuralNetController TrainController Trainer Utils"
 )
-"""AI4U's own names of the components that are to be here too."""
+"""All classes of AI4U's guide and of its later versions that a user of AI4U meets."""
+
+AI4U_SETTINGS = (
+    "perceptionKey stackedObservations isActive resetable normalized isInput IsState SensorType "
+    "sfloat sstring sbool sint sbytearray sfloatarray sintarray sstrings simage Shape agent shape "
+    "isContinuous rangeMin rangeMax actionName isOutput ActionDone OnSetup OnReset OnUpdate Eval "
+    "ResetEval causeEpisodeToEnd AddReward GetAction NewStateEvent Utils.ParseAction "
+    "GetStateAsFloat GetStateAsBool GetStateAsString ID priority MaxStepsPerEpisode rewardScale "
+    "doneAtNegativeReward doneAtPositiveReward avatarBody agentPath controllerPath remote "
+    "checkEpisodeTruncated arrayInputSize actionHandler actionSize actionIsContinuous "
+    "addControlRequestor agentsList defaultTimeScale controlRequestorTimeScale physicsMode "
+    "computePhysicsTicks maxPhysicsFrames skipFrame repeatAction host port receiveTimeout "
+    "Physics_FPS appgym_sb3train.py test.py "
+    "RequestContinuousAction RequestAction StateUpdated SetTarget SetCentroid CheckValue "
+    "beforeTheReset endOfEpisode beginOfEpisode endOfStep beginOfStep beginOfUpdateState "
+    "endOfUpdateState beginOfApplyAction endOfApplyAction OnResetStart OnEpisodeEnd OnEpisodeStart "
+    "OnStepEnd OnStepStart OnStateUpdateStart OnStateUpdateEnd OnActionStart OnActionEnd "
+    "OnAgentStart"
+)
+"""The settings, methods and events of these classes, an underscore in place of a space."""
 
 MISSING: dict[str, str] = {}
 """Components of AI4U that are not here yet, and why."""
@@ -42,7 +66,7 @@ class Component:
     name: str
     kind: str
     ai4u: str
-    """Its name in AI4U; empty for what is ours alone."""
+    """Its names in AI4U; empty for what is ours alone."""
     contract: str
     """Whether the checkers run on it."""
     tests: dict[str, int]
@@ -51,7 +75,9 @@ class Component:
 
 def components() -> list[Component]:
     """Every kind of block that is built in, by kind and name."""
-    ai4u = {ours: theirs for theirs, ours in parity_rows().items()}
+    ai4u: dict[str, list[str]] = {}
+    for theirs, ours in parity_rows().items():
+        ai4u.setdefault(ours, []).append(theirs)
     sampled = {type(sample) for sample in SAMPLES}
     found = []
     for name, cls in Block.types.items():
@@ -60,14 +86,16 @@ def components() -> list[Component]:
         kind = next((each.__name__ for each in KINDS if issubclass(cls, each)), "part")
         contract = "yes" if cls in sampled else "in others" if cls in INSIDE_OTHERS else "NO"
         tests = {module: names[name] for module, names in named_in_tests().items() if name in names}
-        found.append(Component(name, kind, ai4u.get(name, ""), contract, tests))
+        found.append(Component(name, kind, " ".join(ai4u.get(name, ())), contract, tests))
     order = [kind.__name__ for kind in KINDS] + ["part"]
     return sorted(found, key=lambda each: (order.index(each.kind), each.name))
 
 
 def parity_rows() -> dict[str, str]:
-    """Our names by AI4U's, as the table for those who come from there says."""
-    return dict(re.findall(r"^\| `(\w+)` \| `(\w+)` \|", coming_from_ai4u(), re.MULTILINE))
+    """Our names by AI4U's, as the table for those who come from there says; empty for none."""
+    rows = re.findall(r"^\| `(\w+)` \| (?:`(\w+)`|-) \|", coming_from_ai4u(), re.MULTILINE)
+    assert len(dict(rows)) == len(rows) == len(coming_from_ai4u().splitlines()) - 2
+    return dict(rows)
 
 
 @cache

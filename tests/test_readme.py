@@ -6,7 +6,10 @@ from typing import Any
 
 import pytest
 
+import ai4u_edu
 from ai4u_edu.blocks.lesson_page import coming_from_ai4u
+from tests.builders import small_sim
+from tests.components import AI4U, AI4U_SETTINGS
 from tests.playing import played
 from tests.readme_table import between_marks
 
@@ -30,6 +33,47 @@ def test_python_blocks_run(capsys: pytest.CaptureFixture[str]) -> None:
 
 def test_the_table_for_those_who_come_from_ai4u_is_the_codes_own() -> None:
     assert between_marks(README) == coming_from_ai4u()
+
+
+def test_every_class_of_ai4u_has_a_row_that_says_something() -> None:
+    rows = [line.split(" | ") for line in between_marks(README).splitlines()[2:]]
+    assert [row[0].strip("|` ") for row in rows] == sorted(AI4U.split(), key=str.lower)
+    assert all(len(row[2].split()) > 2 for row in rows)
+
+
+def test_every_setting_of_ai4u_has_a_row() -> None:
+    named = {name for theirs, _ in settings() for name in re.findall(r"`([^`]+)`", theirs)}
+    assert {each.replace("_FPS", " FPS") for each in AI4U_SETTINGS.split()} - named == set()
+
+
+def test_what_the_rows_name_is_here() -> None:
+    named = [name for _, here in settings() for name in re.findall(r"`([\w.]+)`", here)]
+    assert len(named) > 70
+    strange = [name for name in named if not is_known(name)]
+    assert strange == []
+
+
+def settings() -> list[tuple[str, str]]:
+    """The table of methods and settings: AI4U's names, and what stands for them."""
+    table = README.split("Methods and settings:")[1].split("\n## ")[0]
+    return re.findall(r"^\| (`.*?) \| (.*?) \|$", table, re.MULTILINE)
+
+
+def is_known(name: str) -> bool:
+    """Whether there is such a class, attribute, parameter, event or method."""
+    owner, _, member = name.rpartition(".")
+    if owner == "BasicAgent":
+        return hasattr(small_sim().agents[0], member)
+    if owner:
+        cls = getattr(ai4u_edu, owner)
+        return hasattr(cls, member) or (owner != "Command" and member in cls.parameters())
+    return name in {*dir(ai4u_edu), *ai4u_edu.EVENTS, *WORDS}
+
+
+WORDS = {"Box", "Discrete", "handler", "default_time_scale"} | {
+    f"__{each}__" for each in ("restart", "pause", "resume", "stop")
+}
+"""What stands in the rows and is not a name of the package."""
 
 
 def test_pictures_are_there() -> None:

@@ -33,7 +33,9 @@ class BasicAgent(Declared):
     max_steps_per_episode: Count = 0
     """Decisions after which the episode is cut off (truncated); 0 for no limit."""
     done_at_negative_reward: bool = False
+    """True ends the episode after a decision whose rewards sum up to less than 0."""
     done_at_positive_reward: bool = False
+    """True ends the episode after a decision whose rewards sum up to more than 0."""
     reward_scale: Number = 1.0
     """Every reward is multiplied by this."""
     sensors: list[Sensor] = Field(default_factory=list)

@@ -1,10 +1,10 @@
-"""What an agent has to keep in balance."""
+"""Internal variables, which an agent has to keep in balance."""
 
 import math
 
 from ai4u_edu.blocks.agent_view import AgentView
 from ai4u_edu.blocks.block import Block
-from ai4u_edu.errors import BlockError
+from ai4u_edu.errors import BlockError, ReadingError
 from ai4u_edu.parameters import Name, Number
 from ai4u_edu.world import BodyView, WorldView
 
@@ -22,6 +22,9 @@ class HomeostaticVariable(Block):
 
     Source: AI4U's HomeostaticVariable; the drift is ours, after the energy of its Platform demo.
 
+    Differs from AI4U: minValue and maxValue are ``comfort_min`` and ``comfort_max``. Value is
+    ``level``; the parameter ``value`` is the level at the beginning of an episode.
+
     >>> energy = HomeostaticVariable(
     ...     name="energy", range_max=100, comfort_min=40, comfort_max=80, value=50
     ... )
@@ -31,14 +34,19 @@ class HomeostaticVariable(Block):
     """
 
     name: Name
+    """Name of the variable; each one of an agent has another."""
     range_min: Number = 0.0
+    """Lowest level, in the variable's own unit."""
     range_max: Number = 1.0
+    """Highest level, in the variable's own unit; above range_min."""
     comfort_min: Number = 0.0
+    """Lower end of the comfort zone; within the range."""
     comfort_max: Number = 1.0
+    """Upper end of the comfort zone; within the range, not below comfort_min."""
     value: Number = 1.0
-    """The level that an episode begins with."""
+    """Level at the beginning of an episode; within the range."""
     drift_per_second: Number = 0.0
-    """How much the level changes by itself; hunger has a negative one."""
+    """Change of the level by itself in a second; below 0 for hunger."""
     moving_drift_per_second: Number | None = None
     """The same while the body moves over the ground; left out: as at rest."""
     airborne_drift_per_second: Number | None = None
@@ -64,7 +72,13 @@ class HomeostaticVariable(Block):
         self.level = self.value
 
     def add_value(self, amount: float) -> None:
-        """Adds to the level, which stays within the range."""
+        """Adds to the level, which stays within the range.
+
+        Raises:
+            ReadingError: the amount is no number (NaN).
+        """
+        if amount != amount:  # max and min would make a full level of it
+            raise ReadingError(f"{self._title()}: expected an amount, got {amount!r}")
         self.level = max(self.range_min, min(self.range_max, self.level + amount))
 
     def drift(self, body: BodyView, seconds: float) -> None:
@@ -80,15 +94,57 @@ class HomeostaticVariable(Block):
 
     def check(self) -> bool:
         """Whether the level is in the comfort zone; its ends belong to it."""
-        return self.comfort_min <= self.level <= self.comfort_max
+        return self.check_value(self.level)
+
+    def check_value(self, value: float) -> bool:
+        """Whether a level would be in the comfort zone; its ends belong to it."""
+        return self.comfort_min <= value <= self.comfort_max
 
     def centroid(self) -> float:
         """The middle of the comfort zone."""
         return (self.comfort_min + self.comfort_max) / 2
 
+    def set_centroid(self, value: float) -> None:
+        """Moves the comfort zone, as wide as it is, so that its middle is here.
+
+        It stays there until it is moved again, also over a reset.
+
+        Raises:
+            BlockError: the zone would leave the range.
+        """
+        half = (self.comfort_max - self.comfort_min) / 2
+        low, high = self.range_min + half, self.range_max - half
+        if not low <= value <= high:
+            raise BlockError(
+                f"{self._title()}: expected a centroid from {low:g} to {high:g}, so that the "
+                f"comfort zone stays within the range, got {value!r}"
+            )
+        self.comfort_min = max(self.range_min, value - half)
+        self.comfort_max = min(self.range_max, value + half)
+
+    def position_to_centroid(self) -> float:
+        """The level, counted from the middle of the comfort zone: above 0 where it is higher."""
+        return self.level - self.centroid()
+
+    def position_to_min(self) -> float:
+        """The level, counted from the lower end of the comfort zone."""
+        return self.level - self.comfort_min
+
+    def position_to_max(self) -> float:
+        """The level, counted from the upper end of the comfort zone."""
+        return self.level - self.comfort_max
+
     def distance_to_centroid(self) -> float:
         """How far the level is from the middle of the comfort zone."""
-        return abs(self.level - self.centroid())
+        return abs(self.position_to_centroid())
+
+    def distance_to_min(self) -> float:
+        """How far the level is from the lower end of the comfort zone, to either side."""
+        return abs(self.position_to_min())
+
+    def distance_to_max(self) -> float:
+        """How far the level is from the upper end of the comfort zone, to either side."""
+        return abs(self.position_to_max())
 
     def discomfort(self) -> float:
         """How far the level is outside of the comfort zone; 0 inside."""
@@ -96,7 +152,14 @@ class HomeostaticVariable(Block):
 
     def normalised(self) -> float:
         """The level as a share of the range: 0 at its bottom, 1 at its top."""
-        return (self.level - self.range_min) / (self.range_max - self.range_min)
+        return self._share(self.level)
+
+    def normalised_comfort(self) -> tuple[float, float]:
+        """Both ends of the comfort zone as shares of the range."""
+        return self._share(self.comfort_min), self._share(self.comfort_max)
+
+    def _share(self, level: float) -> float:
+        return (level - self.range_min) / (self.range_max - self.range_min)
 
     def _title(self) -> str:
         return f"{type(self).__name__} {self.name!r}"

@@ -5,6 +5,7 @@ from typing import Any
 
 from ai4u_edu.blocks import Actuator
 from ai4u_edu.check.exam import DECISIONS, Exam, Options, said
+from ai4u_edu.check.ineffective import warn_of_groups
 from ai4u_edu.check.papers import check_papers
 from ai4u_edu.check.report import Outcome, Report
 from ai4u_edu.check.trial import Pose, Script, Trial, fresh, title_of
@@ -25,6 +26,7 @@ def check_actuator(
     It has to be documented; come back from a scene file as it was; take whatever its space holds
     and refuse what is no number; leave all bodies at places that are finite; do the same from the
     same seed; forget everything at a reset; leave the global generators alone; and move something.
+    One that looks for groups that are not there gets a warning.
 
     Args:
         actuator: stays as it is; copies of it (with its ``handler``, if it has one) are driven.
@@ -58,6 +60,7 @@ def check_actuator(
     )
     check_papers(report, actuator, "what it does")
     if exam.run():
+        warn_of_groups(report, [("", actuator)], exam.view)
         report.add("finite", _not_finite(exam.values()))
         _refuses(report, copies[0])
         without = exam.drive(Trial(the_scene, without=actuator, script=script))

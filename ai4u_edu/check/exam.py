@@ -73,6 +73,7 @@ class Exam:
             self.report.add("setup", f"expected a setup without an error, got {said(error)}")
             return False
         self.report.add("setup")
+        self.view = trial.agent.view  # the world that was built for the first run
         try:
             self.records = self.drive(trial)
         except Exception as error:  # whatever it is, the report says it

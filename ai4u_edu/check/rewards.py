@@ -2,6 +2,7 @@
 
 from ai4u_edu.blocks import RewardFunc
 from ai4u_edu.check.exam import DECISIONS, Exam, Options
+from ai4u_edu.check.ineffective import warn_of_groups, warn_of_no_end
 from ai4u_edu.check.papers import check_papers
 from ai4u_edu.check.report import Report
 from ai4u_edu.check.trial import Script, Trial, fresh, title_of
@@ -20,7 +21,8 @@ def check_reward(
 
     It has to be documented; come back from a scene file as it was; pay finite numbers; pay the same
     from the same seed; forget everything at a reset; move nothing; leave the global generators
-    alone. One that always pays the same gets a warning.
+    alone. One that always pays the same gets a warning, and so does one that is to end the episode
+    and never can, and one that looks for groups that are not there.
 
     Args:
         reward: stays as it is; copies of it are driven.
@@ -47,7 +49,9 @@ def check_reward(
         words="rewards",
     )
     check_papers(report, reward, "what it pays for")
+    warn_of_no_end(report, [("", reward)])
     if exam.run():
+        warn_of_groups(report, [("", reward)], exam.view)
         exam.only_looks(Trial(the_scene, without=reward, script=script))
         exam.changes(warning=True)
     return report

@@ -1,13 +1,17 @@
 """Whether a scene keeps its promises."""
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 
+from ai4u_edu.agent import BasicAgent
+from ai4u_edu.blocks import Block, RewardFunc
 from ai4u_edu.check.exam import DECISIONS, Exam, Options, frozen, short
+from ai4u_edu.check.ineffective import warn_of_groups, warn_of_no_end
 from ai4u_edu.check.report import Outcome, Report
 from ai4u_edu.check.sensors import not_in
-from ai4u_edu.check.trial import Record, Script, Trial
+from ai4u_edu.check.trial import Record, Script, Trial, title_of
 from ai4u_edu.errors import AI4UError
 from ai4u_edu.scenes import Scene
 
@@ -26,7 +30,8 @@ def check_scene(
     It has to say what it is about; come back from its file as it was; give finite readings, inside
     the sensors' spaces; go the same way from the same seed, also after a reset; and leave the
     global generators alone. Sensors that always read the same, and rewards that nobody got, are
-    told as warnings.
+    told as warnings; so are groups that nothing carries, and rewards that are to end the episode
+    and never can.
 
     Args:
         scene: a Scene, or the name of one.
@@ -58,6 +63,7 @@ def check_scene(
 
     exam = Exam(report, make, options, of=_all_of, words="world")
     if exam.run():
+        _warn(report, trials[0].sim.agents)
         _look_at_sensors(report, trials[0], exam.records)
         _look_at_rewards(report, trials[0], exam.records)
     return report
@@ -74,6 +80,20 @@ def _lost(scene: Scene) -> str:
 def _all_of(record: Record) -> Any:
     percepts = [(percept.data, percept.texts) for percept in record.percepts.values()]
     return record.poses, percepts, record.terms
+
+
+def _warn(report: Report, agents: Sequence[BasicAgent]) -> None:
+    blocks: list[tuple[str, Block]] = []
+    rewards: list[tuple[str, RewardFunc]] = []
+    for agent in agents:
+        fitting = agent.fitting  # what is switched off sits on no body
+        for block in (*fitting.sensors, *fitting.actuators.values(), *fitting.rewards):
+            words = f"agent {agent.id!r}, {title_of(block)}: "
+            blocks.append((words, block))
+            if isinstance(block, RewardFunc):
+                rewards.append((words, block))
+    warn_of_groups(report, blocks, agents[0].view)
+    warn_of_no_end(report, rewards)
 
 
 def _look_at_sensors(report: Report, trial: Trial, records: list[Record]) -> None:

@@ -8,6 +8,7 @@ from gymnasium import spaces
 
 from ai4u_edu.blocks import Sensor
 from ai4u_edu.check.exam import DECISIONS, Exam, Options, short
+from ai4u_edu.check.ineffective import warn_of_groups
 from ai4u_edu.check.papers import check_papers
 from ai4u_edu.check.report import Outcome, Report
 from ai4u_edu.check.trial import Script, Trial, fresh, title_of
@@ -27,7 +28,8 @@ def check_sensor(
     It has to be documented; come back from a scene file as it was; read finite numbers inside its
     space, in new memory each time; read the same from the same seed; forget everything at a reset;
     move nothing; leave the global generators alone; and read not always the same (where it is no
-    input of a policy, that is a warning only).
+    input of a policy, that is a warning only). One that looks for groups that are not there gets a
+    warning.
 
     Args:
         sensor: stays as it is; copies of it are driven.
@@ -65,6 +67,7 @@ def check_sensor(
     )
     check_papers(report, sensor, "what it reads")
     if exam.run(forgets="" if sensor.resetable else "resetable is off"):
+        warn_of_groups(report, [("", sensor)], exam.view)
         values = exam.values()
         report.add(
             "finite",

@@ -36,7 +36,7 @@ PRESSED = 0.1
 
 NAMES = {Sensor: "perception_key", Actuator: "action_name", RewardFunc: "name"}
 
-SCRIPTED = ("handler",)
+SCRIPTED = ("handler", "trainer")
 """What a script sets on a block, and a copy has to have too."""
 
 

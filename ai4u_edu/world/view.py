@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
@@ -10,7 +10,7 @@ from ai4u_edu.errors import NameNotFoundError, suggest
 from ai4u_edu.world.body import BodyView
 from ai4u_edu.world.descriptions import FloorDescription
 from ai4u_edu.world.ray_grid import RayGrid
-from ai4u_edu.world.rays import CodeOf, RayFan
+from ai4u_edu.world.rays import GROUND_TAGS, CodeOf, RayFan
 from ai4u_edu.world.region import Region
 from ai4u_edu.world.sight import line_of_sight
 
@@ -84,6 +84,19 @@ class WorldView:
         """The names of all bodies that carry a tag."""
         return tuple(name for name, body in self._world.bodies.items() if tag in body.tags)
 
+    def tags(self, *kinds: Literal["bodies", "floors", "areas"]) -> set[str]:
+        """The tags that something of these kinds carries; of all kinds if none is named.
+
+        Endless ground counts as a floor with the tag "floor".
+        """
+        world = self._world
+        things: dict[str, list[Sequence[str]]] = {
+            "bodies": [body.tags for body in world.bodies.values()],
+            "floors": [floor.tags for floor in world.floors] or [GROUND_TAGS],
+            "areas": [area.tags for area in world.areas.values()],
+        }
+        return {tag for kind in kinds or things for tags in things[kind] for tag in tags}
+
     def check_target(self, name: str) -> None:
         """Raises NameNotFoundError, with a suggestion, unless a body or an area has that name."""
         if name not in self:
@@ -92,7 +105,7 @@ class WorldView:
 
     def check_group(self, tag: str) -> None:
         """Raises NameNotFoundError, with a suggestion, unless some body carries that tag."""
-        known = {each for body in self._world.bodies.values() for each in body.tags}
+        known = self.tags("bodies")
         if tag not in known:
             raise NameNotFoundError(f"no body carries the tag {tag!r}; {suggest(tag, known)}")
 

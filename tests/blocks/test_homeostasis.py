@@ -13,7 +13,7 @@ from ai4u_edu import (
     HomeostaticVariable,
     RBMoveActuator,
 )
-from ai4u_edu.errors import BlockError, NameNotFoundError
+from ai4u_edu.errors import BlockError, NameNotFoundError, ReadingError
 from tests.builders import small_sim
 
 
@@ -213,3 +213,43 @@ def test_two_variables_of_one_name() -> None:
     assert str(caught.value) == (
         "HomeostaticReward 'homeostatic': expected variables of different names, got 'energy' twice"
     )
+
+
+def test_positions_and_distances_to_the_comfort_zone() -> None:
+    variable = energy(value=30)
+    assert variable.position_to_centroid() == -30
+    assert (variable.position_to_min(), variable.position_to_max()) == (-10, -50)
+    assert (variable.distance_to_min(), variable.distance_to_max()) == (10, 50)
+    assert variable.distance_to_centroid() == 30
+    variable.add_value(60)
+    assert (variable.position_to_min(), variable.position_to_max()) == (50, 10)
+    assert variable.normalised_comfort() == (0.45, 0.65)
+
+
+@pytest.mark.parametrize(("value", "fits"), [(39.9, False), (40, True), (80, True), (81, False)])
+def test_a_value_that_is_not_the_level(value: float, fits: bool) -> None:
+    assert energy().check_value(value) is fits
+
+
+def test_the_comfort_zone_can_be_moved() -> None:
+    variable = energy()
+    variable.set_centroid(130)
+    assert (variable.comfort_min, variable.comfort_max) == (110, 150)
+    assert variable.centroid() == 130
+    assert (variable.check(), variable.discomfort()) == (False, 60)
+    assert variable.changed().centroid() == 130
+
+
+@pytest.mark.parametrize("value", [131, -31, float("nan"), float("inf")])
+def test_the_comfort_zone_stays_in_the_range(value: float) -> None:
+    variable = energy()
+    with pytest.raises(BlockError, match="expected a centroid from -30 to 130, so that the"):
+        variable.set_centroid(value)
+    assert variable.centroid() == 60
+
+
+def test_nan_is_no_amount() -> None:
+    variable = energy()
+    with pytest.raises(ReadingError, match="'energy': expected an amount, got nan"):
+        variable.add_value(float("nan"))
+    assert variable.level == 50

@@ -182,6 +182,15 @@ def test_an_axis_may_be_left_out(axis: Any, place: Any, expected: float) -> None
     assert paid(sim, 1) == [expected]
 
 
+def test_small_ways_do_not_add_up() -> None:
+    sim = small_sim(rewards=[RestlessnessRewardFunc(reward=-1)])
+    body, amounts = sim.agents[0].body, []
+    for decision in range(6):
+        body.move_to(0.0007 * decision, 0)
+        amounts += paid(sim, 1)
+    assert amounts == [0.0] + [-1.0] * 5  # AI4U's: compared with the last place of a move
+
+
 def test_turning_is_standing_still_and_jumping_is_not() -> None:
     turning = small_sim(
         rewards=[RestlessnessRewardFunc()], controller=lambda percept: {"move": [0, 1, 0, 0]}

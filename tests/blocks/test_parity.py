@@ -27,7 +27,7 @@ REWARDS = (
 CONTROLLERS = (
     "WASDRBMoveController ArrowController DiscreteArrowController ReplayController "
     "ScriptController WASDController FleeController KeeperController PushOutController "
-    "StrikerController"
+    "StrikerController TrainController"
 )
 OTHERS = "BasicAgent ControlRequestor Brain LocalBrain Controller HomeostaticVariable"
 

@@ -23,7 +23,7 @@ from ai4u_edu import (
     StepSensor,
     VelocitySensor,
 )
-from ai4u_edu.errors import BlockError, ReadingError
+from ai4u_edu.errors import BlockError, NameNotFoundError, ReadingError
 from tests.builders import small_sim, small_world
 
 
@@ -97,6 +97,29 @@ def test_position_global_local_and_of_a_target() -> None:
     assert percept["there"].tolist() == [4, 0, 0]
     assert percept["here"].tolist() == pytest.approx([0, -4, 0], abs=1e-6)
     assert percept["share"][0] == pytest.approx(4 / 9.5)  # the world reaches to 4.5 m, and 5 more
+
+
+def test_a_local_position_needs_a_target() -> None:
+    with pytest.raises(BlockError, match=r'frame="local" is the way to a target, .*: expected a'):
+        small_sim([PositionSensor(frame="local")])
+
+
+def test_orientation_looks_at_another_target_from_the_next_reading_on() -> None:
+    sensor = OrientationSensor(target="box", normalized=False)
+    sensor.set_target("ball")  # in no world yet: looked up at setup
+    world = small_world()
+    world.add_body("ball", CircleShape(radius=0.5), position=(-3, 0))
+    sim = small_sim([sensor], world=world)
+    agent = sim.agents[0]
+    assert agent.percept["orientation"].tolist() == [-1.0, 3.0]
+    sensor.set_target("box")
+    sim.step()
+    assert agent.percept["orientation"].tolist() == [1.0, 4.0]
+    sim.reset()
+    assert agent.percept["orientation"].tolist() == [1.0, 4.0]
+    with pytest.raises(NameNotFoundError, match="did you mean 'ball'"):
+        sensor.set_target("bal")
+    assert sensor.target == "box"
 
 
 def test_velocity_is_in_the_bodys_own_frame() -> None:

@@ -76,6 +76,8 @@ from ai4u_edu import (
     TargetFallReward,
     TouchRewardFunc,
     TouchSensor,
+    TrainController,
+    Trainer,
     TruncatedSensor,
     VelocitySensor,
     WASDController,
@@ -103,6 +105,23 @@ def pushing() -> ContinuousActuator:
     return actuator
 
 
+class Weaving(Trainer):
+    """Drives to the left and to the right in turns."""
+
+    def on_reset(self) -> None:
+        self.side = 1
+
+    def state_updated(self, percept: Any) -> None:
+        self.side = -self.side
+        self.controller.request_continuous_action("move", [1, self.side, 0, 0])
+
+
+def trained() -> TrainController:
+    controller = TrainController()
+    controller.trainer = Weaving()
+    return controller
+
+
 def energy() -> HomeostaticVariable:
     return HomeostaticVariable(name="energy", comfort_min=0.6, drift_per_second=-0.2)
 
@@ -110,7 +129,7 @@ def energy() -> HomeostaticVariable:
 SAMPLES: tuple[Block, ...] = (
     ActionSensor(),
     AgentArraySensor(size=2),
-    AreaOrientationSensor(target_group="target", group_code=CODES, radius=3),
+    AreaOrientationSensor(target_group="target", group_code={"target": 2, "wall": 4}, radius=3),
     BearingSensor(target="box"),
     CellSensor(rows=14, columns=14, cell_size=0.5),
     DoneSensor(),
@@ -182,6 +201,7 @@ SAMPLES: tuple[Block, ...] = (
     ReplayController(actions=[{"move": [1, 0, 0, 0]}, {"move": [0, 1, 0, 0]}], ending="repeat"),
     ScriptController(function=circle),
     StrikerController(),
+    trained(),
     WASDController(),
     WASDRBMoveController(),
 )

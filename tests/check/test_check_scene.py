@@ -32,6 +32,22 @@ agents:
 """
 
 
+def test_what_can_never_be_found_or_never_ends_is_told() -> None:
+    rays = "LinearRayCastingSensor, group_code: {floor: 1, bxo: 2}"
+    text = SCENE.replace("shape: {type: box}", "shape: {type: box}\n    tags: [box]")
+    text = text.replace("reward: 1", "cause_episode_to_end: true").replace("SENSOR", rays)
+    findings = {each.check: each for each in check_scene(Scene.loads(text), decisions=2).findings}
+    groups, ends = findings["groups"], findings["ends"]
+    assert (groups.outcome, ends.outcome) == (Outcome.WARNING, Outcome.WARNING)
+    assert groups.text == (
+        "agent '0', LinearRayCastingSensor 'linear_ray_casting': group_code: nothing that it could "
+        "find carries the tag 'bxo'; did you mean 'box'?"
+    )
+    assert ends.text.startswith(
+        "agent '0', TouchRewardFunc 'touch': expected an amount other than 0 in reward, got 0"
+    )
+
+
 class Leaving(Sensor):
     """Leaves its space after a while."""
 

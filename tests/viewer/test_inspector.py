@@ -53,7 +53,8 @@ def test_lists_of_blocks_and_of_who_may_drive(viewer: Viewer) -> None:
         assert tab.block.options == ("choose a block", "1 BearingSensor")
         assert tab.driver.value == "Program: ReplayController"
         assert "Keyboard: WASDRBMoveController" in tab.driver.options
-        assert any(line.startswith("RayCastingSensor: What lies in") for line in tab.new.options)
+        assert "Program: TrainController" not in tab.driver.options  # by itself it does nothing
+        assert any(line.startswith("RayCastingSensor: Codes and") for line in tab.new.options)
         assert tab._form is None  # made when it is asked for
         assert not tab.deeds.visible
 

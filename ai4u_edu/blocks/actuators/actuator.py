@@ -39,6 +39,7 @@ class Actuator(Block):
     action_name: str = ""
     """The action's name; left out: from the class's name."""
     is_active: bool = True
+    """False switches the actuator off: nothing comes of its actions."""
     is_output: bool = True
     """Whether a policy has to give it an action."""
 

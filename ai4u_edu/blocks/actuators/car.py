@@ -33,8 +33,11 @@ class CarActuator(Actuator):
 
     action_name: str = "move"
     max_speed: Annotated[float, quantity("m/s", gt=0, le=100)] = 2.0
+    """Speed of the rear wheels at full throttle."""
     max_steering_deg: Annotated[float, quantity("deg", gt=0, le=80)] = 35.0
+    """Angle of the front wheels at full steering."""
     wheelbase: PositiveMetres = 1.5
+    """Distance between the axles."""
 
     def space(self) -> Box:
         """[throttle, steering]."""

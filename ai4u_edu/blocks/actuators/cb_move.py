@@ -24,14 +24,23 @@ class CBMoveActuator(GroundMotion):
     ``jump_noise`` (which never makes a jump point down or back). What is 0 stays 0: a body at rest
     stays at rest. The noise comes from the world's seed, so the same seed errs in the same way.
 
-    Source: AI4U's CBMoveActuator (which drives neither sideways nor back unless told to).
+    Source: AI4U's CBMoveActuator.
+
+    Differs from AI4U: ``move_amount`` is 1 m/s, there 10. ``turn_amount`` is a speed of 1 rad/s,
+    there an angle of 20 degrees for each application. It always drives sideways and back, there
+    only with keepForward off. jumpForwardPower moves the body, there it is only signalled. The
+    ranges are fixed (no actionRange), gravity is the world's, and velocityDump, extraActions,
+    SpeedUp and the signal OnMoveStep have no counterpart.
     """
 
     dead_zone: Annotated[float, quantity("1", ge=0, le=1)] = SMALLEST
     """A number closer to 0 than this counts as 0."""
     move_noise: Deviation = 0.0
+    """Standard deviation of the noise on forward and strafe, as a share of full power."""
     turn_noise: Deviation = 0.0
+    """Standard deviation of the noise on turn, as a share of full power."""
     jump_noise: Deviation = 0.0
+    """Standard deviation of the noise on both jumps, as a share of full power."""
 
     def space(self) -> Box:
         """[forward, strafe, turn, jump, forward jump]."""

@@ -41,11 +41,11 @@ class CollectActuator(Actuator):
     group: Name
     """The tag of what is collected."""
     adds: dict[Name, Number] = Field(default_factory=dict)
-    """What one of them adds, by the variable's name."""
+    """Amount that one of them adds, by the variable's name, in the variable's unit."""
     needs: dict[Name, Number] = Field(default_factory=dict)
-    """The level that is needed at least, by the variable's name."""
+    """Lowest level with which it can be collected, by the variable's name."""
     comes_back_after: Seconds | None = None
-    """Left out: never in this episode."""
+    """Time after which a collected body is back; left out: it is gone for the episode."""
     source: str = "homeostatic"
     """The name of the HomeostaticReward that keeps the variables."""
 

@@ -19,11 +19,14 @@ class ContinuousActuator(Actuator):
 
     Action: Box(-1, 1, (size,)). Source: AI4U's ContinuousActuator.
 
+    Differs from AI4U: the handler is a function, there a node with SetAction and Reset.
+
     >>> thruster = ContinuousActuator(size=2)
     >>> thruster.handler = lambda body, numbers: body.apply_force(10 * numbers[0], 10 * numbers[1])
     """
 
     size: Annotated[int, Field(ge=1, le=1024)] = 5
+    """Count of numbers in an action."""
 
     def __post_init__(self) -> None:
         super().__post_init__()

@@ -29,7 +29,9 @@ class DifferentialDriveActuator(Actuator):
 
     action_name: str = "move"
     max_wheel_speed: Annotated[float, quantity("m/s", gt=0, le=100)] = 1.0
+    """Speed of a wheel at full power."""
     axle_width: PositiveMetres = 0.5
+    """Distance between the two wheels."""
 
     def space(self) -> Box:
         """[left, right]."""

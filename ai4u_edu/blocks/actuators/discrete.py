@@ -33,11 +33,16 @@ class DiscreteActuator(GroundMotion, ChoiceActuator):
 
     Action: Discrete(size), as an int. What is no choice is refused, not cut to the nearest one.
     Source: AI4U's DiscretActuator.
+
+    Differs from AI4U: without a handler it moves the body by its table, there it does nothing; a
+    handler is a function, there a node with SetAction and Reset.
     """
 
     size: Annotated[int, Field(ge=1, le=1024)] | None = None
-    """How many choices; left out: as many as the table has rows."""
+    """Count of choices; left out: as many as the table has rows."""
     table: Annotated[list[Row], Field(min_length=1)] = Field(default_factory=lambda: list(ARROWS))
+    """A row [forward, turn, jump, forward jump] for each choice: shares of full power, -1..1 for
+    the first two, 0..1 for the jumps."""
 
     def __post_init__(self) -> None:
         super().__post_init__()

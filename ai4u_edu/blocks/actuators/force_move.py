@@ -26,7 +26,9 @@ class ForceMoveActuator(Actuator):
 
     action_name: str = "move"
     force: Annotated[float, quantity("N", ge=0, le=1e6)] = 10.0
+    """Push at full power."""
     turn_amount: Annotated[float, quantity("rad/s", ge=0, le=100)] = 3.0
+    """Turning speed at full power."""
 
     def space(self) -> Box:
         """[forward, turn]."""

@@ -28,7 +28,7 @@ class GrabActuator(Actuator):
 
     action_name: str = "grab"
     angle: Annotated[float, quantity("deg", gt=0, le=360)] = 90.0
-    """How wide "in front" is."""
+    """Whole angle, around the heading, that counts as in front."""
 
     def space(self) -> Box:
         """[grip]."""

@@ -1,13 +1,14 @@
 """From cell to cell."""
 
 import math
-from typing import Annotated
+from typing import Annotated, ClassVar
 
 from gymnasium.spaces import Discrete
 from pydantic import Field
 
 from ai4u_edu.blocks.actuators.choice import ChoiceActuator
 from ai4u_edu.blocks.agent_view import AgentView
+from ai4u_edu.blocks.groups import check_groups
 from ai4u_edu.blocks.sensors.cells import Cell, OnGrid
 from ai4u_edu.parameters import Name, Point
 from ai4u_edu.world import Body, WorldView
@@ -35,14 +36,17 @@ class GridMoveActuator(OnGrid, ChoiceActuator):
     blocked_by: Annotated[list[Name], Field(max_length=32)] = Field(
         default_factory=lambda: ["wall"]
     )
-    """The tags of what nobody can walk into."""
+    """Tags of the bodies that block the way."""
+
+    looks_at: ClassVar[tuple[str, ...]] = ("bodies",)
 
     def space(self) -> Discrete:
         """Stay, right, left, up or down."""
         return Discrete(len(STEPS))
 
     def on_setup(self, agent: AgentView, view: WorldView) -> None:
-        """Lays the grid."""
+        """Looks the groups up and lays the grid."""
+        check_groups(self, "blocked_by", view)
         self._agent, self._view, self._grid = agent, view, self.grid()
         self._way: list[Point] = []
         self._learnt = -1

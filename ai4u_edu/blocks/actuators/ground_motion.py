@@ -25,9 +25,13 @@ class GroundMotion(Actuator):
 
     action_name: str = "move"
     move_amount: Annotated[float, quantity("m/s", ge=0, le=100)] = 1.0
+    """Speed over the ground at full power."""
     turn_amount: Annotated[float, quantity("rad/s", ge=0, le=100)] = 1.0
+    """Turning speed at full power."""
     jump_power: Annotated[float, quantity("m/s", ge=0, le=100)] = 1.0
+    """Upward speed of a jump at full power."""
     jump_forward_power: Annotated[float, quantity("m/s", ge=0, le=100)] = 1.0
+    """Forward speed that a forward jump adds at full power."""
 
     def drive(
         self,

@@ -19,7 +19,11 @@ class RBMoveActuator(GroundMotion):
     Speeds are set, not pushed to: all zeros stop the body. It acts only on the ground; in the air
     nothing steers. A jump of upward speed v rises v² / 2g high and lasts 2 v / g seconds.
 
-    Source: AI4U's RBMoveActuator; its speeds carry a factor of 100/60 that ours leave out.
+    Source: AI4U's RBMoveActuator.
+
+    Differs from AI4U: forward goes down to -1, there only to 0 (no way back). Speeds there carry a
+    factor of 100/60 that ours leave out. The ground is any floor or body below, there only what is
+    in floorGroup; collisionShapeHalfHeight has no place here. precision is fixed to 0.001.
     """
 
     def space(self) -> Box:

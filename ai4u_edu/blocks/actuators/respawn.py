@@ -22,18 +22,22 @@ class RespawnActuator(Actuator):
     before it senses anything. Late, its first percept still shows the place where the scene puts
     its body, as in an AI4U project that has ``early`` off.
 
-    Source: AI4U's RespawnActuator. There early means before the other blocks' reset; here the
-    world is built anew before any block is reset, and no block looks at the world until all are.
+    Source: AI4U's RBRespawnActuator.
+
+    Differs from AI4U: the places are ``poses``, there the children of the node respawnOptionsPath.
+    ``randomise_heading`` is off, in its CBRespawnActuator radomizeDirection is on. There early
+    means before the other blocks' reset; here the world is built anew before any block is reset,
+    and no block looks at the world until all are. flipWhenTurn has no place here.
     """
 
     action_name: str = "respawn"
     is_output: bool = False
     poses: Annotated[list[Pose], Field(min_length=1)]
-    """(x, y, heading in degrees) of each place."""
+    """Places to choose from: (x, y, heading) of each, in metres and degrees."""
     early: bool = True
-    """Whether it happens before the first reading of the episode, or after it."""
+    """True moves the body before the first reading of the episode, False after it."""
     randomise_heading: bool = False
-    """Whether the heading is drawn as well, from all there are, in place of the pose's own."""
+    """True draws the heading as well, out of all there are, in place of the pose's own."""
 
     def __post_init__(self) -> None:
         super().__post_init__()

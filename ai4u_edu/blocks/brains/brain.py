@@ -14,6 +14,7 @@ class Brain(Block):
     """The base of all brains. An agent has exactly one that is enabled."""
 
     enabled: bool = True
+    """True for the one brain that decides; an agent has exactly one."""
     skip_frame: Annotated[int, Field(ge=0, le=10_000)] = 4
     """Ticks skipped between two decisions: it decides every ``skip_frame + 1`` ticks."""
     repeat_action: bool = True

@@ -24,6 +24,7 @@ class LocalBrain(Brain):
     """
 
     controller: Controller | Callable[[Percept], Answer]
+    """The controller that is asked, or a function from percept to action."""
 
     @field_validator("controller")
     @classmethod

@@ -81,10 +81,14 @@ class RemoteBrain(Brain):
     host: Annotated[str, Field(min_length=1, max_length=255)] = "127.0.0.1"
     """Where the script listens."""
     port: Annotated[int, Field(ge=1, le=65535)] = 8080
+    """Port at which the script listens."""
     receive_timeout: Annotated[int, quantity("ms", ge=200, le=600_000)] = 2000
     """How long a script may be silent."""
     mode: Literal["lockstep", "realtime"] = "lockstep"
+    """``lockstep``: the world waits for each action. ``realtime``: it never waits."""
     on_missing: Literal["hold", "coast", "stop"] = "hold"
+    """Action where the script's is missing: ``hold`` repeats the last one, ``coast`` takes none,
+    ``stop`` gives zeros."""
 
     def __post_init__(self) -> None:
         self.hand: Brain | None = None

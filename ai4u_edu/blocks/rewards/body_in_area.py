@@ -19,8 +19,11 @@ class BodyInAreaRewardFunc(RewardFunc):
     thing: str
     """The body's name."""
     area: str
+    """Name of the area."""
     reward: Number = 1.0
+    """Amount that is paid."""
     only_one_time: bool = True
+    """True pays once an episode, False for each decision after which the body lies there."""
 
     def on_setup(self, agent: AgentView, view: WorldView) -> None:
         """Looks body and area up."""

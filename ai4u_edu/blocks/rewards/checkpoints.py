@@ -28,11 +28,13 @@ class CheckpointsReward(RewardFunc):
     """
 
     targets: Annotated[list[str], Field(min_length=1)]
-    """Bodies or areas, in the order in which they are to be touched."""
+    """Names of bodies or areas, in the order in which they are to be touched."""
     reward: Number = 1.0
+    """Amount for each target that is touched in its turn."""
     lap_reward: Number = 0.0
-    """What the last one pays besides."""
+    """Amount that the last target pays besides."""
     loop: bool = False
+    """True for a round that may begin at any target and ends where it began."""
 
     def on_setup(self, agent: AgentView, view: WorldView) -> None:
         """Looks the targets up."""

@@ -18,6 +18,7 @@ class CollisionWithRewardFunc(RewardFunc):
     group: str = ""
     """The tag of what is not to be touched; left out: anything."""
     reward: Number = -0.1
+    """Amount for each tick in contact; below 0 for a cost."""
 
     def on_setup(self, agent: AgentView, view: WorldView) -> None:
         """Looks the group up."""

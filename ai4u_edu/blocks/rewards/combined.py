@@ -21,7 +21,9 @@ class CombinedRewardFunc(RewardFunc):
     abstract = True
 
     children: Annotated[list[RewardFunc], Field(min_length=1)]
+    """Reward functions and conditions that are asked; at least one."""
     reward: Number = 1.0
+    """Amount for each decision after which it holds."""
     update_children: bool = False
     """Whether what the children pay is paid as well, under this one's name."""
 

@@ -14,14 +14,20 @@ class DistanceToTargetRewardFunc(RewardFunc):
     the defaults that is 1 within 1 m, then 1 / d² (1 / d). It is paid at every decision, so the
     agent earns most that comes quickly and stays.
 
-    Source: AI4U's DistanceToTargetRewardFunc, which leaves min_distance out of the slope (so that
-    it jumps at the rim unless that is 1) and without the square pays more the farther away it is.
+    Source: AI4U's DistanceToTargetRewardFunc.
+
+    Differs from AI4U: there min_distance is left out of the slope (so that it jumps at the rim
+    unless that is 1), and without the square it pays more the farther away the agent is.
     """
 
     target: str
+    """Name of the body to be near to."""
     max_reward: Number = 1.0
+    """Amount within min_distance, for each decision."""
     min_distance: PositiveMetres = 1.0
+    """Distance within which the whole amount is paid."""
     square_inverse: bool = True
+    """True: farther away it falls with the square of the distance. False: with the distance."""
 
     def on_setup(self, agent: AgentView, view: WorldView) -> None:
         """Looks the target up."""

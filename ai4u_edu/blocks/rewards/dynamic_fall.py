@@ -18,9 +18,9 @@ class DynamicFallReward(FallReward):
     """
 
     reference: str
-    """The body whose height counts."""
+    """Name of the body whose height counts."""
     threshold: Metres = 10.0
-    """How far below it the agent has to be."""
+    """Height below the reference at which the agent counts as fallen."""
 
     def on_setup(self, agent: AgentView, view: WorldView) -> None:
         """Looks the reference up."""

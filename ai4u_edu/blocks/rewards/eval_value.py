@@ -41,7 +41,7 @@ class EvalValue(RewardFunc):
 
 
 class EvalBoolValue(EvalValue):
-    """Whether a property is true (or, with ``value=False``, is not); a number is true above 0.
+    """Condition: a property is true (or, with ``value=False``, is not); a number is true above 0.
 
     So a TouchSensor's key will do: +1 is true, -1 is false. Like any condition it pays nothing on
     its own: give it to AndRewardFunc or OrRewardFunc. Example: not on the ground =
@@ -51,6 +51,7 @@ class EvalBoolValue(EvalValue):
     """
 
     value: bool = True
+    """True asks that the property is true, False that it is not."""
 
     def fits(self, number: float) -> bool:
         """Whether it is true as it should be, or false."""
@@ -58,7 +59,7 @@ class EvalBoolValue(EvalValue):
 
 
 class EvalIntValue(EvalValue):
-    """Whether a property is a whole number from ``min_value`` to ``max_value``, ends included.
+    """Condition: a property is a whole number from ``min_value`` to ``max_value``, ends included.
 
     Like any condition it pays nothing on its own: give it to AndRewardFunc or OrRewardFunc.
     Example: the first ten decisions = ``EvalIntValue(property="steps", min_value=0, max_value=9)``.
@@ -67,7 +68,9 @@ class EvalIntValue(EvalValue):
     """
 
     min_value: int
+    """Smallest whole number that fits."""
     max_value: int
+    """Largest whole number that fits; not below min_value."""
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -79,7 +82,7 @@ class EvalIntValue(EvalValue):
 
 
 class EvalFloatValue(EvalValue):
-    """Whether a property is a number from ``min_value`` to ``max_value``, ends included.
+    """Condition: a property is a number from ``min_value`` to ``max_value``, ends included.
 
     Like any condition it pays nothing on its own: give it to AndRewardFunc or OrRewardFunc.
     Example: out of energy = ``EvalFloatValue(property="homeostatic", min_value=0, max_value=0.01)``
@@ -89,7 +92,9 @@ class EvalFloatValue(EvalValue):
     """
 
     min_value: Number
+    """Smallest number that fits, in the property's unit."""
     max_value: Number
+    """Largest number that fits, in the property's unit; not below min_value."""
 
     def __post_init__(self) -> None:
         super().__post_init__()

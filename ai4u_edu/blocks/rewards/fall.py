@@ -15,14 +15,20 @@ class FallReward(RewardFunc):
 
     At most ``max_rewards`` times an episode; ``fail_reward`` for every other decision.
 
-    Source: AI4U's FallReward. Its ``axis`` and ``isLocal`` have no place here: bodies fall along
-    the world's z and never tip over.
+    Source: AI4U's FallReward.
+
+    Differs from AI4U: axis and isLocal have no place here; bodies fall along the world's
+    z and never tip over.
     """
 
     threshold: Metres = 0.0
+    """Height of the underside below which it counts as a fall."""
     success_reward: Annotated[float, quantity("")] = -1.0
+    """Amount for a decision after which it is below the threshold."""
     fail_reward: Annotated[float, quantity("")] = 0.0
+    """Amount for every other decision."""
     max_rewards: Annotated[int, Field(ge=1)] = 1
+    """Most payments of success_reward in an episode."""
 
     def on_reset(self, agent: AgentView, view: WorldView) -> None:
         """Forgets what was paid."""

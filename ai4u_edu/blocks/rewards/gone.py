@@ -21,9 +21,11 @@ class GoneReward(RewardFunc):
     """
 
     group: Name
+    """Tag of the bodies that are watched."""
     reward: Number = 1.0
+    """Amount for each one that goes."""
     only_last: bool = False
-    """Whether it pays only when none of the group is left."""
+    """True pays only when none of the group is left."""
 
     def on_setup(self, agent: AgentView, view: WorldView) -> None:
         """Looks the group up."""

@@ -30,8 +30,9 @@ class HomeostaticReward(RewardFunc):
     """
 
     variables: Annotated[list[HomeostaticVariable], Field(min_length=1)]
+    """Internal variables of the agent; at least one, each of another name."""
     reward: Number = 1.0
-    """What a whole unit of discomfort is worth."""
+    """Amount for a discomfort of 1 that goes away."""
 
     def __post_init__(self) -> None:
         super().__post_init__()

@@ -19,8 +19,11 @@ class MinDistReward(RewardFunc):
     """
 
     target: str
+    """Name of the body to approach."""
     success_reward: Annotated[float, quantity("")] = 0.01
+    """Amount for a decision that came closer than ever in this episode."""
     step_reward: Annotated[float, quantity("")] = -0.001
+    """Amount for every other decision but the first; below 0 for a cost."""
 
     def on_setup(self, agent: AgentView, view: WorldView) -> None:
         """Looks the target up."""

@@ -26,10 +26,15 @@ class ParkedRewardFunc(RewardFunc):
     """
 
     area: str
+    """Name of the area to park in."""
     reward: Number = 1.0
+    """Amount that is paid, once an episode."""
     heading_tolerance_deg: Annotated[float, quantity("deg", ge=0, le=180)] = 15.0
+    """Largest angle between the agent's heading and the area's."""
     max_speed: Annotated[float, quantity("m/s", ge=0, le=100)] = 0.1
+    """Largest speed of a car that counts as parked."""
     either_way: bool = True
+    """True also takes a car that looks the opposite way."""
 
     def on_setup(self, agent: AgentView, view: WorldView) -> None:
         """Looks the area up."""

@@ -18,7 +18,9 @@ class ProgressReward(RewardFunc):
     """
 
     target: str
+    """Name of the body to approach."""
     reward: Number = 1.0
+    """Amount for each metre towards the target."""
 
     def on_setup(self, agent: AgentView, view: WorldView) -> None:
         """Looks the target up."""

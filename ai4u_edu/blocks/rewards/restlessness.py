@@ -13,13 +13,21 @@ class RestlessnessRewardFunc(RewardFunc):
     """Pays ``reward`` (a cost) for each decision in which the agent moved less than ``min_dist``.
 
     What counts is how far it is from where it was after the decision before, height included;
-    turning on the spot is standing still. The first decision of an episode is free.
+    turning on the spot is standing still. The first decision of an episode is free. A ``min_dist``
+    that no decision can reach makes it a cost of every decision but the first.
 
-    Source: AI4U's RestlessnessRewardFunc2D; its 3D version punishes moving.
+    Source: AI4U's RestlessnessRewardFunc2D.
+
+    Differs from AI4U: each decision stands alone. There the place is compared with the last one at
+    which the agent had moved enough, so small ways add up: a crawl of 0.7 mm a decision costs at
+    every second one there, and at each here. The first decision is not free there. Its 3D version
+    (with increseRate and decreaseRate) punishes moving.
     """
 
     min_dist: NonNegativeMetres = 0.001
+    """Shortest way in a decision that counts as moving."""
     reward: Number = -0.001
+    """Amount for each decision without moving; below 0 for a cost."""
     ignored_axis: Literal[-1, 0, 1] = -1
     """0: moving along the world's x doesn't count; 1: along y; -1: all moving counts."""
 

@@ -33,6 +33,7 @@ class RewardFunc(Block):
     cause_episode_to_end: bool = False
     """Whether the episode ends when this pays something."""
     is_active: bool = True
+    """False switches the reward function off: it pays nothing."""
 
     def __post_init__(self) -> None:
         self.name = self.name or default_name(type(self), "RewardFunc", "Reward", "Func")

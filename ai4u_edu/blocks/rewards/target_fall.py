@@ -22,6 +22,7 @@ class TargetFallReward(FallReward):
     target: str
     """The body's name."""
     success_reward: Annotated[float, quantity("")] = 1.0
+    """Amount for a decision after which the target is below the threshold."""
 
     def on_setup(self, agent: AgentView, view: WorldView) -> None:
         """Looks the target up."""

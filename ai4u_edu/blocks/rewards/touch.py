@@ -16,13 +16,23 @@ class TouchRewardFunc(RewardFunc):
     not before ``cool_down`` seconds have passed. A touch counts even if it began and ended in the
     middle of a decision.
 
+    An episode ends by ``cause_episode_to_end`` only where something is paid. With ``reward=0``, the
+    default, nothing ever is: give a reward, if ever so small, to a touch that is to end it.
+
     Source: AI4U's TouchRewardFunc.
+
+    Differs from AI4U: ``cool_down`` is 0; there it is _collisionCheckInterval, 5 s (in 2D 0.2 s).
+    In place of the signal OnTouch, a handler of ``end_of_step`` looks at ``agent.reward_terms``.
     """
 
     target: str
+    """Name of the body or area to touch."""
     reward: Annotated[float, quantity("")] = 0.0
+    """Amount that is paid; with 0 the episode never ends by it."""
     only_one_time: bool = True
+    """True pays once an episode, False whenever they touch."""
     cool_down: Seconds = 0.0
+    """Time after a payment in which nothing is paid; 0 pays at every decision in touch."""
 
     def on_setup(self, agent: AgentView, view: WorldView) -> None:
         """Looks the target up."""

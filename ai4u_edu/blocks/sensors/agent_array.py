@@ -31,8 +31,11 @@ class AgentArraySensor(Sensor):
 
     perception_key: str = "__initial_input__"
     size: Annotated[int, Field(ge=1, le=1024)] = 1
+    """Count of numbers."""
     range_min: Number = 0.0
+    """Smallest number that a script may set."""
     range_max: Number = 1.0
+    """Largest number that a script may set; above range_min."""
 
     def __post_init__(self) -> None:
         super().__post_init__()

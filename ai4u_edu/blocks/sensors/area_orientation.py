@@ -1,13 +1,14 @@
-"""What is around: kind, direction and nearness of the nearest things."""
+"""A sensor of kind, direction and nearness of the nearest things."""
 
 import math
-from typing import Annotated
+from typing import Annotated, ClassVar
 
 import numpy as np
 from gymnasium.spaces import Box
 from pydantic import Field
 
 from ai4u_edu.blocks.agent_view import AgentView
+from ai4u_edu.blocks.groups import check_groups
 from ai4u_edu.blocks.sensors.ray_sensor import Code
 from ai4u_edu.blocks.sensors.sensor import Array, Sensor
 from ai4u_edu.errors import BlockError, NameNotFoundError, suggest
@@ -29,21 +30,33 @@ class AreaOrientationSensor(Sensor):
     alphabet. Zeros stand after the last one (a body's nearness is never 0).
 
     Reading: (3 * max_detection_reported,). Source: AI4U's AreaOrientationSensor.
+
+    Differs from AI4U: the reading is one row of numbers, there of shape (3, 20). ``area`` and
+    ``reference`` may be left out; ``radius`` is ours. There is no collision mask.
     """
 
     perception_key: str = "areasensor"
     area: str = ""
+    """Name of the area in which bodies are reported; left out: everywhere."""
     radius: PositiveMetres | None = None
+    """Largest distance of a body that is reported; left out: any distance."""
     reference: str = ""
-    """The body that looks; left out: the agent's own."""
+    """Name of the body that looks; left out: the agent's own."""
     max_detection_reported: Annotated[int, Field(ge=1, le=500)] = 20
+    """Most bodies that are reported, the nearest ones."""
     min_distance: PositiveMetres = 1.0
+    """Distance up to which the nearness is 1."""
     target_group: str = "EMITTER"
+    """Tag of the bodies that are reported."""
     group_code: dict[Name, Code] = Field(default_factory=dict)
-    """The code of each group (tag); of a body with several, the first one counts; else it is 0."""
+    """Code of each group (tag), 0..max_code_value; without a code a body reads 0. Of a body with
+    several tags, the first one that has a code counts."""
     max_code_value: Annotated[int, Field(ge=1)] = 100
+    """Code that reads as 1; no code may be larger."""
     visibility_test: bool = True
-    """Whether something in between hides a body."""
+    """True hides a body behind whatever stands in between."""
+
+    looks_at: ClassVar[tuple[str, ...]] = ("bodies",)
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -76,6 +89,7 @@ class AreaOrientationSensor(Sensor):
         if self.reference:
             _ = view[self.reference]
         view.check_group(self.target_group)
+        check_groups(self, "group_code", view)
 
     def write(self, out: Array, body: BodyView, view: WorldView) -> None:
         """One reading."""

@@ -19,6 +19,7 @@ class BearingSensor(Sensor):
     """
 
     target: str
+    """Name of the body whose direction is told."""
 
     def space(self) -> Box:
         """[sine, cosine]."""

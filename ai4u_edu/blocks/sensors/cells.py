@@ -26,11 +26,13 @@ class OnGrid(Declared):
     """The parameters of blocks that take the world for a grid; the same ones, where they meet."""
 
     rows: Length = 20
+    """Rows of the grid."""
     columns: Length = 20
+    """Columns of the grid."""
     cell_size: PositiveMetres = 1.0
-    """A cell's side."""
+    """Side of a cell."""
     centre: Point = (0.0, 0.0)
-    """The middle of the whole grid in the world."""
+    """Middle of the whole grid in the world: (x, y), in metres."""
 
     def grid(self) -> "Grid":
         """The grid."""

@@ -30,11 +30,17 @@ class FloatArrayCompositeSensor(Sensor):
 
     perception_key: str = "array"
     sensors: Annotated[list[Sensor], Field(min_length=1)]
+    """Sensors whose readings are put together, in this order; at least one."""
     range_min: Annotated[float, quantity("")] = -1.0
+    """Smallest number of the reading; also the reading of a false bool."""
     range_max: Annotated[float, quantity("")] = 1.0
+    """Largest number of the reading, above range_min; also the reading of a true bool."""
     normalize: bool = False
+    """True shifts and scales the numbers so that min_value..max_value becomes 0..1."""
     min_value: Annotated[float, quantity("")] = -1.0
+    """Number that ``normalize`` makes 0."""
     max_value: Annotated[float, quantity("")] = 1.0
+    """Number that ``normalize`` makes 1; above min_value."""
 
     def __post_init__(self) -> None:
         super().__post_init__()

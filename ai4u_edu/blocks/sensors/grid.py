@@ -7,6 +7,7 @@ from gymnasium.spaces import Box
 from pydantic import Field
 
 from ai4u_edu.blocks.agent_view import AgentView
+from ai4u_edu.blocks.groups import check_groups
 from ai4u_edu.blocks.sensors.cells import Cells, OnGrid
 from ai4u_edu.blocks.sensors.pictures import CodeLegend
 from ai4u_edu.blocks.sensors.ray_sensor import Code
@@ -45,11 +46,11 @@ class GridSensor(OnGrid, Sensor):
     group_code: Annotated[dict[Name, Code], Field(min_length=1)] = Field(
         default_factory=lambda: {"floor": 1, "wall": 50, "enemy": 100, "npc": 150, "dirty": 200}
     )
-    """The code of each group (tag)."""
+    """Code, 0..255, of each group (tag)."""
     around: Annotated[int, Field(ge=0, le=256)] = 0
-    """How many cells it sees to each side of the agent; 0 for the whole grid."""
+    """Count of cells to each side of the agent that are shown; 0 for the whole grid."""
     self_exclude: bool = True
-    """Whether the agent's own body is left out."""
+    """True leaves the agent's own body out."""
 
     def space(self) -> Box:
         """Codes."""
@@ -58,7 +59,8 @@ class GridSensor(OnGrid, Sensor):
         return Box(0, max(self.group_code.values()), shape, np.int32)
 
     def on_setup(self, agent: AgentView, view: WorldView) -> None:
-        """Lays the grid."""
+        """Looks the groups up and lays the grid."""
+        check_groups(self, "group_code", view)
         self._grid = self.grid()
         self._map = np.zeros(self.rows * self.columns, np.int32)
         self._ground = np.zeros_like(self._map)

@@ -1,4 +1,4 @@
-"""Whether the agent stands on something."""
+"""A sensor of solid ground."""
 
 from gymnasium.spaces import Box
 

@@ -1,4 +1,4 @@
-"""Whether the agent touches something of a group."""
+"""A bumper for all bodies of a group."""
 
 from gymnasium.spaces import Box
 
@@ -17,6 +17,7 @@ class GroupTouchSensor(Sensor):
     """
 
     group: str
+    """Tag of the bodies that count."""
 
     def space(self) -> Box:
         """-1 or 1."""

@@ -1,4 +1,4 @@
-"""Where the agent looks."""
+"""A compass."""
 
 import math
 

@@ -1,4 +1,4 @@
-"""What the agent feels inside."""
+"""A sensor of the agent's internal variables."""
 
 import numpy as np
 from gymnasium.spaces import Box

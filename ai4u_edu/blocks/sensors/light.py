@@ -11,7 +11,7 @@ from ai4u_edu.world import BodyView, WorldView
 
 
 class LightSensor(Sensor):
-    """How bright it is on one side of the body: an eye for lamps, the bodies of a group.
+    """Brightness on one side of the body: an eye for lamps, the bodies of a group.
 
     A lamp at distance d, seen at an angle a from where the eye looks, adds
     ``cos(a) / (1 + (d / reach)²)``: half as much at ``reach`` as close by, less the farther aside,
@@ -22,10 +22,11 @@ class LightSensor(Sensor):
     """
 
     group: Name
+    """Tag of the bodies that are lamps."""
     angle_deg: Degrees = 0.0
-    """Where the eye looks, counter-clockwise from the heading."""
+    """Direction of the eye, counter-clockwise from the heading."""
     reach: PositiveMetres = 5.0
-    """Where a lamp is half as bright as close by."""
+    """Distance at which a lamp is half as bright as close by."""
 
     def __post_init__(self) -> None:
         super().__post_init__()

@@ -16,7 +16,7 @@ from ai4u_edu.world import BodyView, WorldView
 
 
 class LineSensor(Sensor):
-    """Which points of the ground below a row of eyes are painted: 1 on the line, 0 beside it.
+    """A row of eyes that look down at the ground: 1 on the line, 0 beside it.
 
     ``points`` eyes sit on a bar, ``ahead`` of the body's centre and square to its heading; the bar
     is ``width`` long, the first eye at its left end, the last at its right. Each looks straight
@@ -34,8 +34,11 @@ class LineSensor(Sensor):
     group: Name = "line"
     """The tag of the areas that are the line."""
     points: Annotated[int, Field(ge=1, le=64)] = 5
+    """Count of eyes on the bar."""
     ahead: Metres = 0.4
+    """Distance of the bar before the body's centre; below 0 behind it."""
     width: NonNegativeMetres = 0.6
+    """Length of the bar, from the first eye to the last."""
 
     def space(self) -> Box:
         """0 or 1 for each point."""

@@ -10,6 +10,7 @@ from gymnasium.spaces import Box
 from pydantic import Field
 
 from ai4u_edu.blocks.agent_view import AgentView
+from ai4u_edu.blocks.groups import check_groups
 from ai4u_edu.blocks.sensors.ray_sensor import RayPicture, RaySensor, groups_met, spread
 from ai4u_edu.blocks.sensors.sensor import Array
 from ai4u_edu.errors import BlockError
@@ -17,19 +18,26 @@ from ai4u_edu.world import BodyView, Cast, WorldView
 
 
 class LinearRayCastingSensor(RaySensor):
-    """What lies in each direction, level with the eye: like a laser scanner.
+    """Codes and distances of what a flat fan of rays meets, level with the eye: a laser scanner.
 
     Ray i looks at ``(i + 1) * fov / (n + 1) - fov / 2 - shift`` from the heading, positive to the
     left: as in a laser scan, ray 0 is the rightmost and the last one the leftmost.
 
     Reading: (n,) codes; with ``return_distance`` (2 n,): code, then distance, ray by ray; without
-    ``return_code`` (n,) distances alone. A distance is 0 where nothing was met.
+    ``return_code`` (n,) distances alone. Codes are 0..1, a share of the largest code in use (whole
+    codes with ``normalized=False``). Distances are 0..1, a share of ``vision_max_distance`` (metres
+    with ``normalize_distance=False``); 0 where nothing was met.
 
     Source: AI4U's LinearRayCastingSensor.
+
+    Differs from AI4U: ``no_object_code`` is 0, there 1. ``normalize_distance`` is on, there off.
+    The fan is level, there verticalShift (30 degrees) tilts it.
     """
 
     number_of_rays: Annotated[int, Field(ge=1, le=1024)] = 10
+    """Count of rays."""
     return_code: bool = True
+    """True reads the code of what each ray meets; False needs ``return_distance``."""
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -49,7 +57,8 @@ class LinearRayCastingSensor(RaySensor):
         return self._by_ray(self.largest_code, 1.0)
 
     def on_setup(self, agent: AgentView, view: WorldView) -> None:
-        """Prepares the rays."""
+        """Looks the groups up and prepares the rays."""
+        check_groups(self, "group_code", view)
         angles = spread(self.number_of_rays, self.field_of_view)
         angles -= np.radians(self.horizontal_shift)
         self._fan = view.ray_fan(

@@ -1,14 +1,15 @@
 """A picture from above."""
 
-from typing import Annotated, Any
+from typing import Annotated, Any, ClassVar
 
 import numpy as np
 from gymnasium.spaces import Box
 from pydantic import Field
 
 from ai4u_edu.blocks.agent_view import AgentView
+from ai4u_edu.blocks.groups import check_groups
 from ai4u_edu.blocks.sensors.pictures import ChannelLegend
-from ai4u_edu.blocks.sensors.plan import Plan
+from ai4u_edu.blocks.sensors.plan import VOID, Plan
 from ai4u_edu.blocks.sensors.sensor import Array, Sensor
 from ai4u_edu.errors import BlockError
 from ai4u_edu.parameters import Name, PositiveMetres
@@ -18,7 +19,7 @@ Size = Annotated[int, Field(ge=1, le=512)]
 
 
 class LocalGridSensor(Sensor):
-    """What lies around, as a picture from straight above that turns with the agent.
+    """A picture of the surroundings, seen from straight above, that turns with the agent.
 
     The agent is in the middle and looks up: row 0 is farthest ahead, column 0 farthest left. Each
     cell is a square of ``cell_size``; what counts is its centre. Each channel is a group, and shows
@@ -38,17 +39,24 @@ class LocalGridSensor(Sensor):
     as image policies take them. Stacked, the older pictures' channels come first: (height, width,
     stacked_observations * channels).
 
-    Source: ours; in place of AI4U's cameras, and drawn without one.
+    Source: ours; in place of the cameras of AI4U (Camera, Camera3DSensor, ScreenSensor), and drawn
+    without one.
     """
 
     width: Size = 64
+    """Columns of the picture."""
     height: Size = 64
+    """Rows of the picture."""
     cell_size: PositiveMetres = 0.25
+    """Side of a cell."""
     channels: Annotated[list[Name], Field(min_length=1, max_length=64)] = Field(
         default_factory=lambda: ["floor", "void", "wall", "target", "agent"]
     )
+    """Groups (tags) that are shown, one channel each; ``void`` is where no floor is."""
     self_exclude: bool = True
-    """Whether the agent's own body is left out."""
+    """True leaves the agent's own body out."""
+
+    own_groups: ClassVar[tuple[str, ...]] = (VOID,)
 
     @property
     def kind(self) -> str:  # type: ignore[override]  # depends on a parameter here
@@ -75,7 +83,8 @@ class LocalGridSensor(Sensor):
         return Box(0.0, 1.0, shape) if self.normalized else Box(0, 255, shape, np.uint8)
 
     def on_setup(self, agent: AgentView, view: WorldView) -> None:
-        """Prepares the drawing."""
+        """Looks the groups up and prepares the drawing."""
+        check_groups(self, "channels", view)
         self._plan = Plan(self.width, self.height, self.cell_size, self.channels, self.self_exclude)
 
     def write(self, out: Array, body: BodyView, view: WorldView) -> None:

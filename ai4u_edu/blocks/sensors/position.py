@@ -1,4 +1,4 @@
-"""Where something is."""
+"""A sensor of the place of the agent, or of something else."""
 
 from typing import Literal
 
@@ -7,6 +7,7 @@ from gymnasium.spaces import Box
 
 from ai4u_edu.blocks.agent_view import AgentView
 from ai4u_edu.blocks.sensors.sensor import Sensor
+from ai4u_edu.errors import BlockError
 from ai4u_edu.world import BodyView, WorldView
 
 MARGIN = 5.0
@@ -14,20 +15,27 @@ MARGIN = 5.0
 
 
 class PositionSensor(Sensor):
-    """[x, y, z] of the agent, or of a target, in metres.
+    """[x, y, z] of the agent, or of a target: as shares of the world's size, or in metres.
 
     The target is a body, or an area (its centre, on the floor there).
 
     ``frame="global"`` counts from the world's origin; ``"local"`` from the agent: forward, left,
-    up.
+    up. Seen from the agent, the agent itself is always at 0, 0, 0: so ``"local"`` needs a target.
 
-    Reading: (3,). Normalised, it is divided by the world's bounds. Source: AI4U's PositionSensor
-    (which divides by 500 in every world).
+    By default each number is divided by the farthest that is told: in the global frame the world's
+    bound on the axis plus 5 m (for z the larger of the two), in the local one the world's diagonal
+    plus 5 m. With ``normalized=False`` they are in metres.
+
+    Reading: (3,), each -1..1; with ``normalized=False`` in metres. Source: AI4U's PositionSensor.
+
+    Differs from AI4U: ``frame`` is ``"global"``, there getLocal is on. ``"local"`` counts from the
+    agent, there from the parent node of the target. There all is divided by 500 in every world.
     """
 
     target: str = ""
     """A body's or an area's name; left out: the agent's own place."""
     frame: Literal["global", "local"] = "global"
+    """``global`` counts from the world's origin, ``local`` from the agent (and needs a target)."""
     normalized: bool = True
     unit = "m"
 
@@ -45,6 +53,11 @@ class PositionSensor(Sensor):
 
     def on_setup(self, agent: AgentView, view: WorldView) -> None:
         """Looks the target up and measures the world."""
+        if self.frame == "local" and not self.target:
+            raise BlockError(
+                'frame="local" is the way to a target, seen from the agent: expected a target, got '
+                'none; name one, or take frame="global" for the place of the agent itself'
+            )
         if self.target:
             view.check_target(self.target)
         (left, low), (right, high) = view.bounds()

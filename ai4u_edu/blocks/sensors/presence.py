@@ -1,4 +1,4 @@
-"""Who is there, and who is gone."""
+"""A sensor of which bodies of a group are still there."""
 
 from gymnasium.spaces import Box
 
@@ -19,6 +19,7 @@ class PresenceSensor(Sensor):
     """
 
     group: Name
+    """Tag of the bodies that are counted."""
 
     def __post_init__(self) -> None:
         super().__post_init__()

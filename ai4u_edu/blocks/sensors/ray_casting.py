@@ -10,6 +10,7 @@ from gymnasium.spaces import Box
 from pydantic import Field
 
 from ai4u_edu.blocks.agent_view import AgentView
+from ai4u_edu.blocks.groups import check_groups
 from ai4u_edu.blocks.sensors.pictures import CodeLegend
 from ai4u_edu.blocks.sensors.ray_sensor import RayPicture, RaySensor, groups_met, spread
 from ai4u_edu.blocks.sensors.sensor import Array
@@ -18,24 +19,34 @@ from ai4u_edu.world import BodyView, Cast, WorldView
 
 
 class RayCastingSensor(RaySensor):
-    """What lies in each direction: a small picture made of rays, row 0 on top, column 0 left.
+    """Codes and distances of what a grid of rays meets: a small picture, row 0 on top.
 
     Each ray reads the code of what it meets. A ray that goes down meets the floor, or the void
-    beyond its edge: so an agent can see a cliff.
+    beyond its edge: so an agent can see a cliff. Column 0 is the leftmost; column i looks at
+    ``fov * ((i + 1) / (n + 1) - 1/2)`` from the middle, clockwise.
 
     Reading: (rows, columns) codes; with ``return_distance`` (2, rows, columns), codes first, then
-    distances along the rays; 0 where nothing was met. ``flattened`` makes one row of numbers.
+    distances along the rays. Codes are 0..1, a share of the largest code in use (whole codes with
+    ``normalized=False``). Distances are 0..1, a share of ``vision_max_distance`` (metres with
+    ``normalize_distance=False``); 0 where nothing was met. ``flattened`` makes one row of numbers.
 
-    Source: AI4U's RayCastingSensor. Column angles are ``fov * ((i + 1) / (n + 1) - 1/2)``; AI4U's
-    ``fieldOfView`` of 45 means 45 to each side, ours is the whole angle.
+    Source: AI4U's RayCastingSensor.
+
+    Differs from AI4U: ``field_of_view`` is the whole angle, there fieldOfView is the angle to each
+    side (45 there is 90 here), and ``vertical_field_of_view`` is a parameter of its own.
+    ``no_object_code`` is 0 and ``normalize_distance`` on.
     """
 
     rows: Annotated[int, Field(ge=1, le=256)] = 10
+    """Rows of rays."""
     columns: Annotated[int, Field(ge=1, le=256)] = 10
+    """Columns of rays."""
     vertical_field_of_view: Annotated[float, quantity("deg", gt=0, lt=180)] = 45.0
+    """The whole vertical angle."""
     vertical_shift: Degrees = 30.0
-    """How far the middle row looks down."""
+    """Angle by which the middle row looks down."""
     flattened: bool = False
+    """True reads one row of numbers in place of a grid."""
 
     def space(self) -> Box:
         """Codes, and distances in metres (or 0..1 with normalize_distance)."""
@@ -54,7 +65,8 @@ class RayCastingSensor(RaySensor):
         return by.ravel() if self.flattened else by
 
     def on_setup(self, agent: AgentView, view: WorldView) -> None:
-        """Prepares the rays."""
+        """Looks the groups up and prepares the rays."""
+        check_groups(self, "group_code", view)
         shift = np.radians(self.horizontal_shift)
         angles = -spread(self.columns, self.field_of_view) - shift
         pitches = -spread(self.rows, self.vertical_field_of_view)

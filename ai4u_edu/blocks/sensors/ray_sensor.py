@@ -1,7 +1,7 @@
 """What the ray sensors share: codes of groups, and a picture of the last cast for the viewer."""
 
 from collections.abc import Callable, Mapping, Sequence
-from typing import Annotated, Any, NamedTuple
+from typing import Annotated, Any, ClassVar, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -34,19 +34,25 @@ class RaySensor(Sensor):
     horizontal_shift: Degrees = 0.0
     """Turns the whole fan clockwise."""
     eye: tuple[Metres, Metres, Metres] = (0.0, 0.0, 0.5)
-    """Where the eye sits on the body: (forward, left, up)."""
+    """Place of the eye on the body: (forward, left, up) of its centre and underside, in metres."""
     vision_max_distance: PositiveMetres = 30.0
+    """Length of a ray; what is farther away is not met."""
     group_code: dict[Name, Code] = Field(default_factory=dict)
-    """The code of each group (tag); of a body with several, the first one counts."""
+    """Code, 0..255, of each group (tag); of a body with several tags, the first one counts."""
     no_object_code: Code = 0
-    """What a ray reads that meets nothing, or something that has no code."""
+    """Code of a ray that meets nothing, or something that has no code of its own."""
     return_distance: bool = False
+    """True reads the distance to what each ray meets as well."""
     normalize_distance: bool = True
-    """Whether distances are divided by vision_max_distance."""
+    """True reads distances as a share of vision_max_distance, False in metres."""
     self_exclude: bool = True
+    """True lets rays pass through the agent's own body."""
     collision_mask: Bits = 0xFFFFFFFF
+    """Bits of the collision layers that a ray can meet."""
     normalized: bool = True
-    """Whether codes are divided by the largest one in use."""
+    """True reads codes as a share of the largest one in use, False as they are."""
+
+    looks_at: ClassVar[tuple[str, ...]] = ("bodies", "floors")
 
     def code_of(self, tags: Sequence[str]) -> float:
         """The code of something with these tags."""

@@ -56,8 +56,9 @@ class Sensor(Block):
     stacked_observations: Annotated[int, Field(ge=1, le=1000)] = 1
     """How many of the latest readings are shown together, oldest first."""
     is_active: bool = True
+    """False leaves the sensor out; one that is switched off under way reads zeros."""
     normalized: bool = False
-    """Whether the reading is divided by the largest number that it can be."""
+    """True divides the reading by the largest number that it can be (in AI4U the default)."""
     resetable: bool = True
     """Whether stack and delay are forgotten at a reset."""
     is_input: bool = True
@@ -65,6 +66,7 @@ class Sensor(Block):
     noise: Annotated[float, quantity("the reading's", ge=0)] = 0.0
     """Standard deviation of Gaussian noise."""
     delay: Annotated[int, quantity("decisions", ge=0, le=1000)] = 0
+    """Age of the reading that is shown: 0 is the present one, 1 the one of the decision before."""
     dropout: Annotated[float, quantity("1", ge=0, le=1)] = 0.0
     """Chance that a reading is lost; the one before stays."""
 

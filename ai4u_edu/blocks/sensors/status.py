@@ -1,4 +1,4 @@
-"""What the agent knows about its own episode: done, truncated, id, steps, reward, last action."""
+"""Sensors of the agent's own episode: done, truncated, id, steps, reward, last action."""
 
 from typing import Annotated
 
@@ -29,7 +29,13 @@ class StatusSensor(Sensor):
 
 
 class DoneSensor(StatusSensor):
-    """Whether the episode is over. On every agent. Source: AI4U."""
+    """The end of the episode: 1 once it is over, for whatever reason, else 0.
+
+    Every agent has one, also where its description names none. A policy doesn't get it
+    (``is_input`` is off), and it doesn't stack.
+
+    Reading: true or false; one number, 0 or 1. Source: AI4U.
+    """
 
     perception_key: str = "done"
     kind = "sbool"
@@ -44,10 +50,12 @@ class DoneSensor(StatusSensor):
 
 
 class TruncatedSensor(StatusSensor):
-    """Whether the episode was cut off by the step limit.
+    """The end by the step limit: 1 once the episode was cut off by it, else 0.
 
     ``done`` is true at every end; this one tells a cut from an end that the agent earned (a goal,
-    a fall). Source: AI4U.
+    a fall). A policy doesn't get it (``is_input`` is off), and it doesn't stack.
+
+    Reading: true or false; one number, 0 or 1. Source: AI4U.
     """
 
     perception_key: str = "truncated"
@@ -63,7 +71,13 @@ class TruncatedSensor(StatusSensor):
 
 
 class IDSensor(StatusSensor):
-    """The agent's id, as text. On every agent. Source: AI4U."""
+    """The agent's id, as text.
+
+    Every agent has one, also where its description names none. A policy doesn't get it
+    (``is_input`` is off), and it doesn't stack.
+
+    Reading: text of up to 80 characters. Source: AI4U.
+    """
 
     perception_key: str = "id"
 
@@ -77,13 +91,18 @@ class IDSensor(StatusSensor):
 
 
 class StepSensor(StatusSensor):
-    """How many decisions the agent has taken in this episode.
+    """The count of decisions that the agent has taken in this episode.
 
-    Normalised, it is divided by ``max_size``. Source: AI4U.
+    A policy doesn't get it (``is_input`` is off), and it doesn't stack.
+
+    Reading: a whole number from 0 on; with ``normalized`` divided by ``max_size``. Source: AI4U.
+
+    Differs from AI4U: ``normalized`` is off; it does what realNumber does there.
     """
 
     perception_key: str = "steps"
     max_size: Annotated[int, Field(ge=1)] = 300
+    """Count of decisions that a normalised reading shows as 1."""
 
     @property
     def kind(self) -> str:  # type: ignore[override]  # depends on a parameter here
@@ -104,10 +123,17 @@ class StepSensor(StatusSensor):
 
 
 class RewardSensor(StatusSensor):
-    """The reward of the last decision, times ``reward_scale``. Source: AI4U."""
+    """The reward of the last decision, times ``reward_scale``.
+
+    It is the sum of all terms, after the agent's own ``reward_scale``. A policy doesn't get it
+    (``is_input`` is off), and it doesn't stack.
+
+    Reading: one number, of any size. Source: AI4U.
+    """
 
     perception_key: str = "reward"
     reward_scale: Annotated[float, quantity("1")] = 1.0
+    """Factor by which the reward is multiplied."""
     kind = "sfloat"
 
     def space(self) -> Box:
@@ -120,14 +146,19 @@ class RewardSensor(StatusSensor):
 
 
 class ActionSensor(Sensor):
-    """The last action of one actuator; zeros before the first. Stackable.
+    """The last action of one actuator; zeros before the first, and where it got none.
+
+    Stack it to show a policy several of its latest actions.
 
     Reading: (action_size,), within the actuator's ranges. Source: AI4U.
+
+    Differs from AI4U: ``action_size`` follows from the actuator unless it is given.
     """
 
     action_name: str = "move"
+    """Name of the action that is read."""
     action_size: Annotated[int, Field(ge=1, le=1024)] | None = None
-    """How many numbers; left out: as many as the actuator takes."""
+    """Count of numbers; left out: as many as the actuator takes."""
 
     def on_setup(self, agent: AgentView, view: WorldView) -> None:
         """Looks the actuator up."""

@@ -1,4 +1,4 @@
-"""Whether the agent touches something."""
+"""A bumper for one body or area."""
 
 from gymnasium.spaces import Box
 
@@ -18,6 +18,7 @@ class TouchSensor(Sensor):
     """
 
     target: str
+    """Name of the body or area that is felt."""
 
     def space(self) -> Box:
         """-1 or 1."""

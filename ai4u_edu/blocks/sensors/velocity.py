@@ -1,12 +1,13 @@
-"""How fast the agent moves and turns."""
+"""A sensor of the agent's own speeds."""
 
 import math
+from typing import Annotated
 
 import numpy as np
 from gymnasium.spaces import Box
 
 from ai4u_edu.blocks.sensors.sensor import Sensor
-from ai4u_edu.parameters import PositiveMetres
+from ai4u_edu.parameters import quantity
 from ai4u_edu.world import BodyView, WorldView
 
 
@@ -16,11 +17,14 @@ class VelocitySensor(Sensor):
     In the body's own frame, so it reads the same wherever the agent looks. What is faster than
     ``max_speed`` or ``max_turn`` reads as that.
 
-    Reading: (3,). Source: ours.
+    Reading: (3,), each up to ``max_speed`` or ``max_turn`` to either side; with ``normalized``
+    -1..1, as a share of those. Source: ours.
     """
 
-    max_speed: PositiveMetres = 20.0
-    max_turn: PositiveMetres = 20.0
+    max_speed: Annotated[float, quantity("m/s", gt=0, le=1e4)] = 20.0
+    """Largest speed that is told, forward and sideways."""
+    max_turn: Annotated[float, quantity("rad/s", gt=0, le=1e4)] = 20.0
+    """Largest turning speed that is told."""
     unit = "m/s, m/s, rad/s"
 
     def space(self) -> Box:

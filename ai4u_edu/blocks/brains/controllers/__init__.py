@@ -13,6 +13,7 @@ from ai4u_edu.blocks.brains.controllers.push_out import PushOutController
 from ai4u_edu.blocks.brains.controllers.replay import ReplayController
 from ai4u_edu.blocks.brains.controllers.script import ScriptController
 from ai4u_edu.blocks.brains.controllers.striker import StrikerController
+from ai4u_edu.blocks.brains.controllers.train import TrainController, Trainer
 from ai4u_edu.blocks.brains.controllers.wasd import WASDRBMoveController
 from ai4u_edu.blocks.brains.controllers.wasd_drive import WASDController
 
@@ -30,6 +31,8 @@ __all__ = [
     "ReplayController",
     "ScriptController",
     "StrikerController",
+    "TrainController",
+    "Trainer",
     "WASDController",
     "WASDRBMoveController",
     "a_star",

@@ -41,27 +41,51 @@ class ArrowController(Controller):
     else a 0.
 
     Source: AI4U's ArrowPhysicsMoveController.
+
+    Differs from AI4U: the actionMap is a list of keys for each part. numberOfExtraActions follows
+    from the actuator. The first episode is begun by whoever runs the world, there by a first
+    ``__reset__``.
     """
 
     actuator_name: str = "move"
+    """Action name of the actuator that the keys drive."""
     speed: Amount = 0.5
+    """Forward, backward and sideways number while a key is held, as a share of full power."""
     turn_amount: Amount = 1.0
+    """Turn number while a key is held, as a share of full power."""
     jump_power: Amount = 1.0
+    """Jump number while a key is held, as a share of full power."""
     forward: Keys = Field(default_factory=lambda: ["ArrowUp"])
+    """Keys that drive forward, as places on the keyboard (``KeyW``); at most 8, none by ``[]``."""
     backward: Keys = Field(default_factory=lambda: ["ArrowDown"])
+    """Keys that drive backward, as places on the keyboard (``KeyW``); at most 8, none by ``[]``."""
     left: Keys = Field(default_factory=list)
+    """Keys that drive sideways to the left, as places on the keyboard (``KeyW``); at most 8, none
+    by ``[]``."""
     right: Keys = Field(default_factory=list)
+    """Keys that drive sideways to the right, as places on the keyboard (``KeyW``); at most 8, none
+    by ``[]``."""
     turn_left: Keys = Field(default_factory=lambda: ["ArrowLeft"])
+    """Keys that turn left, as places on the keyboard (``KeyW``); at most 8, none by ``[]``."""
     turn_right: Keys = Field(default_factory=lambda: ["ArrowRight"])
+    """Keys that turn right, as places on the keyboard (``KeyW``); at most 8, none by ``[]``."""
     jump: Keys = Field(default_factory=lambda: ["Space"])
+    """Keys that jump, as places on the keyboard (``KeyW``); at most 8, none by ``[]``."""
     jump_forward: Keys = Field(default_factory=lambda: ["Enter"])
+    """Keys that jump forward, as places on the keyboard (``KeyW``); at most 8, none by ``[]``."""
     restart: Keys = Field(default_factory=lambda: ["KeyR"])
+    """Keys that begin a new episode, as places on the keyboard (``KeyW``); at most 8, none by
+    ``[]``."""
     components: list[Component] | None = None
+    """Meaning of each number of the action, in order; left out: as the actuator takes them."""
     extra_keys: list[Keys] = Field(default_factory=list)
+    """For each extra action, the keys that set it while one of them is held."""
     extra_actions_index: list[Annotated[int, Field(ge=0)]] = Field(default_factory=list)
+    """For each extra action, the place in the action that it sets, counted from 0."""
     extra_actions_value: list[Number] = Field(default_factory=list)
+    """For each extra action, the number that it sets there."""
     switches: dict[Name, Keys] = Field(default_factory=dict)
-    """By the name of an actuator: the keys that switch it on."""
+    """For each actuator of one number, by its action name, the keys that give it a 1."""
 
     def on_setup(self, agent: AgentView, view: WorldView) -> None:
         """Takes the agent's keyboard, and looks how many numbers the actuator wants."""

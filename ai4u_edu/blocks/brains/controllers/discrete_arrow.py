@@ -24,12 +24,20 @@ class DiscreteArrowController(Controller):
     """
 
     actuator_name: str = "move"
+    """Action name of the DiscreteActuator that the keys drive."""
     right: Keys = Field(default_factory=lambda: ["ArrowRight"])
+    """Keys that give choice 1, as places on the keyboard (``KeyW``); at most 8, none by ``[]``."""
     left: Keys = Field(default_factory=lambda: ["ArrowLeft"])
+    """Keys that give choice 2, as places on the keyboard (``KeyW``); at most 8, none by ``[]``."""
     up: Keys = Field(default_factory=lambda: ["ArrowUp"])
+    """Keys that give choice 3, as places on the keyboard (``KeyW``); at most 8, none by ``[]``."""
     down: Keys = Field(default_factory=lambda: ["ArrowDown"])
+    """Keys that give choice 4, as places on the keyboard (``KeyW``); at most 8, none by ``[]``."""
     accept: Keys = Field(default_factory=lambda: ["Enter", "Space"])
+    """Keys that give choice 5, as places on the keyboard (``KeyW``); at most 8, none by ``[]``."""
     restart: Keys = Field(default_factory=lambda: ["KeyR"])
+    """Keys that begin a new episode, as places on the keyboard (``KeyW``); at most 8, none by
+    ``[]``."""
 
     def on_setup(self, agent: AgentView, view: WorldView) -> None:
         """Takes the agent's keyboard, and looks how many choices there are."""

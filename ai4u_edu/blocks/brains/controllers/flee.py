@@ -32,9 +32,13 @@ class FleeController(SteeringController):
     """
 
     pursuer: str = "pursuer"
+    """Perception key of a PositionSensor of the pursuer, with ``frame="local"``."""
     rays: str = "rays"
+    """Perception key of a LinearRayCastingSensor all around, with ``return_distance``."""
     calm_distance: PositiveMetres = 5.0
+    """Farther away than this, the pursuer is no danger."""
     room: PositiveMetres = 2.5
+    """Free way ahead that is enough; more of it makes a direction no better."""
 
     reads = ("pursuer", "rays")
 

@@ -17,11 +17,13 @@ class KeeperController(SteeringController):
     """
 
     ball: str = "ball"
+    """Perception key of a PositionSensor of the ball, with ``frame="local"``."""
     home: str = "home"
+    """Perception key of a PositionSensor of a body in its own goal, with ``frame="local"``."""
     guard: PositiveMetres = 2.0
-    """How far from its goal it stands."""
+    """Distance from its goal at which it waits for the ball."""
     area: PositiveMetres = 3.5
-    """How far from its goal it goes out to the ball."""
+    """Distance from its goal within which it goes out to the ball."""
 
     reads = ("ball", "home")
 

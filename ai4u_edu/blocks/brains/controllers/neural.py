@@ -34,10 +34,11 @@ class NeuralNetController(Controller):
     """
 
     model_path: str
+    """Path of the ONNX file, or ``zoo:`` and a scene's name."""
     main_output: str = "move"
     """The actuator that the action is for, where the network's output has no actuator's name."""
     repeat: bool = True
-    """Whether a new episode begins when one is over."""
+    """True begins a new episode when one is over."""
 
     def __post_init__(self) -> None:
         self._folder: Path | None = folder_of_files()

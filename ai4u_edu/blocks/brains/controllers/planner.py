@@ -66,11 +66,11 @@ class PlanController(Controller):
     cell: Name = "cell"
     """The perception key of the agent's place in it, a CellSensor's."""
     actuator_name: Name = "move"
-    """A GridMoveActuator's."""
+    """Action name of its GridMoveActuator."""
     free: Codes = Field(default_factory=lambda: [1.0, 200.0])
-    """The codes of what it may walk on."""
+    """Codes, as in the map, of what it may walk on."""
     goal: Codes = Field(default_factory=lambda: [200.0])
-    """The codes of what it looks for."""
+    """Codes, as in the map, of what it looks for."""
 
     def search(self, free: Map, start: Cell, goals: Iterable[Cell]) -> Found:
         """A way from the start to the nearest goal."""

@@ -24,12 +24,15 @@ class PushOutController(SteeringController):
     """
 
     opponent: str = "opponent"
+    """Perception key of a PositionSensor of the opponent, with ``frame="local"``."""
     position: str = "position"
+    """Perception key of a PositionSensor of the agent itself."""
     heading: str = "heading"
+    """Perception key of a HeadingSensor."""
     middle: Point = (0.0, 0.0)
-    """The ring's centre in the world."""
+    """Centre of the ring in the world: (x, y), in metres."""
     safe_radius: PositiveMetres = 2.8
-    """Farther out than this it thinks of itself first."""
+    """Distance from the centre beyond which it turns back."""
 
     reads = ("opponent", "position", "heading")
 

@@ -27,7 +27,9 @@ class ReplayController(Controller):
     """
 
     actions: Annotated[list[dict[Name, list[Number]]], Field(min_length=1)]
+    """Actions in their order: numbers by the actuator's name for each decision."""
     ending: Literal["stop", "repeat"] = "stop"
+    """After the last action: ``stop`` takes no more decisions, ``repeat`` begins again."""
 
     def __post_init__(self) -> None:
         self._turn = 0

@@ -18,6 +18,7 @@ class ScriptController(Controller):
     """
 
     function: Annotated[Callable[[Percept], Answer], WithJsonSchema({"type": "a Python function"})]
+    """Function that takes a percept and returns an action, or a command."""
 
     def get_action(self, percept: Percept) -> Answer:
         """What the function returns."""

@@ -40,13 +40,14 @@ class SteeringController(Controller):
     abstract = True
 
     actuator_name: str = "move"
-    """An RBMoveActuator's."""
+    """Action name of its RBMoveActuator."""
     speed: Amount = 1.0
+    """Forward number at full speed, as a share of full power."""
     whim: Annotated[float, quantity("1", ge=0, le=1)] = 0.2
     """How much it varies, by the world's seed: its aim (by up to 40 degrees at 1), its speed, and
     how often it backs off for half a second (ten times as many decisions apart as 1 / whim)."""
     head_start: Count = 0
-    """So many decisions it lets the others begin."""
+    """Count of decisions for which it stands still at first."""
 
     reads: ClassVar[tuple[str, ...]] = ()
     """The parameters that hold perception keys."""

@@ -23,10 +23,14 @@ class StrikerController(SteeringController):
     """
 
     ball: str = "ball"
+    """Perception key of a PositionSensor of the ball, with ``frame="local"``."""
     goal: str = "goal"
+    """Perception key of a PositionSensor of a body in the goal to shoot at, with
+    ``frame="local"``."""
     home: str = "home"
+    """Perception key of a PositionSensor of a body in the other goal, with ``frame="local"``."""
     run_up: PositiveMetres = 1.2
-    """From how far behind the ball it takes its run."""
+    """Distance behind the ball from which it takes its run."""
 
     reads = ("ball", "goal", "home")
 

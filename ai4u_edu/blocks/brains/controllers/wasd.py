@@ -25,19 +25,34 @@ class WASDRBMoveController(Controller):
     and turns as fast as it is pushed.
 
     Source: AI4U's WASDRBMoveController.
+
+    Differs from AI4U: ``speed`` is 1, there 0.5. Space jumps and the arrow keys drive as well,
+    there only U, W, A, S and D.
     """
 
     actuator_name: str = "move"
+    """Action name of the RBMoveActuator that the keys drive."""
     speed: Amount = 1.0
+    """Forward and backward number while a key is held, as a share of full power."""
     turn_amount: Amount = 1.0
+    """Turn number while a key is held, as a share of full power."""
     jump_power: Amount = 1.0
+    """Jump number while a key is held, as a share of full power."""
     forward: Keys = Field(default_factory=lambda: ["KeyW", "ArrowUp"])
+    """Keys that drive forward, as places on the keyboard (``KeyW``); at most 8, none by ``[]``."""
     backward: Keys = Field(default_factory=lambda: ["KeyS", "ArrowDown"])
+    """Keys that drive backward, as places on the keyboard (``KeyW``); at most 8, none by ``[]``."""
     left: Keys = Field(default_factory=lambda: ["KeyA", "ArrowLeft"])
+    """Keys that turn left, as places on the keyboard (``KeyW``); at most 8, none by ``[]``."""
     right: Keys = Field(default_factory=lambda: ["KeyD", "ArrowRight"])
+    """Keys that turn right, as places on the keyboard (``KeyW``); at most 8, none by ``[]``."""
     jump: Keys = Field(default_factory=lambda: ["Space", "KeyU"])
+    """Keys that jump, as places on the keyboard (``KeyW``); at most 8, none by ``[]``."""
     jump_forward: Keys = Field(default_factory=lambda: ["KeyJ"])
+    """Keys that jump forward, as places on the keyboard (``KeyW``); at most 8, none by ``[]``."""
     restart: Keys = Field(default_factory=lambda: ["KeyR"])
+    """Keys that begin a new episode, as places on the keyboard (``KeyW``); at most 8, none by
+    ``[]``."""
 
     def on_setup(self, agent: AgentView, view: WorldView) -> None:
         """Takes the agent's keyboard."""

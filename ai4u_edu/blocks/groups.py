@@ -1,0 +1,68 @@
+"""The groups (tags) that a block looks for, compared with those that its world has."""
+
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+from ai4u_edu.blocks.block import Block
+from ai4u_edu.errors import NameNotFoundError, suggest
+from ai4u_edu.world import WorldView
+
+PARAMETERS = ("group", "target_group", "group_code", "channels", "blocked_by")
+"""The parameters that hold the names of groups, in any block."""
+
+
+def check_groups(block: Block, parameter: str, view: WorldView) -> None:
+    """Refuse a block that looks for groups of which its world has none at all.
+
+    One table of groups may serve several worlds: so a single group that is not there is no error
+    (the checkers of ``ai4u_edu.check`` warn of it), nor is one that the parameter has by default.
+
+    Raises:
+        NameNotFoundError: nothing carries any of the tags; the message suggests the nearest ones.
+    """
+    missing = _missing(block, parameter, view)
+    if missing and len(missing) == len(_names(getattr(block, parameter))):
+        raise NameNotFoundError("; ".join(missing))
+
+
+def missing_groups(block: Block, view: WorldView) -> list[str]:
+    """A sentence for each group that a block, or a block inside it, looks for in vain."""
+    own = [parameter for parameter in PARAMETERS if parameter in block.parameters()]
+    found = [text for parameter in own for text in _missing(block, parameter, view)]
+    return found + [text for part in _parts(block) for text in missing_groups(part, view)]
+
+
+def names_groups(block: Block) -> bool:
+    """Whether a block, or a block inside it, looks for groups."""
+    own = any(_names(getattr(block, parameter, None)) for parameter in PARAMETERS)
+    return own or any(map(names_groups, _parts(block)))
+
+
+def known_groups(block: Block, view: WorldView) -> set[str]:
+    """The tags of all that a block can look at: a class says ``looks_at``, else it is everything.
+
+    ``own_groups`` of a class are groups that are there in any world.
+    """
+    return view.tags(*getattr(block, "looks_at", ())).union(getattr(block, "own_groups", ()))
+
+
+def _missing(block: Block, parameter: str, view: WorldView) -> list[str]:
+    by_default = _names(block.parameters()[parameter].get_default(call_default_factory=True))
+    known = known_groups(block, view)
+    return [
+        f"{parameter}: nothing that it could find carries the tag {name!r}; {suggest(name, known)}"
+        for name in _names(getattr(block, parameter))
+        if name not in known and name not in by_default
+    ]
+
+
+def _names(value: Any) -> tuple[str, ...]:
+    if isinstance(value, str):
+        return (value,) if value else ()
+    return tuple(map(str, value)) if isinstance(value, Mapping | list | tuple) else ()
+
+
+def _parts(block: Block) -> Iterator[Block]:
+    for value in block.values().values():
+        parts = value if isinstance(value, list | tuple) else (value,)
+        yield from (part for part in parts if isinstance(part, Block))
