@@ -5,6 +5,9 @@ from zlib import crc32
 
 import numpy as np
 
+MAX_SEED = 2**63 - 1
+"""Largest seed: recordings and messages keep seeds as signed 64-bit integers."""
+
 
 class Seeds:
     """The chance of one episode: a generator for the world and one for each block by name.
