@@ -45,6 +45,7 @@ from ai4u_edu.agent import BasicAgent
 from ai4u_edu.agent.agent import Numbers
 from ai4u_edu.blocks import Actuator, Command, Percept
 from ai4u_edu.errors import NameNotFoundError, SetupError, suggest
+from ai4u_edu.seeding import checked_seed
 from ai4u_edu.world import World
 
 
@@ -251,7 +252,12 @@ class ControlRequestor:
 
         Args:
             seed: of the episode; left out, it follows from the last one's.
+
+        Raises:
+            ParameterError: it is no seed; nothing has begun then.
         """
+        if seed is not None:
+            seed = checked_seed(seed)  # before anybody hears of the reset
         for agent in self.agents:
             if agent.before_the_reset.handlers:
                 agent.before_the_reset.fire(agent)
