@@ -33,8 +33,8 @@ class Workshop:
     Args:
         runner: whose world is changed.
         scene: what that world was built from.
-        offers: Python files with drivers and recorded episodes, and folders of them, from which a
-            page may choose who drives.
+        offers: Python files with drivers, recorded episodes and networks, folders of them, and
+            addresses of AI4U scripts, from which a page may choose who drives.
 
     >>> scene = Scene.load("box_chase")
     >>> runner = Runner(scene.build(), seed=1)
@@ -52,7 +52,7 @@ class Workshop:
         runner: Runner,
         scene: Scene,
         *,
-        offers: Iterable[FilePath] = (),
+        offers: Iterable[FilePath | str] = (),
     ) -> None:
         self._runner = runner
         self._drivers = Drivers(offers)
@@ -118,7 +118,10 @@ class Workshop:
 
     def drivers(self, agent_id: str) -> list[Driver]:
         """All who may drive an agent."""
-        return [*choice.offered(self.state, agent_id), *self._drivers.offered()]
+        offered = self._drivers.offered()
+        named = {driver.name for driver in offered}
+        own = [each for each in choice.offered(self.state, agent_id) if each.name not in named]
+        return [*own, *offered]
 
     def driver_of(self, agent_id: str) -> str:
         """The name of who drives an agent, as :meth:`drivers` has it; "" for somebody else."""
@@ -195,7 +198,7 @@ class Workshop:
         """Lets somebody else drive an agent: one of :meth:`drivers`, or an ``ai4u://`` address."""
 
         def make() -> Made:
-            state = choice.driven_by(self.state, agent_id, name)
+            state = choice.driven_by(self.state, agent_id, name, self._drivers)
             return state, f"{agent_id}: driven by {name}", self._where(agent_id, ("brains",))
 
         return self._do(make, drives=agent_id)
