@@ -60,8 +60,10 @@ class Scene:
                 )
         try:
             text = path.read_text(encoding="utf-8")
-        except (OSError, UnicodeDecodeError) as error:
-            raise SceneError(f"{path}: can't be read: {error}") from None
+        except OSError as error:
+            raise SceneError(f"{path}: can't be read: {error.strerror}") from None
+        except UnicodeDecodeError as error:
+            raise SceneError(f"{path}: {_no_utf8(path, error)}") from None
         return cls.loads(text, name=path.name, folder=path.absolute().parent)
 
     @classmethod
@@ -141,6 +143,20 @@ class Scene:
 
     def __repr__(self) -> str:
         return f"<Scene {self.description.name!r}>"
+
+
+def _no_utf8(path: Path, error: UnicodeDecodeError) -> str:
+    """What is wrong with a file that is no UTF-8 text."""
+    head = error.object[:4]
+    if head[:2] in (b"\xff\xfe", b"\xfe\xff"):
+        return "expected UTF-8 text, got UTF-16; save it as UTF-8 in your editor"
+    if b"\0" in error.object:
+        return "expected a scene file, which is UTF-8 text, got a file that is no text"
+    line = error.object[: error.start].count(b"\n") + 1
+    return (
+        f"line {line}: expected UTF-8 text, got the byte 0x{error.object[error.start]:02x}; save "
+        f"{path.name} as UTF-8 in your editor"
+    )
 
 
 def _with_types(plain: dict[str, Any], description: SceneDescription) -> dict[str, Any]:

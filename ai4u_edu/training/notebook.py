@@ -154,10 +154,10 @@ def export(model: "str | Path | Trained", out: str | Path = "policy.onnx") -> Pa
     need("train", "torch", "stable_baselines3", "onnx", "onnxscript")
     from ai4u_edu.training.algorithms import load_model
     from ai4u_edu.training.exporting import export as exported
-    from ai4u_edu.training.run import Run
+    from ai4u_edu.training.run import run_of
 
     path = Path(model) if isinstance(model, str | Path) else model.folder
-    run = Run(path if path.is_dir() else path.parent)
+    run = run_of(path)
     config = run.config()
     loaded: Any = load_model(config.algorithm, run.best if path.is_dir() else path)
     return exported(loaded, run.scene(), config, Path(out))
