@@ -221,7 +221,9 @@ class ControlRequestor:
         ids = [agent.id for agent in agents]
         for index, agent in enumerate(agents):
             if agent.id in ids[:index]:
-                raise SetupError(f"two agents have the id {agent.id!r}; ids are unique")
+                told = SetupError(f"two agents have the id {agent.id!r}; ids are unique")
+                told.where = (agent, "id")
+                raise told
         self.world = world
         self.agents = tuple(sorted(agents, key=lambda agent: -agent.priority))
         self.default_time_scale = default_time_scale

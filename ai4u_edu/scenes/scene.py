@@ -11,8 +11,9 @@ from ai4u_edu.blocks.brains.network import files_in
 from ai4u_edu.cycle import ControlRequestor
 from ai4u_edu.errors import AI4UError, SceneError, WorldError, suggest
 from ai4u_edu.parameters import Problem, explain
-from ai4u_edu.scenes.description import SceneDescription, make_agents
+from ai4u_edu.scenes.description import SceneDescription, check_success, make_agents
 from ai4u_edu.scenes.plain import PlainError
+from ai4u_edu.scenes.setup_errors import path_of
 from ai4u_edu.scenes.yaml_file import YamlFile, write_yaml
 from ai4u_edu.world import World
 
@@ -59,7 +60,7 @@ class Scene:
                     "a file's name ends in .yaml"
                 )
         try:
-            text = path.read_text(encoding="utf-8")
+            text = path.read_text(encoding="utf-8-sig")  # some editors begin with a mark
         except OSError as error:
             raise SceneError(f"{path}: can't be read: {error.strerror}") from None
         except UnicodeDecodeError as error:
@@ -85,7 +86,10 @@ class Scene:
         except WorldError as error:
             raise _told(file, [Problem(description.where_is(error.thing), str(error))]) from None
         except AI4UError as error:
-            raise SceneError(f"{name}: {error}") from None
+            path = path_of(error, description.agents)
+            if not path:
+                raise SceneError(f"{name}: {error}") from None
+            raise _told(file, [Problem(path, str(error))]) from None
         return scene
 
     @staticmethod
@@ -94,12 +98,17 @@ class Scene:
         return sorted(path.stem for path in LIBRARY.glob("*.yaml"))
 
     def build(self, seed: int = 0) -> ControlRequestor:
-        """Makes the world and the agents, each time new ones."""
+        """Makes the world and the agents, each time new ones.
+
+        Raises:
+            AI4UError: something in the description is wrong; of its data, a PlainError.
+        """
         description = self.description
         world = World(seed=seed, **dict(description.world))
         world.add_all(description.things)
         with files_in(self.folder):
             agents = make_agents(description)
+        check_success(description.success, agents)
         return ControlRequestor(
             world,
             agents,

@@ -149,7 +149,10 @@ class Bench:
         if whole:
             self.opened = after
         self._became(after)
-        return Outcome(when, label, note_on(after.description, now))
+        notes = [note_on(after.description, now)]
+        if before.description.success and not after.description.success and not whole:
+            notes.append(f"nothing pays {before.description.success!r} any more: no goal is left")
+        return Outcome(when, label, "; ".join(filter(None, notes)))
 
     def _bring_about(self, state: State, places: dict[str, Pose], whole: bool) -> When:
         if whole:

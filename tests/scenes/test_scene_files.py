@@ -7,8 +7,9 @@ from typing import Any
 import pytest
 
 from ai4u_edu import Scene
+from ai4u_edu.check import check_scene
 from ai4u_edu.errors import SceneError
-from ai4u_edu.scenes.plain import OWN
+from ai4u_edu.scenes.plain import OWN, PlainError
 from ai4u_edu.snapshot import body_states, set_stage
 
 GOOD = """
@@ -142,7 +143,8 @@ def test_names_do_not_lead_out_of_the_library() -> None:
         (
             "body: robot",
             "body: robt",
-            "my.yaml: agent '0': no body is named 'robt'; did you mean 'robot'?",
+            "my.yaml, line 6: agents[0].body: agent '0': no body is named 'robt'; did you mean "
+            "'robot'?",
         ),
         (
             "  - body: robot\n",
@@ -153,14 +155,15 @@ def test_names_do_not_lead_out_of_the_library() -> None:
          "my.yaml, line 1: name: expected at least 1 characters, got ''"),
         ("name: small", "name: small\nfloor: []", "my.yaml, line 2: floor: unknown parameter; "
          "did you mean 'floors'?"),
-        ("name: small", "name: small\nname: big", "my.yaml, line 2: not YAML: found duplicate key "
-         "'name'"),
-        ("name: small", "name: [small", "my.yaml, line 2: not YAML: did not find expected "
-         "',' or ']'"),
+        ("name: small", "name: small\nname: big", "my.yaml, line 2, column 1: 'name' stands here "
+         "for the second time, after line 1; expected each name once\n    name: big\n    ^"),
+        ("name: small", "name: [small", "my.yaml, line 1, column 7: this [ is never closed; "
+         "expected ] at the end, commas between\n    name: [small\n          ^"),
         ("name: small", "name: &a small", "my.yaml, line 1: expected plain values; anchors (&), "
-         "aliases (*) and tags (!) are not used in scene files"),
+         "aliases (*) and tags (!) are not used in scene files\n    name: &a small"),
         ("name: small", "name: !!python/object:os.system small", "my.yaml, line 1: expected plain "
-         "values; anchors (&), aliases (*) and tags (!) are not used in scene files"),
+         "values; anchors (&), aliases (*) and tags (!) are not used in scene files\n"
+         "    name: !!python/object:os.system small"),
     ],
 )  # fmt: skip
 def test_what_is_wrong_is_told_with_its_line(old: str, new: str, text: str) -> None:
@@ -307,8 +310,11 @@ def test_all_problems_of_a_kind_are_told_at_once() -> None:
 @pytest.mark.parametrize(
     ("text", "part"),
     [
-        ("", "expected a mapping (name: ..., bodies: ..., agents: ...), got NoneType"),
-        ("- a", "expected a mapping (name: ..., bodies: ..., agents: ...), got list"),
+        ("", "expected lines such as name: ..., bodies: ..., agents: ..., got an empty file"),
+        ("# a", "expected lines such as name: ..., bodies: ..., agents: ..., got a file without"),
+        ("- a", "expected lines such as name: ..., bodies: ..., agents: ..., got a list (a line"),
+        ("name:x", "got the text 'name:x'; a space has to follow each colon"),
+        ("7", "got the value 7"),
         ("name: x", "my.yaml, line 1: agents: is missing and has no default"),
         ("name: x\nagents: []", "my.yaml, line 2: agents: expected at least 1 entries, got []"),
         ("name: x\nagents: [5]", "my.yaml, line 2: agents[0]: expected a mapping, got 5"),
@@ -317,7 +323,7 @@ def test_all_problems_of_a_kind_are_told_at_once() -> None:
         ("a: 1\nb: " + 101 * "9", "my.yaml, line 2: expected numbers of at most 100 characters"),
         ("a: 1\n---\nb: 1", "my.yaml, line 2: expected one document, got another one"),
         ("a: 1\n[b]: 1", "my.yaml, line 2: expected words as keys, got lists or mappings"),
-        ("a: \0", "my.yaml: not YAML: unacceptable character #x0000"),
+        ("a: \0", "my.yaml, line 1, column 4: expected text, got the control character 0x00"),
         ("a: {b: *c}", "my.yaml, line 1: expected plain values"),
     ],
 )
@@ -369,3 +375,95 @@ def test_a_failed_save_leaves_the_old_file(tmp_path: Path, monkeypatch: Any) -> 
         Scene.load("box_chase").save(path)
     assert path.read_text() == "old"
     assert list(tmp_path.iterdir()) == [path]
+
+
+SETUP = """
+name: small
+success: touch
+bodies:
+  - {name: robot, shape: {type: circle, radius: 0.4}}
+  - {name: box, shape: {type: circle, radius: 0.4}, position: [3, 0]}
+agents:
+  - id: one
+    body: robot
+    sensors:
+      - {type: BearingSensor, target: box}
+      - type: TouchSensor
+        target: box
+    actuators:
+      - {type: RBMoveActuator, move_amount: 2}
+    rewards:
+      - {type: TouchRewardFunc, target: box, reward: 1}
+      - type: AndRewardFunc
+        name: both
+        children:
+          - {type: TouchRewardFunc, name: inner, target: box, reward: 1}
+    brains:
+      - type: LocalBrain
+        controller: {type: WASDRBMoveController}
+"""
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "where"),
+    [
+        ("BearingSensor, target: box", "BearingSensor, target: bxo",
+         "line 10: agents[0].sensors[0].target: agent 'one', BearingSensor 'bearing': no body"),
+        ("        target: box\n    act", "        target: bxo\n    act",
+         "line 12: agents[0].sensors[1].target: agent 'one', TouchSensor 'touch': no body"),
+        ("name: inner, target: box", "name: inner, target: bxo",
+         "line 20: agents[0].rewards[1].children[0].target: agent 'one', "),
+        ("body: robot", "body: robto", "line 8: agents[0].body: agent 'one': no body is"),
+        ("      - type: TouchSensor\n        target: box",
+         "      - type: BearingSensor\n        target: box",
+         "line 11: agents[0].sensors[1]: agent 'one': two sensors have the perception_key"),
+        ("name: both", "name: touch",
+         "line 17: agents[0].rewards[1]: agent 'one': two reward functions have the name 'touch'"),
+        ("    brains:\n", "    brains:\n      - type: LocalBrain\n        controller: "
+         "{type: WASDRBMoveController}\n",
+         "line 24: agents[0].brains[1]: agent 'one': expected exactly one enabled brain, got 2"),
+        ("      - type: LocalBrain\n", "      - type: LocalBrain\n        enabled: false\n",
+         "line 21: agents[0].brains: agent 'one': expected exactly one enabled brain, got none"),
+        ("WASDRBMoveController}", "NeuralNetController, model_path: zoo:grid_world}",
+         "line 22: agents[0].brains[0]: agent 'one', LocalBrain: the network grid_world.onnx"),
+        ("WASDRBMoveController}", "NeuralNetController, model_path: nosuch.onnx}",
+         "line 23: agents[0].brains[0].controller.model_path: agent 'one', LocalBrain: "),
+    ],
+)  # fmt: skip
+def test_a_setup_that_fails_is_told_with_its_place(old: str, new: str, where: str) -> None:
+    assert old in SETUP
+    assert error_of(SETUP.replace(old, new, 1)).startswith(f"my.yaml, {where}")
+
+
+def test_of_two_agents_with_one_id_the_second_is_told() -> None:
+    second = SETUP.partition("agents:\n")[2]
+    told = error_of(SETUP + second)
+    assert told.startswith("my.yaml, line 24: agents[1].id: two agents have the id 'one'")
+
+
+@pytest.mark.parametrize(
+    ("success", "hint"),
+    [
+        ("touhc", "did you mean 'touch'?"),
+        ("inner", "it is paid under the name 'both'"),
+        ("moon", "known are 'both', 'touch'"),
+    ],
+)
+def test_a_success_that_nothing_pays_is_a_fault(success: str, hint: str) -> None:
+    text = SETUP.replace("success: touch", f"success: {success}")
+    assert error_of(text) == (
+        f"my.yaml, line 2: success: no reward function has the name {success!r}, so no episode "
+        f"could succeed; {hint}"
+    )
+    scene = Scene.loads(SETUP)
+    scene.description = scene.description.model_copy(update={"success": success})
+    with pytest.raises(PlainError, match="success: no reward function has the name"):
+        scene.build()
+    report = check_scene(scene, decisions=2)
+    assert not report.ok
+    assert "no reward function has the name" in str(report)
+
+
+@pytest.mark.parametrize("success", ["touch", "both", "handlers"])
+def test_a_success_that_something_may_pay(success: str) -> None:
+    Scene.loads(SETUP.replace("success: touch", f"success: {success}")).build()
