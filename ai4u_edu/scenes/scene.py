@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Any, Self
 
 from pydantic import ValidationError
+from yaml import YAMLError
 
 from ai4u_edu.blocks.brains.network import files_in
 from ai4u_edu.cycle import ControlRequestor
@@ -14,7 +15,9 @@ from ai4u_edu.parameters import Problem, explain
 from ai4u_edu.scenes.description import SceneDescription, check_success, make_agents
 from ai4u_edu.scenes.plain import PlainError
 from ai4u_edu.scenes.setup_errors import path_of
+from ai4u_edu.scenes.yaml_edit import edited
 from ai4u_edu.scenes.yaml_file import YamlFile, write_yaml
+from ai4u_edu.scenes.yaml_tree import NotYamlError, read_tree
 from ai4u_edu.world import World
 
 LIBRARY = Path(__file__).parent / "library"
@@ -36,10 +39,14 @@ class Scene:
     False
     """
 
-    def __init__(self, description: SceneDescription, folder: Path | None = None) -> None:
+    def __init__(
+        self, description: SceneDescription, folder: Path | None = None, source: str = ""
+    ) -> None:
         self.description = description
         self.folder = folder
         """Where its file is: paths in it begin there."""
+        self.source = source
+        """The text that it was read from: its comments are kept when the scene is written."""
 
     @classmethod
     def load(cls, source: str | Path) -> Self:
@@ -73,7 +80,7 @@ class Scene:
         file = YamlFile(text, name)
         try:
             description = SceneDescription.model_validate(file.data)
-            scene = cls(description, folder)
+            scene = cls(description, folder, text)
             world = scene.build().world
             if any(thing.random for thing in description.things):
                 for seed in range(1, EPISODES):
@@ -126,8 +133,13 @@ class Scene:
         return _with_types(plain, self.description)
 
     def dumps(self) -> str:
-        """The scene as YAML text."""
-        return write_yaml(self.plain())
+        """The scene as YAML text.
+
+        Of a scene that was read from a text, what did not change stays as it stands there, with
+        its comments.
+        """
+        plain = self.plain()
+        return _with_comments(self.source, plain) or write_yaml(plain)
 
     def save(self, path: str | Path) -> None:
         """Writes the scene to a file; a file that was there is replaced whole, or not at all."""
@@ -166,6 +178,22 @@ def _no_utf8(path: Path, error: UnicodeDecodeError) -> str:
         f"line {line}: expected UTF-8 text, got the byte 0x{error.object[error.start]:02x}; save "
         f"{path.name} as UTF-8 in your editor"
     )
+
+
+def _with_comments(source: str, plain: dict[str, Any]) -> str:
+    """Return a scene's text with other data in it; empty if that is not possible."""
+    if not source:
+        return ""
+    try:
+        before = _plain_of(source)
+        text = source if before == plain else edited(source, before, plain)
+        return text if _plain_of(text) == plain else ""
+    except (ValueError, LookupError, NotYamlError, YAMLError):  # written in a way that is too odd
+        return ""
+
+
+def _plain_of(text: str) -> dict[str, Any]:
+    return Scene(SceneDescription.model_validate(read_tree(text).data)).plain()
 
 
 def _with_types(plain: dict[str, Any], description: SceneDescription) -> dict[str, Any]:

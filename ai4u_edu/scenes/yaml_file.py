@@ -2,9 +2,11 @@
 
 import io
 import re
+import textwrap
 from typing import Any
 
 from ruamel.yaml import YAML
+from ruamel.yaml.comments import CommentedMap, CommentedSeq
 from ruamel.yaml.scalarstring import DoubleQuotedScalarString
 
 from ai4u_edu.errors import SceneError
@@ -78,16 +80,19 @@ def _kind(data: Any, text: str) -> str:
     return f"the value {data!r}"
 
 
-def write_yaml(data: dict[str, Any]) -> str:
-    """Plain data as YAML: short lists and mappings on one line."""
+def write_yaml(data: dict[str, Any] | list[Any]) -> str:
+    """Plain data as YAML: short lists and mappings on one line, but for the whole."""
     yaml = YAML(typ="rt", pure=True)
     yaml.default_flow_style = None
     # where a line ends, ruamel loses some of what is odd in a text
     yaml.width = UNFOLDED if _is_odd(data) else 100
     yaml.indent(mapping=2, sequence=4, offset=2)
     out = io.StringIO()
-    yaml.dump(_quoted(data), out)
-    return out.getvalue()
+    quoted = _quoted(data)
+    whole = CommentedMap(quoted) if isinstance(quoted, dict) else CommentedSeq(quoted)
+    whole.fa.set_block_style()
+    yaml.dump(whole, out)
+    return textwrap.dedent(out.getvalue())
 
 
 _USUAL = re.compile(r"[\w(+.,!?<-]?\w([\w(),.;!?+*/<>=%&-]| (?! ))*")

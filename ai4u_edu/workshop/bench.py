@@ -172,7 +172,8 @@ class Bench:
         if self._live.is_ours:
             return
         before = self.state
-        state = State(scene_of(self._runner.sim, before.description), before.folder)
+        description = scene_of(self._runner.sim, before.description)
+        state = State(description, before.folder, source=before.source)
         self._live = Live(self._runner, state, self._drivers)
         self._held = {}
         self.history.add(Step("go on in another world", before, state, {}, {}, whole=True))

@@ -23,11 +23,13 @@ class State:
     """Where paths in the description begin."""
     drivers: Mapping[str, str] = field(default_factory=lambda: NOBODY)
     """Who drives in place of an agent's own brain, by its id; see :mod:`drivers`."""
+    source: str = field(default="", compare=False, repr=False)
+    """The text that the scene was read from, for its comments."""
 
     @property
     def scene(self) -> Scene:
         """As a scene, to be saved or built."""
-        return Scene(self.description, self.folder)
+        return Scene(self.description, self.folder, self.source)
 
     @property
     def title(self) -> str:

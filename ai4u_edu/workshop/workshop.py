@@ -56,7 +56,8 @@ class Workshop:
     ) -> None:
         self._runner = runner
         self._drivers = Drivers(offers)
-        self._bench = Bench(runner, State(scene.description, scene.folder), self._drivers)
+        state = State(scene.description, scene.folder, source=scene.source)
+        self._bench = Bench(runner, state, self._drivers)
         self._do = self._bench.do
         self.unsaved: Unsaved | None = None
         """A scene that was left by a server that was killed, to be offered."""
@@ -277,8 +278,7 @@ class Workshop:
         def make() -> Made:
             plain = {**self.scene.plain(), **values}
             scene = Scene.loads(write_yaml(plain), folder=self.state.folder)
-            state = State(scene.description, self.state.folder, self.state.drivers)
-            return state, "change the scene", ()
+            return replace(self.state, description=scene.description), "change the scene", ()
 
         return self._do(make)
 
@@ -298,7 +298,8 @@ class Workshop:
         """Has another scene run in place of this one; undo brings this one back."""
 
         def make() -> Made:
-            return State(scene.description, scene.folder), f"open {scene.description.name}", ()
+            state = State(scene.description, scene.folder, source=scene.source)
+            return state, f"open {scene.description.name}", ()
 
         return self._do(make, whole=True)
 
