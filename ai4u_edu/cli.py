@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 import typer
 from rich.console import Console
 from rich.table import Table
+from rich.text import Text
 
 from ai4u_edu import episode_commands
 from ai4u_edu.command_options import (
@@ -269,17 +270,27 @@ def bridge(
 
 
 @app.command()
-def scenes() -> None:
-    """List the scenes of the library."""
+def scenes(
+    name: Annotated[str, typer.Argument(help="A scene, to see only that one.")] = "",
+    own_blocks: OwnBlocks = None,
+) -> None:
+    """List the scenes of the library: what to reach, what drives, and what is paid."""
     from ai4u_edu.scenes import Scene
 
-    table = Table(box=None, pad_edge=False)
-    for heading in ("scene", "goal", "controls"):
-        table.add_column(heading, overflow="fold", no_wrap=heading == "scene")
-    for name in Scene.names():
-        described = Scene.load(name).description
-        table.add_row(name, described.goal, described.controls)
-    Console().print(table)
+    load_own_blocks(own_blocks)
+    console = Console(highlight=False)
+    for each in [name] if name else Scene.names():
+        described = Scene.load(each).description
+        title = f" ({described.title})" if described.title else ""
+        console.print(Text.assemble((each, "bold"), title))
+        table = Table(box=None, show_header=False, pad_edge=False, padding=(0, 0, 0, 2))
+        table.add_column(no_wrap=True)
+        table.add_column(overflow="fold")
+        for heading in ("goal", "controls", "rewards"):
+            # a text of a scene may hold brackets, which are no markup here
+            table.add_row(heading, Text(getattr(described, heading)))
+        console.print(table)
+        console.print()
 
 
 @app.command()

@@ -15,6 +15,7 @@ from typer.testing import CliRunner
 from ai4u_edu.cli import app
 from ai4u_edu.command_options import finite
 from ai4u_edu.errors import AI4UError
+from ai4u_edu.scenes import Scene
 from ai4u_edu.seeding import MAX_SEED, MAX_TRAINING_SEED
 from ai4u_edu.version import __version__
 
@@ -23,7 +24,7 @@ COMMANDS = {
     for each in app.registered_commands
     if each.callback
 }
-NO_SCENE = {"bridge", "scenes", "blocks", "schema", "lessons"}
+NO_SCENE = {"bridge", "blocks", "schema", "lessons"}
 """Commands that read neither a scene nor a recording that somebody else may have written."""
 
 
@@ -65,6 +66,22 @@ def test_scenes() -> None:
     assert "box_chase" in told
     assert "sample_scene" in told
     assert "Reach the box" in told
+
+
+def test_scenes_tells_all_that_a_scene_says_of_itself_in_80_columns() -> None:
+    told = CliRunner(env={"COLUMNS": "80"}).invoke(app, ["scenes"]).output
+    assert max(map(len, told.splitlines())) <= 80
+    shown = "".join(told.split())
+    for name in Scene.names():
+        described = Scene.load(name).description
+        for text in (name, described.goal, described.controls, described.rewards):
+            assert "".join(text.split()) in shown
+    one = CliRunner().invoke(app, ["scenes", "box_chase"]).output
+    assert one.splitlines()[0] == "box_chase (Box chase)"
+    assert "+100 for touching the box" in one
+    assert "donut" not in one
+    unknown = CliRunner().invoke(app, ["scenes", "box_chese"])
+    assert "did you mean 'box_chase'?" in str(unknown.exception)
 
 
 def test_check_says_fine_or_what_is_wrong(tmp_path: Path) -> None:
