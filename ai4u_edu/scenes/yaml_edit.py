@@ -15,6 +15,7 @@ import yaml
 from ai4u_edu.scenes.yaml_file import write_yaml
 
 _Loader: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
+_Node = Any  # PyYAML's types say little of what a node has
 
 NAMES = ("name", "id", "perception_key", "action_name", "type")
 """The first of these that an entry of a list has tells it from the others."""
@@ -26,7 +27,7 @@ class _Entry:
 
     key: str
     """Empty in a list."""
-    value: yaml.Node
+    value: _Node
     column: int
     """Where its key begins, or its dash."""
     first: int
@@ -66,7 +67,7 @@ class _Edit:
         self.lines = lines
 
     def mapping(
-        self, node: yaml.Node, before: Mapping[str, Any], after: Mapping[str, Any], start: int
+        self, node: _Node, before: Mapping[str, Any], after: Mapping[str, Any], start: int
     ) -> list[str]:
         """The lines of a block mapping that stands for other data; from line ``start`` on."""
         entries = self.entries(node, start)
@@ -90,7 +91,7 @@ class _Edit:
         return [line for part in found for line in part]
 
     def sequence(
-        self, node: yaml.Node, before: Sequence[Any], after: Sequence[Any], start: int
+        self, node: _Node, before: Sequence[Any], after: Sequence[Any], start: int
     ) -> list[str]:
         """The lines of a block list that stands for other data; from line ``start`` on."""
         entries = self.entries(node, start)
@@ -113,7 +114,7 @@ class _Edit:
                 found += self._after(entry)
         return found
 
-    def entries(self, node: yaml.Node, start: int) -> list[_Entry]:
+    def entries(self, node: _Node, start: int) -> list[_Entry]:
         """The entries of a block mapping or list."""
         found: list[_Entry] = []
         is_mapping = isinstance(node, yaml.MappingNode)
@@ -204,7 +205,7 @@ class _Edit:
         new[0] += self._behind(entry) if entry.first == entry.last else ""
         return [*above, *new]
 
-    def _inside(self, node: yaml.Node, before: Any, after: Any, start: int) -> list[str] | None:
+    def _inside(self, node: _Node, before: Any, after: Any, start: int) -> list[str] | None:
         """The lines of a block inside of an entry, edited; None if it has to be written anew."""
         both = (before, after)
         if _is_block(node, yaml.MappingNode) and all(isinstance(each, Mapping) for each in both):
@@ -221,7 +222,7 @@ class _Edit:
         return rest if rest.strip().startswith("#") else ""
 
 
-def _last_line(node: yaml.Node) -> int:
+def _last_line(node: _Node) -> int:
     """The last line that holds something of a value."""
     if node.value and _is_block(node, yaml.MappingNode):
         return max(_last_line(value) for _, value in node.value)

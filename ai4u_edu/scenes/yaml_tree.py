@@ -126,10 +126,14 @@ def _tree(event: _Event, events: Iterator[_Event], depth: int, line: int = 0) ->
                 named.line,
                 f"{event.value!r} stands here for the second time, after line {first}; expected "
                 "each name once",
-                event.start_mark.column + 1,
+                _column(event),
             )
         parts[event.value] = _tree(next(events), events, depth + 1, named.line)
     return Tree({key: part.data for key, part in parts.items()}, line, parts)
+
+
+def _column(event: _Event) -> int:
+    return int(event.start_mark.column) + 1
 
 
 def _value(text: str, line: int) -> Any:
