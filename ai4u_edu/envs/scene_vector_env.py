@@ -1,6 +1,5 @@
 """Many copies of a scene in one process, stepped one after another into one set of arrays."""
 
-from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -100,7 +99,7 @@ class SceneVectorEnv(VectorEnv[Any, Any, Any]):
     def _seeds(self, seed: int | list[int | None] | None) -> list[int | None]:
         if seed is None:
             return [None] * self.num_envs
-        if not isinstance(seed, Sequence | np.ndarray) or isinstance(seed, str):
+        if not isinstance(seed, list | tuple | np.ndarray):
             return list(seeds_from(seed, self.num_envs))
         if len(seed) != self.num_envs:
             raise SetupError(f"seed: expected {self.num_envs} numbers, got {len(seed)}")

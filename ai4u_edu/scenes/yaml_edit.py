@@ -234,7 +234,8 @@ def _last_line(node: _Node) -> int:
 
 
 def _is_block(node: Any, kind: type) -> bool:
-    return isinstance(node, kind) and not node.flow_style and bool(node.value)
+    found: _Node = node
+    return isinstance(node, kind) and not found.flow_style and bool(found.value)
 
 
 def _is_comment(line: str) -> bool:

@@ -62,6 +62,8 @@ def test_it_is_the_same_environment_as_on_this_machine(scene: str, observation: 
 def test_a_seed_that_no_recording_can_hold_is_refused_before_it_is_sent() -> None:
     with scene_room("box_chase") as room:
         env = remote_env(room)
+        remote = env.unwrapped
+        assert isinstance(remote, RemoteEnv)
         env.reset(seed=MAX_SEED)
         assert room.sim.world.seeds.seed == MAX_SEED
         episode = room.sim.episode
@@ -69,7 +71,7 @@ def test_a_seed_that_no_recording_can_hold_is_refused_before_it_is_sent() -> Non
             with pytest.raises(ParameterError, match="seed: expected a whole number from 0 to "):
                 env.reset(seed=seed)
             with pytest.raises(ParameterError, match="seed: expected a whole number from 0 to "):
-                env.unwrapped.robot.reset(seed)
+                remote.robot.reset(seed)
         env.step(env.action_space.sample())
         assert room.sim.episode == episode
         env.close()

@@ -208,16 +208,17 @@ def test_an_agents_own_parameters(shop: Shop) -> None:
 
 def test_the_success_goes_with_the_reward_function_that_pays_it() -> None:
     shop = Shop(TEXT.replace("name: small", "name: small\nsuccess: touch"))
+
+    def successes() -> tuple[str | None, str]:
+        return shop.workshop.scene.description.success, shop.runner.sim.success
+
     shop.done(shop.workshop.change_block("0", ("rewards", 0), {"name": "arrived"}))
-    assert shop.workshop.scene.description.success == "arrived"
-    assert shop.runner.sim.success == "arrived"
+    assert successes() == ("arrived", "arrived")
     shop.done(shop.workshop.remove_block("0", ("rewards", 1)))
-    assert shop.workshop.scene.description.success == "arrived"
+    assert successes() == ("arrived", "arrived")
     outcome = shop.done(shop.workshop.remove_block("0", ("rewards", 0)))
     assert "nothing pays 'arrived' any more" in str(outcome.note)
-    assert shop.workshop.scene.description.success is None
-    assert shop.runner.sim.success == ""
+    assert successes() == (None, "")
     Scene.loads(shop.workshop.text())
     shop.done(shop.workshop.undo())
-    assert shop.workshop.scene.description.success == "arrived"
-    assert shop.runner.sim.success == "arrived"
+    assert successes() == ("arrived", "arrived")
