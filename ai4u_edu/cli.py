@@ -11,8 +11,17 @@ from typing import TYPE_CHECKING, Annotated, Literal
 import typer
 from rich.console import Console
 from rich.table import Table
+from rich.text import Text
 
 from ai4u_edu import episode_commands
+from ai4u_edu.command_options import (
+    MAX_TIME_SCALE,
+    MIN_TIME_SCALE,
+    OwnBlocks,
+    finite,
+    load_own_blocks,
+    seed_option,
+)
 from ai4u_edu.errors import AI4UError, SetupError
 from ai4u_edu.lessons import commands as course
 from ai4u_edu.training import commands as learning
@@ -20,6 +29,7 @@ from ai4u_edu.version import __version__
 
 if TYPE_CHECKING:
     from ai4u_edu.cycle import ControlRequestor
+    from ai4u_edu.scenes import Scene
 
 app = typer.Typer(
     name="ai4u-edu",
@@ -29,23 +39,25 @@ app = typer.Typer(
     context_settings={"help_option_names": ["-h", "--help"]},
 )
 
-OwnBlocks = Annotated[
-    list[Path] | None,
-    typer.Option(
-        "--blocks",
-        help="A Python file with blocks of your own, which is run; once for each file.",
-        show_default=False,
-    ),
-]
-
 
 def main() -> None:
-    """Runs the command line; an error of ours is told in a sentence, without a traceback."""
+    """Runs the command line; an error of ours is told in a sentence, without a traceback.
+
+    So is a file that can't be read or written, wherever a command line names one.
+    """
     try:
         app()
     except AI4UError as error:
-        typer.secho(f"error: {error}", err=True, fg=typer.colors.RED)
-        sys.exit(1)
+        _fail(str(error))
+    except OSError as error:
+        if error.filename is None:  # no file's
+            raise
+        _fail(f"{error.filename}: {error.strerror}")
+
+
+def _fail(text: str) -> None:
+    typer.secho(f"error: {text}", err=True, fg=typer.colors.RED)
+    sys.exit(1)
 
 
 def _version(wanted: bool) -> None:
@@ -75,9 +87,15 @@ def play(
     open_page: Annotated[
         bool, typer.Option("--open/--no-open", help="Open the page in the browser.")
     ] = True,
-    seed: Annotated[int | None, typer.Option(help="Seed of the first episode.", min=0)] = None,
+    seed: Annotated[int | None, seed_option("Seed of the first episode.")] = None,
     time_scale: Annotated[
-        float | None, typer.Option(help="How fast the time runs; 1 is real time.", min=0.01)
+        float | None,
+        typer.Option(
+            help="How fast the time runs; 1 is real time.",
+            min=MIN_TIME_SCALE,
+            max=MAX_TIME_SCALE,
+            callback=finite,
+        ),
     ] = None,
     allow_host: Annotated[
         list[str] | None,
@@ -109,8 +127,10 @@ def play(
     brain: Annotated[
         list[str] | None,
         typer.Option(
-            help="Let a script drive: ai4u://127.0.0.1:8080, or 0=ai4u://... for agent 0; or a "
-            "network: policy.onnx, or zoo for the one that comes with the scene."
+            help="Who drives: an AI4U script (ai4u://127.0.0.1:8080), a network (policy.onnx, or "
+            "zoo for the one that comes with the scene), FILE.py:NAME (a function or a "
+            "Controller), a training's folder or a model (.zip) in it, a controller, random; "
+            "ID=... for the agent of that id."
         ),
     ] = None,
     record: Annotated[
@@ -124,10 +144,11 @@ def play(
         typer.Option(help="A recorded episode (.episode) to play against; its seed is the first."),
     ] = None,
     offer: Annotated[
-        list[Path] | None,
+        list[str] | None,
         typer.Option(
-            help="Python files with drivers, recorded episodes, or folders of them, from which the "
-            "page may choose who drives; a script is run when it is chosen."
+            help="Python files with drivers, networks (.onnx), recorded episodes (.episode), "
+            "folders of them, or an AI4U script's address (ai4u://HOST:PORT), from which the page "
+            "may choose who drives; a script is run when it is chosen."
         ),
     ] = None,
     kept_scenes: Annotated[
@@ -166,15 +187,13 @@ def play(
     from ai4u_edu.workshop.shelf import Shelf
 
     rules = Rules(token=token_for(host, token), seeded_resets=seeded_resets)
-    _load(own_blocks)
+    load_own_blocks(own_blocks)
     unsaved = latest(unsaved_folder()) if autosave or restore else None
     if restore and unsaved is None:
         raise SetupError("there is no unsaved scene; expected: ai4u-edu play SCENE")
     loaded = unsaved.scene() if restore and unsaved is not None else Scene.load(scene)
     title = loaded.description.title or loaded.description.name
-    sim = loaded.build()
-    for each in brain or ():
-        _give_brain(sim, each, loaded.description.name)
+    sim, loaded = _built(loaded, brain or [])
     recorder = episode_commands.recorder_into(record, sim, loaded, keep)
     run = Episode.load(ghost) if ghost else None
     if run is not None and seed is None:
@@ -217,6 +236,14 @@ def play(
             saver.stop()
 
 
+def _built(scene: "Scene", drivers: list[str]) -> "tuple[ControlRequestor, Scene]":
+    if not drivers:
+        return scene.build(), scene
+    from ai4u_edu.training.assigned import with_drivers  # costs what most don't need
+
+    return with_drivers(scene, drivers, is_served=True)
+
+
 @app.command()
 def bridge(
     url: Annotated[str, typer.Argument(help="The world's address: ws://teacher:8080")],
@@ -250,38 +277,28 @@ def bridge(
         there.run()
 
 
-def _give_brain(sim: "ControlRequestor", address: str, scene: str) -> None:
-    from ai4u_edu.blocks.brains.address import agent_and_address, brain_at
-
-    agent_id, where = agent_and_address(address)
-    if not agent_id and len(sim.agents) > 1:
-        ids = ", ".join(agent.id for agent in sim.agents)
-        raise SetupError(
-            f"--brain {address}: the scene has several agents ({ids}); name one, as in "
-            f"--brain {sim.agents[0].id}={address}"
-        )
-    agent = sim.agent(agent_id) if agent_id else sim.agents[0]
-    if where == "zoo" or where.startswith("zoo:") or where.endswith(".onnx"):
-        from ai4u_edu.blocks import trained_brain
-
-        agent.use_brain(trained_brain(f"zoo:{scene}" if where == "zoo" else where))
-        return
-    before, brain = agent.brain, brain_at(where)
-    agent.use_brain(brain.changed(skip_frame=before.skip_frame, repeat_action=before.repeat_action))
-
-
 @app.command()
-def scenes() -> None:
-    """List the scenes of the library."""
+def scenes(
+    name: Annotated[str, typer.Argument(help="A scene, to see only that one.")] = "",
+    own_blocks: OwnBlocks = None,
+) -> None:
+    """List the scenes of the library: what to reach, what drives, and what is paid."""
     from ai4u_edu.scenes import Scene
 
-    table = Table(box=None, pad_edge=False)
-    for heading in ("scene", "goal", "controls"):
-        table.add_column(heading, overflow="fold", no_wrap=heading == "scene")
-    for name in Scene.names():
-        described = Scene.load(name).description
-        table.add_row(name, described.goal, described.controls)
-    Console().print(table)
+    load_own_blocks(own_blocks)
+    console = Console(highlight=False)
+    for each in [name] if name else Scene.names():
+        described = Scene.load(each).description
+        title = f" ({described.title})" if described.title else ""
+        console.print(Text.assemble((each, "bold"), title))
+        table = Table(box=None, show_header=False, pad_edge=False, padding=(0, 0, 0, 2))
+        table.add_column(no_wrap=True)
+        table.add_column(overflow="fold")
+        for heading in ("goal", "controls", "rewards"):
+            # a text of a scene may hold brackets, which are no markup here
+            table.add_row(heading, Text(getattr(described, heading)))
+        console.print(table)
+        console.print()
 
 
 @app.command()
@@ -291,20 +308,13 @@ def check(
     """Say what is wrong in a scene file."""
     from ai4u_edu.scenes import Scene
 
-    _load(own_blocks)
+    load_own_blocks(own_blocks)
     described = Scene.load(file).description
     typer.echo(
         f"{file}: fine: {_count(described.bodies, 'body', 'bodies')}, "
         f"{_count(described.floors, 'floor', 'floors')}, "
         f"{_count(described.agents, 'agent', 'agents')}"
     )
-
-
-def _load(files: list[Path] | None) -> None:
-    from ai4u_edu.blocks.own_file import load_blocks
-
-    for file in files or ():
-        load_blocks(file)
 
 
 def _count(things: Sized, one: str, many: str) -> str:

@@ -45,6 +45,7 @@ from ai4u_edu.agent import BasicAgent
 from ai4u_edu.agent.agent import Numbers
 from ai4u_edu.blocks import Actuator, Command, Percept
 from ai4u_edu.errors import NameNotFoundError, SetupError, suggest
+from ai4u_edu.seeding import checked_seed
 from ai4u_edu.world import World
 
 
@@ -220,7 +221,9 @@ class ControlRequestor:
         ids = [agent.id for agent in agents]
         for index, agent in enumerate(agents):
             if agent.id in ids[:index]:
-                raise SetupError(f"two agents have the id {agent.id!r}; ids are unique")
+                told = SetupError(f"two agents have the id {agent.id!r}; ids are unique")
+                told.where = (agent, "id")
+                raise told
         self.world = world
         self.agents = tuple(sorted(agents, key=lambda agent: -agent.priority))
         self.default_time_scale = default_time_scale
@@ -251,7 +254,12 @@ class ControlRequestor:
 
         Args:
             seed: of the episode; left out, it follows from the last one's.
+
+        Raises:
+            ParameterError: it is no seed; nothing has begun then.
         """
+        if seed is not None:
+            seed = checked_seed(seed)  # before anybody hears of the reset
         for agent in self.agents:
             if agent.before_the_reset.handlers:
                 agent.before_the_reset.fire(agent)

@@ -1,6 +1,7 @@
 """The commands for recorded episodes; what they need is loaded when they run."""
 
 from collections.abc import Callable
+from dataclasses import replace as with_changes
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -8,7 +9,15 @@ import typer
 from rich.console import Console
 from rich.table import Table
 
+from ai4u_edu.command_options import (
+    MAX_EPISODES,
+    MAX_UPDATES,
+    OwnBlocks,
+    load_own_blocks,
+    seed_option,
+)
 from ai4u_edu.errors import SetupError
+from ai4u_edu.seeding import seeds_from
 
 if TYPE_CHECKING:
     from ai4u_edu.cycle import ControlRequestor
@@ -20,10 +29,6 @@ LONGEST = 5000
 KEPT = 50
 """So many episodes are kept in memory."""
 
-OwnBlocks = Annotated[
-    list[Path] | None,
-    typer.Option("--blocks", help="A Python file with blocks of your own, which is run."),
-]
 Data = Annotated[
     list[Path], typer.Argument(help="Recorded episodes (.episode), or folders of them.")
 ]
@@ -43,25 +48,26 @@ def record(
     brain: Annotated[
         list[str] | None,
         typer.Option(
-            help="Who drives: FILE.py:NAME (a function or a Controller), a network (.onnx, "
-            "zoo:SCENE), a training's folder, random; ID=... for another agent than the first. "
-            "Left out, the scene's own."
+            help="Who drives: FILE.py:NAME (a function or a Controller), a network (.onnx, zoo, "
+            "zoo:SCENE), a training's folder or a model (.zip) in it, a controller, random; ID=... "
+            "for another agent than the first. Left out, the scene's own."
         ),
     ] = None,
     episodes: Annotated[int, typer.Option(min=1, max=10_000)] = 1,
-    seed: Annotated[int, typer.Option(help="Of the first episode; then one by one.", min=0)] = 0,
+    seed: Annotated[int, seed_option("Of the first episode; then one by one.")] = 0,
     out: Annotated[Path, typer.Option(help="A folder for the files.")] = Path("episodes"),
     own_blocks: OwnBlocks = None,
 ) -> None:
     """Let somebody drive, and keep the episodes as files."""
     from ai4u_edu.scenes import Scene
 
-    _load_blocks(own_blocks)
+    load_own_blocks(own_blocks)
+    seeds = seeds_from(seed, episodes)
     loaded = Scene.load(scene)
     sim, loaded = _with_brains(loaded, brain or [])
     recorder = recorder_into(out, sim, loaded)
     first = sim.agents[0]
-    for each in range(seed, seed + episodes):
+    for each in seeds:
         sim.reset(each)
         episode = sim.episode
         while not first.done and first.steps < LONGEST and sim.episode == episode:
@@ -91,7 +97,7 @@ def replay(
     from ai4u_edu.recording.movie import write_gif, write_mp4
     from ai4u_edu.recording.page import write_html
 
-    _load_blocks(own_blocks)
+    load_own_blocks(own_blocks)
     played = Replay(Episode.load(file))
     verdict = played.verdict
     writers: list[tuple[Path | None, Callable[[Replay, Path], Path]]] = [
@@ -127,7 +133,7 @@ def dataset(
 
     if out is None and not minari:
         raise SetupError("expected --out FILE.npz, --minari NAME, or both")
-    _load_blocks(own_blocks)
+    load_own_blocks(own_blocks)
     shown = demonstrations(load_episodes(data), agent=agent, observation=observation)
     told = f"{len(shown.episodes)} episodes, {shown.decisions} decisions"
     if out is not None:
@@ -140,11 +146,16 @@ def dataset(
 def clone(
     data: Data,
     out: Annotated[Path, typer.Option(help="The network's file.")] = Path("policy.onnx"),
-    seed: Annotated[int, typer.Option(help="The same seed gives the same network.", min=0)] = 0,
-    updates: Annotated[int, typer.Option(help="Gradient steps.", min=1)] = 2000,
+    seed: Annotated[int, seed_option("The same seed gives the same network.")] = 0,
+    updates: Annotated[int, typer.Option(help="Gradient steps.", min=1, max=MAX_UPDATES)] = 2000,
     agent: AgentId = None,
     evaluate: Annotated[
-        int, typer.Option(help="Episodes, on seeds of 1000 and more, in which it is tried out.")
+        int,
+        typer.Option(
+            help="Episodes, on seeds of 1000 and more, in which it is tried out; 0 for none.",
+            min=0,
+            max=MAX_EPISODES,
+        ),
     ] = 100,
     own_blocks: OwnBlocks = None,
 ) -> None:
@@ -155,20 +166,20 @@ def clone(
     from ai4u_edu.extras import need
 
     need("train", "torch", "stable_baselines3", "onnx", "onnxscript")
-    from ai4u_edu.scenes import Scene
     from ai4u_edu.training.cloning import clone as cloned
     from ai4u_edu.training.demonstrations import load_episodes
     from ai4u_edu.training.entrants import entrant
     from ai4u_edu.training.evaluating import evaluate as evaluated
     from ai4u_edu.training.report import table
 
-    _load_blocks(own_blocks)
+    load_own_blocks(own_blocks)
     episodes = load_episodes(data)
     done = cloned(episodes, out, agent=agent, seed=seed, updates=updates)
     typer.echo(f"{done.path}: cloned from {done.decisions} decisions, error {done.loss:.4f}")
     if evaluate:
-        where = Scene(episodes[0].scene)
-        result = evaluated(entrant(str(out)), where, range(1000, 1000 + evaluate))
+        who = with_changes(entrant(str(out)), agent=agent or "")
+        where = _driven_by(out, episodes[0], agent)
+        result = evaluated(who, where, range(1000, 1000 + evaluate))
         Console().print(table([result]))
     typer.echo(f"let it drive:  ai4u-edu play {episodes[0].scene.name} --brain {out}")
 
@@ -202,36 +213,33 @@ def recorder_into(
     return Recorder(sim, scene=scene.description, episodes=episodes, on_episode=write)
 
 
-def _with_brains(scene: "Scene", specs: list[str]) -> "tuple[ControlRequestor, Scene]":
-    from ai4u_edu.training.entrants import entrant
+def _driven_by(network: Path, episode: "Episode", agent_id: str | None) -> "Scene":
+    """A recorded scene with a network in the place of whoever drove: his file may not be here."""
+    from ai4u_edu.recording.portrait import without_unknown_brains
+    from ai4u_edu.scenes import Scene
 
-    ids = [agent.id for agent in scene.build().agents]
-    named: dict[str, str] = {}
-    for spec in specs:
-        agent, equals, who = spec.partition("=")
-        named |= {agent: who} if equals and agent in ids else {ids[0]: spec}
-    entrants = {agent: entrant(who) for agent, who in named.items()}
-    for each in entrants.values():
-        scene = each.fitted(scene)
-    sim = scene.build()
-    for agent_id, each in entrants.items():
-        driver = sim.agent(agent_id)
-        driver.use_brain(each.brain(driver))
+    controller = {"type": "NeuralNetController", "model_path": str(network.absolute())}
+    brains = [{"type": "LocalBrain", "controller": controller}]
+    driven = episode.agent(agent_id).id
+    agents = tuple(
+        {**agent, "brains": brains} if agent.get("id", "0") == driven else agent
+        for agent in episode.scene.agents
+    )
+    return Scene(without_unknown_brains(episode.scene.model_copy(update={"agents": agents})))
+
+
+def _with_brains(scene: "Scene", specs: list[str]) -> "tuple[ControlRequestor, Scene]":
+    from ai4u_edu.training.assigned import with_drivers
+
+    sim, scene = with_drivers(scene, specs)
     controller = getattr(sim.agents[0].brain, "controller", None)
     if hasattr(controller, "_keyboard"):
         raise SetupError(
-            f"agent {ids[0]!r} is driven by keys ({type(controller).__name__}), and nobody is here "
-            "to hold them; name who drives, as in --brain FILE.py:NAME, or drive yourself: "
-            f"ai4u-edu play {scene.description.name} --record DIR"
+            f"agent {sim.agents[0].id!r} is driven by keys ({type(controller).__name__}), and "
+            "nobody is here to hold them; name who drives, as in --brain FILE.py:NAME, or drive "
+            f"yourself: ai4u-edu play {scene.description.name} --record DIR"
         )
     return sim, scene
-
-
-def _load_blocks(files: list[Path] | None) -> None:
-    from ai4u_edu.blocks.own_file import load_blocks
-
-    for file in files or ():
-        load_blocks(file)
 
 
 def _overview(episodes: "list[Episode]") -> Table:

@@ -40,6 +40,9 @@ class NameNotFoundError(AI4UError, KeyError):
 class SetupError(AI4UError):
     """Something was put together wrongly; nothing has run yet."""
 
+    where: tuple[object, ...] = ()
+    """What it is about, if that is known: an agent, then one of its blocks or parameters."""
+
 
 class ParameterError(SetupError):
     """A parameter is missing, unknown, out of range or of another type."""

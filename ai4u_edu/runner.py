@@ -18,6 +18,7 @@ from ai4u_edu.blocks import RemoteBrain
 from ai4u_edu.cycle import ControlRequestor
 from ai4u_edu.publisher import FEW_TICKS, Publisher
 from ai4u_edu.recording import Recorder, Replay
+from ai4u_edu.recording.portrait import without_unknown_brains
 from ai4u_edu.scenes import Scene
 from ai4u_edu.slow_ticks import SlowTicks
 from ai4u_edu.snapshot import Snapshot, Stage, picture_of, set_stage
@@ -243,7 +244,7 @@ class Runner:
 
         def carry_out() -> None:
             if not replay.fits(self.sim):
-                other = Scene(replay.episode.scene).build()
+                other = Scene(without_unknown_brains(replay.episode.scene)).build()
                 other.reset(replay.episode.seed)
                 self._replace(other, None)
             replay.continue_from(step, agent=agent, sim=self.sim)

@@ -1,9 +1,60 @@
 """One seed an episode; all chance in it grows from that seed."""
 
+from operator import index
 from typing import Any
 from zlib import crc32
 
 import numpy as np
+
+from ai4u_edu.errors import ParameterError
+
+MAX_SEED = 2**63 - 1
+"""Largest seed: recordings and messages keep seeds as signed 64-bit integers."""
+MAX_TRAINING_SEED = 2**32 - 1
+"""Largest seed of a training: Stable-Baselines3 seeds NumPy's global generator with it."""
+
+
+def checked_seed(seed: Any) -> int:
+    """Return a seed as Python's own whole number.
+
+    Raises:
+        ParameterError: it is no whole number from 0 to :data:`MAX_SEED`.
+
+    >>> checked_seed(7)
+    7
+    >>> checked_seed(10**20)
+    Traceback (most recent call last):
+    ...
+    ai4u_edu.errors.ParameterError: seed: expected a whole number from 0 to 9223372036854775807, \
+got 100000000000000000000
+    """
+    try:
+        found = -1 if isinstance(seed, bool | np.bool_) else index(seed)
+    except TypeError:
+        found = -1
+    if not 0 <= found <= MAX_SEED:
+        # a number of more than 4,300 digits has no text
+        huge = isinstance(seed, int) and seed.bit_length() > 200
+        shown = f"one of {seed.bit_length()} bits" if huge else f"{seed!r:.60}"
+        raise ParameterError(f"seed: expected a whole number from 0 to {MAX_SEED}, got {shown}")
+    return found
+
+
+def seeds_from(first: Any, count: int) -> range:
+    """Return the seeds of some episodes, one by one.
+
+    Raises:
+        ParameterError: the last one would be larger than :data:`MAX_SEED`.
+
+    >>> list(seeds_from(7, 3))
+    [7, 8, 9]
+    """
+    first = checked_seed(first)
+    if first + count - 1 > MAX_SEED:
+        raise ParameterError(
+            f"seed: expected room for {count} seeds up to {MAX_SEED}, got {first} as the first one"
+        )
+    return range(first, first + count)
 
 
 class Seeds:
@@ -13,7 +64,10 @@ class Seeds:
     long run can be played again from the number it began with.
 
     Args:
-        seed: a whole number >= 0.
+        seed: a whole number from 0 to :data:`MAX_SEED`.
+
+    Raises:
+        ParameterError: it is none.
 
     >>> seeds = Seeds(7)
     >>> first = seeds.child("vision").random()
@@ -24,9 +78,7 @@ class Seeds:
     """
 
     def __init__(self, seed: int) -> None:
-        if seed < 0:
-            raise ValueError(f"seed: expected a whole number >= 0, got {seed}")
-        self.seed = int(seed)
+        self.seed = checked_seed(seed)
         self._children: dict[str, np.random.Generator] = {}
 
     @property

@@ -1,7 +1,7 @@
 """How an agent's blocks sit on its body in one world: made once, at setup."""
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from functools import partial
 from typing import TYPE_CHECKING
@@ -50,9 +50,9 @@ class Fitting:
         self.rewards = [reward for reward in agent.rewards if reward.is_active]
         self.sensors = [sensor for sensor in self._with_standard_ones() if sensor.is_active]
         active = [actuator for actuator in agent.actuators if actuator.is_active]
-        self._check_unique("reward function", "name", [each.name for each in self.rewards])
-        self._check_unique("sensor", "perception_key", [s.perception_key for s in self.sensors])
-        self._check_unique("actuator", "action_name", [each.action_name for each in active])
+        self._check_unique("reward function", "name", self.rewards)
+        self._check_unique("sensor", "perception_key", self.sensors)
+        self._check_unique("actuator", "action_name", active)
         self.actuators = {actuator.action_name: actuator for actuator in active}
         self.tick_actuators = [
             actuator for actuator in active if type(actuator).on_tick is not Actuator.on_tick
@@ -206,26 +206,35 @@ class Fitting:
         enabled = [brain for brain in brains if brain.enabled]
         who = f"agent {self._agent.id!r}"
         if not enabled:
-            raise SetupError(
+            told = SetupError(
                 f"{who}: expected exactly one enabled brain, got none"
                 + (f" ({len(brains)} are switched off)" if brains else "")
                 + "; add one, such as brains=[LocalBrain(controller=WASDRBMoveController())]"
             )
+            told.where = (self._agent, "brains")
+            raise told
         if len(enabled) > 1:
             names = " and ".join(brain.title() for brain in enabled)
-            raise SetupError(
+            told = SetupError(
                 f"{who}: expected exactly one enabled brain, got {len(enabled)}: {names}; "
                 "set enabled=False on the others"
             )
+            told.where = (self._agent, enabled[1])
+            raise told
         return enabled[0]
 
-    def _check_unique(self, what: str, field: str, names: list[str]) -> None:
-        for index, name in enumerate(names):
-            if name in names[:index]:
-                raise SetupError(
+    def _check_unique(self, what: str, field: str, blocks: Sequence[Block]) -> None:
+        names: set[str] = set()
+        for block in blocks:
+            name = getattr(block, field)
+            if name in names:
+                told = SetupError(
                     f"agent {self._agent.id!r}: two {what}s have the {field} {name!r}; "
                     f"give one of them another, as in {field}='{name}_2'"
                 )
+                told.where = (self._agent, block)
+                raise told
+            names.add(name)
 
     @contextmanager
     def _blamed(self, block: Block | None) -> Iterator[None]:
@@ -234,9 +243,9 @@ class Fitting:
         try:
             yield
         except AI4UError as error:
-            raise BlockError(
-                f"{who}, {_named(block)}: {error}" if block else f"{who}: {error}"
-            ) from error
+            told = BlockError(f"{who}, {_named(block)}: {error}" if block else f"{who}: {error}")
+            told.where = (self._agent, block or "body")
+            raise told from error
 
 
 def _named(block: Block | None) -> str:

@@ -8,6 +8,9 @@ from pathlib import Path
 from ai4u_edu.blocks.block import Block, is_built_in
 from ai4u_edu.errors import SetupError
 
+PREFIX = "own_blocks_"
+"""What the names of the modules begin with that were made from such files."""
+
 
 def load_blocks(path: Path) -> list[type[Block]]:
     """Runs a Python file; from then on scenes know the kinds of blocks that it defines.
@@ -24,7 +27,7 @@ def load_blocks(path: Path) -> list[type[Block]]:
         SetupError: it can't be read or run, it defines no block, or one with the name of a
             built-in one; then no new kinds are known.
     """
-    name = f"own_blocks_{path.stem}"
+    name = f"{PREFIX}{path.stem}"
     spec = importlib.util.spec_from_file_location(name, path)
     if path.suffix != ".py" or not path.is_file() or spec is None or spec.loader is None:
         raise SetupError(f"{path}: expected a Python file (.py) with blocks of your own")
@@ -52,6 +55,17 @@ def load_blocks(path: Path) -> list[type[Block]]:
         Block.types.update(before)
         raise SetupError(problem)
     return list(found.values())
+
+
+def own_files() -> list[Path]:
+    """Return the files whose blocks are known here, for a child process to load them too."""
+    modules = {cls.__module__ for cls in Block.types.values()}
+    files = [
+        getattr(sys.modules.get(name), "__file__", None)
+        for name in sorted(modules)
+        if name.startswith(PREFIX)
+    ]
+    return [Path(file) for file in files if file]
 
 
 def _place(path: Path, error: BaseException) -> str:

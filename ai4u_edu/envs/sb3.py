@@ -12,6 +12,7 @@ from stable_baselines3.common.vec_env import VecEnv
 
 from ai4u_edu.envs.scene_env import SceneEnv, SceneLike
 from ai4u_edu.envs.worlds import Worlds
+from ai4u_edu.seeding import checked_seed
 
 Indices = None | int | Sequence[int]
 
@@ -54,7 +55,9 @@ class SceneVecEnv(VecEnv):  # type: ignore[misc]  # seen without its types
 
     def reset(self) -> Any:
         """Begins an episode in every world, with the seeds of :meth:`seed` if it was called."""
-        for index, seed in enumerate(self._seeds):
+        # all of them before any world begins anew
+        seeds = [None if each is None else checked_seed(each) for each in self._seeds]
+        for index, seed in enumerate(seeds):
             self._worlds.reset(index, seed)
         self.reset_infos: list[dict[str, Any]] = [{} for _ in self.envs]
         self._reset_seeds()

@@ -9,6 +9,7 @@ from gymnasium.vector import AutoresetMode, VectorEnv
 from ai4u_edu.envs.scene_env import SceneLike
 from ai4u_edu.envs.worlds import Worlds
 from ai4u_edu.errors import SetupError
+from ai4u_edu.seeding import checked_seed, seeds_from
 
 
 class SceneVectorEnv(VectorEnv[Any, Any, Any]):
@@ -98,8 +99,9 @@ class SceneVectorEnv(VectorEnv[Any, Any, Any]):
     def _seeds(self, seed: int | list[int | None] | None) -> list[int | None]:
         if seed is None:
             return [None] * self.num_envs
-        if isinstance(seed, int):
-            return [seed + index for index in range(self.num_envs)]
+        if not isinstance(seed, list | tuple | np.ndarray):
+            return list(seeds_from(seed, self.num_envs))
         if len(seed) != self.num_envs:
             raise SetupError(f"seed: expected {self.num_envs} numbers, got {len(seed)}")
-        return list(seed)
+        # all of them before any world begins anew
+        return [None if each is None else checked_seed(each) for each in seed]

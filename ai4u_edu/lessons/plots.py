@@ -49,7 +49,7 @@ def plot(
             STYLES[index % len(STYLES)],
             color=PALETTE[COLOURS[index % len(COLOURS)]],
             marker=MARKERS[index % len(MARKERS)] if len(heights) <= FEW else "",
-            label=name,
+            label=name.replace("$", r"\$"),
         )
     panel.set(xlabel=xlabel, ylabel=ylabel, title=title)
     panel.grid(alpha=0.3)
@@ -78,9 +78,13 @@ def bars(heights: Mapping[str, float], *, ylabel: str = "", title: str = "") -> 
 
     figure = Figure(figsize=(6.4, 0.9 + 0.4 * len(heights)), layout="constrained")
     panel = figure.subplots()
-    panel.barh(list(heights), list(heights.values()), color=PALETTE["sky blue"], edgecolor="black")
-    for place, height in enumerate(heights.values()):
-        panel.text(max(height, 0), place, f" {height:.3g}", va="center")
+    # a bar without an end has no picture; its number is written
+    drawn = [height if math.isfinite(height) else 0.0 for height in heights.values()]
+    names = [name.replace("$", r"\$") for name in heights]
+    panel.barh(range(len(drawn)), drawn, color=PALETTE["sky blue"], edgecolor="black")
+    panel.set_yticks(range(len(drawn)), names)
+    for place, (end, height) in enumerate(zip(drawn, heights.values(), strict=True)):
+        panel.text(max(end, 0), place, f" {height:.3g}", va="center")
     panel.invert_yaxis()
     panel.margins(x=0.15)
     panel.set(xlabel=ylabel, title=title)

@@ -25,6 +25,7 @@ from ai4u_edu.recording.sound import check_sound
 from ai4u_edu.recording.table import MOST_FORMS, Table
 from ai4u_edu.recording.tape import LATEST
 from ai4u_edu.scenes import Scene, SceneDescription
+from ai4u_edu.seeding import MAX_SEED
 
 HEAD = b"ai4u-edu episode 1\n"
 LARGEST_FILE = 16 * 2**20
@@ -70,7 +71,7 @@ class _File(BaseModel):
 
     versions: dict[str, str]
     scene: dict[str, Any]
-    seed: int = Field(ge=0, lt=2**63)
+    seed: int = Field(ge=0, le=MAX_SEED)
     ticks: int = Field(ge=0, le=2 * LATEST)
     changed: int | None = Field(ge=0, le=2 * LATEST)
     cut: bool

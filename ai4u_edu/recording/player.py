@@ -8,7 +8,7 @@ from ai4u_edu.cycle import ControlRequestor
 from ai4u_edu.errors import AI4UError
 from ai4u_edu.recording.episode import REPEAT, Episode
 from ai4u_edu.recording.errors import RecordingError
-from ai4u_edu.recording.portrait import scene_of, without_brains
+from ai4u_edu.recording.portrait import scene_of, without_brains, without_unknown_brains
 from ai4u_edu.scenes.description import make_agents
 from ai4u_edu.scenes.plain import PlainError, from_plain
 from ai4u_edu.world import World
@@ -161,7 +161,8 @@ class Player:
         self.sim.restart(*(self.sim.agents[index] for index in group))
 
     def _brain_of_the_scene(self, index: int) -> Brain:
-        for path, data in enumerate(self.episode.scene.agents[index].get("brains", ())):
+        scene = without_unknown_brains(self.episode.scene)
+        for path, data in enumerate(scene.agents[index].get("brains", ())):
             if data.get("enabled", True):
                 try:
                     return cast(Brain, from_plain(Brain, data, ("agents", index, "brains", path)))

@@ -7,6 +7,7 @@ import numpy as np
 
 from ai4u_edu.agent import BasicAgent
 from ai4u_edu.blocks import Block, Brain
+from ai4u_edu.blocks.block import is_built_in
 from ai4u_edu.cycle import ControlRequestor
 from ai4u_edu.recording.errors import RecordingError
 from ai4u_edu.scenes import SceneDescription
@@ -17,7 +18,8 @@ from ai4u_edu.world import AreaDescription, BodyDescription, FloorDescription
 def scene_of(sim: ControlRequestor, like: SceneDescription | None = None) -> SceneDescription:
     """A world and its agents as a scene.
 
-    A brain that no file can hold, such as a Python function, is left out.
+    A brain that no file can hold, such as a Python function, is left out; so is one of a student's
+    own file where the agent has another: replaying needs no driver, so it needs no such file.
 
     Args:
         sim: the world and its agents.
@@ -50,6 +52,33 @@ def without_brains(scene: SceneDescription) -> list[Any]:
     return [scene.world, scene.spread_decisions, *things, agents]
 
 
+def without_unknown_brains(scene: SceneDescription) -> SceneDescription:
+    """Return a scene without the brains that can't be made here, so that it can be built.
+
+    An agent all of whose brains are unknown keeps them: building says then what is missing.
+    """
+    agents = tuple(_with_known_brains(agent) for agent in scene.agents)
+    return scene.model_copy(update={"agents": agents})
+
+
+def _with_known_brains(agent: Mapping[str, Any]) -> Mapping[str, Any]:
+    brains = agent.get("brains", ())
+    known = [brain for brain in brains if _is_known(brain)]
+    if not known or len(known) == len(brains):
+        return agent
+    if not any(brain.get("enabled", True) for brain in known):
+        known[0] = {**known[0], "enabled": True}
+    return {**agent, "brains": known}
+
+
+def _is_known(block: Any) -> bool:
+    """Return True unless a block, or one in it, is of a type that nobody has defined here."""
+    if not isinstance(block, Mapping):
+        return True
+    parts = [block.get("controller")] if "controller" in block else []
+    return block.get("type") in Block.types and all(map(_is_known, parts))
+
+
 def _agent(agent: BasicAgent) -> dict[str, Any]:
     given = agent.given()
     brains = given.pop("brains", [])
@@ -57,7 +86,9 @@ def _agent(agent: BasicAgent) -> dict[str, Any]:
         plain: dict[str, Any] = _numbers(to_plain(given))
     except TypeError as error:
         raise RecordingError(f"agent {agent.id!r}: {error}") from None
-    kept = [_numbers(to_plain(brain)) for brain in brains if _fits(brain)]
+    fitting = [brain for brain in brains if _fits(brain)]
+    built_in = [brain for brain in fitting if all(is_built_in(type(b)) for b in _blocks(brain))]
+    kept = [_numbers(to_plain(brain)) for brain in built_in or fitting]
     if kept:
         plain["brains"] = kept
         if sum(brain.get("enabled", True) for brain in kept) != 1:

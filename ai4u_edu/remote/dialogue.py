@@ -15,6 +15,7 @@ from ai4u_edu.remote.errors import LostError, RefusedError, RemoteError
 from ai4u_edu.remote.outputs import numbers_of
 from ai4u_edu.remote.percept import RemotePercept
 from ai4u_edu.remote.steps import Close, Flow, LineLost, Open, Pause, Receive, Send
+from ai4u_edu.seeding import checked_seed
 from ai4u_edu.wire import native
 
 FIRST_WAIT = 0.2
@@ -125,6 +126,8 @@ class Dialogue:
 
     def reset(self, seed: int | None = None) -> Flow[RemotePercept]:
         """Begins an episode, and waits for its first percept."""
+        if seed is not None:
+            seed = checked_seed(seed)  # before anything is sent
         before = yield from self.sense()
         yield from self._answer(native.Reset(before.seq, seed))
         percept = yield from self.sense()

@@ -9,6 +9,7 @@ from ai4u_edu.errors import SetupError
 from ai4u_edu.remote.percept import RemotePercept
 from ai4u_edu.remote.robot import connect
 from ai4u_edu.remote.spaces import action_space, observation_space
+from ai4u_edu.seeding import checked_seed
 
 
 class RemoteEnv(gymnasium.Env[Any, Any]):
@@ -69,6 +70,8 @@ class RemoteEnv(gymnasium.Env[Any, Any]):
                 A RefusedError if others are in that world, and it is not to be reset from here.
             options: none are known.
         """
+        if seed is not None:
+            seed = checked_seed(seed)
         super().reset(seed=seed)
         percept = self.robot.reset(seed)
         self._paid = 0.0

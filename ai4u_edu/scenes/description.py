@@ -1,11 +1,14 @@
 """What a scene file says."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Annotated, Any
 
 from pydantic import Field
 
 from ai4u_edu.agent import BasicAgent
+from ai4u_edu.agent.ledger import HANDLERS
+from ai4u_edu.blocks.rewards.combined import CombinedRewardFunc
+from ai4u_edu.errors import suggest
 from ai4u_edu.parameters import Name, Problem, quantity
 from ai4u_edu.scenes.plain import Path, PlainError, make
 from ai4u_edu.world import AreaDescription, BodyDescription, FloorDescription, WorldSettings
@@ -66,3 +69,34 @@ def make_agents(scene: SceneDescription) -> list[BasicAgent]:
     if problems:
         raise PlainError(problems)
     return [agent for agent in agents if isinstance(agent, BasicAgent)]
+
+
+def check_success(success: str | None, agents: Sequence[BasicAgent]) -> None:
+    """Check that some reward function pays the term that says when the goal is reached.
+
+    What AndRewardFunc's and OrRewardFunc's children pay is booked under the parent's name; what
+    handlers pay with ``add_reward`` under :data:`HANDLERS`, or the name of a reward function.
+
+    Raises:
+        PlainError: none does: no episode could ever succeed.
+    """
+    terms = {reward.name for agent in agents for reward in agent.rewards}
+    if success is None or success in terms or success == HANDLERS:
+        return
+    parents = [
+        reward.name
+        for agent in agents
+        for reward in agent.rewards
+        if isinstance(reward, CombinedRewardFunc) and success in _names_below(reward)
+    ]
+    hint = f"it is paid under the name {parents[0]!r}" if parents else suggest(success, terms)
+    text = f"no reward function has the name {success!r}, so no episode could succeed; {hint}"
+    raise PlainError([Problem(("success",), text)])
+
+
+def _names_below(reward: CombinedRewardFunc) -> set[str]:
+    names = {child.name for child in reward.children}
+    for child in reward.children:
+        if isinstance(child, CombinedRewardFunc):
+            names |= _names_below(child)
+    return names

@@ -6,14 +6,18 @@ from pathlib import Path
 from typing import Any, Self
 
 from pydantic import ValidationError
+from yaml import YAMLError
 
 from ai4u_edu.blocks.brains.network import files_in
 from ai4u_edu.cycle import ControlRequestor
 from ai4u_edu.errors import AI4UError, SceneError, WorldError, suggest
 from ai4u_edu.parameters import Problem, explain
-from ai4u_edu.scenes.description import SceneDescription, make_agents
+from ai4u_edu.scenes.description import SceneDescription, check_success, make_agents
 from ai4u_edu.scenes.plain import PlainError
+from ai4u_edu.scenes.setup_errors import path_of
+from ai4u_edu.scenes.yaml_edit import edited
 from ai4u_edu.scenes.yaml_file import YamlFile, write_yaml
+from ai4u_edu.scenes.yaml_tree import NotYamlError, read_tree
 from ai4u_edu.world import World
 
 LIBRARY = Path(__file__).parent / "library"
@@ -35,10 +39,14 @@ class Scene:
     False
     """
 
-    def __init__(self, description: SceneDescription, folder: Path | None = None) -> None:
+    def __init__(
+        self, description: SceneDescription, folder: Path | None = None, source: str = ""
+    ) -> None:
         self.description = description
         self.folder = folder
         """Where its file is: paths in it begin there."""
+        self.source = source
+        """The text that it was read from: its comments are kept when the scene is written."""
 
     @classmethod
     def load(cls, source: str | Path) -> Self:
@@ -59,9 +67,11 @@ class Scene:
                     "a file's name ends in .yaml"
                 )
         try:
-            text = path.read_text(encoding="utf-8")
-        except (OSError, UnicodeDecodeError) as error:
-            raise SceneError(f"{path}: can't be read: {error}") from None
+            text = path.read_text(encoding="utf-8-sig")  # some editors begin with a mark
+        except OSError as error:
+            raise SceneError(f"{path}: can't be read: {error.strerror}") from None
+        except UnicodeDecodeError as error:
+            raise SceneError(f"{path}: {_no_utf8(path, error)}") from None
         return cls.loads(text, name=path.name, folder=path.absolute().parent)
 
     @classmethod
@@ -70,7 +80,7 @@ class Scene:
         file = YamlFile(text, name)
         try:
             description = SceneDescription.model_validate(file.data)
-            scene = cls(description, folder)
+            scene = cls(description, folder, text)
             world = scene.build().world
             if any(thing.random for thing in description.things):
                 for seed in range(1, EPISODES):
@@ -83,7 +93,10 @@ class Scene:
         except WorldError as error:
             raise _told(file, [Problem(description.where_is(error.thing), str(error))]) from None
         except AI4UError as error:
-            raise SceneError(f"{name}: {error}") from None
+            path = path_of(error, description.agents)
+            if not path:
+                raise SceneError(f"{name}: {error}") from None
+            raise _told(file, [Problem(path, str(error))]) from None
         return scene
 
     @staticmethod
@@ -92,12 +105,17 @@ class Scene:
         return sorted(path.stem for path in LIBRARY.glob("*.yaml"))
 
     def build(self, seed: int = 0) -> ControlRequestor:
-        """Makes the world and the agents, each time new ones."""
+        """Makes the world and the agents, each time new ones.
+
+        Raises:
+            AI4UError: something in the description is wrong; of its data, a PlainError.
+        """
         description = self.description
         world = World(seed=seed, **dict(description.world))
         world.add_all(description.things)
         with files_in(self.folder):
             agents = make_agents(description)
+        check_success(description.success, agents)
         return ControlRequestor(
             world,
             agents,
@@ -115,8 +133,13 @@ class Scene:
         return _with_types(plain, self.description)
 
     def dumps(self) -> str:
-        """The scene as YAML text."""
-        return write_yaml(self.plain())
+        """The scene as YAML text.
+
+        Of a scene that was read from a text, what did not change stays as it stands there, with
+        its comments.
+        """
+        plain = self.plain()
+        return _with_comments(self.source, plain) or write_yaml(plain)
 
     def save(self, path: str | Path) -> None:
         """Writes the scene to a file; a file that was there is replaced whole, or not at all."""
@@ -141,6 +164,36 @@ class Scene:
 
     def __repr__(self) -> str:
         return f"<Scene {self.description.name!r}>"
+
+
+def _no_utf8(path: Path, error: UnicodeDecodeError) -> str:
+    """What is wrong with a file that is no UTF-8 text."""
+    head = error.object[:4]
+    if head[:2] in (b"\xff\xfe", b"\xfe\xff"):
+        return "expected UTF-8 text, got UTF-16; save it as UTF-8 in your editor"
+    if b"\0" in error.object:
+        return "expected a scene file, which is UTF-8 text, got a file that is no text"
+    line = error.object[: error.start].count(b"\n") + 1
+    return (
+        f"line {line}: expected UTF-8 text, got the byte 0x{error.object[error.start]:02x}; save "
+        f"{path.name} as UTF-8 in your editor"
+    )
+
+
+def _with_comments(source: str, plain: dict[str, Any]) -> str:
+    """Return a scene's text with other data in it; empty if that is not possible."""
+    if not source:
+        return ""
+    try:
+        before = _plain_of(source)
+        text = source if before == plain else edited(source, before, plain)
+        return text if _plain_of(text) == plain else ""
+    except (ValueError, LookupError, NotYamlError, YAMLError):  # written in a way that is too odd
+        return ""
+
+
+def _plain_of(text: str) -> dict[str, Any]:
+    return Scene(SceneDescription.model_validate(read_tree(text).data)).plain()
 
 
 def _with_types(plain: dict[str, Any], description: SceneDescription) -> dict[str, Any]:

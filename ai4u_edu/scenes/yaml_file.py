@@ -2,17 +2,22 @@
 
 import io
 import re
+import textwrap
 from typing import Any
 
 from ruamel.yaml import YAML
+from ruamel.yaml.comments import CommentedMap, CommentedSeq
 from ruamel.yaml.scalarstring import DoubleQuotedScalarString
 
 from ai4u_edu.errors import SceneError
 from ai4u_edu.scenes.yaml_tree import IS_QUICK, NotYamlError, read_tree
+from ai4u_edu.scenes.yaml_words import shown
 
 MAX_SIZE = 300_000 if IS_QUICK else 50_000
 """Characters that a scene file may have: what is read in a second, whatever it is. With 500 bodies
 it has 60,000."""
+EXPECTED = "lines such as name: ..., bodies: ..., agents: ..."
+"""What a scene file consists of."""
 UNFOLDED = 1_000_000
 """Characters of a line that never ends."""
 
@@ -25,6 +30,7 @@ class YamlFile:
     Args:
         text: YAML.
         name: of the file, for messages.
+        expected: what stands in such a file, for messages.
 
     Raises:
         SceneError: it can't be read; the message names the line.
@@ -36,7 +42,7 @@ class YamlFile:
     3
     """
 
-    def __init__(self, text: str, name: str) -> None:
+    def __init__(self, text: str, name: str, expected: str = EXPECTED) -> None:
         self.name = name
         if len(text) > MAX_SIZE:
             raise SceneError(f"{name}: expected at most {MAX_SIZE} characters, got {len(text)}")
@@ -44,12 +50,11 @@ class YamlFile:
             self._tree = read_tree(text)
         except NotYamlError as problem:
             line = f", line {problem.line}" if problem.line else ""
-            raise SceneError(f"{name}{line}: {problem}") from None
+            column = f", column {problem.column}" if problem.column else ""
+            there = shown(text, problem.line, problem.column)
+            raise SceneError(f"{name}{line}{column}: {problem}{there}") from None
         if not isinstance(self._tree.data, dict):
-            raise SceneError(
-                f"{name}: expected a mapping (name: ..., bodies: ..., agents: ...), "
-                f"got {type(self._tree.data).__name__}"
-            )
+            raise SceneError(f"{name}: expected {expected}, got {_kind(self._tree.data, text)}")
         self.data: dict[str, Any] = self._tree.data
 
     def line(self, path: Path) -> int:
@@ -63,16 +68,31 @@ class YamlFile:
         return line
 
 
-def write_yaml(data: dict[str, Any]) -> str:
-    """Plain data as YAML: short lists and mappings on one line."""
+def _kind(data: Any, text: str) -> str:
+    """What a file holds that holds no mapping, in words."""
+    if data is None:
+        return "an empty file" if not text.strip() else "a file without any"
+    if isinstance(data, list):
+        return "a list (a line that begins with -)"
+    if isinstance(data, str):
+        beginning = data if len(data) <= 40 else data[:37] + "..."
+        return f"the text {beginning!r}; a space has to follow each colon"
+    return f"the value {data!r}"
+
+
+def write_yaml(data: dict[str, Any] | list[Any]) -> str:
+    """Plain data as YAML: short lists and mappings on one line, but for the whole."""
     yaml = YAML(typ="rt", pure=True)
     yaml.default_flow_style = None
     # where a line ends, ruamel loses some of what is odd in a text
     yaml.width = UNFOLDED if _is_odd(data) else 100
     yaml.indent(mapping=2, sequence=4, offset=2)
     out = io.StringIO()
-    yaml.dump(_quoted(data), out)
-    return out.getvalue()
+    quoted = _quoted(data)
+    whole = CommentedMap(quoted) if isinstance(quoted, dict) else CommentedSeq(quoted)
+    whole.fa.set_block_style()
+    yaml.dump(whole, out)
+    return textwrap.dedent(out.getvalue())
 
 
 _USUAL = re.compile(r"[\w(+.,!?<-]?\w([\w(),.;!?+*/<>=%&-]| (?! ))*")

@@ -6,6 +6,8 @@ from typing import Any, NamedTuple
 
 import yaml
 
+from ai4u_edu.scenes.yaml_words import fault_of
+
 MAX_DEPTH = 24
 LONGEST = 100
 """Characters of a number."""
@@ -59,11 +61,12 @@ class NotYamlError(Exception):
 
     Attributes:
         line: from 1 on; 0 if it has none.
+        column: from 1 on; 0 for the whole line.
     """
 
-    def __init__(self, line: int, text: str) -> None:
+    def __init__(self, line: int, text: str, column: int = 0) -> None:
         super().__init__(text)
-        self.line = line
+        self.line, self.column = line, column
 
 
 def read_tree(text: str) -> Tree:
@@ -78,12 +81,9 @@ def read_tree(text: str) -> Tree:
     try:
         events = yaml.parse(text, Loader=_Loader)
         return _document(events)
-    except yaml.MarkedYAMLError as error:
-        mark = error.problem_mark or error.context_mark
-        problem = error.problem or error.context
-        raise NotYamlError(mark.line + 1 if mark else 0, f"not YAML: {problem}") from None
     except (yaml.YAMLError, ValueError) as error:
-        raise NotYamlError(0, f"not YAML: {error}") from None
+        fault = fault_of(error, text)
+        raise NotYamlError(fault.line, fault.words, fault.column) from None
 
 
 def _document(events: Iterator[_Event]) -> Tree:
@@ -121,9 +121,19 @@ def _tree(event: _Event, events: Iterator[_Event], depth: int, line: int = 0) ->
         if not isinstance(event, yaml.ScalarEvent):
             raise NotYamlError(named.line, "expected words as keys, got lists or mappings")
         if event.value in parts:
-            raise NotYamlError(named.line, f"not YAML: found duplicate key {event.value!r}")
+            first = parts[event.value].line
+            raise NotYamlError(
+                named.line,
+                f"{event.value!r} stands here for the second time, after line {first}; expected "
+                "each name once",
+                _column(event),
+            )
         parts[event.value] = _tree(next(events), events, depth + 1, named.line)
     return Tree({key: part.data for key, part in parts.items()}, line, parts)
+
+
+def _column(event: _Event) -> int:
+    return int(event.start_mark.column) + 1
 
 
 def _value(text: str, line: int) -> Any:

@@ -21,6 +21,7 @@ from ai4u_edu.errors import SetupError
 from ai4u_edu.recording import Episode
 from ai4u_edu.recording.player import Player
 from ai4u_edu.scenes.plain import to_plain
+from ai4u_edu.seeding import checked_seed
 from ai4u_edu.training.algorithms import THREADS
 from ai4u_edu.training.demonstrations import demonstrations
 from ai4u_edu.training.exporting import graph_of, inputs_of
@@ -185,6 +186,7 @@ def clone(
         RecordingError: the episodes can't be played again exactly.
         SetupError: such actions can't be learned.
     """
+    seed = checked_seed(seed)
     shown = demonstrations(episodes, agent=agent)
     if isinstance(shown.action_space, spaces.Dict):
         raise SetupError(

@@ -7,7 +7,16 @@ from typing import Annotated
 import typer
 from rich.console import Console
 
+from ai4u_edu.command_options import (
+    MAX_EPISODES,
+    MAX_TRAINING_STEPS,
+    OwnBlocks,
+    load_own_blocks,
+    seed_option,
+    training_seed_option,
+)
 from ai4u_edu.errors import SetupError
+from ai4u_edu.seeding import seeds_from
 
 Folder = Annotated[Path, typer.Option(help="The training's folder.", show_default=False)]
 
@@ -26,9 +35,13 @@ def train(
     algo: Annotated[str, typer.Option(help="sac, ppo or dqn; left out, as the settings say.")] = "",
     steps: Annotated[
         int | None,
-        typer.Option(help="Decisions to learn from; left out, as the settings say.", min=1),
+        typer.Option(
+            help="Decisions to learn from; left out, as the settings say.",
+            min=1,
+            max=MAX_TRAINING_STEPS,
+        ),
     ] = None,
-    seed: Annotated[int, typer.Option(help="The same seed gives the same model.", min=0)] = 0,
+    seed: Annotated[int, training_seed_option("The same seed gives the same model.")] = 0,
     out: Annotated[
         Path | None, typer.Option(help="The training's folder; left out: runs/SCENE-ALGO-SEED.")
     ] = None,
@@ -50,6 +63,7 @@ def train(
     watch: Annotated[
         bool, typer.Option("--watch", help="Show the policy driving in the browser as it learns.")
     ] = False,
+    own_blocks: OwnBlocks = None,
 ) -> None:
     r"""Let an agent learn a scene; Ctrl-C keeps what it learned.
 
@@ -59,7 +73,7 @@ def train(
 
     if resume and out is None:
         raise SetupError("--resume needs --out, the folder of the training to go on with")
-
+    load_own_blocks(own_blocks)
     done = trained(
         scene or "box_chase",
         algo,
@@ -88,8 +102,8 @@ def evaluate(
     who: Annotated[
         str,
         typer.Argument(
-            help="A training's folder, a model (.zip), a network (.onnx, zoo:SCENE), a controller, "
-            "FILE.py:NAME, random, or scene (the scene's own controller)."
+            help="A training's folder, a model (.zip), a network (.onnx, zoo:SCENE, or zoo for the "
+            "scene's own), a controller, FILE.py:NAME, random, or scene (its own controller)."
         ),
     ],
     scene: Annotated[
@@ -98,12 +112,13 @@ def evaluate(
     compare: Annotated[
         list[str] | None, typer.Option(help="Somebody else, on the same seeds; more than once.")
     ] = None,
-    episodes: Annotated[int, typer.Option(min=1, max=1_000_000)] = 100,
-    seed: Annotated[int, typer.Option(help="Of the first episode; then one by one.", min=0)] = 0,
+    episodes: Annotated[int, typer.Option(min=1, max=MAX_EPISODES)] = 100,
+    seed: Annotated[int, seed_option("Of the first episode; then one by one.")] = 0,
     json_file: Annotated[
         Path | None, typer.Option("--json", help="Write all of it to a file; - for the terminal.")
     ] = None,
     plot: Annotated[Path | None, typer.Option(help="Draw it into a PNG file.")] = None,
+    own_blocks: OwnBlocks = None,
 ) -> None:
     """Find out how good somebody drives, on seeds that nobody learned from.
 
@@ -118,12 +133,19 @@ def evaluate(
 
     if plot is not None:
         need("train", "matplotlib")
-    entrants = [entrant(each) for each in (who, *(compare or ()))]
-    where = scene or next((each.scene for each in entrants if each.scene), "")
-    if not where:
-        raise SetupError(f"in which scene is {who} to drive? Expected --scene")
-    loaded = Scene.load(where)
-    seeds = range(seed, seed + episodes)
+        from ai4u_edu.training.plots import check_picture, plot_evaluations
+
+        check_picture(plot)
+    load_own_blocks(own_blocks)
+    loaded = Scene.load(scene) if scene else None
+    name = loaded.description.name if loaded else ""
+    entrants = [entrant(each, name) for each in (who, *(compare or ()))]
+    if loaded is None:
+        where = next((each.scene for each in entrants if each.scene), "")
+        if not where:
+            raise SetupError(f"in which scene is {who} to drive? Expected --scene")
+        loaded = Scene.load(where)
+    seeds = seeds_from(seed, episodes)
     done = [evaluated(each, loaded, counted(seeds, each.name)) for each in entrants]
     if json_file is None or str(json_file) != "-":
         Console().print(
@@ -138,21 +160,21 @@ def evaluate(
         else:
             json_file.write_text(text + "\n", encoding="utf-8")
     if plot is not None:
-        from ai4u_edu.training.plots import plot_evaluations
-
         plot_evaluations(done, plot)
 
 
 def export(
     model: Annotated[Path, typer.Argument(help="A training's folder, or a model (.zip) in it.")],
     out: Annotated[Path, typer.Option(help="The network's file.")] = Path("policy.onnx"),
+    own_blocks: OwnBlocks = None,
 ) -> None:
     """Write a model as a network (.onnx) that drives without torch, and can be shared."""
     from ai4u_edu.training import export as exported
-    from ai4u_edu.training.run import Run
+    from ai4u_edu.training.run import run_of
 
+    load_own_blocks(own_blocks)
     path = exported(model, out)
-    name = Run(model if model.is_dir() else model.parent).config().scene
+    name = run_of(model).config().scene
     typer.echo(
         f"{path}: {path.stat().st_size / 1000:.0f} kB\n"
         f"let it drive:  ai4u-edu play {name} --brain {path}"

@@ -22,6 +22,10 @@ from ai4u_edu.scenes import Scene, SceneDescription
 
 Array = npt.NDArray[Any]
 
+HOW_TO_RECORD = (
+    "make some with: ai4u-edu record SCENE --brain ..., or ai4u-edu play SCENE --record DIR"
+)
+
 
 @dataclass(frozen=True)
 class Demonstration:
@@ -180,6 +184,12 @@ def load_episodes(paths: Sequence[Path]) -> list[Episode]:
     Raises:
         RecordingError: there are none, or one can't be read.
     """
+    for path in paths:
+        if not path.exists():
+            raise RecordingError(
+                f"{path}: expected a recorded episode (.episode), or a folder of them, and there "
+                f"is none; {HOW_TO_RECORD}"
+            )
     files = [
         file
         for path in paths
@@ -188,7 +198,7 @@ def load_episodes(paths: Sequence[Path]) -> list[Episode]:
     if not files:
         raise RecordingError(
             f"{', '.join(map(str, paths))}: expected recorded episodes (.episode), found none; "
-            "make some with: ai4u-edu record SCENE --brain ..., or ai4u-edu play SCENE --record DIR"
+            f"{HOW_TO_RECORD}"
         )
     return [Episode.load(file) for file in files]
 

@@ -19,13 +19,24 @@ from ai4u_edu.blocks import (
     Percept,
     trained_brain,
 )
+from ai4u_edu.blocks.brains.address import brain_at
 from ai4u_edu.blocks.brains.network import IN_THE_ZOO
 from ai4u_edu.envs.spaces_of import Observer, outputs_of
 from ai4u_edu.errors import AI4UError, SetupError, suggest
 from ai4u_edu.extras import need
 from ai4u_edu.scenes import Scene
+from ai4u_edu.scenes.plain import fits_a_file
 from ai4u_edu.training.prepare import prepare
-from ai4u_edu.training.run import Config, Run
+from ai4u_edu.training.run import Config, run_of
+
+ZOO = "zoo"
+"""The scene's own network of the package."""
+SCHEME = "ai4u://"
+FORMS = (
+    "a training's folder, a model (.zip), a network (.onnx, zoo:SCENE, or zoo for the scene's "
+    "own), FILE.py:NAME, an AI4U script (ai4u://127.0.0.1:8080), random, scene, or a controller"
+)
+"""All forms in which a command line names a driver."""
 
 
 def _as_it_is(scene: Scene) -> Scene:
@@ -45,16 +56,20 @@ class Entrant:
     """A scene whose agent observes as it is used to."""
     agent: str = ""
     """The id of the agent that it drives; empty for the one that acts first."""
+    is_remote: bool = False
+    """True for a script on the other side of a connection, which needs a served world."""
 
 
-def entrant(spec: str) -> Entrant:
-    """Finds out who drives.
+def entrant(spec: str, scene: str = "") -> Entrant:
+    """Finds out who drives; the one place in which drivers are parsed.
 
     Args:
         spec: a training's folder or a model in it (.zip); a network (.onnx,
-            ``zoo:SCENE``); a function from percept to action or a Controller, in a Python file of
-            one's own (FILE.py:NAME); a controller by its name; ``random``; ``scene`` for the
+            ``zoo:SCENE``, or ``zoo`` for the scene's own); a function from percept to action or a
+            Controller, in a Python file of one's own (FILE.py:NAME); an AI4U script by its address
+            (``ai4u://HOST:PORT``); a controller by its name; ``random``; ``scene`` for the
             controller that the scene's file names.
+        scene: the name of the scene that ``zoo`` means.
 
     Raises:
         AI4UError: there is nothing of that name.
@@ -64,8 +79,12 @@ def entrant(spec: str) -> Entrant:
         return Entrant("random", _by_chance)
     if spec == "scene":
         return Entrant("scene", lambda agent: agent.brain)
+    if spec == ZOO and scene:
+        return _network(f"{IN_THE_ZOO}{scene}")
     if spec.startswith(IN_THE_ZOO) or path.suffix == ".onnx":
         return _network(spec)
+    if spec.startswith(SCHEME):
+        return Entrant(spec, _in_rhythm_of(brain_at(spec)), is_remote=True)
     if path.is_dir() or path.suffix == ".zip":
         return _model(path)
     file, _, name = spec.rpartition(":")
@@ -74,15 +93,27 @@ def entrant(spec: str) -> Entrant:
     controllers = {
         name: cls
         for name, cls in Block.types.items()
-        if issubclass(cls, Controller) and not cls.__dict__.get("abstract")
+        if issubclass(cls, Controller)
+        and fits_a_file(cls)
+        and not any(field.is_required() for field in cls.parameters().values())
     }
     if spec in controllers:
         return Entrant(spec, _in_rhythm(controllers[spec]))
-    raise SetupError(
-        f"nobody is called {spec!r}: expected a training's folder, a model (.zip), a network "
-        "(.onnx, zoo:SCENE), FILE.py:NAME, random, scene, or a controller; "
-        f"{suggest(spec, controllers)}"
-    )
+    raise SetupError(f"nobody is called {spec!r}: expected {FORMS}; {suggest(spec, controllers)}")
+
+
+def expect_here(who: Entrant) -> Entrant:
+    """Return a driver that needs no served world.
+
+    Raises:
+        SetupError: it is a script on the other side of a connection.
+    """
+    if who.is_remote:
+        raise SetupError(
+            f"{who.name}: a script drives in a served world only; expected: "
+            f"ai4u-edu play SCENE --brain {who.name} (with --record DIR to keep the episodes)"
+        )
+    return who
 
 
 def entrant_of(who: Any) -> Entrant:
@@ -122,7 +153,7 @@ def _model(path: Path) -> Entrant:
     need("train", "torch", "stable_baselines3")
     from ai4u_edu.training.algorithms import load_model
 
-    run = Run(path if path.is_dir() else path.parent)
+    run = run_of(path)
     config = run.config()
     settings = config.settings
     model = load_model(config.algorithm, run.best if path.is_dir() else path)
@@ -192,6 +223,13 @@ def _in_rhythm(make: Callable[[], Any]) -> Callable[[BasicAgent], Brain]:
     )
 
 
+def _in_rhythm_of(brain: Brain) -> Callable[[BasicAgent], Brain]:
+    """A brain that decides as often as the agent's own."""
+    return lambda agent: brain.changed(
+        skip_frame=agent.brain.skip_frame, repeat_action=agent.brain.repeat_action
+    )
+
+
 def _from_file(path: Path, name: str) -> Callable[[], Any]:
     """Runs a Python file, which the user named, and takes a function or a controller out of it."""
     called = f"own_controllers_{path.stem}"
@@ -201,7 +239,7 @@ def _from_file(path: Path, name: str) -> Callable[[], Any]:
     module = sys.modules[called] = importlib.util.module_from_spec(found)
     try:
         found.loader.exec_module(module)
-    except Exception as error:  # it is theirs, so it may be any
+    except (Exception, SystemExit) as error:  # it is theirs, so it may be any
         raise SetupError(f"{path}: {type(error).__name__}: {error}") from error
     if not hasattr(module, name):
         known = [each for each in vars(module) if not each.startswith("_")]

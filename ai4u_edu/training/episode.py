@@ -41,4 +41,5 @@ def wilson(successes: int, trials: int, z: float = 1.959964) -> tuple[float, flo
     weight = 1 + z * z / trials
     middle = (share + z * z / (2 * trials)) / weight
     reach = z / weight * math.sqrt(share * (1 - share) / trials + (z / (2 * trials)) ** 2)
-    return max(0.0, middle - reach), min(1.0, middle + reach)
+    # rounding may put an end on the wrong side of the share: of 10 in 10 the upper one below 1
+    return max(0.0, min(share, middle - reach)), min(1.0, max(share, middle + reach))

@@ -10,7 +10,7 @@ import numpy as np
 from ai4u_edu.agent import BasicAgent
 from ai4u_edu.cycle import ControlRequestor
 from ai4u_edu.scenes import Scene
-from ai4u_edu.training.entrants import Entrant
+from ai4u_edu.training.entrants import Entrant, expect_here
 from ai4u_edu.training.episode import Episode, wilson
 
 LONGEST = 10_000
@@ -119,7 +119,7 @@ def evaluate(
         seeds: of the episodes; trainings use none below 2**32 on purpose.
         tell: called after each episode.
     """
-    sim = who.fitted(scene).build()
+    sim = expect_here(who).fitted(scene).build()
     agent = sim.agent(who.agent) if who.agent else sim.agents[0]
     agent.use_brain(who.brain(agent))
     goal = scene.description.success

@@ -14,8 +14,9 @@ from stable_baselines3.common.off_policy_algorithm import OffPolicyAlgorithm
 from stable_baselines3.common.vec_env import VecEnv
 
 from ai4u_edu.envs import SceneEnv
-from ai4u_edu.errors import SetupError
+from ai4u_edu.errors import ParameterError, SetupError
 from ai4u_edu.scenes import Scene
+from ai4u_edu.seeding import MAX_TRAINING_SEED, checked_seed
 from ai4u_edu.training.algorithms import check_actions, load_model, new_model
 from ai4u_edu.training.interrupt import Interrupt
 from ai4u_edu.training.keeper import Keeper
@@ -100,7 +101,13 @@ def train(
 
     Raises:
         SetupError: the settings don't fit the scene, or the folder holds a training already.
+        ParameterError: the seed is larger than :data:`MAX_TRAINING_SEED`.
     """
+    if checked_seed(seed) > MAX_TRAINING_SEED:
+        raise ParameterError(
+            f"seed: expected a whole number from 0 to {MAX_TRAINING_SEED} for a training, got "
+            f"{seed}"
+        )
     own = settings.of(algorithm)
     prepared = prepare(scene, settings)
     check_actions(algorithm, _env(prepared, settings).action_space)

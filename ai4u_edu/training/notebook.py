@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from ai4u_edu.errors import SetupError, suggest
 from ai4u_edu.extras import need
+from ai4u_edu.seeding import seeds_from
 
 if TYPE_CHECKING:
     from ai4u_edu.blocks import Controller
@@ -136,7 +137,7 @@ def evaluate(
     where = scene if scene is not None else driver.scene
     if not where:
         raise SetupError(f"in which scene is {driver.name} to drive? Expected scene=...")
-    seeds: Iterable[int] = range(seed, seed + episodes)
+    seeds: Iterable[int] = seeds_from(seed, episodes)
     return evaluated(driver, _scene(where), counted(seeds, driver.name, quiet=quiet))
 
 
@@ -153,10 +154,10 @@ def export(model: "str | Path | Trained", out: str | Path = "policy.onnx") -> Pa
     need("train", "torch", "stable_baselines3", "onnx", "onnxscript")
     from ai4u_edu.training.algorithms import load_model
     from ai4u_edu.training.exporting import export as exported
-    from ai4u_edu.training.run import Run
+    from ai4u_edu.training.run import run_of
 
     path = Path(model) if isinstance(model, str | Path) else model.folder
-    run = Run(path if path.is_dir() else path.parent)
+    run = run_of(path)
     config = run.config()
     loaded: Any = load_model(config.algorithm, run.best if path.is_dir() else path)
     return exported(loaded, run.scene(), config, Path(out))
@@ -193,7 +194,7 @@ def demonstrate(
     if not where:
         raise SetupError(f"in which scene is {driver.name} to drive? Expected scene=...")
     return show(
-        driver, _scene(where), counted(range(seed, seed + episodes), driver.name, quiet=quiet)
+        driver, _scene(where), counted(seeds_from(seed, episodes), driver.name, quiet=quiet)
     )
 
 

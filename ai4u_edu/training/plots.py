@@ -4,9 +4,11 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from matplotlib.backend_bases import FigureCanvasBase
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
+from ai4u_edu.errors import SetupError
 from ai4u_edu.palette import PALETTE
 from ai4u_edu.training.evaluating import Evaluation
 from ai4u_edu.training.run import Check
@@ -17,7 +19,13 @@ MARKERS = "osD^v<>"
 
 
 def plot_evaluations(evaluations: Sequence[Evaluation], path: Path) -> None:
-    """Success with its interval, and the returns and lengths of all episodes."""
+    """Success with its interval, and the returns and lengths of all episodes.
+
+    Raises:
+        SetupError: there are no evaluations, or the file's name ends in no picture's format.
+    """
+    if not evaluations:
+        raise SetupError("expected at least one evaluation to draw, got none")
     figure = Figure(figsize=(10, 1.2 + 0.6 * len(evaluations)), layout="constrained")
     success, returns, lengths = figure.subplots(1, 3, sharey=True)
     places = list(range(len(evaluations)))
@@ -41,7 +49,7 @@ def plot_evaluations(evaluations: Sequence[Evaluation], path: Path) -> None:
         [each.lengths for each in evaluations], positions=places, orientation="horizontal"
     )
     success.set(xlim=(-0.03, 1.03), xlabel="success (with 95% interval)", yticks=places)
-    success.set_yticks(places, [each.name for each in evaluations])
+    success.set_yticks(places, [_plain(each.name) for each in evaluations])
     success.invert_yaxis()
     returns.set_xlabel("return of an episode")
     lengths.set_xlabel("decisions in an episode")
@@ -49,7 +57,13 @@ def plot_evaluations(evaluations: Sequence[Evaluation], path: Path) -> None:
 
 
 def plot_curves(curves: Mapping[str, Mapping[str, Sequence[Check]]], path: Path) -> None:
-    """Success by steps: a panel a title, a line a training."""
+    """Success by steps: a panel a title, a line a training.
+
+    Raises:
+        SetupError: there are no panels, or the file's name ends in no picture's format.
+    """
+    if not curves:
+        raise SetupError("expected at least one panel to draw, got none")
     figure = Figure(figsize=(4.2 * len(curves), 3.2), layout="constrained")
     panels: Any = figure.subplots(1, len(curves), sharey=True, squeeze=False)[0]
     for panel, (title, runs) in zip(panels, curves.items(), strict=True):
@@ -60,14 +74,15 @@ def plot_curves(curves: Mapping[str, Mapping[str, Sequence[Check]]], path: Path)
                 color=_colour(index),
                 marker=MARKERS[index % len(MARKERS)],
                 markersize=4,
-                label=name,
+                label=_plain(name),
             )
-        panel.set(title=title, xlabel="decisions learned from", ylim=(-0.03, 1.03))
+        panel.set(title=_plain(title), xlabel="decisions learned from", ylim=(-0.03, 1.03))
         panel.set_xlim(left=0)
         panel.locator_params(axis="x", nbins=5)
         panel.grid(alpha=0.3)
     panels[0].set_ylabel("success in a check")
-    panels[0].legend(fontsize="small")
+    if panels[0].lines:
+        panels[0].legend(fontsize="small")
     _save(figure, path)
 
 
@@ -75,6 +90,27 @@ def _colour(index: int) -> str:
     return PALETTE[COLOURS[index % len(COLOURS)]]
 
 
+def check_picture(path: Path) -> None:
+    """Check that a picture can be written in the format that a file's name ends in.
+
+    Raises:
+        SetupError: it can't; names those that can.
+    """
+    known = sorted(FigureCanvasBase.get_supported_filetypes())
+    ending = path.suffix.lower().removeprefix(".")
+    if ending not in known:
+        raise SetupError(
+            f"{path}: expected a name that ends in .png, got {path.name!r}; known are "
+            f"{', '.join(known)}"
+        )
+
+
+def _plain(text: str) -> str:
+    """Return a text in which no formulas are looked for: a file's name may hold dollar signs."""
+    return text.replace("$", r"\$")
+
+
 def _save(figure: Figure, path: Path) -> None:
+    check_picture(path)
     FigureCanvasAgg(figure)
     figure.savefig(path, dpi=120)

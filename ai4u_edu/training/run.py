@@ -59,6 +59,25 @@ class Check(BaseModel):
         return (self.success or 0.0, -self.length if self.success == 1.0 else self.reward)
 
 
+def run_of(path: Path) -> "Run":
+    """Return the training that somebody names by its folder, or by a model in it.
+
+    Raises:
+        SetupError: there is no such folder or model.
+    """
+    if path.is_dir():
+        return Run(path)
+    if not path.is_file():
+        folder = path.with_suffix("") if path.suffix == ".zip" else path
+        raise SetupError(
+            f"{path} holds no training: there is no such folder or model (.zip); begin one with: "
+            f"ai4u-edu train SCENE --out {folder}"
+        )
+    if path.suffix != ".zip":
+        raise SetupError(f"{path}: expected a training's folder, or a model (.zip) in it")
+    return Run(path.parent)
+
+
 class Run:
     """A training's folder.
 

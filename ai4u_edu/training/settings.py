@@ -13,6 +13,8 @@ from ai4u_edu.errors import SceneError, SetupError
 from ai4u_edu.parameters import explain
 from ai4u_edu.scenes.yaml_file import YamlFile
 
+EXPECTED = "lines such as algorithm: ..., sac: ..., ppo: ..."
+"""What a settings file consists of."""
 FOLDER = Path(__file__).parent / "settings"
 
 Algorithm = Literal["sac", "ppo", "dqn"]
@@ -147,7 +149,7 @@ def settings_for(
 
 def _read(path: Path) -> dict[str, Any]:
     try:
-        return YamlFile(path.read_text(encoding="utf-8"), path.name).data
+        return YamlFile(path.read_text(encoding="utf-8-sig"), path.name, EXPECTED).data
     except (OSError, UnicodeDecodeError) as error:
         raise SetupError(f"{path}: can't be read: {error}") from None
     except SceneError as error:

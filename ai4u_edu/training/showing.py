@@ -4,7 +4,7 @@ from collections.abc import Iterable
 
 from ai4u_edu.recording import Episode, Recorder
 from ai4u_edu.scenes import Scene
-from ai4u_edu.training.entrants import Entrant
+from ai4u_edu.training.entrants import Entrant, expect_here
 from ai4u_edu.training.evaluating import LONGEST
 
 MOST = 100_000
@@ -19,7 +19,7 @@ def show(who: Entrant, scene: Scene, seeds: Iterable[int]) -> list[Episode]:
         scene: where; with its own limit of steps.
         seeds: of the episodes.
     """
-    fitted = who.fitted(scene)
+    fitted = expect_here(who).fitted(scene)
     sim = fitted.build()
     agent = sim.agent(who.agent) if who.agent else sim.agents[0]
     recorder = Recorder(sim, scene=fitted.description, keep=MOST)

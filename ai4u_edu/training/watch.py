@@ -16,6 +16,8 @@ from pathlib import Path
 import torch
 from stable_baselines3.common.callbacks import BaseCallback
 
+from ai4u_edu.blocks.own_file import own_files
+from ai4u_edu.command_options import load_own_blocks
 from ai4u_edu.training.run import Run
 
 OFTEN = 3.0
@@ -66,7 +68,8 @@ class Watch(BaseCallback):  # type: ignore[misc]  # seen without its types
 
     def command(self) -> list[str]:
         """What runs the page."""
-        return [sys.executable, "-m", "ai4u_edu.training.watch", *self._arguments]
+        blocks = [str(file.absolute()) for file in own_files()]
+        return [sys.executable, "-m", "ai4u_edu.training.watch", *self._arguments, *blocks]
 
     def close(self) -> None:
         """Ends the page."""
@@ -137,4 +140,5 @@ def show(folder: Path, port: int, *, open_page: bool) -> None:
 if __name__ == "__main__":
     if hasattr(os, "nice"):
         os.nice(19)
+    load_own_blocks(map(Path, sys.argv[4:]))
     show(Path(sys.argv[1]), int(sys.argv[2]), open_page=sys.argv[3] == "open")

@@ -20,6 +20,7 @@ from typing import Annotated, Literal, NamedTuple
 
 import msgpack
 
+from ai4u_edu.seeding import MAX_SEED
 from ai4u_edu.wire.strict import MOST, WireError, reader, shown
 
 VERSION = 1
@@ -144,7 +145,7 @@ class Reset(NamedTuple):
     """A new episode shall begin, as the answer to one percept."""
 
     seq: int
-    seed: int | None
+    seed: Annotated[int, MAX_SEED] | None
     """With a seed the whole world begins anew; without, the agent alone if there are others."""
 
 

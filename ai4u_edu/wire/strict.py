@@ -29,8 +29,9 @@ class WireError(AI4UError):
 def reader(message: type[M]) -> Callable[[tuple[Any, ...]], M]:
     """A function that makes a message of its fields' values, or raises a WireError.
 
-    Known are int (0 and more, below 2**53), float (whole numbers too), bool, str and bytes (with
-    ``Annotated[..., n]`` of up to n characters or bytes), ``Literal``, ``| None``,
+    Known are int (0 and more, below 2**53; with ``Annotated[..., n]`` up to n), float (whole
+    numbers too), bool, str and bytes (with ``Annotated[..., n]`` of up to n characters or bytes),
+    ``Literal``, ``| None``,
     ``tuple[x, ...]``, ``Mapping[str, x]``, and other messages.
 
     >>> from typing import NamedTuple
@@ -93,7 +94,7 @@ def _check(kind: Any, size: int | None = None) -> Check:
     if origin is Mapping:
         return _mapping(_check(parts[1]))
     if kind is int:
-        return _int
+        return _int if size is None else _int_up_to(size)
     if kind is float:
         return _float
     if kind is bool:
@@ -108,6 +109,15 @@ def _int(value: Any) -> int:
     if type(value) is int and 0 <= value < LARGEST_INT:
         return value
     raise WireError(f"expected a whole number from 0 on, got {shown(value)}")
+
+
+def _int_up_to(largest: int) -> Check:
+    def check(value: Any) -> int:
+        if type(value) is int and 0 <= value <= largest:
+            return value
+        raise WireError(f"expected a whole number from 0 to {largest}, got {shown(value)}")
+
+    return check
 
 
 def _float(value: Any) -> float:

@@ -149,7 +149,10 @@ class Bench:
         if whole:
             self.opened = after
         self._became(after)
-        return Outcome(when, label, note_on(after.description, now))
+        notes = [note_on(after.description, now)]
+        if before.description.success and not after.description.success and not whole:
+            notes.append(f"nothing pays {before.description.success!r} any more: no goal is left")
+        return Outcome(when, label, "; ".join(filter(None, notes)))
 
     def _bring_about(self, state: State, places: dict[str, Pose], whole: bool) -> When:
         if whole:
@@ -169,7 +172,8 @@ class Bench:
         if self._live.is_ours:
             return
         before = self.state
-        state = State(scene_of(self._runner.sim, before.description), before.folder)
+        description = scene_of(self._runner.sim, before.description)
+        state = State(description, before.folder, source=before.source)
         self._live = Live(self._runner, state, self._drivers)
         self._held = {}
         self.history.add(Step("go on in another world", before, state, {}, {}, whole=True))

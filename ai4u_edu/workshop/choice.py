@@ -6,16 +6,16 @@ from typing import Any
 
 from ai4u_edu.blocks import Block, Brain, LocalBrain, NeuralNetController
 from ai4u_edu.blocks.brains.address import brain_at
-from ai4u_edu.blocks.brains.network import files_in
+from ai4u_edu.blocks.brains.network import IN_THE_ZOO, files_in
 from ai4u_edu.parameters import Problem
 from ai4u_edu.scenes.plain import to_plain
 from ai4u_edu.workshop.blocks import Plain, types_of
-from ai4u_edu.workshop.drivers import RECORDING, SCRIPT, Driver
+from ai4u_edu.workshop.drivers import NETWORK, REMOTE, Driver, Drivers
 from ai4u_edu.workshop.errors import ChangeError
 from ai4u_edu.workshop.state import State
 from ai4u_edu.zoo import names as in_the_zoo
 
-KEYS, NETWORK, REMOTE, OWN = "keys:", "network:", "ai4u://", "brain:"
+KEYS, OWN = "keys:", "brain:"
 
 CODE = re.compile("Key[A-Z]$|Arrow|Space|Digit")
 """What a key is called, by where it is on the keyboard."""
@@ -26,19 +26,26 @@ KINDS = (
 )
 
 
-def driven_by(state: State, agent_id: str, name: str) -> State:
+TO_OFFER = (
+    "networks are offered that lie beside the scene's file, or that were named when the world was "
+    "started (--offer FILE.onnx or FOLDER)"
+)
+
+
+def driven_by(state: State, agent_id: str, name: str, drivers: Drivers) -> State:
     """With somebody else who drives an agent.
 
     Args:
         state: what is.
         agent_id: whom.
         name: who; see :data:`KINDS`.
+        drivers: those who are in no scene, as the world's owner offered them.
 
     Raises:
         AI4UError: there is nobody of that name.
     """
     agent = state.agent(agent_id)
-    if name.startswith((SCRIPT, RECORDING)):
+    if drivers.has(name):
         return state.driven(agent_id, name)
     brains = list(agent.get("brains", ()))
     if name.startswith(OWN) and name.removeprefix(OWN).isdecimal():
@@ -71,10 +78,14 @@ def offered(state: State, agent_id: str) -> list[Driver]:
         for scene in in_the_zoo()
         if scene == state.description.name
     ]
-    beside = [] if state.folder is None else sorted(state.folder.glob("*.onnx"))
-    networks += [Driver(f"{NETWORK}{path.name}", f"Network {path.name}") for path in beside]
+    networks += [Driver(f"{NETWORK}{name}", f"Network {name}") for name in _beside(state)]
     remote = [Driver(f"{REMOTE}127.0.0.1:8080", "AI4U script at 127.0.0.1:8080")]
     return [*brains, *keys, *(n for n in networks if n.title not in has), *remote]
+
+
+def _beside(state: State) -> list[str]:
+    """The networks that lie beside the scene's file."""
+    return [] if state.folder is None else sorted(path.name for path in state.folder.glob("*.onnx"))
 
 
 def title_of(brain: Plain) -> str:
@@ -94,6 +105,8 @@ def _plain_brain(state: State, name: str, rhythm: dict[str, Any]) -> Plain:
         return _plain(brain_at(name).changed(**rhythm))
     if name.startswith(NETWORK):
         path = name.removeprefix(NETWORK)
+        if not path.startswith(IN_THE_ZOO) and path not in _beside(state):
+            raise ChangeError([Problem((), f"no network {path!r} is offered here; {TO_OFFER}")])
         with files_in(state.folder):
             network = NeuralNetController(model_path=path)
         return _plain(LocalBrain(controller=network, **{**rhythm, **network.network.rhythm}))

@@ -1,5 +1,6 @@
 """What of a change can be made in a world that runs."""
 
+from dataclasses import replace
 from functools import cached_property
 
 from ai4u_edu.workshop.state import State
@@ -46,8 +47,8 @@ class Difference:
         if self._one_body():
             state = state.describing(bodies=new.bodies)
         if self._same_agents():
-            state = state.describing(agents=new.agents)
-            state = State(state.description, self._new.folder, self._new.drivers)
+            state = state.describing(agents=new.agents, success=new.success)
+            state = replace(self._new, description=state.description)
         return state
 
     def _one_body(self) -> bool:

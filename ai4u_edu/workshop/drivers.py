@@ -6,12 +6,22 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from ai4u_edu.blocks import Block, Brain, Controller, LocalBrain, ReplayController
+from ai4u_edu.blocks import (
+    Block,
+    Brain,
+    Controller,
+    LocalBrain,
+    NeuralNetController,
+    ReplayController,
+)
+from ai4u_edu.blocks.brains.address import brain_at
 from ai4u_edu.errors import SetupError, suggest
 from ai4u_edu.recording import Episode
 from ai4u_edu.workshop.script import run_file
 
-SCRIPT, RECORDING = "script:", "recording:"
+SCRIPT, RECORDING, NETWORK, REMOTE = "script:", "recording:", "network:", "ai4u://"
+ENDINGS = (".py", ".episode", ".onnx")
+"""Of the files in which drivers are."""
 
 
 @dataclass(frozen=True)
@@ -25,17 +35,25 @@ class Driver:
 
 
 class Drivers:
-    """The scripts and recordings from which a page may choose.
+    """The scripts, recordings, networks and addresses from which a page may choose.
 
     A page sends names, never code: a script is a file that whoever started the world has named, or
-    that lies in a folder that was named.
+    that lies in a folder that was named. The same holds for networks that do not lie beside the
+    scene, and for AI4U scripts on other machines.
 
     Args:
-        places: Python files and ``.episode`` files, and folders of them.
+        places: Python files, ``.episode`` files and ``.onnx`` files, and folders of them; addresses
+            of AI4U scripts (``ai4u://HOST:PORT``).
+
+    Raises:
+        SetupError: one of them is not there, or is something else.
     """
 
-    def __init__(self, places: Iterable[Path] = ()) -> None:
-        self._places = tuple(places)
+    def __init__(self, places: Iterable[Path | str] = ()) -> None:
+        given = list(places)
+        remote = [str(each) for each in given if str(each).startswith(REMOTE)]
+        self._places = [_checked(Path(each)) for each in given if str(each) not in remote]
+        self._remotes = {each: brain_at(each) for each in remote}
         self._taken: dict[str, tuple[Episode, str]] = {}
 
     def offered(self) -> list[Driver]:
@@ -50,7 +68,21 @@ class Drivers:
             for path in self._files(".episode")
         ]
         kept = [Driver(name, f"Recording {name.removeprefix(RECORDING)}") for name in self._taken]
-        return [*scripts, *recordings, *kept]
+        networks = [
+            Driver(f"{NETWORK}{path.name}", f"Network {path.name}") for path in self._files(".onnx")
+        ]
+        remotes = [
+            Driver(name, f"AI4U script at {brain.host}:{brain.port}")
+            for name, brain in self._remotes.items()
+        ]
+        return [*scripts, *networks, *recordings, *kept, *remotes]
+
+    def has(self, name: str) -> bool:
+        """Return True if a driver of that name is offered here, or belongs to those who are."""
+        if name.startswith((SCRIPT, RECORDING)):
+            return True  # whether it is there is told when it is made
+        networks = [f"{NETWORK}{path.name}" for path in self._files(".onnx")]
+        return name in networks or name in self._remotes
 
     def keep(self, episode: Episode, name: str, agent: str = "") -> str:
         """Offers an episode that lies in no file; the name by which it is known then."""
@@ -78,6 +110,12 @@ class Drivers:
         if name.startswith(RECORDING):
             path = self._file(name.removeprefix(RECORDING), ".episode")
             return _again(Episode.load(path), "", agent_id)
+        if name in self._remotes:
+            return self._remotes[name].changed(**rhythm)
+        if name.startswith(NETWORK):
+            path = self._file(name.removeprefix(NETWORK), ".onnx")
+            network = NeuralNetController(model_path=str(path.absolute()))
+            return LocalBrain(controller=network, **(rhythm | network.network.rhythm))
         file, _, function = name.removeprefix(SCRIPT).rpartition(":")
         path = self._file(file, ".py")
         if function not in _drivers_in(path):
@@ -105,6 +143,17 @@ class Drivers:
                 "offered that were named when the world was started (--offer FILE or FOLDER)"
             )
         return known[name]
+
+
+def _checked(place: Path) -> Path:
+    if place.is_dir() or (place.is_file() and place.suffix in ENDINGS):
+        return place
+    got = "another kind of file" if place.exists() else "nothing there"
+    raise SetupError(
+        f"--offer {place}: expected a Python file (.py), a recorded episode (.episode), a network "
+        "(.onnx), a folder of such files, or an AI4U script's address (ai4u://HOST:PORT), got "
+        f"{got}"
+    )
 
 
 def _drivers_in(path: Path) -> list[str]:

@@ -203,6 +203,6 @@ def _data(name: str, said: str) -> Any:
     try:
         return YamlFile(f"x: {text}", name).data["x"]
     except SceneError as error:
-        told = str(error).split(": ", 1)[-1]
+        told = str(error).partition("\n")[0].split(": ", 1)[-1]
         example = "[1, 2] for a list, {name: 1} for a mapping"
         raise ChangeError([Problem((name,), f"{told}; write {example}")]) from None

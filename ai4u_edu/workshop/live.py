@@ -200,6 +200,7 @@ class Live:
     def _describe(self) -> None:
         """Tells those who show the scene what it is called, and what is to be done in it."""
         self._sim.goal = self.shown.description.goal
+        self._sim.success = self.shown.description.success or ""
         if self._runner.recorder is not None:
             self._runner.recorder.scene = self.shown.description
 

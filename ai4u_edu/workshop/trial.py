@@ -1,6 +1,5 @@
 """Whether a scene can be, found out on a copy before anything in the running world is touched."""
 
-from collections.abc import Iterable, Mapping
 from typing import Any
 
 from ai4u_edu.blocks import Answer, Brain, Command, Percept
@@ -8,9 +7,10 @@ from ai4u_edu.blocks.brains.network import files_in
 from ai4u_edu.cycle import ControlRequestor
 from ai4u_edu.errors import AI4UError, WorldError
 from ai4u_edu.parameters import Problem
-from ai4u_edu.scenes.description import make_agents
+from ai4u_edu.scenes.description import check_success, make_agents
 from ai4u_edu.scenes.plain import PlainError
 from ai4u_edu.scenes.scene import EPISODES
+from ai4u_edu.scenes.setup_errors import field_named_in
 from ai4u_edu.workshop.errors import ChangeError
 from ai4u_edu.workshop.state import State
 from ai4u_edu.world import World
@@ -47,6 +47,7 @@ def tried(state: State, where: Path = (), *, episodes: int = 1) -> ControlReques
             agents = make_agents(description)
         for agent in agents:
             agent.brains = [_Nobody()]
+        check_success(description.success, agents)
         sim = ControlRequestor(world, agents)
         for seed in range(episodes if any(each.random for each in description.things) else 1):
             sim.reset(seed)
@@ -56,7 +57,7 @@ def tried(state: State, where: Path = (), *, episodes: int = 1) -> ControlReques
         problem = Problem(description.where_is(error.thing), f"where all begin, {error}")
         raise ChangeError([seen_from(where, problem)]) from None
     except AI4UError as error:
-        path = _field(str(error), _at(description.agents, where[1:]) if where else None)
+        path = field_named_in(str(error), _at(description.agents, where[1:]) if where else None)
         raise ChangeError([Problem(path, str(error))]) from None
     return sim
 
@@ -76,21 +77,6 @@ def _at(data: Any, path: Path) -> Any:
             return None
     return data
 
-
-def _field(text: str, data: Any, path: Path = ()) -> Path:
-    """The parameter whose value is the name that a message complains of; () if none is."""
-    if isinstance(data, Mapping):
-        parts: Iterable[tuple[str | int, Any]] = data.items()
-    elif isinstance(data, list | tuple):
-        parts = enumerate(data)
-    else:
-        unknown = isinstance(data, str) and any(f"{word} {data!r}" in text for word in COMPLAINTS)
-        return path if unknown else ()
-    return next(filter(None, (_field(text, each, (*path, part)) for part, each in parts)), ())
-
-
-COMPLAINTS = ("is named", "is called", "carries the tag")
-"""What stands before a name that nothing has."""
 
 THOROUGHLY = EPISODES
 """So many episodes are set up where places were changed."""

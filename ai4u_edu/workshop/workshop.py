@@ -33,8 +33,8 @@ class Workshop:
     Args:
         runner: whose world is changed.
         scene: what that world was built from.
-        offers: Python files with drivers and recorded episodes, and folders of them, from which a
-            page may choose who drives.
+        offers: Python files with drivers, recorded episodes and networks, folders of them, and
+            addresses of AI4U scripts, from which a page may choose who drives.
 
     >>> scene = Scene.load("box_chase")
     >>> runner = Runner(scene.build(), seed=1)
@@ -52,11 +52,12 @@ class Workshop:
         runner: Runner,
         scene: Scene,
         *,
-        offers: Iterable[FilePath] = (),
+        offers: Iterable[FilePath | str] = (),
     ) -> None:
         self._runner = runner
         self._drivers = Drivers(offers)
-        self._bench = Bench(runner, State(scene.description, scene.folder), self._drivers)
+        state = State(scene.description, scene.folder, source=scene.source)
+        self._bench = Bench(runner, state, self._drivers)
         self._do = self._bench.do
         self.unsaved: Unsaved | None = None
         """A scene that was left by a server that was killed, to be offered."""
@@ -118,7 +119,10 @@ class Workshop:
 
     def drivers(self, agent_id: str) -> list[Driver]:
         """All who may drive an agent."""
-        return [*choice.offered(self.state, agent_id), *self._drivers.offered()]
+        offered = self._drivers.offered()
+        named = {driver.name for driver in offered}
+        own = [each for each in choice.offered(self.state, agent_id) if each.name not in named]
+        return [*own, *offered]
 
     def driver_of(self, agent_id: str) -> str:
         """The name of who drives an agent, as :meth:`drivers` has it; "" for somebody else."""
@@ -195,7 +199,7 @@ class Workshop:
         """Lets somebody else drive an agent: one of :meth:`drivers`, or an ``ai4u://`` address."""
 
         def make() -> Made:
-            state = choice.driven_by(self.state, agent_id, name)
+            state = choice.driven_by(self.state, agent_id, name, self._drivers)
             return state, f"{agent_id}: driven by {name}", self._where(agent_id, ("brains",))
 
         return self._do(make, drives=agent_id)
@@ -274,8 +278,7 @@ class Workshop:
         def make() -> Made:
             plain = {**self.scene.plain(), **values}
             scene = Scene.loads(write_yaml(plain), folder=self.state.folder)
-            state = State(scene.description, self.state.folder, self.state.drivers)
-            return state, "change the scene", ()
+            return replace(self.state, description=scene.description), "change the scene", ()
 
         return self._do(make)
 
@@ -295,7 +298,8 @@ class Workshop:
         """Has another scene run in place of this one; undo brings this one back."""
 
         def make() -> Made:
-            return State(scene.description, scene.folder), f"open {scene.description.name}", ()
+            state = State(scene.description, scene.folder, source=scene.source)
+            return state, f"open {scene.description.name}", ()
 
         return self._do(make, whole=True)
 

@@ -51,7 +51,7 @@ class World:
     The same descriptions, seed and inputs give the same trajectory, bit for bit.
 
     Args:
-        seed: a whole number >= 0; all chance of the episode grows from it.
+        seed: a whole number from 0 to 2**63 - 1; all chance of the episode grows from it.
         settings: fields of :class:`WorldSettings`.
 
     >>> world = World(seed=1, ticks_per_second=60)
@@ -178,9 +178,15 @@ class World:
 
         Raises:
             WorldError: there is no room for something random; then all stays as it is.
+            ParameterError: it is no seed; then all stays as it is.
         """
-        self.seeds = self.seeds.next() if seed is None else Seeds(seed)
-        self.rebuild()
+        before = self.seeds
+        self.seeds = before.next() if seed is None else Seeds(seed)
+        try:
+            self.rebuild()
+        except BaseException:
+            self.seeds = before
+            raise
 
     def put_back(self, name: str) -> None:
         """Puts one body back where its description says, as a reset does; all others stay.

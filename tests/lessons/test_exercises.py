@@ -1,8 +1,14 @@
 """Each exercise: the solution passes; the unfinished cell and plausible wrong answers don't."""
 
 import ast
+import math
+from collections.abc import Callable
+from decimal import Decimal
+from functools import wraps
 from pathlib import Path
+from typing import Any
 
+import numpy as np
 import pytest
 
 from ai4u_edu import BasicAgent
@@ -20,6 +26,17 @@ JUNK = [
     lambda *_: {"move": [1, 0, 0, 0]},
     lambda *_: 1 / 0,
     lambda: None,
+    *(math.nan, math.inf, -math.inf, [math.nan, math.nan], np.full((2, 2), math.nan), "0.5"),
+    lambda *_: math.nan,
+    lambda *_: math.inf,
+    lambda *_: -math.inf,
+    lambda *_: np.float32("nan"),
+    lambda *_: Decimal("nan"),
+    lambda *_: 10**400,
+    lambda *_: "0.5",
+    lambda *_: [math.nan, math.nan],
+    lambda *_: np.full(2, math.nan),
+    lambda *_: {"move": [math.nan, math.inf, 0, 0]},
 ]
 """What nobody means, or has not thought about."""
 WRONG = [(each, number) for each in IDS for number in range(len(answers_to(each).wrong))]
@@ -55,6 +72,66 @@ def test_nothing_thoughtless_passes_and_all_of_it_gets_an_answer(exercise: str) 
         assert not verdict.passed, junk
         assert verdict.text
         assert verdict.hint in find(exercise).hints
+
+
+class Spoiler:
+    """Puts something else in the place of all numbers that a student's functions return.
+
+    Args:
+        number: what is returned instead.
+        first_call: from which call of all on; a check that tries several cases must look at all.
+    """
+
+    METHODS = ("read", "on_update", "decide", "__call__", "step")
+
+    def __init__(self, number: float, first_call: int) -> None:
+        self.number, self.first_call = number, first_call
+        self.calls = self.spoiled = 0
+
+    def handed_in(self, thing: Any) -> Any:
+        """A student's answer with other numbers in it."""
+        if isinstance(thing, type):
+            for name in self.METHODS:
+                if name in vars(thing):
+                    setattr(thing, name, self._function(vars(thing)[name]))
+            return thing
+        if callable(thing) and hasattr(thing, "__name__"):
+            return self._function(thing)
+        return self._value(thing)
+
+    def _function(self, function: Callable[..., Any]) -> Callable[..., Any]:
+        @wraps(function)
+        def spoil(*args: Any, **keywords: Any) -> Any:
+            given = function(*args, **keywords)
+            self.calls += 1
+            return self._value(given) if self.calls >= self.first_call else given
+
+        return spoil
+
+    def _value(self, value: Any) -> Any:
+        if isinstance(value, dict):
+            return {key: self._value(each) for key, each in value.items()}
+        if isinstance(value, list | tuple):
+            return type(value)([self._value(each) for each in value])
+        if isinstance(value, np.ndarray):
+            self.spoiled += 1
+            return np.full_like(value, self.number, dtype=float)
+        if isinstance(value, int | float | np.number) and not isinstance(value, bool):
+            self.spoiled += 1
+            return self.number
+        return value
+
+
+@pytest.mark.parametrize("first_call", [1, 2])
+@pytest.mark.parametrize("number", [math.nan, math.inf])
+@pytest.mark.parametrize("exercise", IDS)
+def test_what_is_no_finite_number_never_passes(
+    exercise: str, number: float, first_call: int
+) -> None:
+    one = lesson(exercise[:2])
+    spoiler = Spoiler(number, first_call)
+    verdict = tried(one, exercise, answers_to(exercise).solution, spoiler.handed_in)
+    assert not (verdict.passed and spoiler.spoiled), verdict.text
 
 
 @pytest.mark.parametrize(("exercise", "number"), WRONG)

@@ -1,6 +1,7 @@
 """Plots have the worlds' colours, and are told apart without them."""
 
 import io
+import math
 from typing import Any
 
 import numpy as np
@@ -59,3 +60,18 @@ def test_an_exception_of_nobodys_code_tells_nothing() -> None:
 def test_nothing_to_draw_is_no_trouble(drawn: list[bytes], empty: dict[str, Any]) -> None:
     plot(empty)
     assert len(drawn) == 1
+
+
+@pytest.mark.parametrize(
+    "heights",
+    [{}, {"a": 0.0}, {"a": math.nan, "b": 1.0}, {"a": math.inf, "b": -math.inf}, {"$a$_$": -1.0}],
+)
+def test_bars_of_anything(heights: dict[str, float]) -> None:
+    bars(heights, title="paid")
+
+
+@pytest.mark.parametrize(
+    "lines", [{}, {"a": []}, {"a": [math.nan]}, {"a": [1.0, math.inf]}, {"$a$_$": [1.0], "b": []}]
+)
+def test_lines_of_anything(lines: dict[str, list[float]]) -> None:
+    plot(lines, title="paid")

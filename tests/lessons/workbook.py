@@ -3,7 +3,7 @@
 import ast
 import linecache
 import re
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 from typing import Any
 
@@ -45,8 +45,20 @@ def handed_in(lesson: Lesson, exercise: str) -> str:
     return "(" + "".join(ast.unparse(each) + ", " for each in calls[0].args[1:]) + ")"
 
 
-def tried(lesson: Lesson, exercise: str, code: str) -> Verdict:
-    """What the check says of code in the exercise's cell."""
+def tried(
+    lesson: Lesson,
+    exercise: str,
+    code: str,
+    change: Callable[[Any], Any] = lambda thing: thing,
+) -> Verdict:
+    """Return the check's verdict on code in the exercise's cell.
+
+    Args:
+        lesson: the exercise's.
+        exercise: its id.
+        code: in place of the cell's.
+        change: makes something else of each thing that is handed in.
+    """
     names: dict[str, Any] = {"__name__": "__main__"}
     for number, cell in enumerate(lesson.cells):
         if SETUP in cell.tags:
@@ -56,4 +68,4 @@ def tried(lesson: Lesson, exercise: str, code: str) -> Verdict:
         things = eval(handed_in(lesson, exercise), names)  # noqa: S307 - the course's own
     except Exception as error:
         raise AssertionError(f"{exercise}: the cell itself must run; {error!r}") from error
-    return judge(find(exercise), *things)
+    return judge(find(exercise), *map(change, things))

@@ -3,12 +3,17 @@
 import subprocess
 import sys
 import time
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
+from typer.testing import CliRunner
 
-from ai4u_edu.recording import Episode, Replay
+from ai4u_edu import LocalBrain, Scene
+from ai4u_edu.cli import app
+from ai4u_edu.recording import Episode, Recorder, Replay
+from ai4u_edu.runner import Runner
 from tests.playing import played
 
 SEEK = """
@@ -99,6 +104,56 @@ def test_a_dataset_of_nothing(tmp_path: Path) -> None:
     told = run("dataset", tmp_path, "--out", tmp_path / "data.npz")
     assert told.returncode == 1
     assert f"{tmp_path}: expected recorded episodes (.episode), found none; " in told.stderr
+
+
+CONTROLLER = """
+from ai4u_edu import Controller
+
+
+class Go(Controller):
+    def get_action(self, percept):
+        return {"move": [1.0, 0, 0, 0] if percept["orientation"][0] > 0.99 else [0, 0.2, 0, 0]}
+"""
+
+
+def test_what_a_controller_of_ones_own_drove_needs_its_file_no_more(tmp_path: Path) -> None:
+    file, kept = tmp_path / "mine.py", tmp_path / "kept"
+    file.write_text(CONTROLLER)
+    told = run("record", "box_chase", "--brain", f"{file}:Go", "--seed", 5, "--out", kept)
+    assert told.returncode == 0, told.stderr
+    file.unlink()
+    assert run("replay", kept / "box_chase-5.episode").returncode == 0
+    assert run("dataset", kept, "--out", tmp_path / "data.npz").returncode == 0
+    episode = Episode.load(kept / "box_chase-5.episode")
+    runner = Runner(Scene.load("soccer").build(), seed=1)
+    done = runner.continue_from(Replay(episode), 3)
+    runner.advance()
+    done.result(0)
+    assert [agent.body.name for agent in runner.sim.agents] == ["robot"]
+
+
+def test_a_recording_that_names_a_driver_nobody_knows_is_cloned(tmp_path: Path) -> None:
+    """Recordings of earlier versions did, where a controller of one's own drove."""
+    pytest.importorskip("torch")
+    sim = Scene.load("box_chase").build()
+    sim.agents[0].use_brain(LocalBrain(controller=lambda _: {"move": [1, 0, 0, 0]}))
+    recorder = Recorder(sim, scene=Scene.load("box_chase").description)
+    sim.reset(5)
+    for _ in range(9):
+        sim.step()
+    recorder.finish()
+    (episode,) = recorder.episodes
+    own = {"type": "LocalBrain", "controller": {"type": "Nobody"}}
+    known = {"type": "LocalBrain", "controller": {"type": "WASDRBMoveController"}, "enabled": False}
+    network = tmp_path / "policy.onnx"
+    for brains in ([own], [known, own]):
+        agents = tuple({**agent, "brains": brains} for agent in episode.scene.agents)
+        scene = episode.scene.model_copy(update={"agents": agents})
+        file = replace(episode, scene=scene).save(tmp_path / "old.episode")
+        few = ("--updates", "2", "--evaluate", "1")
+        told = CliRunner().invoke(app, ["clone", str(file), "--out", str(network), *few])
+        assert told.exit_code == 0, told.output or told.exception
+        assert "success" in told.output
 
 
 def test_play_keeps_what_a_person_drove(tmp_path: Path) -> None:

@@ -1,13 +1,15 @@
 """``ai4u-edu play --brain``."""
 
+import json
+
 import pytest
 
 from ai4u_edu import RemoteBrain, Scene
 from ai4u_edu.blocks.brains.address import brain_at
-from ai4u_edu.cli import _give_brain
 from ai4u_edu.errors import NameNotFoundError, ParameterError, SetupError
+from ai4u_edu.training.assigned import with_drivers
 from tests.playing import played
-from tests.remote.test_ai4u_package import free_port, pair, run_script
+from tests.remote.test_ai4u_package import free_port, run_script
 
 
 def test_a_served_scene_is_driven_by_a_script() -> None:
@@ -21,9 +23,10 @@ def test_a_served_scene_is_driven_by_a_script() -> None:
 
 
 def test_the_brain_decides_as_often_as_the_one_before() -> None:
-    sim = Scene.load("box_chase").build()
-    sim.agents[0].brain.skip_frame = 9
-    _give_brain(sim, "0=ai4u://localhost:9?mode=realtime", "box_chase")
+    plain = Scene.load("box_chase").plain()
+    plain["agents"][0]["brains"][0]["skip_frame"] = 9
+    scene = Scene.loads(json.dumps(plain))  # JSON is YAML as well
+    sim, _ = with_drivers(scene, ["0=ai4u://localhost:9?mode=realtime"], is_served=True)
     brain = sim.agents[0].brain
     assert isinstance(brain, RemoteBrain)
     assert (brain.host, brain.port, brain.mode, brain.skip_frame) == ("localhost", 9, "realtime", 9)
@@ -31,11 +34,12 @@ def test_the_brain_decides_as_often_as_the_one_before() -> None:
 
 
 def test_with_several_agents_one_is_named() -> None:
-    says = r"the scene has several agents \(0, 1\); name one, as in --brain 0=ai4u://127.0.0.1:9"
+    pair = Scene.load("tag")
+    says = r"the scene has several agents \(.*\); name one, as in --brain .*=ai4u://127.0.0.1:9"
     with pytest.raises(SetupError, match=says):
-        _give_brain(pair(), "ai4u://127.0.0.1:9", "")
+        with_drivers(pair, ["ai4u://127.0.0.1:9"], is_served=True)
     with pytest.raises(NameNotFoundError, match="no agent has the id '7'"):
-        _give_brain(pair(), "7=ai4u://127.0.0.1:9", "")
+        with_drivers(pair, ["7=ai4u://127.0.0.1:9"], is_served=True)
 
 
 @pytest.mark.parametrize(

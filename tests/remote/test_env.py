@@ -9,8 +9,10 @@ from gymnasium.utils.env_checker import check_env
 
 from ai4u_edu import AI4UError
 from ai4u_edu.envs import SceneEnv
+from ai4u_edu.errors import ParameterError
 from ai4u_edu.remote import RefusedError, RemoteEnv
 from ai4u_edu.scenes import Scene
+from ai4u_edu.seeding import MAX_SEED
 from ai4u_edu.server.remote import Rules
 from tests.server.rooms import Room, served
 
@@ -55,6 +57,24 @@ def test_it_is_the_same_environment_as_on_this_machine(scene: str, observation: 
                 if mine[2] or mine[3]:
                     break
         there.close()
+
+
+def test_a_seed_that_no_recording_can_hold_is_refused_before_it_is_sent() -> None:
+    with scene_room("box_chase") as room:
+        env = remote_env(room)
+        remote = env.unwrapped
+        assert isinstance(remote, RemoteEnv)
+        env.reset(seed=MAX_SEED)
+        assert room.sim.world.seeds.seed == MAX_SEED
+        episode = room.sim.episode
+        for seed in (MAX_SEED + 1, 10**20, -1):
+            with pytest.raises(ParameterError, match="seed: expected a whole number from 0 to "):
+                env.reset(seed=seed)
+            with pytest.raises(ParameterError, match="seed: expected a whole number from 0 to "):
+                remote.robot.reset(seed)
+        env.step(env.action_space.sample())
+        assert room.sim.episode == episode
+        env.close()
 
 
 def test_it_says_whether_the_goal_was_reached() -> None:

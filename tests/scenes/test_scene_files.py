@@ -142,7 +142,8 @@ def test_names_do_not_lead_out_of_the_library() -> None:
         (
             "body: robot",
             "body: robt",
-            "my.yaml: agent '0': no body is named 'robt'; did you mean 'robot'?",
+            "my.yaml, line 6: agents[0].body: agent '0': no body is named 'robt'; did you mean "
+            "'robot'?",
         ),
         (
             "  - body: robot\n",
@@ -153,14 +154,15 @@ def test_names_do_not_lead_out_of_the_library() -> None:
          "my.yaml, line 1: name: expected at least 1 characters, got ''"),
         ("name: small", "name: small\nfloor: []", "my.yaml, line 2: floor: unknown parameter; "
          "did you mean 'floors'?"),
-        ("name: small", "name: small\nname: big", "my.yaml, line 2: not YAML: found duplicate key "
-         "'name'"),
-        ("name: small", "name: [small", "my.yaml, line 2: not YAML: did not find expected "
-         "',' or ']'"),
+        ("name: small", "name: small\nname: big", "my.yaml, line 2, column 1: 'name' stands here "
+         "for the second time, after line 1; expected each name once\n    name: big\n    ^"),
+        ("name: small", "name: [small", "my.yaml, line 1, column 7: this [ is never closed; "
+         "expected ] at the end, commas between\n    name: [small\n          ^"),
         ("name: small", "name: &a small", "my.yaml, line 1: expected plain values; anchors (&), "
-         "aliases (*) and tags (!) are not used in scene files"),
+         "aliases (*) and tags (!) are not used in scene files\n    name: &a small"),
         ("name: small", "name: !!python/object:os.system small", "my.yaml, line 1: expected plain "
-         "values; anchors (&), aliases (*) and tags (!) are not used in scene files"),
+         "values; anchors (&), aliases (*) and tags (!) are not used in scene files\n"
+         "    name: !!python/object:os.system small"),
     ],
 )  # fmt: skip
 def test_what_is_wrong_is_told_with_its_line(old: str, new: str, text: str) -> None:
@@ -307,8 +309,11 @@ def test_all_problems_of_a_kind_are_told_at_once() -> None:
 @pytest.mark.parametrize(
     ("text", "part"),
     [
-        ("", "expected a mapping (name: ..., bodies: ..., agents: ...), got NoneType"),
-        ("- a", "expected a mapping (name: ..., bodies: ..., agents: ...), got list"),
+        ("", "expected lines such as name: ..., bodies: ..., agents: ..., got an empty file"),
+        ("# a", "expected lines such as name: ..., bodies: ..., agents: ..., got a file without"),
+        ("- a", "expected lines such as name: ..., bodies: ..., agents: ..., got a list (a line"),
+        ("name:x", "got the text 'name:x'; a space has to follow each colon"),
+        ("7", "got the value 7"),
         ("name: x", "my.yaml, line 1: agents: is missing and has no default"),
         ("name: x\nagents: []", "my.yaml, line 2: agents: expected at least 1 entries, got []"),
         ("name: x\nagents: [5]", "my.yaml, line 2: agents[0]: expected a mapping, got 5"),
@@ -317,7 +322,7 @@ def test_all_problems_of_a_kind_are_told_at_once() -> None:
         ("a: 1\nb: " + 101 * "9", "my.yaml, line 2: expected numbers of at most 100 characters"),
         ("a: 1\n---\nb: 1", "my.yaml, line 2: expected one document, got another one"),
         ("a: 1\n[b]: 1", "my.yaml, line 2: expected words as keys, got lists or mappings"),
-        ("a: \0", "my.yaml: not YAML: unacceptable character #x0000"),
+        ("a: \0", "my.yaml, line 1, column 4: expected text, got the control character 0x00"),
         ("a: {b: *c}", "my.yaml, line 1: expected plain values"),
     ],
 )

@@ -6,6 +6,7 @@ import shutil
 import socket
 import subprocess
 import time
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -14,11 +15,15 @@ import pytest
 from typer.testing import CliRunner
 
 from ai4u_edu import Scene
-from ai4u_edu.cli import _give_brain, app
-from ai4u_edu.errors import AI4UError
+from ai4u_edu.blocks import Block, RemoteBrain
+from ai4u_edu.cli import app
+from ai4u_edu.errors import AI4UError, NameNotFoundError, SetupError
+from ai4u_edu.training import export
 from ai4u_edu.training.algorithms import load_model
+from ai4u_edu.training.assigned import with_drivers
+from ai4u_edu.training.run import Run
 from ai4u_edu.training.watch import MODEL, Watch
-from tests.training.small import small_settings, small_training
+from tests.training.small import CHOICES, small_settings, small_training
 
 
 def run(*arguments: str) -> str:
@@ -59,10 +64,133 @@ def test_train_resume_export_evaluate(tmp_path: Path) -> None:
     assert one["each"] == other["each"]
 
 
+OWN = """
+from gymnasium.spaces import Box
+
+from ai4u_edu import Sensor
+
+
+class Compass(Sensor):
+    def space(self):
+        return Box(-1.0, 1.0, (1,))
+
+    def read(self, body, view):
+        return 0.5
+"""
+
+
+@pytest.fixture
+def no_own_blocks() -> Iterator[None]:
+    """Blocks that a test's commands loaded are forgotten again."""
+    before = dict(Block.types)
+    yield
+    Block.types.clear()
+    Block.types.update(before)
+
+
+@pytest.mark.usefixtures("no_own_blocks")
+def test_a_scene_with_blocks_of_ones_own_is_learned(tmp_path: Path) -> None:
+    built_in = dict(Block.types)
+
+    def forget() -> None:
+        Block.types.clear()
+        Block.types.update(built_in)
+
+    blocks, scene, mine = tmp_path / "own.py", tmp_path / "own.yaml", tmp_path / "mine.yaml"
+    blocks.write_text(OWN)
+    mine.write_text(json.dumps(small_settings().model_dump(mode="json") | {"observe": []}))
+    text = CHOICES.replace("{type: GroundStatusSensor}", "{type: Compass}")
+    scene.write_text(text)
+    out, network = tmp_path / "run", tmp_path / "policy.onnx"
+    options = ("--settings", str(mine), "--out", str(out), "--algo", "ppo", "--steps", "128")
+    assert "Compass" in failed("train", str(scene), *options)
+    own = ("--blocks", str(blocks))
+    run("train", str(scene), *options, *own)
+    for path in out.rglob("*"):  # what is read again runs nothing
+        assert str(blocks).encode() not in (path.read_bytes() if path.is_file() else b"")
+    for command in (
+        ["evaluate", str(out), "--episodes", "1"],
+        ["export", str(out), "--out", str(network)],
+        ["train", "--resume", "--out", str(out), "--steps", "192"],
+    ):
+        forget()
+        assert "named with --blocks FILE.py" in failed(*command)
+        run(*command, *own)
+    assert network.is_file()
+    assert Watch(Run(out)).command()[-1] == str(blocks)
+
+
+DRIVERS = """
+from ai4u_edu import Controller
+
+
+def ahead(percept):
+    return {"move": [1, 0, 0, 0]}
+
+
+class Ahead(Controller):
+    def get_action(self, percept):
+        return {"move": [1, 0, 0, 0]}
+"""
+
+
+@pytest.mark.usefixtures("no_own_blocks")
+def test_whoever_can_be_recorded_can_be_watched(tmp_path: Path) -> None:
+    file = tmp_path / "mine.py"
+    file.write_text(DRIVERS)
+    folder = small_training(tmp_path / "run").run.folder
+    network = export(str(folder), tmp_path / "policy.onnx")
+    scene = Scene.load("box_chase")
+    for who in (
+        *(f"{file}:ahead", f"{file}:Ahead", str(folder), str(folder / "best.zip"), str(network)),
+        *("random", "zoo", "zoo:box_chase", "scene", "WASDController", f"0={file}:ahead"),
+    ):
+        sims = [with_drivers(scene, [who], is_served=served)[0] for served in (True, False)]
+        for sim in sims:
+            sim.reset(1)
+            sim.step()
+        first, second = (sim.agents[0] for sim in sims)
+        assert first.last_action == second.last_action
+        assert first.brain.skip_frame == second.brain.skip_frame
+    remote, _ = with_drivers(scene, ["ai4u://127.0.0.1:9"], is_served=True)
+    assert isinstance(remote.agents[0].brain, RemoteBrain)
+    remote.agents[0].brain.close()
+
+
+@pytest.mark.parametrize("command", ["play", "record", "evaluate"])
+def test_an_unknown_driver_is_told_all_forms_by_every_command(command: str) -> None:
+    who = ["nobody"] if command == "evaluate" else ["box_chase", "--brain", "nobody"]
+    told = failed(command, *who)
+    assert told.startswith("nobody is called 'nobody': expected a training's folder, ")
+    for form in (".zip", ".onnx", "zoo:SCENE", "FILE.py:NAME", "ai4u://", "random", "scene"):
+        assert form in told
+
+
+@pytest.mark.parametrize("command", ["record", "evaluate"])
+def test_a_script_elsewhere_needs_a_served_world(command: str) -> None:
+    address = "ai4u://127.0.0.1:9"
+    who = [address, "--scene", "box_chase"]
+    if command == "record":
+        who = ["box_chase", "--brain", address]
+    assert "a script drives in a served world only" in failed(command, *who)
+
+
+def test_drivers_that_cant_be_given_to_agents(tmp_path: Path) -> None:
+    scene = Scene.load("tag")
+    first = scene.build().agents[0].id
+    with pytest.raises(NameNotFoundError, match="no agent has the id 'nobody'"):
+        with_drivers(scene, ["nobody=random"])
+    with pytest.raises(SetupError, match="is driven by random already"):
+        with_drivers(scene, [f"{first}=random", "random"])
+    place = tmp_path / "rate=0.1"
+    place.mkdir()
+    with pytest.raises(SetupError, match="holds no training"):
+        with_drivers(scene, [str(place)])
+
+
 @pytest.mark.parametrize("address", ["zoo", "zoo:box_chase", "0=zoo"])
 def test_playing_with_a_network_of_the_zoo(address: str) -> None:
-    sim = Scene.load("box_chase").build()
-    _give_brain(sim, address, "box_chase")
+    sim, _ = with_drivers(Scene.load("box_chase"), [address], is_served=True)
     brain = sim.agents[0].brain
     assert (brain.title(), brain.skip_frame) == ("LocalBrain(NeuralNetController)", 9)
 

@@ -9,10 +9,11 @@ from typer.testing import CliRunner
 
 from ai4u_edu import BasicAgent, Command, LocalBrain, Percept, Scene
 from ai4u_edu.cli import app
-from ai4u_edu.errors import AI4UError
+from ai4u_edu.errors import AI4UError, SetupError
 from ai4u_edu.training.entrants import Entrant, entrant
-from ai4u_edu.training.episode import wilson
-from ai4u_edu.training.evaluating import LONGEST, evaluate
+from ai4u_edu.training.episode import Episode, wilson
+from ai4u_edu.training.evaluating import LONGEST, Evaluation, evaluate
+from ai4u_edu.training.plots import plot_curves, plot_evaluations
 
 ROAD = """
 name: road
@@ -178,3 +179,36 @@ def test_the_command(tmp_path: Path) -> None:
         app, ["evaluate", f"{file}:ahead", "--scene", str(road), "--episodes", "2", "--json", "-"]
     )
     assert json.loads(only.stdout)[0]["episodes"] == 2
+
+
+def _evaluation(name: str, successes: int, count: int) -> Evaluation:
+    episodes = tuple(Episode(seed, seed < successes, 1.0, 5, True) for seed in range(count))
+    return Evaluation(name, "road", True, episodes)
+
+
+@pytest.mark.parametrize("share", [0.0, 0.5, 1.0])
+def test_the_interval_holds_the_share_that_was_found(share: float) -> None:
+    for count in range(1, 400):
+        evaluation = _evaluation("all", round(share * count), count)
+        assert evaluation.interval is not None
+        low, high = evaluation.interval
+        assert evaluation.success is not None
+        assert 0.0 <= low <= evaluation.success <= high <= 1.0
+
+
+@pytest.mark.parametrize("count", [1, 2, 5, 10, 50])
+@pytest.mark.parametrize("share", [0, 1])
+def test_the_best_and_the_worst_result_can_be_drawn(tmp_path: Path, count: int, share: int) -> None:
+    plot_evaluations([_evaluation("$a_{$", share * count, count)], tmp_path / "out.png")
+    assert (tmp_path / "out.png").read_bytes().startswith(b"\x89PNG")
+
+
+def test_there_has_to_be_something_to_draw_and_a_format(tmp_path: Path) -> None:
+    with pytest.raises(SetupError, match="expected at least one evaluation"):
+        plot_evaluations([], tmp_path / "out.png")
+    with pytest.raises(SetupError, match="expected at least one panel"):
+        plot_curves({}, tmp_path / "out.png")
+    with pytest.raises(SetupError, match=r"expected a name that ends in \.png"):
+        plot_evaluations([_evaluation("a", 1, 1)], tmp_path / "out.txt")
+    plot_curves({"nothing yet": {}}, tmp_path / "out.png")
+    plot_curves({"nothing yet": {"a": []}}, tmp_path / "out.png")

@@ -46,8 +46,8 @@ def test_a_file_of_ones_own(tmp_path: Path) -> None:
         ("skip_frame: -1", "mine.yaml: skip_frame: expected at least 0, got -1"),
         ("sac: {steps: 0}", "mine.yaml: sac.steps: expected at least 1, got 0"),
         ("sac: 3", "mine.yaml: sac: expected a mapping, got 3"),
-        ("- 3", "mine.yaml: expected a mapping"),
-        ("a: [", "mine.yaml, line 2: not YAML"),
+        ("- 3", "mine.yaml: expected lines such as algorithm: ..., sac: ..., ppo: ..., got a list"),
+        ("a: [", "mine.yaml, line 1, column 4: this [ is never closed"),
     ],
 )
 def test_what_is_wrong_in_a_file(tmp_path: Path, text: str, message: str) -> None:

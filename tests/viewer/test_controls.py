@@ -82,7 +82,7 @@ def test_a_refused_seed_is_told_to_who_asked(
     until(lambda: controls._seed.value == -5)
     here.submit(controls._form)
     until(lambda: told)
-    assert "whole number >= 0" in told[0]
+    assert "whole number from 0" in told[0]
 
 
 def test_the_speed_can_be_chosen(here: Page, controls: Controls, runner: Runner) -> None:

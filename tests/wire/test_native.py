@@ -107,7 +107,9 @@ def test_what_goes_in_comes_out(message: Message) -> None:
         (["reset", -1, None], "seq: expected a whole number from 0 on, got -1"),
         (["reset", True, None], "seq: expected a whole number from 0 on, got True"),
         (["reset", 2**53, None], "seq: expected a whole number from 0 on, got 9007199254740992"),
-        (["reset", 1, 0.5], "seed: expected a whole number from 0 on, got 0.5"),
+        (["reset", 1, 0.5], "seed: expected a whole number from 0 to 9223372036854775807, got 0.5"),
+        (["reset", 1, 2**63], "seed: expected a whole number from 0 to 9223372036854775807, got "
+                              "9223372036854775808"),
         (["bye", "x" * 401], "reason: expected text of up to 400 characters, got "
                              "'xxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxx..."),
         (["bye", b"bytes"], "reason: expected text of up to 400 characters, got b'bytes'"),

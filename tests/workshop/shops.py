@@ -50,7 +50,11 @@ class Shop:
     """A runner without a thread, its workshop and its recorder."""
 
     def __init__(
-        self, scene: Scene | str = TEXT, *, record: bool = False, offers: tuple[Path, ...] = ()
+        self,
+        scene: Scene | str = TEXT,
+        *,
+        record: bool = False,
+        offers: tuple[Path | str, ...] = (),
     ) -> None:
         self.scene = Scene.loads(scene) if isinstance(scene, str) else scene
         sim = self.scene.build()

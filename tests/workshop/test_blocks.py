@@ -8,7 +8,7 @@ import pytest
 from ai4u_edu import Scene
 from ai4u_edu.recording import Replay
 from ai4u_edu.workshop import ChangeError
-from tests.workshop.shops import Shop, trace
+from tests.workshop.shops import TEXT, Shop, trace
 
 RAYS = {
     "type": "LinearRayCastingSensor",
@@ -204,3 +204,21 @@ def test_an_agents_own_parameters(shop: Shop) -> None:
     assert outcome.when == "next reset"
     with pytest.raises(ChangeError, match="reward_scale: expected a number, got 'x'"):
         shop.done(shop.workshop.change_agent("0", {"reward_scale": "x"}))
+
+
+def test_the_success_goes_with_the_reward_function_that_pays_it() -> None:
+    shop = Shop(TEXT.replace("name: small", "name: small\nsuccess: touch"))
+
+    def successes() -> tuple[str | None, str]:
+        return shop.workshop.scene.description.success, shop.runner.sim.success
+
+    shop.done(shop.workshop.change_block("0", ("rewards", 0), {"name": "arrived"}))
+    assert successes() == ("arrived", "arrived")
+    shop.done(shop.workshop.remove_block("0", ("rewards", 1)))
+    assert successes() == ("arrived", "arrived")
+    outcome = shop.done(shop.workshop.remove_block("0", ("rewards", 0)))
+    assert "nothing pays 'arrived' any more" in str(outcome.note)
+    assert successes() == (None, "")
+    Scene.loads(shop.workshop.text())
+    shop.done(shop.workshop.undo())
+    assert successes() == ("arrived", "arrived")

@@ -6,6 +6,7 @@ import pytest
 
 from ai4u_edu import LocalBrain, Scene
 from ai4u_edu.blocks import NeuralNetController, RemoteBrain, ReplayController, WASDRBMoveController
+from ai4u_edu.blocks.brains.network import find_network
 from ai4u_edu.errors import AI4UError, BlockError, SetupError
 from ai4u_edu.recording import Recorder
 from ai4u_edu.workshop import ChangeError
@@ -171,3 +172,65 @@ def test_an_ai4u_script() -> None:
     shop.done(shop.workshop.undo())
     with pytest.raises(ChangeError, match=r"can't have this machine connect to '10\.0\.0\.1'"):
         shop.done(shop.workshop.drive("0", "ai4u://10.0.0.1:8080"))
+
+
+def test_networks_that_were_named_are_offered(tmp_path: Path) -> None:
+    pytest.importorskip("onnxruntime")
+    network = find_network("zoo:box_chase", None)
+    (tmp_path / "nets").mkdir()
+    for name in ("mine.onnx", "nets/other.onnx", "secret.onnx"):
+        (tmp_path / name).write_bytes(network.read_bytes())
+    shop = Shop(Scene.load("box_chase"), offers=(tmp_path / "mine.onnx", str(tmp_path / "nets")))
+    drivers = {each.name: each.title for each in shop.workshop.drivers("0")}
+    assert drivers["network:mine.onnx"] == "Network mine.onnx"
+    for name in ("network:mine.onnx", "network:other.onnx"):
+        assert name in drivers
+        shop.done(shop.workshop.drive("0", name))
+        assert isinstance(controller(shop), NeuralNetController)
+        assert shop.agent.brain.skip_frame == 9
+        assert shop.workshop.driver_of("0") == name
+        shop.tick(10)
+    assert shop.workshop.scene == shop.scene  # a file of this machine is in no scene
+    for name in (
+        *("network:secret.onnx", "network:../secret.onnx", "network:nets/other.onnx", "network:"),
+        f"network:{tmp_path / 'secret.onnx'}",
+    ):
+        with pytest.raises(ChangeError, match="is offered here; networks are offered that lie"):
+            shop.done(shop.workshop.drive("0", name))
+    assert shop.workshop.driver_of("0") == "network:other.onnx"
+
+
+def test_networks_beside_the_scene_are_offered(tmp_path: Path) -> None:
+    pytest.importorskip("onnxruntime")
+    (tmp_path / "best.onnx").write_bytes(find_network("zoo:box_chase", None).read_bytes())
+    Scene.load("box_chase").save(tmp_path / "mine.yaml")
+    shop = Shop(Scene.load(tmp_path / "mine.yaml"), offers=(tmp_path / "best.onnx",))
+    names = [each.name for each in shop.workshop.drivers("0")]
+    assert names.count("network:best.onnx") == 1
+    shop.done(shop.workshop.drive("0", "network:best.onnx"))
+    shop.tick(10)
+
+
+def test_an_ai4u_script_at_an_address_that_was_named() -> None:
+    shop = Shop(offers=("ai4u://127.0.0.2:18123", "ai4u://localhost:18124?mode=realtime"))
+    drivers = {each.name: each.title for each in shop.workshop.drivers("0")}
+    assert drivers["ai4u://127.0.0.2:18123"] == "AI4U script at 127.0.0.2:18123"
+    shop.done(shop.workshop.drive("0", "ai4u://127.0.0.2:18123"))
+    brain = shop.agent.brain
+    assert isinstance(brain, RemoteBrain)
+    assert (brain.host, brain.port, brain.skip_frame) == ("127.0.0.2", 18123, 0)
+    shop.done(shop.workshop.drive("0", "ai4u://localhost:18124?mode=realtime"))
+    assert shop.agent.brain.mode == "realtime"
+    shop.done(shop.workshop.drive("0", "brain:0"))
+    with pytest.raises(ChangeError, match="can't have this machine connect to"):
+        shop.done(shop.workshop.drive("0", "ai4u://127.0.0.2:18125"))
+
+
+@pytest.mark.parametrize("name", ["nothere.py", "nothere.onnx", "nothere", "notes.txt", "http://x"])
+def test_what_cant_be_offered_is_told_at_the_start(tmp_path: Path, name: str) -> None:
+    (tmp_path / "notes.txt").write_text("hello")
+    place = name if "://" in name else str(tmp_path / name)
+    with pytest.raises(SetupError, match=r"expected a Python file \(\.py\), a recorded episode"):
+        Shop(offers=(place,))
+    with pytest.raises(SetupError, match="expected an address such as"):
+        Shop(offers=("ai4u://a:b",))

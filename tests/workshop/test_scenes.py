@@ -57,7 +57,7 @@ def test_text_and_back() -> None:
 @pytest.mark.parametrize(
     ("text", "told"),
     [
-        ("name: [", "scene.yaml, line 2: not YAML"),
+        ("name: [", "scene.yaml, line 1, column 7: this [ is never closed"),
         (TEXT.replace("radius: 0.5", "radius: big"), "scene.yaml, line 8: bodies[0].shape.radius"),
         (TEXT + "x: !!python/object:os.system 1", "anchors (&), aliases (*) and tags (!) are not"),
         ("#" * (MAX_SIZE + 1), f"expected at most {MAX_SIZE} characters"),

@@ -9,19 +9,6 @@ from ai4u_edu.errors import SetupError
 EXAMPLE = "ai4u://127.0.0.1:8080"
 
 
-def agent_and_address(text: str) -> tuple[str, str]:
-    """The agent's id and the brain's address; the id is empty if none is named.
-
-    >>> agent_and_address("0=ai4u://127.0.0.1:8080")
-    ('0', 'ai4u://127.0.0.1:8080')
-    >>> agent_and_address("ai4u://127.0.0.1:8080?mode=realtime")
-    ('', 'ai4u://127.0.0.1:8080?mode=realtime')
-    """
-    before, scheme, after = text.partition("://")
-    agent, equals, name = before.rpartition("=")
-    return (agent, name + scheme + after) if equals else ("", text)
-
-
 def brain_at(address: str) -> RemoteBrain:
     """The brain at an address; its parameters may follow a question mark.
 

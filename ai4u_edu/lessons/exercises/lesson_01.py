@@ -7,6 +7,7 @@ from ai4u_edu.agent import BasicAgent
 from ai4u_edu.blocks import BearingSensor, LocalBrain, OrientationSensor, RBMoveActuator
 from ai4u_edu.cycle import ControlRequestor
 from ai4u_edu.lessons.exercise import Done, NotYet, a_function, exercise
+from ai4u_edu.lessons.numeric import finite_number, is_close
 from ai4u_edu.lessons.rolls import Drive, as_brain, drive, seeds_of
 from ai4u_edu.lessons.worlds import plate
 from ai4u_edu.world import Variation
@@ -21,10 +22,7 @@ def _number(made: Any, *given: float) -> int:
     shown = ", ".join(f"{each:g}" for each in given)
     if found is None or found is ...:
         raise NotYet(f"With ({shown}) your function returned nothing yet.")
-    try:
-        count = round(float(found))
-    except (TypeError, ValueError, OverflowError):
-        raise NotYet(f"With ({shown}) expected a number, got `{found!r}`.") from None
+    count = round(finite_number(found))
     if not 0 <= count <= 500:
         raise NotYet(f"With ({shown}) expected 0 to 500 decisions, got {count}.", hint="time")
     return count
@@ -72,7 +70,7 @@ def drives_so_far(made: Any) -> Done:
         )
     for distance, speed in ((6.0, 3.0), (4.0, 2.0), (5.0, 4.5), (2.0, 1.0), (6.5, 1.5)):
         done = _repeated(_number(made, distance, speed), [1, 0, 0, 0], move=speed, turn=1, size=16)
-        if abs(done.moved - distance) > 1.01 * speed / DECISIONS_A_SECOND:
+        if not is_close(done.moved, distance, 1.01 * speed / DECISIONS_A_SECOND):
             raise done.not_yet(
                 f"At {speed:g} m/s the robot should drive {distance:g} m. It drove "
                 f"{done.moved:.2f} m ({{where}}).",
@@ -99,7 +97,7 @@ def turns_a_quarter(made: Any) -> Done:
         count = _number(made, speed)
         done = _repeated(count, [0, -1, 0, 0], move=1, turn=math.radians(speed), size=8)
         turned = math.degrees(done.agent.body.heading)
-        if abs(turned - 90) > 1.01 * speed / DECISIONS_A_SECOND:
+        if not is_close(turned, 90, 1.01 * speed / DECISIONS_A_SECOND):
             raise done.not_yet(
                 f"At {speed:g} degrees a second the robot turned {turned:.0f} degrees, not 90 "
                 "({where}).",
@@ -135,7 +133,7 @@ def stops_in_time(drive_it: Any) -> Done:
             how = "fell" if last.fell else f"came as near as {away:.1f} m to the box"
             same = len({round(each.moved, 1) for each in ends}) == 1 and len(ends) > 1
             raise last.not_yet(f"The robot {how} ({{where}}).", "blind" if same else "late")
-        if away > 2.5 or last.trail[-1] != last.trail[-2]:
+        if not is_close(away, 2, 0.5) or last.trail[-1] != last.trail[-2]:
             same = len({round(each.moved, 1) for each in ends}) == 1 and last.moved > 0.1
             raise last.not_yet(
                 f"At the end the box was {away:.1f} m away, not 2 ({{where}}).",

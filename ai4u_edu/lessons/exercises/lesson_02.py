@@ -7,6 +7,7 @@ import numpy as np
 
 from ai4u_edu.blocks import TouchRewardFunc
 from ai4u_edu.lessons.exercise import Done, NotYet, exercise
+from ai4u_edu.lessons.numeric import is_close
 from ai4u_edu.lessons.rolls import Drive, drive, seeds_of
 from ai4u_edu.lessons.worlds import forward, plate, put_in
 from ai4u_edu.world import Variation
@@ -35,13 +36,13 @@ def has_legs(agent: Any) -> Done:
     if not put_in(agent, plate(None, ASIDE), forward()).agents[0].actuators:
         raise NotYet("Your agent has no actuator yet: it can't do anything.", hint="actuator")
     straight = _driven(agent, 1, 0, decisions=12)
-    if abs(straight.moved - 2) > 0.05:
+    if not is_close(straight.moved, 2, 0.05):
         raise straight.not_yet(
             f"In one second the robot drove {straight.moved:.2f} m, not 2 ({{where}}).", "speed"
         )
     turning = _driven(agent, 0, 1, decisions=6)
     turned = -turning.agent.body.heading
-    if abs(turned - 1.5) > 0.05:
+    if not is_close(turned, 1.5, 0.05):
         raise turning.not_yet(
             f"In half a second the robot turned {turned:.2f} rad to the right, not 1.5 "
             "({where}).",
@@ -91,7 +92,7 @@ def _sees(done: Drive) -> bool:
     angle = done.agent.body.bearing(done.sim.world["box"])
     true = np.array([np.sin(angle), np.cos(angle)])
     return any(
-        np.shape(reading) == (2,) and np.allclose(reading, true, atol=0.01)
+        is_close(reading, true, 0.01)
         for key, reading in done.agent.percept.items()
         if key not in STATUS
     )
@@ -125,7 +126,7 @@ def is_paid(agent: Any) -> Done:
         raise NotYet("Your agent has no reward function yet.", hint="rewards")
     touched = drive(sim, sim.agents[0], seed=5, limit=16)
     paid = _paid(touched)
-    if abs(paid - 10) > 1e-6:
+    if not is_close(paid, 10, 1e-6):
         raise touched.not_yet(
             f"The robot touched the box and got {paid:g}, not 10 ({{where}}).", "amount"
         )
@@ -134,7 +135,7 @@ def is_paid(agent: Any) -> Done:
     sim = put_in(agent, plate(None, ASIDE), forward())
     fallen = drive(sim, sim.agents[0], seed=5, limit=120)
     paid = _paid(fallen)
-    if abs(paid + 1) > 1e-6:
+    if not is_close(paid, -1, 1e-6):
         raise fallen.not_yet(f"The robot fell and got {paid:g}, not -1 ({{where}}).", "fall")
     return Done("A touch pays 10 and ends the episode, a fall costs 1.", touched.picture())
 
@@ -165,7 +166,7 @@ def reaches_the_box(agent: Any) -> Done:
         sim = put_in(agent.changed(rewards=[arrived]), world)
         turns: list[tuple[float, float]] = []
         done = drive(sim, sim.agents[0], seed, 240, lambda done: turns.append(_turn(done)))  # noqa: B023
-        if not _paid(done):
+        if not is_close(_paid(done), 1, 1e-6):
             how = "fell off the plate" if done.fell else "did not get to the box"
             raise done.not_yet(
                 f"The robot {how} ({{where}}). In {count} worlds before that it got there.",

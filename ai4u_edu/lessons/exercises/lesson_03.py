@@ -18,6 +18,7 @@ from ai4u_edu.blocks import (
 )
 from ai4u_edu.cycle import ControlRequestor
 from ai4u_edu.lessons.exercise import Done, NotYet, a_function, exercise
+from ai4u_edu.lessons.numeric import finite_number, finite_numbers, is_close
 from ai4u_edu.lessons.pictures import picture
 from ai4u_edu.lessons.rolls import as_brain, drive, seeds_of
 from ai4u_edu.lessons.worlds import plate
@@ -74,10 +75,7 @@ def finds_the_twin(twin: Any) -> Done:
     a_function(twin)
     for x, y in ((3.0, 1.0), (2.0, -4.0), (-3.0, 2.5), (0.5, 3.0), (-4.0, -1.5)):
         given = twin(x, y)
-        try:
-            u, v = (float(each) for each in given)
-        except (TypeError, ValueError):
-            raise NotYet(f"For ({x:g}, {y:g}) expected two numbers, got `{given!r}`.") from None
+        u, v = finite_numbers(given, 2, expected=f"For ({x:g}, {y:g}) expected two numbers")
         if math.hypot(u - x, v - y) < 0.1:
             raise NotYet(f"For ({x:g}, {y:g}) your function gives the same place.", hint="other")
         if not 1.5 < math.hypot(u, v) < 11:
@@ -86,14 +84,14 @@ def finds_the_twin(twin: Any) -> Done:
         (cosine, distance) = one.agents[0].percept["orientation"]
         other = _look([OrientationSensor(target="box", normalized=False)], (u, v))
         (twins_cosine, twins_distance) = other.agents[0].percept["orientation"]
-        if abs(distance - twins_distance) > 0.01:
+        if not is_close(twins_distance, distance, 0.01):
             raise NotYet(
                 f"At ({x:g}, {y:g}) the robot reads a distance of {distance:.2f}, at "
                 f"({u:g}, {v:g}) {twins_distance:.2f}.",
                 hint="far",
                 picture=picture(picture_of(other)),
             )
-        if abs(cosine - twins_cosine) > 0.01:
+        if not is_close(twins_cosine, cosine, 0.01):
             raise NotYet(
                 f"At ({x:g}, {y:g}) the robot reads a cosine of {cosine:.2f}, at ({u:g}, {v:g}) "
                 f"{twins_cosine:.2f}.",
@@ -138,7 +136,7 @@ def finds_by_turning(search: Any) -> Done:
             driven.append(abs(action[0]) if action else 0.0)
 
         done = drive(sim, agent, seed, 360, watch)
-        if not agent.ledger.episode_total:
+        if not is_close(agent.ledger.episode_total, 1, 1e-6):
             how = "fell off the plate" if done.fell else "did not get to the box"
             often = sum(driven) > 0.3 * len(driven)
             why = "turn" if not any(turned) else "wide" if often else "narrow"
@@ -171,11 +169,8 @@ def computes_the_angle(angle_to_box: Any) -> Done:
         given = angle_to_box(percept)
         if given is None or given is ...:
             raise NotYet("Your function returned nothing yet.", hint="begin")
-        try:
-            found.append((float(angle), float(given)))
-        except (TypeError, ValueError):
-            raise NotYet(f"Expected a number, got `{given!r}`.", hint="begin") from None
-    wrong = [(true, given) for true, given in found if abs(true - given) > 0.5]
+        found.append((float(angle), finite_number(given, hint="begin")))
+    wrong = [(true, given) for true, given in found if not is_close(given, true, 0.5)]
     if wrong:
         true, given = wrong[0]
         raise NotYet(
@@ -189,13 +184,13 @@ def _why(found: list[tuple[float, float]]) -> str:
     """The hint that fits how angles are wrong."""
 
     def fits(wrong: Any) -> bool:
-        return all(abs(wrong(true) - given) < 0.5 for true, given in found)
+        return all(is_close(given, wrong(true), 0.5) for true, given in found)
 
     if fits(math.radians):
         return "degrees"
     if fits(abs):
         return "side"
-    if all(abs(true - given) < 0.5 for true, given in found if abs(true) < 90):
+    if all(is_close(given, true, 0.5) for true, given in found if abs(true) < 90):
         return "behind"
     return "begin"
 

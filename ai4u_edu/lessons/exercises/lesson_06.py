@@ -6,6 +6,7 @@ from ai4u_edu.agent import BasicAgent
 from ai4u_edu.blocks import LocalBrain, Percept, RayCastingSensor, RBMoveActuator
 from ai4u_edu.cycle import ControlRequestor
 from ai4u_edu.lessons.exercise import Done, NotYet, a_function, exercise
+from ai4u_edu.lessons.numeric import finite_number, is_close
 from ai4u_edu.lessons.rolls import drive
 from ai4u_edu.world import BoxShape, CircleShape, World
 
@@ -57,14 +58,10 @@ def computes_the_blind_way(blind_way: Any) -> Done:
     for speed, skip_frame in ((2.0, 4), (3.0, 0), (1.0, 9), (4.0, 29), (2.5, 14)):
         sim = _runway(_go, skip_frame, speed=speed)
         done = drive(sim, sim.agents[0], 1, limit=1)
-        given = blind_way(speed, skip_frame)
-        try:
-            found = float(given)
-        except (TypeError, ValueError):
-            raise NotYet(f"Expected a number, got `{given!r}`.") from None
-        if abs(found - done.moved) > 0.005:
+        found = finite_number(blind_way(speed, skip_frame))
+        if not is_close(found, done.moved, 0.005):
             hint = "begin"
-            if abs(found - speed * skip_frame / 60) < 1e-6 and found:
+            if is_close(found, speed * skip_frame / 60, 1e-6) and found:
                 hint = "one more"
             elif found > 20 * done.moved:
                 hint = "seconds"

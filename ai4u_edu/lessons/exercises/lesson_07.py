@@ -14,6 +14,7 @@ from ai4u_edu.blocks import (
 )
 from ai4u_edu.cycle import ControlRequestor
 from ai4u_edu.lessons.exercise import Done, NotYet, exercise
+from ai4u_edu.lessons.numeric import finite_number
 from ai4u_edu.lessons.rolls import drive, seeds_of
 from ai4u_edu.lessons.worlds import plate
 
@@ -95,7 +96,7 @@ def contest(rewards: Sequence[RewardFunc], seeds: Sequence[int] = SEEDS) -> dict
         for seed in seeds:
             drive(sim, agent, seed, TEN_SECONDS)
             total += agent.ledger.episode_total
-        found[name] = total / len(seeds)
+        found[name] = finite_number(total / len(seeds))
     return found
 
 

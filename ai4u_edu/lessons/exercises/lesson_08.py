@@ -21,6 +21,7 @@ from ai4u_edu.blocks import (
 from ai4u_edu.cycle import ControlRequestor
 from ai4u_edu.envs.spaces_of import outputs_of
 from ai4u_edu.lessons.exercise import Done, NotYet, a_function, exercise
+from ai4u_edu.lessons.numeric import finite_numbers, is_close
 from ai4u_edu.lessons.rolls import Drive, drives, seeds_of
 from ai4u_edu.lessons.worlds import plate
 from ai4u_edu.scenes import Scene
@@ -170,19 +171,11 @@ def asks_the_robot(full_power: Any) -> str:
         with served(sim) as robot:
             robot.reset()
             high = np.ravel(robot.spaces.action.high)  # type: ignore[attr-defined]
-            try:
-                got = np.array(ask(robot), float).ravel()
-            except (TypeError, ValueError):
-                got = np.array([])
-            if got.shape != high.shape:
+            takes = f"The robot of `{name}` takes {len(high)} numbers"
+            got = finite_numbers(ask(robot), len(high), expected=takes, hint="ask")
+            if not is_close(got, high, 1e-5):
                 raise NotYet(
-                    f"The robot of `{name}` takes {len(high)} numbers, and got {len(got)}.",
-                    hint="ask",
-                )
-            if not np.allclose(got, high):
-                raise NotYet(
-                    f"For the robot of `{name}` full power is {high.tolist()}, and it got "
-                    f"{got.tolist()}.",
+                    f"For the robot of `{name}` full power is {high.tolist()}, and it got {got}.",
                     hint="full",
                 )
             robot.sense()

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ai4u_edu.lessons.exercise import Done, NotYet, a_function, exercise
+from ai4u_edu.lessons.numeric import finite_number, is_close
 from ai4u_edu.lessons.rolls import drive, seeds_of
 
 if TYPE_CHECKING:
@@ -104,16 +105,10 @@ def corridor(update: "Update", episodes: int = 40, seed: int = 0) -> list[list[f
             now = cell + (1 if (step == 1) != slips else -1)
             reward = {0: -1.0, CELLS - 1: 1.0}.get(now, 0.0)
             said = update(values[cell, step], reward, values[now].max(), RATE, DISCOUNT)
-            values[cell, step] = _number(said)
+            values[cell, step] = finite_number(said)
             cell = now
         history.append([float(each) for each in values.max(axis=1)])
     return history
-
-
-def _number(said: Any) -> float:
-    if isinstance(said, bool) or not isinstance(said, int | float | np.number):
-        raise NotYet(f"Expected your function to return a number, got `{said!r}`.")
-    return float(said)
 
 
 @exercise(
@@ -133,12 +128,12 @@ def discounts(worth: Any) -> str:
         rewards = [float(each) for each in chance.integers(-5, 10, length)]
         discount = round(float(chance.uniform(0.3, 0.99)), 2)
         right = sum(reward * discount**n for n, reward in enumerate(rewards))
-        got = _number(a_function(worth)(list(rewards), discount))
-        if abs(got - right) > 1e-6:
+        got = finite_number(a_function(worth)(list(rewards), discount))
+        if not is_close(got, right, 1e-6):
             raise NotYet(
                 f"With the rewards {rewards[:6]} and a discount of {discount} expected "
                 f"{right:.3f}, got {got:.3f}.",
-                hint="first" if abs(got - discount * right) < 1e-6 else "later",
+                hint="first" if is_close(got, discount * right, 1e-6) else "later",
             )
     return "Five lists of rewards, all of them worth what they should be."
 
@@ -163,17 +158,17 @@ def learns_a_step(update: Any) -> str:
     for _ in range(20):
         value, reward, best, rate, discount = (float(each) for each in chance.uniform(0.1, 0.9, 5))
         right = value + rate * (reward + discount * best - value)
-        got = _number(a_function(update)(value, reward, best, rate, discount))
+        got = finite_number(a_function(update)(value, reward, best, rate, discount))
         slips = {
             "jump": reward + discount * best,
             "future": value + rate * (reward - value),
         }
-        if abs(got - right) > 1e-6:
+        if not is_close(got, right, 1e-6):
             raise NotYet(
                 f"A value of {value:.2f}, a reward of {reward:.2f}, {best:.2f} to be had from "
                 f"there, a rate of {rate:.2f} and a discount of {discount:.2f}: expected "
                 f"{right:.3f}, got {got:.3f}.",
-                hint=next((name for name in slips if abs(got - slips[name]) < 1e-6), "stays"),
+                hint=next((name for name in slips if is_close(got, slips[name], 1e-6)), "stays"),
             )
     learned = [corridor(update, seed=seed)[-1][START] for seed in seeds_of("09.2", 10)]
     return (

@@ -23,6 +23,7 @@ from ai4u_edu.cycle import ControlRequestor
 from ai4u_edu.errors import BlockError
 from ai4u_edu.extras import need
 from ai4u_edu.lessons.exercise import Done, NotYet, a_function, exercise
+from ai4u_edu.lessons.numeric import finite_number, finite_numbers, is_close
 from ai4u_edu.lessons.rolls import drives, seeds_of
 from ai4u_edu.lessons.worlds import plate
 from ai4u_edu.scenes import Scene
@@ -148,10 +149,8 @@ def is_a_neuron(neuron: Any) -> str:
         inputs, weights = chance.normal(size=(2, count)).round(2).tolist()
         bias = round(float(chance.normal()), 2)
         total = float(np.dot(inputs, weights))
-        got = a_function(neuron)(list(inputs), list(weights), bias)
-        if isinstance(got, bool) or not isinstance(got, int | float | np.number):
-            raise NotYet(f"Expected a number, got `{got!r}`.")
-        if abs(got - np.tanh(total + bias)) > CLOSE:
+        got = finite_number(a_function(neuron)(list(inputs), list(weights), bias))
+        if not is_close(got, np.tanh(total + bias), CLOSE):
             slips = {
                 "bias": (np.tanh(total), np.tanh(total) + bias),
                 "squash": (total + bias,),
@@ -159,7 +158,7 @@ def is_a_neuron(neuron: Any) -> str:
             near = (
                 name
                 for name, values in slips.items()
-                if any(abs(got - value) < CLOSE for value in values)
+                if any(is_close(got, value, CLOSE) for value in values)
             )
             raise NotYet(
                 f"Inputs {inputs}, weights {weights}, bias {bias}: expected "
@@ -213,13 +212,13 @@ def thinks(think: Any) -> Done:
         ]
         inputs = chance.normal(size=sizes[0])
         right = _through(inputs, layers)
-        got = _numbers(a_function(think)(inputs.copy(), list(layers)), len(right))
-        if np.abs(got - right).max() > CLOSE:
+        got = np.array(finite_numbers(a_function(think)(inputs.copy(), list(layers)), len(right)))
+        if not is_close(got, right, CLOSE):
             slips = {
                 "between": _through(inputs, layers, between=False),
                 "last": _through(inputs, layers, last=True),
             }
-            near = (name for name, each in slips.items() if np.abs(got - each).max() < CLOSE)
+            near = (name for name, each in slips.items() if is_close(got, each, CLOSE))
             raise NotYet(
                 f"A network with {len(layers)} layers, {sizes[0]} inputs: expected "
                 f"{right.round(2).tolist()}, got {got.round(2).tolist()}.",
@@ -246,16 +245,6 @@ def _through(
         if last if number == len(layers) else between:
             signal = np.tanh(signal)
     return signal
-
-
-def _numbers(given: Any, count: int) -> Array:
-    try:
-        found = np.array(given, float).ravel()
-    except (TypeError, ValueError):
-        found = np.array([])
-    if len(found) != count:
-        raise NotYet(f"Expected {count} numbers, got `{given!r}`.")
-    return found
 
 
 @exercise(

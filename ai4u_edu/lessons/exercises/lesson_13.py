@@ -16,6 +16,7 @@ from ai4u_edu.blocks import (
 )
 from ai4u_edu.cycle import ControlRequestor
 from ai4u_edu.lessons.exercise import Done, NotYet, a_function, exercise
+from ai4u_edu.lessons.numeric import finite_number, is_close
 from ai4u_edu.lessons.rolls import Drive, as_brain, drive, seeds_of
 from ai4u_edu.world import BoxShape, CircleShape, Variation, World
 
@@ -119,15 +120,11 @@ def computes_comfort(seconds: Any) -> Done:
     """Seconds until a level reaches 40."""
     a_function(seconds)
     for level, loss in ((60.0, 4.0), (80.0, 2.0), (45.0, 0.5), (100.0, 3.0), (30.0, 2.0)):
-        given = seconds(level, loss)
-        try:
-            found = float(given)
-        except (TypeError, ValueError):
-            raise NotYet(f"Expected a number, got `{given!r}`.") from None
+        found = finite_number(seconds(level, loss))
         wanted = max(0.0, (level - 40) / loss)
-        if abs(found - wanted) > 0.01:
+        if not is_close(found, wanted, 0.01):
             hint = "begin"
-            if abs(found - level / loss) < 0.01:
+            if is_close(found, level / loss, 0.01):
                 hint = "empty"
             elif level < 40:
                 hint = "below"

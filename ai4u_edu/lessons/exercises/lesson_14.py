@@ -9,6 +9,7 @@ from ai4u_edu.check import Report, check_actuator, check_reward, check_sensor
 from ai4u_edu.cycle import ControlRequestor
 from ai4u_edu.errors import AI4UError
 from ai4u_edu.lessons.exercise import Done, NotYet, exercise
+from ai4u_edu.lessons.numeric import is_close
 from ai4u_edu.lessons.rolls import drive
 from ai4u_edu.world import BoxShape, CircleShape, World
 
@@ -75,11 +76,11 @@ def senses_nearness(cls: Any) -> Done:
                 ) from error
             found = float(agent.percept[sensor.perception_key][0])
             wanted = max(0.0, 1 - away / reach)
-            if abs(found - wanted) > 0.01:
+            if not is_close(found, wanted, 0.01):
                 hint = "begin"
-                if abs(found - min(1.0, away / reach)) < 0.01:
+                if is_close(found, min(1.0, away / reach), 0.01):
                     hint = "reversed"
-                elif abs(found - (1 - away / reach)) < 0.01 or away > reach:
+                elif is_close(found, 1 - away / reach, 0.01) or away > reach:
                     hint = "beyond"
                 elif reach != 8.0:
                     hint = "reach"
@@ -117,7 +118,7 @@ def pays_for_calm(cls: Any) -> Done:
             drive(ControlRequestor(_world((5, 5)), [agent]), agent, 1, limit=3)
             found = agent.reward
             wanted = -cost if abs(turn) > limit else 0.0
-            if abs(found - wanted) > 1e-6:
+            if not is_close(found, wanted, 1e-6):
                 hint = "sign" if found > 0 else "side" if turn < 0 else "begin"
                 raise NotYet(
                     f"With limit {limit:g} and cost {cost:g}, a robot that turns at {turn:g} rad/s "

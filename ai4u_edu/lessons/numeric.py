@@ -1,0 +1,88 @@
+"""Read and compare the numbers that students hand in; NaN, infinity and text never pass.
+
+Every comparison with NaN is false, so ``if abs(got - wanted) > 0.01: not right`` takes NaN for a
+right answer. The checks of all exercises compare with :func:`is_close` instead.
+"""
+
+import math
+from numbers import Real
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from ai4u_edu.lessons.exercise import NotYet
+
+
+def finite_number(given: Any, *, hint: str = "") -> float:
+    """Return a student's number as a float.
+
+    Args:
+        given: a number, or an array that holds exactly one.
+        hint: the name of the hint if it is none.
+
+    Raises:
+        NotYet: it is no number (text, True and None are none), or it is NaN or infinite.
+    """
+    one = given.item() if isinstance(given, np.ndarray) and given.size == 1 else given
+    if isinstance(one, bool | np.bool_) or not isinstance(one, Real):
+        raise NotYet(f"Expected a number, got `{given!r}`.", hint=hint)
+    try:
+        found = float(one)
+    except OverflowError:
+        found = math.inf
+    if not math.isfinite(found):
+        why = "is no number: perhaps 0 was divided by 0" if math.isnan(found) else "has no end"
+        shown = repr(given) if len(repr(given)) < 60 else "a number too large to compute with"
+        raise NotYet(f"Expected a number, got `{shown}`, which {why}.", hint=hint)
+    return found
+
+
+def finite_numbers(given: Any, count: int, *, expected: str = "", hint: str = "") -> list[float]:
+    """Return a student's numbers as floats.
+
+    Args:
+        given: a list, a tuple or an array.
+        count: so many there have to be.
+        expected: a sentence that says what was expected; left out, the count.
+        hint: the name of the hint if they are not that.
+
+    Raises:
+        NotYet: there are more or fewer, or one of them is not a finite number.
+    """
+    try:
+        found = [*given.ravel()] if isinstance(given, np.ndarray) else [*given]
+    except TypeError:
+        found = []
+    if isinstance(given, str | bytes | dict) or len(found) != count:
+        raise NotYet(f"{expected or f'Expected {count} numbers'}, got `{given!r}`.", hint=hint)
+    return [finite_number(each, hint=hint) for each in found]
+
+
+def is_close(got: Any, wanted: Any, tolerance: float) -> bool:
+    """Return True if numbers differ by at most a tolerance; never for NaN, infinity or text.
+
+    Args:
+        got: a number, or an array of them.
+        wanted: of the same shape.
+        tolerance: the largest difference; of each, in an array.
+
+    >>> is_close(0.1 + 0.2, 0.3, 1e-6)
+    True
+    >>> is_close(float("nan"), 0.3, 1e-6)
+    False
+    """
+    one, other = _numbers(got), _numbers(wanted)
+    if one is None or other is None or one.shape != other.shape:
+        return False
+    return bool((np.abs(one - other) <= tolerance).all())
+
+
+def _numbers(given: Any) -> npt.NDArray[np.float64] | None:
+    try:
+        found = np.asarray(given)
+    except ValueError:  # rows of different lengths
+        return None
+    if found.dtype.kind not in "iuf" or not found.size or not np.isfinite(found).all():
+        return None
+    return found.astype(np.float64)
