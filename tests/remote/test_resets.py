@@ -146,7 +146,7 @@ def situation_of(episode: int) -> Situation:
 
 
 def test_an_ai4u_script_is_not_told_of_the_episode_that_it_has_ended() -> None:
-    told: "Queue[Situation | None]" = Queue()
+    told: Queue[Situation | None] = Queue()
     asks_for_reset = Event()
 
     def talk(situation: Situation | None, until: float) -> Answered | None:
