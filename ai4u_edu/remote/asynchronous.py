@@ -8,7 +8,7 @@ from ai4u_edu.remote.asynchronous_line import AsynchronousLine
 from ai4u_edu.remote.dialogue import Dialogue
 from ai4u_edu.remote.driven import Driven
 from ai4u_edu.remote.percept import RemotePercept
-from ai4u_edu.wire.native import Mode
+from ai4u_edu.wire.native import Mode, OnMissing
 
 
 class AsyncRobot(Driven):
@@ -33,6 +33,7 @@ class AsyncRobot(Driven):
         keys: Sequence[str] = (),
         session: str = "",
         patience: float = 10.0,
+        on_missing: OnMissing = "",
     ) -> None:
         address = address_of(url)
         self._line = AsynchronousLine(address)
@@ -44,6 +45,7 @@ class AsyncRobot(Driven):
                 keys=keys,
                 session=session,
                 patience=patience,
+                on_missing=on_missing,
             )
         )
 

@@ -72,7 +72,7 @@ def room_app(
             WebSocketRoute("/", ViserProxy(viser_port, rules.token), middleware=guard),
             WebSocketRoute("/ws/input", Inputs(runner, called), middleware=guard),
             # asks for the token itself, in the hello
-            WebSocketRoute("/ws/remote", RemoteSockets(runner, called(), rules)),
+            WebSocketRoute("/ws/remote", RemoteSockets(runner, called, rules)),
         ],
         middleware=[Middleware(Door, allowed_hosts=allowed_hosts)],
     )
