@@ -89,8 +89,9 @@ class AI4UScript:
                 except WireError:
                     self.ignored += 1
                 except TimeoutError:
-                    if self.is_over.is_set():
-                        return None
+                    pass
+                if self.is_over.is_set():
+                    return None
             error: OSError = TimeoutError(f"no answer for {self._patience:g} s")
         except OSError as failed:
             error = failed
