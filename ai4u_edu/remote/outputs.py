@@ -35,7 +35,7 @@ def numbers_of(outputs: Mapping[str, Output], action: Any) -> dict[str, tuple[fl
         action = {next(iter(outputs)): action}
     for name in action:
         if name not in outputs:
-            raise ActionError(f"no actuator is called {name!r}; {suggest(str(name), outputs)}")
+            raise ActionError(f"no actuator is called {shown(name)}; {suggest(str(name), outputs)}")
     return {name: _numbers(outputs[name], values) for name, values in action.items()}
 
 

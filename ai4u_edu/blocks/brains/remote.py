@@ -11,7 +11,7 @@ from ai4u_edu.blocks.brains.link import Answered, Link, LinkState, Reset, Situat
 from ai4u_edu.blocks.brains.patience import WAIT_SLICE_S, Patience
 from ai4u_edu.blocks.brains.remote_status import RemoteStatus
 from ai4u_edu.blocks.percept import Percept
-from ai4u_edu.errors import ActionError, SetupError, suggest
+from ai4u_edu.errors import ActionError, SetupError, shown, suggest
 from ai4u_edu.parameters import quantity
 from ai4u_edu.world import WorldView
 
@@ -378,7 +378,7 @@ class RemoteBrain(Brain):
             actuator = self._actuators.get(name)
             if actuator is None:
                 raise ActionError(
-                    f"agent {self._agent.id!r} has no actuator {name!r}; "
+                    f"agent {self._agent.id!r} has no actuator {shown(name)}; "
                     f"{suggest(str(name), self._actuators)}"
                 )
             before = actuator.clipped
