@@ -1,5 +1,6 @@
 """Errors about a lot of junk: a short sentence, and few names are compared."""
 
+import difflib
 import json
 from collections.abc import Callable
 from typing import Any
@@ -16,7 +17,7 @@ from ai4u_edu.scenes.plain import from_plain
 from ai4u_edu.server import messages
 from tests.builders import small_sim
 
-KEYS = {f"key{number}": 1 for number in range(2000)}
+KEYS: dict[str, Any] = {f"key{number}": 1 for number in range(2000)}
 MAX_CHARS = 10_000
 
 
@@ -96,7 +97,7 @@ def test_thousands_of_unknown_names_are_refused_with_a_few_hints(
     make: Callable[[], object], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     compared = []
-    compare = errors.get_close_matches
+    compare = difflib.get_close_matches
 
     def count(name: str, names: list[str], n: int) -> list[str]:
         compared.append(name)

@@ -1,7 +1,7 @@
 """A robot that is somewhere else, for scripts that do other things meanwhile."""
 
 from collections.abc import AsyncIterator, Sequence
-from typing import Any, Self
+from typing import Any, Self, SupportsIndex
 
 from ai4u_edu.remote.address import address_of
 from ai4u_edu.remote.asynchronous_line import AsynchronousLine
@@ -62,7 +62,7 @@ class AsyncRobot(Driven):
         """Decides: answers the latest percept."""
         await self._line.run(self._dialogue.act(numbers if action is None else action))
 
-    async def reset(self, seed: int | None = None) -> RemotePercept:
+    async def reset(self, seed: SupportsIndex | None = None) -> RemotePercept:
         """Begins an episode; what the robot senses first."""
         return await self._line.run(self._dialogue.reset(seed))
 

@@ -9,7 +9,7 @@ import time
 from collections.abc import Iterable, Sequence
 from contextlib import suppress
 from secrets import token_urlsafe
-from typing import Any, Literal, NoReturn, cast
+from typing import Any, Literal, NoReturn, SupportsIndex, cast
 
 from ai4u_edu.errors import ActionError, shown
 from ai4u_edu.remote.errors import LostError, RefusedError, RemoteError
@@ -38,12 +38,12 @@ def _checked(hello: native.Hello) -> native.Hello:
     return cast(native.Hello, said)
 
 
-def _checked_seed(seed: object) -> int | None:
+def _checked_seed(seed: SupportsIndex | None) -> int | None:
     """Return a seed that a world can take."""
     if seed is None:
         return None
     try:
-        number = operator.index(seed)  # type: ignore[arg-type]  # whatever has one
+        number = operator.index(seed)
     except TypeError:
         number = -1
     if isinstance(seed, bool) or not 0 <= number <= native.LARGEST_SEED:
@@ -171,15 +171,15 @@ class Dialogue:
         values = numbers_of(self.outputs, action)
         yield from self._answer(native.Action(percept.episode, percept.step, percept.seq, values))
 
-    def reset(self, seed: int | None = None) -> Flow[RemotePercept]:
+    def reset(self, seed: SupportsIndex | None = None) -> Flow[RemotePercept]:
         """Begins an episode, and waits for its first percept."""
-        seed = _checked_seed(seed)
+        number = _checked_seed(seed)
         before = yield from self.sense()
-        yield from self._answer(native.Reset(before.seq, seed))
+        yield from self._answer(native.Reset(before.seq, number))
         percept = yield from self.sense()
         while percept.episode == before.episode:
             # the world had to leave the wish undone: it has stood still because of an error
-            yield from self._answer(native.Reset(percept.seq, seed))
+            yield from self._answer(native.Reset(percept.seq, number))
             percept = yield from self.sense()
         return percept
 

@@ -1,7 +1,7 @@
 """A robot that is somewhere else."""
 
 from collections.abc import Iterator, Sequence
-from typing import Any, Self
+from typing import Any, Self, SupportsIndex
 
 from ai4u_edu.remote.address import address_of
 from ai4u_edu.remote.dialogue import Dialogue
@@ -50,7 +50,7 @@ class Robot(Driven):
         """
         self._line.run(self._dialogue.act(numbers if action is None else action))
 
-    def reset(self, seed: int | None = None) -> RemotePercept:
+    def reset(self, seed: SupportsIndex | None = None) -> RemotePercept:
         """Begins an episode; what the robot senses first.
 
         Args:
