@@ -39,6 +39,8 @@ app = typer.Typer(
     context_settings={"help_option_names": ["-h", "--help"]},
 )
 
+OnMissing = Literal["hold", "coast", "stop"]
+
 
 def main() -> None:
     """Runs the command line; an error of ours is told in a sentence, without a traceback.
@@ -123,6 +125,41 @@ def play(
             "--seeded-resets", help="Let one of several agents' scripts reset the whole world."
         ),
     ] = False,
+    lockstep: Annotated[
+        bool | None,
+        typer.Option(
+            "--lockstep/--no-lockstep",
+            help="Let scripts have the world wait for their actions; left out, only where there is "
+            "one agent.",
+            show_default=False,
+        ),
+    ] = None,
+    on_missing: Annotated[
+        OnMissing | None,
+        typer.Option(
+            help="What an agent does when its script's action is missing, unless the script "
+            "chooses: the last one again (hold), nothing (coast), or zeros for all actuators "
+            "(stop). Left out: hold, and stop while its connection is lost.",
+            show_default=False,
+        ),
+    ] = None,
+    grace: Annotated[
+        float,
+        typer.Option(
+            help="Seconds that an agent is kept for a script whose connection is lost.",
+            min=0,
+            max=600,
+        ),
+    ] = 3.0,
+    receive_timeout: Annotated[
+        int,
+        typer.Option(
+            help="Milliseconds for which the world waits for a script in lockstep; then it goes "
+            "on until the script answers.",
+            min=200,
+            max=600_000,
+        ),
+    ] = 2000,
     own_blocks: OwnBlocks = None,
     brain: Annotated[
         list[str] | None,
@@ -186,7 +223,14 @@ def play(
     from ai4u_edu.workshop.autosave import Autosave, latest, unsaved_folder
     from ai4u_edu.workshop.shelf import Shelf
 
-    rules = Rules(token=token_for(host, token), seeded_resets=seeded_resets)
+    rules = Rules(
+        token=token_for(host, token),
+        seeded_resets=seeded_resets,
+        lockstep=lockstep,
+        on_missing=on_missing or "",
+        grace=grace,
+        receive_timeout=receive_timeout,
+    )
     load_own_blocks(own_blocks)
     unsaved = latest(unsaved_folder()) if autosave or restore else None
     if restore and unsaved is None:
@@ -258,13 +302,28 @@ def bridge(
     script_id: Annotated[
         str, typer.Option(help="The id by which the script knows its agent.")
     ] = "0",
+    on_missing: Annotated[
+        OnMissing | None,
+        typer.Option(
+            help="What the agent does when the script's action is missing; left out, as the world "
+            "has it.",
+            show_default=False,
+        ),
+    ] = None,
 ) -> None:
     """Let an AI4U script on this machine drive an agent of a world elsewhere."""
     from ai4u_edu.remote.bridge import Bridge
 
     mode: Literal["realtime", "lockstep"] = "realtime" if realtime else "lockstep"
     there = Bridge(
-        url, agent, port=port, token=token, mode=mode, script_id=script_id, tell=typer.echo
+        url,
+        agent,
+        port=port,
+        token=token,
+        mode=mode,
+        script_id=script_id,
+        on_missing=on_missing or "",
+        tell=typer.echo,
     )
 
     def asked_to_end(*_: object) -> None:

@@ -24,6 +24,14 @@ Every message says what was expected, what came, and how to mend it.
 
 from collections.abc import Iterable
 from difflib import get_close_matches
+from typing import Any
+
+MAX_SHOWN_CHARS = 60
+"""Of a value in a message."""
+MAX_NAMES_COMPARED = 500
+MAX_NAMES_SHOWN = 50
+MAX_NAME_CHARS = 80
+"""Of a name that is compared or shown; what is longer is no name that anybody chose."""
 
 
 class AI4UError(Exception):
@@ -89,7 +97,64 @@ def suggest(name: str, known: Iterable[str]) -> str:
     names = sorted(known)
     if not names:
         return "there are none"
-    near = get_close_matches(name, names, n=1)
-    if near:
-        return f"did you mean {near[0]!r}?"
-    return "known are " + ", ".join(repr(each) for each in names)
+    if len(name) <= MAX_NAME_CHARS:
+        near = get_close_matches(name, names[:MAX_NAMES_COMPARED], n=1)
+        if near:
+            return f"did you mean {near[0]!r}?"
+    first = ", ".join(shown(each, MAX_NAME_CHARS) for each in names[:MAX_NAMES_SHOWN])
+    more = len(names) - MAX_NAMES_SHOWN
+    return f"known are {first}" + (f" and {more} more" if more > 0 else "")
+
+
+def shown(value: object, most: int = MAX_SHOWN_CHARS) -> str:
+    """Return a value as it stands in a message: the beginning of its repr.
+
+    The value may be anything that came from a file or over a network: long, nested a thousand deep,
+    or a number with more digits than Python writes.
+
+    Args:
+        value: to be shown.
+        most: characters.
+
+    >>> shown([1.0] * 1000, 20)
+    '[1.0, 1.0, 1.0, 1...'
+    >>> shown(10**5000)
+    'a very large int'
+    """
+    try:
+        text = repr(_beginning(value, [most + 1]))
+    except ValueError:  # an int of so many digits
+        text = f"a very large {type(value).__name__}"
+    return shorten(text, most)
+
+
+def shorten(text: str, most: int) -> str:
+    """Return a text that has at most so many characters.
+
+    >>> shorten("a sentence", 7)
+    'a se...'
+    """
+    return text if len(text) <= most else text[: most - 3] + "..."
+
+
+def _beginning(value: Any, room: list[int]) -> Any:
+    """Return as much of a value as has a repr of so many characters, or a few more.
+
+    Args:
+        value: to be shown.
+        room: the characters that are left; each part takes as many as its repr has, or fewer.
+    """
+    kind = type(value)
+    room[0] -= 1
+    if kind is str or kind is bytes:
+        part = value[: max(room[0], 0) + 1]
+        room[0] -= len(part)
+        return part
+    if kind not in (list, tuple, dict):
+        return value
+    parts = []
+    for each in value.items() if kind is dict else value:
+        if room[0] <= 0:
+            break
+        parts.append(_beginning(each, room))
+    return kind(parts)

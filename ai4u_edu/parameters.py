@@ -12,7 +12,7 @@ from typing import Annotated, Any, NamedTuple, get_args
 from pydantic import BaseModel, Field, StringConstraints
 from pydantic_core import ErrorDetails
 
-from ai4u_edu.errors import suggest
+from ai4u_edu.errors import shown, suggest
 
 
 def quantity(
@@ -37,6 +37,12 @@ Number = Annotated[float, quantity("")]
 Count = Annotated[int, Field(ge=0)]
 Point = tuple[Metres, Metres]
 Bits = Annotated[int, Field(ge=0, le=0xFFFFFFFF)]
+
+
+MAX_LISTED = 20
+"""Problems that are told at once."""
+MAX_HINTS = 50
+"""Problems for which a known name is looked for; to compare names takes longest."""
 
 
 class Problem(NamedTuple):
@@ -71,15 +77,25 @@ def explain(
     """
     names = known if isinstance(known, type) else list(known)
     found = [(error, *_walk(error["loc"], names)) for error in errors]
+    holders = {path[:length] for _, path, _ in found for length in range(len(path))}
     return [
-        Problem(path, _sentence(error, names_there))
-        for error, path, names_there in found
+        Problem(path, _sentence(error, names_there, hints=place < MAX_HINTS))
+        for place, (error, path, names_there) in enumerate(found)
         # a list whose entries are wrong counts as too short as well; the entries say it better
-        if not (
-            error["type"] == "too_short"
-            and any(other[: len(path)] == path != other for _, other, _ in found)
-        )
+        if not (error["type"] == "too_short" and path in holders)
     ]
+
+
+def listed(problems: Sequence[Problem]) -> str:
+    """Return problems as one text: the first ones, and how many more there are.
+
+    >>> listed([Problem((), "is wrong")] * 22)[-28:]
+    'wrong; and 2 more like these'
+    """
+    told = [*map(str, problems[:MAX_LISTED])]
+    if len(problems) > MAX_LISTED:
+        told.append(f"and {len(problems) - MAX_LISTED} more like these")
+    return "; ".join(told)
 
 
 def _walk(
@@ -151,35 +167,29 @@ BOUNDS = {
 }
 
 
-def _shown(value: object) -> str:
-    try:
-        text = repr(value)
-    except RecursionError:  # what came from a file may hold lists in lists, a thousand deep
-        text = f"a {type(value).__name__} that is nested too deep"
-    return text if len(text) <= 60 else text[:57] + "..."
-
-
-def _sentence(error: ErrorDetails, known: Sequence[str]) -> str:
+def _sentence(error: ErrorDetails, known: Sequence[str], *, hints: bool) -> str:
     kind, got = error["type"], error.get("input")
     context: Mapping[str, Any] = error.get("ctx", {})
-    shown = _shown(got)
     if kind in {"missing", "missing_argument", "missing_keyword_only_argument"}:
         return "is missing and has no default"
     if kind == "unexpected_positional_argument":
-        return f"parameters are given by name, as in {next(iter(known), 'size')}=...; got {shown}"
+        example = next(iter(known), "size")
+        return f"parameters are given by name, as in {example}=...; got {shown(got)}"
     if kind in {"extra_forbidden", "unexpected_keyword_argument"}:
-        return "unknown parameter; " + suggest(str(error["loc"][-1]), known)
+        return "unknown parameter" + ("; " + suggest(str(error["loc"][-1]), known) if hints else "")
     if kind == "union_tag_invalid":
         tags = [tag.strip().strip("'") for tag in str(context["expected_tags"]).split(",")]
-        return f"unknown type {context['tag']!r}; {suggest(str(context['tag']), tags)}"
+        hint = f"; {suggest(str(context['tag']), tags)}" if hints else ""
+        return f"unknown type {shown(context['tag'])}{hint}"
     if kind == "union_tag_not_found":
         return "needs a 'type'"
     if kind == "value_error":
         return error["msg"].removeprefix("Value error, ")
+    what = shown(got)  # not sooner: it may be all that was handed in
     if kind in BOUNDS:
         words, key = BOUNDS[kind]
-        return f"expected {words} {context[key]:g}, got {shown}"
+        return f"expected {words} {context[key]:g}, got {what}"
     if kind in EXPECTED:
-        return f"expected {EXPECTED[kind].format(**context)}, got {shown}"
+        return f"expected {EXPECTED[kind].format(**context)}, got {what}"
     message = error["msg"].replace("Input should be ", "expected ").replace("valid ", "")
-    return f"{message}, got {shown}"
+    return f"{message}, got {what}"

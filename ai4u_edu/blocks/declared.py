@@ -14,7 +14,7 @@ from pydantic.fields import FieldInfo
 
 from ai4u_edu.blocks.field_docs import field_docs
 from ai4u_edu.errors import ParameterError
-from ai4u_edu.parameters import explain
+from ai4u_edu.parameters import explain, listed
 
 _CONFIG = ConfigDict(
     extra="forbid",
@@ -94,7 +94,7 @@ def _explained(construct: Callable[..., None], cls: type[Declared]) -> Callable[
         try:
             inner(self, *args, **values)
         except ValidationError as error:
-            problems = "; ".join(map(str, explain(error.errors(), cls.parameters())))
+            problems = listed(explain(error.errors(), cls.parameters()))
             told = ParameterError(f"{type(self).__name__}: {problems}")
             told.details = error
             raise told from None

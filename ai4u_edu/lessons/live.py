@@ -53,7 +53,7 @@ class Live:
             viser_port=self._viewer.port,
             title=title,
             allowed_hosts=("*",),  # the token is asked for; a proxy passes any name on
-            rules=Rules(token=TOKEN),
+            rules=Rules(token=TOKEN, lockstep=True),  # the world is whose notebook it is
         )
         self._server = ServerThread(room)
         self.url = with_token(self._server.url, TOKEN)

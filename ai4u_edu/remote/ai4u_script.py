@@ -32,20 +32,27 @@ class AI4UScript:
         dialogue: what is said when.
         host: where it listens.
         patience: seconds for which a script may be silent.
+        is_over: set by another thread when no script is wanted any more: then nobody waits for
+            this one.
 
     Raises:
         RemoteError: there is no such host.
     """
 
     def __init__(
-        self, port: int, dialogue: Dialogue, *, host: str = "127.0.0.1", patience: float = 5.0
+        self,
+        port: int,
+        dialogue: Dialogue,
+        *,
+        host: str = "127.0.0.1",
+        patience: float = 5.0,
+        is_over: threading.Event | None = None,
     ) -> None:
         self.where = f"{host}:{port}"
         self.dialogue = dialogue
         self.ignored = 0
         """Datagrams that were no answer."""
-        self.is_over = threading.Event()
-        """To be set when no script is wanted any more: then nobody waits for this one."""
+        self.is_over = is_over or threading.Event()
         self._patience = patience
         self._socket = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
         try:
@@ -82,8 +89,9 @@ class AI4UScript:
                 except WireError:
                     self.ignored += 1
                 except TimeoutError:
-                    if self.is_over.is_set():
-                        return None
+                    pass
+                if self.is_over.is_set():
+                    return None
             error: OSError = TimeoutError(f"no answer for {self._patience:g} s")
         except OSError as failed:
             error = failed

@@ -1,14 +1,14 @@
 """A robot that is somewhere else, for scripts that do other things meanwhile."""
 
 from collections.abc import AsyncIterator, Sequence
-from typing import Any, Self
+from typing import Any, Self, SupportsIndex
 
 from ai4u_edu.remote.address import address_of
 from ai4u_edu.remote.asynchronous_line import AsynchronousLine
 from ai4u_edu.remote.dialogue import Dialogue
 from ai4u_edu.remote.driven import Driven
 from ai4u_edu.remote.percept import RemotePercept
-from ai4u_edu.wire.native import Mode
+from ai4u_edu.wire.native import Mode, OnMissing
 
 
 class AsyncRobot(Driven):
@@ -33,6 +33,7 @@ class AsyncRobot(Driven):
         keys: Sequence[str] = (),
         session: str = "",
         patience: float = 10.0,
+        on_missing: OnMissing = "",
     ) -> None:
         address = address_of(url)
         self._line = AsynchronousLine(address)
@@ -44,6 +45,7 @@ class AsyncRobot(Driven):
                 keys=keys,
                 session=session,
                 patience=patience,
+                on_missing=on_missing,
             )
         )
 
@@ -60,7 +62,7 @@ class AsyncRobot(Driven):
         """Decides: answers the latest percept."""
         await self._line.run(self._dialogue.act(numbers if action is None else action))
 
-    async def reset(self, seed: int | None = None) -> RemotePercept:
+    async def reset(self, seed: SupportsIndex | None = None) -> RemotePercept:
         """Begins an episode; what the robot senses first."""
         return await self._line.run(self._dialogue.reset(seed))
 

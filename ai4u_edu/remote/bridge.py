@@ -4,6 +4,7 @@ AI4U's own protocol can't bear a lost or repeated datagram. On loopback none is 
 network between here and the world does is our protocol's affair. The script notices a delay.
 """
 
+import threading
 import time
 from collections.abc import Callable
 from secrets import token_urlsafe
@@ -17,7 +18,7 @@ from ai4u_edu.remote.ai4u_script import AI4UScript, ScriptGoneError
 from ai4u_edu.remote.dialogue import Dialogue
 from ai4u_edu.remote.errors import RemoteError
 from ai4u_edu.remote.percept import RemotePercept
-from ai4u_edu.remote.plain_line import PlainLine
+from ai4u_edu.remote.plain_line import NotWantedError, PlainLine
 from ai4u_edu.remote.spaces import output_space, reading_space
 from ai4u_edu.wire import ai4u_dialogue, native
 from ai4u_edu.wire.agent_codec import AgentCodec
@@ -66,6 +67,8 @@ class Bridge:
         mode: lockstep: the world waits for each action; realtime: it never waits.
         script_id: the id by which the script knows its agent.
         patience: seconds for which the script may be silent.
+        on_missing: what the agent does in place of an action that is missing; see
+            :func:`~ai4u_edu.remote.connect`.
         tell: called with a sentence for whoever sits there.
 
     Raises:
@@ -83,11 +86,14 @@ class Bridge:
         mode: native.Mode = "lockstep",
         script_id: str = "0",
         patience: float = 5.0,
+        on_missing: native.OnMissing = "",
         tell: Callable[[str], object] = print,
     ) -> None:
         self._address = address_of(url)
         self._agent, self._token, self._mode = agent, token or self._address.token, mode
+        self._on_missing = on_missing
         self._secret = token_urlsafe(16)
+        self._is_over = threading.Event()
         self._tell = tell
         self._line, self._robot = self._connected()
         welcome = self._robot.welcome
@@ -101,7 +107,9 @@ class Bridge:
             repeat_action=welcome.repeat_action,
         )
         self._leave()
-        self._script = AI4UScript(port, dialogue, host=host, patience=patience)
+        self._script = AI4UScript(
+            port, dialogue, host=host, patience=patience, is_over=self._is_over
+        )
 
     def run(self) -> None:
         """Serves one script after another, until :meth:`stop`.
@@ -116,6 +124,8 @@ class Bridge:
                     self._let_drive()
                 except ScriptGoneError as gone:
                     self._tell(str(gone))
+                except NotWantedError:
+                    pass  # it was stopped while it waited for the world
                 finally:
                     self._leave()
         finally:
@@ -124,15 +134,19 @@ class Bridge:
 
     def stop(self) -> None:
         """Has :meth:`run` end, from another thread."""
-        self._script.is_over.set()
+        self._is_over.set()
 
     # -- the steps of it -------------------------------------------------------------------------
 
     def _connected(self) -> tuple[PlainLine, Dialogue]:
-        line = PlainLine(self._address)
+        line = PlainLine(self._address, is_over=self._is_over)
         # with the same secret, since the world may not have heard that the session before is over
         robot = Dialogue(
-            self._agent, token=self._token, mode=self._mode, session=f":{self._secret}"
+            self._agent,
+            token=self._token,
+            mode=self._mode,
+            session=f":{self._secret}",
+            on_missing=self._on_missing,
         )
         line.run(robot.begin())
         return line, robot

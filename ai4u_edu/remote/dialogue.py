@@ -5,10 +5,10 @@ it said last, and a lost connection is taken up again within the grace time.
 """
 
 import time
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from contextlib import suppress
 from secrets import token_urlsafe
-from typing import Any, Literal, NoReturn
+from typing import Any, Literal, NoReturn, SupportsIndex, cast
 
 from ai4u_edu.errors import ActionError
 from ai4u_edu.remote.errors import LostError, RefusedError, RemoteError
@@ -17,6 +17,7 @@ from ai4u_edu.remote.percept import RemotePercept
 from ai4u_edu.remote.steps import Close, Flow, LineLost, Open, Pause, Receive, Send
 from ai4u_edu.seeding import checked_seed
 from ai4u_edu.wire import native
+from ai4u_edu.wire.strict import WireError
 
 FIRST_WAIT = 0.2
 """Seconds after which something is said again for the first time; then twice as many each time."""
@@ -24,6 +25,18 @@ LONGEST_WAIT = 1.0
 """Seconds."""
 ATTEMPT = 3.0
 """Seconds that opening a connection and saying hello may take; then another one is opened."""
+
+
+def _checked(hello: native.Hello) -> native.Hello:
+    """Return a hello that a world can read."""
+    try:
+        said = native.decode(native.encode(hello))
+    except WireError as error:
+        raise RemoteError(f"connect: {error}") from None
+    except (TypeError, ValueError, OverflowError) as error:  # nothing that msgpack knows
+        raise RemoteError(f"connect: expected text and names of keys, got {error}") from None
+    return cast(native.Hello, said)
+
 
 _CODES = {number: name for name, number in native.PROBLEMS.items()}
 
@@ -38,6 +51,10 @@ class Dialogue:
         keys: the readings that are wanted; none named: all.
         session: what :attr:`session` of another dialogue was, to take its place.
         patience: seconds until the first welcome has to be there.
+        on_missing: what the agent does in place of an action that is missing.
+
+    Raises:
+        RemoteError: one of them can't be said to a world.
     """
 
     def __init__(
@@ -49,13 +66,27 @@ class Dialogue:
         keys: Sequence[str] = (),
         session: str = "",
         patience: float = 10.0,
+        on_missing: native.OnMissing = "",
     ) -> None:
-        self._session, _, secret = session.partition(":")
-        self._secret = secret or token_urlsafe(16)
-        self._agent, self._token, self._mode, self._keys = agent, token, mode, tuple(keys)
+        name, _, secret = session.partition(":") if type(session) is str else (session, "", "")
+        wanted: Any = (keys,) if isinstance(keys, str) else keys  # one key is one
+        self._hello = _checked(
+            native.Hello(
+                native.VERSION,
+                agent,
+                token,
+                mode,
+                tuple(wanted) if isinstance(wanted, Iterable) else wanted,
+                name,
+                secret or token_urlsafe(16),
+                on_missing,
+            )
+        )
+        if not patience >= 0:
+            raise RemoteError(f"patience: expected a number of seconds from 0 on, got {patience}")
         self._patience = patience
         self._welcome: native.Welcome | None = None
-        self._said = self._hello = b""
+        self._said = self._greeting = b""
         self._answered = True
         self._refusable = -1
         self._ended: RemoteError | None = None
@@ -74,7 +105,7 @@ class Dialogue:
     @property
     def session(self) -> str:
         """What another dialogue needs to take this one's place; keep it secret."""
-        return f"{self.welcome.session}:{self._secret}"
+        return f"{self.welcome.session}:{self._hello.secret}"
 
     def expect_answer_to(self, percept: RemotePercept) -> None:
         """Raises a RemoteError if a percept is the latest and has no answer yet."""
@@ -124,16 +155,15 @@ class Dialogue:
         values = numbers_of(self.outputs, action)
         yield from self._answer(native.Action(percept.episode, percept.step, percept.seq, values))
 
-    def reset(self, seed: int | None = None) -> Flow[RemotePercept]:
+    def reset(self, seed: SupportsIndex | None = None) -> Flow[RemotePercept]:
         """Begins an episode, and waits for its first percept."""
-        if seed is not None:
-            seed = checked_seed(seed)  # before anything is sent
+        number = None if seed is None else checked_seed(seed)
         before = yield from self.sense()
-        yield from self._answer(native.Reset(before.seq, seed))
+        yield from self._answer(native.Reset(before.seq, number))
         percept = yield from self.sense()
         while percept.episode == before.episode:
-            # it was told of the end of its episode before it heard that a new one is wanted
-            yield from self._answer(native.Reset(percept.seq, seed))
+            # the world had to leave the wish undone: it has stood still because of an error
+            yield from self._answer(native.Reset(percept.seq, number))
             percept = yield from self.sense()
         return percept
 
@@ -171,23 +201,13 @@ class Dialogue:
     def _greet(self, deadline: float) -> Flow[None]:
         """Opens a connection and says hello, until there is a welcome."""
         yield Open(max(deadline - time.monotonic(), 0.1))
-        hello = native.encode(
-            native.Hello(
-                native.VERSION,
-                self._agent,
-                self._token,
-                self._mode,
-                self._keys,
-                self._session,
-                self._secret,
-            )
-        )
+        hello = native.encode(self._hello)
         wait = FIRST_WAIT
         while time.monotonic() < deadline:
             yield Send(hello)
-            if self._said == self._hello:  # nothing else was said yet
+            if self._said == self._greeting:  # nothing else was said yet
                 self._said = hello
-            self._hello = hello
+            self._greeting = hello
             until = time.monotonic() + wait
             wait = min(2 * wait, LONGEST_WAIT)
             while (left := until - time.monotonic()) > 0:
@@ -230,11 +250,14 @@ class Dialogue:
     def _hear_welcome(self, frame: bytes) -> bool:
         message = native.decode(frame, native.LARGEST_HEARD)
         if isinstance(message, native.Problem):
+            if message.code == "bad_message" and self._hello.on_missing:
+                text = f"{message.text}; if the world is an older one, leave out on_missing"
+                message = message._replace(text=text)
             self._refuse(message)
         if not isinstance(message, native.Welcome):
             return False
         self._welcome = message
-        self._session = message.session
+        self._hello = self._hello._replace(session=message.session)
         self.readings = {reading.key: reading for reading in message.readings}
         self.outputs = {output.name: output for output in message.outputs}
         return True
@@ -249,6 +272,7 @@ class Dialogue:
             case native.Problem(code=code) if code in native.PROBLEMS:
                 self._refuse(message)
             case native.Problem(seq=0):
+                self._answered = self.percept is None  # what was said is no answer
                 raise RemoteError(message.text, message.code)
             case native.Problem(code=code, seq=seq) if seq == self._refusable:
                 self._refusable = -1  # it may come twice

@@ -15,6 +15,10 @@ from ai4u_edu.seeding import checked_seed
 class RemoteEnv(gymnasium.Env[Any, Any]):
     """One agent of a world that runs somewhere else; the world waits for each step.
 
+    It waits as long as its ``--receive-timeout`` says, and then goes on without this agent's
+    action; an algorithm that learns for longer between two steps needs a longer one. In a world
+    with several agents, whoever runs it has to allow that it waits (``ai4u-edu play --lockstep``).
+
     ``info`` has ``reward_terms`` (by name), ``success`` (whether the scene's goal was reached in
     this episode), and the percept's ``tick``. Spaces are those of the same scene's environment on
     this machine. In a world with other agents, a reset with a seed needs the consent of whoever

@@ -4,7 +4,7 @@ import math
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from ai4u_edu.errors import ActionError, suggest
+from ai4u_edu.errors import ActionError, shown, suggest
 from ai4u_edu.wire.native import Output
 
 
@@ -29,12 +29,13 @@ def numbers_of(outputs: Mapping[str, Output], action: Any) -> dict[str, tuple[fl
     if not isinstance(action, Mapping):
         if len(outputs) != 1:
             raise ActionError(
-                f"expected numbers by the actuator's name ({', '.join(outputs)}), got {action!r}"
+                f"expected numbers by the actuator's name ({', '.join(outputs)}), "
+                f"got {shown(action)}"
             )
         action = {next(iter(outputs)): action}
     for name in action:
         if name not in outputs:
-            raise ActionError(f"no actuator is called {name!r}; {suggest(str(name), outputs)}")
+            raise ActionError(f"no actuator is called {shown(name)}; {suggest(str(name), outputs)}")
     return {name: _numbers(outputs[name], values) for name, values in action.items()}
 
 
@@ -53,5 +54,5 @@ def _numbers(output: Output, values: Any) -> tuple[float, ...]:
     count = len(output.low)
     raise ActionError(
         f"action {output.name!r}: expected {count} finite number{'s' * (count != 1)}, "
-        f"got {values!r}"
+        f"got {shown(values)}"
     )

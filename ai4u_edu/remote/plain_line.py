@@ -1,5 +1,6 @@
 """A connection for scripts that wait: the steps of a dialogue, one after another."""
 
+import threading
 import time
 from typing import Any, TypeVar, cast
 
@@ -8,17 +9,31 @@ from websockets.sync.client import connect
 
 from ai4u_edu.remote.address import Address
 from ai4u_edu.remote.direct_socket import DirectSocket
+from ai4u_edu.remote.errors import RemoteError
 from ai4u_edu.remote.line_options import OPTIONS, lost_by
 from ai4u_edu.remote.steps import Close, Flow, LineLost, Open, Pause, Receive, Send, Step
 
 T = TypeVar("T")
+_WAITING = (Open, Receive, Pause)
+
+
+class NotWantedError(RemoteError):
+    """Another thread wants nobody to wait for the world any more."""
 
 
 class PlainLine:
-    """One WebSocket to a world, opened anew when a dialogue wants that."""
+    """One WebSocket to a world, opened anew when a dialogue wants that.
 
-    def __init__(self, address: Address) -> None:
+    Args:
+        address: of the world.
+        is_over: once another thread has set it, whoever waits gets a NotWantedError; within
+            a second, since no step of a dialogue waits longer for a frame. Saying goodbye still
+            works.
+    """
+
+    def __init__(self, address: Address, *, is_over: threading.Event | None = None) -> None:
         self._address = address
+        self._is_over = is_over
         self._socket: DirectSocket | None = None
 
     def run(self, flow: Flow[T]) -> T:
@@ -37,6 +52,8 @@ class PlainLine:
                 lost = error
 
     def _carry_out(self, step: Step) -> Any:
+        if isinstance(step, _WAITING) and self._is_over is not None and self._is_over.is_set():
+            raise NotWantedError("the bridge was stopped")
         match step:
             case Receive(timeout):
                 return self._receive(timeout)

@@ -1,14 +1,14 @@
 """A robot that is somewhere else."""
 
 from collections.abc import Iterator, Sequence
-from typing import Any, Self
+from typing import Any, Self, SupportsIndex
 
 from ai4u_edu.remote.address import address_of
 from ai4u_edu.remote.dialogue import Dialogue
 from ai4u_edu.remote.driven import Driven
 from ai4u_edu.remote.percept import RemotePercept
 from ai4u_edu.remote.plain_line import PlainLine
-from ai4u_edu.wire.native import Mode
+from ai4u_edu.wire.native import Mode, OnMissing
 
 _robots: dict[tuple[str, str], "Robot"] = {}
 """Those of this process, by the world's address and the agent that was asked for."""
@@ -50,14 +50,15 @@ class Robot(Driven):
         """
         self._line.run(self._dialogue.act(numbers if action is None else action))
 
-    def reset(self, seed: int | None = None) -> RemotePercept:
+    def reset(self, seed: SupportsIndex | None = None) -> RemotePercept:
         """Begins an episode; what the robot senses first.
 
         Args:
-            seed: fixes everything in it, and begins one for the whole world. Left out, it begins
-                for this robot alone if there are others.
+            seed: fixes everything in it, and begins one for the whole world; a whole number from
+                0 to 2**63 - 1. Left out, it begins for this robot alone if there are others.
 
         Raises:
+            RemoteError: the seed is none.
             RefusedError: there is a seed and there are others, and the world is not to be reset
                 from here.
         """
@@ -91,6 +92,7 @@ def connect(
     keys: Sequence[str] = (),
     session: str = "",
     patience: float = 10.0,
+    on_missing: OnMissing = "",
 ) -> Robot:
     """Drives an agent of a running world.
 
@@ -102,14 +104,22 @@ def connect(
         agent: the agent's id; may be left out where there is only one.
         token: the world's, where it asks for one.
         mode: ``"realtime"``: the world never waits, and an action counts as soon as it is there.
-            ``"lockstep"``: the world waits for each action, as training wants it.
+            ``"lockstep"``: the world waits for each action, as training wants it. In a world with
+            several agents that has to be allowed by whoever runs it (``ai4u-edu play --lockstep``).
+            A script that is silent for longer than the world's ``--receive-timeout`` is given up
+            until it answers: the world goes on.
         keys: the readings that are wanted, such as ``["ray_casting"]``; left out, all.
         session: :attr:`Robot.session` of a script that is gone, to go on in its place.
         patience: seconds until the world has to have answered.
+        on_missing: what the agent does when a decision is due and no action is there, also while
+            the connection is lost: ``"hold"``: the last action again; ``"coast"``: nothing;
+            ``"stop"``: zeros for all actuators. Left out, as the world has it (``ai4u-edu play
+            --on-missing``), which is to hold, and to stop while the connection is lost.
 
     Raises:
         RefusedError: the world doesn't give the agent away; the text says why.
         LostError: no world answers.
+        RemoteError: an argument is wrong.
     """
     address = address_of(url)
     before = _robots.pop((address.url, agent), None)
@@ -122,6 +132,7 @@ def connect(
         keys=keys,
         session=session,
         patience=patience,
+        on_missing=on_missing,
     )
     robot = _robots[address.url, agent] = Robot(PlainLine(address), dialogue)
     return robot

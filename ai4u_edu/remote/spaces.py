@@ -1,5 +1,6 @@
 """A remote agent's spaces in Gymnasium's terms."""
 
+import math
 from collections.abc import Iterable, Mapping
 from typing import Any
 
@@ -7,8 +8,12 @@ import numpy as np
 import numpy.typing as npt
 from gymnasium import spaces
 
+from ai4u_edu.errors import shown
 from ai4u_edu.remote.errors import RemoteError
-from ai4u_edu.wire.native import Output, Reading
+from ai4u_edu.wire.native import LARGEST_HEARD, Output, Reading
+
+_NO_SPACE = (ValueError, IndexError, AssertionError, TypeError, OverflowError)
+"""Raised by numpy and Gymnasium for bounds and shapes that don't go together."""
 
 
 def reading_space(reading: Reading) -> spaces.Space[Any]:
@@ -18,6 +23,8 @@ def reading_space(reading: Reading) -> spaces.Space[Any]:
         RemoteError: what the world said of it makes no space.
     """
     try:
+        if math.prod(reading.shape) > LARGEST_HEARD:
+            raise ValueError(f"shape {shown(reading.shape)} is larger than any percept")
         if reading.kind == "text":
             return spaces.Text(reading.shape[0])
         low, high = (np.frombuffer(bound, reading.dtype) for bound in (reading.low, reading.high))
@@ -27,19 +34,29 @@ def reading_space(reading: Reading) -> spaces.Space[Any]:
         return spaces.Box(
             _spread(low, reading.shape), _spread(high, reading.shape), reading.shape, dtype
         )
-    except (ValueError, IndexError, AssertionError, TypeError) as error:
+    except _NO_SPACE as error:
         raise RemoteError(
             f"reading {reading.key!r}: expected a space, got one that is none ({error})"
         ) from None
 
 
 def output_space(output: Output) -> spaces.Space[Any]:
-    """The space of one actuator's actions."""
-    if output.kind == "discrete":
-        start = int(output.low[0])
-        return spaces.Discrete(int(output.high[0]) - start + 1, start=start)
-    low, high = np.array(output.low, np.float32), np.array(output.high, np.float32)
-    return spaces.Box(low, high, dtype=np.float32)
+    """The space of one actuator's actions.
+
+    Raises:
+        RemoteError: what the world said of it makes no space.
+    """
+    try:
+        if output.kind == "discrete":
+            start = int(output.low[0])
+            return spaces.Discrete(int(output.high[0]) - start + 1, start=start)
+        with np.errstate(over="ignore"):  # what float32 can't hold is as good as infinite
+            low, high = np.array(output.low, np.float32), np.array(output.high, np.float32)
+        return spaces.Box(low, high, dtype=np.float32)
+    except _NO_SPACE as error:
+        raise RemoteError(
+            f"actuator {output.name!r}: expected a space, got one that is none ({error})"
+        ) from None
 
 
 def observation_space(readings: Iterable[Reading], form: str = "dict") -> spaces.Dict | spaces.Box:

@@ -8,8 +8,8 @@ from pydantic import ValidationError
 
 from ai4u_edu.blocks import Actuator, Block, Brain, Controller, RewardFunc, ScriptController, Sensor
 from ai4u_edu.blocks.declared import Declared
-from ai4u_edu.errors import AI4UError, ParameterError, suggest
-from ai4u_edu.parameters import Problem, explain
+from ai4u_edu.errors import AI4UError, ParameterError, shown, suggest
+from ai4u_edu.parameters import MAX_HINTS, Problem, explain, listed
 
 Path = tuple[str | int, ...]
 
@@ -29,7 +29,7 @@ class PlainError(AI4UError):
     """What is wrong with plain data: every problem, with its path."""
 
     def __init__(self, problems: Sequence[Problem]) -> None:
-        super().__init__("; ".join(map(str, problems)))
+        super().__init__(listed(problems))
         self.problems = tuple(problems)
 
 
@@ -56,7 +56,7 @@ def from_plain(kind: type[Block], data: Any, path: Path = ()) -> Block:
         PlainError: it is no block, of no such type, or its parameters are wrong.
     """
     if not isinstance(data, Mapping):
-        raise PlainError([Problem(path, f"expected a mapping with a 'type', got {data!r}")])
+        raise PlainError([Problem(path, f"expected a mapping with a 'type', got {shown(data)}")])
     known = {
         name: cls for name, cls in Block.types.items() if issubclass(cls, kind) and fits_a_file(cls)
     }
@@ -64,7 +64,8 @@ def from_plain(kind: type[Block], data: Any, path: Path = ()) -> Block:
     if name is None:
         raise PlainError([Problem(path, f"needs a 'type'; {suggest('', known)}")])
     if not isinstance(name, str) or name not in known:
-        text = f"unknown type of {kind.__name__.lower()} {name!r}; {suggest(str(name), known)}"
+        hint = suggest(name if isinstance(name, str) else "", known)
+        text = f"unknown type of {kind.__name__.lower()} {shown(name)}; {hint}"
         raise PlainError([Problem((*path, "type"), f"{text}; {OWN}")])
     given = {str(key): value for key, value in data.items() if key != "type"}
     made = make(known[name], given, path)
@@ -108,6 +109,8 @@ def _convert(kind: type[Block], value: Any, path: Path) -> Any:
             blocks.append(from_plain(kind, each, (*path, index)))
         except PlainError as error:
             problems += error.problems
+            if len(problems) >= MAX_HINTS:  # as many as anybody reads; each costs time
+                break
     if problems:
         raise PlainError(problems)
     return blocks

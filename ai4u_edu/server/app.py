@@ -85,7 +85,7 @@ def room_app(
             WebSocketRoute("/ws/input", Inputs(runner, called), middleware=guard),
             # asks for the token itself, in the hello
             WebSocketRoute(
-                "/ws/remote", RemoteSockets(runner, called(), rules), middleware=script_guard
+                "/ws/remote", RemoteSockets(runner, called, rules), middleware=script_guard
             ),
         ],
         middleware=[Middleware(Door, allowed_hosts=allowed_hosts, proxy_hosts=proxy_hosts)],

@@ -13,15 +13,31 @@ says again what it said last: the script its last frame, upon which the world sa
 again if it has already heard that. Nothing counts twice.
 
 Readings are one piece of memory, little-endian, as the welcome lays it out.
+
+A field that was added to a message later stands at its end and has a default. Who says the default
+leaves the field out, and who does not find it takes the default: so older scripts and worlds go
+together with newer ones, as long as nobody wants what the other does not know. Any other change
+needs another :data:`VERSION`.
 """
 
 from collections.abc import Mapping
-from typing import Annotated, Literal, NamedTuple
+from typing import Annotated, Any, Literal, NamedTuple
 
 import msgpack
 
+from ai4u_edu.errors import shorten
 from ai4u_edu.seeding import MAX_SEED
-from ai4u_edu.wire.strict import MOST, WireError, reader, shown
+from ai4u_edu.wire.strict import (
+    ENDLESS,
+    LARGEST_FLOAT,
+    LONGEST_TEXT,
+    MOST,
+    UNCHECKED,
+    Bounds,
+    WireError,
+    reader,
+    shown,
+)
 
 VERSION = 1
 SUBPROTOCOL = f"ai4u-edu-remote.v{VERSION}"
@@ -32,8 +48,13 @@ LARGEST_HEARD = 4 * 2**20
 """Bytes of a frame from a world."""
 LONGEST_READ = 4000
 """Characters of a reading that is text."""
+LONGEST_GRACE = 86_400.0
+"""Seconds."""
 
 Mode = Literal["lockstep", "realtime"]
+OnMissing = Literal["", "hold", "coast", "stop"]
+"""What is done in place of an action that is missing: the last one again, nothing, or zeros for all
+actuators; empty: as the room has it."""
 
 
 class Hello(NamedTuple):
@@ -50,6 +71,7 @@ class Hello(NamedTuple):
     """Empty for a new one."""
     secret: Annotated[str, 80]
     """Made up by the script. Who knows it may come back to the session."""
+    on_missing: OnMissing = ""
 
 
 class Reading(NamedTuple):
@@ -60,7 +82,7 @@ class Reading(NamedTuple):
     sensor_type: str
     """AI4U's type of it: sfloatarray, simage, ..."""
     dtype: Literal["<f4", "<i4", "|b1", "|u1", ""]
-    shape: tuple[int, ...]
+    shape: tuple[Annotated[int, LARGEST_HEARD], ...]
     """Of a text: the most characters."""
     offset: int
     """Bytes from the beginning of the data; of a text, its place among the texts."""
@@ -77,8 +99,8 @@ class Output(NamedTuple):
 
     name: str
     kind: Literal["box", "discrete"]
-    low: tuple[float, ...]
-    high: tuple[float, ...]
+    low: tuple[Annotated[float, ENDLESS], ...]
+    high: tuple[Annotated[float, ENDLESS], ...]
     is_output: bool
     """Whether a policy drives it."""
 
@@ -88,13 +110,13 @@ class Welcome(NamedTuple):
 
     version: int
     session: str
-    grace: float
+    grace: Annotated[float, Bounds(0.0, LONGEST_GRACE)]
     """Seconds that the seat is kept for a script whose connection is lost."""
     agent: str
     mode: Mode
     title: str
     """Of the scene."""
-    ticks_per_second: float
+    ticks_per_second: Annotated[float, Bounds(0.0, LARGEST_FLOAT)]
     skip_frame: int
     repeat_action: bool
     max_steps: int
@@ -137,8 +159,9 @@ class Action(NamedTuple):
     episode: int
     step: int
     seq: int
-    values: Mapping[str, tuple[float, ...]]
-    """Numbers by the actuator's name; what is left out does nothing."""
+    values: Mapping[str, tuple[Annotated[float, UNCHECKED], ...]]
+    """Numbers by the actuator's name; what is left out does nothing. The actuator checks them, so
+    that one that is not finite is refused as the answer to its percept."""
 
 
 class Reset(NamedTuple):
@@ -189,6 +212,7 @@ PROBLEMS = {
     "too_fast": 4008,
     "taken_over": 4009,
     "ended": 4010,
+    "lockstep_refused": 4011,
 }
 """Problems after which the connection is closed, with the code of the close."""
 
@@ -198,15 +222,30 @@ _KINDS: dict[str, type[Message]] = {
 }
 _NAMES = {kind: name for name, kind in _KINDS.items()}
 _READERS = {name: reader(kind) for name, kind in _KINDS.items()}
+_LATER = {
+    kind: tuple(reversed(kind._field_defaults.values()))
+    for kind in _KINDS.values()
+    if kind._field_defaults
+}
+"""The defaults of the fields that were added later, the last field's first."""
 
 
 def encode(message: Message) -> bytes:
-    """A message as a frame.
+    """A message as a frame; a sentence in it that is too long for one is cut.
 
     >>> len(encode(Bye("enough")))
     12
     """
-    packed: bytes = msgpack.packb((_NAMES[type(message)], *message), unicode_errors="replace")
+    if isinstance(message, Problem):
+        message = message._replace(text=shorten(message.text, LONGEST_READ))
+    elif isinstance(message, Bye):
+        message = Bye(shorten(message.reason, LONGEST_TEXT))
+    fields: tuple[Any, ...] = message
+    for default in _LATER.get(type(message), ()):
+        if fields[-1] != default:
+            break
+        fields = fields[:-1]
+    packed: bytes = msgpack.packb((_NAMES[type(message)], *fields), unicode_errors="replace")
     return packed
 
 

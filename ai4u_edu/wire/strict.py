@@ -4,10 +4,23 @@ A message is a NamedTuple. Its annotations say what may stand in each field, and
 :func:`reader` makes of them, once, a function that lets nothing else through.
 """
 
+import math
+import sys
 from collections.abc import Callable, Mapping
 from types import NoneType, UnionType
-from typing import Annotated, Any, Literal, TypeVar, Union, get_args, get_origin, get_type_hints
+from typing import (
+    Annotated,
+    Any,
+    Literal,
+    NamedTuple,
+    TypeVar,
+    Union,
+    get_args,
+    get_origin,
+    get_type_hints,
+)
 
+from ai4u_edu import errors
 from ai4u_edu.errors import AI4UError
 
 M = TypeVar("M")
@@ -22,6 +35,23 @@ MOST = 1024
 """Entries of a list or a mapping."""
 
 
+LARGEST_FLOAT = sys.float_info.max
+
+
+class Bounds(NamedTuple):
+    """The lowest and the highest number of a field."""
+
+    low: float
+    high: float
+
+
+FINITE = Bounds(-LARGEST_FLOAT, LARGEST_FLOAT)
+ENDLESS = Bounds(-math.inf, math.inf)
+"""Any number, and the infinities."""
+UNCHECKED: Literal["any number"] = "any number"
+"""Any number, the infinities, and what is no number (NaN)."""
+
+
 class WireError(AI4UError):
     """What came over a wire is no message; the text says what was expected."""
 
@@ -29,10 +59,11 @@ class WireError(AI4UError):
 def reader(message: type[M]) -> Callable[[tuple[Any, ...]], M]:
     """A function that makes a message of its fields' values, or raises a WireError.
 
-    Known are int (0 and more, below 2**53; with ``Annotated[..., n]`` up to n), float (whole
-    numbers too), bool, str and bytes (with ``Annotated[..., n]`` of up to n characters or bytes),
-    ``Literal``, ``| None``,
-    ``tuple[x, ...]``, ``Mapping[str, x]``, and other messages.
+    Known are int (0 and more, below 2**53, or with ``Annotated[..., n]`` up to n), float (finite,
+    or with :class:`Bounds`; whole numbers too), bool, str and bytes (with ``Annotated[..., n]`` of
+    up to n characters or bytes), ``Literal``, ``| None``,
+    ``tuple[x, ...]``, ``Mapping[str, x]``, and other messages. Fields that have a default may be
+    left out at the end.
 
     >>> from typing import NamedTuple
     >>> class Step(NamedTuple):
@@ -48,14 +79,15 @@ def reader(message: type[M]) -> Callable[[tuple[Any, ...]], M]:
     hints = get_type_hints(message, include_extras=True)
     checks = {name: _check(hints[name]) for name in hints}
     every = tuple(checks.values())
+    most = len(every)
+    least = most - len(getattr(message, "_field_defaults", ()))
 
     def read(values: tuple[Any, ...]) -> M:
-        if len(values) != len(every):
-            raise WireError(
-                f"expected {len(every)} fields ({', '.join(checks)}), got {len(values)}"
-            )
+        if not least <= len(values) <= most:
+            count = f"{most}" if least == most else f"{least} to {most}"
+            raise WireError(f"expected {count} fields ({', '.join(checks)}), got {len(values)}")
         try:
-            return message(*[check(value) for check, value in zip(every, values, strict=True)])
+            return message(*[check(value) for check, value in zip(every, values, strict=False)])
         except WireError:
             _name_the_wrong_one(checks, values)
             raise
@@ -65,22 +97,18 @@ def reader(message: type[M]) -> Callable[[tuple[Any, ...]], M]:
 
 def shown(value: object) -> str:
     """A value in a message of an error: its beginning."""
-    try:
-        text = repr(value)
-    except RecursionError:  # a frame may hold lists in lists, a thousand deep
-        text = f"a {type(value).__name__} that is nested too deep"
-    return text if len(text) <= 40 else text[:37] + "..."
+    return errors.shown(value, 40)
 
 
 def _name_the_wrong_one(checks: Mapping[str, Check], values: tuple[Any, ...]) -> None:
-    for (name, check), value in zip(checks.items(), values, strict=True):
+    for (name, check), value in zip(checks.items(), values, strict=False):
         try:
             check(value)
         except WireError as error:
             raise WireError(f"{name}: {error}") from None
 
 
-def _check(kind: Any, size: int | None = None) -> Check:
+def _check(kind: Any, size: Any = None) -> Check:
     origin, parts = get_origin(kind), get_args(kind)
     if origin is Annotated:
         return _check(parts[0], parts[1])
@@ -94,9 +122,9 @@ def _check(kind: Any, size: int | None = None) -> Check:
     if origin is Mapping:
         return _mapping(_check(parts[1]))
     if kind is int:
-        return _int if size is None else _int_up_to(size)
+        return _whole(LARGEST_INT - 1 if size is None else size)
     if kind is float:
-        return _float
+        return _float if size is UNCHECKED else _number(size or FINITE)
     if kind is bool:
         return _bool
     if kind in (str, bytes):
@@ -105,17 +133,28 @@ def _check(kind: Any, size: int | None = None) -> Check:
     return lambda value: read(_sequence(lambda part: part)(value))
 
 
-def _int(value: Any) -> int:
-    if type(value) is int and 0 <= value < LARGEST_INT:
-        return value
-    raise WireError(f"expected a whole number from 0 on, got {shown(value)}")
-
-
-def _int_up_to(largest: int) -> Check:
+def _whole(most: int) -> Check:
     def check(value: Any) -> int:
-        if type(value) is int and 0 <= value <= largest:
+        if type(value) is int and 0 <= value <= most:
             return value
-        raise WireError(f"expected a whole number from 0 to {largest}, got {shown(value)}")
+        upwards = f"to {most}" if type(value) is int and value > most else "on"
+        raise WireError(f"expected a whole number from 0 {upwards}, got {shown(value)}")
+
+    return check
+
+
+def _number(bounds: Bounds) -> Check:
+    low, high = bounds
+    if bounds == FINITE:
+        what = "a finite number"
+    else:
+        what = "a number" if bounds == ENDLESS else f"a number from {low:g} to {high:g}"
+
+    def check(value: Any) -> float:
+        number = _float(value)
+        if low <= number <= high:  # which NaN never is
+            return number
+        raise WireError(f"expected {what}, got {shown(value)}")
 
     return check
 

@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 
 from ai4u_edu.errors import SetupError
-from ai4u_edu.parameters import Problem
+from ai4u_edu.parameters import Problem, listed
 
 
 class ChangeError(SetupError):
@@ -15,5 +15,5 @@ class ChangeError(SetupError):
     """
 
     def __init__(self, problems: Sequence[Problem]) -> None:
-        super().__init__("; ".join(map(str, problems)))
+        super().__init__(listed(problems))
         self.problems = tuple(problems)

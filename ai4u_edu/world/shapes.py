@@ -10,7 +10,7 @@ from typing import Annotated, Any, Literal, Self
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
 
 from ai4u_edu.errors import ParameterError
-from ai4u_edu.parameters import Point, PositiveMetres, explain
+from ai4u_edu.parameters import Point, PositiveMetres, explain, listed
 
 OUTLINE_CORNERS = 48
 
@@ -26,7 +26,7 @@ class Description(BaseModel):
         try:
             super().__init__(**fields)
         except ValidationError as error:
-            problems = "; ".join(map(str, explain(error.errors(), type(self))))
+            problems = listed(explain(error.errors(), type(self)))
             told = ParameterError(f"{type(self).__name__}: {problems}")
             told.details = error
             raise told from None

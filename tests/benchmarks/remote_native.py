@@ -46,7 +46,7 @@ def serve_world(agents: int, ready: Connection) -> None:
         World,
     )
     from ai4u_edu.runner import Runner
-    from ai4u_edu.server import ServerThread, room_app
+    from ai4u_edu.server import Rules, ServerThread, room_app
 
     class Numbers(Sensor):
         """35 numbers."""
@@ -72,7 +72,8 @@ def serve_world(agents: int, ready: Connection) -> None:
     ]
     runner = Runner(ControlRequestor(world, crew), seed=1, time_scale=math.inf)
     runner.start()
-    with ServerThread(room_app(runner, viser_port=9, title="benchmark")) as server:
+    rules = Rules(lockstep=True)
+    with ServerThread(room_app(runner, viser_port=9, title="benchmark", rules=rules)) as server:
         ready.send(server.url)
         ready.recv()
 

@@ -34,7 +34,7 @@ from ai4u_edu.blocks.brains.link import (
     Situation,
     offer_of,
 )
-from ai4u_edu.blocks.brains.remote import GIVE_WAY
+from ai4u_edu.blocks.brains.patience import YIELD_AFTER_S
 from ai4u_edu.errors import ParameterError, SetupError
 from ai4u_edu.runner import Runner
 from ai4u_edu.wire.ai4u import Order, decode_request
@@ -252,7 +252,7 @@ def test_a_script_that_asks_for_time_does_not_stop_the_others_for_long() -> None
         assert time.monotonic() < began + 5
         link.heard = time.monotonic()
         sim.tick()
-    assert time.monotonic() - began >= GIVE_WAY
+    assert time.monotonic() - began >= YIELD_AFTER_S
     assert [agent.steps for agent in sim.agents] == [0, 1]
 
 
@@ -296,6 +296,69 @@ def test_a_script_that_is_silent_for_too_long_is_late() -> None:
     link.answers.append(AHEAD)
     sim.tick()
     assert (brain.status().state, brain.status().reason) == ("connected", "")
+
+
+def silent_sim(link: PaperLink, **fields: Any) -> Any:
+    """A sim and its brain, in lockstep, whose script was silent for too long."""
+    sim, brain = over(link, receive_timeout=200, **fields)
+    sim.tick()
+    until = time.monotonic() + 5
+    while brain.status().state != "late":
+        assert time.monotonic() < until
+        sim.tick()
+    return sim, brain
+
+
+def test_a_script_that_was_given_up_is_not_waited_for() -> None:
+    link = PaperLink(AHEAD)
+    sim, brain = silent_sim(link)
+    link.timeouts.clear()
+    link.will_call = True
+    for missing in range(2, 30):
+        sim.tick()
+        assert not sim.held
+        assert not brain.keeps_waiting
+        assert brain.status().missing == missing
+    assert set(link.timeouts) == {0.0}
+    assert "given up, the world goes on until it answers" in brain.status().reason
+    sim.reset()
+    sim.tick()
+    assert not sim.held  # in another episode neither
+
+
+@pytest.mark.parametrize("speaks", ["late", "now", "asks for time", "resets"])
+def test_a_script_that_was_given_up_is_waited_for_again_once_it_speaks(speaks: str) -> None:
+    link = PaperLink(AHEAD)
+    sim, brain = silent_sim(link)
+    sim.tick()
+    match speaks:
+        case "late":
+            link.answers.append(Answered({"move": [0, 1, 0, 0]}, link.told[1]))
+        case "now":
+            link.answers.append(AHEAD)
+        case "resets":
+            link.answers.append(Reset())
+        case "asks for time":
+            link.heard = time.monotonic()
+    sim.tick()
+    assert sim.agents[0].last_action != {"move": (0.0, 1.0, 0.0, 0.0)}
+    sim.tick()
+    assert sim.held
+    assert brain.status().state == "connected"
+    link.answers.append({"move": [0, 0, 1, 0]})
+    sim.tick()
+    assert not sim.held
+    assert sim.agents[0].last_action == {"move": (0.0, 0.0, 1.0, 0.0)}
+
+
+def test_another_script_begins_anew() -> None:
+    link = PaperLink(AHEAD)
+    sim, _ = silent_sim(link)
+    link.state = LinkState.LOST
+    sim.tick()
+    link.state = LinkState.CONNECTED
+    sim.tick()
+    assert sim.held
 
 
 def test_a_late_answer_in_lockstep_is_dropped_and_counted() -> None:

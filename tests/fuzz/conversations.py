@@ -30,7 +30,8 @@ FRAMES = 20
 @cache
 def _room() -> tuple[Runner, Starlette]:
     runner = Runner(log_sim(2, max_steps=5), seed=1, time_scale=math.inf)
-    return runner, room_app(runner, viser_port=9, title="A room", rules=Rules(grace=0.0))
+    rules = Rules(grace=0.0, lockstep=True)
+    return runner, room_app(runner, viser_port=9, title="A room", rules=rules)
 
 
 class Talk:
@@ -91,7 +92,8 @@ class Talk:
 
     def _right_hello(self) -> native.Message:
         mode: native.Mode = self.chance.choice(("lockstep", "realtime"))
-        return native.Hello(native.VERSION, "a", "", mode, (), "", "s" * 20)
+        on_missing: native.OnMissing = self.chance.choice(("", "hold", "coast", "stop"))
+        return native.Hello(native.VERSION, "a", "", mode, (), "", "s" * 20, on_missing)
 
     def _frame(self) -> bytes:
         roll = self.chance.random()

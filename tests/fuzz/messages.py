@@ -6,6 +6,7 @@ from types import NoneType, UnionType
 from typing import Annotated, Any, Literal, Union, get_args, get_origin, get_type_hints
 
 from ai4u_edu.wire import native
+from ai4u_edu.wire.strict import Bounds
 
 KINDS: tuple[type[native.Message], ...] = get_args(native.Message)
 NAMES = ("red", "move", "eyes", "", "s" * 20, "röbot", "speed")
@@ -15,7 +16,11 @@ def example(kind: Any, chance: random.Random) -> Any:
     """Something that an annotation lets through."""
     origin, parts = get_origin(kind), get_args(kind)
     if origin is Annotated:
-        return example(parts[0], chance)
+        inner, limit = parts
+        found = example(inner, chance)
+        if inner is int:
+            return min(found, limit)
+        return min(max(found, limit.low), limit.high) if isinstance(limit, Bounds) else found
     if origin in (UnionType, Union):
         return example(chance.choice(parts), chance)
     if origin is Literal:

@@ -128,8 +128,12 @@ class _Direction:
     async def run(self) -> None:
         with suppress(asyncio.IncompleteReadError, OSError):
             self._writer.write(await self._reader.readuntil(b"\r\n\r\n"))  # the handshake
-            while True:
-                await self._pass(*await self._frame())
+            try:
+                while True:
+                    await self._pass(*await self._frame())
+            finally:
+                for task in self._overtaken:
+                    task.cancel()
 
     async def _frame(self) -> tuple[int, bytes]:
         """The next frame: its kind, and all its bytes."""

@@ -98,9 +98,9 @@ def log_room(
     time_scale: float = float("inf"),
     **rules: Any,
 ) -> Iterator[Room]:
-    """A room of such agents, as fast as it goes."""
+    """A room of such agents, as fast as it goes; its scripts may have it wait."""
     sim = log_sim(agents, max_steps=max_steps, skip_frame=skip_frame)
-    with served(sim, rules=Rules(**rules)) as room:
+    with served(sim, rules=Rules(**({"lockstep": True} | rules))) as room:
         room.runner.scale_time(time_scale)
         yield room
 

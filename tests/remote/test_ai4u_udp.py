@@ -567,3 +567,17 @@ def test_a_closed_brain_leaves_nothing_behind(script: UDPScript) -> None:
         brain.close()
         brain.close()
     assert (process.num_fds(), threading.active_count()) == before
+
+
+@pytest.mark.parametrize("mode", ["lockstep", "realtime"])
+def test_garbage_without_an_end_does_not_stop_the_world(
+    script: UDPScript, mode: Literal["lockstep", "realtime"], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    sim, brain = remote_sim(script, mode=mode)
+    script.meet(sim)
+    link: Any = brain._link
+    monkeypatch.setattr(link._datagrams, "take", lambda: (b"garbage", False))
+    ticks = sim.world.ticks
+    silent(sim, brain)
+    assert sim.world.ticks >= ticks
+    assert link.ignored > 0

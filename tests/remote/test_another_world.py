@@ -46,3 +46,13 @@ def test_a_script_keeps_its_agent_when_the_world_goes_back_in_time() -> None:
             percept = robot.sense()
             assert percept.episode > first.episode
             assert percept.step == 7
+
+
+def test_a_script_is_told_the_title_of_the_scene_that_is_there() -> None:
+    title = "Box chase"
+    with served(Scene.load("box_chase").build(), title=lambda: title) as room:
+        with connect(room.url) as robot:
+            assert robot.welcome.title == "Box chase"
+        title = "Maze"
+        with connect(room.url) as robot:
+            assert robot.welcome.title == "Maze"

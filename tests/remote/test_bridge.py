@@ -249,3 +249,17 @@ def test_a_bad_token() -> None:
             Bridge(room.url, port=free_port())
         Bridge(f"{room.url}?token={TOKEN.replace(' ', '%20')}", port=free_port())._script.close()
         assert OPTIONS["token"] == TOKEN
+
+
+def test_a_bridge_can_be_stopped_while_it_waits_for_a_world_that_stands_still() -> None:
+    with log_room() as room, udp_script() as script:
+        bridge = Bridge(room.url, port=script.port, tell=lambda _: None)
+        thread = threading.Thread(target=bridge.run, daemon=True)
+        thread.start()
+        begin(script)
+        room.runner.pause().result(5)
+        script.say("log;1;7")
+        until(lambda: len(room.sim.agents[0].brain._link._answers) == 1)  # type: ignore[attr-defined]
+        bridge.stop()
+        thread.join(10)
+        assert not thread.is_alive()

@@ -1,6 +1,8 @@
 """Several agents, in lockstep and in realtime; and people who want something meanwhile."""
 
 import threading
+from socket import SHUT_RDWR
+from typing import Any
 
 import pytest
 
@@ -8,6 +10,7 @@ from ai4u_edu.remote import Robot, connect
 from ai4u_edu.server import frames
 from ai4u_edu.server.remote import sockets
 from tests.remote.rooms import Place, Script, log_of, log_room
+from tests.server.rooms import until
 
 
 def test_in_lockstep_all_agents_take_each_step_together() -> None:
@@ -101,3 +104,23 @@ def test_answers_take_the_short_way_and_find_another_one(monkeypatch: pytest.Mon
                 robot.sense()
             assert [number for _, _, number in log_of(room)] == list(range(20))
         assert (taken.count(True) >= 20) == short
+
+
+@pytest.mark.parametrize("silence", ["idle", "cut off"])
+def test_a_silent_script_in_lockstep_is_given_up_and_the_world_goes_on(silence: str) -> None:
+    with log_room(2, receive_timeout=300, grace=60.0) as room, Script(room) as silent:
+        silent.hello()
+        percept = silent.percept()
+        brain: Any = room.sim.agent("a").brain
+        if silence == "cut off":
+            silent.socket.socket.shutdown(SHUT_RDWR)
+        until(lambda: brain.status().missing > 100)  # asked each time, that would take 30 s
+        status = brain.status()
+        assert status.state == "late"
+        assert "given up, the world goes on until it answers" in status.reason
+        if silence == "idle":
+            silent.act(percept, 7)  # too late; but it is there again, and is waited for
+            percept = silent.percept()
+            silent.act(percept, 8)
+            assert silent.percept().step == percept.step + 1
+            assert 7.0 not in [number for _, _, number in log_of(room)]

@@ -96,7 +96,7 @@ def test_one_of_several_resets_alone_and_the_world_only_if_it_may() -> None:
     sim = Scene.load("sumo").build()
     sim.default_time_scale = float("inf")
     for may in (False, True):
-        with served(sim, rules=Rules(seeded_resets=may)) as room:
+        with served(sim, rules=Rules(seeded_resets=may, lockstep=True)) as room:
             env = remote_env(room)
             env.reset()
             if may:

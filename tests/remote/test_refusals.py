@@ -1,11 +1,15 @@
 """Each thing that a script may do wrong has its own error, with what to do."""
 
 import contextlib
+import math
+from typing import Any
 
+import numpy as np
 import pytest
 from websockets.exceptions import ConnectionClosed
 
-from ai4u_edu.remote import LostError, RefusedError, connect
+from ai4u_edu.errors import ActionError, ParameterError
+from ai4u_edu.remote import LostError, RefusedError, RemoteError, connect
 from ai4u_edu.server.remote import sockets
 from ai4u_edu.wire import native
 from tests.remote.rooms import Script, log_of, log_room, log_sim
@@ -181,3 +185,74 @@ def test_the_client_raises_what_the_world_says() -> None:
         connect(room.url, patience=1)
     with pytest.raises(LostError, match="is it running, and is the address right"):
         connect(f"http://127.0.0.1:{free_port()}", patience=1)
+
+
+def test_among_several_agents_lockstep_has_to_be_allowed() -> None:
+    with log_room(2, lockstep=None) as room:
+        with pytest.raises(RefusedError, match="expected mode='realtime'") as refusal:
+            connect(room.url, "a", mode="lockstep")
+        assert refusal.value.code == "lockstep_refused"
+        assert str(refusal.value) == (
+            "expected mode='realtime' (ai4u-edu bridge --realtime), got 'lockstep', in which a "
+            "script has all 2 agents of this world wait for it; whoever runs the world has to "
+            "allow that (ai4u-edu play --lockstep)"
+        )
+        with connect(room.url, "a") as robot:  # the seat is free
+            robot.act(log=[1])
+    with log_room(2, lockstep=True) as room, connect(room.url, "b", mode="lockstep") as robot:
+        assert robot.sense()["id"] == "b"
+
+
+def test_a_single_agent_is_driven_in_lockstep_unless_the_world_forbids_it() -> None:
+    with log_room(lockstep=None) as room, connect(room.url, mode="lockstep") as robot:
+        assert robot.sense()["id"] == "a"
+    with log_room(lockstep=False) as room:
+        with pytest.raises(RefusedError, match="in which a script has the world wait for it"):
+            connect(room.url, mode="lockstep")
+        with connect(room.url) as robot:
+            assert robot.sense()["id"] == "a"
+
+
+@pytest.mark.parametrize(
+    ("arguments", "complaint"),
+    [
+        ({"mode": "lockstp"}, "connect: mode: expected one of 'lockstep', 'realtime', got"),
+        ({"on_missing": "hodl"}, "connect: on_missing: expected one of '', 'hold', 'coast', 's"),
+        ({"agent": 7}, "connect: agent: expected text of up to 400 characters, got 7"),
+        ({"keys": [7]}, "connect: keys: expected text of up to 400 characters, got 7"),
+        ({"keys": 7}, "connect: keys: expected a list of up to 1024, got 7"),
+        ({"session": None}, "connect: session: expected text of up to 400 characters, got None"),
+        ({"token": object()}, "connect: expected text and names of keys, got can not serialize"),
+        ({"patience": float("nan")}, "patience: expected a number of seconds from 0 on, got nan"),
+    ],
+)
+def test_a_wrong_argument_is_refused_before_anybody_is_asked(
+    arguments: dict[str, Any], complaint: str
+) -> None:
+    with pytest.raises(RemoteError) as caught:
+        connect(f"http://127.0.0.1:{free_port()}", **arguments)
+    assert str(caught.value).startswith(complaint)
+
+
+@pytest.mark.parametrize("seed", [-1, 2**63, 2**64, 1.5, math.nan, "7", True, [7]])
+def test_a_wrong_seed_is_refused_before_it_leaves(seed: Any) -> None:
+    with log_room() as room, connect(room.url, mode="lockstep") as robot:
+        with pytest.raises(ParameterError, match=r"^seed: expected a whole number from 0 to"):
+            robot.reset(seed=seed)
+        assert robot.reset(seed=np.int64(7)).step == 0
+        assert room.sim.world.seeds.seed == 7
+        assert robot.reset(seed=2**63 - 1).step == 0
+        assert room.sim.world.seeds.seed == 2**63 - 1
+
+
+@pytest.mark.parametrize("numbers", [[1.0] * 1000, [1e300] * 1024, ["x" * 10_000], None])
+def test_a_long_action_is_refused_in_a_short_sentence(numbers: Any) -> None:
+    with log_room() as room, connect(room.url, mode="lockstep") as robot:
+        percept = robot.sense()
+        said = native.Action(percept.episode, percept.step, percept.seq, {"log": numbers})
+        robot._line.run(robot._dialogue._answer(said))
+        with pytest.raises((RemoteError, ActionError)) as caught:
+            robot.sense()
+        assert len(str(caught.value)) < 200
+        robot.act(log=[1])
+        assert robot.sense().step == percept.step + 1

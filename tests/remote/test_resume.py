@@ -209,3 +209,34 @@ def test_a_connection_lost_before_the_first_percept_is_taken_up_with_one_hello_o
         again = greeted(sensing, sensing.throw(LineLost("cut")))
         assert again == Send(hellos[1])  # and not the first one's, of another session
         assert hellos[0] != hellos[1]
+
+
+@pytest.mark.parametrize(
+    ("chosen", "of_the_room", "late", "lost"),
+    [
+        ("", "", (5.0,), (0.0,)),
+        ("", "coast", None, None),
+        ("hold", "coast", (5.0,), (5.0,)),
+        ("coast", "", None, None),
+        ("stop", "hold", (0.0,), (0.0,)),
+    ],
+)
+def test_a_script_or_its_room_says_what_is_done_when_its_action_is_missing(
+    chosen: native.OnMissing, of_the_room: native.OnMissing, late: object, lost: object
+) -> None:
+    with log_room(time_scale=8.0, grace=60.0, on_missing=of_the_room) as room:
+        agent = room.sim.agents[0]
+        robot = connect(room.url, on_missing=chosen)
+        robot.act(log=[5])
+        steps = robot.sense().step
+
+        def done_since() -> object:
+            until(lambda: agent.steps > steps + 5)
+            return room.runner.submit(lambda: agent.last_action.get("log")).result(5)
+
+        assert done_since() == late
+        cut(robot)
+        until(lambda: agent.brain.status().state == "lost")  # type: ignore[attr-defined]
+        steps = agent.steps
+        assert done_since() == lost
+        robot.close()

@@ -9,9 +9,12 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from ai4u_edu.seeding import MAX_SEED
 from ai4u_edu.wire.native import (
     LARGEST_HEARD,
     LARGEST_SAID,
+    LONGEST_GRACE,
+    LONGEST_READ,
     Action,
     Bye,
     Hello,
@@ -29,7 +32,7 @@ from ai4u_edu.wire.native import (
 from ai4u_edu.wire.strict import WireError
 
 numbers = st.integers(0, 2**53 - 1)
-floats = st.floats(allow_nan=False)
+floats = st.floats(allow_nan=False, allow_infinity=False)
 names = st.text(max_size=20)
 readings = st.builds(
     Reading,
@@ -37,28 +40,39 @@ readings = st.builds(
     st.sampled_from(["box", "discrete", "text"]),
     names,
     st.sampled_from(["<f4", "<i4", "|b1", "|u1", ""]),
-    st.lists(numbers, max_size=4).map(tuple),
+    st.lists(st.integers(0, LARGEST_HEARD), max_size=4).map(tuple),
     numbers,
     st.binary(max_size=20),
     st.binary(max_size=20),
     names,
     st.booleans(),
 )
-rows = st.lists(floats, max_size=4).map(tuple)
+rows = st.lists(st.floats(allow_nan=False), max_size=4).map(tuple)
 outputs = st.builds(Output, names, st.sampled_from(["box", "discrete"]), rows, rows, st.booleans())
 modes = st.sampled_from(["lockstep", "realtime"])
 texts = st.lists(names, max_size=3).map(tuple)
 messages: st.SearchStrategy[Message] = st.one_of(
     st.builds(Hello, numbers, names, names, modes, texts, names, names),
     st.builds(
+        Hello,
+        numbers,
+        names,
+        names,
+        modes,
+        texts,
+        names,
+        names,
+        st.sampled_from(["", "hold", "coast", "stop"]),
+    ),
+    st.builds(
         Welcome,
         numbers,
         names,
-        floats,
+        st.floats(0.0, LONGEST_GRACE),
         names,
         modes,
         names,
-        floats,
+        st.floats(0.0, 1e300),
         numbers,
         st.booleans(),
         numbers,
@@ -83,7 +97,7 @@ messages: st.SearchStrategy[Message] = st.one_of(
         texts,
     ),
     st.builds(Action, numbers, numbers, numbers, st.dictionaries(names, rows, max_size=3)),
-    st.builds(Reset, numbers, st.none() | numbers),
+    st.builds(Reset, numbers, st.none() | st.integers(0, MAX_SEED)),
     st.builds(Order, numbers, st.sampled_from(["pause", "resume", "stop", "wait"])),
     st.builds(Problem, names, names, numbers),
     st.builds(Bye, names),
@@ -106,10 +120,15 @@ def test_what_goes_in_comes_out(message: Message) -> None:
         (["reset", 1], "expected 2 fields (seq, seed), got 1"),
         (["reset", -1, None], "seq: expected a whole number from 0 on, got -1"),
         (["reset", True, None], "seq: expected a whole number from 0 on, got True"),
-        (["reset", 2**53, None], "seq: expected a whole number from 0 on, got 9007199254740992"),
-        (["reset", 1, 0.5], "seed: expected a whole number from 0 to 9223372036854775807, got 0.5"),
+        (["reset", 2**53, None], "seq: expected a whole number from 0 to 9007199254740991, got "
+                                 "9007199254740992"),
         (["reset", 1, 2**63], "seed: expected a whole number from 0 to 9223372036854775807, got "
                               "9223372036854775808"),
+        (["percept", 1, 0, 1, 0, float("nan"), {}, False, False, False, False, b"", []],
+         "reward: expected a finite number, got nan"),
+        (["hello", 1], "expected 7 to 8 fields (version, agent, token, mode, keys, session, "
+                       "secret, on_missing), got 1"),
+        (["reset", 1, 0.5], "seed: expected a whole number from 0 on, got 0.5"),
         (["bye", "x" * 401], "reason: expected text of up to 400 characters, got "
                              "'xxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxx..."),
         (["bye", b"bytes"], "reason: expected text of up to 400 characters, got b'bytes'"),
@@ -179,3 +198,23 @@ def test_nothing_else_is_ever_raised(message: Message, seed: int) -> None:
                     frame[place : place + 1] = chance.randbytes(1)
         with suppress(WireError):
             decode(bytes(frame), LARGEST_HEARD)
+
+
+OLD_HELLO = ("hello", 1, "red", "", "lockstep", (), "", "s" * 20)
+"""As it was before a script could say what is done when its action is missing."""
+
+
+def test_a_field_that_came_later_is_said_only_if_it_is_not_the_default() -> None:
+    hello = Hello(*OLD_HELLO[1:])  # type: ignore[arg-type]  # each field has its own type
+    assert decode(msgpack.packb(OLD_HELLO)) == hello
+    assert encode(hello) == msgpack.packb(OLD_HELLO)
+    newer = hello._replace(on_missing="coast")
+    assert encode(newer) == msgpack.packb((*OLD_HELLO, "coast"))
+    assert decode(encode(newer)) == newer
+
+
+def test_a_sentence_that_is_too_long_for_a_message_is_cut() -> None:
+    problem = decode(encode(Problem("bad_action", "x" * 10_000, 1)))
+    assert isinstance(problem, Problem)
+    assert problem.text == "x" * (LONGEST_READ - 3) + "..."
+    assert decode(encode(Bye("x" * 10_000))) == Bye("x" * 397 + "...")

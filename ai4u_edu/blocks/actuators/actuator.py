@@ -8,7 +8,7 @@ import numpy as np
 from gymnasium import spaces
 
 from ai4u_edu.blocks.block import Block, default_name
-from ai4u_edu.errors import ActionError, BlockError
+from ai4u_edu.errors import ActionError, BlockError, shown
 from ai4u_edu.world import Body, Drive, WorldView
 
 
@@ -122,11 +122,12 @@ class Actuator(Block):
         if len(numbers) != len(self._limits):
             raise ActionError(
                 f"action {self.action_name!r}: expected {len(self._limits)} numbers, "
-                f"got {len(numbers)}: {values!r}"
+                f"got {len(numbers)}: {shown(values)}"
             )
-        if not math.isfinite(sum(numbers)):
+        # a sum costs less, but that of large numbers may be infinite
+        if not math.isfinite(sum(numbers)) and not all(map(math.isfinite, numbers)):
             raise ActionError(
-                f"action {self.action_name!r}: expected finite numbers, got {values!r}"
+                f"action {self.action_name!r}: expected finite numbers, got {shown(values)}"
             )
         low, high = self._within_all
         if numbers and low <= min(numbers) and max(numbers) <= high:
@@ -149,10 +150,11 @@ class Actuator(Block):
                 return (float(values),)
             if isinstance(values, Sequence) and not isinstance(values, str | bytes):
                 return tuple(map(float, values))
-        except (TypeError, ValueError):
+        except (TypeError, ValueError, OverflowError):
             pass
         raise ActionError(
-            f"action {self.action_name!r}: expected {len(self._limits)} numbers, got {values!r}"
+            f"action {self.action_name!r}: expected {len(self._limits)} numbers, "
+            f"got {shown(values)}"
         )
 
 

@@ -3,7 +3,7 @@
 from typing import Any
 
 from ai4u_edu.blocks.actuators.actuator import Actuator
-from ai4u_edu.errors import ActionError
+from ai4u_edu.errors import ActionError, shown
 
 
 class ChoiceActuator(Actuator):
@@ -26,6 +26,6 @@ class ChoiceActuator(Actuator):
         if len(numbers) != 1 or numbers[0] not in range(last + 1):
             raise ActionError(
                 f"action {self.action_name!r}: expected a whole number from 0 to {last}, "
-                f"got {values!r}"
+                f"got {shown(values)}"
             )
         return numbers

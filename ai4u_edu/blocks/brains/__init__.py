@@ -3,7 +3,8 @@
 from ai4u_edu.blocks.brains.brain import Brain
 from ai4u_edu.blocks.brains.command import Action, Answer, Command
 from ai4u_edu.blocks.brains.local import LocalBrain
-from ai4u_edu.blocks.brains.remote import RemoteBrain, RemoteStatus
+from ai4u_edu.blocks.brains.remote import RemoteBrain
+from ai4u_edu.blocks.brains.remote_status import RemoteStatus
 from ai4u_edu.blocks.brains.trained import trained_brain
 
 __all__ = [

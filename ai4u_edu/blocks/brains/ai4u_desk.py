@@ -4,7 +4,7 @@ import threading
 import time
 from collections.abc import Callable
 
-from ai4u_edu.blocks.brains.link import Answered, Situation
+from ai4u_edu.blocks.brains.link import Answered, Reset, Situation
 from ai4u_edu.errors import AI4UError
 
 TURN = 0.05
@@ -53,6 +53,8 @@ class Desk:
             if self._error is not None:
                 raise self._error
             answered, self._answered = self._answered, None
+            if answered is not None and isinstance(answered.answer, Reset):
+                self._latest = None  # of the episode that ends: the script waits for another one
         return answered
 
     def close(self) -> None:

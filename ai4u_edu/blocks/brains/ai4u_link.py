@@ -31,6 +31,8 @@ EAGER = 2e-4
 takes as long as the reply itself (measured: 3,050 round trips a second in place of 1,700)."""
 FAREWELL = 0.3
 """Seconds for which a script's last reply is waited for."""
+MAX_READ_AT_ONCE = 1000
+"""Datagrams; somebody may send garbage faster than it is read, and the world is not to wait."""
 NEVER = float("-inf")
 
 COMMANDS = {
@@ -207,7 +209,7 @@ class AI4ULink:
 
     def _receive(self, until: float) -> Heard | None:
         """The reply to what is on its way; None if it is not there yet, or never comes."""
-        while True:
+        for _ in range(MAX_READ_AT_ONCE):
             try:
                 reply, is_the_scripts = self._read(self._patience(until))
             except BlockingIOError:
@@ -222,6 +224,8 @@ class AI4ULink:
                 except WireError:
                     pass
             self.ignored += 1
+        self._look_at_the_clock()
+        return None
 
     def _read(self, until: float) -> tuple[bytes, bool]:
         """The next datagram, and whether it is the script's; raises what a socket raises."""

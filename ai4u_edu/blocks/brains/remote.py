@@ -1,7 +1,5 @@
 """A brain on the other end of a network."""
 
-import time
-from dataclasses import dataclass
 from typing import Annotated, Any, Literal, Self, assert_never
 
 from pydantic import Field
@@ -10,40 +8,15 @@ from ai4u_edu.blocks.agent_view import AgentView
 from ai4u_edu.blocks.brains.brain import Brain
 from ai4u_edu.blocks.brains.command import Accepted, Action, Answer, Command
 from ai4u_edu.blocks.brains.link import Answered, Link, LinkState, Reset, Situation, offer_of
+from ai4u_edu.blocks.brains.patience import WAIT_SLICE_S, Patience
+from ai4u_edu.blocks.brains.remote_status import RemoteStatus
 from ai4u_edu.blocks.percept import Percept
-from ai4u_edu.errors import ActionError, SetupError, suggest
+from ai4u_edu.errors import ActionError, SetupError, shown, suggest
 from ai4u_edu.parameters import quantity
 from ai4u_edu.world import WorldView
 
-SLICE = 0.015
-"""Seconds for which a world in lockstep waits at a time; then whoever runs it looks whether
-somebody wants something else, and asks again."""
-GIVE_WAY = 0.05
-"""Seconds for which a script that asks for time has a world with other agents wait. One script may
-drive several of them in turn; if the world waited for all, it would wait for ever."""
 BY_HAND = "a person drives; its actions are ignored"
 """What is said of a script meanwhile."""
-BRIEFLY = 0.001
-"""Seconds for which it is listened to after that, at each tick."""
-
-
-@dataclass(frozen=True, slots=True)
-class RemoteStatus:
-    """How it stands with a remote brain, for the page."""
-
-    state: Literal["waiting", "connected", "late", "lost"]
-    """``late``: a script is there, and its action is not."""
-    reason: str
-    decisions: int
-    """Actions of the script that were carried out."""
-    missing: int
-    """Decisions for which no action of the script was there in time."""
-    ignored: int
-    """What came and was no answer."""
-    refused: int
-    """Actions that no actuator could carry out."""
-    clipped: int
-    """Numbers of its actions that were out of range, and cut."""
 
 
 class RemoteBrain(Brain):
@@ -57,9 +30,9 @@ class RemoteBrain(Brain):
 
     In ``lockstep`` the world stands still until the action is there: right for training, since the
     script misses nothing. A script that needs more time and says so gets it (in a world with other
-    agents 0.05 s; then they go on); one that says nothing for longer than ``receive_timeout`` is
-    given up. In ``realtime`` the world never waits: an
-    action that comes too late counts for the next decision.
+    agents 0.05 s; then they go on). One that says nothing for longer than ``receive_timeout`` is
+    given up: the world goes on at its full pace, and waits for the script again once it answers. In
+    ``realtime`` the world never waits: an action that comes too late counts for the next decision.
 
     While there is no script, the agent takes no decisions. When a script was there and its action
     is missing, ``on_missing`` decides: ``hold`` does the last action again, ``coast`` does nothing,
@@ -83,7 +56,7 @@ class RemoteBrain(Brain):
     port: Annotated[int, Field(ge=1, le=65535)] = 8080
     """Port at which the script listens."""
     receive_timeout: Annotated[int, quantity("ms", ge=200, le=600_000)] = 2000
-    """How long a script may be silent."""
+    """How long a world in lockstep waits for a script that is silent."""
     mode: Literal["lockstep", "realtime"] = "lockstep"
     """``lockstep``: the world waits for each action. ``realtime``: it never waits."""
     on_missing: Literal["hold", "coast", "stop"] = "hold"
@@ -98,7 +71,7 @@ class RemoteBrain(Brain):
         self._situation: Situation | None = None
         self._told: Situation | None = None
         self._number = 0
-        self._asked = 0.0
+        self._patience = Patience(self.receive_timeout / 1000)
         self._seed: int | None = None
         self._late = self._stopped = self._resetting = self._cut_short = False
         self._reason = ""
@@ -173,7 +146,7 @@ class RemoteBrain(Brain):
         timeout = self._time_for(link)
         answered = self._ask(link, situation, timeout)
         if answered is None:
-            return self._without_answer(link, waits=timeout == SLICE)
+            return self._without_answer(link, waits=timeout == WAIT_SLICE_S)
         self._situation = None
         self._late = False
         return self._obeyed(link, answered, situation)
@@ -185,6 +158,7 @@ class RemoteBrain(Brain):
         return (
             link is not None
             and link.will_call
+            and not self._patience.is_given_up
             and self.mode == "lockstep"
             and self.hand is None
             and self._told is self._situation is not None
@@ -196,7 +170,7 @@ class RemoteBrain(Brain):
 
     def idle(self) -> None:
         """Stays in touch while the world stands still; nobody is late meanwhile."""
-        self._asked = time.monotonic()
+        self._patience.restart()
         if self._link is not None:
             self._link.idle()
 
@@ -235,8 +209,14 @@ class RemoteBrain(Brain):
         answered = link.ask(situation, timeout)
         if link.state is not LinkState.CONNECTED:
             self._told = None
+            self._patience.resume()
         elif link.expecting or answered is not None:
             self._told = situation
+        patience = self._patience
+        if patience.is_given_up and (answered is not None or patience.asks_for_time(link)):
+            patience.resume()
+            patience.restart()
+            self._late, self._reason = False, ""
         if answered is not None and self._outdated(answered, situation):
             self._dropped += 1
             return None
@@ -286,7 +266,7 @@ class RemoteBrain(Brain):
                 stopped=self._stopped,
             )
         self._situation = now
-        self._asked = time.monotonic()
+        self._patience.restart()
         return now
 
     def _tell(self, agent: AgentView) -> None:
@@ -310,26 +290,16 @@ class RemoteBrain(Brain):
         agent = self._agent
         return not (agent.done or agent.paused or self._stopped)
 
-    def _patient(self, link: Link) -> bool:
+    def _has_time(self, link: Link) -> bool:
         """Whether the world may wait for the script."""
-        if self.mode == "realtime":
-            return False
-        # one that has nothing to decide, and asks for patience all the same, keeps nobody waiting
-        since = max(self._asked, link.heard) if self._can_act() else self._asked
-        return (time.monotonic() - since) * 1000 <= self.receive_timeout
-
-    def _gives_way(self, link: Link) -> bool:
-        """Whether the script has asked for time for so long that the others may go on."""
-        waits = link.heard > self._asked and time.monotonic() - self._asked > GIVE_WAY
-        return waits and self._agent.companions > 0
+        return self.mode == "lockstep" and self._patience.has_time(link, can_act=self._can_act())
 
     def _time_for(self, link: Link) -> float:
         """Seconds to wait for an answer now."""
-        if self.mode == "lockstep" and time.monotonic() - self._asked <= GIVE_WAY:
-            return SLICE  # whatever the script said meanwhile
-        if not self._patient(link):
+        if self.mode == "realtime":
             return 0.0
-        return BRIEFLY if self._gives_way(link) else SLICE
+        company = self._agent.companions > 0
+        return self._patience.wait_s(link, can_act=self._can_act(), has_company=company)
 
     def _without_answer(self, link: Link, *, waits: bool) -> Answer:
         """The world waits, or goes on without the script.
@@ -345,12 +315,17 @@ class RemoteBrain(Brain):
                 return Command.WAIT
             if waits:
                 return Command.HOLD
-            if self._patient(link):
-                return Command.WAIT if self._gives_way(link) else Command.HOLD
+            if self._has_time(link):
+                yields = self._agent.companions > 0 and self._patience.yields(link)
+                return Command.WAIT if yields else Command.HOLD
+            if self.mode == "lockstep":
+                self._patience.give_up()
         if not self._can_act():
             return Command.WAIT
         self._late = True
-        self._reason = f"no action for {time.monotonic() - self._asked:.1f} s"
+        self._reason = f"no action for {self._patience.silence_s:.1f} s"
+        if self._patience.is_given_up:
+            self._reason += ": given up, the world goes on until it answers"
         return self._without_action()
 
     def _without_action(self) -> Action:
@@ -392,7 +367,7 @@ class RemoteBrain(Brain):
         except ActionError as error:
             self._refused += 1
             self._reason = str(error)
-            if link.refuse(answered, self._reason) and self._patient(link):
+            if link.refuse(answered, self._reason) and self._has_time(link):
                 self._situation = situation
                 return Command.HOLD
             return self._without_action()
@@ -407,7 +382,7 @@ class RemoteBrain(Brain):
             actuator = self._actuators.get(name)
             if actuator is None:
                 raise ActionError(
-                    f"agent {self._agent.id!r} has no actuator {name!r}; "
+                    f"agent {self._agent.id!r} has no actuator {shown(name)}; "
                     f"{suggest(str(name), self._actuators)}"
                 )
             before = actuator.clipped

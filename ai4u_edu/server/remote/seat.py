@@ -8,7 +8,7 @@ from ai4u_edu.agent import BasicAgent
 from ai4u_edu.blocks import Brain
 from ai4u_edu.blocks.brains.link import LinkState
 from ai4u_edu.blocks.brains.remote import RemoteBrain
-from ai4u_edu.errors import AI4UError, NameNotFoundError
+from ai4u_edu.errors import AI4UError, NameNotFoundError, shorten
 from ai4u_edu.post import Post
 from ai4u_edu.runner import Runner
 from ai4u_edu.server.remote.line import Line
@@ -17,6 +17,7 @@ from ai4u_edu.server.remote.rules import Rules
 from ai4u_edu.server.remote.session import Session
 from ai4u_edu.server.remote.welcome import Excerpt, output_of
 from ai4u_edu.wire import native
+from ai4u_edu.wire.strict import LONGEST_TEXT
 
 BLINK = 0.3
 """Seconds for which a lost connection counts as a script that is late; then as one that is lost."""
@@ -50,6 +51,7 @@ class Seat:
         self._rules = rules
         self._on_left = on_left
         self._name = token_hex(4)
+        self._on_missing = hello.on_missing or rules.on_missing
         self._timers: list[asyncio.TimerHandle] = []
         self.is_left = False
         """Whether the seat is free again."""
@@ -62,6 +64,8 @@ class Seat:
         except NameNotFoundError as error:
             raise RefusalError("unknown_key", str(error)) from None
         alone = len(runner.sim.agents) == 1
+        if hello.mode == "lockstep":
+            _check_lockstep(rules, len(runner.sim.agents))
         self.session = Session(
             excerpt,
             runner,
@@ -86,6 +90,7 @@ class Seat:
                 self.session,
                 mode=self._hello.mode,
                 receive_timeout=self._rules.receive_timeout,
+                on_missing=self._on_missing or "hold",
                 skip_frame=before.skip_frame,
                 repeat_action=before.repeat_action,
             )
@@ -104,7 +109,7 @@ class Seat:
         """The script is here, over this connection."""
         self._stop_timers()
         if self._brain is not None:
-            self._brain.on_missing = "hold"
+            self._brain.on_missing = self._on_missing or "hold"
         line.say(self.welcome)
         self.session.attach(line)
 
@@ -139,7 +144,7 @@ class Seat:
                 grace=self._rules.grace,
                 agent=agent.id,
                 mode=self._hello.mode,
-                title=title,
+                title=shorten(title, LONGEST_TEXT),
                 ticks_per_second=settings.ticks_per_second,
                 skip_frame=agent.brain.skip_frame,
                 repeat_action=agent.brain.repeat_action,
@@ -172,9 +177,22 @@ class Seat:
         if self._hello.mode == "realtime":  # in lockstep the world waits for it to come back
             self.session.state = LinkState.LOST
         if self._brain is not None:
-            self._brain.on_missing = "stop"  # nobody knows what it would do now
+            # nobody knows what it would do now
+            self._brain.on_missing = self._on_missing or "stop"
 
     def _stop_timers(self) -> None:
         for timer in self._timers:
             timer.cancel()
         self._timers.clear()
+
+
+def _check_lockstep(rules: Rules, agents: int) -> None:
+    """Raise a RefusalError if the world may not wait for a script."""
+    if rules.lockstep or (rules.lockstep is None and agents == 1):
+        return
+    wait = "the world wait" if agents == 1 else f"all {agents} agents of this world wait"
+    raise RefusalError(
+        "lockstep_refused",
+        f"expected mode='realtime' (ai4u-edu bridge --realtime), got 'lockstep', in which a script "
+        f"has {wait} for it; whoever runs the world has to allow that (ai4u-edu play --lockstep)",
+    )

@@ -1,5 +1,7 @@
 """Which script has which agent."""
 
+from collections.abc import Callable
+
 from ai4u_edu.agent import BasicAgent
 from ai4u_edu.errors import suggest
 from ai4u_edu.post import Post, post_here
@@ -20,11 +22,11 @@ class Seats:
 
     Args:
         runner: the room's.
-        title: the room's.
+        title: tells the room's, which may change.
         rules: of the room.
     """
 
-    def __init__(self, runner: Runner, title: str, rules: Rules) -> None:
+    def __init__(self, runner: Runner, title: Callable[[], str], rules: Rules) -> None:
         self._runner = runner
         self._title = title
         self._rules = rules
@@ -57,7 +59,7 @@ class Seats:
             self._post = post_here(self._post)
             seat = Seat(self._runner, agent, hello, self._rules, self._post, self._left)
             self._seats[agent.id] = seat
-            await seat.claim(self._title)
+            await seat.claim(self._title())
         seat.sit(line)
         return seat
 

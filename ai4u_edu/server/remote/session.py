@@ -54,6 +54,8 @@ class Session:
         self._answers: deque[Answered] = deque()
         self._told: Situation | None = None
         self._is_answered = False
+        self._is_resetting = False
+        """Whether an answer that asks for a reset waits for the brain."""
         self._frame = b""
         self._counted = (0, 0)
         self._reward = 0.0
@@ -84,15 +86,18 @@ class Session:
         """The script's answer, if it is there; if not, the runner is called when it is."""
         self._count(situation)
         if not self._answers:
-            if self._told is None or (self._line is None and self._told is not situation):
+            if self._told is None or (self._line is None and _replaces(situation, self._told)):
                 self._tell(situation)
             if timeout:  # the world waits for it
                 self._runner.expect_call()
             return None
         answered = self._newest()
-        if self._told is answered.situation:
-            self._told = None
-        if answered.situation is not situation and self._told is None:
+        is_reset = isinstance(answered.answer, Reset)
+        with self._lock:
+            self._is_resetting = self._is_resetting and not is_reset
+            if self._told is answered.situation:
+                self._told = None
+        if answered.situation is not situation and self._told is None and not is_reset:
             self._tell(situation)  # it was late; what it says counts now, what it sees is new
         return answered
 
@@ -160,7 +165,8 @@ class Session:
                 return problem
             answered = Answered(_answer_in(message), told)
             self._is_answered = True
-        self._answers.append(answered)
+            self._is_resetting = isinstance(answered.answer, Reset)
+            self._answers.append(answered)
         self._runner.call()
         if self._runner.is_unpaced():
             look_out()  # the next answer is as good as here
@@ -231,6 +237,8 @@ class Session:
         )
         self._reward, self._terms = 0.0, {}
         with self._lock:
+            if self._is_resetting:  # told of the episode that ends, it would ask for one more
+                return
             self._told, self._frame, self._is_answered = situation, frame, False
         if self._line is not None:  # else it is said when there is one again
             self._give(self._say, frame)
@@ -244,6 +252,15 @@ class Session:
             self._post.give(function, argument)
         except RuntimeError:  # the server has ended before the world
             self.state, self.reason = LinkState.LOST, "the server has ended"
+
+
+def _replaces(situation: Situation, told: Situation) -> bool:
+    """Return True if a script that is away is to see this in place of what it was told.
+
+    The first percept of an episode stays, since a reset gives it back.
+    """
+    is_first = told.steps == 0 and told.episode == situation.episode
+    return situation is not told and not is_first
 
 
 def _answer_in(message: native.Answer) -> Answer | Reset:

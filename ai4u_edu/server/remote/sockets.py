@@ -1,6 +1,7 @@
 """The sockets for scripts: one connection each, from its hello to its end."""
 
 import asyncio
+from collections.abc import Callable
 from contextlib import suppress
 
 from starlette.types import Message, Receive, Scope, Send
@@ -31,11 +32,13 @@ class RemoteSockets:
 
     Args:
         runner: the room's.
-        title: the room's.
+        title: tells the room's, which may change.
         rules: of the room.
     """
 
-    def __init__(self, runner: Runner, title: str, rules: Rules | None = None) -> None:
+    def __init__(
+        self, runner: Runner, title: Callable[[], str], rules: Rules | None = None
+    ) -> None:
         self._seats = Seats(runner, title, rules or Rules())
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:

@@ -59,7 +59,9 @@ class Excerpt:
         for number, place in enumerate(self._texts):
             sensor = sensors[layout.texts[place]]
             space = sensor.observation_space()
-            longest = space.max_length if isinstance(space, spaces.Text) else native.LONGEST_READ
+            longest = native.LONGEST_READ
+            if isinstance(space, spaces.Text):
+                longest = min(longest, space.max_length)
             found.append(
                 native.Reading(
                     key=layout.texts[place],

@@ -1,0 +1,73 @@
+"""The rules for scripts that ``ai4u-edu play`` takes."""
+
+from typing import Any
+
+import pytest
+from typer.testing import CliRunner
+
+from ai4u_edu import server
+from ai4u_edu.cli import app
+from ai4u_edu.errors import SetupError
+from ai4u_edu.server import Rules
+
+
+class Told(Exception):
+    """The rules of the room that would be served."""
+
+
+def rules_of(monkeypatch: pytest.MonkeyPatch, *arguments: str) -> Rules:
+    """The rules with which a command would serve its room."""
+
+    def tell(**fields: Any) -> None:
+        raise Told(Rules(**fields))
+
+    monkeypatch.setattr(server, "Rules", tell)
+    result = CliRunner().invoke(app, ["play", "sumo", "--no-open", "--no-autosave", *arguments])
+    error = result.exception
+    if not isinstance(error, Told):
+        raise error or AssertionError(result.output)
+    (found,) = error.args
+    assert isinstance(found, Rules)
+    return found
+
+
+def test_a_room_has_the_rules_that_it_is_given(monkeypatch: pytest.MonkeyPatch) -> None:
+    rules = rules_of(monkeypatch)
+    assert rules == Rules(token=rules.token)
+    wanted = "--lockstep --on-missing coast --grace 0.5 --receive-timeout 60000 --seeded-resets"
+    assert rules_of(monkeypatch, *wanted.split()) == Rules(
+        lockstep=True, on_missing="coast", grace=0.5, receive_timeout=60_000, seeded_resets=True
+    )
+    assert rules_of(monkeypatch, "--no-lockstep").lockstep is False
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ("--grace", "-1"),
+        ("--grace", "601"),
+        ("--receive-timeout", "199"),
+        ("--receive-timeout", "600001"),
+        ("--receive-timeout", "1.5"),
+        ("--on-missing", "hodl"),
+    ],
+)
+def test_what_is_out_of_range_is_refused(
+    arguments: tuple[str, str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    with pytest.raises(SystemExit) as ended:
+        rules_of(monkeypatch, *arguments)
+    assert ended.value.code == 2
+
+
+@pytest.mark.parametrize(
+    ("fields", "complaint"),
+    [
+        ({"grace": float("nan")}, "grace: expected a number of seconds from 0 to 600, got nan"),
+        ({"grace": float("inf")}, "grace: expected a number of seconds from 0 to 600, got inf"),
+        ({"receive_timeout": 0}, "receive_timeout: expected a number of milliseconds from 200 to"),
+    ],
+)
+def test_rules_are_checked_wherever_they_come_from(fields: Any, complaint: str) -> None:
+    with pytest.raises(SetupError, match=complaint):
+        Rules(**fields)
