@@ -9,6 +9,7 @@ from typing import Any
 from ai4u_edu.blocks import Block, Brain, Controller, LocalBrain, ReplayController
 from ai4u_edu.errors import SetupError, suggest
 from ai4u_edu.recording import Episode
+from ai4u_edu.syntax import parsed
 from ai4u_edu.workshop.script import run_file
 
 SCRIPT, RECORDING = "script:", "recording:"
@@ -110,7 +111,7 @@ class Drivers:
 def _drivers_in(path: Path) -> list[str]:
     """Functions of one argument and controllers in a file, found without running it."""
     try:
-        tree = ast.parse(path.read_text(encoding="utf-8"))
+        tree = parsed(path.read_text(encoding="utf-8"))
     except (OSError, SyntaxError, ValueError, RecursionError):
         return []
     return [
