@@ -20,6 +20,8 @@ CAP = 2**20
 EXTENSION = "ai4u_edu.frames"
 """Where an ASGI app finds it, in ``scope["extensions"]``."""
 
+_BAD_REQUEST = b"HTTP/1.1 400 Bad Request\r\nConnection: close\r\nContent-Length: 0\r\n\r\n"
+
 Listener = Callable[[bytes], bool]
 """Gets a frame as it arrives; whether it took it. What it does not take goes on through ASGI."""
 
@@ -52,8 +54,14 @@ class FramesProtocol(WebSocketsSansIOProtocol):
             self.transport.write(frame)
 
     def handle_connect(self, event: Request) -> None:
-        """Lets the app find the short way."""
-        super().handle_connect(event)
+        """Lets the app find the short way; refuses what websockets can't even refuse."""
+        try:
+            super().handle_connect(event)
+        except UnicodeEncodeError:  # its answer would repeat a header that is no ASCII
+            self.handshake_initiated = self.handshake_complete = self.close_sent = True
+            self.transport.write(_BAD_REQUEST)
+            self.transport.close()
+            return
         if self.handshake_initiated and not self.close_sent:
             extensions: MutableMapping[str, Any] = self.scope["extensions"]
             extensions[EXTENSION] = self
