@@ -9,6 +9,7 @@ from viser import BatchedMeshHandle, SceneNodePointerEvent
 
 from ai4u_edu.look import VOID, Rgb, body_colour, mixed
 from ai4u_edu.snapshot import Snapshot, Stage
+from ai4u_edu.viewer.asking import reporting
 from ai4u_edu.viewer.brush import Brush
 from ai4u_edu.viewer.face import face, pupils, rings
 from ai4u_edu.viewer.geometry import cap, half_width, joined, prism, soft
@@ -98,10 +99,11 @@ class _Kind:
         """Has a click on a member told, with the page on which it was clicked."""
 
         async def tell(event: SceneNodePointerEvent[BatchedMeshHandle]) -> None:
-            if event.instance_index is not None and event.instance_index < len(self.names):
-                on_agent(event.client_id, self.names[event.instance_index])
+            index = event.instance_index
+            if index is not None and 0 <= index < len(self.names):
+                on_agent(event.client_id, self.names[index])
 
-        self._body.on_click(tell)
+        self._body.on_click(reporting(tell))
 
     def move(self, where: Poses) -> None:
         """Puts the members where they are."""
