@@ -37,8 +37,7 @@ def reported(error: Exception) -> str:
     """
     if isinstance(error, AI4UError):
         return str(error)
-    with _complaints.caught():
-        raise error
+    _complaints.write(error)
     return f"{type(error).__name__}: {error}"
 
 

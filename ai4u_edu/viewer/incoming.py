@@ -14,7 +14,15 @@ import time
 from collections.abc import Awaitable, Callable
 from typing import Any
 
-from viser import ClientHandle, GuiFormHandle, GuiUploadButtonHandle, ViserServer
+from viser import (
+    ClientHandle,
+    GuiFormHandle,
+    GuiNumberHandle,
+    GuiSliderHandle,
+    GuiTextHandle,
+    GuiUploadButtonHandle,
+    ViserServer,
+)
 from viser._gui_api import GuiApi
 from viser._messages import (
     FileTransferStartUpload,
@@ -31,6 +39,10 @@ from ai4u_edu.viewer.widget_values import ValueRefusedError, checked_value
 
 TELL_PERIOD_S = 1.0
 """A page is told at most once within this time that something didn't work."""
+MAX_PRESSES_PER_S = 30
+"""So often a page may press buttons, choose and hand in, in the long run; nobody is that quick."""
+MAX_PRESSES_AT_ONCE = 100
+"""So many of these are heard without a break: what was done while a page had no connection."""
 
 _logger = logging.getLogger(__name__)
 
@@ -50,6 +62,7 @@ class IncomingMessages:
     def __init__(self, server: ViserServer) -> None:
         self._server = server
         self._told_at: dict[int, float] = {}
+        self._presses: dict[int, tuple[float, float]] = {}
         web = server._websock_server
         self._check(web, lambda _: server.gui)
         web.on_client_connect(self._on_connect)
@@ -64,6 +77,7 @@ class IncomingMessages:
 
     async def _on_disconnect(self, connection: WebsockClientConnection) -> None:
         self._told_at.pop(connection.client_id, None)
+        self._presses.pop(connection.client_id, None)
 
     def _client(self, client_id: int) -> ClientHandle | None:
         return self._server.get_clients().get(client_id)
@@ -93,7 +107,8 @@ class IncomingMessages:
             case GuiFormSubmitMessage() | GuiFormDirtyMessage():
                 # viser would keep a word about each form that a page makes up
                 form = gui and gui._container_handle_from_uuid.get(message.uuid)
-                return isinstance(form, GuiFormHandle)
+                is_form = isinstance(form, GuiFormHandle)
+                return is_form and self._may_press(client_id)
             case FileTransferStartUpload():
                 where = message.source_component_uuid
                 widget = gui and gui._gui_input_handle_from_uuid.get(where)
@@ -113,7 +128,20 @@ class IncomingMessages:
             if error.is_typed:
                 self._tell(client_id, str(error))
             return False
-        return True
+        # while somebody types or drags there are many, and nothing is asked for
+        is_filled_in = isinstance(widget, GuiTextHandle | GuiNumberHandle | GuiSliderHandle)
+        return is_filled_in or self._may_press(client_id)
+
+    def _may_press(self, client_id: ClientId) -> bool:
+        """Return False if a page asks for more than can be done: it would be done long after."""
+        now = time.monotonic()
+        left, since = self._presses.get(client_id, (MAX_PRESSES_AT_ONCE, now))
+        left = min(MAX_PRESSES_AT_ONCE, left + (now - since) * MAX_PRESSES_PER_S)
+        may = left >= 1
+        self._presses[client_id] = (left - may, now)
+        if not may:
+            self._log(logging.WARNING, "presses", f"expected at most {MAX_PRESSES_PER_S} a second")
+        return may
 
     def _show_again(self, client_id: ClientId, widget: Any) -> None:
         """Have a page show the value that a widget has."""

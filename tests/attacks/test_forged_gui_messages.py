@@ -13,7 +13,8 @@ import pytest
 import viser
 from viser._gui_api import GuiApi
 from websockets.exceptions import ConnectionClosed
-from websockets.sync.client import ClientConnection, connect
+from websockets.sync.client import connect
+from websockets.sync.connection import Connection
 from websockets.typing import Subprotocol
 from zstandard import ZstdDecompressor
 
@@ -27,7 +28,7 @@ from ai4u_edu.viewer.world_tab import WorldTab
 from tests.viewer.pages import Page, part_of, seen, shown, tabs_of, until
 from tests.workshop.shops import Shop
 
-ODD_VALUES = (
+ODD_VALUES: tuple[Any, ...] = (
     *(math.nan, math.inf, -math.inf, 1e20, -1e300, 2**53, 2**63, 2**64 - 1, -(2**63), 0.5),
     *("", "no such choice", "x" * 250_000, "\0", b"", b"bytes", None, True, False),
     *([], [1, 2], [[[[1]]]], {}, {"a": {"b": 1}}, [math.nan], msgspec.msgpack.Ext(1, b"x")),
@@ -65,7 +66,7 @@ def checks(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> N
 
 
 @contextmanager
-def connected(room: Room) -> Iterator[ClientConnection]:
+def connected(room: Room) -> Iterator[Connection]:
     with connect(
         room.url.replace("http", "ws", 1),
         origin=room.url.rstrip("/"),  # type: ignore[arg-type]  # a NewType of str
@@ -147,10 +148,12 @@ def unharmed(caplog: pytest.LogCaptureFixture, capfd: pytest.CaptureFixture[str]
 def in_order(room: Room, other: Page) -> None:
     """All that a page can do for everybody works from another one, and it shows."""
     controls, runner = part_of(room.viewer, Controls), room.shop.runner
-    for word, paused in (("Resume", False), ("Pause", True)):
-        seen(room.viewer, lambda word=word: word in controls._time.options)
-        other.change(controls._time, word)
-        until(lambda paused=paused: runner.latest.paused == paused)
+    seen(room.viewer, lambda: "Resume" in controls._time.options)
+    other.change(controls._time, "Resume")
+    until(lambda: not runner.latest.paused)
+    seen(room.viewer, lambda: "Pause" in controls._time.options)
+    other.change(controls._time, "Pause")
+    until(lambda: runner.latest.paused)
     with connected(room) as late:
         kinds: set[Any] = set()
         while "ReplayDoneMessage" not in kinds:
@@ -191,8 +194,8 @@ def test_no_attribute_of_a_widget_can_be_set(
         assert len(there) > 40
         for uuid, widget in there.items():
             for name in sorted(attributes_of(widget) - {"value"}):
-                for value in ([], 1):
-                    here.say("GuiUpdateMessage", uuid=uuid, updates={name: value})
+                here.say("GuiUpdateMessage", uuid=uuid, updates={name: []})
+                here.say("GuiUpdateMessage", uuid=uuid, updates={name: 1})
             both = {"value": widget.value, "update_cb": []} if widget.value != b"" else {}
             if isinstance(widget.value, bool | int | float | str):
                 here.say("GuiUpdateMessage", uuid=uuid, updates=both)
@@ -251,9 +254,9 @@ def test_no_other_message_of_visers_has_an_effect(
                 here.say(kind.__name__)
                 here.say(kind.__name__, uuid="none", name="/bodies0", owner="", key="a", value="b")
         for uuid in [*there, "none"]:
-            for kind in ("GuiButtonHoldMessage", "GuiFormDirtyMessage", "GuiFormSubmitMessage"):
-                more = {"frequency": 10.0} if "Hold" in kind else {}
-                here.say(kind, uuid=uuid, **more)
+            here.say("GuiButtonHoldMessage", uuid=uuid, frequency=10.0)
+            here.say("GuiFormDirtyMessage", uuid=uuid)
+            here.say("GuiFormSubmitMessage", uuid=uuid)
             upload(here, uuid, b"" if "Upload" in type(there.get(uuid)).__name__ else b"content")
         caught_up(room, here, 2.0)
         assert state_of(room) == before

@@ -29,7 +29,7 @@ MESSAGES: dict[str, dict[str, Any]] = {
     "command": {"name": "pause", "seed": 7},
 }
 
-OTHERS = (
+OTHERS: tuple[str | bytes, ...] = (
     *("", " ", "{", "[]", "null", "1", "{}", '{"type": 1}', '{"type": null}', '{"type": "kyes"}'),
     *('{"type": "keys"}', '{"type": "keys", "held": ["KeyW"], "more": 1}', "\0", "\x7f" * 100),
     *('{"type": ["keys"]}', '{"type": {"keys": 1}}', '{"type": "take", "type": "nobody"}'),
@@ -84,7 +84,7 @@ def harmless(text: str | bytes) -> bool:
 
 
 def test_whatever_stands_in_a_field_is_in_range_or_refused() -> None:
-    said = [*spoilt(), *OTHERS]
+    said: list[str | bytes] = [*spoilt(), *OTHERS]
     assert len(said) > 250
     assert [each for each in said if not harmless(each)] == []
 
@@ -97,7 +97,8 @@ def test_odd_messages_leave_the_room_as_it_was(
     with opened(room) as other, opened(room) as here:
         other.hold("KeyD")
         until(lambda: room.held == ["KeyD"])
-        for message in (*spoilt(), *OTHERS):
+        messages_said: list[str | bytes] = [*spoilt(), *OTHERS]
+        for message in messages_said:
             here.socket.send(message)
         here.say("command", name="nobody")
         while "nobody" not in str(here.hear("error")):

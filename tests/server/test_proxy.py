@@ -190,7 +190,7 @@ def test_viser_gets_what_was_understood_and_nothing_else() -> None:
 def test_the_fields_are_those_of_visers_own_messages() -> None:
     theirs = viser._messages.Message._subclass_from_type_string()
     for kind in page_messages.KINDS:
-        fields = wire_field_names(theirs[kind.__name__])
+        fields = wire_field_names(theirs[kind.__name__])  # type: ignore[arg-type]  # lru_cache
         assert kind.__struct_fields__ == fields, "look whether server/page_messages.py still fits"
 
 

@@ -9,6 +9,7 @@ from viser import GuiEvent
 
 from ai4u_edu.errors import SetupError
 from ai4u_edu.viewer import Viewer, uploads
+from ai4u_edu.viewer.incoming import MAX_PRESSES_AT_ONCE
 from ai4u_edu.viewer.local_server import LocalServer
 from ai4u_edu.viewer.uploads import limit_uploads
 from ai4u_edu.viewer.widget_values import MAX_TEXT_CHARS, ValueRefusedError, checked_value
@@ -63,6 +64,27 @@ def test_what_goes_wrong_in_a_callback_is_told_to_its_page_and_written_once(
     gc.collect()
     assert caplog.records == []
     assert "".join(capfd.readouterr()).count("Traceback") == 1
+
+
+def test_a_page_that_presses_without_end_does_not_keep_the_world_busy_for_long(
+    here: Page, viewer: Viewer
+) -> None:
+    heard: list[str] = []
+
+    async def hear(event: GuiEvent[Any]) -> None:
+        heard.append(str(event.target.value))
+
+    gui = viewer.server.gui
+    button, text = gui.add_button("Reset"), gui.add_text("Text", "")
+    button.on_click(hear)
+    text.on_update(hear)
+    for _ in range(1000):
+        here.press(button)
+    for number in range(1000):
+        here.change(text, f"{number}")
+    until(lambda: "999" in heard)
+    assert MAX_PRESSES_AT_ONCE <= heard.count("True") < MAX_PRESSES_AT_ONCE + 200
+    assert len(heard) - heard.count("True") == 1000  # who types is not held up
 
 
 def test_a_page_that_types_what_can_not_be_is_told_and_shown_what_is(
