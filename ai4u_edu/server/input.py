@@ -35,6 +35,8 @@ ORDERS = 4
 """Commands of one page that may wait for the runner."""
 MAX_COMPLAINT_CHARS = 2000
 """Characters of what a page is told about a message of its own, which may be repeated in it."""
+MAX_AWAITED = 50
+"""Of so many things that a page has asked for it is told if they could not be done."""
 ANOTHER = "another world"
 """Why a page's socket is closed (1012) when another world has taken this one's place."""
 AFTER_ANOTHER = "after_another"
@@ -170,7 +172,7 @@ class _Page:
             self._await(order())
 
     def _await(self, future: "Future[None] | None") -> None:
-        if future is not None:
+        if future is not None and len(self._orders) < MAX_AWAITED:
             task = asyncio.create_task(self._carry_out(future))
             self._orders.add(task)
             task.add_done_callback(self._orders.discard)
@@ -179,7 +181,8 @@ class _Page:
         # keys that come meanwhile must not wait for the runner
         with suppress(WebSocketDisconnect):
             try:
-                await asyncio.wrap_future(future)
+                # shielded: what was asked for is done, also if the page leaves meanwhile
+                await asyncio.shield(asyncio.wrap_future(future))
             except Exception as error:  # a student's block may raise anything in a reset
                 await self._complain(f"{type(error).__name__}: {error}")
 

@@ -161,13 +161,16 @@ class FanOut:
     async def _send(self) -> None:
         buffer = self._buffer
         while True:
-            began, is_done = time.monotonic(), True
-            try:
+            is_done = False
+            try:  # all pages would be closed if this task ended
                 self.give_way()
-                began = time.monotonic()
+            except Exception as error:
+                _log_failure("waiting", "pages are told without waiting: %a", error)
+            began = time.monotonic()
+            try:
                 is_done = self._send_news()
-            except Exception as error:  # all pages would be closed if this task ended
-                _log_failure("sending", "pages were not told what is new: %a", error)
+            except Exception as error:
+                _log_failure("sending", "some pages were not told what is new: %a", error)
             spent = time.monotonic() - began
             with suppress(TimeoutError):
                 await asyncio.wait_for(buffer.flush_event.wait(), max(PERIOD, spent / MOST))
