@@ -20,8 +20,6 @@ CAP = 2**20
 EXTENSION = "ai4u_edu.frames"
 """Where an ASGI app finds it, in ``scope["extensions"]``."""
 
-_BAD_REQUEST = b"HTTP/1.1 400 Bad Request\r\nConnection: close\r\nContent-Length: 0\r\n\r\n"
-
 Listener = Callable[[bytes], bool]
 """Gets a frame as it arrives; whether it took it. What it does not take goes on through ASGI."""
 
@@ -59,7 +57,8 @@ class FramesProtocol(WebSocketsSansIOProtocol):
             super().handle_connect(event)
         except UnicodeEncodeError:  # its answer would repeat a header that is no ASCII
             self.handshake_initiated = self.handshake_complete = self.close_sent = True
-            self.transport.write(_BAD_REQUEST)
+            head = (b"HTTP/1.1 400 Bad Request", b"Connection: close", b"Content-Length: 0")
+            self.transport.write(b"\r\n".join((*head, b"", b"")))
             self.transport.close()
             return
         if self.handshake_initiated and not self.close_sent:

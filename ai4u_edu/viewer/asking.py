@@ -1,17 +1,9 @@
 """Handing on to the runner what a person asks for, and telling them if it couldn't be done."""
 
-from collections.abc import Awaitable, Callable, Coroutine
 from concurrent.futures import Future
-from functools import wraps
-from typing import Any, TypeVar
+from typing import Any
 
 from viser import ClientHandle
-
-from ai4u_edu.errors import AI4UError
-from ai4u_edu.viewer.complaints import Complaints
-
-E = TypeVar("E")
-_complaints = Complaints()
 
 
 def ask(client: ClientHandle | None, future: "Future[Any]") -> None:
@@ -28,32 +20,3 @@ def ask(client: ClientHandle | None, future: "Future[Any]") -> None:
             client.add_notification("That didn't work", str(error), auto_close_seconds=8.0)
 
     future.add_done_callback(tell)
-
-
-def reported(error: Exception) -> str:
-    """Return a sentence about an error for the page that caused it.
-
-    An error that is not of our own kind is a fault of ours: it is written to stderr, once.
-    """
-    if isinstance(error, AI4UError):
-        return str(error)
-    _complaints.write(error)
-    return f"{type(error).__name__}: {error}"
-
-
-def reporting(callback: Callable[[E], Awaitable[None]]) -> Callable[[E], Coroutine[Any, Any, None]]:
-    """Return a callback for something in the scene whose errors are written only once.
-
-    Those of widgets need none: see :mod:`ai4u_edu.viewer.incoming`.
-    """
-
-    @wraps(callback)
-    async def run(event: E) -> None:
-        try:
-            await callback(event)
-        except Exception as error:
-            text, client = reported(error), getattr(event, "client", None)
-            if client is not None:
-                client.add_notification("That didn't work", f"{text:.500}", auto_close_seconds=8.0)
-
-    return run

@@ -9,7 +9,6 @@ from viser import BatchedMeshHandle, SceneNodePointerEvent
 
 from ai4u_edu.look import VOID, Rgb, body_colour, mixed
 from ai4u_edu.snapshot import Snapshot, Stage
-from ai4u_edu.viewer.asking import reporting
 from ai4u_edu.viewer.brush import Brush
 from ai4u_edu.viewer.face import face, pupils, rings
 from ai4u_edu.viewer.geometry import cap, half_width, joined, prism, soft
@@ -17,6 +16,7 @@ from ai4u_edu.viewer.layers import Layers
 from ai4u_edu.viewer.light import surfaces
 from ai4u_edu.viewer.local_server import LocalServer
 from ai4u_edu.viewer.poses import Poses, poses
+from ai4u_edu.viewer.reporting import reporting
 from ai4u_edu.viewer.root import Root
 
 BLACK: Rgb = (0, 0, 0)

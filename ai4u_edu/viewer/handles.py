@@ -18,13 +18,13 @@ from viser import (
 from ai4u_edu.look import Rgb
 from ai4u_edu.palette import rgb
 from ai4u_edu.snapshot import BodyState, Snapshot, Stage
-from ai4u_edu.viewer.asking import reporting
 from ai4u_edu.viewer.brush import Brush
 from ai4u_edu.viewer.geometry import Array, circle, grow, prism, segments
 from ai4u_edu.viewer.layers import Layers
 from ai4u_edu.viewer.light import strokes
 from ai4u_edu.viewer.onlooker import Onlooker
 from ai4u_edu.viewer.placing import size
+from ai4u_edu.viewer.reporting import reporting
 from ai4u_edu.viewer.root import Root
 from ai4u_edu.viewer.view import Mode
 from ai4u_edu.workshop import Outcome, Workshop

@@ -34,7 +34,7 @@ from viser.infra import ClientId, WebsockClientConnection, WebsockServer
 from viser.infra._messages import Message
 
 from ai4u_edu.log_limit import log_limited
-from ai4u_edu.viewer.asking import reported
+from ai4u_edu.viewer.reporting import reported
 from ai4u_edu.viewer.widget_values import ValueRefusedError, checked_value
 
 TELL_PERIOD_S = 1.0

@@ -18,12 +18,13 @@ from ai4u_edu.recording import Entry, Episode
 from ai4u_edu.recording.file import LARGEST_FILE, decode
 from ai4u_edu.runner import Runner
 from ai4u_edu.snapshot import Snapshot
-from ai4u_edu.viewer.asking import ask, reporting
+from ai4u_edu.viewer.asking import ask
 from ai4u_edu.viewer.ghosts import Ghosts
 from ai4u_edu.viewer.onlooker import Onlooker
 from ai4u_edu.viewer.past_list import FORMATS, downloads, listed
 from ai4u_edu.viewer.past_projector import NOW, Projector
 from ai4u_edu.viewer.readings import block
+from ai4u_edu.viewer.reporting import reporting
 from ai4u_edu.viewer.tabs import TabKind
 from ai4u_edu.viewer.uploads import limit_uploads, take_file
 

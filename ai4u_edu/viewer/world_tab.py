@@ -19,7 +19,6 @@ from ai4u_edu.parameters import Problem
 from ai4u_edu.scenes import Scene
 from ai4u_edu.scenes.yaml_file import MAX_SIZE
 from ai4u_edu.snapshot import Snapshot
-from ai4u_edu.viewer.asking import reporting
 from ai4u_edu.viewer.body_form import BodyForm
 from ai4u_edu.viewer.furnishing import THINGS, looked_at, room_for
 from ai4u_edu.viewer.gallery import Gallery, Load
@@ -27,6 +26,7 @@ from ai4u_edu.viewer.handles import Handles
 from ai4u_edu.viewer.inspector_words import WAITS
 from ai4u_edu.viewer.onlooker import Onlooker
 from ai4u_edu.viewer.readings import block
+from ai4u_edu.viewer.reporting import reporting
 from ai4u_edu.viewer.save_window import SaveWindow
 from ai4u_edu.viewer.settings_form import SettingsForm
 from ai4u_edu.viewer.tabs import TabKind
