@@ -1,10 +1,10 @@
 """What is written under each parameter, as its description."""
 
 import ast
-import inspect
-import textwrap
 from functools import cache
 from itertools import pairwise
+
+from ai4u_edu.syntax import parsed_class
 
 
 @cache
@@ -16,7 +16,7 @@ def field_docs(cls: type) -> dict[str, str]:
     docs: dict[str, str] = {}
     for each in reversed(cls.__mro__[:-1]):
         try:
-            tree = ast.parse(textwrap.dedent(inspect.getsource(each)))
+            tree = parsed_class(each)
         except (OSError, TypeError, SyntaxError):
             continue  # made in a console, or built in
         body = tree.body[0].body if isinstance(tree.body[0], ast.ClassDef) else []

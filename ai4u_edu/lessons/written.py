@@ -5,6 +5,7 @@ from collections.abc import Sequence
 
 from ai4u_edu.lessons.course import lesson
 from ai4u_edu.lessons.out import cells_so_far
+from ai4u_edu.syntax import parsed
 
 
 def written(exercise: str) -> str:
@@ -31,7 +32,7 @@ def made_in(code: str) -> set[str]:
     ['C', 'a', 'b', 'f']
     """
     try:
-        statements = ast.parse(code).body
+        statements = parsed(code).body
     except (SyntaxError, ValueError):  # such as a line that is meant for the notebook alone
         return set()
     made = set()

@@ -93,8 +93,15 @@ class FramesProtocol(WebSocketsSansIOProtocol):
             self.transport.write(frame)
 
     def handle_connect(self, event: Request) -> None:
-        """Lets the app find the short way."""
-        super().handle_connect(event)
+        """Lets the app find the short way; refuses what websockets can't even refuse."""
+        try:
+            super().handle_connect(event)
+        except UnicodeEncodeError:  # its answer would repeat a header that is no ASCII
+            self.handshake_initiated = self.handshake_complete = self.close_sent = True
+            head = (b"HTTP/1.1 400 Bad Request", b"Connection: close", b"Content-Length: 0")
+            self.transport.write(b"\r\n".join((*head, b"", b"")))
+            self.transport.close()
+            return
         if self.handshake_initiated and not self.close_sent:
             extensions: MutableMapping[str, Any] = self.scope["extensions"]
             extensions[EXTENSION] = self

@@ -38,6 +38,7 @@ class Hands:
         self._is_made = False
         self._spare: tuple[Brain, Brain | None] | None = None
         self._under_way: Future[None] | None = None
+        self._giving_back: Future[None] | None = None
 
     @property
     def brain(self) -> Brain:
@@ -76,7 +77,9 @@ class Hands:
         """Gives it back the brain that it had; None if that isn't needed."""
         if self._before is None and (self._under_way is None or self._under_way.done()):
             return None
-        return self._runner.submit(self._give_back)
+        if self._giving_back is None or self._giving_back.done():
+            self._giving_back = self._runner.submit(self._give_back)
+        return self._giving_back
 
     def _reserve(self) -> Brain | None:
         """The brain with which a person could take over."""

@@ -33,6 +33,10 @@ LOOK = 0.2
 """How often it is looked (s) whether a page has to be told something."""
 ORDERS = 4
 """Commands of one page that may wait for the runner."""
+MAX_COMPLAINT_CHARS = 2000
+"""Characters of what a page is told about a message of its own, which may be repeated in it."""
+MAX_AWAITED = 50
+"""Of so many things that a page has asked for it is told if they could not be done."""
 ANOTHER = "another world"
 """Why a page's socket is closed (1012) when another world has taken this one's place."""
 AFTER_ANOTHER = "after_another"
@@ -126,12 +130,12 @@ class _Page:
             if frame["type"] != "websocket.receive":
                 return
             if rate.take():
-                await self._socket.close(1008, f"expected at most {PER_SECOND} messages a second")
+                await self._end(1008, f"expected at most {PER_SECOND} messages a second")
                 return
             said = frame.get("text") or frame.get("bytes") or ""
             if len(said) > LARGEST:
                 await self._complain(f"expected at most {LARGEST} bytes, got {len(said)}")
-                await self._socket.close(1009, f"expected at most {LARGEST} bytes in a message")
+                await self._end(1009, f"expected at most {LARGEST} bytes in a message")
                 return
             try:
                 message = messages.read(said)
@@ -139,7 +143,7 @@ class _Page:
                 mistakes += 1
                 await self._complain(str(error))
                 if mistakes >= MISTAKES:
-                    await self._socket.close(1008, f"{MISTAKES} malformed messages in a row")
+                    await self._end(1008, f"{MISTAKES} malformed messages in a row")
                     return
                 continue
             mistakes = 0
@@ -168,7 +172,7 @@ class _Page:
             self._await(order())
 
     def _await(self, future: "Future[None] | None") -> None:
-        if future is not None:
+        if future is not None and len(self._orders) < MAX_AWAITED:
             task = asyncio.create_task(self._carry_out(future))
             self._orders.add(task)
             task.add_done_callback(self._orders.discard)
@@ -177,12 +181,18 @@ class _Page:
         # keys that come meanwhile must not wait for the runner
         with suppress(WebSocketDisconnect):
             try:
-                await asyncio.wrap_future(future)
+                # shielded: what was asked for is done, also if the page leaves meanwhile
+                await asyncio.shield(asyncio.wrap_future(future))
             except Exception as error:  # a student's block may raise anything in a reset
                 await self._complain(f"{type(error).__name__}: {error}")
 
     async def _complain(self, text: str) -> None:
-        await self._say(json.dumps(news.error(text)))
+        await self._say(json.dumps(news.error(text[:MAX_COMPLAINT_CHARS])))
+
+    async def _end(self, code: int, reason: str) -> None:
+        # while too much is said, the world may become another one: either task ends it, not both
+        if self._socket.application_state is WebSocketState.CONNECTED:
+            await self._socket.close(code, reason)
 
     async def _say(self, text: str) -> None:
         # whoever tells the news may wake up when the connection has just been closed from here
@@ -208,4 +218,4 @@ class _Page:
             with suppress(TimeoutError):
                 async with asyncio.timeout(LOOK):
                     await changed.wait()
-        await self._socket.close(1012, ANOTHER)
+        await self._end(1012, ANOTHER)

@@ -1,7 +1,9 @@
 """viser's WebSocket, passed through our port."""
 
 import asyncio
-from collections.abc import Callable
+import logging
+import re
+from collections.abc import Callable, Iterable
 from contextlib import suppress
 from typing import cast
 
@@ -16,7 +18,9 @@ from websockets.protocol import Event
 from websockets.typing import Subprotocol
 
 from ai4u_edu.direct import HEADER, Direct, left
+from ai4u_edu.log_limit import log_limited
 from ai4u_edu.post import Post, post_here
+from ai4u_edu.server import page_messages
 from ai4u_edu.server.frames import EXTENSION, FramesProtocol
 from ai4u_edu.server.guard import with_token
 from ai4u_edu.server.rate import Rate
@@ -25,9 +29,15 @@ from ai4u_edu.server.side_door import KNOCK, KNOCK_HEADER
 UPWARD = 500
 """Messages a second that viser gets from one page; a page that sends more is slowed down. Dragging
 something sends about a hundred."""
-# Whoever sends these asks viser to open a tunnel from the internet to this machine. A message that
-# only mentions them is lost too, which costs less than two readers of one message who may disagree.
-_BARRED = (b"ShareUrlRequest", b"ShareUrlDisconnect")
+MAX_UPWARD_BYTES = 2**20
+"""Bytes of a message from a page. The largest one is a part of a file, of 512 KiB."""
+MAX_HEADER_CHARS = 2048
+"""Characters of what viser is told in a header; websockets takes no line longer than 8,192."""
+MAX_SUBPROTOCOLS = 8
+UNSUPPORTED_DATA = 1003
+"""Code of a close: the page sent something that is no message of viser's."""
+TOO_BIG = 1009
+"""Code of a close: the page sent a message that is too large."""
 
 PAGE_HEADER = "X-AI4U-Edu-Page"
 """By this viser is told the address under which a browser has the page."""
@@ -39,6 +49,9 @@ DARK_HEADER = "X-AI4U-Edu-Dark"
 """By this viser is told that a page is to be dark."""
 DARK_COOKIE = "ai4u_edu_dark"
 """By this the page tells us; empty for light."""
+_SUBPROTOCOL = re.compile(r"[A-Za-z0-9._+-]{1,64}")
+
+_logger = logging.getLogger(__name__)
 
 
 class _Viser(ClientConnection):
@@ -59,7 +72,7 @@ class _Viser(ClientConnection):
         super().process_event(event)
 
 
-_SAYABLE = range(1000, 1004)  # other codes of a close can't be passed on
+_SAYABLE = (1000, 1001, 1002, 1003, 1009)  # other codes of a close can't be passed on
 
 
 class ViserProxy:
@@ -85,6 +98,7 @@ class ViserProxy:
             await self._serve(WebSocket(scope, receive, send))
             return
         frames.hold_nothing_back()
+        frames.cap(MAX_UPWARD_BYTES)
         self._post = post_here(self._post)
         with left(frames, self._post) as way:
             await self._serve(WebSocket(scope, receive, send), frames, way)
@@ -103,7 +117,7 @@ class ViserProxy:
                     KNOCK_HEADER: KNOCK,
                     HEADER: way.ticket if way else "",
                 },
-                subprotocols=[Subprotocol(name) for name in scope["subprotocols"]] or None,
+                subprotocols=_subprotocols(scope["subprotocols"]) or None,
                 compression=None,  # viser compresses by itself
                 max_size=None,
                 ping_interval=None,  # the page is asked for signs of life, that's enough
@@ -133,7 +147,7 @@ def page_address(scope: Scope) -> str:
     headers = Headers(scope=scope)
     secure = scope.get("scheme") in ("wss", "https")
     host = f"{'https' if secure else 'http'}://{headers.get('host', '')}"
-    return f"{headers.get('origin', host)}{scope.get('root_path', '')}"
+    return _as_header(f"{headers.get('origin', host)}{scope.get('root_path', '')}")
 
 
 def page_agent(scope: Scope) -> str:
@@ -145,9 +159,21 @@ def page_agent(scope: Scope) -> str:
     >>> page_agent({"type": "websocket", "headers": [(b"cookie", quoted)]})
     ''
     """
-    said = HTTPConnection(scope).cookies.get(AGENT_COOKIE, "")
-    # a cookie's text may have line ends, written otherwise, and begin another header
-    return said if said.isascii() and said.isprintable() else ""
+    return _as_header(HTTPConnection(scope).cookies.get(AGENT_COOKIE, ""))
+
+
+def _as_header(text: str) -> str:
+    """Return a text that may stand in a header, or nothing.
+
+    A cookie's text may have line ends, written otherwise, and begin another header.
+    """
+    is_fit = text.isascii() and text.isprintable() and len(text) <= MAX_HEADER_CHARS
+    return text if is_fit else ""
+
+
+def _subprotocols(offered: Iterable[str]) -> list[Subprotocol]:
+    found = [Subprotocol(name) for name in offered if _SUBPROTOCOL.fullmatch(name)]
+    return found[:MAX_SUBPROTOCOLS]
 
 
 async def _downward(
@@ -170,16 +196,32 @@ async def _downward(
 
 
 async def _upward(page: WebSocket, viser: ClientConnection, frames: FramesProtocol | None) -> None:
-    rate = Rate(UPWARD)
+    """Hand the messages of a page on to viser, as far as a page may send them."""
+    rate, code, reason = Rate(UPWARD), 1000, ""
     with suppress(ConnectionClosed):
         while (message := await page.receive())["type"] == "websocket.receive":
             frame = message.get("bytes")
             if frame is None:  # viser speaks in bytes only
+                code, reason = UNSUPPORTED_DATA, "expected bytes, got text"
                 break
-            if not any(kind in frame for kind in _BARRED):
-                await viser.send(frame)
+            if len(frame) > MAX_UPWARD_BYTES:
+                code, reason = TOO_BIG, f"expected at most {MAX_UPWARD_BYTES} bytes in a message"
+                break
+            try:
+                await viser.send(page_messages.checked(frame))
+            except page_messages.MalformedError as error:
+                code, reason = UNSUPPORTED_DATA, "expected a message as msgpack"
+                _log_refusal("malformed", error)
+                break
+            except ValueError as error:
+                _log_refusal("refused", error)
             if wait := rate.take():
                 await asyncio.sleep(wait)
             if frames is not None and frames.disconnected:
                 break  # who sent too much may be gone before all of that has been read
-    await viser.close()
+    await viser.close(code, reason)
+
+
+def _log_refusal(key: str, error: ValueError) -> None:
+    # as ASCII: a page chooses some of the text, which is not to look like another line of the log
+    log_limited(_logger, logging.WARNING, key, "a page's message was left out: %a", str(error))

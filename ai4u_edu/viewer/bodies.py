@@ -16,6 +16,7 @@ from ai4u_edu.viewer.layers import Layers
 from ai4u_edu.viewer.light import surfaces
 from ai4u_edu.viewer.local_server import LocalServer
 from ai4u_edu.viewer.poses import Poses, poses
+from ai4u_edu.viewer.reporting import reporting
 from ai4u_edu.viewer.root import Root
 
 BLACK: Rgb = (0, 0, 0)
@@ -98,10 +99,11 @@ class _Kind:
         """Has a click on a member told, with the page on which it was clicked."""
 
         async def tell(event: SceneNodePointerEvent[BatchedMeshHandle]) -> None:
-            if event.instance_index is not None and event.instance_index < len(self.names):
-                on_agent(event.client_id, self.names[event.instance_index])
+            index = event.instance_index
+            if index is not None and 0 <= index < len(self.names):
+                on_agent(event.client_id, self.names[index])
 
-        self._body.on_click(tell)
+        self._body.on_click(reporting(tell))
 
     def move(self, where: Poses) -> None:
         """Puts the members where they are."""

@@ -18,10 +18,14 @@ class Complaints:
         try:
             yield
         except Exception as error:
-            kind = (type(error), *_line(error.__traceback__))
-            if kind not in self._said:
-                self._said.add(kind)
-                traceback.print_exception(error)
+            self.write(error)
+
+    def write(self, error: Exception) -> None:
+        """Write an error, unless one of its type from its line was written before."""
+        kind = (type(error), *_line(error.__traceback__))
+        if kind not in self._said:
+            self._said.add(kind)
+            traceback.print_exception(error)
 
 
 def _line(trace: TracebackType | None) -> tuple[str, int]:

@@ -5,6 +5,7 @@ from typing import Any, TypeVar
 
 from viser import GuiButtonGroupHandle, GuiDropdownHandle, GuiEvent, GuiInputHandle
 
+from ai4u_edu.page_limits import MAX_EXACT_INT
 from ai4u_edu.runner import Runner
 from ai4u_edu.snapshot import Snapshot, Stage
 from ai4u_edu.viewer.asking import ask
@@ -43,7 +44,9 @@ class Controls:
         self._form = gui.add_form(None)
         with self._form:
             hint = "Enter begins an episode with this seed"
-            self._seed = gui.add_number("Seed", 0, min=0, step=1, hint=hint)
+            # as far as browsers count exactly: beyond, the page would show another number
+            limit = MAX_EXACT_INT
+            self._seed = gui.add_number("Seed", 0, min=0, max=limit, step=1, hint=hint)
         self._time.on_click(self._on_time)
         self._speed.on_update(self._on_speed)
         self._form.on_submit(self._on_seed)
@@ -64,7 +67,10 @@ class Controls:
             _show(self._speed, name)
         if snapshot.seed != self._seed_shown:
             self._seed_shown = snapshot.seed
-            _show(self._seed, snapshot.seed)
+            is_exact = snapshot.seed <= MAX_EXACT_INT
+            self._seed.label = "Seed" if is_exact else f"Seed (now {snapshot.seed})"
+            if is_exact:
+                _show(self._seed, snapshot.seed)
 
     # these run in viser's event loop, one after the other: a click is never taken for the next one
 

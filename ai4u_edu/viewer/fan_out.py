@@ -7,6 +7,7 @@ Where there is a direct way to a page, everything takes it once the page has wha
 """
 
 import asyncio
+import logging
 import time
 from collections import defaultdict
 from collections.abc import Awaitable, Callable, Sequence
@@ -17,12 +18,13 @@ from weakref import WeakKeyDictionary
 import msgspec
 import viser
 import zstandard
-from viser.infra import _infra
+from viser.infra import WebsockClientConnection, _infra
 from viser.infra._async_message_buffer import AsyncMessageBuffer
 from viser.infra._messages import Message
 from websockets.asyncio.server import ServerConnection, broadcast
 
 from ai4u_edu.direct import HEADER, Direct, framed, taken
+from ai4u_edu.log_limit import log_limited
 
 KNOWN = "1.1.1"
 """The viser whose insides this fits. Any other one goes on in its own way."""
@@ -38,6 +40,9 @@ SOON = 0.01
 """Seconds after which it is looked again whether a page has taken what it was told."""
 
 _NAME = "_ai4u_edu_fan_out"
+_IS_OWN = "_ai4u_edu_is_own"
+"""Marks the buffers of single pages of a server of ours."""
+_logger = logging.getLogger(__name__)
 Producer = Callable[..., Awaitable[None]]
 
 
@@ -156,9 +161,16 @@ class FanOut:
     async def _send(self) -> None:
         buffer = self._buffer
         while True:
-            self.give_way()
+            is_done = False
+            try:  # all pages would be closed if this task ended
+                self.give_way()
+            except Exception as error:
+                _log_failure("waiting", "pages are told without waiting: %a", error)
             began = time.monotonic()
-            is_done = self._send_news()
+            try:
+                is_done = self._send_news()
+            except Exception as error:
+                _log_failure("sending", "some pages were not told what is new: %a", error)
             spent = time.monotonic() - began
             with suppress(TimeoutError):
                 await asyncio.wait_for(buffer.flush_event.wait(), max(PERIOD, spent / MOST))
@@ -185,11 +197,12 @@ class FanOut:
         for since, numbers in lacking.items():
             messages = self._between(since, last)
             barred = {message.excluded_self_client for message in messages}
+            for number in numbers:
+                cursors[number] = last  # first: what fails to be told now would fail again
             self._tell([number for number in numbers if number not in barred], messages)
             for number in numbers:
                 if number in barred:
                     self._tell([number], [m for m in messages if m.excluded_self_client != number])
-                cursors[number] = last
         return is_done
 
     def _tell(self, numbers: Sequence[int], messages: Sequence[Message]) -> None:
@@ -200,7 +213,10 @@ class FanOut:
         frame = framed(message)
         for page in pages:
             if page.way is not None:
-                page.way.tell(frame)
+                try:
+                    page.way.tell(frame)
+                except Exception as error:  # the other pages are told all the same
+                    _log_failure("page", "a page was not told what is new: %a", error)
 
     def _between(self, since: int, last: int, number: int = -1) -> list[Message]:
         """The messages after one and up to another that are still of use, but for one page's."""
@@ -214,15 +230,14 @@ class FanOut:
 
 
 def packed(messages: Sequence[Message]) -> bytes:
-    """A frame as viser's page reads it (see viser's ``_message_producer``)."""
-    buffers: list[memoryview] = []
-    plain = msgspec.msgpack.encode(
-        {
-            "messages": tuple(message.as_serializable_dict(buffers) for message in messages),
-            "timestampSec": time.perf_counter(),
-            "binaryBufferLengths": tuple(each.nbytes for each in buffers),
-        }
-    )
+    """Return a frame as viser's page reads it (see viser's ``_message_producer``).
+
+    A message that msgpack can't hold is left out, and logged.
+    """
+    try:
+        plain, buffers = _plain(messages)
+    except Exception:
+        plain, buffers = _plain([each for each in messages if _can_be_packed(each)])
     small = zstandard.ZstdCompressor(level=1).compress(plain)
     parts: list[bytes | memoryview] = [
         len(plain).to_bytes(8, "little"),
@@ -231,6 +246,32 @@ def packed(messages: Sequence[Message]) -> bytes:
     ]
     _infra._append_aligned_buffers(parts, buffers, 16 + len(small))
     return b"".join(parts)
+
+
+def _plain(messages: Sequence[Message]) -> tuple[bytes, list[memoryview]]:
+    buffers: list[memoryview] = []
+    plain = msgspec.msgpack.encode(
+        {
+            "messages": tuple(message.as_serializable_dict(buffers) for message in messages),
+            "timestampSec": time.perf_counter(),
+            "binaryBufferLengths": tuple(each.nbytes for each in buffers),
+        }
+    )
+    return plain, buffers
+
+
+def _can_be_packed(message: Message) -> bool:
+    try:
+        _plain([message])
+    except Exception as error:  # whatever a value's type does when it is asked for its content
+        kind = type(message).__name__
+        _log_failure(kind, f"a {kind} was left out, it can't be sent: %a", error)
+        return False
+    return True
+
+
+def _log_failure(key: str, text: str, error: Exception) -> None:
+    log_limited(_logger, logging.ERROR, key, text, f"{type(error).__name__}: {error!s:.200}")
 
 
 def fan_out(server: viser.ViserServer, give_way: Callable[[], None] = do_nothing) -> bool:
@@ -244,13 +285,34 @@ def fan_out(server: viser.ViserServer, give_way: Callable[[], None] = do_nothing
         return False
     buffer = server._websock_server._broadcast_buffer
     setattr(buffer, _NAME, FanOut(buffer, give_way))
+    server._websock_server.on_client_connect(_mark_own)
     if _infra._message_producer is _viser_does:
         _infra._message_producer = _produce
     return True
 
 
+async def _mark_own(connection: WebsockClientConnection) -> None:
+    setattr(connection.get_message_buffer(), _IS_OWN, True)
+
+
 _pages: WeakKeyDictionary[ServerConnection, Page] = WeakKeyDictionary()
 _viser_does: Producer = _infra._message_producer
+
+
+async def _send_windows(
+    page: Page, buffer: AsyncMessageBuffer, client_id: int, backlog_done_message: Message | None
+) -> None:
+    """Send a buffer that belongs to one page, as viser's ``_message_producer`` does."""
+    windows = buffer.window_generator(client_id, backlog_done_message=backlog_done_message)
+    try:
+        while not buffer.done:
+            try:
+                window = await anext(windows)
+            except StopAsyncIteration:
+                break
+            await page.send(packed(window))
+    finally:
+        await windows.aclose()
 
 
 async def _produce(
@@ -259,7 +321,11 @@ async def _produce(
     client_id: int,
     backlog_done_message: Message | None = None,
 ) -> None:
-    """In place of viser's function of that name; other buffers than ours are packed its way."""
+    """Send a page what is in a buffer, in place of viser's function of that name.
+
+    A message that can't be packed is left out, also if it is for one page only: viser would close
+    the page. Servers that are not ours go on in viser's way.
+    """
     if not isinstance(buffer.message_event, Awakener):
         buffer.message_event = Awakener()
         buffer.message_event.set()
@@ -267,7 +333,9 @@ async def _produce(
     if page is None:
         page = _pages[websocket] = Page(websocket)
     ours: FanOut | None = getattr(buffer, _NAME, None)
-    if ours is None:
+    if ours is None and hasattr(buffer, _IS_OWN):
+        await _send_windows(page, buffer, client_id, backlog_done_message)
+    elif ours is None:
         await _viser_does(page, buffer, client_id, backlog_done_message)
     else:
         page.give_way = ours.give_way

@@ -24,6 +24,7 @@ from ai4u_edu.viewer.layers import Layers
 from ai4u_edu.viewer.light import strokes
 from ai4u_edu.viewer.onlooker import Onlooker
 from ai4u_edu.viewer.placing import size
+from ai4u_edu.viewer.reporting import reporting
 from ai4u_edu.viewer.root import Root
 from ai4u_edu.viewer.view import Mode
 from ai4u_edu.workshop import Outcome, Workshop
@@ -35,6 +36,8 @@ KNOB, STEM = 0.02, 0.05
 """The radius of what turns a body, and how far it is from it, as shares of the arena."""
 STEP = 5.0
 """Degrees: a hand turns in such steps, for walls are mostly to be straight."""
+MAX_DRAG_M = 1e6
+"""Largest distance (m) from the origin to which a body can be dragged."""
 INK: Rgb = rgb("vermillion")
 BOX = prism([(0.5, 0.5), (-0.5, 0.5), (-0.5, -0.5), (0.5, -0.5)], 1.0, 0.0)
 
@@ -128,8 +131,8 @@ class Handles:
             if self._bodies:
                 brush = Brush(self._onlooker.client.scene, root)
                 boxes = brush.batch("boxes", BOX, [INK] * len(self._bodies), opacity=0.0)
-                boxes.on_click(self._on_click)
-                boxes.on_drag(self._on_drag)
+                boxes.on_click(reporting(self._on_click))
+                boxes.on_drag(reporting(self._on_drag))
                 self._boxes = boxes
         extents = [_extent(body) for body in self._bodies]
         room = ROOM * size(stage)
@@ -159,7 +162,7 @@ class Handles:
             rim = circle(KNOB * unit, corners=24)
             knob = brush.batch("knob", prism(rim, KNOB * unit, 0.0).moved(far, 0.0), [INK])
             knob.batched_scales = np.ones(1, np.float32)
-            knob.on_drag(self._on_turn)
+            knob.on_drag(reporting(self._on_turn))
             self.knob = knob
 
     def _place(self, stage: Stage) -> None:
@@ -195,17 +198,18 @@ class Handles:
     async def _on_drag(self, event: SceneNodeDragEvent[BatchedMeshHandle]) -> None:
         if event.phase == "start":
             name = self._name(event.instance_index)
-            if name:
+            state = self._states.get(name)
+            if state is not None:
                 x, y, _ = event.start_position
-                state = self._states[name]
                 self._take(Grip(name, state.x - x, state.y - y, turns=False))
                 self._on_choose(name)
         self._follow(event)
 
     async def _on_turn(self, event: SceneNodeDragEvent[BatchedMeshHandle]) -> None:
         if event.phase == "start" and self._marked is not None:
-            state = self._states[self._marked.name]
-            self._take(Grip(state.name, state.x, state.y, turns=True))
+            state = self._states.get(self._marked.name)
+            if state is not None:
+                self._take(Grip(state.name, state.x, state.y, turns=True))
         self._follow(event)
 
     def _listen(self, is_on: bool) -> None:
@@ -247,16 +251,17 @@ class Handles:
     def _follow(self, event: SceneNodeDragEvent[Any]) -> None:
         with self._lock:
             grip = self.grip
-            x, y, _ = event.end_position
             if grip is None:
                 return
-            if not math.isfinite(x + y):
+            x, y, _ = event.end_position
+            ahead, aside = (x - grip.x, y - grip.y) if grip.turns else (x + grip.x, y + grip.y)
+            if not math.hypot(ahead, aside) <= MAX_DRAG_M:  # that of NaN is not, either
                 pass  # a page may say what it likes: the body stays where it was last
             elif grip.turns:
-                degrees = math.degrees(math.atan2(y - grip.y, x - grip.x))
+                degrees = math.degrees(math.atan2(aside, ahead))
                 self._goal = grip.x, grip.y, STEP * round(degrees / STEP)
             else:
-                self._goal = round(x + grip.x, 3), round(y + grip.y, 3), None
+                self._goal = round(ahead, 3), round(aside, 3), None
         if event.phase == "end":
             self._let_go()
         else:

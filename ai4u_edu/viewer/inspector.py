@@ -171,8 +171,8 @@ class BlocksTab:
 
     async def _on_deed(self, event: GuiEvent[GuiButtonGroupHandle]) -> None:
         agent, path = self._onlooker.agent, self._path
-        if path is None:
-            return
+        if path is None or not isinstance(path[-1], int):
+            return  # a controller belongs to its brain: it has no place in a list
         match event.target.value:
             case "On" | "Off" as word:
                 self._ask(self._workshop.switch_block(agent, path, word == ON))

@@ -8,6 +8,7 @@ import rich
 from viser import ViserServer
 
 from ai4u_edu.viewer.fan_out import do_nothing, fan_out
+from ai4u_edu.viewer.incoming import IncomingMessages
 from ai4u_edu.viewer.quick_props import quick_props
 
 
@@ -28,6 +29,7 @@ class LocalServer(ViserServer):
         with quiet():
             super().__init__(host="127.0.0.1", port=0, label=label, verbose=False)
         fan_out(self, give_way)
+        IncomingMessages(self)
         quick_props()
 
     def request_share_url(self, verbose: bool = True) -> str | None:  # noqa: ARG002

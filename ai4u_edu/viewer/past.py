@@ -24,8 +24,9 @@ from ai4u_edu.viewer.onlooker import Onlooker
 from ai4u_edu.viewer.past_list import FORMATS, downloads, listed
 from ai4u_edu.viewer.past_projector import NOW, Projector
 from ai4u_edu.viewer.readings import block
+from ai4u_edu.viewer.reporting import reporting
 from ai4u_edu.viewer.tabs import TabKind
-from ai4u_edu.viewer.uploads import limit_uploads
+from ai4u_edu.viewer.uploads import limit_uploads, take_file
 
 NONE, UNDER_WAY = "choose one", "this one, so far"
 BACK, PLAY, STOP, ON = "Step back", "Play", "Stop", "Step on"
@@ -71,7 +72,7 @@ class PastTab:
         self._speed.on_update(self._on_speed)
         self._verbs.on_click(self._on_verb)
         self._nobody.on_click(self._on_nobody)
-        self._upload.on_upload(self._on_upload)
+        self._upload.on_upload(reporting(self._on_upload))
 
     def draw(self, snapshot: Snapshot) -> None:
         """Shows what there is, what was chosen, and which moment is seen."""
@@ -167,7 +168,7 @@ class PastTab:
         self._ghosts.race(None)
 
     async def _on_upload(self, event: GuiEvent[GuiUploadButtonHandle]) -> None:
-        file, archive = event.target.value, self._projector.archive
+        file, archive = take_file(event), self._projector.archive
         if archive is None:
             return
         try:

@@ -82,9 +82,9 @@ class View:
             self._follow(body, self._shape())
 
     def _shape(self) -> float:
-        """The window's width / height."""
+        """The window's width / height; a window that is folded away has neither."""
         camera = self._client.camera
-        return camera.image_width / max(camera.image_height, 1)
+        return max(camera.image_width, 1) / max(camera.image_height, 1)
 
     def _show_all(self, snapshot: Snapshot) -> None:
         bounds, aspect = seen_bounds(snapshot.stage), self._shape()

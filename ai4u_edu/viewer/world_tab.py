@@ -26,10 +26,11 @@ from ai4u_edu.viewer.handles import Handles
 from ai4u_edu.viewer.inspector_words import WAITS
 from ai4u_edu.viewer.onlooker import Onlooker
 from ai4u_edu.viewer.readings import block
+from ai4u_edu.viewer.reporting import reporting
 from ai4u_edu.viewer.save_window import SaveWindow
 from ai4u_edu.viewer.settings_form import SettingsForm
 from ai4u_edu.viewer.tabs import TabKind
-from ai4u_edu.viewer.uploads import limit_uploads
+from ai4u_edu.viewer.uploads import limit_uploads, take_file
 from ai4u_edu.workshop import ChangeError, Outcome, Workshop
 from ai4u_edu.workshop.forms import Field
 from ai4u_edu.workshop.settings import scene_form
@@ -95,7 +96,7 @@ class WorldTab:
         self.thing.on_update(self._on_thing)
         self.new.on_click(self._on_new)
         self.delete.on_click(self._on_delete)
-        self.upload.on_upload(self._on_upload)
+        self.upload.on_upload(reporting(self._on_upload))
 
     def draw(self, snapshot: Snapshot) -> None:
         """Shows what there is to change, when that is other than before."""
@@ -250,7 +251,7 @@ class WorldTab:
             self._ask(self._workshop.remove_body(self._chosen))
 
     async def _on_upload(self, event: GuiEvent[GuiUploadButtonHandle]) -> None:
-        file = event.target.value
+        file = take_file(event)
         try:
             text = file.content.decode()
         except UnicodeDecodeError:

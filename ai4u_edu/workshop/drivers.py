@@ -17,6 +17,7 @@ from ai4u_edu.blocks import (
 from ai4u_edu.blocks.brains.address import brain_at
 from ai4u_edu.errors import SetupError, suggest
 from ai4u_edu.recording import Episode
+from ai4u_edu.syntax import parsed
 from ai4u_edu.workshop.script import run_file
 
 SCRIPT, RECORDING, NETWORK, REMOTE = "script:", "recording:", "network:", "ai4u://"
@@ -159,7 +160,7 @@ def _checked(place: Path) -> Path:
 def _drivers_in(path: Path) -> list[str]:
     """Functions of one argument and controllers in a file, found without running it."""
     try:
-        tree = ast.parse(path.read_text(encoding="utf-8"))
+        tree = parsed(path.read_text(encoding="utf-8"))
     except (OSError, SyntaxError, ValueError, RecursionError):
         return []
     return [

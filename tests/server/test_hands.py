@@ -81,6 +81,24 @@ def test_a_page_that_is_gone_gives_back(room: Room) -> None:
     until(lambda: brain_of(room) == "LocalBrain(ScriptController)")
 
 
+def test_a_page_that_lets_go_and_leaves_at_once_gives_back(room: Room) -> None:
+    may_go = threading.Event()
+    with room.page() as page:
+        page.hold("KeyW")
+        page.hear("hello", others="")
+        room.runner.submit(lambda: may_go.wait(5))
+        for _ in range(50):  # one of them is carried out, they are not heaped up
+            page.say("let_go")
+            page.say("take")
+        page.say("let_go")
+        page.say("nonsense")
+        page.hear("error")
+        waiting = len(room.runner._commands)
+    may_go.set()
+    until(lambda: brain_of(room) == "LocalBrain(ScriptController)")
+    assert waiting < 5
+
+
 def test_it_stays_taken_over_while_another_page_takes_the_seat(room: Room) -> None:
     with room.page() as first, room.page() as second:
         first.hold("KeyW")

@@ -10,13 +10,16 @@ from contextlib import contextmanager, suppress
 import msgspec
 import pytest
 import viser
+from viser.infra._messages import wire_field_names
 from websockets.asyncio.server import ServerConnection, serve
 from websockets.exceptions import ConnectionClosed, InvalidStatus
 from websockets.sync.client import ClientConnection, connect
 from websockets.typing import Subprotocol
 from zstandard import ZstdDecompressor
 
+from ai4u_edu.server import page_messages
 from ai4u_edu.server.proxy import UPWARD
+from tests.load.clients import CAMERA
 from tests.server.rooms import UPGRADE, Room, raw_request, served, until
 
 PROTOCOL = Subprotocol(f"viser-v{viser.__version__}")
@@ -142,16 +145,120 @@ def stand_in(behave: Behaviour) -> Iterator[int]:
         loop.close()
 
 
+def part(size: int) -> dict[str, object]:
+    """A part of a file."""
+    content = b"\x07" * size
+    ids = {"source_component_uuid": "1", "transfer_uuid": "2"}
+    return {"type": "FileTransferPart", **ids, "part_index": 0, "content": content}
+
+
 def test_large_frames_come_through_whole_in_both_directions() -> None:
     async def echo(connection: ServerConnection) -> None:
         async for frame in connection:
             await connection.send(frame)
+            await connection.send(bytes(40 * len(frame)))
 
     with stand_in(echo) as port, served(viser_port=port) as room, client(room) as page:
-        for size in (0, 1, 125, 126, 65536, 20_000_000):
-            frame = b"\x07" * size
-            page.send(frame)
-            assert page.recv(20) == frame
+        for size in (0, 1, 125, 126, 65536, 512 * 1024):
+            page.send(msgspec.msgpack.encode(part(size)))
+            frame = page.recv(20)
+            assert isinstance(frame, bytes)
+            assert msgspec.msgpack.decode(frame) == part(size)
+            assert page.recv(20) == bytes(40 * len(frame))
+
+
+def test_viser_gets_what_was_understood_and_nothing_else() -> None:
+    heard: list[bytes] = []
+
+    async def listen(connection: ServerConnection) -> None:
+        async for frame in connection:
+            assert isinstance(frame, bytes)
+            heard.append(frame)
+
+    update = {"type": "GuiUpdateMessage", "uuid": "1", "updates": {"value": 1}}
+    first_kind = msgspec.msgpack.encode(update)
+    with stand_in(listen) as port, served(viser_port=port) as room, client(room) as page:
+        # which of two types it is would be up to the reader
+        page.send(b"\x84" + first_kind[1:] + b"\xa4type\xafShareUrlRequest")
+        page.send(msgspec.msgpack.encode(update | {"owner": ""}))
+        page.send(msgspec.msgpack.encode(dict(reversed(update.items()))))
+        until(lambda: heard)
+    (frame,) = heard
+    assert msgspec.msgpack.decode(frame) == update
+
+
+def test_the_fields_are_those_of_visers_own_messages() -> None:
+    theirs = viser._messages.Message._subclass_from_type_string()
+    for kind in page_messages.KINDS:
+        fields = wire_field_names(theirs[kind.__name__])  # type: ignore[arg-type]  # lru_cache
+        assert kind.__struct_fields__ == fields, "look whether server/page_messages.py still fits"
+
+
+@pytest.mark.parametrize("kind", page_messages.KINDS)
+def test_viser_reads_what_was_checked(kind: type[msgspec.Struct]) -> None:
+    texts = {"phase": "start", "button": "left", "modifier": None, "instance_index": None}
+    numbers = {"wxyz": [1.5] * 4, "screen_pos": [1, 2]}
+    values: dict[str, object] = {"updates": {"value": "x"}, "content": b"x"} | texts | numbers
+    for name in kind.__struct_fields__:
+        if "screen" in name:
+            values.setdefault(name, [0.5, 1])
+        elif name in ("position", "look_at") or name.endswith(("direction", "origin", "position")):
+            values.setdefault(name, [0, 1.5, -2])
+        elif name in ("fov", "near", "far") or name.startswith(("image", "part", "size")):
+            values.setdefault(name, 7)
+        else:
+            values.setdefault(name, "name")
+    said = {"type": kind.__name__, **{name: values[name] for name in kind.__struct_fields__}}
+    checked = page_messages.checked(msgspec.msgpack.encode(said))
+    message = viser._messages.Message.deserialize(checked)
+    assert type(message).__name__ == kind.__name__
+    assert all(hasattr(message, name) for name in kind.__struct_fields__)
+
+
+@pytest.mark.parametrize("number", [float("nan"), float("inf"), -1e300, 2**64 - 1, "1", None, [1]])
+@pytest.mark.parametrize("name", ["fov", "near", "image_width", "image_height"])
+def test_a_camera_is_finite(name: str, number: object) -> None:
+    camera = msgspec.msgpack.decode(CAMERA)
+    assert page_messages.checked(CAMERA)
+    with pytest.raises(ValueError, match=name):
+        page_messages.checked(msgspec.msgpack.encode(camera | {name: number}))
+    for vector in ("position", "look_at", "up_direction", "wxyz"):
+        spoilt = [number, *camera[vector][1:]]
+        with pytest.raises(ValueError, match=vector):
+            page_messages.checked(msgspec.msgpack.encode(camera | {vector: spoilt}))
+
+
+@pytest.mark.parametrize(
+    "said",
+    [
+        "ai4u_edu_agent=" + "a" * 8000,
+        "ai4u_edu_agent=\xff\xfe; ai4u_edu_dark=\xff",
+        'ai4u_edu_agent="red\\015\\012Origin: x"; ai4u_edu_dark="\\000"',
+        "; ; =;==;ai4u_edu_agent;ai4u_edu_dark",
+        "ai4u_edu_agent=%00%0d%0a%ff",
+    ],
+)
+def test_a_page_with_odd_cookies_is_a_page(
+    room: Room, said: str, caplog: pytest.LogCaptureFixture
+) -> None:
+    with raw_request(
+        room.url, "Host: localhost", f"Sec-WebSocket-Protocol: {PROTOCOL}", f"Cookie: {said}",
+        *UPGRADE,
+    ) as page:  # fmt: skip
+        answer = b""
+        while not answer.partition(b"\r\n\r\n")[2]:  # until viser talks
+            answer += page.recv(4096)
+        assert answer.startswith(b"HTTP/1.1 101 ")
+    assert caplog.records == []
+
+
+def test_odd_subprotocols_are_left_out(room: Room, caplog: pytest.LogCaptureFixture) -> None:
+    offered = ", ".join(["x" * 100, "\xe9", "a b", *["many"] * 50, PROTOCOL])
+    with raw_request(
+        room.url, "Host: localhost", f"Sec-WebSocket-Protocol: {offered}", *UPGRADE
+    ) as page:
+        assert page.recv(4096).startswith(b"HTTP/1.1 ")
+    assert caplog.records == []
 
 
 def test_viser_closing_closes_the_page_with_its_words() -> None:
@@ -237,7 +344,7 @@ def test_a_page_that_floods_viser_is_slowed_down() -> None:
     def flood(page: ClientConnection) -> None:
         with suppress(ConnectionClosed, OSError):
             while True:
-                page.send(b"x" * 1000)
+                page.send(b"\x82\xa4type\xb3GuiFormDirtyMessage\xa4uuid\xa11")
 
     with stand_in(listen) as port, served(viser_port=port) as room, client(room) as page:
         began = time.monotonic()

@@ -79,10 +79,21 @@ def test_a_refused_seed_is_told_to_who_asked(
         lambda _client, title, body, **_options: told.append(body),
     )
     here.change(controls._seed, -5)
-    until(lambda: controls._seed.value == -5)
-    here.submit(controls._form)
     until(lambda: told)
-    assert "whole number from 0" in told[0]
+    assert told == ["Seed: expected a whole number from 0 to 9007199254740991, got -5"]
+    here.change(controls._seed, 7)
+    until(lambda: controls._seed.value == 7)
+
+
+def test_a_seed_that_browsers_do_not_count_exactly_is_told_in_words(
+    here: Page, controls: Controls, runner: Runner
+) -> None:
+    runner.reset(2**60 + 1).result(5)
+    until(lambda: controls._seed.label == "Seed (now 1152921504606846977)")
+    assert controls._seed.value != 2**60
+    runner.reset(2**53 - 1).result(5)
+    until(lambda: controls._seed.value == 2**53 - 1)
+    assert controls._seed.label == "Seed"
 
 
 def test_the_speed_can_be_chosen(here: Page, controls: Controls, runner: Runner) -> None:

@@ -13,6 +13,7 @@ import msgspec
 import pytest
 import viser
 from viser import _assignable_props_api
+from viser._messages import GuiUpdateMessage
 from viser.infra import _infra
 from viser.infra._messages import Message
 from websockets.sync.client import ClientConnection, connect
@@ -277,6 +278,70 @@ def test_one_page_s_own_things_come_in_their_order_and_all(server: LocalServer) 
         while "299" not in seen:
             seen += marks(told(page.recv(5)))
     assert list(dict.fromkeys(seen)) == [str(number) for number in range(300)]
+
+
+class Unpackable:
+    """Nothing that msgpack knows."""
+
+
+@pytest.mark.parametrize("value", [10**20, -(2**70), Unpackable(), [[{"a": 2**64}]]])
+def test_a_message_that_can_not_be_packed_is_left_out(
+    server: LocalServer, value: object, caplog: pytest.LogCaptureFixture
+) -> None:
+    with client(server) as page:
+        settled(server, 1)
+        server.gui.add_markdown("<before>")
+        server._websock_server.queue_message(GuiUpdateMessage("no widget", {"value": value}))
+        server.gui.add_markdown("<after>")
+        frame_with(page, "<after>")
+        with client(server) as late:  # the message is still kept for who comes
+            seen: list[dict[str, Any]] = []
+            while "ReplayDoneMessage" not in str(seen):
+                seen += told(late.recv(5))
+            assert {"before", "after"} <= set(marks(seen))
+            assert "no widget" not in str(seen)
+            server.gui.add_markdown("<last>")
+            frame_with(page, "<last>")
+            frame_with(late, "<last>")
+    lines = [each for each in caplog.records if each.name == fan_out.__name__]
+    assert len(lines) <= 1, "they are limited, over all of these tests"
+    assert not any(each.exc_info for each in caplog.records)
+
+
+def test_a_page_keeps_what_can_be_packed_of_its_own(server: LocalServer) -> None:
+    with client(server) as page:
+        settled(server, 1)
+        page.send(CAMERA)
+        until(server.get_clients)
+        (own,) = server.get_clients().values()
+        own.gui.add_number("Number", 10**20)
+        own.gui.add_markdown("<after>")
+        frame_with(page, "<after>")
+        server.gui.add_markdown("<for all>".replace(" ", "_"))
+        frame_with(page, "<for_all>")
+
+
+def test_nothing_that_goes_wrong_while_sending_ends_it(
+    server: LocalServer, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def fail(*_: object) -> None:
+        raise RuntimeError("no memory")
+
+    with client(server) as page, client(server) as other:
+        out = settled(server, 2)
+        with monkeypatch.context() as patched:
+            patched.setattr(out, "give_way", fail)
+            server.gui.add_markdown("<first>")
+            server.gui.add_markdown("<second>")
+        with monkeypatch.context() as patched:
+            patched.setattr(fan_out, "_plain", fail)
+            server.gui.add_markdown("<third>")
+            server.flush()
+        server.gui.add_markdown("<last>")
+        frame_with(page, "<last>")
+        frame_with(other, "<last>")
+        assert out._sending is not None
+        assert not out._sending.done()
 
 
 def test_the_direct_way_is_not_taken_before_it_is_open(monkeypatch: pytest.MonkeyPatch) -> None:

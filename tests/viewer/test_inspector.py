@@ -1,5 +1,6 @@
 """The tab for blocks, on pages without a browser."""
 
+import gc
 from collections.abc import Iterator
 from functools import partial
 from typing import Any
@@ -122,6 +123,24 @@ def test_deeds(viewer: Viewer, shop: Shop) -> None:
         seen(viewer, lambda: "redo: remove ProgressReward" in tab._said.content)
 
 
+def test_a_controller_has_no_place_in_a_list(
+    viewer: Viewer, shop: Shop, caplog: pytest.LogCaptureFixture
+) -> None:
+    with page(viewer) as here:
+        tab = tab_of(viewer)
+        here.change(tab.kind, "Brains")
+        seen(viewer, lambda: "1.controller ReplayController" in tab.block.options)
+        chosen(viewer, here, tab, "1.controller ReplayController")
+        before = shop.workshop.state
+        for word in tab.deeds.options:
+            here.change(tab.deeds, word)
+        here.change(tab.kind, "Rewards")  # after it, those were heard
+        seen(viewer, lambda: "1 TouchRewardFunc" in tab.block.options)
+        assert shop.workshop.state == before
+        gc.collect()
+        assert caplog.records == []
+
+
 def test_a_new_block_is_added_and_looked_at(viewer: Viewer, shop: Shop) -> None:
     with page(viewer) as here:
         tab = tab_of(viewer)
@@ -144,9 +163,11 @@ def test_a_page_can_send_what_it_likes(viewer: Viewer, shop: Shop) -> None:
             here.change(handle, "nonsense")
         here.change(tab.add, True)
         form = chosen(viewer, here, tab, "1 BearingSensor")
-        applied(viewer, here, tab, target="<script>")
-        seen(viewer, lambda: "target" in form._complaints)
-        assert "&lt;script&gt;" in form._complaints["target"].content
+        here.change(form.boxes["target"], "<script>")  # is none of its choices
+        applied(viewer, here, tab, noise="<script>")
+        seen(viewer, lambda: "noise" in form._complaints)
+        assert "&lt;script&gt;" in form._complaints["noise"].content
+        assert form.boxes["target"].value == "box"
         assert shop.workshop.state == before
 
 

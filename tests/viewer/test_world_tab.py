@@ -176,6 +176,8 @@ def test_a_page_can_drag_what_it_likes(viewer: Viewer, shop: Shop) -> None:
         drag(here, tab, tab.handles.node, 99, (0, 0), (1, 1))
         drag(here, tab, tab.handles.node, -1, (0, 0), (1, 1))
         drag(here, tab, tab.handles.node, 2, (0, 0), (float("nan"), 1), (1, float("inf")))
+        drag(here, tab, tab.handles.node, 2, (float("nan"), 0), (1, 1))
+        drag(here, tab, tab.handles.node, 2, (0, 0), (1e12, 1), (1, -1e300))
         until(lambda: tab.handles.grip is None)
         for handle in (tab.thing, tab.new, tab.scene, tab.changes, tab.offered):
             here.change(handle, "nonsense")

@@ -1,0 +1,200 @@
+"""The messages that viser's page sends to viser: the kinds that our page uses, typed and bounded.
+
+viser sets whatever attribute of a widget a message names, and casts whatever value it brings. So
+nothing that a page sends gets to viser as it is: a message is decoded strictly, against the types
+below, and viser gets the encoding of what was decoded. Two readers who take one frame for different
+messages can't be played off against each other.
+
+The fields are those of viser's own classes of the same name; a test compares them.
+"""
+
+import sys
+from typing import Annotated, Literal
+
+import msgspec
+from msgspec import Meta
+
+from ai4u_edu.page_limits import MAX_EXACT_INT
+
+MAX_VALUE_CHARS = 200_000
+"""Characters of a widget's value; the viewer takes fewer, and tells the page when it does not."""
+MAX_SCENE_LENGTH = 1e12
+"""Largest coordinate (m) of cameras and pointers: many times the largest world's."""
+MAX_PIXELS = 100_000
+"""Largest width and height of a window."""
+MAX_PART_BYTES = 600_000
+"""Bytes of one part of a file; the page sends 512 KiB."""
+MAX_FILE_BYTES = 2**31
+
+Id = Annotated[str, Meta(max_length=64)]
+Name = Annotated[str, Meta(max_length=256)]
+# a comparison with NaN is false, so bounds refuse it too
+Length = Annotated[float, Meta(ge=-MAX_SCENE_LENGTH, le=MAX_SCENE_LENGTH)]
+Pixels = Annotated[float, Meta(ge=0, le=MAX_PIXELS)]
+Whole = Annotated[int, Meta(ge=-MAX_EXACT_INT, le=MAX_EXACT_INT)]
+Finite = Annotated[float, Meta(ge=-sys.float_info.max, le=sys.float_info.max)]
+Count = Annotated[int, Meta(ge=0, le=MAX_FILE_BYTES)]
+Text = Annotated[str, Meta(max_length=MAX_VALUE_CHARS)]
+Point = tuple[Length, Length, Length]
+ScreenPoint = tuple[Length, Length]
+Modifier = (
+    Literal[
+        "cmd/ctrl",
+        "alt",
+        "shift",
+        "cmd/ctrl+alt",
+        "cmd/ctrl+shift",
+        "alt+shift",
+        "cmd/ctrl+alt+shift",
+    ]
+    | None
+)
+
+
+class _Message(msgspec.Struct, tag_field="type", tag=True, forbid_unknown_fields=True):
+    """A message; its class's name is its ``type``."""
+
+
+class Updates(msgspec.Struct, forbid_unknown_fields=True):
+    """The only attribute of a widget that a page may set."""
+
+    value: bool | Whole | Finite | Text
+
+
+class GuiUpdateMessage(_Message):
+    """Somebody changed a widget, or pressed a button."""
+
+    uuid: Id
+    updates: Updates
+
+
+class GuiFormSubmitMessage(_Message):
+    """Somebody pressed Enter in a form."""
+
+    uuid: Id
+
+
+class GuiFormDirtyMessage(_Message):
+    """Somebody began to fill in a form."""
+
+    uuid: Id
+
+
+class CommandTriggerMessage(_Message):
+    """Somebody pressed a hotkey."""
+
+    uuid: Id
+
+
+class ViewerCameraMessage(_Message):
+    """The camera of the page; the first one tells that the page is ready."""
+
+    wxyz: tuple[Length, Length, Length, Length]
+    position: Point
+    fov: Length
+    near: Length
+    far: Length
+    image_height: Pixels
+    image_width: Pixels
+    look_at: Point
+    up_direction: Point
+
+
+class SceneNodeClickMessage(_Message):
+    """Somebody clicked on something in the scene."""
+
+    name: Name
+    instance_index: Whole | None
+    ray_origin: Point
+    ray_direction: Point
+    screen_pos: ScreenPoint
+    modifier: Modifier
+    owner: Id = ""
+
+
+class SceneNodeDragMessage(_Message):
+    """Somebody drags something in the scene."""
+
+    phase: Literal["start", "update", "end"]
+    name: Name
+    instance_index: Whole | None
+    start_position: Point
+    start_screen_pos: ScreenPoint
+    end_position: Point
+    end_screen_pos: ScreenPoint
+    button: Literal["left", "middle", "right"]
+    modifier: Modifier
+    owner: Id = ""
+
+
+class FileTransferStartUpload(_Message):
+    """Somebody is about to send a file."""
+
+    source_component_uuid: Id
+    transfer_uuid: Id
+    filename: Name
+    mime_type: Name
+    part_count: Count
+    size_bytes: Count
+
+
+class FileTransferPart(_Message):
+    """A part of a file."""
+
+    source_component_uuid: Id
+    transfer_uuid: Id
+    part_index: Count
+    content: Annotated[bytes, Meta(max_length=MAX_PART_BYTES)]
+
+
+KINDS: tuple[type[_Message], ...] = (
+    GuiUpdateMessage,
+    GuiFormSubmitMessage,
+    GuiFormDirtyMessage,
+    CommandTriggerMessage,
+    ViewerCameraMessage,
+    SceneNodeClickMessage,
+    SceneNodeDragMessage,
+    FileTransferStartUpload,
+    FileTransferPart,
+)
+_DECODER = msgspec.msgpack.Decoder(
+    GuiUpdateMessage
+    | GuiFormSubmitMessage
+    | GuiFormDirtyMessage
+    | CommandTriggerMessage
+    | ViewerCameraMessage
+    | SceneNodeClickMessage
+    | SceneNodeDragMessage
+    | FileTransferStartUpload
+    | FileTransferPart
+)
+_ENCODER = msgspec.msgpack.Encoder()
+
+
+class MalformedError(ValueError):
+    """The bytes are no message at all: no page of viser's has sent them."""
+
+
+def checked(frame: bytes) -> bytes:
+    """Return a message's encoding, made anew of what the check has understood.
+
+    Raises:
+        MalformedError: it is no msgpack.
+        ValueError: it is no message that a page may send; the text says what was expected.
+
+    >>> from msgspec.msgpack import decode, encode
+    >>> update = {"type": "GuiUpdateMessage", "uuid": "1", "updates": {"value": 3}}
+    >>> decode(checked(encode(update))) == update
+    True
+    >>> checked(encode(update | {"updates": {"value": 3, "update_cb": []}}))
+    Traceback (most recent call last):
+    ...
+    ValueError: Object contains unknown field `update_cb` - at `$.updates`
+    """
+    try:
+        return _ENCODER.encode(_DECODER.decode(frame))
+    except msgspec.ValidationError as error:
+        raise ValueError(f"{error!s:.200}") from None
+    except (msgspec.DecodeError, ValueError, RecursionError) as error:
+        raise MalformedError(f"expected a message as msgpack: {error!s:.200}") from None
