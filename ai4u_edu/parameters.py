@@ -151,7 +151,8 @@ BOUNDS = {
 }
 
 
-def _shown(value: object) -> str:
+def shown(value: object) -> str:
+    """Return a value as it stands in a message: its repr, cut after 60 characters."""
     try:
         text = repr(value)
     except RecursionError:  # what came from a file may hold lists in lists, a thousand deep
@@ -162,11 +163,11 @@ def _shown(value: object) -> str:
 def _sentence(error: ErrorDetails, known: Sequence[str]) -> str:
     kind, got = error["type"], error.get("input")
     context: Mapping[str, Any] = error.get("ctx", {})
-    shown = _shown(got)
+    told = shown(got)
     if kind in {"missing", "missing_argument", "missing_keyword_only_argument"}:
         return "is missing and has no default"
     if kind == "unexpected_positional_argument":
-        return f"parameters are given by name, as in {next(iter(known), 'size')}=...; got {shown}"
+        return f"parameters are given by name, as in {next(iter(known), 'size')}=...; got {told}"
     if kind in {"extra_forbidden", "unexpected_keyword_argument"}:
         return "unknown parameter; " + suggest(str(error["loc"][-1]), known)
     if kind == "union_tag_invalid":
@@ -178,8 +179,8 @@ def _sentence(error: ErrorDetails, known: Sequence[str]) -> str:
         return error["msg"].removeprefix("Value error, ")
     if kind in BOUNDS:
         words, key = BOUNDS[kind]
-        return f"expected {words} {context[key]:g}, got {shown}"
+        return f"expected {words} {context[key]:g}, got {told}"
     if kind in EXPECTED:
-        return f"expected {EXPECTED[kind].format(**context)}, got {shown}"
+        return f"expected {EXPECTED[kind].format(**context)}, got {told}"
     message = error["msg"].replace("Input should be ", "expected ").replace("valid ", "")
-    return f"{message}, got {shown}"
+    return f"{message}, got {told}"

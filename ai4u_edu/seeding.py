@@ -1,9 +1,12 @@
 """One seed an episode; all chance in it grows from that seed."""
 
+from operator import index
 from typing import Any
 from zlib import crc32
 
 import numpy as np
+
+from ai4u_edu.errors import SeedError
 
 
 class Seeds:
@@ -24,9 +27,12 @@ class Seeds:
     """
 
     def __init__(self, seed: int) -> None:
-        if seed < 0:
-            raise ValueError(f"seed: expected a whole number >= 0, got {seed}")
-        self.seed = int(seed)
+        try:
+            self.seed = index(seed)
+        except TypeError:
+            self.seed = -1
+        if self.seed < 0:
+            raise SeedError(f"seed: expected a whole number >= 0, got {seed!r}")
         self._children: dict[str, np.random.Generator] = {}
 
     @property
