@@ -9,6 +9,7 @@ from gymnasium import spaces
 
 from ai4u_edu.remote.errors import RemoteError
 from ai4u_edu.wire.native import Output, Reading
+from ai4u_edu.wire.texts import SEVERAL
 
 
 def reading_space(reading: Reading) -> spaces.Space[Any]:
@@ -19,7 +20,8 @@ def reading_space(reading: Reading) -> spaces.Space[Any]:
     """
     try:
         if reading.kind == "text":
-            return spaces.Text(reading.shape[0])
+            text = spaces.Text(reading.shape[0])
+            return spaces.Sequence(text) if reading.sensor_type == SEVERAL else text
         low, high = (np.frombuffer(bound, reading.dtype) for bound in (reading.low, reading.high))
         if reading.kind == "discrete":
             return spaces.Discrete(int(high[0]) - int(low[0]) + 1, start=int(low[0]))

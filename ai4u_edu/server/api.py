@@ -159,6 +159,6 @@ def _motion(body: BodyState) -> dict[str, Any]:
 def _reading(value: Any) -> Any:
     if isinstance(value, np.ndarray):
         return _reading(value.tolist())
-    if isinstance(value, list):
+    if isinstance(value, list | tuple):
         return [_reading(each) for each in value]
     return finite(value) if isinstance(value, float) else value
