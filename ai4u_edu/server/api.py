@@ -57,7 +57,7 @@ class AgentView(_View):
     angular_velocity: Spin
     percept: dict[str, Reading]
     action: dict[str, list[Number]]
-    reward: Number
+    reward: Number = Field(description="of the last decision that is over, not of one under way")
     reward_terms: Mapping[str, Number]
     episode_reward: Number
     episode_terms: Mapping[str, Number]
