@@ -347,7 +347,8 @@ def test_what_is_no_seed(seed: Any) -> None:
             use()
         assert str(caught.value) == f"seed: expected a whole number >= 0, got {seed!r}"
         assert isinstance(caught.value, ValueError)
-    assert World(seed=np.int64(3)).seeds.seed == 3
+    whole: Any = np.int64(3)
+    assert World(seed=whole).seeds.seed == 3
 
 
 @pytest.mark.parametrize(
