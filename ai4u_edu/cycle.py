@@ -6,14 +6,16 @@ The order is a contract::
     sense:     begin_of_update_state, every active sensor reads, end_of_update_state
     decide:    the brain gets the percept and answers with an action (or a command)
     step:      reward := 0, begin_of_step
-    each tick: on the first, or on all with repeat_action: begin_of_apply_action, the actuators
-               act, end_of_apply_action; then the world ticks; then actuators' and reward
-               functions' on_tick
+    each tick: on the first, or on all with repeat_action: begin_of_apply_action, all actuators
+               that the action names act, in the action's order, end_of_apply_action; then the
+               world ticks; then actuators' and reward functions' on_tick
     end:       every reward function's on_update, end_of_step, steps += 1; the episode may be over:
                end_of_episode
     sense:     ... the reading that ends one decision is the one that begins the next
 
-A body that falls out of the world in the middle of a cycle ends the cycle there.
+The two events of applying an action fire once a tick, around all actuators together, and also where
+an action names none. A body that falls out of the world in the middle of a cycle ends the cycle
+there.
 
 Each agent has an episode of its own, and they may end at different times. An agent whose episode is
 over takes no more decisions: its body stays in the world, undriven, and the others go on. Its brain
@@ -43,10 +45,12 @@ from typing import NamedTuple
 
 from ai4u_edu.agent import BasicAgent
 from ai4u_edu.agent.agent import Numbers
-from ai4u_edu.blocks import Actuator, Command, Percept
+from ai4u_edu.agent.blame import blame
+from ai4u_edu.agent.members import check_members
+from ai4u_edu.blocks import Actuator, Command, Percept, RewardFunc
 from ai4u_edu.errors import NameNotFoundError, SetupError, suggest
 from ai4u_edu.seeding import checked_seed
-from ai4u_edu.world import World
+from ai4u_edu.world import Body, World
 
 
 class Phase(NamedTuple):
@@ -77,9 +81,15 @@ class _Cycle:
         agent = self.agent
         if agent.stopped:
             return None
-        fitting = self._fitting = agent.fitting
+        fitting = agent.fitting
+        if fitting is not self._fitting:
+            self.look_at_fitting()
         brain = fitting.brain
-        answer = brain.decide(agent.percept)
+        try:
+            answer = brain.decide(agent.percept)
+        except Exception as error:
+            blame(error, agent, brain, "was deciding")
+            raise
         if isinstance(answer, Command):
             if answer is not Command.HOLD:
                 agent.obey(answer)
@@ -92,6 +102,15 @@ class _Cycle:
         self.under_way = True
         agent.begin_step()
         return None
+
+    def look_at_fitting(self) -> None:
+        """Take up the agent's fitting; raise SetupError if it is in another world by now."""
+        fitting = self.agent.fitting
+        if fitting.world is not self._fitting.world:
+            raise SetupError(
+                f"agent {self.agent.id!r} was set up in another world since; make one for each"
+            )
+        self._fitting = fitting
 
     def end_in_turn(self, ticks: int) -> None:
         """Has a decision end at the agent's turn, if one has just begun, and not there.
@@ -107,21 +126,34 @@ class _Cycle:
         if self._tick and not self._repeat:
             return
         agent, body = self.agent, self._fitting.body
-        for actuator, numbers in self._action:
-            if agent.begin_of_apply_action.handlers:
-                agent.begin_of_apply_action.fire(agent)
-            actuator.act(body, numbers)
-            if agent.end_of_apply_action.handlers:
-                agent.end_of_apply_action.fire(agent)
+        if agent.begin_of_apply_action.handlers:
+            agent.begin_of_apply_action.fire(agent)
+        self._act(body)
+        if agent.end_of_apply_action.handlers:
+            agent.end_of_apply_action.fire(agent)
+
+    def _act(self, body: Body) -> None:
+        actuator: Actuator | None = None
+        try:
+            for actuator, numbers in self._action:
+                actuator.act(body, numbers)
+        except Exception as error:
+            blame(error, self.agent, actuator, "was acting")
+            raise
 
     def advance(self) -> None:
         """A tick is over; the last one ends the step and senses anew."""
         fitting = self._fitting
         self._tick += 1
-        for actuator in fitting.tick_actuators:
-            actuator.on_tick(fitting.body, fitting.view)
-        for reward in fitting.tick_rewards:
-            reward.on_tick(fitting.body, fitting.view)
+        block: Actuator | RewardFunc | None = None
+        try:
+            for block in fitting.tick_actuators:
+                block.on_tick(fitting.body, fitting.view)
+            for block in fitting.tick_rewards:
+                block.on_tick(fitting.body, fitting.view)
+        except Exception as error:
+            blame(error, self.agent, block, "was in its on_tick")
+            raise
         if self._tick >= self._ticks or fitting.body.fallen:
             self._end()
 
@@ -146,14 +178,12 @@ class _Cycle:
         """The rest of a step at one go, as one tick after another would do it; the ticks."""
         began = world.ticks
         body, tick = self._fitting.body, world.tick
-        acts = [(actuator.act, numbers) for actuator, numbers in self._action]
         gone = self._drive(world)
         if gone and body.fallen:
             gone = self._ticks  # there are no others
         for index in range(self._tick + gone, self._ticks):
             if self._repeat or not index:
-                for act, numbers in acts:
-                    act(body, numbers)
+                self._act(body)
             tick()
             if body.fallen:
                 break
@@ -216,14 +246,7 @@ class ControlRequestor:
         success: str = "",
         spread_decisions: bool = False,
     ) -> None:
-        if not agents:
-            raise SetupError("expected at least one agent, got none")
-        ids = [agent.id for agent in agents]
-        for index, agent in enumerate(agents):
-            if agent.id in ids[:index]:
-                told = SetupError(f"two agents have the id {agent.id!r}; ids are unique")
-                told.where = (agent, "id")
-                raise told
+        check_members(world, agents)
         self.world = world
         self.agents = tuple(sorted(agents, key=lambda agent: -agent.priority))
         self.default_time_scale = default_time_scale
@@ -236,6 +259,8 @@ class ControlRequestor:
         """Whether the last tick did not take place, because a brain has the world wait for it."""
         for agent in self.agents:
             agent.companions = len(self.agents) - 1
+            agent.belong_to(self)
+        for agent in self.agents:
             agent.setup(world)
         self._cycles = [_Cycle(agent) for agent in self.agents]
         self._respawning: list[_Cycle] = []
@@ -361,6 +386,8 @@ class ControlRequestor:
 
     def _begin(self, cycles: list[_Cycle]) -> None:
         """What a reset and a restart share, when the bodies are in their places."""
+        for cycle in cycles:
+            cycle.look_at_fitting()
         for cycle in cycles:
             cycle.under_way = False
             cycle.agent.begin_episode()

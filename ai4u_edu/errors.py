@@ -6,6 +6,7 @@
     ├── NameNotFoundError      a name that nothing in the world or the agent carries
     ├── SetupError             something was put together wrongly; nothing has run yet
     │   ├── ParameterError     a parameter is missing, unknown, out of range or of another type
+    │   │   └── SeedError      a seed is no whole number from 0 on
     │   ├── BlockError         a block does not fit its agent or its world; names the block
     │   └── SceneError         a scene file is wrong; names file, path and line
     ├── WorldError             the world can't do this (too many bodies, a place is taken)
@@ -57,6 +58,10 @@ class ParameterError(SetupError):
 
     details: Exception | None = None
     """The finding, parameter by parameter, of the library that checked."""
+
+
+class SeedError(ParameterError, ValueError):
+    """A seed is no whole number from 0 on."""
 
 
 class BlockError(SetupError):

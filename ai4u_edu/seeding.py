@@ -6,7 +6,7 @@ from zlib import crc32
 
 import numpy as np
 
-from ai4u_edu.errors import ParameterError
+from ai4u_edu.errors import SeedError, shown
 
 MAX_SEED = 2**63 - 1
 """Largest seed: recordings and messages keep seeds as signed 64-bit integers."""
@@ -18,14 +18,14 @@ def checked_seed(seed: Any) -> int:
     """Return a seed as Python's own whole number.
 
     Raises:
-        ParameterError: it is no whole number from 0 to :data:`MAX_SEED`.
+        SeedError: it is no whole number from 0 to :data:`MAX_SEED`.
 
     >>> checked_seed(7)
     7
     >>> checked_seed(10**20)
     Traceback (most recent call last):
     ...
-    ai4u_edu.errors.ParameterError: seed: expected a whole number from 0 to 9223372036854775807, \
+    ai4u_edu.errors.SeedError: seed: expected a whole number from 0 to 9223372036854775807, \
 got 100000000000000000000
     """
     try:
@@ -33,10 +33,7 @@ got 100000000000000000000
     except TypeError:
         found = -1
     if not 0 <= found <= MAX_SEED:
-        # a number of more than 4,300 digits has no text
-        huge = isinstance(seed, int) and seed.bit_length() > 200
-        shown = f"one of {seed.bit_length()} bits" if huge else f"{seed!r:.60}"
-        raise ParameterError(f"seed: expected a whole number from 0 to {MAX_SEED}, got {shown}")
+        raise SeedError(f"seed: expected a whole number from 0 to {MAX_SEED}, got {shown(seed)}")
     return found
 
 
@@ -44,14 +41,14 @@ def seeds_from(first: Any, count: int) -> range:
     """Return the seeds of some episodes, one by one.
 
     Raises:
-        ParameterError: the last one would be larger than :data:`MAX_SEED`.
+        SeedError: the last one would be larger than :data:`MAX_SEED`.
 
     >>> list(seeds_from(7, 3))
     [7, 8, 9]
     """
     first = checked_seed(first)
     if first + count - 1 > MAX_SEED:
-        raise ParameterError(
+        raise SeedError(
             f"seed: expected room for {count} seeds up to {MAX_SEED}, got {first} as the first one"
         )
     return range(first, first + count)
@@ -67,7 +64,7 @@ class Seeds:
         seed: a whole number from 0 to :data:`MAX_SEED`.
 
     Raises:
-        ParameterError: it is none.
+        SeedError: it is none.
 
     >>> seeds = Seeds(7)
     >>> first = seeds.child("vision").random()

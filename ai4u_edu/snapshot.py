@@ -88,7 +88,9 @@ class AgentState(NamedTuple):
     clipped: int
     """How many numbers of actions were out of range, and cut, so far."""
     reward: float
+    """Of the last decision that is over; while the next one is under way, still of that one."""
     reward_terms: dict[str, float]
+    """The same by name."""
     episode_reward: float
     episode_terms: dict[str, float]
     steps: int
@@ -245,6 +247,7 @@ def agent_state(agent: BasicAgent, success: str = "", phase: Phase = NOWHERE) ->
         phase: how far it is in its decision.
     """
     ledger, facts, pictures = agent.ledger, facts_of(agent), pictures_of(agent)
+    reward, terms = ledger.finished
     return AgentState(
         id=agent.id,
         body=agent.body_name,
@@ -252,8 +255,8 @@ def agent_state(agent: BasicAgent, success: str = "", phase: Phase = NOWHERE) ->
         percept=agent.percept,
         action=dict(agent.last_action),
         clipped=sum(actuator.clipped for actuator in agent.fitting.actuators.values()),
-        reward=ledger.total,
-        reward_terms=dict(ledger.terms),
+        reward=reward,
+        reward_terms=dict(terms),
         episode_reward=ledger.episode_total,
         episode_terms=dict(ledger.episode_terms),
         steps=agent.steps,

@@ -249,7 +249,9 @@ def test_an_error_in_a_block_stops_the_world_with_a_sentence_and_reset_goes_on()
     seen = runner.latest
     while not runner.latest.error:
         seen = runner.wait(seen, 1.0)
-    assert runner.latest.error == "RuntimeError: no idea"
+    assert runner.latest.error == (
+        "RuntimeError: no idea (while LocalBrain(ScriptController) of agent '0' was deciding)"
+    )
     fail[0] = False
     runner.reset(seed=9).result(5)
     wait_for(runner, 5)

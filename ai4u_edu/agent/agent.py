@@ -1,15 +1,34 @@
 """An agent: a body, the blocks on it, and one brain."""
 
-from pydantic import Field
+import math
+from collections.abc import Callable
+from typing import Annotated, Any
+from weakref import ReferenceType, ref
+
+from pydantic import Field, field_validator
 
 from ai4u_edu.agent.events import Event
 from ai4u_edu.agent.fitting import Fitting
 from ai4u_edu.agent.ledger import HANDLERS, Ledger
+from ai4u_edu.agent.options import hand_on
 from ai4u_edu.agent.table import table
-from ai4u_edu.blocks import Action, Actuator, Brain, Command, Keyboard, Percept, RewardFunc, Sensor
+from ai4u_edu.blocks import (
+    Action,
+    Actuator,
+    AgentArraySensor,
+    Answer,
+    Brain,
+    Command,
+    Controller,
+    Keyboard,
+    LocalBrain,
+    Percept,
+    RewardFunc,
+    Sensor,
+)
 from ai4u_edu.blocks.brains.command import Accepted
 from ai4u_edu.blocks.declared import Declared
-from ai4u_edu.errors import ActionError, SetupError, suggest
+from ai4u_edu.errors import ActionError, ReadingError, SetupError, suggest
 from ai4u_edu.parameters import Count, Name, Number
 from ai4u_edu.world import Body, World, WorldView
 
@@ -38,10 +57,30 @@ class BasicAgent(Declared):
     """True ends the episode after a decision whose rewards sum up to more than 0."""
     reward_scale: Number = 1.0
     """Every reward is multiplied by this."""
+    array_input_size: Annotated[int, Field(ge=0, le=1024)] = 0
+    """Numbers that a script can set for the agent to sense (see ``array_sensor``); 0 for none."""
+    range_min: Number = 0.0
+    """The lowest of these numbers."""
+    range_max: Number = 1.0
+    """The highest of these numbers."""
+    action_size: Annotated[int, Field(ge=0, le=1024)] = 0
+    """Numbers (or choices) of an action "defaultAction", which ``action_handler`` carries out; 0
+    for none, or for one if there is a handler."""
+    action_is_continuous: bool = True
+    """Whether "defaultAction" is made of numbers from -1 to 1; else it is one choice."""
+    check_episode_truncated: bool = False
+    """Whether the agent senses that its episode was cut off: adds a TruncatedSensor."""
     sensors: list[Sensor] = Field(default_factory=list)
     actuators: list[Actuator] = Field(default_factory=list)
     rewards: list[RewardFunc] = Field(default_factory=list)
     brains: list[Brain] = Field(default_factory=list)
+
+    @field_validator("brains", mode="before")
+    @classmethod
+    def _with_brains(cls, brains: Any) -> Any:
+        if not isinstance(brains, list | tuple):
+            return brains
+        return [as_brain(each) if _drives(each) else each for each in brains]
 
     def __post_init__(self) -> None:
         self.keyboard = Keyboard()
@@ -59,6 +98,8 @@ class BasicAgent(Declared):
         self.paused = False
         self.stopped = False
         self.last_action: dict[str, Numbers] = {}
+        self._action_handler: Callable[..., None] | None = None
+        self._requestor: ReferenceType[object] | None = None
         self._fitting: Fitting | None = None
         self._percept: Percept | None = None
         self._done_requested = False
@@ -83,6 +124,42 @@ class BasicAgent(Declared):
                 f"agent {self.id!r} is in no world yet; expected ControlRequestor(world, [agent])"
             )
         return self._fitting
+
+    @property
+    def fitting_or_none(self) -> Fitting | None:
+        """How the blocks sit on the body; None before :meth:`setup`."""
+        return self._fitting
+
+    @property
+    def requestor(self) -> object | None:
+        """The ControlRequestor that the agent belongs to, as long as that exists."""
+        return None if self._requestor is None else self._requestor()
+
+    @property
+    def array_sensor(self) -> AgentArraySensor | None:
+        """The sensor that ``array_input_size`` added: ``agent.array_sensor.set_value(0, 0.5)``."""
+        found = (each for each in self.sensors if isinstance(each, AgentArraySensor))
+        key = AgentArraySensor().perception_key
+        return next((each for each in found if each.perception_key == key), None)
+
+    @property
+    def action_handler(self) -> Callable[..., None] | None:
+        """The function that carries out "defaultAction".
+
+        It is set as ``agent.action_handler = f`` and called for every tick of a decision as
+        ``f(body, numbers)``, or as ``f(body, index)`` without ``action_is_continuous``.
+        """
+        return self._action_handler
+
+    @action_handler.setter
+    def action_handler(self, handler: Callable[..., None] | None) -> None:
+        if handler is not None and not callable(handler):
+            raise SetupError(
+                f"agent {self.id!r}: action_handler: expected a function, as in "
+                f"agent.action_handler = lambda body, numbers: ..., got {handler!r}"
+            )
+        self._action_handler = handler
+        hand_on(self)
 
     @property
     def body(self) -> Body:
@@ -126,8 +203,19 @@ class BasicAgent(Declared):
 
     # -- what can be done ------------------------------------------------------------------------
 
+    def belong_to(self, requestor: object) -> None:
+        """Say which ControlRequestor has the agent from now on; it is not kept alive by that."""
+        self._requestor = ref(requestor)
+
     def setup(self, world: World) -> None:
-        """Puts the blocks on the body; checks that all fits together."""
+        """Put the blocks on the body, and check that all fits together.
+
+        An agent may be set up again, in this world or in another one: it begins anew there, and a
+        ControlRequestor that had it in another world refuses to go on with it.
+
+        Raises:
+            SetupError: something does not fit, or an agent beside this one has a block of it.
+        """
         self._fitting = Fitting(self, world)
         self.agent_start.fire(self)
 
@@ -135,16 +223,36 @@ class BasicAgent(Declared):
         """Adds to the reward of the decision that is under way; from any event's handler.
 
         Args:
-            amount: how much; multiplied by reward_scale.
+            amount: how much, a finite number; multiplied by reward_scale.
             request_done: whether the episode ends with this decision.
             name: the term under which it is booked.
+
+        Raises:
+            ReadingError: the amount is no number, or not finite.
         """
-        self.ledger.pay(name, amount * self.reward_scale)
+        try:
+            paid = float(amount) * self.reward_scale
+        except (TypeError, ValueError):
+            paid = math.nan
+        if not math.isfinite(paid):
+            raise ReadingError(
+                f"agent {self.id!r}, add_reward of {name!r}: expected a finite number, "
+                f"got {amount!r}"
+            )
+        self.ledger.pay(name, paid)
         self._done_requested = self._done_requested or request_done
 
-    def use_brain(self, brain: Brain) -> None:
-        """Gives the agent another brain; it takes the next decision. The body stays as it is."""
-        self.fitting.swap_brain(brain)
+    def use_brain(self, brain: Brain | Controller | Callable[[Percept], Answer]) -> None:
+        """Gives the agent another brain; it takes the next decision. The body stays as it is.
+
+        Args:
+            brain: a brain; or a controller or a function from percept to action, for which a
+                LocalBrain is made.
+
+        Raises:
+            SetupError: it is none of these, or it does not fit the agent.
+        """
+        self.fitting.swap_brain(as_brain(brain))
 
     # -- the steps of a decision; ControlRequestor calls them ------------------------------------
 
@@ -248,3 +356,27 @@ class BasicAgent(Declared):
             f"agent {self.id!r}: expected an action by actuator name, such as {example}, "
             f"got {action!r}"
         ) from None
+
+
+def as_brain(given: object) -> Brain:
+    """Return a brain as it is, and a LocalBrain for a controller or a function.
+
+    Raises:
+        SetupError: it is neither.
+    """
+    if isinstance(given, Brain):
+        return given
+    if _drives(given):
+        return LocalBrain(controller=given)  # type: ignore[arg-type]  # _drives looked at it
+    problem = f"the class {given.__name__}" if isinstance(given, type) else repr(given)
+    raise SetupError(
+        f"expected a brain, a controller or a function from percept to action, got {problem}; "
+        "a brain is made as in LocalBrain(controller=WASDRBMoveController())"
+    )
+
+
+def _drives(given: object) -> bool:
+    """Whether a LocalBrain can be made of it: a controller, or a function."""
+    if isinstance(given, Controller):
+        return True
+    return callable(given) and not isinstance(given, type | Declared)

@@ -3,6 +3,8 @@
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
+from ai4u_edu.agent.blame import blame
+
 if TYPE_CHECKING:
     from ai4u_edu.agent.agent import BasicAgent
 
@@ -50,9 +52,19 @@ class Event:
         self.handlers.remove(handler)
 
     def fire(self, agent: "BasicAgent") -> None:
-        """Calls all handlers."""
-        for handler in tuple(self.handlers):
-            handler(agent)
+        """Calls all handlers.
+
+        What a handler raises names the handler, the event and the agent.
+        """
+        handler: Handler | None = None
+        try:
+            for handler in tuple(self.handlers):
+                handler(agent)
+        except Exception as error:
+            title = getattr(handler, "__qualname__", type(handler).__name__)
+            title = title.rpartition("<locals>.")[2]
+            blame(error, agent, f"handler {title} of {self.name}", "was called")
+            raise
 
     def __repr__(self) -> str:
         return f"<Event {self.name}, {len(self.handlers)} handlers>"

@@ -8,7 +8,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ai4u_edu.agent.blame import blame, named
 from ai4u_edu.agent.ledger import Ledger
+from ai4u_edu.agent.options import add_optional_blocks
+from ai4u_edu.agent.ownership import LostBrain, check_each_once, claim
 from ai4u_edu.blocks import (
     Actuator,
     Brain,
@@ -20,8 +23,9 @@ from ai4u_edu.blocks import (
     Sensor,
 )
 from ai4u_edu.blocks.block import Block
+from ai4u_edu.blocks.percept import TEXTS, Texts
 from ai4u_edu.errors import AI4UError, BlockError, ReadingError, SetupError
-from ai4u_edu.world import World, WorldView
+from ai4u_edu.world import BodyView, World, WorldView
 
 if TYPE_CHECKING:
     from ai4u_edu.agent.agent import BasicAgent
@@ -41,7 +45,8 @@ class Fitting:
 
     def __init__(self, agent: "BasicAgent", world: World, *, goes_on: Brain | None = None) -> None:
         self._agent = agent
-        self._world = world
+        self.world = world
+        add_optional_blocks(agent)
         with self._blamed(None):
             self.body = world[agent.body_name]
         self.view = WorldView(world)
@@ -50,6 +55,7 @@ class Fitting:
         self.rewards = [reward for reward in agent.rewards if reward.is_active]
         self.sensors = [sensor for sensor in self._with_standard_ones() if sensor.is_active]
         active = [actuator for actuator in agent.actuators if actuator.is_active]
+        check_each_once(agent, [*self.rewards, *self.sensors, *active, self.brain])
         self._check_unique("reward function", "name", self.rewards)
         self._check_unique("sensor", "perception_key", self.sensors)
         self._check_unique("actuator", "action_name", active)
@@ -58,6 +64,7 @@ class Fitting:
             actuator for actuator in active if type(actuator).on_tick is not Actuator.on_tick
         ]
         self.tick_rewards = [reward for reward in self.rewards if reward.has_ticks]
+        claim(agent, self.blocks)
         agent._fitting = self
         for reward in self.rewards:
             self._set_up(reward)
@@ -66,16 +73,26 @@ class Fitting:
         self._lay_out()
         for actuator in active:
             self._set_up(actuator)
-            with self._blamed(actuator):
+            with self._blamed(actuator, "was set up"):
                 actuator.prepare()
         if self.brain is not goes_on:
             self._set_up(self.brain)
 
+    @property
+    def blocks(self) -> list[Block]:
+        """All active blocks and the brain; the blocks inside of them are not listed."""
+        return [*self.rewards, *self.sensors, *self.actuators.values(), self.brain]
+
     def swap_brain(self, brain: Brain) -> None:
         """Sets another brain up and enables it in place of the one before."""
+        if isinstance(self.brain, LostBrain) and not self.brain.is_replaceable:
+            raise SetupError(self.brain.problem)
+        others = [each for each in self.blocks if each is not self.brain]
+        check_each_once(self._agent, [*others, brain])
+        claim(self._agent, [brain])
         brain.enabled = True
         self._set_up(brain)
-        brain.on_reset(self._agent, self.view)
+        self._reset(brain)
         if self.brain is not brain:
             self.brain.enabled = False
             self.brain.close()
@@ -95,25 +112,20 @@ class Fitting:
 
     def percept(self) -> Percept:
         """What lies in memory now; only what is text is read."""
-        texts = (
-            str(each.read(self.body, self.view)) if each.is_active else ""
-            for each in self._text_sensors
-        )
+        texts = (read(each, self.body, self.view) for each, read in self._text_sensors)
         return Percept(self.layout, bytes(self._memory), tuple(texts))
 
     def reset(self) -> None:
         """Resets every block, in the order of setup."""
         for reward in self.rewards:
-            with self._blamed(reward):
-                reward.on_reset(self._agent, self.view)
+            self._reset(reward)
         for sensor in self.sensors:
-            with self._blamed(sensor):
-                sensor.on_reset(self._agent, self.view)
-                sensor.restart()
+            if sensor.resetable:
+                self._reset(sensor)
+            sensor.restart()
         for actuator in self.actuators.values():
-            with self._blamed(actuator):
-                actuator.on_reset(self._agent, self.view)
-        self.brain.on_reset(self._agent, self.view)
+            self._reset(actuator)
+        self._reset(self.brain)
 
     def sense(self) -> Percept:
         """Every active sensor reads once, into one piece of memory; a copy of it is the percept."""
@@ -126,14 +138,10 @@ class Fitting:
                 else:
                     sensor.blank()
             texts = []
-            for sensor in self._text_sensors:
-                texts.append(str(sensor.read(body, view)) if sensor.is_active else "")
-        except ReadingError:
-            raise
-        except AI4UError as error:
-            raise ReadingError(f"{_named(sensor)}: {error}") from error
+            for sensor, read in self._text_sensors:
+                texts.append(read(sensor, body, view))
         except Exception as error:
-            error.add_note(f"while {_named(sensor)} of agent {self._agent.id!r} was reading")
+            self._told_as_reading(error, sensor, "was reading")
             raise
         return Percept(self.layout, bytes(self._memory), tuple(texts))
 
@@ -145,7 +153,7 @@ class Fitting:
             scale: what each is multiplied by.
 
         Returns:
-            Whether one that ends the episode has paid something.
+            Whether one of them ends the episode.
         """
         body, view = self.body, self.view
         ends = False
@@ -153,18 +161,27 @@ class Fitting:
         try:
             for reward in self.rewards:
                 if reward.is_active:
-                    amount = float(reward.on_update(body, view))
-                    if not math.isfinite(amount):
-                        raise ReadingError(f"expected a finite number, got {amount}")
-                    ledger.pay(reward.name, amount * scale)
-                    if amount and reward.cause_episode_to_end:
+                    amount = reward.on_update(body, view)
+                    if type(amount) is not float:
+                        amount = as_amount(amount)
+                    paid = amount * scale
+                    if not math.isfinite(paid):
+                        refuse_amount(paid)
+                    ledger.pay(reward.name, paid)
+                    if reward.cause_episode_to_end and reward.ends(amount):
                         ends = True
-        except AI4UError as error:
-            raise ReadingError(f"{_named(reward)}: {error}") from error
-        except TypeError as error:
-            error.add_note(f"{_named(reward)}: on_update must return a number")
+        except Exception as error:
+            self._told_as_reading(error, reward, "was paying")
             raise
         return ends
+
+    def _told_as_reading(self, error: Exception, block: Block | None, doing: str) -> None:
+        """Names block and agent; what is one of our errors becomes a ReadingError."""
+        if isinstance(error, AI4UError) and not isinstance(error, ReadingError):
+            told = ReadingError(str(error))
+            blame(told, self._agent, block, doing)
+            raise told from error
+        blame(error, self._agent, block, doing)
 
     def _with_standard_ones(self) -> list[Sensor]:
         """The agent's sensors, and those that every agent has."""
@@ -176,22 +193,30 @@ class Fitting:
     def _lay_out(self) -> None:
         """Gives each reading its place in memory; what a policy gets as input comes first."""
         ordered = sorted(self.sensors, key=lambda sensor: not sensor.is_input)
-        kinds = {id(sensor): sensor.reading_kind() for sensor in ordered}
-        self._text_sensors = [each for each in ordered if kinds[id(each)] == "sstring"]
-        self._number_sensors = [each for each in ordered if kinds[id(each)] != "sstring"]
+        kinds = {id(sensor): self._kind_of(sensor) for sensor in ordered}
+        self._text_sensors = [
+            (each, read_texts if kinds[id(each)] == "sstrings" else read_text)
+            for each in ordered
+            if kinds[id(each)] in TEXTS
+        ]
+        self._number_sensors = [each for each in ordered if kinds[id(each)] not in TEXTS]
         self.layout = Layout(
             [
                 (each.perception_key, kinds[id(each)], each.observation_space().shape or ())
                 for each in self._number_sensors
             ],
-            [each.perception_key for each in self._text_sensors],
+            [each.perception_key for each, _ in self._text_sensors],
         )
         self._memory = bytearray(self.layout.size)
         self._attach()
 
+    def _kind_of(self, sensor: Sensor) -> str:
+        with self._blamed(sensor, "was set up"):
+            return sensor.reading_kind()
+
     def _attach(self) -> None:
         for sensor in self._number_sensors:
-            with self._blamed(sensor):
+            with self._blamed(sensor, "was set up"):
                 place = self.layout.view(self._memory, sensor.perception_key)
                 sensor.attach(place, self._chance_of(sensor))
 
@@ -199,8 +224,12 @@ class Fitting:
         return partial(self.view.random, f"{self._agent.id}/{sensor.perception_key}")
 
     def _set_up(self, block: Block) -> None:
-        with self._blamed(block):
+        with self._blamed(block, "was set up"):
             block.on_setup(self._agent, self.view)
+
+    def _reset(self, block: Block) -> None:
+        with self._blamed(block, "was reset"):
+            block.on_reset(self._agent, self.view)
 
     def _one_brain(self, brains: list[Brain]) -> Brain:
         enabled = [brain for brain in brains if brain.enabled]
@@ -237,19 +266,53 @@ class Fitting:
             names.add(name)
 
     @contextmanager
-    def _blamed(self, block: Block | None) -> Iterator[None]:
+    def _blamed(self, block: Block | None, doing: str = "") -> Iterator[None]:
         """Adds to an error which block of which agent it came from."""
-        who = f"agent {self._agent.id!r}"
         try:
             yield
         except AI4UError as error:
-            told = BlockError(f"{who}, {_named(block)}: {error}" if block else f"{who}: {error}")
+            if isinstance(block, LostBrain):
+                raise
+            who = f"agent {self._agent.id!r}"
+            told = BlockError(f"{who}, {named(block)}: {error}" if block else f"{who}: {error}")
             told.where = (self._agent, block or "body")
             raise told from error
+        except Exception as error:
+            blame(error, self._agent, block, doing)
+            raise
 
 
-def _named(block: Block | None) -> str:
-    name = ""
-    for field in ("perception_key", "action_name", "name"):
-        name = name or getattr(block, field, "")
-    return f"{type(block).__name__} {name!r}" if name else type(block).__name__
+def read_text(sensor: Sensor, body: BodyView, view: WorldView) -> Texts:
+    """Return what a sensor of the type sstring reads."""
+    return str(sensor.read(body, view)) if sensor.is_active else ""
+
+
+def read_texts(sensor: Sensor, body: BodyView, view: WorldView) -> Texts:
+    """Return what a sensor of the type sstrings reads.
+
+    Raises:
+        ReadingError: it reads something else than a list of texts.
+    """
+    if not sensor.is_active:
+        return ()
+    texts = sensor.read(body, view)
+    if not isinstance(texts, list | tuple) or not all(isinstance(each, str) for each in texts):
+        raise ReadingError(f"expected a list of texts, got {texts!r}")
+    return tuple(texts)
+
+
+def refuse_amount(amount: float) -> None:
+    """Raise a ReadingError: an amount is not finite."""
+    raise ReadingError(f"expected a finite number, got {amount}")
+
+
+def as_amount(value: object) -> float:
+    """Return what a reward function paid as a float.
+
+    Raises:
+        ReadingError: it is no number.
+    """
+    try:
+        return float(value)  # type: ignore[arg-type]  # anything may come; the next line says so
+    except (TypeError, ValueError):
+        raise ReadingError(f"expected a number from on_update, got {value!r}") from None

@@ -7,6 +7,9 @@ from typing import NamedTuple
 HANDLERS = "handlers"
 """The term under which ``agent.add_reward`` books what is given no other name."""
 
+NOTHING: tuple[float, Mapping[str, float]] = (0.0, {})
+"""The total and the terms before the first decision of an episode is over."""
+
 
 class Entry(NamedTuple):
     """What one decision was paid."""
@@ -21,16 +24,16 @@ class Entry(NamedTuple):
     @property
     def total(self) -> float:
         """What it was paid altogether."""
-        return sum(self.terms.values())
+        return sum(self.terms.values(), 0.0)
 
 
 class Ledger:
     """The breakdown of rewards.
 
     Attributes:
-        terms: by name, what was paid in the last decision.
+        terms: by name, what was paid in the last decision, or in the one that is under way.
         episode_terms: by name, what was paid in this episode.
-        total: of the last decision.
+        total: of the last decision, or of the one that is under way.
         episode_total: of this episode.
         history: the latest decisions of this episode, if :meth:`remember` was called.
 
@@ -50,6 +53,13 @@ class Ledger:
         self.episode_total = 0.0
         self.history: deque[Entry] = deque(maxlen=0)
         self._latest: tuple[Entry, ...] | None = None
+        self._is_closed = False
+        self._finished: tuple[float, Mapping[str, float]] = NOTHING
+
+    @property
+    def finished(self) -> tuple[float, Mapping[str, float]]:
+        """The total and the terms of the last decision that is over; the one under way is not."""
+        return (self.total, self.terms) if self._is_closed else self._finished
 
     def remember(self, decisions: int) -> None:
         """Keeps the latest decisions from now on, for those who look; training needs none."""
@@ -59,6 +69,9 @@ class Ledger:
 
     def open(self) -> None:
         """A decision begins: nothing is paid for it yet."""
+        if self._is_closed:
+            self._finished = self.total, self.terms
+            self._is_closed = False
         self.terms = {}
         self.total = 0.0
 
@@ -71,7 +84,8 @@ class Ledger:
         self.episode_total += amount
 
     def close(self, step: int) -> None:
-        """A decision is over, and all that it gets is paid."""
+        """A decision is over: what is added until the next one begins still belongs to it."""
+        self._is_closed = True
         if self.history.maxlen:
             self.history.append(Entry(step, self.terms, self.episode_total))
             self._latest = None
@@ -79,6 +93,7 @@ class Ledger:
     def clear(self) -> None:
         """An episode begins."""
         self.open()
+        self._finished = NOTHING
         self.episode_terms = {}
         self.episode_total = 0.0
         self.history.clear()

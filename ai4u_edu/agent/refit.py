@@ -104,7 +104,8 @@ def _begin(
         memory = memories.get(id(sensor))
         if memory is not None and memory.give_back(sensor):
             continue
-        sensor.on_reset(agent, fitting.view)
+        if sensor.resetable:
+            sensor.on_reset(agent, fitting.view)
         if looks and sensor in fitting.number_sensors:
             _blank_or(lambda each: each.take(fitting.body, fitting.view), sensor)
     agent.see(fitting.percept())

@@ -2,6 +2,7 @@
 
 import re
 import sys
+from collections.abc import Sequence
 from typing import Any, ClassVar
 
 from ai4u_edu.blocks.agent_view import AgentView
@@ -22,11 +23,21 @@ class Block(Declared):
         super().__init_subclass__(**options)
         Block.types[cls.__name__] = cls
 
+    def inner_blocks(self) -> "Sequence[Block]":
+        """Return the blocks inside this one that it sets up and resets itself; most have none."""
+        return ()
+
     def on_setup(self, agent: AgentView, view: WorldView) -> None:
-        """Called once, when the agent is set up: check targets here, prepare what is costly."""
+        """Called when the agent is set up: check targets here, prepare what is costly."""
 
     def on_reset(self, agent: AgentView, view: WorldView) -> None:
         """Called at every reset, before the first reading of the episode."""
+
+
+def levels_up(cls: type, name: str) -> int:
+    """Return how many classes one has to go up until one defines a name; all, if none does."""
+    order = cls.__mro__
+    return next((up for up, each in enumerate(order) if name in vars(each)), len(order))
 
 
 def is_built_in(cls: type[Block]) -> bool:

@@ -4,16 +4,17 @@ From the declaration come the constructor and its checks, the JSON Schema, the f
 and the tables.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from functools import wraps
 from typing import Any, Self, dataclass_transform
 
-from pydantic import ConfigDict, Field, TypeAdapter, ValidationError
+from pydantic import ConfigDict, Field, GetCoreSchemaHandler, TypeAdapter, ValidationError
 from pydantic.dataclasses import dataclass
 from pydantic.fields import FieldInfo
+from pydantic_core import ArgsKwargs, core_schema
 
 from ai4u_edu.blocks.field_docs import field_docs
-from ai4u_edu.errors import ParameterError
+from ai4u_edu.errors import ParameterError, shown
 from ai4u_edu.parameters import explain, listed
 
 _CONFIG = ConfigDict(
@@ -46,6 +47,33 @@ class Declared:
         dataclass(cls, kw_only=True, eq=False, repr=False, config=_CONFIG)
         # the constructor that was just made raises pydantic's errors; a student gets ours
         setattr(cls, "__init__", _explained(cls.__init__, cls))  # noqa: B010 - mypy: it is no method
+
+    @classmethod
+    def __get_pydantic_core_schema__(
+        cls, source: Any, handler: GetCoreSchemaHandler
+    ) -> core_schema.CoreSchema:
+        """Say of a parameter that holds one of these: it takes one that is made, and no mapping.
+
+        Pydantic would make one of a mapping: of ``sensors=[{"perception_key": "x"}]`` a bare
+        Sensor, which reads nothing.
+        """
+        return core_schema.no_info_before_validator_function(cls._refuse_unmade, handler(source))
+
+    @classmethod
+    def _refuse_unmade(cls, value: Any) -> Any:
+        if isinstance(value, cls | ArgsKwargs):  # the latter is what the constructor got
+            return value
+        name = cls.__name__
+        got, hint = shown(value), ""
+        if isinstance(value, type):
+            got = f"the class {value.__name__}"
+            hint = f"; make one, as in {value.__name__}(...)" if issubclass(value, cls) else ""
+        elif isinstance(value, Mapping):
+            hint = "; make it here, mappings with a 'type' stand in scene files only"
+        article = "an" if name[0] in "AEIOU" else "a"
+        # pydantic takes a ValueError for a finding, and lets a TypeError through
+        problem = ValueError(f"expected {article} {name}, got {got}{hint}")
+        raise problem
 
     @classmethod
     def parameters(cls) -> dict[str, FieldInfo]:
@@ -82,8 +110,8 @@ class Declared:
         return type(self)(**(self.values() | values))
 
     def __repr__(self) -> str:
-        shown = ", ".join(f"{name}={value!r}" for name, value in self.given().items())
-        return f"{type(self).__name__}({shown})"
+        given = ", ".join(f"{name}={value!r}" for name, value in self.given().items())
+        return f"{type(self).__name__}({given})"
 
 
 def _explained(construct: Callable[..., None], cls: type[Declared]) -> Callable[..., None]:

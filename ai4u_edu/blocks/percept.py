@@ -17,7 +17,13 @@ DTYPES: dict[str, npt.DTypeLike] = {
     "sintarray": np.int32,
     "simage": np.uint8,
 }
-"""AI4U's types of readings that are numbers; ``sstring`` is text and lies beside them."""
+"""AI4U's types of readings that are numbers; texts lie beside them."""
+
+TEXTS = ("sstring", "sstrings")
+"""AI4U's types of readings that are text: one, or several."""
+
+Texts = str | tuple[str, ...]
+"""A reading that is text, or texts."""
 
 
 class Slot(NamedTuple):
@@ -61,7 +67,8 @@ class Layout:
 class Percept(Mapping[str, Any]):
     """The readings of one decision by perception key.
 
-    Arrays can't be written to. A reading of shape () is a plain number or bool, text is a str.
+    Arrays can't be written to. A reading of shape () is a plain number or bool, text is a str,
+    texts are a tuple of str.
 
     Args:
         layout: where each reading lies.
@@ -76,7 +83,7 @@ class Percept(Mapping[str, Any]):
 
     __slots__ = ("data", "layout", "texts")
 
-    def __init__(self, layout: Layout, data: bytes, texts: tuple[str, ...]) -> None:
+    def __init__(self, layout: Layout, data: bytes, texts: tuple[Texts, ...]) -> None:
         self.layout = layout
         self.data = data
         self.texts = texts

@@ -9,6 +9,7 @@ from ai4u_edu.agent import BasicAgent
 from ai4u_edu.blocks import Block, RewardFunc
 from ai4u_edu.check.exam import DECISIONS, Exam, Options, frozen, short
 from ai4u_edu.check.ineffective import warn_of_groups, warn_of_no_end
+from ai4u_edu.check.places import odd_places
 from ai4u_edu.check.report import Outcome, Report
 from ai4u_edu.check.sensors import not_in
 from ai4u_edu.check.trial import Record, Script, Trial, title_of
@@ -29,9 +30,9 @@ def check_scene(
 
     It has to say what it is about; come back from its file as it was; give finite readings, inside
     the sensors' spaces; go the same way from the same seed, also after a reset; and leave the
-    global generators alone. Sensors that always read the same, and rewards that nobody got, are
-    told as warnings; so are groups that nothing carries, and rewards that are to end the episode
-    and never can.
+    global generators alone. Sensors that always read the same, rewards that nobody got, agents that
+    can't move and places over the void or inside a body are told as warnings; so are groups that
+    nothing carries, and rewards that are to end the episode and never can.
 
     Args:
         scene: a Scene, or the name of one.
@@ -66,6 +67,14 @@ def check_scene(
         _warn(report, trials[0].sim.agents)
         _look_at_sensors(report, trials[0], exam.records)
         _look_at_rewards(report, trials[0], exam.records)
+        odd = odd_places(the_scene.build(), seed)
+        report.add(
+            "places",
+            f"expected agents that can move and stand where they are put, got: {'; '.join(odd)}"
+            if odd
+            else "",
+            outcome=Outcome.WARNING if odd else None,
+        )
     return report
 
 
@@ -103,7 +112,7 @@ def _look_at_sensors(report: Report, trial: Trial, records: list[Record]) -> Non
             key, space = sensor.perception_key, sensor.observation_space()
             values = [record.percepts[agent.id][key] for record in records]
             for value in values:
-                finite = isinstance(value, str) or np.isfinite(value).all()
+                finite = isinstance(value, str | tuple) or np.isfinite(value).all()
                 expected = not_in(space, value) if finite else "finite numbers"
                 if expected:
                     wrong.append(f"agent {agent.id!r}, {key!r}: {expected}, got {short(value)}")

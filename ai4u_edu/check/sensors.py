@@ -72,7 +72,7 @@ def check_sensor(
         report.add(
             "finite",
             _not_finite(values),
-            outcome=Outcome.NOT_APPLICABLE if isinstance(values[0], str) else None,
+            outcome=Outcome.NOT_APPLICABLE if isinstance(values[0], str | tuple) else None,
         )
         report.add("in its space", _outside(values, copies[0].observation_space()))
         _unshared(report, reads)
@@ -90,7 +90,15 @@ def not_in(space: spaces.Space[Any], reading: Any) -> str:
             return f"numbers from {space.low.min():g} to {space.high.max():g}"
         return ""
     if isinstance(space, spaces.Text):
-        return "" if len(reading) <= space.max_length else f"up to {space.max_length} characters"
+        texts = reading if isinstance(reading, tuple) else (reading,)
+        fits = all(len(each) <= space.max_length for each in texts)
+        return "" if fits else f"up to {space.max_length} characters"
+    if isinstance(space, spaces.Sequence):
+        return next(filter(None, (not_in(space.feature_space, each) for each in reading)), "")
+    if isinstance(space, spaces.Tuple):
+        if len(reading) != len(space.spaces):
+            return f"{len(space.spaces)} texts"
+        return next(filter(None, map(not_in, space.spaces, reading)), "")
     return "" if space.contains(np.int64(reading)) else str(space)
 
 
@@ -106,7 +114,7 @@ def _listen(sensor: Any, reads: list[Any]) -> None:
 
 
 def _not_finite(values: list[Any]) -> str:
-    if isinstance(values[0], str):
+    if isinstance(values[0], str | tuple):
         return "it reads text"
     for number, value in enumerate(values):
         if not np.isfinite(value).all():

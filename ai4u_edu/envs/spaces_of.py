@@ -163,7 +163,7 @@ def _flattened(each: dict[str, spaces.Space[Any]]) -> spaces.Box:
 def _own(value: Any) -> Any:
     if isinstance(value, np.ndarray):
         return value.copy()
-    if isinstance(value, str):
+    if isinstance(value, str | tuple):
         return value
     if isinstance(value, bool | int):
         return np.int64(value)

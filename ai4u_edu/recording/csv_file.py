@@ -63,6 +63,8 @@ def _row(agent: str, moment: Moment) -> Row:
 
 
 def _cells(name: str, value: Any) -> Row:
+    if isinstance(value, tuple):
+        return {f"{name}[{index}]": each for index, each in enumerate(value)}
     if isinstance(value, np.ndarray):
         return {f"{name}[{index}]": each for index, each in enumerate(value.ravel().tolist())}
     return {name: int(value) if isinstance(value, bool) else value}

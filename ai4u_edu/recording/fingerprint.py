@@ -12,8 +12,12 @@ _NUMBERS = struct.Struct("<9d").pack
 def percept_print(percept: Percept) -> int:
     """The checksum of a percept's bytes and texts."""
     number = crc32(percept.data)
-    for text in percept.texts:
-        number = crc32(text.encode() + b"\0", number)
+    for reading in percept.texts:
+        texts = reading if isinstance(reading, tuple) else (reading,)
+        for text in texts:
+            number = crc32(text.encode() + b"\0", number)
+        if texts is reading:  # how many they are counts too: one list ends where the next begins
+            number = crc32(b"%d\0" % len(texts), number)
     return number
 
 

@@ -116,7 +116,7 @@ class RemoteEnv(gymnasium.Env[Any, Any]):
 def _own(value: Any) -> Any:
     if isinstance(value, np.ndarray):
         return value.copy()
-    if isinstance(value, str):
+    if isinstance(value, str | tuple):
         return value
     if isinstance(value, bool | int):
         return np.int64(value)

@@ -8,12 +8,14 @@ import numpy as np
 from ai4u_edu.errors import NameNotFoundError, suggest
 from ai4u_edu.remote.errors import RemoteError
 from ai4u_edu.wire import native
+from ai4u_edu.wire.texts import SEVERAL, unpack_texts
 
 
 class RemotePercept(Mapping[str, Any]):
     """The readings of one decision by perception key, and what the decision before it brought.
 
-    Arrays can't be written to. A reading of shape () is a plain number or bool, text is a str.
+    Arrays can't be written to. A reading of shape () is a plain number or bool, text is a str,
+    texts are a tuple of str.
 
     Attributes:
         episode: the agent's own count of episodes.
@@ -69,7 +71,8 @@ class RemotePercept(Mapping[str, Any]):
             raise NameNotFoundError(f"no reading is called {key!r}; {suggest(key, self._readings)}")
         try:
             if reading.kind == "text":
-                return self._texts[reading.offset]
+                text = self._texts[reading.offset]
+                return unpack_texts(text) if reading.sensor_type == SEVERAL else text
             count = int(np.prod(reading.shape, dtype=np.int64))
             flat = np.frombuffer(self._data, reading.dtype, count, reading.offset)
             return flat.reshape(reading.shape) if reading.shape else flat[0].item()

@@ -11,6 +11,7 @@ from gymnasium import spaces
 from ai4u_edu.errors import shown
 from ai4u_edu.remote.errors import RemoteError
 from ai4u_edu.wire.native import LARGEST_HEARD, Output, Reading
+from ai4u_edu.wire.texts import SEVERAL
 
 _NO_SPACE = (ValueError, IndexError, AssertionError, TypeError, OverflowError)
 """Raised by numpy and Gymnasium for bounds and shapes that don't go together."""
@@ -26,7 +27,8 @@ def reading_space(reading: Reading) -> spaces.Space[Any]:
         if math.prod(reading.shape) > LARGEST_HEARD:
             raise ValueError(f"shape {shown(reading.shape)} is larger than any percept")
         if reading.kind == "text":
-            return spaces.Text(reading.shape[0])
+            text = spaces.Text(reading.shape[0])
+            return spaces.Sequence(text) if reading.sensor_type == SEVERAL else text
         low, high = (np.frombuffer(bound, reading.dtype) for bound in (reading.low, reading.high))
         if reading.kind == "discrete":
             return spaces.Discrete(int(high[0]) - int(low[0]) + 1, start=int(low[0]))

@@ -57,7 +57,7 @@ class AgentView(_View):
     angular_velocity: Spin
     percept: dict[str, Reading]
     action: dict[str, list[Number]]
-    reward: Number
+    reward: Number = Field(description="of the last decision that is over, not of one under way")
     reward_terms: Mapping[str, Number]
     episode_reward: Number
     episode_terms: Mapping[str, Number]
@@ -159,6 +159,6 @@ def _motion(body: BodyState) -> dict[str, Any]:
 def _reading(value: Any) -> Any:
     if isinstance(value, np.ndarray):
         return _reading(value.tolist())
-    if isinstance(value, list):
+    if isinstance(value, list | tuple):
         return [_reading(each) for each in value]
     return finite(value) if isinstance(value, float) else value

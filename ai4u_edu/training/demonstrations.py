@@ -250,6 +250,8 @@ def _stacked(rows: Sequence[Any]) -> Any:
         return {key: _stacked([row[key] for row in rows]) for key in rows[0]}
     if isinstance(rows[0], str):
         return list(rows)
+    if isinstance(rows[0], tuple):  # several texts, joined as AI4U's protocol joins them
+        return [" ".join(row) for row in rows]
     return np.stack(rows)
 
 

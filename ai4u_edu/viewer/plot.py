@@ -14,6 +14,11 @@ BLUE, ORANGE = "#2b8cc4", "#d55e00"
 """Both can be told from a light and from a dark ground."""
 FONT = "11px sans-serif"
 NONE = uplot.Axis_Grid(show=False)
+INCREMENTS = tuple(
+    float(f"{digit}e{power}") for power in range(-3, 16) for digit in ("1", "2", "5")
+)
+"""Steps between two numbers of an axis: uPlot rounds them to three digits after the point, so finer
+ones would print the same number twice."""
 
 
 class RewardPlot:
@@ -36,8 +41,16 @@ class RewardPlot:
             scales={"x": uplot.Scale(time=False), "paid": uplot.Scale(), "sum": uplot.Scale()},
             axes=(
                 uplot.Axis(size=30, font=FONT),
-                uplot.Axis(scale="paid", size=46, stroke=BLUE, font=FONT),
-                uplot.Axis(scale="sum", size=46, side=1, stroke=ORANGE, font=FONT, grid=NONE),
+                uplot.Axis(scale="paid", size=46, stroke=BLUE, font=FONT, incrs=INCREMENTS),
+                uplot.Axis(
+                    scale="sum",
+                    size=46,
+                    side=1,
+                    stroke=ORANGE,
+                    font=FONT,
+                    grid=NONE,
+                    incrs=INCREMENTS,
+                ),
             ),
             height=150,
             padding=(8, 0, 0, 0),

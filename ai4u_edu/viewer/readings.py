@@ -57,8 +57,8 @@ def rewards(now: Mapping[str, float], so_far: Mapping[str, float]) -> str:
     rows = [
         (escape(name), amount(now.get(name, 0.0)), amount(so_far.get(name, 0.0))) for name in names
     ]
-    head = ("", "<small>this decision</small>", "<small>episode</small>")
-    total = ("sum", amount(sum(now.values())), amount(sum(so_far.values())))
+    head = ("", "<small>decision</small>", "<small>episode</small>")
+    total = ("sum", amount(sum(now.values(), 0.0)), amount(sum(so_far.values(), 0.0)))
     return block(heading("Reward"), table([head, *rows, total]))
 
 
@@ -66,6 +66,8 @@ def reading(value: Any) -> str:
     """One reading as HTML, in a line or as bars."""
     if isinstance(value, str):
         return escape(value[:LONGEST_TEXT])
+    if isinstance(value, tuple):
+        return escape(", ".join(value)[:LONGEST_TEXT])
     if isinstance(value, bool | np.bool_):
         return "yes" if value else "no"
     array = np.asarray(value)

@@ -19,9 +19,14 @@ KINDS = {
     "sint": Kind.INT,
     "sstring": Kind.TEXT,
     "sbytearray": Kind.BYTES,
+    "sstrings": Kind.TEXTS,
     "simage": Kind.TEXTS,
 }
 """How a reading goes over the wire, by AI4U's type; all others are rows of floats."""
+
+
+TEXTS = ("sstring", "sstrings")
+"""Types that are sent, but stand in no metadata: a script makes no space of words."""
 
 
 class Reading(Protocol):
@@ -64,7 +69,8 @@ class AgentCodec:
     """Percepts to fields, replies to actions.
 
     Every sensor's reading is sent, and those that a policy gets stand in the metadata: rows of
-    numbers flat, in the order of memory; pictures as one grey PNG a channel. Whole numbers are
+    numbers flat, in the order of memory; pictures as one grey PNG a channel; several texts joined
+    by spaces. Whole numbers are
     declared as floats, since the script's side would make bytes of them. AI4U's environment has one
     action: it is the first actuator's; a script can drive the others by their names, or by fields.
 
@@ -80,7 +86,7 @@ class AgentCodec:
         self._packers = [
             (each.name, _packer(each)) for each in readings if each.name not in STANDARD
         ]
-        inputs = [each for each in readings if each.is_input and each.kind != "sstring"]
+        inputs = [each for each in readings if each.is_input and each.kind not in TEXTS]
         driven = [each for each in outputs if each.is_output][:1]
         self._known = {each.name for each in outputs}
         self.metadata = metadata(map(_input, inputs), map(_output, driven))
@@ -106,7 +112,7 @@ def _packer(reading: Reading) -> Callable[[Any], bytes]:
     kind = _wire_kind(reading)
     pack = packer(reading.name, kind)
     match kind:
-        case Kind.TEXTS:
+        case Kind.TEXTS if reading.kind == "simage":
             return lambda picture: pack(
                 [base64.b64encode(grey_png(each)).decode() for each in _channels_first(picture)]
             )

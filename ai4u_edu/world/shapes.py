@@ -9,7 +9,7 @@ from typing import Annotated, Any, Literal, Self
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
 
-from ai4u_edu.errors import ParameterError
+from ai4u_edu.errors import ParameterError, shown
 from ai4u_edu.parameters import Point, PositiveMetres, explain, listed
 
 OUTLINE_CORNERS = 48
@@ -22,7 +22,13 @@ class Description(BaseModel):
         frozen=True, extra="forbid", allow_inf_nan=False, use_attribute_docstrings=True
     )
 
-    def __init__(self, **fields: Any) -> None:
+    def __init__(self, *values: Any, **fields: Any) -> None:
+        if values:
+            example = next((name for name in type(self).model_fields if name != "type"), "name")
+            raise ParameterError(
+                f"{type(self).__name__}: parameters are given by name, as in {example}=..., "
+                f"got {', '.join(map(shown, values))}"
+            )
         try:
             super().__init__(**fields)
         except ValidationError as error:

@@ -264,10 +264,9 @@ def test_who_is_out_of_the_world_has_one_tick() -> None:
 
 @needs_compiler
 def test_two_who_act_take_turns_at_each_tick(batches: list[int]) -> None:
-    first, second = RBMoveActuator(), RBMoveActuator(action_name="more", move_amount=3)
     both(
         lambda: small_sim(
-            actuators=[first, second],
+            actuators=[RBMoveActuator(), RBMoveActuator(action_name="more", move_amount=3)],
             controller=lambda percept: {"more": [1, 0, 0, 0], "move": [0, 1, 0, 0]},
             skip_frame=4,
         )

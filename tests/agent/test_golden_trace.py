@@ -335,6 +335,8 @@ def test_a_block_that_is_off_takes_no_part(log: Log) -> None:
         """
         0: decide eye=1 done=False -> go=1
         0: begin_of_step
+        0: begin_of_apply_action
+        0: end_of_apply_action
         tick
         0: end_of_step reward=0
         0: begin_of_update_state

@@ -4,14 +4,18 @@ from typing import Any
 
 import numpy as np
 import pytest
-from gymnasium.spaces import Box
+from gymnasium.spaces import Box, Dict, Text, Tuple
 
 from ai4u_edu import (
     ActionSensor,
+    AndRewardFunc,
     BasicAgent,
     BearingSensor,
+    BoxShape,
+    CircleShape,
     ControlRequestor,
     FallReward,
+    FloatArrayCompositeSensor,
     LocalBrain,
     OrientationSensor,
     PositionSensor,
@@ -20,6 +24,7 @@ from ai4u_edu import (
     StepSensor,
     TouchRewardFunc,
     VelocitySensor,
+    World,
 )
 from ai4u_edu.errors import (
     AI4UError,
@@ -152,7 +157,7 @@ def test_parameter_by_position() -> None:
     ],
 )
 def test_a_reading_that_was_not_declared(value: Any, text: str) -> None:
-    assert error_of(ReadingError, sensors=[Odd(value=value)]) == f"Odd 'odd': {text}"
+    assert error_of(ReadingError, sensors=[Odd(value=value)]) == f"agent '0', Odd 'odd': {text}"
 
 
 def test_a_bad_reading_later_on() -> None:
@@ -160,7 +165,7 @@ def test_a_bad_reading_later_on() -> None:
     sim = small_sim([sensor])
     sim.step()
     sensor.value = [np.nan, 1.0]
-    with pytest.raises(ReadingError, match=r"^Odd 'odd': expected finite numbers"):
+    with pytest.raises(ReadingError, match=r"^agent '0', Odd 'odd': expected finite numbers"):
         sim.step()
 
 
@@ -175,7 +180,7 @@ def test_an_unknown_name_in_a_students_read_names_the_block() -> None:
             return body.distance(view["bux"])
 
     assert error_of(ReadingError, sensors=[Far()]) == (
-        "Far 'far': no body is named 'bux'; did you mean 'box'?"
+        "agent '0', Far 'far': no body is named 'bux'; did you mean 'box'?"
     )
 
 
@@ -239,6 +244,127 @@ def test_an_agent_that_has_sensed_nothing() -> None:
     sim = ControlRequestor(small_world(), [BasicAgent(body="robot", brains=[brain()])])
     with pytest.raises(SetupError, match="has sensed nothing yet; expected a reset first"):
         _ = sim.agents[0].percept
+
+
+class Loose(Sensor):
+    """Says in an odd way what it reads."""
+
+    what: Any = None
+
+    def space(self) -> Any:
+        return self.what
+
+    def read(self, body: Any, view: Any) -> float:
+        return 0.0
+
+
+@pytest.mark.parametrize("what", [(0, 1), None, Box, Dict({"a": Box(0, 1)}), Tuple([Box(0, 1)])])
+def test_a_space_that_is_none(what: Any) -> None:
+    told = error_of(BlockError, sensors=[Loose(what=what)])
+    assert told.startswith("agent '0', Loose 'loose': expected space() to return a Box, a Discrete")
+    assert repr(what) in told
+    composite = FloatArrayCompositeSensor(sensors=[Loose(what=what)])
+    assert "expected space() to return a Box" in error_of(BlockError, sensors=[composite])
+
+
+def test_an_unknown_kind_of_reading() -> None:
+    class Words(Sensor):
+        """Is spelt wrongly."""
+
+        kind = "sstirng"
+
+        def space(self) -> Text:
+            return Text(10)
+
+    assert error_of(BlockError, sensors=[Words()]) == (
+        "agent '0', Words 'words': no type of reading is called 'sstirng'; did you mean 'sstring'?"
+    )
+
+
+@pytest.mark.parametrize(
+    ("field", "given", "told"),
+    [
+        ("sensors", [VelocitySensor], "got the class VelocitySensor; make one, as in VelocityS"),
+        ("sensors", [{"perception_key": "x"}], "expected a Sensor, got {'perception_key': 'x'}"),
+        ("sensors", [RBMoveActuator()], "expected a Sensor, got RBMoveActuator("),
+        ("sensors", [3], "expected a Sensor, got 3"),
+        ("actuators", [RBMoveActuator], "expected an Actuator, got the class RBMoveActuator; make"),
+        ("rewards", [{"type": "FallReward"}], "mappings with a 'type' stand in scene files only"),
+        ("rewards", FallReward(), "expected a list, got FallReward("),
+        ("brains", [LocalBrain], "expected a Brain, got the class LocalBrain; make one, as in"),
+    ],
+)
+def test_what_is_no_block(field: str, given: Any, told: str) -> None:
+    with pytest.raises(ParameterError) as caught:
+        BasicAgent(body="robot", **{field: given})
+    assert told in str(caught.value)
+    assert str(caught.value).startswith(f"BasicAgent: {field}")
+
+
+@pytest.mark.parametrize(
+    ("given", "told"),
+    [
+        (5, "got 5"),
+        (None, "got None"),
+        ({"a": 1}, "got {'a': 1}"),
+        (VelocitySensor, "got the class VelocitySensor; make one, as in VelocitySensor()"),
+    ],
+)
+def test_what_is_no_controller(given: Any, told: str) -> None:
+    with pytest.raises(ParameterError) as caught:
+        LocalBrain(controller=given)
+    assert str(caught.value) == (
+        "LocalBrain: controller: expected a controller, or a function from percept to action, "
+        + told
+    )
+
+
+def test_blocks_inside_blocks() -> None:
+    for make in (
+        lambda given: AndRewardFunc(children=[given]),
+        lambda given: FloatArrayCompositeSensor(sensors=[given]),
+    ):
+        for given in (FallReward, {"type": "FallReward"}, None):
+            with pytest.raises(ParameterError, match=r"\[0\]: expected a (RewardFunc|Sensor), got"):
+                make(given)
+
+
+def test_descriptions_take_names_only() -> None:
+    mistakes: list[tuple[Any, str]] = [
+        (CircleShape, "CircleShape: parameters are given by name, as in radius=..., got 1"),
+        (BoxShape, "BoxShape: parameters are given by name, as in size=..., got 1"),
+    ]
+    for shape, told in mistakes:
+        with pytest.raises(ParameterError) as caught:
+            shape(1)
+        assert str(caught.value) == told
+
+
+@pytest.mark.parametrize("seed", ["a", 1.5, -1, [1], "7"])
+def test_what_is_no_seed(seed: Any) -> None:
+    for use in (lambda: World(seed=seed), lambda: small_sim().reset(seed)):
+        with pytest.raises(SetupError) as caught:
+            use()
+        assert str(caught.value) == f"seed: expected a whole number >= 0, got {seed!r}"
+        assert isinstance(caught.value, ValueError)
+    whole: Any = np.int64(3)
+    assert World(seed=whole).seeds.seed == 3
+
+
+@pytest.mark.parametrize(
+    ("world", "agents", "told"),
+    [
+        (None, [], "expected a World first, as in ControlRequestor(world, [agent]), got NoneType"),
+        (World, [], "expected a World first, .*, got the class World"),
+        (small_world(), BasicAgent(body="robot"), "expected a list of agents, .*, got BasicAgent"),
+        (small_world(), "robot", "expected a list of agents, .*, got str 'robot'"),
+        (small_world(), [BasicAgent], "expected agents in the list, .*, got the class BasicAgent"),
+        (small_world(), ["robot"], "expected agents in the list, .*, got str 'robot'"),
+    ],
+)
+def test_what_a_requestor_is_not_made_of(world: Any, agents: Any, told: str) -> None:
+    with pytest.raises(SetupError, match=told.replace("(world, [agent])", ".*")):
+        ControlRequestor(world, agents)
 
 
 def test_print_shows_a_table_of_all_blocks() -> None:

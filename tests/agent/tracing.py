@@ -125,9 +125,14 @@ class TracedBrain(Brain):
         answer = self.answers[min(self.turn, len(self.answers) - 1)]
         self.turn += 1
         seen = f"eye={percept['eye'][0]:g}" if "eye" in percept else ""
-        said = answer.value if isinstance(answer, Command) else f"go={answer['go']:g}"
+        is_command = isinstance(answer, Command)
+        said = answer.value if is_command else _said(answer)
         self.log.append(f"{self.who}: decide {seen} done={percept['done']} -> {said}")
         return answer
+
+
+def _said(action: Any) -> str:
+    return " ".join(f"{name}={number:g}" for name, number in action.items()) or "nothing"
 
 
 def traced_agent(log: Log, *answers: Any, **fields: Any) -> BasicAgent:

@@ -106,7 +106,8 @@ def test_switches_for_other_actuators() -> None:
 def setup_error(controller: Controller, actuator: Actuator | None = None) -> str:
     with pytest.raises(BlockError) as caught:
         small_sim(controller=controller, actuators=[actuator or RBMoveActuator()])
-    return str(caught.value).removeprefix("agent '0', LocalBrain: ")
+    brain = f"LocalBrain({type(controller).__name__})"
+    return str(caught.value).removeprefix(f"agent '0', {brain}: ")
 
 
 def test_what_does_not_fit_is_said_at_setup() -> None:

@@ -268,7 +268,7 @@ def test_readings_that_are_not_one_number(name: str, text: str) -> None:
     )
     with pytest.raises(ReadingError) as caught:
         sim.step()
-    assert str(caught.value) == f"AndRewardFunc 'and': {text}"
+    assert str(caught.value) == f"agent '0', AndRewardFunc 'and': {text}"
 
 
 @pytest.mark.parametrize("kind", [EvalIntValue, EvalFloatValue])
@@ -312,11 +312,13 @@ def test_ticks_are_passed_on_only_where_a_child_wants_them() -> None:
 
         def on_tick(self, body: Any, view: Any) -> None: ...
 
-    grounded = EvalBoolValue(property="on_ground")
+    def grounded() -> EvalBoolValue:
+        return EvalBoolValue(property="on_ground")
+
     rewards = {
         "deep": AndRewardFunc(children=[OrRewardFunc(children=[Pays(amounts=[0.0])])]),
-        "own": Counting(children=[grounded]),
-        "none": OrRewardFunc(children=[grounded]),
+        "own": Counting(children=[grounded()]),
+        "none": OrRewardFunc(children=[grounded()]),
     }
     for name, reward in rewards.items():
         reward.name = name

@@ -115,6 +115,9 @@ def test_a_base_says_what_to_fill(cls: Any, call: str, text: str) -> None:
     assert str(caught.value) == text
 
 
-def test_a_controller_is_no_brain() -> None:
-    with pytest.raises(ParameterError, match="brains"):
-        BasicAgent(body="x", brains=[WASDRBMoveController()])  # type: ignore[list-item]
+def test_a_controller_among_the_brains_gets_a_brain_of_its_own() -> None:
+    controller = WASDRBMoveController()
+    agent = BasicAgent(body="x", brains=[controller])  # type: ignore[list-item]
+    (brain,) = agent.brains
+    assert isinstance(brain, LocalBrain)
+    assert brain.controller is controller

@@ -254,6 +254,6 @@ def test_nobody_takes_the_numbers() -> None:
     with pytest.raises(BlockError) as caught:
         sim.step()
     assert str(caught.value) == (
-        "ContinuousActuator 'continuous': nobody takes its numbers; expected a function, as in "
-        "actuator.handler = lambda body, numbers: ..."
+        "agent '0', ContinuousActuator 'continuous': nobody takes its numbers; expected a "
+        "function, as in actuator.handler = lambda body, numbers: ..."
     )

@@ -117,11 +117,14 @@ def test_a_reward_that_is_no_number_names_its_block() -> None:
         def on_update(self, body: Any, view: Any) -> Any:
             return self.amount
 
-    with pytest.raises(TypeError) as caught:
-        small_sim(rewards=[Silly()]).step()
-    assert caught.value.__notes__ == ["Silly 'silly': on_update must return a number"]
-    with pytest.raises(ReadingError, match=r"^Silly 'silly': expected a finite number, got nan$"):
-        small_sim(rewards=[Silly(amount=float("nan"))]).step()
+    for amount, told in (
+        (None, "expected a number from on_update, got None"),
+        ("much", "expected a number from on_update, got 'much'"),
+        (float("nan"), "expected a finite number, got nan"),
+    ):
+        with pytest.raises(ReadingError) as caught:
+            small_sim(rewards=[Silly(amount=amount)]).step()
+        assert str(caught.value) == f"agent '0', Silly 'silly': {told}"
 
 
 def test_on_tick_is_called_after_every_tick_of_a_decision() -> None:

@@ -15,6 +15,9 @@ from tests.builders import small_sim
 class Counter(Sensor):
     """Reads [n, -n] at the n-th reading of the episode."""
 
+    def on_setup(self, agent: Any, view: Any) -> None:
+        self.count = 0
+
     def space(self) -> Box:
         return Box(-10.0, 100.0, (2,))
 
@@ -68,7 +71,7 @@ def test_what_is_not_resetable_keeps_its_stack() -> None:
     sim = small_sim([Counter(stacked_observations=2, resetable=False)])
     sim.step()
     sim.reset()
-    assert sim.agents[0].percept["counter"].tolist() == [[2, -2], [1, -1]]
+    assert sim.agents[0].percept["counter"].tolist() == [[2, -2], [3, -3]]
 
 
 def test_delay_shows_what_was_read_before() -> None:

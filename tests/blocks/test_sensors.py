@@ -5,6 +5,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from gymnasium.spaces import Box
 
 from ai4u_edu import (
     ActionSensor,
@@ -20,6 +21,7 @@ from ai4u_edu import (
     RewardFunc,
     RewardSensor,
     SegmentShape,
+    Sensor,
     StepSensor,
     VelocitySensor,
 )
@@ -185,10 +187,44 @@ def test_composite_normalises_on_request_and_refuses_what_is_out_of_range() -> N
 
     reading = small_sim([composite(normalize=True, min_value=-8, max_value=8)])
     assert reading.agents[0].percept["array"].tolist() == pytest.approx([0.75, 0.5, 0.5])
-    with pytest.raises(ReadingError, match="expected numbers from -1 to 1"):
+    with pytest.raises(ReadingError) as caught:
         small_sim([composite()])
+    assert str(caught.value) == (
+        "agent '0', FloatArrayCompositeSensor 'array': expected numbers from -1 to 1 "
+        "(range_min and range_max), got 4 from its PositionSensor 'position'; widen the range, "
+        "or set normalized=True on that sensor"
+    )
     with pytest.raises(BlockError, match="expected a max above its min"):
         composite(range_min=1, range_max=0)
+
+
+@pytest.mark.parametrize("stacked", [1, 3])
+def test_composite_refuses_what_leaves_the_range_later(stacked: int) -> None:
+    composite = FloatArrayCompositeSensor(
+        sensors=[VelocitySensor(normalized=True), StepSensor(is_active=True)],
+        stacked_observations=stacked,
+    )
+    sim = small_sim([composite])
+    sim.step()
+    with pytest.raises(
+        ReadingError, match=r"expected numbers from -1 to 1 .* got 2 from its StepS"
+    ):
+        sim.step()
+
+
+def test_composite_takes_what_only_rounding_put_beyond() -> None:
+    class Edge(Sensor):
+        """Reads a bit more than 1."""
+
+        def space(self) -> Box:
+            return Box(0.0, 2.0, (1,))
+
+        def read(self, body: Any, view: Any) -> float:
+            return 1.000001
+
+    sim = small_sim([FloatArrayCompositeSensor(sensors=[Edge()])])
+    sim.step()
+    assert sim.agents[0].percept["array"].tolist() == [1.0]
 
 
 def test_composite_takes_no_text() -> None:

@@ -246,7 +246,8 @@ def test_a_sensor_that_is_not_there() -> None:
     with pytest.raises(BlockError) as caught:
         driven(KeeperController(), sensors, {"ball": (5.0, 1.0), "home": (-8.0, 0.0)})
     assert str(caught.value) == (
-        "agent '0', LocalBrain: ball: no sensor has the perception_key 'ball'; did you mean 'bal'?"
+        "agent '0', LocalBrain(KeeperController): ball: no sensor has the perception_key 'ball'; "
+        "did you mean 'bal'?"
     )
 
 

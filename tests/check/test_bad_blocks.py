@@ -325,7 +325,8 @@ def test_a_later_run_that_breaks_is_told_too() -> None:
     report = check_sensor(OnlyOnce(), decisions=5)
     assert failed(report) == {
         "same twice": "expected the same readings from the same seed, got RuntimeError: used up; "
-        "take chance from view.random(name), and go through no set"
+        "while OnlyOnce 'only_once' of agent '0' was reset; take chance from view.random(name), "
+        "and go through no set"
     }
 
 
@@ -543,15 +544,15 @@ class Flat(Fee):
         (
             Words(),
             {
-                "runs": "expected 20 decisions without an error, got ValueError: could not convert "
-                "string to float: 'a lot'"
+                "runs": "expected 20 decisions without an error, got ReadingError: agent '0', "
+                "Words 'words': expected a number from on_update, got 'a lot'"
             },
         ),
         (
             Infinite(),
             {
-                "runs": "expected 20 decisions without an error, got ReadingError: Infinite "
-                "'infinite': expected a finite number, got inf"
+                "runs": "expected 20 decisions without an error, got ReadingError: agent '0', "
+                "Infinite 'infinite': expected a finite number, got inf"
             },
         ),
         (

@@ -188,3 +188,29 @@ def test_two_agents_are_driven() -> None:
         each.text for each in check_scene(scene, decisions=5).findings if each.check == "changes"
     )
     assert text == "expected readings that change, got always the same from 'still' of agent '1'"
+
+
+def places(text: str) -> str:
+    report = check_scene(Scene.loads(text), decisions=2)
+    assert report.ok  # it is a warning at most
+    return next(each.text for each in report.findings if each.check == "places")
+
+
+def with_sensor(text: str) -> str:
+    return text.replace("SENSOR", "VelocitySensor")
+
+
+def test_places_that_nobody_means() -> None:
+    text = with_sensor(SCENE)
+    assert places(text) == ""
+    fixed = text.replace("{type: circle}", "{type: circle}\n    kind: static")
+    assert "agent '0' is on body 'robot', which can't move (its kind is 'static')" in places(fixed)
+    plate = "floors:\n  - {name: plate, shape: {type: box, size: [4, 4]}}\nbodies:"
+    falling = text.replace("bodies:", plate)
+    assert "body 'box' begins over the void, at (3, 0), and falls" in places(falling)
+    pose = "actuators: [{type: RespawnActuator, poses: [[0, 0, 0], [3.2, 0, 0]]}, "
+    respawns = text.replace("actuators: [", pose)
+    assert "pose 1 of 'respawn' of agent '0', (3.2, 0), lies in body 'box'" in places(respawns)
+    assert "pose 1 of 'respawn' of agent '0', (3.2, 0), lies over the void" in places(
+        respawns.replace("bodies:", plate)
+    )

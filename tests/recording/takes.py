@@ -26,7 +26,7 @@ class Note:
     """One decision: what was sensed before it, what was done, what was paid, where all was."""
 
     percept: bytes
-    texts: tuple[str, ...]
+    texts: tuple[str | tuple[str, ...], ...]
     poses: Any
     action: dict[str, tuple[float, ...]]
     terms: dict[str, float] = field(default_factory=dict)

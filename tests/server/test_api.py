@@ -111,7 +111,8 @@ def test_health_follows_the_world(room: Room) -> None:
     room.sim.agents[0].end_of_step.connect(broken)
     room.runner.step().result(5)
     assert get(room, "healthz")["status"] == "error"
-    assert get(room, "api/snapshot")["error"] == "RuntimeError: odd"
+    told = "RuntimeError: odd (while handler broken of end_of_step of agent '0' was called)"
+    assert get(room, "api/snapshot")["error"] == told
 
 
 def test_what_json_has_no_word_for_becomes_null() -> None:

@@ -164,7 +164,8 @@ def test_an_error_in_the_world_reaches_the_page_and_a_reset_clears_it(room: Room
     event = room.sim.agents[0].end_of_step
     event.connect(broken)
     with room.page() as page:
-        page.hear("state", error="RuntimeError: odd")
+        told = "RuntimeError: odd (while handler broken of end_of_step of agent '0' was called)"
+        page.hear("state", error=told)
         event.disconnect(broken)
         page.say("command", name="reset")
         page.hear("state", error="")

@@ -4,6 +4,8 @@ from ai4u_edu.agent import Entry, Ledger
 from ai4u_edu.runner import Runner
 from ai4u_edu.snapshot import picture_of
 from ai4u_edu.viewer.payments import LAST, curves, ledger
+from ai4u_edu.viewer.plot import INCREMENTS
+from ai4u_edu.viewer.readings import rewards
 from tests.builders import small_sim
 
 
@@ -46,6 +48,32 @@ def test_a_ledger_remembers_only_if_it_is_told_to() -> None:
     assert picture_of(sim).agents[0].history == ()
 
 
+def test_the_reward_that_is_shown_is_that_of_the_last_decision_that_is_over() -> None:
+    sim = small_sim(skip_frame=2)
+    (agent,) = sim.agents
+    agent.end_of_step.connect(lambda agent: agent.add_reward(2.0, name="bonus"))
+    agent.end_of_update_state.connect(lambda agent: agent.add_reward(0.5, name="late"))
+    sim.reset(1)
+
+    def shown() -> tuple[float, dict[str, float]]:
+        state = picture_of(sim).agents[0]
+        return state.reward, state.reward_terms
+
+    seen = []
+    for _ in range(7):
+        seen.append(shown())
+        sim.tick()
+    paid = (2.5, {"bonus": 2.0, "late": 0.5})
+    assert seen == [(0.0, {})] * 3 + [paid] * 4
+    assert (agent.reward, agent.reward_terms) == (0.0, {})  # of the decision that is under way
+    sim.reset(1)
+    assert shown() == (0.0, {})
+
+
+def test_a_sum_of_nothing_looks_like_any_sum() -> None:
+    assert "<th>sum</th><td>0.00</td><td>0.00</td>" in rewards({}, {})
+
+
 def test_what_is_kept_may_grow() -> None:
     book = Ledger()
     book.remember(1)
@@ -56,3 +84,9 @@ def test_what_is_kept_may_grow() -> None:
     book.remember(3)
     assert [entry.step for entry in book.history] == [2]
     assert book.history.maxlen == 3
+
+
+def test_no_two_numbers_of_an_axis_look_alike() -> None:
+    digits = 3  # uPlot shows no more after the point
+    assert list(INCREMENTS) == sorted(INCREMENTS)
+    assert all(round(each, digits) == each > 0 for each in INCREMENTS)

@@ -7,7 +7,7 @@ from typing import Any, ClassVar
 import numpy as np
 from gymnasium import spaces
 
-from ai4u_edu.blocks.block import Block, default_name
+from ai4u_edu.blocks.block import Block, default_name, levels_up
 from ai4u_edu.errors import ActionError, BlockError, shown
 from ai4u_edu.world import Body, Drive, WorldView
 
@@ -50,7 +50,7 @@ class Actuator(Block):
 
     def __init_subclass__(cls, **options: Any) -> None:
         super().__init_subclass__(**options)
-        says, *does = (_depth(cls, name) for name in ("steady_drive", "act", "drive"))
+        says, *does = (levels_up(cls, name) for name in ("steady_drive", "act", "drive"))
         if min(does) < says:  # what it inherits was said of another act
             cls.steady_drive = Actuator.steady_drive  # type: ignore[method-assign]
 
@@ -156,9 +156,3 @@ class Actuator(Block):
             f"action {self.action_name!r}: expected {len(self._limits)} numbers, "
             f"got {shown(values)}"
         )
-
-
-def _depth(cls: type, name: str) -> int:
-    """How many classes one has to go up from a class until one says this; all, if none does."""
-    order = cls.__mro__
-    return next((up for up, each in enumerate(order) if name in vars(each)), len(order))

@@ -1,16 +1,18 @@
 """A brain in this process."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any, cast
 
 from pydantic import field_validator
 
 from ai4u_edu.blocks.agent_view import AgentView
+from ai4u_edu.blocks.block import Block
 from ai4u_edu.blocks.brains.brain import Brain
 from ai4u_edu.blocks.brains.command import Answer
 from ai4u_edu.blocks.brains.controllers.controller import Controller
 from ai4u_edu.blocks.brains.controllers.script import ScriptController
 from ai4u_edu.blocks.percept import Percept
+from ai4u_edu.errors import shown
 from ai4u_edu.world import WorldView
 
 
@@ -26,12 +28,21 @@ class LocalBrain(Brain):
     controller: Controller | Callable[[Percept], Answer]
     """The controller that is asked, or a function from percept to action."""
 
-    @field_validator("controller")
+    @field_validator("controller", mode="before")
     @classmethod
     def _wrapped(cls, controller: Any) -> Controller:
         if isinstance(controller, Controller):
             return controller
-        return ScriptController(function=controller)
+        if callable(controller) and not isinstance(controller, type):
+            return ScriptController(function=controller)
+        got = shown(controller)
+        if isinstance(controller, type):
+            got = f"the class {controller.__name__}; make one, as in {controller.__name__}()"
+        raise ValueError(f"expected a controller, or a function from percept to action, got {got}")
+
+    def inner_blocks(self) -> Sequence[Block]:
+        """Return the controller."""
+        return (self._controller,)
 
     def on_setup(self, agent: AgentView, view: WorldView) -> None:
         """Sets the controller up."""

@@ -38,10 +38,15 @@ class BodyInAreaRewardFunc(RewardFunc):
         """The reward, or 0."""
         thing = view[self.thing]
         inside = not thing.fallen and view.areas[self.area].contains(*thing.position)
+        self._inside = inside
         if not inside or (self._paid and self.only_one_time):
             return 0.0
         self._paid = True
         return self.reward
+
+    def holds(self, paid: float, body: BodyView, view: WorldView) -> bool:
+        """Tell whether the body lies in the area, however often that was paid already."""
+        return self._inside
 
 
 def check_area(name: str, view: WorldView) -> None:

@@ -46,6 +46,7 @@ class CheckpointsReward(RewardFunc):
         self._under_way = not self.loop
         self._ahead = list(self.targets)
         self._due = 0.0
+        self._is_done = self._finished = False
 
     def on_tick(self, body: BodyView, view: WorldView) -> None:
         """Looks whether the next one is touched."""
@@ -59,7 +60,12 @@ class CheckpointsReward(RewardFunc):
     def on_update(self, body: BodyView, view: WorldView) -> float:
         """What was earned in the decision."""
         due, self._due = self._due, 0.0
+        self._finished, self._is_done = self._is_done, False
         return due
+
+    def holds(self, paid: float, body: BodyView, view: WorldView) -> bool:
+        """Tell whether the whole way was completed in this decision."""
+        return self._finished
 
     def _pass(self, target: str) -> None:
         if self._under_way:
@@ -70,3 +76,4 @@ class CheckpointsReward(RewardFunc):
             self._under_way = True
         if not self._ahead:
             self._due += self.lap_reward
+            self._is_done = True

@@ -38,4 +38,9 @@ class CollisionWithRewardFunc(RewardFunc):
     def on_update(self, body: BodyView, view: WorldView) -> float:
         """The reward for all ticks of the decision."""
         ticks, self._ticks = self._ticks, 0
+        self._touched = ticks > 0
         return ticks * self.reward
+
+    def holds(self, paid: float, body: BodyView, view: WorldView) -> bool:
+        """Tell whether there was contact in any tick of the decision."""
+        return self._touched

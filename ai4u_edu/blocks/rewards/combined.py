@@ -1,5 +1,6 @@
 """Pays when several things are the case at once, or when any of them is."""
 
+from collections.abc import Sequence
 from typing import Annotated
 
 from pydantic import Field
@@ -12,10 +13,9 @@ from ai4u_edu.world import BodyView, WorldView
 
 
 class CombinedRewardFunc(RewardFunc):
-    """What AndRewardFunc and OrRewardFunc share: children that are asked at every decision.
+    """The base of AndRewardFunc and OrRewardFunc: children that are asked at every decision.
 
-    A condition (EvalBoolValue and its like) holds where its property is as it should be; any other
-    reward function holds in the decisions for which it pays something.
+    Each child is asked whether it holds, whatever it pays: see its ``holds``.
     """
 
     abstract = True
@@ -31,9 +31,13 @@ class CombinedRewardFunc(RewardFunc):
         super().__post_init__()
         self._children = list(self.children)
 
+    def inner_blocks(self) -> Sequence[RewardFunc]:
+        """Return the children that are active."""
+        return [child for child in self.children if child.is_active]
+
     def on_setup(self, agent: AgentView, view: WorldView) -> None:
         """Sets the children up that are active."""
-        self._children = [child for child in self.children if child.is_active]
+        self._children = list(self.inner_blocks())
         for child in self._children:
             child.on_setup(agent, view)
 
@@ -68,6 +72,10 @@ class CombinedRewardFunc(RewardFunc):
         """Whether the children held: so one And can stand in another, whatever it pays."""
         return self._held
 
+    def ends(self, paid: float) -> bool:
+        """Tell whether the children held, as in AI4U: whatever is paid for it, even nothing."""
+        return self._held
+
     def combine(self, held: list[bool]) -> bool:
         """Whether all of it holds, from whether each child does."""
         raise NotImplementedError  # And and Or have their own
@@ -76,9 +84,13 @@ class CombinedRewardFunc(RewardFunc):
 class AndRewardFunc(CombinedRewardFunc):
     """Pays ``reward`` for each decision after which all of its children hold.
 
-    A condition (EvalBoolValue and its like) holds where its property is as it should be; any other
-    reward function where it pays something. Only this one's ``cause_episode_to_end`` counts, not
-    the children's. Example: paid in the air above the goal = And(touch the goal, on_ground false).
+    A condition (EvalBoolValue and its like) holds where its property is as it should be. The other
+    reward functions hold whatever they pay: TouchRewardFunc where the agent touched its target in
+    the decision, DistanceToTargetRewardFunc within ``min_distance``, FallReward below its
+    threshold; each says so in its ``holds``. Only this one's ``cause_episode_to_end`` counts, not
+    the children's; it ends the episode where they hold, even with a reward of 0.
+
+    Example: paid in the air above the goal = And(touch the goal, on_ground false).
 
     Source: AI4U's AndRewardFunc.
     """
@@ -91,9 +103,9 @@ class AndRewardFunc(CombinedRewardFunc):
 class OrRewardFunc(CombinedRewardFunc):
     """Pays ``reward`` for each decision after which any of its children holds, once however many.
 
-    A condition (EvalBoolValue and its like) holds where its property is as it should be; any other
-    reward function where it pays something. Only this one's ``cause_episode_to_end`` counts, not
-    the children's. Example: an end with -10 = Or(touch a spike, energy at 0).
+    When a child holds is the same as in AndRewardFunc. Only this one's ``cause_episode_to_end``
+    counts, not the children's; it ends the episode where one holds, even with a reward of 0.
+    Example: an end with -10 = Or(touch a spike, energy at 0).
 
     Source: AI4U's ORRewardFunc.
     """

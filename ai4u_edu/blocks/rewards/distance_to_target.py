@@ -38,3 +38,7 @@ class DistanceToTargetRewardFunc(RewardFunc):
         distance = max(body.distance(view[self.target]), self.min_distance)
         share = self.min_distance / distance
         return self.max_reward * (share * share if self.square_inverse else share)
+
+    def holds(self, paid: float, body: BodyView, view: WorldView) -> bool:
+        """Tell whether the agent is within min_distance, as in AI4U."""
+        return body.distance(view[self.target]) <= self.min_distance

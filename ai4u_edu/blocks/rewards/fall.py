@@ -41,6 +41,10 @@ class FallReward(RewardFunc):
             return self.success_reward
         return self.fail_reward
 
+    def holds(self, paid: float, body: BodyView, view: WorldView) -> bool:
+        """Tell whether it is below, however often that was paid already."""
+        return self.is_below(body, view)
+
     def is_below(self, body: BodyView, view: WorldView) -> bool:
         """Whether the agent is so low that it counts as fallen."""
         return body.z < self.threshold

@@ -45,7 +45,12 @@ class GoneReward(RewardFunc):
     def on_update(self, body: BodyView, view: WorldView) -> float:
         """The reward for all that went in this decision."""
         gone, self._gone = self._gone, 0
+        self._went = gone > 0
         return self.reward * gone
+
+    def holds(self, paid: float, body: BodyView, view: WorldView) -> bool:
+        """Tell whether one went in this decision; with only_last, whether the last one did."""
+        return self._went
 
     def _look(self, view: WorldView) -> tuple[str, ...]:
         return tuple(name for name in view.named(self.group) if not view[name].fallen)

@@ -1,5 +1,6 @@
 """Pays for staying in balance."""
 
+from collections.abc import Sequence
 from typing import Annotated
 
 from pydantic import Field
@@ -62,6 +63,10 @@ class HomeostaticReward(RewardFunc):
             for variable in self.variables
         )
 
+    def inner_blocks(self) -> Sequence[HomeostaticVariable]:
+        """Return the variables."""
+        return self.variables
+
     def on_reset(self, agent: AgentView, view: WorldView) -> None:
         """Puts the variables back."""
         for variable in self.variables:
@@ -77,6 +82,10 @@ class HomeostaticReward(RewardFunc):
         """What the change of discomfort is worth."""
         before, self._before = self._before, self.discomfort()
         return self.reward * (before - self._before)
+
+    def holds(self, paid: float, body: BodyView, view: WorldView) -> bool:
+        """Tell whether the agent is in balance: every variable in its comfort zone."""
+        return all(variable.check() for variable in self.variables)
 
 
 def keeper_of(agent: AgentView, name: str) -> HomeostaticReward:

@@ -37,7 +37,12 @@ class MinDistReward(RewardFunc):
         """The reward for a new best, or the cost of a step."""
         distance = body.distance(view[self.target])
         first = self._best == math.inf
+        self._is_best = not first and distance < self._best
         if distance < self._best:
             self._best = distance
             return 0.0 if first else self.success_reward
         return self.step_reward
+
+    def holds(self, paid: float, body: BodyView, view: WorldView) -> bool:
+        """Tell whether this decision brought the agent closer than ever; the first one did not."""
+        return self._is_best

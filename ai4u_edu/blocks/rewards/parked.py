@@ -51,6 +51,10 @@ class ParkedRewardFunc(RewardFunc):
         self._paid = True
         return self.reward
 
+    def holds(self, paid: float, body: BodyView, view: WorldView) -> bool:
+        """Tell whether the agent stands as it should, paid already or not."""
+        return self._parked(body, view)
+
     def _parked(self, body: BodyView, view: WorldView) -> bool:
         if not body.on_ground or math.hypot(*body.velocity) > self.max_speed:
             return False

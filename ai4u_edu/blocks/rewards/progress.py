@@ -33,4 +33,9 @@ class ProgressReward(RewardFunc):
     def on_update(self, body: BodyView, view: WorldView) -> float:
         """What the way of this decision is worth."""
         before, self._distance = self._distance, body.distance(view[self.target])
+        self._came_closer = before is not None and self._distance < before
         return 0.0 if before is None else self.reward * (before - self._distance)
+
+    def holds(self, paid: float, body: BodyView, view: WorldView) -> bool:
+        """Tell whether this decision brought the agent closer; the first one did not."""
+        return self._came_closer

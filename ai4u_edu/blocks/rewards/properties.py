@@ -64,7 +64,7 @@ def find_property(name: str, target: str, agent: AgentView, view: WorldView) -> 
 
 
 def _number(reading: Any, key: str, index: int | None) -> float:
-    if isinstance(reading, str):
+    if isinstance(reading, str | tuple):
         raise ReadingError(f"property: expected a reading made of numbers, {key!r} is text")
     numbers = np.ravel(reading)
     if index is None:

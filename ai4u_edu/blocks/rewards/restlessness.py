@@ -38,9 +38,15 @@ class RestlessnessRewardFunc(RewardFunc):
     def on_update(self, body: BodyView, view: WorldView) -> float:
         """The cost of standing still, or 0."""
         before, self._place = self._place, body.pose[:3]
+        self._stood_still = False
         if before is None:
             return 0.0
         moved = [now - then for now, then in zip(self._place, before, strict=True)]
         if self.ignored_axis >= 0:
             moved[self.ignored_axis] = 0.0
-        return self.reward if math.hypot(*moved) < self.min_dist else 0.0
+        self._stood_still = math.hypot(*moved) < self.min_dist
+        return self.reward if self._stood_still else 0.0
+
+    def holds(self, paid: float, body: BodyView, view: WorldView) -> bool:
+        """Tell whether the agent stood still in this decision; in the first one it did not."""
+        return self._stood_still

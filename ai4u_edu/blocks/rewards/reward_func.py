@@ -1,6 +1,8 @@
 """What every reward function has: a name, and the amount that it pays for each decision."""
 
-from ai4u_edu.blocks.block import Block, default_name
+from typing import Any
+
+from ai4u_edu.blocks.block import Block, default_name, levels_up
 from ai4u_edu.errors import BlockError
 from ai4u_edu.world import BodyView, WorldView
 
@@ -31,9 +33,14 @@ class RewardFunc(Block):
     name: str = ""
     """The term's name in the breakdown of rewards; left out: from the class's name."""
     cause_episode_to_end: bool = False
-    """Whether the episode ends when this pays something."""
+    """Whether the episode ends when this pays something; And and Or end it when they hold."""
     is_active: bool = True
     """False switches the reward function off: it pays nothing."""
+
+    def __init_subclass__(cls, **options: Any) -> None:
+        super().__init_subclass__(**options)
+        if levels_up(cls, "on_update") < levels_up(cls, "holds"):
+            cls.holds = RewardFunc.holds  # type: ignore[method-assign]  # the other was for another
 
     def __post_init__(self) -> None:
         self.name = self.name or default_name(type(self), "RewardFunc", "Reward", "Func")
@@ -50,12 +57,23 @@ class RewardFunc(Block):
         )
 
     def holds(self, paid: float, body: BodyView, view: WorldView) -> bool:
-        """Whether what it watches for is the case: And and Or ask, after on_update.
+        """Tell whether the thing it watches for is the case: And and Or ask, after on_update.
+
+        It should not depend on the amounts: a touch is a touch, even if it pays nothing. A class
+        of your own that leaves this out holds where it pays something.
 
         Args:
             paid: what on_update returned just now; by default it holds where that is not 0.
             body: the agent's body.
             view: the world, to be asked.
+        """
+        return paid != 0.0
+
+    def ends(self, paid: float) -> bool:
+        """Tell whether the decision that just ended ends the episode, if this may end it at all.
+
+        Args:
+            paid: what on_update returned just now; by default it ends where that is not 0.
         """
         return paid != 0.0
 

@@ -47,6 +47,7 @@ class TouchRewardFunc(RewardFunc):
         """The reward, or 0."""
         touched = view.touched_after(body, self.target, self._since)
         self._since = view.ticks
+        self._touched = touched
         if not touched:
             return 0.0
         waits = math.inf if self.only_one_time else self.cool_down
@@ -54,3 +55,7 @@ class TouchRewardFunc(RewardFunc):
             return 0.0
         self._paid_at = view.time
         return self.reward
+
+    def holds(self, paid: float, body: BodyView, view: WorldView) -> bool:
+        """Tell whether the agent touched the target in this decision, paid or not."""
+        return self._touched

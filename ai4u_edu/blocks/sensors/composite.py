@@ -1,6 +1,7 @@
 """Several sensors in one array."""
 
 import math
+from collections.abc import Sequence
 from functools import partial
 from typing import Annotated
 
@@ -11,9 +12,12 @@ from pydantic import Field
 from ai4u_edu.blocks.agent_view import AgentView
 from ai4u_edu.blocks.percept import DTYPES
 from ai4u_edu.blocks.sensors.sensor import Array, Sensor
-from ai4u_edu.errors import BlockError
+from ai4u_edu.errors import BlockError, ReadingError
 from ai4u_edu.parameters import quantity
 from ai4u_edu.world import BodyView, WorldView
+
+ROUNDING = 1e-5
+"""By so much of the range's ends a number may be off, as a float32 is."""
 
 
 class FloatArrayCompositeSensor(Sensor):
@@ -24,8 +28,9 @@ class FloatArrayCompositeSensor(Sensor):
     becomes ``(v - min_value) / (max_value - min_value)``. A child that is off when the agent is
     set up takes no part.
 
-    Reading: (n,), within range_min..range_max; what lies beyond at the first reading is an error,
-    later it is cut. Source: AI4U.
+    Reading: (n,), within range_min..range_max. A number that lies beyond is an error that names the
+    child: widen the range, or have the child normalised (``normalized`` there, or ``normalize``
+    here). Source: AI4U, which neither checks nor cuts.
     """
 
     perception_key: str = "array"
@@ -52,9 +57,13 @@ class FloatArrayCompositeSensor(Sensor):
                 f"and values {self.min_value}..{self.max_value}"
             )
 
+    def inner_blocks(self) -> Sequence[Sensor]:
+        """Return the children that are active."""
+        return [child for child in self.sensors if child.is_active]
+
     def on_setup(self, agent: AgentView, view: WorldView) -> None:
         """Sets the children up and gives each a place of its own."""
-        self._children = [child for child in self.sensors if child.is_active]
+        self._children = list(self.inner_blocks())
         self._places: list[Array] = []
         for child in self._children:
             child.on_setup(agent, view)
@@ -69,9 +78,10 @@ class FloatArrayCompositeSensor(Sensor):
             self._places.append(place)
 
     def on_reset(self, agent: AgentView, view: WorldView) -> None:
-        """Resets the children."""
+        """Resets the children; one that is not resetable keeps all that it remembers."""
         for child in self._children:
-            child.on_reset(agent, view)
+            if child.resetable:
+                child.on_reset(agent, view)
             child.restart()
 
     def space(self) -> Box:
@@ -96,8 +106,26 @@ class FloatArrayCompositeSensor(Sensor):
                 part[...] = (place.ravel() - self.min_value) / (self.max_value - self.min_value)
             else:
                 part[...] = place.ravel()
-        if self._ever_read:
-            np.clip(out, self.range_min, self.range_max, out=out)
+        if out.size and not self.range_min <= out.min() <= out.max() <= self.range_max:
+            self._trim(out)
+
+    def _trim(self, out: Array) -> None:
+        """Cuts what rounding put beyond the range, and refuses what is farther off."""
+        low, high = self.range_min, self.range_max
+        slack = ROUNDING * max(1.0, abs(low), abs(high))
+        start = 0
+        for child, place in zip(self._children, self._places, strict=True):
+            part = out[start : start + place.size]
+            start += place.size
+            beyond = part[~((part >= low - slack) & (part <= high + slack))]
+            if beyond.size:
+                raise ReadingError(
+                    f"{type(self).__name__} {self.perception_key!r}: expected numbers from "
+                    f"{low:g} to {high:g} (range_min and range_max), got {float(beyond[0]):g} from "
+                    f"its {type(child).__name__} {child.perception_key!r}; widen the range, or set "
+                    "normalized=True on that sensor"
+                )
+        np.clip(out, low, high, out=out)
 
     def _name_of(self, child: Sensor) -> str:
         return f"{self.perception_key}/{child.perception_key}"

@@ -14,12 +14,24 @@ from gymnasium import spaces
 from pydantic import Field
 
 from ai4u_edu.blocks.block import Block, default_name
+from ai4u_edu.blocks.percept import DTYPES, TEXTS
 from ai4u_edu.blocks.sensors.pictures import Legend, SpotPicture
-from ai4u_edu.errors import BlockError, ReadingError
+from ai4u_edu.errors import BlockError, ReadingError, suggest
 from ai4u_edu.parameters import quantity
 from ai4u_edu.world import BodyView, WorldView
 
 Array = npt.NDArray[Any]
+
+SPACES = (
+    spaces.Box,
+    spaces.Discrete,
+    spaces.MultiBinary,
+    spaces.MultiDiscrete,
+    spaces.Text,
+)
+"""The spaces that a reading may have, besides a Tuple or a Sequence of Text."""
+KINDS = (*DTYPES, *TEXTS)
+"""AI4U's types of readings."""
 
 
 class Sensor(Block):
@@ -60,7 +72,9 @@ class Sensor(Block):
     normalized: bool = False
     """True divides the reading by the largest number that it can be (in AI4U the default)."""
     resetable: bool = True
-    """Whether stack and delay are forgotten at a reset."""
+    """Whether a reset begins anew: on_reset runs, and stack and delay are filled with the first
+    reading. Switched off, on_reset never runs, not even at the first reset (prepare in on_setup
+    what a reading needs), and stack and delay go on over the resets."""
     is_input: bool = True
     """Whether a policy gets it as part of its observation."""
     noise: Annotated[float, quantity("the reading's", ge=0)] = 0.0
@@ -128,14 +142,30 @@ class Sensor(Block):
     # -- what the base does with it --------------------------------------------------------------
 
     def reading_kind(self) -> str:
-        """AI4U's type of the reading: sfloat, sfloatarray, sbool, sint, sstring, ..."""
-        if self.kind:
-            return self.kind
+        """Return AI4U's type of the reading: sfloat, sfloatarray, sbool, sint, sstring, ...
+
+        Raises:
+            BlockError: there is no such type, or the space is of no kind that a sensor may have.
+        """
         space = self.space()
+        if not _can_be_read(space):
+            raise BlockError(
+                "expected space() to return a Box, a Discrete or a Text (for texts a Tuple or "
+                f"Sequence of Text), got {space!r}; for one number from 0 to 1 that is "
+                "Box(0.0, 1.0, (1,))"
+            )
+        if self.kind:
+            if self.kind not in KINDS:
+                raise BlockError(
+                    f"no type of reading is called {self.kind!r}; {suggest(self.kind, KINDS)}"
+                )
+            return self.kind
         if isinstance(space, spaces.Box) and self.normalized:
             return "sfloatarray"
         if isinstance(space, spaces.Text):
             return "sstring"
+        if isinstance(space, spaces.Tuple | spaces.Sequence):
+            return "sstrings"
         if isinstance(space, spaces.Discrete):
             return "sint"
         if space.dtype == np.uint8:
@@ -285,3 +315,11 @@ class Sensor(Block):
         raise ReadingError(
             f"{type(self).__name__} {self.perception_key!r}: expected {expected}, got {got}"
         )
+
+
+def _can_be_read(space: object) -> bool:
+    if isinstance(space, spaces.Tuple):
+        return all(isinstance(each, spaces.Text) for each in space.spaces)
+    if isinstance(space, spaces.Sequence):
+        return isinstance(space.feature_space, spaces.Text)
+    return isinstance(space, SPACES)

@@ -11,6 +11,7 @@ from ai4u_edu.blocks import Actuator, Percept
 from ai4u_edu.blocks.percept import Slot
 from ai4u_edu.errors import NameNotFoundError, suggest
 from ai4u_edu.wire import native
+from ai4u_edu.wire.texts import pack_texts
 
 
 class Excerpt:
@@ -80,7 +81,7 @@ class Excerpt:
 
     def of(self, percept: Percept) -> tuple[bytes, tuple[str, ...]]:
         """The numbers, one reading after another, and the texts."""
-        texts = tuple([percept.texts[place][: native.LONGEST_READ] for place in self._texts])
+        texts = tuple([_as_text(percept.texts[place]) for place in self._texts])
         if self._is_all:
             return percept.data, texts
         parts = [
@@ -88,6 +89,13 @@ class Excerpt:
             for slot in self._slots
         ]
         return b"".join(parts), texts
+
+
+def _as_text(reading: str | tuple[str, ...]) -> str:
+    """A reading that is text; of one that is several, all as one."""
+    if isinstance(reading, tuple):
+        return pack_texts(reading, native.LONGEST_READ)
+    return reading[: native.LONGEST_READ]
 
 
 def output_of(name: str, actuator: Actuator) -> native.Output:

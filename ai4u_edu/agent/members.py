@@ -1,0 +1,49 @@
+"""The world and the agents that a ControlRequestor is given, checked."""
+
+from collections.abc import Sequence
+
+from ai4u_edu.agent.agent import BasicAgent
+from ai4u_edu.errors import SetupError
+from ai4u_edu.world import World
+
+
+def check_members(world: object, agents: object) -> None:
+    """Check what a ControlRequestor is made of.
+
+    Raises:
+        SetupError: it is no world and a list of agents, or two agents have one id or one body.
+    """
+    example = "as in ControlRequestor(world, [agent])"
+    if not isinstance(world, World):
+        raise SetupError(f"expected a World first, {example}, got {_shown(world)}")
+    if not isinstance(agents, Sequence) or isinstance(agents, str):
+        raise SetupError(f"expected a list of agents, {example}, got {_shown(agents)}")
+    for agent in agents:
+        if not isinstance(agent, BasicAgent):
+            raise SetupError(f"expected agents in the list, {example}, got {_shown(agent)}")
+    if not agents:
+        raise SetupError("expected at least one agent, got none")
+    _check_unique(agents)
+
+
+def _check_unique(agents: Sequence[BasicAgent]) -> None:
+    """Raises SetupError where two agents have the same id or the same body."""
+    for index, agent in enumerate(agents):
+        for other in agents[:index]:
+            if agent.id == other.id:
+                told = SetupError(f"two agents have the id {agent.id!r}; ids are unique")
+                told.where = (agent, "id")
+                raise told
+            if agent.body_name == other.body_name:
+                told = SetupError(
+                    f"agents {other.id!r} and {agent.id!r} have the same body "
+                    f"{agent.body_name!r}; expected a body for each"
+                )
+                told.where = (agent, "body")
+                raise told
+
+
+def _shown(value: object) -> str:
+    if isinstance(value, type):
+        return f"the class {value.__name__}"
+    return f"{type(value).__name__} {value!r}"[:80]

@@ -1,0 +1,34 @@
+"""A reading of several texts, as the one text that goes over our own protocol."""
+
+import json
+from collections.abc import Sequence
+
+SEVERAL = "sstrings"
+"""AI4U's type of such a reading; a welcome says it, so that a script knows what to unpack."""
+
+
+def pack_texts(texts: Sequence[str], max_chars: int) -> str:
+    """Return texts as a JSON array; the last ones are left out where they don't fit.
+
+    >>> pack_texts(["to the left", "stop"], 80)
+    '["to the left", "stop"]'
+    >>> pack_texts(["to the left", "stop"], 20)
+    '["to the left"]'
+    """
+    packed = json.dumps(texts, ensure_ascii=False)
+    while len(packed) > max_chars:
+        texts = texts[:-1]
+        packed = json.dumps(texts, ensure_ascii=False)
+    return packed
+
+
+def unpack_texts(packed: str) -> tuple[str, ...]:
+    """Return the texts of a JSON array.
+
+    Raises:
+        ValueError: it is no array of texts.
+    """
+    texts = json.loads(packed)
+    if not isinstance(texts, list) or not all(isinstance(each, str) for each in texts):
+        raise ValueError("expected an array of texts")
+    return tuple(texts)
