@@ -132,7 +132,7 @@ class Fitting:
             raise
         except AI4UError as error:
             raise ReadingError(f"{_named(sensor)}: {error}") from error
-        except Exception as error:
+        except BaseException as error:  # sys.exit() in a block too
             error.add_note(f"while {_named(sensor)} of agent {self._agent.id!r} was reading")
             raise
         return Percept(self.layout, bytes(self._memory), tuple(texts))
