@@ -50,9 +50,10 @@ def room_app(
     past = Past(runner)
     document = openapi()
 
-    def healthz(_: Request) -> Response:
-        health = Health.of(runner.latest, called(), time.monotonic() - began)
-        return _json(health.model_dump_json())
+    async def healthz(_: Request) -> Response:  # needs no worker thread: they may all be busy
+        stall = runner.stall
+        health = Health.of(runner.latest, called(), time.monotonic() - began, stall)
+        return _json(health.model_dump_json(), status=503 if stall else 200)
 
     def snapshot(_: Request) -> Response:
         return _json(SnapshotView.of(runner.latest).model_dump_json())
@@ -96,5 +97,6 @@ class RoomMount(Mount):
         return match, child
 
 
-def _json(text: str) -> Response:
-    return Response(text, media_type="application/json", headers={"Cache-Control": "no-store"})
+def _json(text: str, *, status: int = 200) -> Response:
+    headers = {"Cache-Control": "no-store"}
+    return Response(text, status, media_type="application/json", headers=headers)
