@@ -4,7 +4,7 @@ import json
 import signal
 import sys
 from collections.abc import Sized
-from contextlib import suppress
+from contextlib import ExitStack, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Literal
 
@@ -144,7 +144,9 @@ def play(
     from ai4u_edu.server import (
         Rules,
         announcement,
+        exit_at_once,
         hosts_for,
+        limit_exit,
         open_on_desktop,
         room_app,
         serve,
@@ -200,13 +202,15 @@ def play(
 
     runner.start()
     viewer.start()
-    try:
-        serve(room, host, port, on_ready=ready)
-    finally:
-        viewer.stop()
-        runner.stop()
+    with ExitStack() as ending:  # the last one first: the runner may yet change what is saved
+        ending.callback(viewer.stop)
         if saver is not None:
-            saver.stop()
+            ending.callback(saver.stop)
+        ending.callback(runner.stop)
+        serve(room, host, port, on_ready=ready)
+        limit_exit()
+    if runner.is_left_behind:
+        exit_at_once()  # the process is ours, and Python would crash or wait
 
 
 @app.command()

@@ -80,7 +80,14 @@ def show(folder: Path, port: int, *, open_page: bool) -> None:
     """Serves the page until somebody ends it; at another port if that one is taken."""
     from ai4u_edu.blocks import LocalBrain
     from ai4u_edu.runner import Runner
-    from ai4u_edu.server import PortTakenError, open_on_desktop, room_app, serve, shut_side_door
+    from ai4u_edu.server import (
+        PortTakenError,
+        limit_exit,
+        open_on_desktop,
+        room_app,
+        serve,
+        shut_side_door,
+    )
     from ai4u_edu.training.algorithms import load_model
     from ai4u_edu.training.entrants import driver_of
     from ai4u_edu.training.prepare import prepare
@@ -128,10 +135,11 @@ def show(folder: Path, port: int, *, open_page: bool) -> None:
             serve(room, "127.0.0.1", port, on_ready=ready)
         except PortTakenError:
             serve(room, "127.0.0.1", 0, on_ready=ready)
+        limit_exit()
     finally:
         ended.set()
-        viewer.stop()
         runner.stop()
+        viewer.stop()
 
 
 if __name__ == "__main__":
