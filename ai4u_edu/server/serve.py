@@ -16,7 +16,6 @@ from ai4u_edu.server.frames import FramesProtocol
 
 _LARGEST = 64 * 2**20  # bytes of a WebSocket message; viser itself takes 50 MB
 _GRACE = 1  # seconds that open connections have when the server ends
-_CANCEL_S = 0.3  # seconds that tasks have to end once they are cancelled
 
 
 def serve(
@@ -92,25 +91,6 @@ class _Server(uvicorn.Server):
         )
         self._on_ready = on_ready
         self._url = url
-
-    def run(self, sockets: list[socket.socket] | None = None) -> None:
-        """Serve until the end.
-
-        As asyncio.run does, but without waiting for ever for a task that can't be cancelled: one
-        that waits for a worker thread, which plays an episode with a block that does not return.
-        """
-        make_loop = self.config.get_loop_factory()
-        loop = asyncio.new_event_loop() if make_loop is None else make_loop()
-        try:
-            loop.run_until_complete(self.serve(sockets))
-        finally:
-            left = asyncio.all_tasks(loop)
-            for task in left:
-                task.cancel()
-            if left:
-                loop.run_until_complete(asyncio.wait(left, timeout=_CANCEL_S))
-            loop.run_until_complete(loop.shutdown_asyncgens())
-            loop.close()
 
     async def startup(self, sockets: list[socket.socket] | None = None) -> None:
         await super().startup(sockets)
