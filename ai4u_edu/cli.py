@@ -46,6 +46,11 @@ def main() -> None:
     except AI4UError as error:
         typer.secho(f"error: {error}", err=True, fg=typer.colors.RED)
         sys.exit(1)
+    except SystemExit as ended:
+        exits = sys.modules.get("ai4u_edu.server.process_exit")  # of a command that has served
+        if exits is not None:
+            exits.end_process(ended.code if isinstance(ended.code, int) else 0)
+        raise
 
 
 def _version(wanted: bool) -> None:
@@ -144,9 +149,7 @@ def play(
     from ai4u_edu.server import (
         Rules,
         announcement,
-        exit_at_once,
         hosts_for,
-        limit_exit,
         open_on_desktop,
         room_app,
         serve,
@@ -154,6 +157,7 @@ def play(
         token_for,
         with_token,
     )
+    from ai4u_edu.server.process_exit import HAS_SERVED
     from ai4u_edu.viewer import Viewer
     from ai4u_edu.workshop import Workshop
     from ai4u_edu.workshop.autosave import Autosave, latest, unsaved_folder
@@ -208,9 +212,7 @@ def play(
             ending.callback(saver.stop)
         ending.callback(runner.stop)
         serve(room, host, port, on_ready=ready)
-        limit_exit()
-    if runner.is_left_behind:
-        exit_at_once()  # the process is ours, and Python would crash or wait
+    HAS_SERVED.set()
 
 
 @app.command()

@@ -6,7 +6,6 @@ from ai4u_edu.server.app import RoomMount, room_app
 from ai4u_edu.server.desktop import open_on_desktop
 from ai4u_edu.server.door import LOOPBACK, hosts_for
 from ai4u_edu.server.guard import token_for, with_token
-from ai4u_edu.server.process_exit import exit_at_once, limit_exit
 from ai4u_edu.server.remote import Rules
 from ai4u_edu.server.serve import ServerThread, serve
 from ai4u_edu.server.side_door import shut_side_door
@@ -19,9 +18,7 @@ __all__ = [
     "Rules",
     "ServerThread",
     "announcement",
-    "exit_at_once",
     "hosts_for",
-    "limit_exit",
     "open_on_desktop",
     "room_app",
     "serve",

@@ -14,17 +14,28 @@ from typing import NoReturn
 EXIT_S = 1.5
 """Seconds that a process has to end by itself once nobody is served any more."""
 
+HAS_SERVED = threading.Event()
+"""Set by a command that has served a world, and is about to return."""
 
-def limit_exit(seconds: float = EXIT_S) -> None:
-    """End the process, as if all were well, if it has not ended by itself by then."""
-    timer = threading.Timer(seconds, exit_at_once)
+
+def end_process(status: int) -> None:
+    """See to it that a process that has served ends soon; called last, by its entry point.
+
+    Args:
+        status: the exit status.
+    """
+    if not HAS_SERVED.is_set():
+        return
+    if any(thread.name == "runner" for thread in threading.enumerate()):
+        exit_at_once(status)  # a block does not return
+    timer = threading.Timer(EXIT_S, exit_at_once, (status,))
     timer.daemon = True
     timer.start()
 
 
-def exit_at_once() -> NoReturn:
-    """End the process without waiting for any thread; the exit status is that of a normal end."""
+def exit_at_once(status: int) -> NoReturn:
+    """End the process without waiting for any thread."""
     for stream in (sys.stdout, sys.stderr):
         with suppress(OSError, ValueError):  # whoever read them may have gone
             stream.flush()
-    os._exit(0)
+    os._exit(status)

@@ -82,7 +82,6 @@ def show(folder: Path, port: int, *, open_page: bool) -> None:
     from ai4u_edu.runner import Runner
     from ai4u_edu.server import (
         PortTakenError,
-        limit_exit,
         open_on_desktop,
         room_app,
         serve,
@@ -135,7 +134,6 @@ def show(folder: Path, port: int, *, open_page: bool) -> None:
             serve(room, "127.0.0.1", port, on_ready=ready)
         except PortTakenError:
             serve(room, "127.0.0.1", 0, on_ready=ready)
-        limit_exit()
     finally:
         ended.set()
         runner.stop()
@@ -146,3 +144,7 @@ if __name__ == "__main__":
     if hasattr(os, "nice"):
         os.nice(19)
     show(Path(sys.argv[1]), int(sys.argv[2]), open_page=sys.argv[3] == "open")
+    from ai4u_edu.server.process_exit import HAS_SERVED, end_process
+
+    HAS_SERVED.set()
+    end_process(0)
