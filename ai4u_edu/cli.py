@@ -4,7 +4,7 @@ import json
 import signal
 import sys
 from collections.abc import Sized
-from contextlib import suppress
+from contextlib import ExitStack, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Literal
 
@@ -55,6 +55,11 @@ def main() -> None:
         if error.filename is None:  # no file's
             raise
         _fail(f"{error.filename}: {error.strerror}")
+    except SystemExit as ended:
+        exits = sys.modules.get("ai4u_edu.server.process_exit")  # of a command that has served
+        if exits is not None:
+            exits.end_process(ended.code if isinstance(ended.code, int) else 0)
+        raise
 
 
 def _fail(text: str) -> None:
@@ -218,6 +223,7 @@ def play(
         token_for,
         with_token,
     )
+    from ai4u_edu.server.process_exit import HAS_SERVED
     from ai4u_edu.viewer import Viewer
     from ai4u_edu.workshop import Workshop
     from ai4u_edu.workshop.autosave import Autosave, latest, unsaved_folder
@@ -271,13 +277,13 @@ def play(
 
     runner.start()
     viewer.start()
-    try:
-        serve(room, host, port, on_ready=ready, per_address=connections)
-    finally:
-        viewer.stop()
-        runner.stop()
+    with ExitStack() as ending:  # the last one first: the runner may yet change what is saved
+        ending.callback(viewer.stop)
         if saver is not None:
-            saver.stop()
+            ending.callback(saver.stop)
+        ending.callback(runner.stop)
+        serve(room, host, port, on_ready=ready, per_address=connections)
+    HAS_SERVED.set()
 
 
 def _built(scene: "Scene", drivers: list[str]) -> "tuple[ControlRequestor, Scene]":

@@ -40,6 +40,7 @@ next ones have none. With ``spread_decisions`` each has a turn: the first agent 
 first one does, is shorter: it ends at its own agent's turn.
 """
 
+import time
 from collections.abc import Sequence
 from typing import NamedTuple
 
@@ -48,9 +49,12 @@ from ai4u_edu.agent.agent import Numbers
 from ai4u_edu.agent.blame import blame
 from ai4u_edu.agent.members import check_members
 from ai4u_edu.blocks import Actuator, Command, Percept, RewardFunc
-from ai4u_edu.errors import NameNotFoundError, SetupError, suggest
+from ai4u_edu.errors import NameNotFoundError, NoDecisionError, SetupError, suggest
 from ai4u_edu.seeding import checked_seed
 from ai4u_edu.world import Body, World
+
+HOLD_LIMIT_S = 660.0
+"""Seconds for which a step waits for another agent's brain; a script may be silent for 600."""
 
 
 class Phase(NamedTuple):
@@ -326,17 +330,34 @@ class ControlRequestor:
 
         Returns:
             What the agent senses then.
+
+        Raises:
+            NoDecisionError: another agent has had the world wait for :data:`HOLD_LIMIT_S`.
         """
         agent = agent or self.agents[0]
         cycle = self._cycle_of(agent)
         self.leap()
+        held_since = None
         while cycle.under_way:
             self.tick()
+            if self.held:
+                held_since = held_since or time.monotonic()
+                if time.monotonic() - held_since > HOLD_LIMIT_S:
+                    raise NoDecisionError(
+                        f"agent {agent.id!r} can't end its decision: another agent's brain has had "
+                        f"the world wait for {HOLD_LIMIT_S:g} s"
+                    )
+            else:
+                held_since = None
         return agent.percept
 
     def phase(self, agent: BasicAgent) -> Phase:
         """How far an agent is in the decision that it takes, or took last."""
         return self._cycle_of(agent).phase()
+
+    def is_deciding(self, agent: BasicAgent) -> bool:
+        """Return whether an agent is in the middle of a decision: it has begun, and goes on."""
+        return self._cycle_of(agent).under_way
 
     def between_decisions(self) -> bool:
         """Whether no agent is in the middle of a step: the time to change things."""

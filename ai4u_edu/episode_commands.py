@@ -1,5 +1,6 @@
 """The commands for recorded episodes; what they need is loaded when they run."""
 
+import time
 from collections.abc import Callable
 from dataclasses import replace as with_changes
 from pathlib import Path
@@ -16,16 +17,19 @@ from ai4u_edu.command_options import (
     load_own_blocks,
     seed_option,
 )
-from ai4u_edu.errors import SetupError
+from ai4u_edu.errors import NoDecisionError, SetupError
 from ai4u_edu.seeding import seeds_from
 
 if TYPE_CHECKING:
+    from ai4u_edu.agent import BasicAgent
     from ai4u_edu.cycle import ControlRequestor
     from ai4u_edu.recording import Episode, Recorder
     from ai4u_edu.scenes import Scene
 
 LONGEST = 5000
 """Decisions after which an episode is cut off in a scene that has no limit of its own."""
+SCRIPT_POLL_S = 0.01
+"""Seconds between two ticks while the script that is to drive is not there."""
 KEPT = 50
 """So many episodes are kept in memory."""
 
@@ -67,14 +71,12 @@ def record(
     sim, loaded = _with_brains(loaded, brain or [])
     recorder = recorder_into(out, sim, loaded)
     first = sim.agents[0]
-    for each in seeds:
-        sim.reset(each)
-        episode = sim.episode
-        while not first.done and first.steps < LONGEST and sim.episode == episode:
-            sim.step(first)
-            if first.stopped or first.paused:
-                break
-        recorder.finish()
+    try:
+        for each in seeds:
+            _drive(sim, first, each)
+            recorder.finish()
+    finally:
+        recorder.finish()  # Ctrl-C ends the episode, and loses nothing of it
     Console().print(_overview(list(recorder.episodes)))
     typer.echo(f"kept in {out}; look at one:  ai4u-edu replay {out}/... --html episode.html")
 
@@ -189,20 +191,31 @@ def recorder_into(
 ) -> "Recorder":
     """A recorder that keeps the last episodes, and writes each into a folder when it is over.
 
+    One that can't be written, as when the disk is full, is kept in memory; the next is tried anew.
+
     Args:
         folder: where to; None: nothing is written.
         sim: the world and its agents.
         scene: what it was made from.
         keep: how many episodes are kept in memory.
+
+    Raises:
+        SetupError: the folder can't be made.
     """
     from ai4u_edu.recording import Archive, Recorder
 
     episodes = Archive(keep)
     if folder is None:
         return Recorder(sim, scene=scene.description, episodes=episodes)
-    folder.mkdir(parents=True, exist_ok=True)
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise SetupError(
+            f"{folder}: expected a folder that can be made, or is there: {error.strerror}"
+        ) from None
 
     def write(episode: "Episode") -> None:
+        folder.mkdir(parents=True, exist_ok=True)  # somebody may have removed it meanwhile
         name = f"{episode.scene.name}-{episode.seed}"
         path, count = folder / f"{name}.episode", 1
         while path.exists():
@@ -240,6 +253,33 @@ def _with_brains(scene: "Scene", specs: list[str]) -> "tuple[ControlRequestor, S
             f"yourself: ai4u-edu play {scene.description.name} --record DIR"
         )
     return sim, scene
+
+
+def _drive(sim: "ControlRequestor", agent: "BasicAgent", seed: int) -> None:
+    """Let one episode pass; while the agent's script is not there, say so and wait for it."""
+    from ai4u_edu.block_errors import reason_for_no_decision
+    from ai4u_edu.blocks import RemoteBrain
+
+    sim.reset(seed)
+    episode, in_vain = sim.episode, 0
+    while not agent.done and agent.steps < LONGEST and sim.episode == episode:
+        steps = agent.steps
+        sim.step(agent)
+        if agent.stopped or agent.paused:
+            return
+        in_vain = 0 if agent.steps != steps else in_vain + 1
+        if not in_vain:
+            continue
+        if isinstance(agent.brain, RemoteBrain):
+            if in_vain == 1:
+                reason = reason_for_no_decision(agent)
+                typer.echo(f"agent {agent.id!r} waits: {reason}  (Ctrl-C ends it)", err=True)
+            time.sleep(SCRIPT_POLL_S)
+        elif in_vain == LONGEST:
+            reason = reason_for_no_decision(agent)
+            raise NoDecisionError(
+                f"agent {agent.id!r} took no decision in {LONGEST} ticks: {reason}"
+            )
 
 
 def _overview(episodes: "list[Episode]") -> Table:

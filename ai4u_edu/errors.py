@@ -12,6 +12,7 @@
     ├── WorldError             the world can't do this (too many bodies, a place is taken)
     ├── ReadingError           a sensor gave something that it had not declared
     ├── ActionError            an action that no actuator can carry out
+    ├── NoDecisionError        an agent takes no decision, since it waits for its script
     ├── RecordingError         an episode can't be read, or played again (in ai4u_edu.recording)
     ├── WireError              what came over a network is no message (in ai4u_edu.wire)
     ├── RemoteError            a robot that is somewhere else (in ai4u_edu.remote)
@@ -87,6 +88,10 @@ class ReadingError(AI4UError):
 
 class ActionError(AI4UError):
     """An action that no actuator can carry out."""
+
+
+class NoDecisionError(AI4UError):
+    """An agent was to take a decision, and took none."""
 
 
 def suggest(name: str, known: Iterable[str]) -> str:

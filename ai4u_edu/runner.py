@@ -4,53 +4,58 @@ Whoever wants something changed submits a command; it is carried out between two
 runner's thread. Whoever wants to look takes the latest snapshot, without a lock.
 """
 
+import logging
 import math
 import sys
 import threading
 import time
-from collections import deque
 from collections.abc import Callable
 from concurrent.futures import Future
 from dataclasses import replace
-from typing import Any, TypeVar
+from typing import TypeVar
 
-from ai4u_edu.blocks import RemoteBrain
+from ai4u_edu.block_errors import reason_for_no_decision, sentence_of, storable
+from ai4u_edu.blocks import Brain, RemoteBrain
+from ai4u_edu.command_queue import CommandQueue, QueuedCommand
 from ai4u_edu.cycle import ControlRequestor
-from ai4u_edu.publisher import FEW_TICKS, Publisher
+from ai4u_edu.errors import NoDecisionError
+from ai4u_edu.publisher import Publisher
 from ai4u_edu.recording import Recorder, Replay
 from ai4u_edu.recording.portrait import without_unknown_brains
 from ai4u_edu.scenes import Scene
 from ai4u_edu.slow_ticks import SlowTicks
 from ai4u_edu.snapshot import Snapshot, Stage, picture_of, set_stage
+from ai4u_edu.stall_monitor import Stall, StallMonitor
+from ai4u_edu.tick_schedule import TickSchedule
 
 T = TypeVar("T")
 
-LATE = 0.25
-"""A runner that is further behind than this (s) gives up catching up."""
+logger = logging.getLogger(__name__)
+
 PATIENCE = 0.25
 """Where agents decide at different times there may be no moment between all decisions; a command
 waits this long (s) for one, and then takes any moment between two ticks."""
-GIVE_WAY = 0.0002
+SWITCH_INTERVAL_S = 0.0002
 """Seconds after which a thread that computes lets another one go on. Python's own 5 ms would make a
 tick late whenever pages are drawn."""
-
-SLICE = 0.015
-"""While a world waits for a call, it is looked so often (s) whether somebody wants something."""
-SPRINT = 0.002
-"""Seconds for which somebody who called may keep the world; a tick more, at most."""
-
-LONGEST_TICK = 0.01
-"""Seconds for which somebody who draws waits for the end of a tick."""
-SOON = 0.0003
-"""Who would begin to draw so shortly (s) before a tick waits for it too."""
-HOPELESS = 0.02
-"""A world whose ticks are late by so much (s), always, is not helped by waiting."""
+ANSWER_POLL_S = 0.015
+"""While a world waits for scripts that will call, their brains look so often who is late."""
+HOLD_POLL_S = 0.001
+"""Pause between two questions to brains that have the world wait, and that nobody calls for."""
+REST_POLL_S = 0.1
+"""Seconds between two snapshots while the time stands still."""
+STOP_S = 1.0
+"""Seconds that the thread has to end; a block that does not return may keep it from that."""
 
 ANOTHER_WORLD = "another world has taken its place; connect anew to drive there"
 
 
 class Runner:
     """Ticks a world against the wall clock, in a thread of its own.
+
+    Physics and the code of blocks run in that thread and no other, so a block that does not return
+    keeps nobody but the world waiting; :attr:`stall` tells of it. Commands, :meth:`call` and
+    :meth:`stop` come from any thread: they leave word, set one event and go on.
 
     Args:
         sim: the world and its agents.
@@ -78,20 +83,14 @@ class Runner:
         if time_scale is not None:
             self.set_time_scale(time_scale)
         self._clock = clock
-        self._commands: deque[tuple[float, Callable[[], None], Future[Any]]] = deque()
-        self._wake = threading.Condition()
+        self._wake = threading.Event()
+        self._queue = CommandQueue(clock, self._wake)
         self._stopping = False
         self._thread: threading.Thread | None = None
-        self._turn = threading.Lock()  # whoever has it may let the world go on
-        self._is_ticking = threading.Lock()
-        self._is_asleep = False  # until the next tick is due
-        self._called = threading.Event()
         self._expected = 0
-        self._due = 0.0
-        self.lateness = 0.0
-        """How late (s) ticks lately began, on average."""
-        self._window: deque[tuple[float, int]] = deque(maxlen=60)
-        self._ticked = 0
+        self._expecting = threading.Lock()
+        self._schedule = TickSchedule(clock)
+        self._monitor = StallMonitor(clock, lambda: self.sim.agents)
         self._slow = SlowTicks(clock)
         sim.reset(seed)
         self._past: Snapshot | None = None
@@ -110,19 +109,20 @@ class Runner:
         """The latest snapshot, as soon as it is another one than ``seen`` (or after timeout s)."""
         return self._publisher.wait(seen, timeout)
 
-    def give_way(self) -> None:
-        """Waits until no tick is due or under way; not long, nor in a world without a pause.
+    @property
+    def stall(self) -> Stall | None:
+        """The tick or the command that has not ended for too long; None while all is well."""
+        return self._monitor.stall
 
-        One thread computes at a time. A tick between others that compute takes as many times as
-        long; so who only draws says this between one thing and the next.
-        """
-        if self.is_unpaced() or self.lateness > HOPELESS:
-            return
-        enough = self._clock() + LONGEST_TICK
-        while self._is_asleep and self._due - SOON < self._clock() < enough:
-            time.sleep(GIVE_WAY)  # it would not get the processor when it wakes up
-        if self._is_ticking.acquire(timeout=LONGEST_TICK):
-            self._is_ticking.release()
+    @property
+    def lateness(self) -> float:
+        """How late (s) ticks lately began, on average."""
+        return self._schedule.lateness
+
+    def give_way(self) -> None:
+        """Waits until no tick is due or under way; not long, nor in a world without a pause."""
+        if not (self.is_unpaced() or self._monitor.is_stalled):
+            self._schedule.give_way()
 
     def is_unpaced(self) -> bool:
         """Whether the time runs as fast as it can, and not by the clock."""
@@ -132,27 +132,7 @@ class Runner:
 
     def submit(self, command: Callable[[], T]) -> "Future[T]":
         """Has a command carried out in the runner's thread, between two decisions."""
-        future: Future[T] = Future()
-
-        def carry_out() -> None:
-            if not future.set_running_or_notify_cancel():
-                return
-            try:
-                result = self.recorder.guard(command) if self.recorder else command()
-            except Exception as error:  # it belongs to whoever asked
-                self._publish()
-                future.set_exception(error)
-            else:
-                self._publish()  # first: who asked, and hears that it is done, looks at once
-                future.set_result(result)
-
-        with self._wake:
-            if self._stopping:
-                future.cancel()
-            else:
-                self._commands.append((self._clock(), carry_out, future))
-                self._wake.notify()
-        return future
+        return self._queue.submit(command)
 
     def pause(self) -> "Future[None]":
         """Stops the time; held keys are let go."""
@@ -177,6 +157,8 @@ class Runner:
         def carry_out() -> None:
             for _ in range(ticks):
                 self._tick()
+                if self.error or self._stopping:
+                    return
 
         return self.submit(carry_out)
 
@@ -186,16 +168,22 @@ class Runner:
         Args:
             agent_id: whose; left out, the first one's. Of an agent that takes no more decisions in
                 this episode, a single tick passes.
+
+        Raises:
+            NoDecisionError: the agent took none: it waits for its script. A tick has passed, unless
+                the world waits for that script.
         """
 
         def carry_out() -> None:
             sim = self.sim
             agent = sim.agents[0] if agent_id is None else sim.agent(agent_id)
+            before, is_over = (agent.episode, agent.steps), agent.done
             self._tick()
-            phase = sim.phase(agent)
-            while phase.tick < phase.ticks and not (agent.done or self.error or sim.held):
+            while sim.is_deciding(agent) and not (self.error or sim.held or self._stopping):
                 self._tick()
-                phase = sim.phase(agent)
+            if (agent.episode, agent.steps) == before and not (is_over or self.error):
+                why = reason_for_no_decision(agent)
+                raise NoDecisionError(f"agent {agent.id!r} took no decision: {why}")
 
         return self.submit(carry_out)
 
@@ -281,58 +269,56 @@ class Runner:
 
     def expect_call(self) -> None:
         """Said by a link that was asked: its answer will come with a :meth:`call`."""
-        self._expected += 1
+        with self._expecting:
+            self._expected += 1
 
     def call(self) -> None:
-        """Something that the world waits for is there.
+        """Wakes the world up: something that it waits for is there; from any thread.
 
-        When all is there, a world that runs as fast as it goes goes on right here, in the caller's
-        thread, until it waits again: to wake the runner's thread, and to be woken by it, takes
-        longer than a tick does.
+        Where several are waited for, the last one wakes it. Nothing else is done in the caller's
+        thread: the next tick may take long.
         """
-        self._expected -= 1
-        if self._expected > 0:
-            return
-        if not self._may_sprint() or not self._turn.acquire(blocking=False):
-            self._called.set()
-            return
-        try:
-            end = self._clock() + SPRINT
-            while self._may_sprint() and self._clock() < end:
-                self._expected = 0
-                self._tick(leaps=True)
-                if self.sim.held:
-                    return
-                self._keep_time()
-                if all(agent.brain.keeps_waiting for agent in self.sim.agents):
-                    self._expected = len(self.sim.agents)
-                    return
-        finally:
-            self._turn.release()
-        self._called.set()
+        with self._expecting:
+            self._expected -= 1
+            is_last = self._expected <= 0
+        if is_last:
+            self._wake.set()
 
     # -- the thread ------------------------------------------------------------------------------
 
     def start(self) -> None:
         """Begins to tick."""
-        sys.setswitchinterval(min(sys.getswitchinterval(), GIVE_WAY))
+        sys.setswitchinterval(min(sys.getswitchinterval(), SWITCH_INTERVAL_S))
         self._thread = threading.Thread(target=self._run, name="runner", daemon=True)
-        self._due = self._clock()
+        self._schedule.due = self._clock()
         self._thread.start()
+        self._monitor.start()
 
     def stop(self) -> None:
-        """Ends the thread; commands that still wait are cancelled, brains are closed."""
-        with self._wake:
-            self._stopping = True
-            self._wake.notify()
-        if self._thread is not None:
-            self._thread.join()
-        while self._commands:
-            self._commands.popleft()[2].cancel()
-        if self.recorder is not None:
-            self.recorder.finish()
-        for agent in self.sim.agents:
-            agent.brain.close()
+        """Ends the thread; commands that still wait are cancelled, brains are closed.
+
+        A block that does not return has the thread left behind, after :data:`STOP_S`: then the
+        brains, which it uses, stay as they are; :attr:`is_left_behind` tells.
+        """
+        self._stopping = True
+        self._queue.close()
+        self._wake.set()
+        thread = self._thread
+        if thread is None:
+            self._end()
+        elif thread is not threading.current_thread():
+            thread.join(STOP_S)
+        if self.is_left_behind:
+            where = self._monitor.under_way()
+            logger.warning("the world is left behind unfinished: %s", where or "it did not end")
+            if self.recorder is not None:
+                self.recorder.finish()
+        self._monitor.stop()
+
+    @property
+    def is_left_behind(self) -> bool:
+        """True if the thread was to end and still runs; only the end of the process ends it."""
+        return self._stopping and self._thread is not None and self._thread.is_alive()
 
     def set_time_scale(self, time_scale: float) -> None:
         """Sets the time scale at once; only for the runner's thread, or before it starts."""
@@ -345,86 +331,166 @@ class Runner:
 
         The runner's own thread does nothing else; who has none may call it instead.
         """
-        self._carry_out_commands()
-        if self.paused or self.error:
-            self._rest()
-        else:
-            self._tick(leaps=self.is_unpaced())
-            self._keep_time()
-
-    def _may_sprint(self) -> bool:
-        """Whether there is nothing to wait for but ticks, and a thread that would do them."""
-        standing = self.paused or self.error or self._commands or self._stopping
-        return self.is_unpaced() and self._thread is not None and not standing
+        self._wake.clear()
+        self._monitor.begin()
+        try:
+            self._carry_out_commands()
+            if self.paused or self.error:
+                self._rest()
+            else:
+                self._tick(leaps=self.is_unpaced())
+                self._keep_time()
+        finally:
+            self._monitor.end()
 
     def _run(self) -> None:
         while not self._stopping:
-            with self._turn:
+            with self._expecting:
                 self._expected = 0
-                self.advance()
-            self._called.clear()  # whoever called before others were asked called for nothing
-            if self.sim.held and self._expected > 0:
-                self._called.wait(SLICE)
+            began = self._clock()
+            self._attempt(self.advance)
+            self._wait_for_answers(began)
+        self._end()
+
+    def _wait_for_answers(self, began: float) -> None:
+        """Waits until all links that will call have called, or somebody wants something else."""
+        if self.sim.held:
+            to_come = 0
+        elif self.is_unpaced() and self._all_keep_waiting():
+            to_come = len(self.sim.agents)  # they were told already, and need not be asked
+        else:
+            return
+        with self._expecting:
+            self._expected += to_come
+            expected = self._expected
+        if expected > 0:
+            self._wake.wait(ANSWER_POLL_S)
+        elif self._clock() - began < HOLD_POLL_S:
+            self._wake.wait(HOLD_POLL_S)  # brains that have the world wait, and nobody will call
+
+    def _all_keep_waiting(self) -> bool:
+        self._monitor.begin()
+        try:
+            return all(agent.brain.keeps_waiting for agent in self.sim.agents)
+        finally:
+            self._monitor.end()
+
+    def _end(self) -> None:
+        """Ends what belongs to the thread that runs the world; that thread does it, if it can."""
+        self._monitor.begin()
+        if self.recorder is not None:
+            self.recorder.finish()
+        for agent in self.sim.agents:
+            self._close(agent.brain)
+        self._monitor.end()
 
     def _rest(self) -> None:
-        self._window.clear()
-        self.lateness = 0.0
-        with self._wake:
-            self._wake.wait_for(lambda: self._commands or self._stopping, 0.1)
+        self._schedule.rest()
+        self._monitor.end()
+        self._wake.wait(REST_POLL_S)
+        self._monitor.begin()
         for agent in self.sim.agents:
-            agent.brain.idle()
+            self._attempt(agent.brain.idle)
         self._publish()  # keys that are held, and the like, go on
-        self._due = self._clock()
+        self._schedule.rest()
 
     def _tick(self, *, leaps: bool = False) -> None:
         """A tick, or as many as make a decision."""
+        self._monitor.begin()
         began, self._past = self._clock(), None
         ticks = 1
-        with self._is_ticking:
-            try:
-                if leaps:
-                    ticks = self.sim.leap() or 1
-                else:
-                    self.sim.tick()
-            except Exception as error:  # a student's block may raise anything; the page shows it
-                self.error = _sentence(error)
+
+        def tick() -> None:
+            nonlocal ticks
+            if leaps:
+                ticks = self.sim.leap() or 1
+            else:
+                self.sim.tick()
+
+        with self._schedule.is_ticking:
+            self._attempt(tick)
             ended = self._clock()
             if not self.sim.held:  # a world that waits for a script is not slow
-                self._ticked += ticks
+                self._schedule.ticked += ticks
                 self._slow.note((ended - began) / ticks, self.sim.world.count_contacts)
             self._show(ended, ended - began)
 
     def _show(self, now: float, took: float) -> None:
         """Publishes how it looks after a tick, if there is time for that, or something is wrong."""
-        period = self.sim.world.dt / self.time_scale
-        next_due = self._due + period
+        period = self._period
+        next_due = self._schedule.due + period
         is_due = self._publisher.is_due(now, took=took, next_due=next_due, period=period)
         if is_due or self.error:
             self._publish()
 
     def _keep_time(self) -> None:
-        now = self._clock()
-        self._window.append((now, self._ticked))
-        if self.sim.held:
-            self._due = now  # the time stood still: there is nothing to catch up with
-            return
-        period = self.sim.world.dt / self.time_scale
-        self._due = max(self._due + period, now - LATE)
-        late = max(now - self._due, 0.0) if period else 0.0  # as fast as it goes is never late
-        self.lateness += FEW_TICKS * (late - self.lateness)
-        if self._due > now:
-            self._is_asleep = True
-            time.sleep(self._due - now)
-            self._is_asleep = False
+        self._schedule.tick_ended(self._period, held=self.sim.held)
+        self._monitor.end()
+        self._schedule.sleep(self._wake, self._listen)
+
+    def _listen(self) -> bool:
+        """Carries out what is asked for in a long pause; whether the pause goes on."""
+        self._monitor.begin()
+        self._carry_out_commands()
+        self._monitor.end()
+        self._schedule.due = min(self._schedule.due, self._clock() + self._period)
+        return not (self.paused or self.error or self._stopping)
+
+    @property
+    def _period(self) -> float:
+        """Seconds from one tick to the next, by the wall clock."""
+        return self.sim.world.dt / self.time_scale
 
     def _carry_out_commands(self) -> None:
-        while self._commands:
-            asked, command, _ = self._commands[0]
+        while (first := self._queue.first) is not None and not self._stopping:
             standing = self.paused or self.error or self.sim.held or self.sim.between_decisions()
-            if not standing and self._clock() - asked < PATIENCE:
+            if not standing and self._clock() - first.asked_at < PATIENCE:
                 return
-            self._commands.popleft()
-            command()
+            command = self._queue.take()
+            if command is not None:
+                self._carry_out(command)
+
+    def _carry_out(self, command: QueuedCommand) -> None:
+        self._monitor.begin()
+        try:
+            result = self.recorder.guard(command.run) if self.recorder else command.run()
+        except BaseException as error:  # it belongs to whoever asked
+            self._publish()
+            command.future.set_exception(storable(error, self.sim.agents))
+            if not self._may_keep(error):
+                raise
+        else:
+            self._publish()  # first: who asked, and hears that it is done, looks at once
+            command.future.set_result(result)
+
+    # -- errors of blocks ------------------------------------------------------------------------
+
+    def _attempt(self, act: Callable[[], object]) -> None:
+        """Runs what may raise anything, as a student's block does; the page shows it then."""
+        try:
+            act()
+        except BaseException as error:
+            if not self._may_keep(error):
+                raise
+            self.error = sentence_of(error, self.sim.agents)
+
+    def _may_keep(self, error: BaseException) -> bool:
+        """Whether an error is a block's, and not Ctrl-C's: that comes to the main thread only."""
+        return isinstance(error, Exception) or threading.current_thread() is self._thread
+
+    def _close(self, brain: Brain, reason: str = "") -> None:
+        """Closes a brain that drives no more; whatever it raises stops nobody else."""
+        try:
+            if reason and isinstance(brain, RemoteBrain):
+                brain.close(reason)
+            else:
+                brain.close()
+        except BaseException as error:
+            if not self._may_keep(error):
+                raise
+            logger.warning("%s could not be closed", type(brain).__name__, exc_info=True)
+
+    # -- what it is made of ----------------------------------------------------------------------
 
     def _set_paused(self, paused: bool) -> None:
         self.paused = paused
@@ -444,20 +510,20 @@ class Runner:
             self.recorder.listen_to(sim)
         self.error, self._past, self._generation = "", None, -1
         self._slow.clear()
-        self._window.clear()
+        self._schedule.forget()
         stay = [agent.brain for agent in sim.agents]
         for agent in before.agents:
             agent.keyboard.release()
             brain = agent.brain
             if any(brain is each for each in stay):
                 continue
-            if isinstance(brain, RemoteBrain):
-                brain.close(ANOTHER_WORLD)
-            else:
-                brain.close()
+            self._close(brain, ANOTHER_WORLD)
 
     def _publish(self) -> None:
-        self._publisher.publish(lambda: self._past or self._picture())
+        self._attempt(lambda: self._publisher.publish(lambda: self._past or self._picture()))
+        if self.error and self.latest.error != self.error and self._past is None:
+            # a block keeps the world from being seen: what was seen last, with the reason
+            self._publisher.publish(lambda: replace(self.latest, error=self.error))
 
     def _as_past(self, past: Snapshot) -> Snapshot:
         """A moment of the past, as it is shown; where it can be, on the stage that is there now."""
@@ -487,14 +553,7 @@ class Runner:
         )
 
     def _real_time_factor(self) -> float:
-        if len(self._window) < 2:
-            return (
-                0.0 if self.paused else self.time_scale if math.isfinite(self.time_scale) else 1.0
-            )
-        (began, first), (ended, last) = self._window[0], self._window[-1]
-        return (last - first) * self.sim.world.dt / max(ended - began, 1e-9)
-
-
-def _sentence(error: Exception) -> str:
-    notes = "".join(f" ({note})" for note in getattr(error, "__notes__", ()))
-    return f"{type(error).__name__}: {error}{notes}"
+        measured = self._schedule.real_time_factor(self.sim.world.dt)
+        if measured is not None:
+            return measured
+        return 0.0 if self.paused else 1.0 if self.is_unpaced() else self.time_scale

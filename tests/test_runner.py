@@ -1,26 +1,35 @@
 """The wall clock, the queue of commands and the snapshots."""
 
+import asyncio
 import threading
 import time
 from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import replace
-from typing import Any
+from typing import Any, ClassVar
 
 import pytest
+from gymnasium.spaces import Box
 
 from ai4u_edu import (
     BasicAgent,
+    Brain,
     CircleShape,
+    Command,
     ControlRequestor,
     LocalBrain,
+    RemoteBrain,
     ReplayController,
     Scene,
+    Sensor,
     World,
 )
+from ai4u_edu.errors import BlockError, NoDecisionError
 from ai4u_edu.recording import Recorder, Replay
 from ai4u_edu.runner import Runner
 from ai4u_edu.snapshot import Snapshot, picture_of
-from tests.builders import small_sim
+from tests.builders import small_sim, small_world
+from tests.server.rooms import free_port, until
 
 
 @pytest.fixture
@@ -61,7 +70,7 @@ def test_who_draws_gives_way_to_a_tick(monkeypatch: pytest.MonkeyPatch) -> None:
         order.append("tick")
 
     monkeypatch.setattr(runner.sim, "tick", slow_tick)
-    monkeypatch.setattr("ai4u_edu.runner.LONGEST_TICK", 5.0)
+    monkeypatch.setattr("ai4u_edu.tick_schedule.MAX_YIELD_S", 5.0)
     ticking = threading.Thread(target=runner._tick)
     ticking.start()
     assert is_in_it.wait(5)
@@ -84,14 +93,14 @@ def test_who_draws_gives_way_to_a_tick(monkeypatch: pytest.MonkeyPatch) -> None:
 def test_who_draws_gives_way_to_a_runner_that_is_about_to_wake_up(
     monkeypatch: pytest.MonkeyPatch, before: float, *, waits: bool
 ) -> None:
-    monkeypatch.setattr("ai4u_edu.runner.LONGEST_TICK", 5.0)
+    monkeypatch.setattr("ai4u_edu.tick_schedule.MAX_YIELD_S", 5.0)
     runner = Runner(Scene.load("box_chase").build(), seed=1, clock=lambda: 100.0)
-    runner._due, runner._is_asleep = 100.0 + before, True
+    runner._schedule.due, runner._schedule.is_asleep = 100.0 + before, True
     drawing = threading.Thread(target=runner.give_way)
     drawing.start()
     drawing.join(0.1 if waits else 5)
     assert drawing.is_alive() == waits
-    runner._is_asleep = False
+    runner._schedule.is_asleep = False
     drawing.join(5)
     assert not drawing.is_alive()
 
@@ -105,8 +114,8 @@ def test_who_draws_does_not_wait_for_a_world_that_never_rests(
             raise AssertionError("it waits")
 
     runner = Runner(Scene.load("box_chase").build(), seed=1, time_scale=time_scale)
-    runner.lateness = late
-    runner._is_ticking = Barred()  # type: ignore[assignment]
+    runner._schedule.lateness = late
+    runner._schedule.is_ticking = Barred()  # type: ignore[assignment]
     runner.give_way()
 
 
@@ -119,7 +128,7 @@ def test_at_one_go_a_decision_is_what_it_is_tick_by_tick() -> None:
             runner._tick(leaps=leaps)
         state = picture_of(sim)
         seen.append((state.tick, state.bodies, state.agents[0].percept, state.agents[0].reward))
-        assert runner._ticked == sim.world.ticks == 100
+        assert runner._schedule.ticked == sim.world.ticks == 100
     assert seen[0] == seen[1]
 
 
@@ -149,7 +158,7 @@ def test_snapshots_that_take_long_are_fewer_and_the_ticks_are_not(
 
     monkeypatch.setattr(runner, "_picture", slow_picture)
     for _ in range(60):
-        runner._due = now
+        runner._schedule.due = now
         runner._tick()
         now += 1 / 60
     assert runner.sim.world.ticks == 60
@@ -180,7 +189,7 @@ def test_a_picture_waits_for_a_tick_that_leaves_time_for_it(
     monkeypatch.setattr(runner.sim, "tick", slow_tick)
     monkeypatch.setattr(runner, "_picture", slow_picture)
     for number in range(60):
-        now = runner._due = 100 + number / 60
+        now = runner._schedule.due = 100 + number / 60
         runner._tick()
     assert len(after) == pytest.approx(shown, abs=1)
     assert set(after[1:]) == {min(ticks)}
@@ -440,3 +449,292 @@ def test_an_episode_of_another_world_is_continued_in_its_own() -> None:
     runner.recorder.finish()
     assert Replay(runner.recorder.episodes[-1]).verdict.exact
     assert len(runner.recorder.episodes[-1].agents[0]) == 20
+
+
+# -- what does not answer, and what must not end the thread --------------------------------------
+
+
+class Silent(Brain):
+    """Answers with the same command, for ever."""
+
+    answer: Any = Command.WAIT
+
+    def decide(self, percept: Any) -> Any:
+        return self.answer
+
+
+@pytest.mark.parametrize(("answer", "ticks"), [(Command.WAIT, 1), (Command.HOLD, 0)])
+def test_a_decision_that_does_not_begin_is_refused_and_the_world_goes_on(
+    answer: Command, ticks: int
+) -> None:
+    runner = Runner(small_sim(brains=[Silent(answer=answer, skip_frame=4)]))
+    runner.paused = True
+    runner.start()
+    try:
+        with pytest.raises(NoDecisionError, match=r"agent '0' took no decision: Silent answered"):
+            runner.step_decision().result(5)
+        assert runner.latest.tick == ticks
+        runner.resume().result(5)
+    finally:
+        runner.stop()
+    assert not runner.is_left_behind
+
+
+def test_a_decision_that_a_script_does_not_take_says_what_it_waits_for() -> None:
+    runner = Runner(small_sim(brains=[RemoteBrain(port=free_port(), skip_frame=4)]))
+    runner.paused = True
+    asked = runner.step_decision()
+    runner.advance()
+    with pytest.raises(NoDecisionError, match="no AI4U script listens at"):
+        asked.result(0)
+    runner.stop()
+
+
+def test_the_decision_of_an_agent_that_respawned_in_the_middle_of_one_ends() -> None:
+    sim = small_sim(skip_frame=4)
+    runner = Runner(sim)
+    runner.paused = True
+    runner.step(2)
+    runner.advance()
+    assert sim.is_deciding(sim.agents[0])
+    sim.restart(sim.agents[0])
+    sim.agents[0].use_brain(Silent(skip_frame=4))
+    asked = runner.step_decision()
+    runner.advance()
+    assert asked.exception(0) is not None
+
+
+ENDINGS = [SystemExit(3), KeyboardInterrupt(), GeneratorExit(), asyncio.CancelledError()]
+
+
+def fresh(error: BaseException) -> BaseException:
+    return type(error)(*error.args)
+
+
+@pytest.mark.parametrize("error", ENDINGS, ids=repr)
+def test_a_block_can_not_end_the_runners_thread(error: BaseException) -> None:
+    fail = [True]
+
+    def controller(percept: Any) -> dict[str, Any]:
+        if fail[0]:
+            raise fresh(error)
+        return {}
+
+    runner = Runner(small_sim(controller=controller))
+    runner.start()
+    try:
+        seen = runner.latest
+        while not runner.latest.error:
+            seen = runner.wait(seen, 1.0)
+        told = runner.latest.error
+        assert type(error).__name__ in told
+        assert "Brain LocalBrain(ScriptController) of agent '0', test_runner.py, line" in told
+        fail[0] = False
+        runner.reset(seed=9).result(5)
+        wait_for(runner, 5)
+    finally:
+        runner.stop()
+
+
+@pytest.mark.parametrize("error", [*ENDINGS, StopIteration()], ids=repr)
+def test_a_commands_ending_is_handed_on_as_an_error(runner: Runner, error: BaseException) -> None:
+    def command() -> None:
+        raise fresh(error)
+
+    with pytest.raises(BlockError, match=type(error).__name__):
+        runner.submit(command).result(5)
+    wait_for(runner, runner.latest.tick + 5)
+
+
+def test_without_a_thread_ctrl_c_goes_to_whoever_ticks() -> None:
+    def controller(percept: Any) -> dict[str, Any]:
+        raise KeyboardInterrupt
+
+    runner = Runner(small_sim(controller=controller))
+    with pytest.raises(KeyboardInterrupt):
+        runner.advance()
+    runner.stop()
+
+
+def test_a_brain_that_fails_while_the_time_stands_still_is_told_of() -> None:
+    class Restless(Silent):
+        """Can't be idle, nor be closed."""
+
+        def idle(self) -> None:
+            raise SystemExit
+
+        def close(self) -> None:
+            raise SystemExit
+
+    runner = Runner(small_sim(brains=[Restless()]))
+    runner.paused = True
+    runner.start()
+    seen = runner.latest
+    while not runner.latest.error:
+        seen = runner.wait(seen, 1.0)
+    assert "SystemExit (raised by Brain Restless of agent '0'" in runner.latest.error
+    runner.stop()
+    assert not runner.is_left_behind
+
+
+def test_a_world_that_can_not_be_pictured_says_so_in_the_last_picture() -> None:
+    class Nameless(Silent):
+        """Has a title only at first."""
+
+        fails: ClassVar[bool] = False
+
+        def title(self) -> str:
+            if self.fails:
+                raise RuntimeError("no title")
+            return "me"
+
+    runner = Runner(small_sim(brains=[Nameless()]))
+    runner.start()
+    Nameless.fails = True
+    seen = runner.latest
+    while not runner.latest.error:
+        seen = runner.wait(seen, 1.0)
+    assert runner.latest.error == "RuntimeError: no title"
+    Nameless.fails = False
+    runner.reset().result(5)
+    assert runner.latest.error == ""
+    runner.stop()
+
+
+class Stuck(Sensor):
+    """Does not answer while it is stuck."""
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        self.goes_on = threading.Event()
+        self.goes_on.set()
+        self.is_read = threading.Event()
+
+    def space(self) -> Box:
+        return Box(0.0, 1.0, (1,))
+
+    def read(self, body: Any, view: Any) -> list[float]:
+        self.is_read.set()
+        self.goes_on.wait()
+        return [0.0]
+
+
+@contextmanager
+def stuck_runner(**options: Any) -> Iterator[tuple[Runner, Stuck]]:
+    """A runner whose thread is in a sensor that does not answer until the end."""
+    sensor, closed = Stuck(), threading.Event()
+    sim = small_sim([sensor])
+    sim.agents[0].brain.close = closed.set  # type: ignore[method-assign]
+    runner = Runner(sim, **options)
+    sensor.goes_on.clear()
+    sensor.is_read.clear()
+    runner.start()
+    assert sensor.is_read.wait(5)
+    try:
+        yield runner, sensor
+    finally:
+        sensor.goes_on.set()
+        runner.stop()
+        assert closed.wait(5)
+
+
+def test_a_block_that_does_not_answer_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("ai4u_edu.stall_monitor.STALL_S", 0.0)
+    with stuck_runner() as (runner, _):
+        stall = runner.stall
+        assert stall is not None
+        assert (stall.block, stall.agent) == ("Sensor Stuck 'stuck'", "0")
+        assert stall.where.startswith("test_runner.py, line ")
+        assert str(stall).startswith("Sensor Stuck 'stuck' of agent '0' has not answered for ")
+        runner.give_way()  # nobody waits for a tick that does not end
+        waiting = runner.pause()
+        assert not waiting.done()
+
+
+def test_a_command_that_does_not_end_is_a_stall_too(
+    runner: Runner, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("ai4u_edu.stall_monitor.STALL_S", 0.0)
+    begun, goes_on = threading.Event(), threading.Event()
+
+    def command() -> None:
+        begun.set()
+        goes_on.wait()
+
+    runner.submit(command)
+    assert begun.wait(5)
+    stall = runner.stall
+    goes_on.set()
+    assert stall is not None
+    assert (stall.block, stall.where.partition(",")[0]) == ("", "test_runner.py")
+
+
+def test_a_world_that_stands_still_or_waits_for_a_script_is_not_stalled(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr("ai4u_edu.runner.REST_POLL_S", 60.0)
+    monkeypatch.setattr("ai4u_edu.runner.HOLD_POLL_S", 60.0)
+    sim = small_sim(brains=[Silent(answer=Command.HOLD)])
+    runner = Runner(sim, clock=lambda: 100.0)
+    monkeypatch.setattr("ai4u_edu.stall_monitor.STALL_S", -1.0)  # whatever is under way is one
+    runner.start()
+    until(lambda: sim.held and runner.stall is None)
+    runner.pause().result(5)
+    until(lambda: runner.stall is None)
+    runner.stop()
+
+
+def test_stopping_leaves_a_stuck_block_behind_and_its_brain_alone(
+    monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
+) -> None:
+    monkeypatch.setattr("ai4u_edu.runner.STOP_S", 0.01)
+    closed: list[bool] = []
+    with stuck_runner() as (runner, _):
+        brain = runner.sim.agents[0].brain
+        close = brain.close
+
+        def note_and_close() -> None:
+            closed.append(True)
+            close()
+
+        brain.close = note_and_close  # type: ignore[method-assign]
+        waiting = runner.pause()
+        runner.stop()
+        assert runner.is_left_behind
+        assert waiting.cancelled()
+        assert not closed
+        assert "left behind unfinished: Sensor Stuck 'stuck' of agent '0'" in caplog.text
+        monkeypatch.undo()
+    assert closed  # by its own thread, once it could
+
+
+@pytest.mark.parametrize("ask", ["pause", "reset", "scale"])
+def test_a_long_pause_between_two_ticks_keeps_no_command_waiting(ask: str) -> None:
+    sim = ControlRequestor(small_world(), [BasicAgent(body="robot", brains=[Silent()])])
+    runner = Runner(sim, time_scale=0.0001)  # a tick takes minutes
+    runner.start()
+    while not runner._schedule.is_asleep:
+        time.sleep(0.001)
+    asked = runner.scale_time(1.0) if ask == "scale" else getattr(runner, ask)()
+    asked.result(5)
+    if ask == "scale":
+        wait_for(runner, 3)
+    runner.stop()
+    assert not runner.is_left_behind
+
+
+def test_many_ticks_at_once_end_with_an_error_or_with_the_runner() -> None:
+    decisions = []
+
+    def controller(percept: Any) -> dict[str, Any]:
+        decisions.append(1)
+        if len(decisions) == 3:
+            raise RuntimeError("enough")
+        return {}
+
+    runner = Runner(small_sim(controller=controller))
+    runner.paused = True
+    runner.step(10**9)
+    runner.advance()
+    assert len(decisions) == 3
+    runner.stop()

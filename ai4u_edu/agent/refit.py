@@ -60,12 +60,12 @@ def refit(agent: BasicAgent, world: World, blocks: Blocks, *, brain_goes_on: boo
 
     try:
         fit(blocks, had, goes_on=brain_goes_on)
-    except Exception:
+    except BaseException:
         for brain in (*had.brains, *blocks.brains):
             brain.enabled = brain is before.brain
         try:
             fit(had, had, goes_on=True)
-        except Exception:  # somebody's block that fits once only
+        except BaseException:  # somebody's block that fits once only
             before.take_up()
             for sensor in before.number_sensors:
                 memories[id(sensor)].give_back(sensor)

@@ -1,5 +1,6 @@
 """Keeps the last episodes of a world, whoever drives its agents."""
 
+import logging
 import sys
 from collections.abc import Callable
 from typing import Any, TypeVar
@@ -7,6 +8,7 @@ from typing import Any, TypeVar
 from ai4u_edu.agent import BasicAgent
 from ai4u_edu.blocks import Block
 from ai4u_edu.cycle import ControlRequestor
+from ai4u_edu.errors import AI4UError
 from ai4u_edu.recording.archive import Archive
 from ai4u_edu.recording.episode import Episode
 from ai4u_edu.recording.errors import RecordingError
@@ -16,6 +18,8 @@ from ai4u_edu.recording.tape import Tape
 from ai4u_edu.scenes import SceneDescription
 
 T = TypeVar("T")
+
+logger = logging.getLogger(__name__)
 
 
 class Recorder:
@@ -29,7 +33,8 @@ class Recorder:
         scene: where it comes from; its name, title and goal go into the episodes.
         keep: how many episodes are kept.
         episodes: where they are kept; left out, in an archive for ``keep`` of them.
-        on_episode: called with each one when it is over, in the thread that runs the world.
+        on_episode: called with each one when it is over, in the thread that runs the world. What it
+            raises stops nothing: it is logged, and told by :attr:`save_problem`.
 
     >>> from ai4u_edu import Scene
     >>> scene = Scene.load("box_chase")
@@ -59,6 +64,8 @@ class Recorder:
         """Those that are over, the latest last."""
         self.problem = ""
         """Why the episode that is under way can't be recorded; empty if it can."""
+        self.save_problem = ""
+        """Why ``on_episode`` failed with the last episode, which is kept; empty if it did not."""
         self.on_episode = on_episode
         self._tape: Tape | None = None
         self._world_episode = sim.episode
@@ -103,7 +110,7 @@ class Recorder:
             return
         self.episodes.append(episode)
         if self.on_episode is not None:
-            self.on_episode(episode)
+            self._hand_on(episode, self.on_episode)
 
     def guard(self, command: Callable[[], T]) -> T:
         """Carries out what somebody asked for, and notices whether the world was changed by that.
@@ -120,6 +127,16 @@ class Recorder:
             same = self._tape is tape and tape.restarts == restarts
             if same and self.sim.world.ticks == ticks and self._all() != before:
                 tape.changed = ticks
+
+    def _hand_on(self, episode: Episode, on_episode: Callable[[Episode], object]) -> None:
+        """Call ``on_episode``; a full disk must neither refuse the reset nor stop the world."""
+        before, self.save_problem = self.save_problem, ""
+        try:
+            on_episode(episode)
+        except Exception as error:
+            self.save_problem = f"the last episode could not be saved: {_told(error)}"
+            if not before:  # once, and not with every episode
+                logger.warning("%s; it is kept in memory", self.save_problem)
 
     def _attend(self) -> None:
         """Begins to listen; an episode that has only just begun is heard from its beginning."""
@@ -168,6 +185,10 @@ class Recorder:
                 for block in (*agent.sensors, *agent.actuators, *agent.rewards)
             ]
         return blocks
+
+
+def _told(error: Exception) -> str:
+    return str(error) if isinstance(error, AI4UError) else f"{type(error).__name__}: {error}"
 
 
 def _values(block: Block) -> dict[str, Any]:

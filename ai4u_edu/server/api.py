@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Mapping
+from datetime import UTC, datetime, timedelta
 from typing import Annotated, Any, Literal
 
 import numpy as np
@@ -9,6 +10,7 @@ from pydantic import BaseModel, BeforeValidator, ConfigDict, Field
 from typing_extensions import TypeAliasType
 
 from ai4u_edu.snapshot import AgentState, BodyState, Snapshot
+from ai4u_edu.stall_monitor import Stall
 from ai4u_edu.version import __version__
 
 
@@ -131,21 +133,47 @@ class SnapshotView(_View):
         )
 
 
+Status = Literal["ok", "paused", "error", "stalled"]
+
+
 class Health(_View):
     """Whether the room is well."""
 
-    status: Literal["ok", "paused", "error"] = Field(description="of the world in the room")
+    status: Status = Field(
+        description="of the world in the room; stalled: something in it does not return"
+    )
     version: str
     scene: str
     uptime: float = Field(description="seconds", ge=0)
+    block: str = Field(description="the block that does not return, and where; empty if none")
+    since: datetime | None = Field(description="when it was called; null if all is well")
 
     @classmethod
-    def of(cls, picture: Snapshot, scene: str, uptime: float) -> "Health":
-        """The health of a room whose world looks like this."""
-        status: Literal["ok", "paused", "error"] = (
-            "error" if picture.error else "paused" if picture.paused else "ok"
+    def of(
+        cls, picture: Snapshot, scene: str, uptime: float, stall: Stall | None = None
+    ) -> "Health":
+        """Return the health of a room whose world looks like this.
+
+        Args:
+            picture: the latest snapshot.
+            scene: the title of the scene.
+            uptime: seconds for which the room has been there.
+            stall: what keeps the world from going on, if anything does.
+        """
+        status: Status = "error" if picture.error else "paused" if picture.paused else "ok"
+        since = None
+        if stall is not None:
+            status = "stalled"
+            since = datetime.now(UTC) - timedelta(seconds=stall.seconds)
+            since = since.replace(microsecond=0)
+        return cls(
+            status=status,
+            version=__version__,
+            scene=scene,
+            uptime=round(uptime, 3),
+            block="" if stall is None else stall.title,
+            since=since,
         )
-        return cls(status=status, version=__version__, scene=scene, uptime=round(uptime, 3))
 
 
 def _motion(body: BodyState) -> dict[str, Any]:

@@ -58,9 +58,10 @@ def room_app(
     document = openapi()
     described: tuple[Snapshot | None, str] = None, ""
 
-    async def healthz(_: Request) -> Response:
-        health = Health.of(runner.latest, called(), time.monotonic() - began)
-        return _json(health.model_dump_json())
+    async def healthz(_: Request) -> Response:  # needs no worker thread: they may all be busy
+        stall = runner.stall
+        health = Health.of(runner.latest, called(), time.monotonic() - began, stall)
+        return _json(health.model_dump_json(), status=503 if stall else 200)
 
     async def snapshot(_: Request) -> Response:
         nonlocal described
@@ -110,5 +111,6 @@ class RoomMount(Mount):
         return match, child
 
 
-def _json(text: str) -> Response:
-    return Response(text, media_type="application/json", headers={"Cache-Control": "no-store"})
+def _json(text: str, *, status: int = 200) -> Response:
+    headers = {"Cache-Control": "no-store"}
+    return Response(text, status, media_type="application/json", headers=headers)

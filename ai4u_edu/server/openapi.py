@@ -26,6 +26,8 @@ def openapi() -> dict[str, Any]:
         path: _get(summary, {"$ref": f"#/components/schemas/{model.__name__}"})
         for path, (summary, model) in _ANSWERS.items()
     }
+    health = paths["/healthz"]["get"]["responses"]
+    health["503"] = {**health["200"], "description": "A block of the world does not return."}
     paths["/api/past/{file}"] = _file("A kept episode as a file.")
     paths["/api/openapi.json"] = _get("This document.", {"type": "object"})
     return {

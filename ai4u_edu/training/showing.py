@@ -26,7 +26,9 @@ def show(who: Entrant, scene: Scene, seeds: Iterable[int]) -> list[Episode]:
     for seed in seeds:
         agent.use_brain(who.brain(agent))
         sim.reset(seed)
-        while not agent.done and agent.steps < LONGEST and not (agent.stopped or agent.paused):
+        for _ in range(LONGEST):  # so often too if it takes no decisions
+            if agent.done or agent.stopped or agent.paused:
+                break
             sim.step(agent)
     recorder.finish()
     return list(recorder.episodes)

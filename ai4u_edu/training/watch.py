@@ -83,7 +83,13 @@ def show(folder: Path, port: int, *, open_page: bool) -> None:
     """Serves the page until somebody ends it; at another port if that one is taken."""
     from ai4u_edu.blocks import LocalBrain
     from ai4u_edu.runner import Runner
-    from ai4u_edu.server import PortTakenError, open_on_desktop, room_app, serve, shut_side_door
+    from ai4u_edu.server import (
+        PortTakenError,
+        open_on_desktop,
+        room_app,
+        serve,
+        shut_side_door,
+    )
     from ai4u_edu.training.algorithms import load_model
     from ai4u_edu.training.entrants import driver_of
     from ai4u_edu.training.prepare import prepare
@@ -133,8 +139,8 @@ def show(folder: Path, port: int, *, open_page: bool) -> None:
             serve(room, "127.0.0.1", 0, on_ready=ready)
     finally:
         ended.set()
-        viewer.stop()
         runner.stop()
+        viewer.stop()
 
 
 if __name__ == "__main__":
@@ -142,3 +148,7 @@ if __name__ == "__main__":
         os.nice(19)
     load_own_blocks(map(Path, sys.argv[4:]))
     show(Path(sys.argv[1]), int(sys.argv[2]), open_page=sys.argv[3] == "open")
+    from ai4u_edu.server.process_exit import HAS_SERVED, end_process
+
+    HAS_SERVED.set()
+    end_process(0)

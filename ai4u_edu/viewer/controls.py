@@ -57,7 +57,7 @@ class Controls:
 
     def draw(self, snapshot: Snapshot) -> None:
         """Shows what the time does."""
-        self._status.content = status(snapshot)
+        self._status.content = status(snapshot, self._runner.stall)
         self._time.options = PAUSED if snapshot.paused else RUNNING
         # only when they change: somebody may be choosing another one just now
         if snapshot.time_scale != self._scale_shown:
@@ -78,27 +78,27 @@ class Controls:
         runner, client = self._runner, event.client
         match event.target.value:
             case "Pause":
-                ask(client, runner.pause())
+                ask(client, runner, runner.pause())
             case "Resume":
-                ask(client, runner.resume())
+                ask(client, runner, runner.resume())
             case "Tick":
-                ask(client, runner.pause())
-                ask(client, runner.step())
+                ask(client, runner, runner.pause())
+                ask(client, runner, runner.step())
             case "Decision":
                 onlooker = self._onlookers.get(-1 if client is None else client.client_id)
-                ask(client, runner.pause())
-                ask(client, runner.step_decision(onlooker.agent if onlooker else None))
+                ask(client, runner, runner.pause())
+                ask(client, runner, runner.step_decision(onlooker.agent if onlooker else None))
             case "Reset":
-                ask(client, runner.reset())
+                ask(client, runner, runner.reset())
 
     async def _on_speed(self, event: GuiEvent[GuiDropdownHandle[str]]) -> None:
         speed = SPEEDS.get(event.target.value)
         if event.client is not None and speed is not None:
-            ask(event.client, self._runner.scale_time(speed))
+            ask(event.client, self._runner, self._runner.scale_time(speed))
 
     async def _on_seed(self, event: GuiEvent[Any]) -> None:
         await asyncio.sleep(LATE)
-        ask(event.client, self._runner.reset(int(self._seed.value)))
+        ask(event.client, self._runner, self._runner.reset(int(self._seed.value)))
 
 
 def _show(handle: GuiInputHandle[T], value: T) -> None:

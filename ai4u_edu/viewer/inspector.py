@@ -9,6 +9,7 @@ from viser import GuiButtonGroupHandle, GuiButtonHandle, GuiDropdownHandle, GuiE
 from ai4u_edu.errors import AI4UError
 from ai4u_edu.parameters import Problem
 from ai4u_edu.snapshot import Snapshot
+from ai4u_edu.viewer.asking import tell_of_stall
 from ai4u_edu.viewer.inspector_form import BlockForm
 from ai4u_edu.viewer.inspector_words import ADD, BARE, KINDS, NO_BLOCK, marked, menu, said, titles
 from ai4u_edu.viewer.onlooker import Onlooker
@@ -223,6 +224,7 @@ class BlocksTab:
         self, future: "Future[Outcome]", then: Path | None = None, *, of_form: bool = False
     ) -> None:
         """Says when it applies, or what is wrong; ``then`` is the block that is looked at then."""
+        tell_of_stall(self._onlooker.client, self._workshop.stall, future)
 
         def tell(done: "Future[Outcome]") -> None:
             error = None if done.cancelled() else done.exception()

@@ -105,6 +105,7 @@ class PastTab:
     def _follow(self, snapshot: Snapshot) -> None:
         """Shows the moment that is wanted, whoever wanted it."""
         projector, reel = self._projector, self._projector.reel
+        recorder = self._runner.recorder
         there = reel is not None and reel.last >= 0
         for handle in (self._step, self._steps, self._speed, self._verbs):
             handle.visible = there
@@ -123,6 +124,7 @@ class PastTab:
             snapshot.past and f"Seen now: {snapshot.past}",
             escape(projector.problem or (reel.problem if reel is not None else "")),
             self._ghosts.told(snapshot),
+            escape(recorder.problem or recorder.save_problem) if recorder is not None else "",
         ]
         lines = "<br>".join(f"<small>{each}</small>" for each in told if each)
         self._told.content = block(lines, kind="bare")
@@ -154,15 +156,15 @@ class PastTab:
         projector = self._projector
         match event.target.value:
             case "Back to now" if projector.is_showing:
-                ask(self._client, projector.back())
+                ask(self._client, self._runner, projector.back())
             case "Continue here":
-                ask(self._client, await asyncio.to_thread(projector.go_on))
+                ask(self._client, self._runner, await asyncio.to_thread(projector.go_on))
             case "Race it" if projector.reel is not None:
                 reel = projector.reel
                 projector.leave()
                 self._ghosts.race(reel.episode, f"episode {reel.number}")
-                ask(self._client, self._runner.reset(reel.episode.seed))
-                ask(self._client, self._runner.resume())
+                ask(self._client, self._runner, self._runner.reset(reel.episode.seed))
+                ask(self._client, self._runner, self._runner.resume())
 
     async def _on_nobody(self, _event: GuiEvent[GuiButtonHandle]) -> None:
         self._ghosts.race(None)

@@ -4,6 +4,7 @@ from html import escape
 
 from ai4u_edu.look import NOTHING, UNKNOWN, group_colours
 from ai4u_edu.snapshot import AgentState, Snapshot, Stage
+from ai4u_edu.stall_monitor import Stall
 from ai4u_edu.viewer.bars import number
 from ai4u_edu.viewer.readings import block
 
@@ -35,8 +36,13 @@ def legend(stage: Stage) -> str:
     return "".join(dots)
 
 
-def status(snapshot: Snapshot) -> str:
-    """How far the world is, and how fast it goes."""
+def status(snapshot: Snapshot, stall: Stall | None = None) -> str:
+    """Return how far the world is and how fast it goes, as HTML.
+
+    Args:
+        snapshot: the latest one.
+        stall: what keeps the world from going on, if anything does: then no snapshots come.
+    """
     agents = snapshot.agents
     # of several each has its own steps, and they stand in the agents' panel
     steps = f"<span><small>step</small> {agents[0].steps}</span>" if len(agents) == 1 else ""
@@ -44,7 +50,8 @@ def status(snapshot: Snapshot) -> str:
         f"<span><small>Episode</small> {snapshot.episode}</span>{steps}"
         f"<span><small>time</small> {number(snapshot.time)} s</span>"
     )
-    return block(place, _pace(snapshot), *map(_script, agents), kind="status bare")
+    pace = _pace(snapshot) if stall is None else f"<strong>{escape(str(stall))}</strong>"
+    return block(place, pace, *map(_script, agents), kind="status bare")
 
 
 def goal(stage: Stage) -> str:

@@ -39,6 +39,8 @@ FRAMES = 60
 """So many pictures a second at most."""
 IDLE = 0.1
 """Seconds between two looks for somebody who watches, while nobody does."""
+STOP_S = 2.0
+"""Seconds that all threads of a viewer have to end."""
 
 
 class Viewer:
@@ -113,8 +115,17 @@ class Viewer:
         self._thread.start()
 
     def stop(self) -> None:
-        """Ends the thread and viser's server."""
+        """Ends the thread and viser's server.
+
+        Waits for them no longer than :data:`STOP_S`: an episode that is played again has blocks
+        that may not return. What still runs then are threads that keep no process from ending.
+        """
         self._stopping.set()
+        ending = threading.Thread(target=self._end, name="viewer end", daemon=True)
+        ending.start()
+        ending.join(STOP_S)
+
+    def _end(self) -> None:
         if self._thread.is_alive():
             self._thread.join()
         self._projector.stop()

@@ -19,6 +19,7 @@ from ai4u_edu.parameters import Problem
 from ai4u_edu.scenes import Scene
 from ai4u_edu.scenes.yaml_file import MAX_SIZE
 from ai4u_edu.snapshot import Snapshot
+from ai4u_edu.viewer.asking import tell_of_stall
 from ai4u_edu.viewer.body_form import BodyForm
 from ai4u_edu.viewer.furnishing import THINGS, looked_at, room_for
 from ai4u_edu.viewer.gallery import Gallery, Load
@@ -276,6 +277,7 @@ class WorldTab:
         self, future: "Future[Outcome]", then: str | None = None, *, of_form: bool = False
     ) -> None:
         """Says when it applies, or what is wrong; ``then`` is the body that is chosen then."""
+        tell_of_stall(self._onlooker.client, self._workshop.stall, future)
 
         def tell(done: "Future[Outcome]") -> None:
             if done.cancelled():

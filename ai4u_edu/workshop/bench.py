@@ -138,7 +138,7 @@ class Bench:
             tried(after, where, episodes=THOROUGHLY if moves else 1)
             was = {name: self._held.get(name) or self.pose(name) for name in now}
             when = self._bring_about(after, now, whole)
-        except Exception as error:
+        except BaseException as error:
             for name in now:
                 self.put_back(name)
             if isinstance(error, PlainError):

@@ -42,7 +42,7 @@ class Furniture:
                     self._add(body, places.get(name))
                 elif body != before[name] or name in places:
                     self._change(before[name], body, places.get(name))
-        except Exception:
+        except BaseException:
             self.undo()
             raise
         if self._undo:

@@ -117,7 +117,7 @@ class Live:
                 had = Blocks.of(agent)
                 if self._fit(agent, before, state, world_changed=moved):
                     done.append((agent, had))
-        except Exception:
+        except BaseException:
             furniture.undo()
             for agent, had in done:
                 refit(agent, sim.world, had)
@@ -230,7 +230,7 @@ def _as_they_were(agent: BasicAgent) -> Iterator[None]:
     before = [(brain, brain.enabled) for brain in agent.brains]
     try:
         yield
-    except Exception:
+    except BaseException:
         for brain, enabled in before:
             brain.enabled = enabled
         raise

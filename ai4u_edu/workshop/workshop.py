@@ -11,6 +11,7 @@ from ai4u_edu.errors import AI4UError, SetupError
 from ai4u_edu.runner import Runner
 from ai4u_edu.scenes import Scene
 from ai4u_edu.scenes.yaml_file import YamlFile, write_yaml
+from ai4u_edu.stall_monitor import Stall
 from ai4u_edu.workshop import blocks, bodies, choice, settings
 from ai4u_edu.workshop.autosave import Autosave, Unsaved
 from ai4u_edu.workshop.bench import Bench, Made
@@ -95,6 +96,11 @@ class Workshop:
     def title(self) -> str:
         """What the scene is called."""
         return self.state.title
+
+    @property
+    def stall(self) -> Stall | None:
+        """What keeps changes from being made: something in the world does not return."""
+        return self._runner.stall
 
     @property
     def waits_for_reset(self) -> bool:

@@ -33,6 +33,7 @@ from ai4u_edu.errors import (
     ReadingError,
     SetupError,
 )
+from ai4u_edu.seeding import MAX_SEED
 from tests.builders import small_sim, small_world, still
 
 
@@ -345,7 +346,9 @@ def test_what_is_no_seed(seed: Any) -> None:
     for use in (lambda: World(seed=seed), lambda: small_sim().reset(seed)):
         with pytest.raises(SetupError) as caught:
             use()
-        assert str(caught.value) == f"seed: expected a whole number >= 0, got {seed!r}"
+        assert (
+            str(caught.value) == f"seed: expected a whole number from 0 to {MAX_SEED}, got {seed!r}"
+        )
         assert isinstance(caught.value, ValueError)
     whole: Any = np.int64(3)
     assert World(seed=whole).seeds.seed == 3

@@ -2,7 +2,6 @@
 
 import json
 import math
-import threading
 import time
 from typing import Any
 
@@ -173,21 +172,29 @@ def test_who_waits_for_a_call_keeps_the_world_waiting() -> None:
     assert not brain.keeps_waiting
 
 
-@pytest.mark.parametrize(("will_call", "asked"), [(True, 1), (False, 2)])
-def test_a_world_that_was_called_is_not_asked_again_in_vain(will_call: bool, asked: int) -> None:
+def test_a_call_ticks_nothing_and_a_world_that_was_called_is_not_asked_again_in_vain(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr("ai4u_edu.runner.ANSWER_POLL_S", 5.0)
     link = PaperLink(Reset(7))
     sim, _ = over(link)
     runner = Runner(sim, time_scale=math.inf)
-    runner._thread = threading.current_thread()  # it has one
     runner.advance()
     runner.advance()
     assert sim.held
     link.answers.append(AHEAD)
-    link.will_call = will_call
+    link.will_call = True
     link.timeouts.clear()
     runner.expect_call()
     runner.call()
-    assert (sim.world.ticks, len(link.timeouts)) == (1, asked)
+    assert sim.world.ticks == 0  # whoever calls has other things to do
+    runner.start()
+    try:
+        while sim.world.ticks == 0:
+            time.sleep(0.001)
+        assert runner.submit(lambda: (sim.world.ticks, len(link.timeouts))).result(4) == (1, 1)
+    finally:
+        runner.stop()
 
 
 def pair(link: PaperLink, controller: Any) -> ControlRequestor:

@@ -19,7 +19,7 @@ from websockets.asyncio.server import ServerConnection, broadcast, serve
 from websockets.exceptions import ConnectionClosed
 from websockets.typing import Subprotocol
 
-from ai4u_edu.runner import LATE
+from ai4u_edu.tick_schedule import MAX_LAG_S
 from ai4u_edu.wire import native
 from tests.load.clients import REMOTE, VISER
 from tests.load.world import RAYS, ROUND, SKIP, Told
@@ -85,7 +85,7 @@ class Floor:
         """Ticks for ever."""
         due, number = time.perf_counter(), 0
         while True:
-            due = max(due + TICK, time.perf_counter() - LATE)
+            due = max(due + TICK, time.perf_counter() - MAX_LAG_S)
             await asyncio.sleep(max(due - time.perf_counter(), 0.0))
             self.late.append(time.perf_counter() - due)
             number += 1

@@ -48,7 +48,7 @@ class TimedRunner(Runner):
     late: list[float]
 
     def _tick(self, *, leaps: bool = False) -> None:
-        self.late.append(self._clock() - self._due)
+        self.late.append(self._clock() - self._schedule.due)
         super()._tick(leaps=leaps)
 
 

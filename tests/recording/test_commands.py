@@ -1,5 +1,7 @@
 """record, replay, dataset: as processes of their own."""
 
+import os
+import signal
 import subprocess
 import sys
 import time
@@ -10,11 +12,13 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
-from ai4u_edu import LocalBrain, Scene
+from ai4u_edu import LocalBrain, Scene, episode_commands
 from ai4u_edu.cli import app
+from ai4u_edu.errors import NoDecisionError
 from ai4u_edu.recording import Episode, Recorder, Replay
 from ai4u_edu.runner import Runner
 from tests.playing import played
+from tests.server.rooms import free_port
 
 SEEK = """
 def seek(percept):
@@ -174,3 +178,36 @@ def test_whoever_plays_against_a_ghost_begins_as_it_did(folder: Path) -> None:
     told = run("play", "--no-open", "--port", 0, "--ghost", folder.parent / "mine.py")
     assert told.returncode == 1
     assert told.stderr.startswith("error: mine.py: expected a recorded episode")
+
+
+@pytest.mark.skipif(os.name != "posix", reason="sends a signal as POSIX has it")
+def test_record_says_what_it_waits_for_and_ends_with_ctrl_c(tmp_path: Path) -> None:
+    scene = tmp_path / "remote.yaml"
+    source = Scene.load("box_chase").dumps()
+    head = source[: source.index("    brains:")]
+    scene.write_text(f"{head}    brains:\n      - {{type: RemoteBrain, port: {free_port()}}}\n")
+    process = subprocess.Popen(
+        [sys.executable, "-m", "ai4u_edu", "record", str(scene), "--out", str(tmp_path / "kept")],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+    )
+    try:
+        assert process.stderr is not None
+        told = process.stderr.readline()
+        assert told.startswith("agent '0' waits: no AI4U script listens at 127.0.0.1:")
+        process.send_signal(signal.SIGINT)
+        process.communicate(timeout=10)
+    finally:
+        process.kill()
+    assert process.returncode not in (0, -signal.SIGKILL)
+
+
+def test_who_never_decides_is_not_recorded_for_ever(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(episode_commands, "LONGEST", 50)
+    file = tmp_path / "mine.py"
+    file.write_text("from ai4u_edu import Command\n\ndef idle(percept):\n    return Command.WAIT\n")
+    with pytest.raises(NoDecisionError, match="agent '0' took no decision in 50 ticks"):
+        episode_commands.record("box_chase", [f"{file}:idle"], out=tmp_path / "kept")

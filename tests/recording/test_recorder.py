@@ -1,6 +1,9 @@
 """What the recorder keeps, what it notices, and that it is gone when it is off."""
 
+import errno
+import os
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -17,6 +20,8 @@ from ai4u_edu import (
 )
 from ai4u_edu.agent import EVENTS
 from ai4u_edu.cycle import ControlRequestor
+from ai4u_edu.episode_commands import recorder_into
+from ai4u_edu.errors import SetupError
 from ai4u_edu.recording import Episode, Recorder, RecordingError, Replay, tape
 from ai4u_edu.recording.portrait import scene_of
 from ai4u_edu.runner import Runner
@@ -162,6 +167,59 @@ def test_a_world_made_by_hand_is_a_scene_too() -> None:
     episode = recorder.episodes[-1]
     assert "brains" not in episode.scene.agents[0]  # a function is nothing for a file
     assert Replay(episode).percepts()[0][1:] == percepts
+
+
+# -- a disk that is full --------------------------------------------------------------------------
+
+
+def test_a_full_disk_stops_no_world_and_refuses_no_reset(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
+) -> None:
+    sim, scene = chase()
+    recorder = recorder_into(tmp_path, sim, scene)
+    runner = Runner(sim, seed=1, recorder=recorder)
+    save = Episode.save
+
+    def full(episode: Episode, path: str | Path) -> Path:
+        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC), str(path))
+
+    def drive_and_reset(seed: int) -> None:
+        sim.step()
+        asked = runner.reset(seed)
+        runner.advance()
+        asked.result(0)
+
+    monkeypatch.setattr(Episode, "save", full)
+    for seed in (2, 3, 4):
+        drive_and_reset(seed)
+        assert "No space left on device" in recorder.save_problem
+    assert runner.error == ""
+    assert [each.seed for each in recorder.episodes] == [1, 2, 3]
+    assert list(tmp_path.iterdir()) == []
+    monkeypatch.setattr(Episode, "save", save)
+    drive_and_reset(5)
+    assert recorder.save_problem == ""
+    assert [file.name for file in tmp_path.iterdir()] == ["box_chase-4.episode"]
+    runner.stop()
+    (told,) = [record.getMessage() for record in caplog.records]  # not with every episode
+    assert told.startswith("the last episode could not be saved: OSError")
+
+
+def test_a_folder_that_was_removed_is_made_anew(tmp_path: Path) -> None:
+    sim, scene = chase()
+    recorder = recorder_into(tmp_path / "kept", sim, scene)
+    (tmp_path / "kept").rmdir()
+    sim.reset(1)
+    sim.step()
+    recorder.finish()
+    assert (tmp_path / "kept" / "box_chase-1.episode").is_file()
+
+
+def test_a_folder_that_can_not_be_made_is_told(tmp_path: Path) -> None:
+    sim, scene = chase()
+    (tmp_path / "file").touch()
+    with pytest.raises(SetupError, match="expected a folder that can be made, or is there"):
+        recorder_into(tmp_path / "file" / "kept", sim, scene)
 
 
 # -- changed by hand ---------------------------------------------------------------------------

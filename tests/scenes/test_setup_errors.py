@@ -61,9 +61,11 @@ def error_in(text: str) -> str:
         ("      - type: LocalBrain\n", "      - type: LocalBrain\n        enabled: false\n",
          "line 21: agents[0].brains: agent 'one': expected exactly one enabled brain, got none"),
         ("WASDRBMoveController}", "NeuralNetController, model_path: zoo:grid_world}",
-         "line 22: agents[0].brains[0]: agent 'one', LocalBrain: the network grid_world.onnx"),
+         "line 22: agents[0].brains[0]: agent 'one', LocalBrain(NeuralNetController): the network "
+         "grid_world.onnx"),
         ("WASDRBMoveController}", "NeuralNetController, model_path: nosuch.onnx}",
-         "line 23: agents[0].brains[0].controller.model_path: agent 'one', LocalBrain: "),
+         "line 23: agents[0].brains[0].controller.model_path: agent 'one', "
+         "LocalBrain(NeuralNetController): "),
     ],
 )  # fmt: skip
 def test_a_setup_that_fails_is_told_with_its_place(old: str, new: str, where: str) -> None:

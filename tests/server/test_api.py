@@ -2,15 +2,19 @@
 
 import json
 import math
+import threading
 from collections.abc import Iterator
+from datetime import UTC, datetime
 from typing import Any
 
 import httpx
 import jsonschema
 import numpy as np
 import pytest
+from gymnasium.spaces import Box
 
-from ai4u_edu import BasicAgent, MinDistReward, RayCastingSensor, WASDRBMoveController
+from ai4u_edu import BasicAgent, MinDistReward, RayCastingSensor, Sensor, WASDRBMoveController
+from ai4u_edu.remote import connect
 from ai4u_edu.runner import Runner
 from ai4u_edu.server.api import SnapshotView, finite
 from ai4u_edu.version import __version__
@@ -100,6 +104,8 @@ def test_health_follows_the_world(room: Room) -> None:
         "version": __version__,
         "scene": "Box <chase>",
         "uptime": health["uptime"],
+        "block": "",
+        "since": None,
     }
     assert health["uptime"] >= 0
     room.runner.pause().result(5)
@@ -113,6 +119,64 @@ def test_health_follows_the_world(room: Room) -> None:
     assert get(room, "healthz")["status"] == "error"
     told = "RuntimeError: odd (while handler broken of end_of_step of agent '0' was called)"
     assert get(room, "api/snapshot")["error"] == told
+
+
+class Slow(Sensor):
+    """Takes a while, or for ever."""
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        self.may_answer = threading.Event()
+        self.may_answer.set()
+        self.is_asked = threading.Event()
+
+    def space(self) -> Box:
+        return Box(0.0, 1.0, (1,))
+
+    def read(self, body: Any, view: Any) -> list[float]:
+        self.is_asked.set()
+        self.may_answer.wait()
+        return [0.0]
+
+
+def test_health_tells_which_block_does_not_return(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("ai4u_edu.stall_monitor.STALL_S", 0.0)
+    sensor = Slow()
+    with served(small_sim([sensor])) as room:
+        try:
+            sensor.may_answer.clear()
+            sensor.is_asked.clear()
+            assert sensor.is_asked.wait(5)
+            answer = httpx.get(room.url + "healthz")
+            document = httpx.get(room.url + "api/openapi.json").json()
+        finally:
+            sensor.may_answer.set()
+    assert answer.status_code == 503
+    health = answer.json()
+    assert health["status"] == "stalled"
+    assert health["block"].startswith("Sensor Slow 'slow' of agent '0' (test_api.py, line ")
+    described = document["paths"]["/healthz"]["get"]["responses"]["503"]["content"]
+    checker(document, described["application/json"]["schema"]).validate(health)
+    since = datetime.fromisoformat(health["since"])
+    assert abs((datetime.now(UTC) - since).total_seconds()) < 60
+
+
+def test_a_block_that_sleeps_keeps_nobody_but_the_world_waiting() -> None:
+    sensor = Slow()
+    with served(small_sim([sensor])) as room:
+        room.runner.scale_time(math.inf).result(5)
+        with connect(room.url, mode="lockstep") as robot:
+            robot.sense()
+            sensor.may_answer.clear()
+            sensor.is_asked.clear()
+            robot.act(move=[0, 0, 0, 0])
+            try:
+                assert sensor.is_asked.wait(5)  # the script's answer has the world tick
+                assert httpx.get(room.url + "healthz", timeout=5).status_code in (200, 503)
+                assert not sensor.may_answer.is_set()
+            finally:
+                sensor.may_answer.set()
+            robot.sense()
 
 
 def test_what_json_has_no_word_for_becomes_null() -> None:

@@ -8,11 +8,15 @@ import sys
 import threading
 import time
 from collections.abc import Iterator
-from contextlib import ExitStack, contextmanager
+from contextlib import ExitStack, contextmanager, suppress
 from typing import Any
 
 import httpx
 import pytest
+from starlette.applications import Starlette
+from starlette.requests import Request
+from starlette.responses import PlainTextResponse, Response
+from starlette.routing import Route
 
 from ai4u_edu.errors import AI4UError
 from ai4u_edu.server import AddressError, PortTakenError, ServerThread, serve
@@ -199,7 +203,29 @@ def test_stopping_with_pages_open_takes_little_time_and_frees_the_seat() -> None
     until(lambda: not any(thread.name == "server" for thread in threading.enumerate()))
 
 
-async def _nothing(scope: object, receive: object, send: object) -> None:
-    from starlette.responses import PlainTextResponse
+def test_stopping_waits_for_no_worker_that_does_not_return() -> None:
+    begun, goes_on = threading.Event(), threading.Event()
 
+    def wait(_: Request) -> Response:
+        begun.set()
+        goes_on.wait()
+        return PlainTextResponse("late")
+
+    with ServerThread(Starlette(routes=[Route("/", wait)])) as server:
+        asking = threading.Thread(target=lambda: _suppressed_get(server.url))
+        asking.start()
+        assert begun.wait(5)
+        server.stop()
+        assert not goes_on.is_set()
+    goes_on.set()
+    asking.join(5)
+    assert not asking.is_alive()
+
+
+def _suppressed_get(url: str) -> None:
+    with suppress(httpx.HTTPError):
+        httpx.get(url, timeout=30)
+
+
+async def _nothing(scope: object, receive: object, send: object) -> None:
     await PlainTextResponse("fine")(scope, receive, send)  # type: ignore[arg-type]

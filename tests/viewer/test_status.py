@@ -1,8 +1,10 @@
 import math
 from dataclasses import replace
 
+from ai4u_edu.block_frames import Place
 from ai4u_edu.blocks import RemoteStatus
 from ai4u_edu.runner import Runner
+from ai4u_edu.stall_monitor import Stall
 from ai4u_edu.viewer.status import goal, legend, speed_name, status
 
 
@@ -61,3 +63,10 @@ def test_speeds_have_names() -> None:
 def test_the_past_is_called_so(runner: Runner) -> None:
     past = replace(runner.latest, paused=True, past="episode 1, step 3 of 9")
     assert "<strong>Past</strong>" in status(past)
+
+
+def test_a_block_that_does_not_return_is_named_escaped(runner: Runner) -> None:
+    place = Place("Sensor Wall '<wall>'", "0", "mine.py, line 12")
+    html = status(runner.latest, Stall(since=1.0, seconds=5.2, place=place))
+    told = "Sensor Wall '&lt;wall&gt;' of agent '0' has not answered for 5 s (mine.py, line 12)"
+    assert told in html.replace("&#x27;", "'")
