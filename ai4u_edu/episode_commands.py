@@ -8,6 +8,7 @@ import typer
 from rich.console import Console
 from rich.table import Table
 
+from ai4u_edu.atomic_write import make_folder, write_atomically
 from ai4u_edu.errors import SetupError
 
 if TYPE_CHECKING:
@@ -19,6 +20,8 @@ LONGEST = 5000
 """Decisions after which an episode is cut off in a scene that has no limit of its own."""
 KEPT = 50
 """So many episodes are kept in memory."""
+MAX_SCENE_NAME_BYTES = 150
+"""Length of a scene's name in the name of a file."""
 
 OwnBlocks = Annotated[
     list[Path] | None,
@@ -185,19 +188,25 @@ def recorder_into(
         keep: how many episodes are kept in memory.
     """
     from ai4u_edu.recording import Archive, Recorder
+    from ai4u_edu.recording.file import encode
 
     episodes = Archive(keep)
     if folder is None:
         return Recorder(sim, scene=scene.description, episodes=episodes)
-    folder.mkdir(parents=True, exist_ok=True)
+    make_folder(folder, "recorded episodes")
 
     def write(episode: "Episode") -> None:
-        name = f"{episode.scene.name}-{episode.seed}"
-        path, count = folder / f"{name}.episode", 1
-        while path.exists():
-            count += 1
-            path = folder / f"{name}-{count}.episode"
-        episode.save(path)
+        scene = episode.scene.name.encode()[:MAX_SCENE_NAME_BYTES].decode(errors="ignore")
+        name, data, count = f"{scene}-{episode.seed}", encode(episode), 1
+        path = folder / f"{name}.episode"
+        while True:
+            try:
+                write_atomically(path, data, over=False)
+            except FileExistsError:  # of an earlier episode, or of another server
+                count += 1
+                path = folder / f"{name}-{count}.episode"
+            else:
+                return
 
     return Recorder(sim, scene=scene.description, episodes=episodes, on_episode=write)
 
