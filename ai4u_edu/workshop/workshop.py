@@ -64,6 +64,8 @@ class Workshop:
         """Keeps what is changed; left out in notebooks and tests."""
         self.shelf: Shelf | None = None
         """Where pages keep scenes by name; none, and they can only take them home."""
+        self._brought: Unsaved | None = None
+        """The scene that was brought back, and that no autosave has taken over."""
         self.listeners = self._bench.listeners
         """Called with the state after each change, in the runner's thread: to be quick."""
         self.listeners.append(self._keep)
@@ -318,15 +320,41 @@ class Workshop:
         if unsaved is None:
             return _failed(SetupError("there is no unsaved scene"))
         try:
-            return self.open(unsaved.scene())
+            scene = unsaved.scene()
         except AI4UError as error:
             return _failed(error)
+        future = self.open(scene)
+
+        def tell(done: "Future[Outcome]") -> None:
+            if done.cancelled() or done.exception() is not None:
+                self.unsaved = self.unsaved or unsaved
+            else:
+                self.restored(unsaved)
+
+        future.add_done_callback(tell)
+        return future
+
+    def restored(self, unsaved: Unsaved) -> None:
+        """The scene that was opened last is one that was left unsaved; it is kept as such."""
+        if self.autosave is None:
+            self._brought = unsaved
+        else:
+            self.autosave.claim(unsaved, self._bench.opened)
 
     def forget(self) -> None:
-        """Nobody wants the scene that was left unsaved, or somebody has saved it."""
+        """Somebody has saved the scene as it is; what was left by others is not offered again."""
         self.unsaved = None
+        if self._brought is not None:
+            self._brought.discard()
+            self._brought = None
         if self.autosave is not None:
-            self.autosave.note(None)
+            self.autosave.forget(self._bench.opened)
+
+    def discard(self) -> None:
+        """Delete the scene that was left unsaved; what is kept of the one that runs stays."""
+        unsaved, self.unsaved = self.unsaved, None
+        if unsaved is not None:
+            unsaved.discard()
 
     # -- back and forth --------------------------------------------------------------------------
 
@@ -342,10 +370,11 @@ class Workshop:
         """Has what was changed written down; of a scene that was only opened there is nothing."""
         if self.autosave is None:
             return
+        opened = self._bench.opened
         if not self.is_as_opened:
-            self.autosave.note(state)
+            self.autosave.note(state, opened)
         elif self._bench.history.next is not None:  # all was taken back
-            self.autosave.note(None)
+            self.autosave.note(None, opened)
 
     # -- how -------------------------------------------------------------------------------------
 
