@@ -4,6 +4,7 @@ import math
 from collections.abc import Callable
 from concurrent.futures import Future
 
+from ai4u_edu.errors import AI4UError
 from ai4u_edu.parameters import Problem
 from ai4u_edu.recording.portrait import scene_of
 from ai4u_edu.runner import Runner
@@ -126,7 +127,7 @@ class Bench:
         self._adopt()
         before = self.state
         try:
-            after, label, where = make()
+            after, label, where = _made(make)
             if after == before and drives:
                 self._live.hand_back(drives)
                 self._became(after)
@@ -174,3 +175,14 @@ class Bench:
         self._held = {}
         self.history.add(Step("go on in another world", before, state, {}, {}, whole=True))
         self._became(state)
+
+
+def _made(make: Callable[[], Made]) -> Made:
+    """Work out a change; whatever it was asked with, what is wrong is told in a sentence."""
+    try:
+        return make()
+    except AI4UError:
+        raise
+    except (ArithmeticError, AttributeError, LookupError, TypeError, ValueError) as error:
+        text = f"expected values that can be used for it: {type(error).__name__}: {error}"
+        raise ChangeError([Problem((), text)]) from error

@@ -86,9 +86,8 @@ class Shelf:
             if there is None and len(self._files()) >= MOST:
                 raise SetupError(f"expected at most {MOST} scenes; take some out of the folder")
             file = there or self.folder / f"{name}{ENDING}"
-            if there is None and (
-                file.exists() or file.is_symlink()
-            ):  # a folder or a link, which is nobody's to replace
+            if file.is_symlink() or (file.exists() and not file.is_file()):
+                # a link or a folder, which is nobody's to replace
                 raise SetupError(f"{name!r} can't be used; choose another name")
             try:
                 # another server may keep its scenes here too, under the same names

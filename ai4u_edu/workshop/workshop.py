@@ -19,6 +19,7 @@ from ai4u_edu.workshop.drivers import Driver, Drivers
 from ai4u_edu.workshop.outcome import Outcome
 from ai4u_edu.workshop.shelf import Shelf
 from ai4u_edu.workshop.state import State
+from ai4u_edu.workshop.typed import check_name, check_plain, shown
 from ai4u_edu.world import BodyDescription, Pose
 
 
@@ -197,6 +198,7 @@ class Workshop:
         """Lets somebody else drive an agent: one of :meth:`drivers`, or an ``ai4u://`` address."""
 
         def make() -> Made:
+            check_name(name, "the name of a driver")
             state = choice.driven_by(self.state, agent_id, name)
             return state, f"{agent_id}: driven by {name}", self._where(agent_id, ("brains",))
 
@@ -212,7 +214,13 @@ class Workshop:
         Metres, degrees. Nothing is in its way, the scene does not know of it, and it can't be
         taken back.
         """
-        return self._runner.submit(lambda: self._bench.carry(name, x, y, heading_deg))
+
+        def carry() -> None:
+            bodies.check_place(x, y, heading_deg)
+            bodies.body_named(self.state, name)
+            self._bench.carry(name, x, y, heading_deg)
+
+        return self._runner.submit(carry)
 
     def put_back(self, name: str) -> "Future[None]":
         """A body that was carried goes back to where it was taken up."""
@@ -231,10 +239,12 @@ class Workshop:
         """
 
         def make() -> Made:
+            bodies.check_place(x, y, heading_deg)
+            bodies.body_named(self.state, name)
             pose = self._bench.pose(name)
             degrees = math.degrees(pose[2]) if heading_deg is None else heading_deg
-            places[name] = (x, y, math.radians(degrees))
             state = bodies.placed(self.state, name, x, y, degrees)
+            places[name] = (x, y, math.radians(degrees))
             return state, f"move {name}", self.state.description.where_is(name)
 
         places: dict[str, Pose] = {}
@@ -274,6 +284,7 @@ class Workshop:
         """Gives the scene other words or settings: ``title``, ``goal``, ``world``, ``floors``..."""
 
         def make() -> Made:
+            check_plain(values)
             plain = {**self.scene.plain(), **values}
             scene = Scene.loads(write_yaml(plain), folder=self.state.folder)
             state = State(scene.description, self.state.folder, self.state.drivers)
@@ -306,6 +317,8 @@ class Workshop:
 
         It is read in the caller's thread. The file's errors come with their lines.
         """
+        if not isinstance(text, str):
+            return _failed(SetupError(f"expected a scene as text (YAML), got {shown(text)}"))
         try:
             agents = YamlFile(text, name).data.get("agents", ())
             self._bench.trust.check(agents)

@@ -4,7 +4,7 @@ from ai4u_edu.blocks.agent_view import AgentView
 from ai4u_edu.blocks.rewards.properties import find_property
 from ai4u_edu.blocks.rewards.reward_func import RewardFunc
 from ai4u_edu.errors import BlockError
-from ai4u_edu.parameters import Number
+from ai4u_edu.parameters import Number, WholeNumber
 from ai4u_edu.world import BodyView, WorldView
 
 
@@ -66,8 +66,8 @@ class EvalIntValue(EvalValue):
     Source: AI4U's EvalIntValue.
     """
 
-    min_value: int
-    max_value: int
+    min_value: WholeNumber
+    max_value: WholeNumber
 
     def __post_init__(self) -> None:
         super().__post_init__()

@@ -11,7 +11,7 @@ from ai4u_edu.blocks.agent_view import AgentView
 from ai4u_edu.blocks.sensors.ray_sensor import Code
 from ai4u_edu.blocks.sensors.sensor import Array, Sensor
 from ai4u_edu.errors import BlockError, NameNotFoundError, suggest
-from ai4u_edu.parameters import Name, PositiveMetres
+from ai4u_edu.parameters import MAX_COUNT, Name, PositiveMetres
 from ai4u_edu.world import BodyView, WorldView
 
 
@@ -41,7 +41,7 @@ class AreaOrientationSensor(Sensor):
     target_group: str = "EMITTER"
     group_code: dict[Name, Code] = Field(default_factory=dict)
     """The code of each group (tag); of a body with several, the first one counts; else it is 0."""
-    max_code_value: Annotated[int, Field(ge=1)] = 100
+    max_code_value: Annotated[int, Field(ge=1, le=MAX_COUNT)] = 100
     visibility_test: bool = True
     """Whether something in between hides a body."""
 

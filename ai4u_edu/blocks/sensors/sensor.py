@@ -14,6 +14,7 @@ from gymnasium import spaces
 from pydantic import Field
 
 from ai4u_edu.blocks.block import Block, default_name
+from ai4u_edu.blocks.sensors.memory import check_memory
 from ai4u_edu.blocks.sensors.pictures import Legend, SpotPicture
 from ai4u_edu.errors import BlockError, ReadingError
 from ai4u_edu.parameters import quantity
@@ -147,6 +148,7 @@ class Sensor(Block):
         if not isinstance(space, spaces.Box):
             return space
         low, high = space.low, space.high
+        check_memory(self, low.shape)
         if self.normalized:
             low, high = (
                 each if self.says_nothing(each) else np.asarray(each / self.scale())

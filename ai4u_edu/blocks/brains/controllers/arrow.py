@@ -58,7 +58,7 @@ class ArrowController(Controller):
     restart: Keys = Field(default_factory=lambda: ["KeyR"])
     components: list[Component] | None = None
     extra_keys: list[Keys] = Field(default_factory=list)
-    extra_actions_index: list[Annotated[int, Field(ge=0)]] = Field(default_factory=list)
+    extra_actions_index: list[Annotated[int, Field(ge=0, le=1023)]] = Field(default_factory=list)
     extra_actions_value: list[Number] = Field(default_factory=list)
     switches: dict[Name, Keys] = Field(default_factory=dict)
     """By the name of an actuator: the keys that switch it on."""
