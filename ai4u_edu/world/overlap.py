@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING
 
 import pymunk
 
+from ai4u_edu.world._chipmunk import FAST, distances
+
 if TYPE_CHECKING:
     from ai4u_edu.world.body import BodyView
     from ai4u_edu.world.world import World
@@ -16,7 +18,7 @@ OVERLAP = 1e-3
 
 def in_the_way(world: "World", body: "BodyView") -> "BodyView | None":
     """The body that another one overlaps, if there is one; what can't move may overlap."""
-    if not body.moves:
+    if not body.moves and FAST:
         return _mover_in_the_way(world, body)
     for shape in body._shapes:
         for hit in world.space.shape_query(shape):
@@ -46,7 +48,7 @@ def _mover_in_the_way(world: "World", body: "BodyView") -> "BodyView | None":
             for its in other._shapes:
                 if _pass_through(shape.filter, its.filter):
                     continue
-                found = [point.distance for point in shape.shapes_collide(its).points]
+                found = distances(shape, its, other._pm)
                 if overlap(shape, body._pm, its, other._pm, found):
                     return other
     return None
