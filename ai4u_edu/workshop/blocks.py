@@ -209,10 +209,11 @@ def _put(here: Any, path: Path, change: Callable[[Any], Any]) -> Plain:
     return cast(Plain, copy)
 
 
-def _check_path(path: Path) -> None:
-    is_path = isinstance(path, tuple | list) and len(path) <= MAX_DEPTH
-    if not is_path or not all(type(part) in (str, int) for part in path):
+def _check_path(path: object) -> None:
+    if not isinstance(path, tuple | list) or len(path) > MAX_DEPTH:
         raise ChangeError([Problem((), f"expected a block's path, got {shown(path)}")])
+    if not all(type(part) in (str, int) for part in path):
+        raise ChangeError([Problem((), f"expected names and numbers as path, got {shown(path)}")])
     for part in path:
         if isinstance(part, str):
             check_name(part, "a path of names")

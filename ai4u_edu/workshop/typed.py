@@ -1,8 +1,11 @@
 """Numbers that are numbers: text and true/false are none, although pydantic would convert them."""
 
+import math
 from collections.abc import Iterator, Mapping
-from functools import lru_cache
 from typing import Any
+from weakref import WeakKeyDictionary
+
+from pydantic import BaseModel
 
 from ai4u_edu.blocks import Block
 from ai4u_edu.blocks.declared import Declared
@@ -37,10 +40,15 @@ def check_typed(values: Any, schema: Mapping[str, Any]) -> None:
         raise ChangeError(problems)
 
 
-@lru_cache(maxsize=256)
 def schema_of(cls: type[Declared]) -> dict[str, Any]:
-    """Return the JSON Schema of a block or an agent; it takes a while to make."""
-    return cls.json_schema()
+    """Return the JSON Schema of a block or an agent; it takes a while to make, so it is kept."""
+    found = _schemas.get(cls)
+    if found is None:
+        found = _schemas[cls] = cls.json_schema()
+    return found
+
+
+_schemas: "WeakKeyDictionary[Any, dict[str, Any]]" = WeakKeyDictionary()
 
 
 def check_plain(values: Any) -> None:
@@ -59,7 +67,9 @@ def check_number(value: Any, what: str, largest: float) -> None:
         largest: the bound of its absolute value.
     """
     is_number = isinstance(value, int | float) and not isinstance(value, bool)
-    if not is_number or not abs(value) <= largest:  # NaN is within no bounds
+    if is_number and isinstance(value, float) and not math.isfinite(value):
+        raise ChangeError([Problem((what,), f"expected finite numbers, got {value}")])
+    if not is_number or abs(value) > largest:
         text = f"expected a number from {-largest:g} to {largest:g}, got {shown(value)}"
         raise ChangeError([Problem((what,), text)])
 
@@ -104,7 +114,7 @@ def _not_plain(values: Any) -> Iterator[Problem]:
                 waiting.append(((*path, str(key)[:MAX_SHOWN_CHARS]), each))
         elif isinstance(value, list | tuple):
             waiting += [((*path, index), each) for index, each in enumerate(value)]
-        elif not (value is None or isinstance(value, bool | int | float)):
+        elif not (value is None or isinstance(value, bool | int | float | BaseModel)):
             text = f"expected plain data (numbers, text, lists, mappings), got {shown(value)}"
             yield Problem(path, text)
 

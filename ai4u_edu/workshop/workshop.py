@@ -312,8 +312,8 @@ class Workshop:
 
         return self._do(make, whole=True)
 
-    def load(self, text: str, name: str = "scene.yaml") -> "Future[Outcome]":
-        """Has a scene run that somebody wrote: YAML, which is read and checked, never run.
+    def load(self, text: object, name: str = "scene.yaml") -> "Future[Outcome]":
+        """Has a scene run that somebody wrote: YAML text, which is read and checked, never run.
 
         It is read in the caller's thread. The file's errors come with their lines.
         """

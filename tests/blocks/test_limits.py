@@ -17,7 +17,7 @@ from ai4u_edu import (
     TouchRewardFunc,
 )
 from ai4u_edu.errors import BlockError, ParameterError
-from ai4u_edu.world import BodyDescription, PolygonShape, SegmentShape
+from ai4u_edu.world import BodyDescription, PolygonShape, SegmentShape, Variation
 
 
 @pytest.mark.parametrize(
@@ -39,7 +39,7 @@ from ai4u_edu.world import BodyDescription, PolygonShape, SegmentShape
         ),
         (lambda: BodyDescription(name="x", mass=1e-30), "mass: expected at least 1e-06"),
         (
-            lambda: BodyDescription(name="x", random={"scale": [1e-9, 1]}),
+            lambda: BodyDescription(name="x", random=Variation(scale=(1e-9, 1))),
             r"scale\[0\]: expected at least 0.001",
         ),
     ],
