@@ -1,12 +1,13 @@
 """Changes of what is in a world, as data: a scene's state in, another one out."""
 
+import math
 from collections.abc import Mapping
 from typing import Any
 
 from pydantic import ValidationError
 
 from ai4u_edu.errors import NameNotFoundError, suggest
-from ai4u_edu.parameters import Problem, explain
+from ai4u_edu.parameters import MAX_NUMBER, Problem, explain
 from ai4u_edu.workshop.errors import ChangeError
 from ai4u_edu.workshop.state import State
 from ai4u_edu.workshop.typed import check_name, check_number, check_typed, shown
@@ -85,11 +86,22 @@ def placed(state: State, name: str, x: float, y: float, heading_deg: float) -> S
 
 
 def check_place(x: float, y: float, heading_deg: float | None) -> None:
-    """Raise a ChangeError unless a body can be put there."""
-    check_number(x, "x", MAX_POSITION_M)
-    check_number(y, "y", MAX_POSITION_M)
-    if heading_deg is not None:
-        check_number(heading_deg, "heading_deg", MAX_HEADING_DEG)
+    """Raise a ChangeError unless a place is made of finite numbers; a body has its own bounds."""
+    for what, value in (
+        ("x", x),
+        ("y", y),
+        ("heading_deg", 0.0 if heading_deg is None else heading_deg),
+    ):
+        check_number(value, what, MAX_NUMBER)
+
+
+def check_held(x: float, y: float, heading_deg: float | None) -> None:
+    """Raise a ChangeError if a hand holds a body where none can be; NaN the world refuses."""
+    bounds = (MAX_POSITION_M, MAX_POSITION_M, MAX_HEADING_DEG)
+    values = (("x", x), ("y", y), ("heading_deg", 0.0 if heading_deg is None else heading_deg))
+    for (what, value), bound in zip(values, bounds, strict=True):
+        if not (isinstance(value, float) and not math.isfinite(value)):
+            check_number(value, what, bound)
 
 
 def free_name(state: State, like: str) -> str:

@@ -216,7 +216,7 @@ class Workshop:
         """
 
         def carry() -> None:
-            bodies.check_place(x, y, heading_deg)
+            bodies.check_held(x, y, heading_deg)
             bodies.body_named(self.state, name)
             self._bench.carry(name, x, y, heading_deg)
 
