@@ -9,6 +9,7 @@ from ai4u_edu.parameters import Problem
 from ai4u_edu.recording.portrait import scene_of
 from ai4u_edu.runner import Runner
 from ai4u_edu.scenes.plain import PlainError
+from ai4u_edu.workshop import bodies
 from ai4u_edu.workshop.blocks import Path
 from ai4u_edu.workshop.drivers import Drivers
 from ai4u_edu.workshop.errors import ChangeError
@@ -102,7 +103,9 @@ class Bench:
 
     def carry(self, name: str, x: float, y: float, heading_deg: float | None) -> None:
         """A hand holds a body there."""
+        bodies.check_held(x, y, heading_deg)
         self._adopt()
+        bodies.body_named(self.state, name)
         body, before = self._runner.sim.world[name], self.pose(name)
         heading = None if heading_deg is None else math.radians(heading_deg)
         body.move_to(x, y, heading=heading)

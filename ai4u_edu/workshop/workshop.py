@@ -16,7 +16,7 @@ from ai4u_edu.workshop.autosave import Autosave, Unsaved
 from ai4u_edu.workshop.bench import Bench, Made
 from ai4u_edu.workshop.blocks import Path, Plain
 from ai4u_edu.workshop.drivers import Driver, Drivers
-from ai4u_edu.workshop.outcome import Outcome
+from ai4u_edu.workshop.outcome import Outcome, failed
 from ai4u_edu.workshop.shelf import Shelf
 from ai4u_edu.workshop.state import State
 from ai4u_edu.workshop.typed import check_name, check_plain, shown
@@ -66,7 +66,6 @@ class Workshop:
         self.shelf: Shelf | None = None
         """Where pages keep scenes by name; none, and they can only take them home."""
         self._brought: Unsaved | None = None
-        """The scene that was brought back, and that no autosave has taken over."""
         self.listeners = self._bench.listeners
         """Called with the state after each change, in the runner's thread: to be quick."""
         self.listeners.append(self._keep)
@@ -214,13 +213,7 @@ class Workshop:
         Metres, degrees. Nothing is in its way, the scene does not know of it, and it can't be
         taken back.
         """
-
-        def carry() -> None:
-            bodies.check_held(x, y, heading_deg)
-            bodies.body_named(self.state, name)
-            self._bench.carry(name, x, y, heading_deg)
-
-        return self._runner.submit(carry)
+        return self._runner.submit(lambda: self._bench.carry(name, x, y, heading_deg))
 
     def put_back(self, name: str) -> "Future[None]":
         """A body that was carried goes back to where it was taken up."""
@@ -318,24 +311,24 @@ class Workshop:
         It is read in the caller's thread. The file's errors come with their lines.
         """
         if not isinstance(text, str):
-            return _failed(SetupError(f"expected a scene as text (YAML), got {shown(text)}"))
+            return failed(SetupError(f"expected a scene as text (YAML), got {shown(text)}"))
         try:
             agents = YamlFile(text, name).data.get("agents", ())
             self._bench.trust.check(agents)
             scene = Scene.loads(text, name=name, folder=self.state.folder)
         except AI4UError as error:
-            return _failed(error)
+            return failed(error)
         return self.open(scene)
 
     def bring_back(self) -> "Future[Outcome]":
         """Has the scene run that was left unsaved."""
         unsaved, self.unsaved = self.unsaved, None
         if unsaved is None:
-            return _failed(SetupError("there is no unsaved scene"))
+            return failed(SetupError("there is no unsaved scene"))
         try:
             scene = unsaved.scene()
         except AI4UError as error:
-            return _failed(error)
+            return failed(error)
         future = self.open(scene)
 
         def tell(done: "Future[Outcome]") -> None:
@@ -404,9 +397,3 @@ class Workshop:
 
     def _where(self, agent_id: str, path: Path) -> Path:
         return ("agents", self.state.agent_index(agent_id), *path)
-
-
-def _failed(error: Exception) -> "Future[Outcome]":
-    failed: Future[Outcome] = Future()
-    failed.set_exception(error)
-    return failed
