@@ -98,7 +98,8 @@ def check_place(x: float, y: float, heading_deg: float | None) -> None:
 def check_held(x: float, y: float, heading_deg: float | None) -> None:
     """Raise a ChangeError if a hand holds a body where none can be; NaN the world refuses."""
     bounds = (MAX_POSITION_M, MAX_POSITION_M, MAX_HEADING_DEG)
-    values = (("x", x), ("y", y), ("heading_deg", 0.0 if heading_deg is None else heading_deg))
+    heading: object = 0.0 if heading_deg is None else heading_deg
+    values: tuple[tuple[str, object], ...] = (("x", x), ("y", y), ("heading_deg", heading))
     for (what, value), bound in zip(values, bounds, strict=True):
         if not (isinstance(value, float) and not math.isfinite(value)):
             check_number(value, what, bound)
