@@ -22,7 +22,7 @@ from ai4u_edu.command_options import (
     load_own_blocks,
     seed_option,
 )
-from ai4u_edu.errors import AI4UError, SetupError
+from ai4u_edu.errors import AI4UError
 from ai4u_edu.lessons import commands as course
 from ai4u_edu.training import commands as learning
 from ai4u_edu.version import __version__
@@ -84,6 +84,7 @@ def options(
 
 @app.command()
 def play(
+    context: typer.Context,
     scene: Annotated[str, typer.Argument(help="A scene of the library, or a YAML file.")] = (
         "box_chase"
     ),
@@ -202,7 +203,12 @@ def play(
         ),
     ] = None,
     restore: Annotated[
-        bool, typer.Option("--restore", help="Go on with the scene that was left unsaved.")
+        bool,
+        typer.Option(
+            "--restore",
+            help="Go on with the scene that was left unsaved last; of SCENE, or by number, if one "
+            "is named.",
+        ),
     ] = False,
     autosave: Annotated[
         bool, typer.Option("--autosave/--no-autosave", help="Keep what is changed in the page.")
@@ -226,8 +232,9 @@ def play(
     from ai4u_edu.server.process_exit import HAS_SERVED
     from ai4u_edu.viewer import Viewer
     from ai4u_edu.workshop import Workshop
-    from ai4u_edu.workshop.autosave import Autosave, latest, unsaved_folder
+    from ai4u_edu.workshop.autosave import Autosave, unsaved_folder, unsaved_scenes
     from ai4u_edu.workshop.shelf import Shelf
+    from ai4u_edu.workshop.unsaved import chosen, listed
 
     rules = Rules(
         token=token_for(host, token),
@@ -238,10 +245,11 @@ def play(
         receive_timeout=receive_timeout,
     )
     load_own_blocks(own_blocks)
-    unsaved = latest(unsaved_folder()) if autosave or restore else None
-    if restore and unsaved is None:
-        raise SetupError("there is no unsaved scene; expected: ai4u-edu play SCENE")
-    loaded = unsaved.scene() if restore and unsaved is not None else Scene.load(scene)
+    left = unsaved_scenes(unsaved_folder()) if autosave or restore else []
+    source = context.get_parameter_source("scene")
+    is_named = source is not None and source.name != "DEFAULT"
+    wanted = chosen(left, scene if is_named else "") if restore else None
+    loaded = Scene.load(scene) if wanted is None else wanted.scene()
     title = loaded.description.title or loaded.description.name
     sim, loaded = _built(loaded, brain or [])
     recorder = episode_commands.recorder_into(record, sim, loaded, keep)
@@ -250,9 +258,12 @@ def play(
         seed = run.seed
     runner = Runner(sim, seed=seed, time_scale=time_scale, recorder=recorder)
     workshop = Workshop(runner, loaded, offers=[*(offer or ()), *([record] if record else ())])
-    saver = Autosave(unsaved_folder(), loaded.description.name) if autosave else None
+    saver = Autosave(unsaved_folder(), loaded.description.name, _warn) if autosave else None
     workshop.autosave = saver
-    workshop.unsaved = None if restore else unsaved
+    if wanted is not None:
+        workshop.restored(wanted)
+    elif left:
+        workshop.unsaved = left[0]
     workshop.shelf = Shelf(kept_scenes) if kept_scenes is not None else None
     viewer = Viewer(runner, title=title, workshop=workshop)
     if run is not None and ghost is not None:
@@ -272,6 +283,8 @@ def play(
         if workshop.unsaved is not None:
             when = workshop.unsaved.when
             typer.echo(f"an unsaved scene from {when} is there: ai4u-edu play --restore")
+        if len(left) > 1:
+            typer.echo(f"unsaved scenes: {listed(left)}: ai4u-edu play SCENE --restore")
         if open_page:
             open_on_desktop(with_token(url, rules.token))
 
@@ -292,6 +305,10 @@ def _built(scene: "Scene", drivers: list[str]) -> "tuple[ControlRequestor, Scene
     from ai4u_edu.training.assigned import with_drivers  # costs what most don't need
 
     return with_drivers(scene, drivers, is_served=True)
+
+
+def _warn(problem: str) -> None:
+    typer.secho(f"warning: {problem}", err=True, fg=typer.colors.YELLOW)
 
 
 @app.command()

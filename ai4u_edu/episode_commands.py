@@ -10,6 +10,7 @@ import typer
 from rich.console import Console
 from rich.table import Table
 
+from ai4u_edu.atomic_write import make_folder, write_atomically
 from ai4u_edu.command_options import (
     MAX_EPISODES,
     MAX_UPDATES,
@@ -32,6 +33,8 @@ SCRIPT_POLL_S = 0.01
 """Seconds between two ticks while the script that is to drive is not there."""
 KEPT = 50
 """So many episodes are kept in memory."""
+MAX_SCENE_NAME_BYTES = 150
+"""Length of a scene's name in the name of a file."""
 
 Data = Annotated[
     list[Path], typer.Argument(help="Recorded episodes (.episode), or folders of them.")
@@ -203,25 +206,26 @@ def recorder_into(
         SetupError: the folder can't be made.
     """
     from ai4u_edu.recording import Archive, Recorder
+    from ai4u_edu.recording.file import encode
 
     episodes = Archive(keep)
     if folder is None:
         return Recorder(sim, scene=scene.description, episodes=episodes)
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise SetupError(
-            f"{folder}: expected a folder that can be made, or is there: {error.strerror}"
-        ) from None
+    make_folder(folder, "recorded episodes")
 
     def write(episode: "Episode") -> None:
         folder.mkdir(parents=True, exist_ok=True)  # somebody may have removed it meanwhile
-        name = f"{episode.scene.name}-{episode.seed}"
-        path, count = folder / f"{name}.episode", 1
-        while path.exists():
-            count += 1
-            path = folder / f"{name}-{count}.episode"
-        episode.save(path)
+        scene = episode.scene.name.encode()[:MAX_SCENE_NAME_BYTES].decode(errors="ignore")
+        name, data, count = f"{scene}-{episode.seed}", encode(episode), 1
+        path = folder / f"{name}.episode"
+        while True:
+            try:
+                write_atomically(path, data, over=False)
+            except FileExistsError:  # of an earlier episode, or of another server
+                count += 1
+                path = folder / f"{name}-{count}.episode"
+            else:
+                return
 
     return Recorder(sim, scene=scene.description, episodes=episodes, on_episode=write)
 

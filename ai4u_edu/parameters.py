@@ -9,7 +9,7 @@ construction, the JSON Schema, forms and tables are derived from it::
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Annotated, Any, NamedTuple, get_args
 
-from pydantic import BaseModel, Field, StringConstraints
+from pydantic import AfterValidator, BaseModel, Field, StringConstraints
 from pydantic_core import ErrorDetails
 
 from ai4u_edu.errors import shown, suggest
@@ -23,18 +23,40 @@ def quantity(
     lt: float | None = None,
     le: float | None = None,
 ) -> Any:
-    """The metadata of a number with a unit and, where it has any, bounds."""
+    """The metadata of a number with a unit and bounds; without any, +-``MAX_NUMBER`` are."""
+    ge = -MAX_NUMBER if ge is None and gt is None else ge
+    le = MAX_NUMBER if le is None and lt is None else le
     return Field(json_schema_extra={"unit": unit}, gt=gt, ge=ge, lt=lt, le=le)
+
+
+MAX_NUMBER = 1e9
+"""Bound of numbers that have none of their own: a few multiplied still fit a 32-bit float."""
+MAX_COUNT = 2**31 - 1
+"""Bound of whole numbers that have none of their own."""
+MIN_LENGTH_M = 1e-4
+"""Smallest length, metres: of smaller bodies the physics finds neither area nor inertia."""
+
+
+def not_below(least: float) -> AfterValidator:
+    """Return a check that a positive number is not so small that nothing can be done with it."""
+
+    def check(number: float) -> float:
+        if number < least:
+            raise ValueError(f"expected at least {least:g}, got {number!r}")
+        return number
+
+    return AfterValidator(check)
 
 
 Name = Annotated[str, StringConstraints(min_length=1, max_length=80, pattern=r"^[\w .:\-]+$")]
 Metres = Annotated[float, quantity("m", ge=-1e4, le=1e4)]
-PositiveMetres = Annotated[float, quantity("m", gt=0, le=1e4)]
+PositiveMetres = Annotated[float, quantity("m", gt=0, le=1e4), not_below(MIN_LENGTH_M)]
 NonNegativeMetres = Annotated[float, quantity("m", ge=0, le=1e4)]
 Degrees = Annotated[float, quantity("deg", ge=-3600, le=3600)]
 Seconds = Annotated[float, quantity("s", ge=0)]
 Number = Annotated[float, quantity("")]
-Count = Annotated[int, Field(ge=0)]
+Count = Annotated[int, Field(ge=0, le=MAX_COUNT)]
+WholeNumber = Annotated[int, Field(ge=-MAX_COUNT, le=MAX_COUNT)]
 Point = tuple[Metres, Metres]
 Bits = Annotated[int, Field(ge=0, le=0xFFFFFFFF)]
 
@@ -43,6 +65,11 @@ MAX_LISTED = 20
 """Problems that are told at once."""
 MAX_HINTS = 50
 """Problems for which a known name is looked for; to compare names takes longest."""
+
+
+def is_open(bound: float) -> bool:
+    """Return True for a bound that a number has only because it had none of its own."""
+    return abs(bound) in (MAX_NUMBER, MAX_COUNT)
 
 
 class Problem(NamedTuple):

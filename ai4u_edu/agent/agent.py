@@ -29,7 +29,7 @@ from ai4u_edu.blocks import (
 from ai4u_edu.blocks.brains.command import Accepted
 from ai4u_edu.blocks.declared import Declared
 from ai4u_edu.errors import ActionError, ReadingError, SetupError, suggest
-from ai4u_edu.parameters import Count, Name, Number
+from ai4u_edu.parameters import Count, Name, Number, WholeNumber
 from ai4u_edu.world import Body, World, WorldView
 
 Numbers = tuple[float, ...]
@@ -47,7 +47,7 @@ class BasicAgent(Declared):
     body_name: Name = Field(alias="body")
     """The name of the agent's body in the world."""
     id: Name = "0"
-    priority: int = 0
+    priority: WholeNumber = 0
     """Agents with a higher one act first."""
     max_steps_per_episode: Count = 0
     """Decisions after which the episode is cut off (truncated); 0 for no limit."""

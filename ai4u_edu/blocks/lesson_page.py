@@ -13,6 +13,7 @@ from ai4u_edu.blocks.brains.controllers.controller import Controller
 from ai4u_edu.blocks.rewards.reward_func import RewardFunc
 from ai4u_edu.blocks.sensors.sensor import Sensor
 from ai4u_edu.errors import NameNotFoundError, suggest
+from ai4u_edu.parameters import is_open
 
 KINDS: dict[str, type[Block]] = {
     "sensors": Sensor,
@@ -120,10 +121,10 @@ def _range(about: dict[str, Any]) -> str:
     kind = {"number": "", "integer": "whole", "boolean": "true | false", "string": "text"}
     low = about.get("minimum", about.get("exclusiveMinimum"))
     high = about.get("maximum", about.get("exclusiveMaximum"))
-    bounds = "" if low is None and high is None else f"{_show(low)}..{_show(high)}"
+    bounds = f"{_show(low)}..{_show(high)}" if _show(low) or _show(high) else ""
     name = str(about.get("type", ""))
     return " ".join(filter(None, (kind.get(name, name), bounds, about.get("unit", ""))))
 
 
 def _show(bound: float | None) -> str:
-    return "" if bound is None else f"{bound:g}"
+    return "" if bound is None or is_open(bound) else f"{bound:g}"

@@ -7,6 +7,7 @@ from datetime import datetime
 from pathlib import Path
 from typing import Any
 
+from ai4u_edu.atomic_write import write_atomically
 from ai4u_edu.lessons.course import lessons
 from ai4u_edu.lessons.exercise import find
 from ai4u_edu.lessons.keeper import Entry, Keeper
@@ -30,7 +31,7 @@ def report(name: str = "", file: str | Path = "report.html") -> None:
     """
     keeper = Keeper()
     path = keeper.folder / file
-    path.write_text(page(keeper, name), encoding="utf-8")
+    write_atomically(path, page(keeper, name))
     line = f"The report is in `{path.name}`, beside your notebooks."
     put(card("green", "Written.", [line]), line)
 

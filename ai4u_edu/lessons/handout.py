@@ -6,6 +6,7 @@ import shutil
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from ai4u_edu.atomic_write import write_atomically
 from ai4u_edu.errors import SetupError
 from ai4u_edu.lessons.course import course_folder, lessons
 from ai4u_edu.lessons.keeper import FOLDER
@@ -52,16 +53,16 @@ def hand_out(folder: Path) -> HandedOut:
             print_ = hashlib.sha256(text.encode()).hexdigest()
             path = folder / f"{lesson.name}.ipynb"
             if not path.exists():
-                path.write_text(text, encoding="utf-8")
+                write_atomically(path, text)
                 done.new.append(path.name)
             elif book.get(lesson.name, print_) == print_:
                 done.kept.append(path.name)
             else:
                 path = folder / f"{lesson.name}.new.ipynb"
-                path.write_text(text, encoding="utf-8")
+                write_atomically(path, text)
                 done.beside.append(path.name)
             book[lesson.name] = print_
-        (folder / FOLDER / BOOK).write_text(json.dumps(book, indent=1), encoding="utf-8")
+        write_atomically(folder / FOLDER / BOOK, json.dumps(book, indent=1))
     except OSError as error:
         raise SetupError(f"expected to write into {folder}, and couldn't: {error}") from None
     return done

@@ -1,16 +1,24 @@
 """What a student has solved: a small file in the folder of the notebooks."""
 
 import json
-import os
-import tempfile
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
 from dataclasses import asdict, dataclass
 from datetime import datetime
 from pathlib import Path
+
+from ai4u_edu.atomic_write import partial_file, write_atomically
+from ai4u_edu.file_lock import FileLock, LockedError
 
 FILE = "progress.json"
 FOLDER = ".ai4u-edu"
 """In it lie the pictures of the checks."""
 VERSION = 1
+LOCK_FILE = "progress.lock"
+LOCK_TIMEOUT_S = 5.0
+"""Time after which a check no longer waits for another notebook that writes its own result."""
+LOCK_POLL_S = 0.01
 
 
 @dataclass
@@ -63,6 +71,12 @@ class Keeper:
         self, exercise: str, *, passed: bool, text: str, hint: str, picture: bytes, code: str = ""
     ) -> None:
         """Keeps what a check found; what was passed once stays passed."""
+        with self._alone():
+            self._note(exercise, passed, text, hint, picture, code)
+
+    def _note(
+        self, exercise: str, passed: bool, text: str, hint: str, picture: bytes, code: str
+    ) -> None:
         entries = self.entries()
         entry = entries.setdefault(exercise, Entry())
         if not entry.passed:
@@ -76,7 +90,7 @@ class Keeper:
         if picture:
             place = self.picture(exercise)
             place.parent.mkdir(exist_ok=True)
-            place.write_bytes(picture)
+            write_atomically(place, picture)
 
     def picture(self, exercise: str) -> Path:
         """Where the picture of the last check lies, if there is one."""
@@ -87,16 +101,27 @@ class Keeper:
             "version": VERSION,
             "exercises": {name: asdict(entries[name]) for name in sorted(entries)},
         }
-        handle, beside = tempfile.mkstemp(dir=self.folder, prefix=f".{FILE}-")
+        with partial_file(self.path) as beside, beside.open("w", encoding="utf-8") as out:
+            json.dump(plain, out, indent=1)
+
+    @contextmanager
+    def _alone(self) -> Iterator[None]:
+        """Exclude other notebooks: each reads the file, and writes all of it anew."""
+        deadline, lock = time.monotonic() + LOCK_TIMEOUT_S, None
+        with suppress(OSError):  # a folder that can't be written to is told of by what writes
+            (self.folder / FOLDER).mkdir(exist_ok=True)
+            while lock is None:
+                try:
+                    lock = FileLock(self.folder / FOLDER / LOCK_FILE)
+                except LockedError:
+                    if time.monotonic() > deadline:
+                        break
+                    time.sleep(LOCK_POLL_S)
         try:
-            with os.fdopen(handle, "w", encoding="utf-8") as out:
-                json.dump(plain, out, indent=1)
-                out.flush()
-                os.fsync(out.fileno())
-            Path(beside).replace(self.path)
-        except BaseException:
-            Path(beside).unlink(missing_ok=True)
-            raise
+            yield
+        finally:
+            if lock is not None:
+                lock.release()
 
     def _damaged(self, why: str) -> dict[str, Entry]:
         aside = self.path.with_name("progress.damaged.json")

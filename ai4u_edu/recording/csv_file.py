@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from ai4u_edu.atomic_write import partial_file
 from ai4u_edu.recording.replay import Moment, Replay
 
 Row = dict[str, Any]
@@ -26,7 +27,7 @@ def write_csv(replay: Replay, path: Path) -> Path:
     """
     rows = [row for agent in replay.episode.ids for row in _rows(replay, agent)]
     names = list(dict.fromkeys(name for row in rows for name in row))
-    with path.open("w", newline="", encoding="utf-8") as file:
+    with partial_file(path) as beside, beside.open("w", newline="", encoding="utf-8") as file:
         writer = csv.DictWriter(file, [_text(name) for name in names], restval="")
         writer.writeheader()
         for row in rows:

@@ -6,8 +6,6 @@ everything is checked before it is used.
 """
 
 import json
-import os
-import tempfile
 import zlib
 from collections.abc import Mapping
 from pathlib import Path
@@ -18,6 +16,7 @@ import numpy as np
 import numpy.typing as npt
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
+from ai4u_edu.atomic_write import write_atomically
 from ai4u_edu.parameters import Problem, explain
 from ai4u_edu.recording.episode import LONGEST_DRIVER, AgentRecord, Episode, Restart
 from ai4u_edu.recording.errors import RecordingError
@@ -81,15 +80,8 @@ class _File(BaseModel):
 
 
 def save(episode: Episode, path: Path) -> Path:
-    """Writes a file beside its place first: it is there whole, or not at all."""
-    handle, beside = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}-")
-    try:
-        with os.fdopen(handle, "wb") as out:
-            out.write(encode(episode))
-        Path(beside).replace(path)
-    except BaseException:
-        Path(beside).unlink(missing_ok=True)
-        raise
+    """Write an episode to a file, whole or not at all."""
+    write_atomically(path, encode(episode))
     return path
 
 

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from ai4u_edu import look
+from ai4u_edu.atomic_write import write_atomically
 from ai4u_edu.blocks import Percept
 from ai4u_edu.recording.replay import Replay
 from ai4u_edu.snapshot import Snapshot, Stage
@@ -33,7 +34,7 @@ def write_html(replay: Replay, path: Path) -> Path:
     for risky in "<>&":
         text = text.replace(risky, f"\\u{ord(risky):04x}")
     page = TEMPLATE.read_text(encoding="utf-8")
-    path.write_text(page.replace(PLACE, text), encoding="utf-8")
+    write_atomically(path, page.replace(PLACE, text))
     return path
 
 

@@ -1,13 +1,12 @@
 """A scene: a file in, a world with agents out."""
 
-import os
-import tempfile
 from pathlib import Path
 from typing import Any, Self
 
 from pydantic import ValidationError
 from yaml import YAMLError
 
+from ai4u_edu.atomic_write import write_atomically
 from ai4u_edu.blocks.brains.network import files_in
 from ai4u_edu.cycle import ControlRequestor
 from ai4u_edu.errors import AI4UError, SceneError, WorldError, suggest
@@ -143,17 +142,7 @@ class Scene:
 
     def save(self, path: str | Path) -> None:
         """Writes the scene to a file; a file that was there is replaced whole, or not at all."""
-        path = Path(path)
-        handle, beside = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}-")
-        try:
-            with os.fdopen(handle, "w", encoding="utf-8") as out:
-                out.write(self.dumps())
-                out.flush()
-                os.fsync(out.fileno())
-            Path(beside).replace(path)
-        except BaseException:
-            Path(beside).unlink(missing_ok=True)
-            raise
+        write_atomically(Path(path), self.dumps())
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Scene):

@@ -15,6 +15,7 @@ from rich.console import Console
 from torch import Tensor, nn
 
 from ai4u_edu.agent import BasicAgent
+from ai4u_edu.atomic_write import write_atomically
 from ai4u_edu.blocks.brains.network import ABOUT
 from ai4u_edu.envs.spaces_of import outputs_of
 from ai4u_edu.errors import SetupError
@@ -286,6 +287,4 @@ def write_network(network: Clone, agent: BasicAgent, about: dict[str, Any], path
     }
     entry = graph.metadata_props.add()
     entry.key, entry.value = ABOUT, json.dumps(told, sort_keys=True)
-    beside = path.with_name(f".new-{path.name}")
-    beside.write_bytes(graph.SerializeToString(deterministic=True))
-    beside.replace(path)
+    write_atomically(path, graph.SerializeToString(deterministic=True))

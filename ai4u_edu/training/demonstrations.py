@@ -12,6 +12,7 @@ import numpy.typing as npt
 from gymnasium import spaces
 
 from ai4u_edu.agent import BasicAgent
+from ai4u_edu.atomic_write import partial_file
 from ai4u_edu.blocks import Actuator
 from ai4u_edu.envs.spaces_of import Observer, action_space_of, outputs_of
 from ai4u_edu.errors import SetupError
@@ -85,7 +86,7 @@ class Demonstrations:
             arrays[f"{index}/terminations"] = each.terminations
             arrays[f"{index}/truncations"] = each.truncations
             arrays[f"{index}/seed"] = np.array(each.seed)
-        with path.open("wb") as file:
+        with partial_file(path) as beside, beside.open("wb") as file:
             np.savez_compressed(file, **arrays)  # type: ignore[arg-type]  # the names are ours
         return path
 

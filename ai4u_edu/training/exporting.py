@@ -18,6 +18,7 @@ from gymnasium import spaces
 from stable_baselines3.common.base_class import BaseAlgorithm
 
 from ai4u_edu.agent import BasicAgent
+from ai4u_edu.atomic_write import write_atomically
 from ai4u_edu.blocks.brains.network import ABOUT
 from ai4u_edu.envs.spaces_of import outputs_of
 from ai4u_edu.scenes import Scene
@@ -83,9 +84,8 @@ class Exported:
         about = self._about | {"steps": self._model.num_timesteps, "hash": digest}
         entry = network.metadata_props.add()
         entry.key, entry.value = ABOUT, json.dumps(about, sort_keys=True)
-        beside = path.with_name(f".new-{path.name}")
-        beside.write_bytes(network.SerializeToString(deterministic=True))
-        return beside.replace(path)
+        write_atomically(path, network.SerializeToString(deterministic=True))
+        return path
 
 
 def export(model: BaseAlgorithm, scene: Scene, config: Config, path: Path) -> Path:

@@ -18,6 +18,7 @@ from typing import Any
 
 from pydantic import BaseModel, ConfigDict, ValidationError
 
+from ai4u_edu.atomic_write import make_folder, partial_file
 from ai4u_edu.errors import SetupError
 from ai4u_edu.scenes import Scene
 from ai4u_edu.training.settings import Algorithm, Settings
@@ -110,7 +111,7 @@ class Run:
                 f"{self.folder} holds a training already; go on with it (resume), choose another "
                 "folder (out), or begin anew in this one (overwrite)"
             )
-        self.folder.mkdir(parents=True, exist_ok=True)
+        make_folder(self.folder, "a training")
         scene.save(self.folder / "scene.yaml")
         self._write("config.json", config.model_dump(mode="json"))
 
@@ -147,10 +148,9 @@ class Run:
         self._write("checks.json", [check.model_dump(mode="json") for check in checks])
 
     def put(self, path: Path, write: Callable[[Path], object]) -> None:
-        """Writes a file beside its place first: it is there whole, or not at all."""
-        beside = path.with_name(f".new-{path.name}")
-        write(beside)
-        beside.replace(path)
+        """Write a file, whole or not at all, with a function that is given a path."""
+        with partial_file(path) as beside:
+            write(beside)
 
     def _write(self, name: str, data: Any) -> None:
         text = json.dumps(data, indent=1)

@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from ai4u_edu import zoo
+from ai4u_edu.atomic_write import write_atomically
 from ai4u_edu.scenes import Scene
 from ai4u_edu.training.algorithms import load_model
 from ai4u_edu.training.entrants import entrant
@@ -61,7 +62,7 @@ def take(scene: str, file: Path, told: Evaluation) -> bool:
     """Takes a network in, if it is good and small enough; whether it was."""
     good = told.success is None or told.success >= WANTED
     if good and file.stat().st_size <= LARGEST:
-        zoo.network_of(scene).write_bytes(file.read_bytes())
+        write_atomically(zoo.network_of(scene), file.read_bytes())
         return True
     return False
 

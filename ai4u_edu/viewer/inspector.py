@@ -218,7 +218,7 @@ class BlocksTab:
         if event.target.value == BRING_BACK:
             self._ask(self._workshop.bring_back())
         else:
-            self._workshop.forget()
+            self._workshop.discard()
 
     def _ask(
         self, future: "Future[Outcome]", then: Path | None = None, *, of_form: bool = False

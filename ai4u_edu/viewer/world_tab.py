@@ -105,13 +105,14 @@ class WorldTab:
         self.handles.draw(snapshot, self._chosen, on=self.moves.value)
         unsaved = workshop.unsaved
         self.settings.draw("scene", workshop.version)
-        waits = workshop.waits_for_reset
-        seen = (workshop.version, self._chosen, self._message, unsaved, waits)
+        waits, autosave = workshop.waits_for_reset, workshop.autosave
+        problem = autosave.problem if autosave is not None else ""
+        seen = (workshop.version, self._chosen, self._message, unsaved, waits, problem)
         if self._is_applied:
             self._seen = ()
         if seen != self._seen:
             self._seen = seen
-            self._show()
+            self._show(problem)
             is_offered = unsaved is not None
             for handle in (self._offer, self._bare, self.offered):
                 handle.visible = is_offered
@@ -125,7 +126,7 @@ class WorldTab:
 
     # -- what is shown ---------------------------------------------------------------------------
 
-    def _show(self) -> None:
+    def _show(self, problem: str) -> None:
         workshop, description = self._workshop, self._workshop.state.description
         bodies = {body.name: body for body in description.bodies}
         options = (NOTHING, *bodies)
@@ -146,6 +147,7 @@ class WorldTab:
             f"<b>{escape(workshop.title)}</b>",
             told and f'<span role="{word}" style="{style}">{told}</span>',
             f"<small>{WAITS}</small>" if workshop.waits_for_reset else "",
+            problem and f'<small role="alert" style="{style}">{escape(problem)}</small>',
             f"<small>{' · '.join(steps)}</small>" if steps else "",
         ]
         self.said.content = block("<br>".join(line for line in lines if line))
@@ -265,7 +267,7 @@ class WorldTab:
         if event.target.value == RESTORE:
             self._ask(self._workshop.bring_back())
         elif event.target.value == DISCARD:
-            self._workshop.forget()
+            self._workshop.discard()
 
     def _tell(self, message: str, *, is_wrong: bool = False) -> None:
         self._message, self._is_wrong = message, is_wrong

@@ -4,10 +4,12 @@ import math
 from collections.abc import Callable
 from concurrent.futures import Future
 
+from ai4u_edu.errors import AI4UError
 from ai4u_edu.parameters import Problem
 from ai4u_edu.recording.portrait import scene_of
 from ai4u_edu.runner import Runner
 from ai4u_edu.scenes.plain import PlainError
+from ai4u_edu.workshop import bodies
 from ai4u_edu.workshop.blocks import Path
 from ai4u_edu.workshop.drivers import Drivers
 from ai4u_edu.workshop.errors import ChangeError
@@ -101,7 +103,9 @@ class Bench:
 
     def carry(self, name: str, x: float, y: float, heading_deg: float | None) -> None:
         """A hand holds a body there."""
+        bodies.check_held(x, y, heading_deg)
         self._adopt()
+        bodies.body_named(self.state, name)
         body, before = self._runner.sim.world[name], self.pose(name)
         heading = None if heading_deg is None else math.radians(heading_deg)
         body.move_to(x, y, heading=heading)
@@ -126,7 +130,7 @@ class Bench:
         self._adopt()
         before = self.state
         try:
-            after, label, where = make()
+            after, label, where = _made(make)
             if after == before and drives:
                 self._live.hand_back(drives)
                 self._became(after)
@@ -178,3 +182,14 @@ class Bench:
         self._held = {}
         self.history.add(Step("go on in another world", before, state, {}, {}, whole=True))
         self._became(state)
+
+
+def _made(make: Callable[[], Made]) -> Made:
+    """Work out a change; whatever it was asked with, what is wrong is told in a sentence."""
+    try:
+        return make()
+    except AI4UError:
+        raise
+    except (ArithmeticError, AttributeError, LookupError, TypeError, ValueError) as error:
+        text = f"expected values that can be used for it: {type(error).__name__}: {error}"
+        raise ChangeError([Problem((), text)]) from error

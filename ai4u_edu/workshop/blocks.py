@@ -17,9 +17,18 @@ from ai4u_edu.blocks import (
     Sensor,
 )
 from ai4u_edu.errors import suggest
-from ai4u_edu.parameters import Problem, dotted
+from ai4u_edu.parameters import MAX_COUNT, Problem, dotted
 from ai4u_edu.scenes.plain import fits_a_file, from_plain
 from ai4u_edu.workshop.errors import ChangeError
+from ai4u_edu.workshop.typed import (
+    MAX_DEPTH,
+    check_name,
+    check_number,
+    check_plain,
+    check_typed,
+    schema_of,
+    shown,
+)
 
 Path = tuple[str | int, ...]
 Plain = Mapping[str, Any]
@@ -38,6 +47,7 @@ KINDS: dict[str, type[Block]] = {
 
 def kind_at(path: Path) -> type[Block]:
     """What kind of block stands at a path."""
+    _check_path(path)
     names = [part for part in path if isinstance(part, str)]
     if not names or names[-1] not in KINDS:
         raise ChangeError([Problem((), f"{dotted(path)!r} is no place of blocks; {_places()}")])
@@ -61,6 +71,7 @@ def types_of(kind: str) -> list[type[Block]]:
 def block_at(agent: Plain, path: Path) -> Plain:
     """A block as data."""
     here: Any = agent
+    _check_path(path)
     for part in path:
         try:
             here = here[part]
@@ -77,8 +88,14 @@ def changed(agent: Plain, path: Path, values: Plain) -> Plain:
     Raises:
         ChangeError: some are wrong; each is told with its path, as seen from the block.
     """
-    block = dict(block_at(agent, path)) | dict(values)
+    before = block_at(agent, path)
+    check_plain(values)
+    if not isinstance(values, Mapping):
+        raise ChangeError([Problem((), f"expected parameters by name, got {shown(values)}")])
+    block = dict(before) | dict(values)
     cls = Block.types.get(str(block["type"]))
+    if cls is not None:
+        check_typed(values, schema_of(cls))
     declared = cls.parameters() if cls else {}
     for name, value in values.items():
         default = declared[name].get_default(call_default_factory=True) if name in declared else ...
@@ -100,6 +117,9 @@ def added(agent: Plain, where: Path, block: Plain, index: int | None = None) -> 
     Raises:
         ChangeError: there are no such blocks, or their parameters are wrong.
     """
+    check_typed(block, {})
+    if index is not None:
+        check_number(index, "index", MAX_COUNT)
     from_plain(kind_at(where), block)
     *above, kind = where
     owner: Any = block_at(agent, tuple(above)) if above else agent
@@ -140,6 +160,7 @@ def removed(agent: Plain, path: Path) -> Plain:
 def moved(agent: Plain, path: Path, by: int) -> Plain:
     """With a block so many places further down among its like; negative for up."""
     block = block_at(agent, path)
+    check_number(by, "by", MAX_COUNT)
     *above, index = path
     if not isinstance(index, int):
         raise ChangeError([Problem((), f"{dotted(path)} stands alone")])
@@ -155,6 +176,8 @@ def moved(agent: Plain, path: Path, by: int) -> Plain:
 def switched(agent: Plain, path: Path, on: bool) -> Plain:
     """With a block on or off; of brains exactly one is on."""
     block_at(agent, path)
+    if not isinstance(on, bool):
+        raise ChangeError([Problem((), f"expected true or false, got {shown(on)}")])
     if path[0] == "brains" and len(path) > 2:
         raise ChangeError([Problem((), f"{dotted(path)} is on whenever its brain is")])
     if path[0] != "brains":
@@ -184,6 +207,16 @@ def _put(here: Any, path: Path, change: Callable[[Any], Any]) -> Plain:
     copy = list(here)
     copy[cast(int, part)] = _put(here[part], tuple(rest), change)
     return cast(Plain, copy)
+
+
+def _check_path(path: object) -> None:
+    if not isinstance(path, tuple | list) or len(path) > MAX_DEPTH:
+        raise ChangeError([Problem((), f"expected a block's path, got {shown(path)}")])
+    if not all(type(part) in (str, int) for part in path):
+        raise ChangeError([Problem((), f"expected names and numbers as path, got {shown(path)}")])
+    for part in path:
+        if isinstance(part, str):
+            check_name(part, "a path of names")
 
 
 def _places() -> str:

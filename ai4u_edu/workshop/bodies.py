@@ -7,15 +7,21 @@ from typing import Any
 from pydantic import ValidationError
 
 from ai4u_edu.errors import NameNotFoundError, suggest
-from ai4u_edu.parameters import Problem, explain
+from ai4u_edu.parameters import MAX_NUMBER, Problem, explain
 from ai4u_edu.workshop.errors import ChangeError
 from ai4u_edu.workshop.state import State
+from ai4u_edu.workshop.typed import check_name, check_number, check_typed, shown
 from ai4u_edu.world import BodyDescription
+
+MAX_POSITION_M, MAX_HEADING_DEG = 1e4, 3600.0
+"""Bounds of a place, as a body's description has them."""
+_SCHEMA = BodyDescription.model_json_schema()
 
 
 def body_named(state: State, name: str) -> BodyDescription:
     """The description of a body."""
     bodies = {body.name: body for body in state.description.bodies}
+    check_name(name, "the name of a body")
     if name not in bodies:
         raise NameNotFoundError(f"no body is named {name!r}; {suggest(name, bodies)}")
     return bodies[name]
@@ -29,6 +35,9 @@ def described(given: BodyDescription | Mapping[str, Any]) -> BodyDescription:
     """
     if isinstance(given, BodyDescription):
         return given
+    check_typed(given, _SCHEMA)
+    if not isinstance(given, Mapping):
+        raise ChangeError([Problem((), f"expected parameters by name, got {shown(given)}")])
     try:
         return BodyDescription.model_validate(dict(given))
     except ValidationError as error:
@@ -57,6 +66,7 @@ def without_body(state: State, name: str) -> State:
 def with_other_body(state: State, name: str, values: Mapping[str, Any]) -> State:
     """With other parameters of a body; None leaves one out, so that it is as by default."""
     body = body_named(state, name)
+    check_typed(values, _SCHEMA)
     given = body.model_dump(exclude_unset=True, exclude_defaults=True) | dict(values)
     given["name"] = values.get("name", name)
     if "shape" not in values:
@@ -70,10 +80,29 @@ def with_other_body(state: State, name: str, values: Mapping[str, Any]) -> State
 
 def placed(state: State, name: str, x: float, y: float, heading_deg: float) -> State:
     """With a body somewhere else."""
-    if not math.isfinite(x + y + heading_deg):
-        raise ChangeError([Problem((), f"expected finite numbers, got {(x, y, heading_deg)}")])
+    check_place(x, y, heading_deg)
     values = {"position": (round(x, 4), round(y, 4)), "heading_deg": round(heading_deg, 3)}
     return with_other_body(state, name, values)
+
+
+def check_place(x: float, y: float, heading_deg: float | None) -> None:
+    """Raise a ChangeError unless a place is made of finite numbers; a body has its own bounds."""
+    for what, value in (
+        ("x", x),
+        ("y", y),
+        ("heading_deg", 0.0 if heading_deg is None else heading_deg),
+    ):
+        check_number(value, what, MAX_NUMBER)
+
+
+def check_held(x: float, y: float, heading_deg: float | None) -> None:
+    """Raise a ChangeError if a hand holds a body where none can be; NaN the world refuses."""
+    bounds = (MAX_POSITION_M, MAX_POSITION_M, MAX_HEADING_DEG)
+    heading: object = 0.0 if heading_deg is None else heading_deg
+    values: tuple[tuple[str, object], ...] = (("x", x), ("y", y), ("heading_deg", heading))
+    for (what, value), bound in zip(values, bounds, strict=True):
+        if not (isinstance(value, float) and not math.isfinite(value)):
+            check_number(value, what, bound)
 
 
 def free_name(state: State, like: str) -> str:

@@ -10,7 +10,7 @@ from typing import Any, Literal, get_args
 from ai4u_edu.blocks import Actuator, Block, Brain, Controller, RewardFunc, Sensor
 from ai4u_edu.blocks.lesson_page import summary
 from ai4u_edu.errors import SceneError
-from ai4u_edu.parameters import Problem
+from ai4u_edu.parameters import Problem, is_open
 from ai4u_edu.scenes.yaml_file import YamlFile
 from ai4u_edu.workshop.blocks import KINDS, Plain
 from ai4u_edu.workshop.errors import ChangeError
@@ -158,7 +158,7 @@ def _range(what: Mapping[str, Any]) -> str:
             ("maximum", "at most"),
             ("exclusiveMaximum", "less than"),
         )
-        if key in what
+        if key in what and not is_open(what[key])
     ]
     unit = what.get("unit", "")
     return " ".join((", ".join(words), unit if words and unit != "1" else "")).strip()

@@ -119,6 +119,8 @@ class Live:
                     done.append((agent, had))
         except BaseException:
             furniture.undo()
+            for agent in sim.agents:
+                _set_own(agent, before.agent(agent.id))
             for agent, had in done:
                 refit(agent, sim.world, had)
             raise
@@ -139,9 +141,7 @@ class Live:
 
     def _fit(self, agent: BasicAgent, before: State, state: State, *, world_changed: bool) -> bool:
         old, new = before.agent(agent.id), state.agent(agent.id)
-        for name in OWN:
-            default = BasicAgent.parameters()[name].get_default(call_default_factory=True)
-            setattr(agent, name, new.get(name, default))
+        _set_own(agent, new)
         blocks_changed = any(
             old.get(kind, ()) != new.get(kind, ()) for kind in ("sensors", "actuators", "rewards")
         )
@@ -222,6 +222,13 @@ class Live:
     def _take_over(self, seed: int) -> None:
         if self.is_due and self.is_ours:
             self.build_anew(self.wanted, seed)
+
+
+def _set_own(agent: BasicAgent, plain: Plain) -> None:
+    """Give an agent the parameters, besides its blocks, that can change under way."""
+    for name in OWN:
+        default = BasicAgent.parameters()[name].get_default(call_default_factory=True)
+        setattr(agent, name, plain.get(name, default))
 
 
 @contextmanager

@@ -1,5 +1,6 @@
 """What came of a change."""
 
+from concurrent.futures import Future
 from dataclasses import dataclass
 from typing import Literal
 
@@ -24,3 +25,10 @@ class Outcome:
             "next reset": "it applies at the next reset",
         }
         return "; ".join(filter(None, (words[self.when], self.note)))
+
+
+def failed(error: Exception) -> "Future[Outcome]":
+    """Return a future of an outcome that there can't be."""
+    future: Future[Outcome] = Future()
+    future.set_exception(error)
+    return future

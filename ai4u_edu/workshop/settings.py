@@ -16,6 +16,7 @@ from ai4u_edu.workshop.blocks import Path, Plain
 from ai4u_edu.workshop.difference import OWN
 from ai4u_edu.workshop.errors import ChangeError
 from ai4u_edu.workshop.forms import Field, field_of
+from ai4u_edu.workshop.typed import check_typed, schema_of
 from ai4u_edu.world import WorldSettings
 
 RHYTHM = ("skip_frame", "repeat_action")
@@ -57,6 +58,7 @@ def brain_of(agent: Plain) -> Path:
 
 def with_agent_settings(agent: Plain, values: Plain) -> Plain:
     """With other parameters of an agent, or of its brain's rhythm; None for one as by default."""
+    check_typed(values, schema_of(BasicAgent))
     rhythm = {name: values[name] for name in RHYTHM if name in values}
     if rhythm:
         agent = blocks.changed(agent, brain_of(agent), rhythm)
@@ -70,6 +72,7 @@ def with_scene_settings(scene: SceneDescription, values: Plain) -> SceneDescript
     Raises:
         ChangeError: some are wrong, or nothing of the scene is called so.
     """
+    check_typed(values, WorldSettings.model_json_schema())
     own = {name: values[name] for name in _OWN if name in values}
     settings = scene.world.model_dump(exclude_defaults=True)
     settings |= {name: value for name, value in values.items() if name not in own}

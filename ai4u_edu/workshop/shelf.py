@@ -5,6 +5,7 @@ import threading
 import unicodedata
 from pathlib import Path
 
+from ai4u_edu.atomic_write import make_folder, reason, write_atomically
 from ai4u_edu.blocks.brains.network import IN_THE_ZOO
 from ai4u_edu.errors import SceneError, SetupError, suggest
 from ai4u_edu.scenes import Scene
@@ -37,10 +38,7 @@ class Shelf:
     def __init__(self, folder: Path) -> None:
         self.folder = folder.absolute()
         self._lock = threading.Lock()
-        try:
-            self.folder.mkdir(parents=True, exist_ok=True)
-        except OSError as error:
-            raise SetupError(f"{folder}: expected a folder for scenes: {error}") from None
+        make_folder(self.folder, "scenes")
 
     def names(self) -> list[str]:
         """The names of all scenes that lie there."""
@@ -88,14 +86,16 @@ class Shelf:
             if there is None and len(self._files()) >= MOST:
                 raise SetupError(f"expected at most {MOST} scenes; take some out of the folder")
             file = there or self.folder / f"{name}{ENDING}"
-            if there is None and (
-                file.exists() or file.is_symlink()
-            ):  # a folder or a link, which is nobody's to replace
+            if file.is_symlink() or (file.exists() and not file.is_file()):
+                # a link or a folder, which is nobody's to replace
                 raise SetupError(f"{name!r} can't be used; choose another name")
             try:
-                scene.save(file)
+                # another server may keep its scenes here too, under the same names
+                write_atomically(file, scene.dumps(), over=over)
+            except FileExistsError:
+                raise TakenError(f"{name!r} is there already") from None
             except OSError as error:
-                raise SetupError(f"{name!r} can't be kept: {error.strerror}") from None
+                raise SetupError(f"{name!r} can't be kept: {reason(error)}") from None
         return _name_of(file)
 
     def _check_files(self, scene: Scene) -> None:

@@ -10,6 +10,7 @@ from ai4u_edu.blocks import Block
 from ai4u_edu.blocks.block import default_name
 from ai4u_edu.errors import NameNotFoundError, suggest
 from ai4u_edu.scenes import Scene, SceneDescription
+from ai4u_edu.workshop.typed import check_name
 
 NOBODY: Mapping[str, str] = MappingProxyType({})
 
@@ -38,6 +39,7 @@ class State:
 
     def agent_index(self, agent_id: str) -> int:
         """Where the agent of that id stands in the description."""
+        check_name(agent_id, "an agent's id")
         ids = [str(agent.get("id", "0")) for agent in self.description.agents]
         if agent_id not in ids:
             raise NameNotFoundError(f"no agent has the id {agent_id!r}; {suggest(agent_id, ids)}")

@@ -59,6 +59,9 @@ def tried(state: State, where: Path = (), *, episodes: int = 1) -> ControlReques
     except AI4UError as error:
         path = field_named_in(str(error), _at(description.agents, where[1:]) if where else None)
         raise ChangeError([Problem(path, str(error))]) from None
+    except (ArithmeticError, MemoryError) as error:
+        text = f"it can't be set up: {type(error).__name__}: {error}"
+        raise ChangeError([Problem((), text)]) from error
     return sim
 
 

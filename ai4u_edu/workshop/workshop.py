@@ -17,9 +17,10 @@ from ai4u_edu.workshop.autosave import Autosave, Unsaved
 from ai4u_edu.workshop.bench import Bench, Made
 from ai4u_edu.workshop.blocks import Path, Plain
 from ai4u_edu.workshop.drivers import Driver, Drivers
-from ai4u_edu.workshop.outcome import Outcome
+from ai4u_edu.workshop.outcome import Outcome, failed
 from ai4u_edu.workshop.shelf import Shelf
 from ai4u_edu.workshop.state import State
+from ai4u_edu.workshop.typed import check_name, check_plain, shown
 from ai4u_edu.world import BodyDescription, Pose
 
 
@@ -66,6 +67,7 @@ class Workshop:
         """Keeps what is changed; left out in notebooks and tests."""
         self.shelf: Shelf | None = None
         """Where pages keep scenes by name; none, and they can only take them home."""
+        self._brought: Unsaved | None = None
         self.listeners = self._bench.listeners
         """Called with the state after each change, in the runner's thread: to be quick."""
         self.listeners.append(self._keep)
@@ -205,6 +207,7 @@ class Workshop:
         """Lets somebody else drive an agent: one of :meth:`drivers`, or an ``ai4u://`` address."""
 
         def make() -> Made:
+            check_name(name, "the name of a driver")
             state = choice.driven_by(self.state, agent_id, name, self._drivers)
             return state, f"{agent_id}: driven by {name}", self._where(agent_id, ("brains",))
 
@@ -239,10 +242,12 @@ class Workshop:
         """
 
         def make() -> Made:
+            bodies.check_place(x, y, heading_deg)
+            bodies.body_named(self.state, name)
             pose = self._bench.pose(name)
             degrees = math.degrees(pose[2]) if heading_deg is None else heading_deg
-            places[name] = (x, y, math.radians(degrees))
             state = bodies.placed(self.state, name, x, y, degrees)
+            places[name] = (x, y, math.radians(degrees))
             return state, f"move {name}", self.state.description.where_is(name)
 
         places: dict[str, Pose] = {}
@@ -282,6 +287,7 @@ class Workshop:
         """Gives the scene other words or settings: ``title``, ``goal``, ``world``, ``floors``..."""
 
         def make() -> Made:
+            check_plain(values)
             plain = {**self.scene.plain(), **values}
             scene = Scene.loads(write_yaml(plain), folder=self.state.folder)
             return replace(self.state, description=scene.description), "change the scene", ()
@@ -309,34 +315,62 @@ class Workshop:
 
         return self._do(make, whole=True)
 
-    def load(self, text: str, name: str = "scene.yaml") -> "Future[Outcome]":
-        """Has a scene run that somebody wrote: YAML, which is read and checked, never run.
+    def load(self, text: object, name: str = "scene.yaml") -> "Future[Outcome]":
+        """Has a scene run that somebody wrote: YAML text, which is read and checked, never run.
 
         It is read in the caller's thread. The file's errors come with their lines.
         """
+        if not isinstance(text, str):
+            return failed(SetupError(f"expected a scene as text (YAML), got {shown(text)}"))
         try:
             agents = YamlFile(text, name).data.get("agents", ())
             self._bench.trust.check(agents)
             scene = Scene.loads(text, name=name, folder=self.state.folder)
         except AI4UError as error:
-            return _failed(error)
+            return failed(error)
         return self.open(scene)
 
     def bring_back(self) -> "Future[Outcome]":
         """Has the scene run that was left unsaved."""
         unsaved, self.unsaved = self.unsaved, None
         if unsaved is None:
-            return _failed(SetupError("there is no unsaved scene"))
+            return failed(SetupError("there is no unsaved scene"))
         try:
-            return self.open(unsaved.scene())
+            scene = unsaved.scene()
         except AI4UError as error:
-            return _failed(error)
+            return failed(error)
+        future = self.open(scene)
+
+        def tell(done: "Future[Outcome]") -> None:
+            if done.cancelled() or done.exception() is not None:
+                self.unsaved = self.unsaved or unsaved
+            else:
+                self.restored(unsaved)
+
+        future.add_done_callback(tell)
+        return future
+
+    def restored(self, unsaved: Unsaved) -> None:
+        """The scene that was opened last is one that was left unsaved; it is kept as such."""
+        if self.autosave is None:
+            self._brought = unsaved
+        else:
+            self.autosave.claim(unsaved, self._bench.opened)
 
     def forget(self) -> None:
-        """Nobody wants the scene that was left unsaved, or somebody has saved it."""
+        """Somebody has saved the scene as it is; what was left by others is not offered again."""
         self.unsaved = None
+        if self._brought is not None:
+            self._brought.discard()
+            self._brought = None
         if self.autosave is not None:
-            self.autosave.note(None)
+            self.autosave.forget(self._bench.opened)
+
+    def discard(self) -> None:
+        """Delete the scene that was left unsaved; what is kept of the one that runs stays."""
+        unsaved, self.unsaved = self.unsaved, None
+        if unsaved is not None:
+            unsaved.discard()
 
     # -- back and forth --------------------------------------------------------------------------
 
@@ -352,10 +386,11 @@ class Workshop:
         """Has what was changed written down; of a scene that was only opened there is nothing."""
         if self.autosave is None:
             return
+        opened = self._bench.opened
         if not self.is_as_opened:
-            self.autosave.note(state)
+            self.autosave.note(state, opened)
         elif self._bench.history.next is not None:  # all was taken back
-            self.autosave.note(None)
+            self.autosave.note(None, opened)
 
     # -- how -------------------------------------------------------------------------------------
 
@@ -372,9 +407,3 @@ class Workshop:
 
     def _where(self, agent_id: str, path: Path) -> Path:
         return ("agents", self.state.agent_index(agent_id), *path)
-
-
-def _failed(error: Exception) -> "Future[Outcome]":
-    failed: Future[Outcome] = Future()
-    failed.set_exception(error)
-    return failed

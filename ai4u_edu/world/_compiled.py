@@ -15,6 +15,7 @@ import subprocess
 import sys
 import sysconfig
 import tempfile
+import time
 from functools import cache
 from pathlib import Path
 
@@ -31,6 +32,8 @@ FLAGS = (
     "-shared",
     "-fPIC",
 )
+PREFIX = "compiling-"
+"""How the names of folders begin in which something is compiled."""
 PATIENCE = 60.0
 """Seconds that a compiler gets; it takes a tenth of one."""
 
@@ -84,12 +87,21 @@ def _make(path: Path) -> bool:
     compiler = _compiler()
     if compiler is None:
         return False
-    with tempfile.TemporaryDirectory(dir=path.parent) as here:
+    _remove_leftovers(path.parent)
+    with tempfile.TemporaryDirectory(prefix=PREFIX, dir=path.parent) as here:
         made = Path(here) / path.name
         if not _run(compiler, *FLAGS, "-o", str(made), *map(str, SOURCES), "-lm"):
             return False
         made.replace(path)
     return True
+
+
+def _remove_leftovers(kept: Path) -> None:
+    """Delete the folders in which killed processes were compiling."""
+    for left in kept.glob(f"{PREFIX}*"):
+        with contextlib.suppress(OSError):
+            if time.time() - left.lstat().st_mtime > 2 * PATIENCE:
+                shutil.rmtree(left)
 
 
 def _compiler() -> str | None:

@@ -8,7 +8,16 @@ from typing import Annotated, Literal
 from pydantic import Field, field_validator
 
 from ai4u_edu.palette import Colour
-from ai4u_edu.parameters import Bits, Degrees, Metres, Name, Point, PositiveMetres, quantity
+from ai4u_edu.parameters import (
+    Bits,
+    Degrees,
+    Metres,
+    Name,
+    Point,
+    PositiveMetres,
+    not_below,
+    quantity,
+)
 from ai4u_edu.world.shapes import BodyShape, CircleShape, Description, RegionShape
 from ai4u_edu.world.variation import Variation
 
@@ -43,7 +52,7 @@ class BodyDescription(Description):
     z: Metres | None = None
     """Height of the underside; left out: it stands on the highest floor there."""
     height: PositiveMetres = 1.0
-    mass: Annotated[float, quantity("kg", gt=0, le=1e6)] = 1.0
+    mass: Annotated[float, quantity("kg", gt=0, le=1e6), not_below(1e-6)] = 1.0
     friction: Annotated[float, quantity("1", ge=0, le=10)] = 0.5
     elasticity: Annotated[float, quantity("1", ge=0, le=1)] = 0.0
     velocity: Point = (0.0, 0.0)

@@ -1,9 +1,12 @@
 """Whether two shapes are in each other, and whether a body stands in another one."""
 
+import math
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import pymunk
+
+from ai4u_edu.world._chipmunk import FAST, distances
 
 if TYPE_CHECKING:
     from ai4u_edu.world.body import BodyView
@@ -15,16 +18,50 @@ OVERLAP = 1e-3
 
 def in_the_way(world: "World", body: "BodyView") -> "BodyView | None":
     """The body that another one overlaps, if there is one; what can't move may overlap."""
+    if not body.moves and FAST:
+        return _mover_in_the_way(world, body)
     for shape in body._shapes:
         for hit in world.space.shape_query(shape):
             other = world.owners.get(hit.shape)
             if other is None or other is body or not (body.moves or other.moves):
                 continue
-            level = body.z < other.z + other.height and other.z < body.z + body.height
             found = [point.distance for point in hit.contact_point_set.points]
-            if level and overlap(shape, body._pm, hit.shape, other._pm, found):
+            if _level(body, other) and overlap(shape, body._pm, hit.shape, other._pm, found):
                 return other
     return None
+
+
+def _mover_in_the_way(world: "World", body: "BodyView") -> "BodyView | None":
+    """The body that can move, and that one overlaps which can't.
+
+    A query of the space would answer with all that can't move either: with hundreds of walls upon
+    each other, that took seconds (``python -m tests.benchmarks.many_walls``).
+    """
+    x, y = body.position
+    for other in world._bodies.values():
+        if not other.moves or other is body or other.fallen:
+            continue
+        reach = body.drawn.shape.reach + other.drawn.shape.reach + OVERLAP
+        if math.dist((x, y), other.position) > reach or not _level(body, other):
+            continue
+        for shape in body._shapes:
+            for its in other._shapes:
+                if _pass_through(shape.filter, its.filter):
+                    continue
+                found = distances(shape, its, other._pm)
+                if overlap(shape, body._pm, its, other._pm, found):
+                    return other
+    return None
+
+
+def _level(body: "BodyView", other: "BodyView") -> bool:
+    """Whether neither of two bodies is above the other one."""
+    return body.z < other.z + other.height and other.z < body.z + body.height
+
+
+def _pass_through(one: pymunk.ShapeFilter, other: pymunk.ShapeFilter) -> bool:
+    """Whether the physics lets two shapes pass through each other."""
+    return not (one.categories & other.mask and other.categories & one.mask)
 
 
 def overlap(

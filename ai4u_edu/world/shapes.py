@@ -4,13 +4,14 @@ All lengths in metres, in the frame of what carries the shape (x forward, y left
 region says ``contains`` in plain arithmetic, so that it answers for arrays as well as for numbers.
 """
 
+import itertools
 import math
 from typing import Annotated, Any, Literal, Self
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
 
 from ai4u_edu.errors import ParameterError, shown
-from ai4u_edu.parameters import Point, PositiveMetres, explain, listed
+from ai4u_edu.parameters import MIN_LENGTH_M, Point, PositiveMetres, explain, listed
 
 OUTLINE_CORNERS = 48
 
@@ -119,6 +120,8 @@ class PolygonShape(Shape):
                 )
         if sum(turns) > 3 * math.pi:
             raise ValueError("expected corners that go round once; they cross themselves")
+        if _area(corners) < MIN_LENGTH_M**2:
+            raise ValueError(f"expected an area of at least {MIN_LENGTH_M**2:g} m^2")
         return self
 
     @property
@@ -178,6 +181,8 @@ class SegmentShape(Shape):
     def _has_length(self) -> Self:
         if self.a == self.b:
             raise ValueError(f"expected two different ends, got {self.a} twice")
+        if math.dist(self.a, self.b) < MIN_LENGTH_M:
+            raise ValueError(f"expected ends at least {MIN_LENGTH_M:g} m apart")
         return self
 
     @property
@@ -253,3 +258,12 @@ RegionShape = Annotated[
     CircleShape | BoxShape | PolygonShape | CapsuleShape | RingShape,
     Field(discriminator="type"),
 ]
+
+
+def _area(corners: "tuple[Point, ...]") -> float:
+    """The area of a polygon with counter-clockwise corners."""
+    x0, y0 = corners[0]  # from a corner: far from the origin the products would be inexact
+    area = 0.0
+    for (x1, y1), (x2, y2) in itertools.pairwise(corners[1:]):
+        area += ((x1 - x0) * (y2 - y0) - (x2 - x0) * (y1 - y0)) / 2
+    return area

@@ -4,7 +4,7 @@ from typing import Annotated, Self
 
 from pydantic import AfterValidator, Field, model_validator
 
-from ai4u_edu.parameters import Degrees, Metres, NonNegativeMetres, Point, quantity
+from ai4u_edu.parameters import Degrees, Metres, NonNegativeMetres, Point, not_below, quantity
 from ai4u_edu.world.shapes import Description
 
 Pair = tuple[float, float]
@@ -17,7 +17,7 @@ def _in_order(ends: Pair) -> Pair:
 
 
 Ordered = AfterValidator(_in_order)
-Times = Annotated[float, quantity("1", gt=0, le=100)]
+Times = Annotated[float, quantity("1", gt=0, le=100), not_below(1e-3)]
 
 
 class Variation(Description):

@@ -1,6 +1,7 @@
 """What a student is told, and what is kept of it."""
 
 import json
+import threading
 from pathlib import Path
 from typing import Any
 
@@ -182,3 +183,19 @@ def test_the_code_that_was_checked_is_kept(monkeypatch: pytest.MonkeyPatch) -> N
     check("00.1", go)
     assert Keeper().entries()["00.1"].code == cells[0]
     assert written_module.latest({"go"}, cells) == "go = 7"
+
+
+def test_two_notebooks_that_check_at_once_both_keep_their_result(folder: Path) -> None:
+    started = threading.Barrier(8)
+
+    def note(number: int) -> None:
+        keeper = Keeper(folder)
+        started.wait()
+        keeper.note(f"00.{number}", passed=True, text="", hint="", picture=b"")
+
+    threads = [threading.Thread(target=note, args=(number,)) for number in range(8)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert len(Keeper(folder).entries()) == 8

@@ -4,7 +4,9 @@ import os
 import signal
 import subprocess
 import sys
+import threading
 import time
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 from pathlib import Path
 
@@ -14,6 +16,7 @@ from typer.testing import CliRunner
 
 from ai4u_edu import LocalBrain, Scene, episode_commands
 from ai4u_edu.cli import app
+from ai4u_edu.episode_commands import recorder_into
 from ai4u_edu.errors import NoDecisionError
 from ai4u_edu.recording import Episode, Recorder, Replay
 from ai4u_edu.runner import Runner
@@ -170,6 +173,36 @@ def test_play_keeps_what_a_person_drove(tmp_path: Path) -> None:
     assert (episode.seed, episode.changed) == (3, None)
     assert len(episode.agents[0]) >= 5
     assert Replay(episode).verdict.exact
+
+
+def test_two_servers_that_record_into_one_folder_keep_all_episodes(tmp_path: Path) -> None:
+    def record(_number: int) -> None:
+        scene = Scene.load("box_chase")
+        sim = scene.build()
+        recorder = recorder_into(tmp_path / "kept", sim, scene)
+        started.wait()
+        for _ in range(5):
+            sim.reset(seed=3)
+            sim.step()
+            recorder.finish()
+
+    started = threading.Barrier(3)
+    with ThreadPoolExecutor(3) as pool:
+        list(pool.map(record, range(3)))
+    names = sorted(path.name for path in (tmp_path / "kept").iterdir())
+    numbers = ["", *(f"-{number}" for number in range(2, 16))]
+    assert names == sorted(f"box_chase-3{number}.episode" for number in numbers)
+
+
+def test_an_episode_of_a_scene_with_a_long_name_is_kept(tmp_path: Path) -> None:
+    scene = Scene.load("box_chase")
+    scene.description = scene.description.model_copy(update={"name": "\u4e00" * 80})
+    sim = scene.build()
+    recorder = recorder_into(tmp_path, sim, scene)
+    sim.reset(seed=3)
+    sim.step()
+    recorder.finish()
+    assert [path.name for path in tmp_path.iterdir()] == ["\u4e00" * 50 + "-3.episode"]
 
 
 def test_whoever_plays_against_a_ghost_begins_as_it_did(folder: Path) -> None:

@@ -12,6 +12,7 @@ import tempfile
 import time
 from pathlib import Path
 
+from ai4u_edu.atomic_write import remove_leftovers
 from ai4u_edu.scenes import Scene
 
 PADDING = 280_000
@@ -65,6 +66,10 @@ def run(times: int, seed: int = 1, saver: str = SAVER) -> list[str]:
             found[name] = found.get(name, 0) + 1
             if not name:
                 wrong.append(f"kill {number}: {len(saved)} characters, of neither scene")
+        remove_leftovers(Path(folder))
+        names = {f"{name}.yaml" for name in ("saved", "box_chase", "sample_scene")}
+        left = {path.name for path in Path(folder).iterdir()} - names
+        wrong += [f"{name} is left for ever" for name in left]
         if not wrong:
             Scene.load(file)
     print(f"{times} kills; in the file was {found}")

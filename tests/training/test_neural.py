@@ -4,11 +4,13 @@ import json
 import pickle
 import subprocess
 import sys
+from contextlib import suppress
 from pathlib import Path
 
 import numpy as np
+import onnx
 import pytest
-from onnx import TensorProto
+from onnx import TensorProto, helper
 
 from ai4u_edu import (
     BasicAgent,
@@ -26,7 +28,7 @@ from ai4u_edu import (
     World,
     trained_brain,
 )
-from ai4u_edu.errors import BlockError, SetupError
+from ai4u_edu.errors import AI4UError, BlockError, SetupError
 from tests.training.networks import network
 
 
@@ -135,8 +137,6 @@ def test_nothing_but_onnx_is_loaded(tmp_path: Path, monkeypatch: pytest.MonkeyPa
 
 
 def test_no_weights_out_of_other_files(tmp_path: Path) -> None:
-    import onnx
-
     model = onnx.load(network(tmp_path / "a.onnx", {"heading": (2,)}))
     (tmp_path / "secret").write_bytes(b"\0" * 64)
     weights = model.graph.initializer[1]
@@ -147,6 +147,107 @@ def test_no_weights_out_of_other_files(tmp_path: Path) -> None:
     (tmp_path / "b.onnx").write_bytes(model.SerializeToString())
     with pytest.raises(BlockError, match="expected a network that onnxruntime can run"):
         sim_with(tmp_path / "b.onnx", HeadingSensor())
+
+
+def test_no_weights_out_of_the_current_folder(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    # nothing that onnxruntime computes beforehand: it would look for the file when it is loaded
+    weights = TensorProto(name="w", data_type=TensorProto.FLOAT, dims=[4])
+    weights.data_location = TensorProto.EXTERNAL
+    entry = weights.external_data.add()
+    entry.key, entry.value = "location", "secret"
+    nodes = [
+        helper.make_node("Cast", ["heading"], ["index"], to=TensorProto.INT64),
+        helper.make_node("Gather", ["w", "index"], ["found"]),
+        helper.make_node("Concat", ["found", "found"], ["move"], axis=1),
+    ]
+    file = built(tmp_path / "a.onnx", nodes, weights)
+    for folder in (tmp_path, tmp_path / "elsewhere"):
+        folder.mkdir(exist_ok=True)
+        monkeypatch.chdir(folder)
+        (folder / "secret").write_bytes(np.ones(4, np.float32).tobytes())
+        with pytest.raises(BlockError, match=r"NeuralNetController .*a\.onnx: expected a network"):
+            sim_with(file, HeadingSensor())
+
+
+def built(
+    path: Path,
+    nodes: list[onnx.NodeProto],
+    *weights: TensorProto,
+    output: tuple[int | str, ...] = ("batch", 4),
+) -> Path:
+    """A network from ``heading`` to ``move``."""
+    graph = helper.make_graph(
+        nodes,
+        "odd",
+        [helper.make_tensor_value_info("heading", TensorProto.FLOAT, ["batch", 2])],
+        [helper.make_tensor_value_info("move", TensorProto.FLOAT, output)],
+        weights,
+    )
+    model = helper.make_model(graph, opset_imports=[helper.make_opsetid("", 18)], ir_version=9)
+    path.write_bytes(model.SerializeToString())
+    return path
+
+
+def repeated() -> list[onnx.NodeProto]:
+    """The sum of as many zeros as the weight ``times`` says, times what comes in."""
+    return [
+        helper.make_node("Cast", ["heading"], ["whole"], to=TensorProto.INT64),
+        helper.make_node("ReduceMin", ["whole"], ["nothing"], keepdims=0),
+        helper.make_node("Mul", ["nothing", "zero"], ["zeros"]),
+        helper.make_node("Add", ["zeros", "times"], ["length"]),
+        helper.make_node("ConstantOfShape", ["length"], ["many"]),
+        helper.make_node("ReduceSum", ["many"], ["sum"], keepdims=1),
+        helper.make_node("Concat", ["heading", "heading"], ["four"], axis=1),
+        helper.make_node("Mul", ["sum", "four"], ["move"]),
+    ]
+
+
+def numbers(name: str, value: int) -> TensorProto:
+    return onnx.numpy_helper.from_array(np.array([value]), name)
+
+
+def test_a_network_that_wants_more_memory_than_there_is(tmp_path: Path) -> None:
+    file = built(tmp_path / "huge.onnx", repeated(), numbers("zero", 0), numbers("times", 2**50))
+    sim = sim_with(file, HeadingSensor())
+    sim.reset()
+    told = (
+        r"NeuralNetController '.*huge\.onnx': huge\.onnx: onnxruntime can't run this network: "
+        r".*; expected one that decides within the memory"
+    )
+    with pytest.raises(BlockError, match=told) as caught:
+        sim.agents[0].brain.decide(sim.agents[0].percept)
+    assert len(str(caught.value)) < 600
+    assert "onnxruntime_src" not in str(caught.value)
+
+
+def test_a_network_whose_output_is_other_than_its_file_says(tmp_path: Path) -> None:
+    nodes = [*repeated()[:4], helper.make_node("ConstantOfShape", ["length"], ["move"])]
+    sizes = onnx.numpy_helper.from_array(np.array([1, 3]), "times")
+    sim = sim_with(built(tmp_path / "b.onnx", nodes, numbers("zero", 0), sizes), HeadingSensor())
+    sim.reset()
+    with pytest.raises(BlockError, match=r"expected outputs of the shapes \[\(1, 4\)\]"):
+        sim.agents[0].brain.decide(sim.agents[0].percept)
+
+
+def test_a_network_of_more_numbers_than_any_sensor_gives(tmp_path: Path) -> None:
+    for shape in ((2**20, 2**20), (2**32, 2**32)):
+        file = network(tmp_path / "wide.onnx", {"heading": shape})
+        with pytest.raises(BlockError, match=r"wide\.onnx: 'heading' .* at most 16777216 numbers"):
+            sim_with(file, HeadingSensor())
+
+
+def test_a_damaged_file_is_told_of_whatever_is_wrong_with_it(tmp_path: Path) -> None:
+    data = network(tmp_path / "a.onnx", {"heading": (2,)}, about="{}").read_bytes()
+    for place in range(0, len(data), 7):
+        for byte in (0x00, 0xFF):
+            damaged = data[:place] + bytes([byte]) + data[place + 1 :]
+            (tmp_path / "a.onnx").write_bytes(damaged)
+            with suppress(AI4UError):  # some bytes make no difference
+                sim = sim_with(tmp_path / "a.onnx", HeadingSensor())
+                sim.reset()
+                sim.agents[0].brain.decide(sim.agents[0].percept)
 
 
 def test_files_that_are_not_as_they_should_be(tmp_path: Path) -> None:

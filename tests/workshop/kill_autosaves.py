@@ -12,7 +12,7 @@ import tempfile
 import time
 from pathlib import Path
 
-from ai4u_edu.workshop.autosave import latest
+from ai4u_edu.workshop.autosave import Autosave, latest
 
 SAVER = """
 import sys
@@ -58,6 +58,9 @@ def run(times: int, seed: int = 1, saver: str = SAVER) -> list[str]:
             if description.goal != f"{description.title} " * 100:
                 wrong.append(f"kill {number}: of two states")
             found += 1
+        Autosave(folder, "soccer").stop()  # the next start
+        left = [path.name for path in folder.iterdir() if path.suffix != ".unsaved"]
+        wrong += [f"{name} is left for ever" for name in left]
     print(f"{times} kills; {found} times there was something, {len(wrong)} times not whole")
     return wrong
 

@@ -1,5 +1,6 @@
 """Scenes that are kept by name in a folder, and never outside of it."""
 
+import threading
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
@@ -32,6 +33,23 @@ def test_a_scene_is_kept_and_found_again(shelf: Shelf) -> None:
     assert shelf.names() == ["My maze"]
     assert shelf.load("my MAZE") == scene("Touch it.")
     assert [path.name for path in shelf.folder.iterdir()] == ["My maze.yaml"]
+
+
+def test_two_servers_that_save_one_name_don_t_replace_each_other_s(tmp_path: Path) -> None:
+    shelves_of_servers = [Shelf(tmp_path) for _ in range(4)]  # each with a lock of its own
+    started = threading.Barrier(len(shelves_of_servers))
+
+    def save(number: int) -> str:
+        started.wait()
+        try:
+            return shelves_of_servers[number].save("Maze", scene(str(number)))
+        except TakenError as error:
+            return str(error)
+
+    with ThreadPoolExecutor(len(shelves_of_servers)) as pool:
+        told = sorted(pool.map(save, range(len(shelves_of_servers))))
+    assert told == ["'Maze' is there already"] * 3 + ["Maze"]
+    assert [path.name for path in tmp_path.iterdir()] == ["Maze.yaml"]
 
 
 def test_nothing_is_replaced_without_a_word(shelf: Shelf) -> None:

@@ -1,6 +1,8 @@
 """A trained network in a file: what goes in, what comes out, and where it was trained."""
 
 import json
+import math
+import re
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from contextvars import ContextVar
@@ -16,6 +18,15 @@ from ai4u_edu.extras import need
 
 LARGEST = 64 * 2**20
 """Bytes that a network's file may have."""
+
+MAX_PORT_NUMBERS = 2**24
+"""Numbers that one input or output may have; more is no reading and no action."""
+
+MAX_REASON_CHARS = 300
+"""Length of onnxruntime's own words in a message."""
+
+NO_PARTS = "session.model_external_initializers_file_folder_path"
+"""The setting that names the folder in which onnxruntime looks for parts of a network."""
 
 IN_THE_ZOO = "zoo:"
 """What a path begins with that names a scene's network of the package."""
@@ -112,22 +123,28 @@ class Network:
         # a network as small as a policy's is done before a second thread is awake
         options.intra_op_num_threads = options.inter_op_num_threads = 1
         options.log_severity_level = 4
-        # from bytes: then it can't have parts in other files
+        # a folder that can't be: all of a network is in its own file, and it reads no other one
+        options.add_session_config_entry(NO_PARTS, str(path.absolute() / "no parts"))
         data = _bytes_of(path)
         try:
             session = onnxruntime.InferenceSession(
-                data, options, providers=["CPUExecutionProvider"]
+                data, options, providers=["CPUExecutionProvider"], enable_fallback=0
             )
+            # names may be no text at all, which shows when they are read
+            self.inputs = [_port(each, path) for each in session.get_inputs()]
+            self.outputs = [_port(each, path) for each in session.get_outputs()]
+            entries = dict(session.get_modelmeta().custom_metadata_map)
+        except BlockError:
+            raise
         except Exception as error:  # its errors have no common base of their own
             raise BlockError(
-                f"{path.name}: expected a network that onnxruntime can run, got: {error}"
+                f"{path.name}: expected a network that onnxruntime can run, got: {_told(error)}"
             ) from None
         self._session = session
-        self.inputs = [_port(each, path) for each in session.get_inputs()]
-        self.outputs = [_port(each, path) for each in session.get_outputs()]
         self._names = [port.name for port in self.outputs]
         self._feeds = [(port.name, (1, *port.shape), port.dtype) for port in self.inputs]
-        self.about = _about(session.get_modelmeta().custom_metadata_map, path)
+        self._shapes = [(1, *port.shape) for port in self.outputs]
+        self.about = _about(entries, path)
         """Where it was trained; empty for a network from elsewhere."""
 
     @property
@@ -136,22 +153,50 @@ class Network:
         return {name: self.about[name] for name in RHYTHM if name in self.about}
 
     def decide(self, percept: Mapping[str, Any]) -> dict[str, npt.NDArray[Any]]:
-        """Its outputs by name, for one percept."""
-        feed = {
-            name: np.asarray(percept[name], dtype).reshape(shape)
-            for name, shape, dtype in self._feeds
-        }
-        answers = self._session.run(self._names, feed)
+        """Return the network's outputs by name, for one percept.
+
+        Raises:
+            BlockError: onnxruntime can't run it, as when it wants more memory than there is, or an
+                output has another shape than the file says.
+        """
+        try:
+            feed = {
+                name: np.asarray(percept[name], dtype).reshape(shape)
+                for name, shape, dtype in self._feeds
+            }
+            answers = self._session.run(self._names, feed)
+        except Exception as error:  # its errors have no common base of their own
+            raise BlockError(
+                f"{self.path.name}: onnxruntime can't run this network: {_told(error)}; expected "
+                "one that decides within the memory of this machine"
+            ) from None
+        shapes = [answer.shape for answer in answers]
+        if shapes != self._shapes:
+            raise BlockError(
+                f"{self.path.name}: expected outputs of the shapes {self._shapes}, as the file "
+                f"says, got {shapes}"
+            )
         return {name: answer[0] for name, answer in zip(self._names, answers, strict=True)}
 
 
 def _bytes_of(path: Path) -> bytes:
     try:
-        if path.stat().st_size > LARGEST:
-            raise BlockError(f"{path.name}: expected at most {LARGEST // 2**20} MB")
-        return path.read_bytes()
+        with path.open("rb") as file:
+            data = file.read(LARGEST + 1)
     except OSError as error:
         raise BlockError(f"{path}: can't be read: {error.strerror}") from None
+    if len(data) > LARGEST:
+        raise BlockError(f"{path.name}: expected at most {LARGEST // 2**20} MB")
+    return data
+
+
+def _told(error: Exception) -> str:
+    """Return onnxruntime's reason, without its codes and the places in its own source."""
+    text = " ".join(str(error).split())
+    text = re.sub(r"^\[ONNXRuntimeError\] : \d+ : \w+ : ", "", text)
+    text = re.sub(r"/\S*onnxruntime\S* (\S+ onnxruntime::\w+(::\w+)*\([^)]*\) )?", "", text)
+    text = text or type(error).__name__
+    return text if len(text) <= MAX_REASON_CHARS else text[: MAX_REASON_CHARS - 1] + "…"
 
 
 def _port(node: Any, path: Path) -> Port:
@@ -167,6 +212,11 @@ def _port(node: Any, path: Path) -> Port:
         )
     if not all(isinstance(length, int) for length in shape):
         raise BlockError(f"{path.name}: {node.name!r} has an axis without a length: {node.shape}")
+    if math.prod(shape) > MAX_PORT_NUMBERS:
+        raise BlockError(
+            f"{path.name}: {node.name!r} has the shape {tuple(shape)}; expected at most "
+            f"{MAX_PORT_NUMBERS} numbers"
+        )
     return Port(node.name, tuple(shape), np.dtype(DTYPES[node.type]))
 
 

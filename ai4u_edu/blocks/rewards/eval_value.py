@@ -4,7 +4,7 @@ from ai4u_edu.blocks.agent_view import AgentView
 from ai4u_edu.blocks.rewards.properties import find_property
 from ai4u_edu.blocks.rewards.reward_func import RewardFunc
 from ai4u_edu.errors import BlockError
-from ai4u_edu.parameters import Number
+from ai4u_edu.parameters import Number, WholeNumber
 from ai4u_edu.world import BodyView, WorldView
 
 
@@ -67,9 +67,9 @@ class EvalIntValue(EvalValue):
     Source: AI4U's EvalIntValue.
     """
 
-    min_value: int
+    min_value: WholeNumber
     """Smallest whole number that fits."""
-    max_value: int
+    max_value: WholeNumber
     """Largest whole number that fits; not below min_value."""
 
     def __post_init__(self) -> None:

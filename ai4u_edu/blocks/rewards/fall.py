@@ -6,7 +6,7 @@ from pydantic import Field
 
 from ai4u_edu.blocks.agent_view import AgentView
 from ai4u_edu.blocks.rewards.reward_func import RewardFunc
-from ai4u_edu.parameters import Metres, quantity
+from ai4u_edu.parameters import MAX_COUNT, Metres, quantity
 from ai4u_edu.world import BodyView, WorldView
 
 
@@ -27,7 +27,7 @@ class FallReward(RewardFunc):
     """Amount for a decision after which it is below the threshold."""
     fail_reward: Annotated[float, quantity("")] = 0.0
     """Amount for every other decision."""
-    max_rewards: Annotated[int, Field(ge=1)] = 1
+    max_rewards: Annotated[int, Field(ge=1, le=MAX_COUNT)] = 1
     """Most payments of success_reward in an episode."""
 
     def on_reset(self, agent: AgentView, view: WorldView) -> None:

@@ -12,7 +12,7 @@ from ai4u_edu.blocks.groups import check_groups
 from ai4u_edu.blocks.sensors.ray_sensor import Code
 from ai4u_edu.blocks.sensors.sensor import Array, Sensor
 from ai4u_edu.errors import BlockError, NameNotFoundError, suggest
-from ai4u_edu.parameters import Name, PositiveMetres
+from ai4u_edu.parameters import MAX_COUNT, Name, PositiveMetres
 from ai4u_edu.world import BodyView, WorldView
 
 
@@ -51,7 +51,7 @@ class AreaOrientationSensor(Sensor):
     group_code: dict[Name, Code] = Field(default_factory=dict)
     """Code of each group (tag), 0..max_code_value; without a code a body reads 0. Of a body with
     several tags, the first one that has a code counts."""
-    max_code_value: Annotated[int, Field(ge=1)] = 100
+    max_code_value: Annotated[int, Field(ge=1, le=MAX_COUNT)] = 100
     """Code that reads as 1; no code may be larger."""
     visibility_test: bool = True
     """True hides a body behind whatever stands in between."""

@@ -8,6 +8,7 @@ from pydantic import Field
 
 from ai4u_edu.blocks.agent_view import AgentView
 from ai4u_edu.blocks.groups import check_groups
+from ai4u_edu.blocks.sensors.memory import check_memory
 from ai4u_edu.blocks.sensors.pictures import ChannelLegend
 from ai4u_edu.blocks.sensors.plan import VOID, Plan
 from ai4u_edu.blocks.sensors.sensor import Array, Sensor
@@ -65,6 +66,7 @@ class LocalGridSensor(Sensor):
 
     def __post_init__(self) -> None:
         super().__post_init__()
+        check_memory(self, (self.height, self.width, len(self.channels)))
         for index, channel in enumerate(self.channels):
             if channel in self.channels[:index]:
                 raise BlockError(

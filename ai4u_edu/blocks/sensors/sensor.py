@@ -15,6 +15,7 @@ from pydantic import Field
 
 from ai4u_edu.blocks.block import Block, default_name
 from ai4u_edu.blocks.percept import DTYPES, TEXTS
+from ai4u_edu.blocks.sensors.memory import check_memory
 from ai4u_edu.blocks.sensors.pictures import Legend, SpotPicture
 from ai4u_edu.errors import BlockError, ReadingError, suggest
 from ai4u_edu.parameters import quantity
@@ -179,6 +180,7 @@ class Sensor(Block):
         if not isinstance(space, spaces.Box):
             return space
         low, high = space.low, space.high
+        check_memory(self, low.shape)
         if self.normalized:
             low, high = (
                 each if self.says_nothing(each) else np.asarray(each / self.scale())

@@ -9,7 +9,7 @@ from pydantic import Field
 from ai4u_edu.blocks.agent_view import AgentView
 from ai4u_edu.blocks.sensors.sensor import Array, Sensor
 from ai4u_edu.errors import BlockError, suggest
-from ai4u_edu.parameters import quantity
+from ai4u_edu.parameters import MAX_COUNT, quantity
 from ai4u_edu.world import BodyView, WorldView
 
 LARGEST = 2**31 - 1
@@ -101,7 +101,7 @@ class StepSensor(StatusSensor):
     """
 
     perception_key: str = "steps"
-    max_size: Annotated[int, Field(ge=1)] = 300
+    max_size: Annotated[int, Field(ge=1, le=MAX_COUNT)] = 300
     """Count of decisions that a normalised reading shows as 1."""
 
     @property

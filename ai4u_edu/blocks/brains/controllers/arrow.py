@@ -80,7 +80,7 @@ class ArrowController(Controller):
     """Meaning of each number of the action, in order; left out: as the actuator takes them."""
     extra_keys: list[Keys] = Field(default_factory=list)
     """For each extra action, the keys that set it while one of them is held."""
-    extra_actions_index: list[Annotated[int, Field(ge=0)]] = Field(default_factory=list)
+    extra_actions_index: list[Annotated[int, Field(ge=0, le=1023)]] = Field(default_factory=list)
     """For each extra action, the place in the action that it sets, counted from 0."""
     extra_actions_value: list[Number] = Field(default_factory=list)
     """For each extra action, the number that it sets there."""

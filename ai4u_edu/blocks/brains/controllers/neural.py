@@ -1,9 +1,10 @@
 """A trained network drives."""
 
+import math
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
-
-import numpy as np
 
 from ai4u_edu.blocks.agent_view import AgentView
 from ai4u_edu.blocks.brains.command import Answer, Command
@@ -48,12 +49,15 @@ class NeuralNetController(Controller):
     def network(self) -> Network:
         """The network; loaded when it is needed first."""
         if self._network is None:
-            self._network = Network(find_network(self.model_path, self._folder))
+            with self._named():
+                self._network = Network(find_network(self.model_path, self._folder))
         return self._network
 
     def reload(self) -> None:
         """Reads the file anew; the network in it has the same inputs and outputs as before."""
-        self._network = Network(self.network.path)
+        path = self.network.path
+        with self._named():
+            self._network = Network(path)
 
     def on_setup(self, agent: AgentView, view: WorldView) -> None:
         """Loads the network, and checks that it fits the agent's sensors and actuators."""
@@ -76,7 +80,7 @@ class NeuralNetController(Controller):
                     f"the network {name} drives an actuator {target!r}, and agent {agent.id!r} "
                     f"has none of that name; {suggest(target, actuators)}"
                 )
-            takes, gives = len(actuators[target].limits()[0]), int(np.prod(port.shape))
+            takes, gives = len(actuators[target].limits()[0]), math.prod(port.shape)
             if takes != gives:
                 raise BlockError(
                     f"the network {name} gives {gives} numbers for {target!r}, and that actuator "
@@ -87,8 +91,23 @@ class NeuralNetController(Controller):
         """What the network says."""
         if self.repeat and percept["done"]:
             return Command.RESTART
-        outputs = self.network.decide(percept)
+        network = self.network
+        try:
+            outputs = network.decide(percept)
+        except BlockError as error:
+            raise self._named_error(error) from None
         return {target: outputs[name] for name, target in self._targets}
+
+    @contextmanager
+    def _named(self) -> Iterator[None]:
+        """Say in errors which block they come from."""
+        try:
+            yield
+        except BlockError as error:
+            raise self._named_error(error) from None
+
+    def _named_error(self, error: BlockError) -> BlockError:
+        return BlockError(f"{type(self).__name__} {self.model_path!r}: {error}")
 
 
 def _misfit(port: Port, sensors: dict[str, Sensor], about: dict[str, Any]) -> str:

@@ -1,0 +1,70 @@
+"""The cost of hundreds of walls on one spot: ``python -m tests.benchmarks.many_walls``.
+
+Walls may overlap. What is in a new wall's way is looked for among the bodies that can move; before,
+the physics answered with all walls, of which there were more each time. Both ways are timed in one
+run, in turn, and have to find the same.
+"""
+
+import time
+from collections.abc import Callable
+from typing import Any
+
+from ai4u_edu.scenes import Scene
+from ai4u_edu.scenes.yaml_file import write_yaml
+from ai4u_edu.world import overlap, world
+
+WALLS = 499
+TIMES = 3
+
+
+def query(space_world: Any, body: Any) -> Any:
+    """The former way: whatever the physics finds."""
+    for shape in body._shapes:
+        for hit in space_world.space.shape_query(shape):
+            other = space_world.owners.get(hit.shape)
+            if other is None or other is body or not (body.moves or other.moves):
+                continue
+            found = [point.distance for point in hit.contact_point_set.points]
+            level = overlap._level(body, other)
+            if level and overlap.overlap(shape, body._pm, hit.shape, other._pm, found):
+                return other
+    return None
+
+
+def walls(count: int = WALLS) -> str:
+    """A scene with so many bodies, nearly all of them walls on one spot."""
+    plain = Scene.load("box_chase").plain()
+    plain["bodies"] = list(plain["bodies"])
+    while len(plain["bodies"]) < count:
+        wall = {"shape": {"type": "box", "size": [1, 1]}, "kind": "static", "position": [5, 5]}
+        plain["bodies"].append({"name": f"wall {len(plain['bodies'])}", **wall})
+    return write_yaml(plain)
+
+
+def timed(text: str, way: Callable[[Any, Any], Any]) -> float:
+    """Seconds of processor time to load the scene, run 40 ticks, and dump it."""
+    before = vars(world)["in_the_way"]
+    vars(world)["in_the_way"] = way
+    try:
+        began = time.process_time()
+        scene = Scene.loads(text)
+        sim = scene.build()
+        sim.reset(1)
+        for _ in range(40):
+            sim.tick()
+        scene.dumps()
+        return time.process_time() - began
+    finally:
+        vars(world)["in_the_way"] = before
+
+
+def main() -> None:
+    """Prints the least of some times, for both ways."""
+    text = walls()
+    both = [(timed(text, query), timed(text, overlap.in_the_way)) for _ in range(TIMES)]
+    asked, now = (min(times) for times in zip(*both, strict=True))
+    print(f"{WALLS} walls on one spot: load, 40 ticks, dump: {asked:.2f} s, now {now:.2f} s")
+
+
+if __name__ == "__main__":
+    main()
