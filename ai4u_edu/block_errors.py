@@ -5,7 +5,10 @@ from collections.abc import Iterable
 from ai4u_edu.agent import BasicAgent
 from ai4u_edu.block_frames import calls_of_error, find_place
 from ai4u_edu.blocks import RemoteBrain
-from ai4u_edu.errors import BlockError
+from ai4u_edu.errors import AI4UError, BlockError, shorten
+
+MAX_SENTENCE_CHARS = 1000
+"""A block may raise an error with a text of any length; it is kept, logged and sent to pages."""
 
 
 def sentence_of(error: BaseException, agents: Iterable[BasicAgent] = ()) -> str:
@@ -19,12 +22,26 @@ def sentence_of(error: BaseException, agents: Iterable[BasicAgent] = ()) -> str:
     'ValueError: no idea'
     """
     notes = "".join(f" ({note})" for note in getattr(error, "__notes__", ()))
-    sentence = f"{type(error).__name__}: {error}{notes}"
+    text = shorten(str(error), MAX_SENTENCE_CHARS - min(len(notes), MAX_SENTENCE_CHARS // 2))
+    sentence = f"{type(error).__name__}: {text}{shorten(notes, MAX_SENTENCE_CHARS // 2)}"
     if isinstance(error, Exception):
         return sentence
     place = find_place(calls_of_error(error.__traceback__), agents)
     where = f", {place.where}" if place.where else ""
     return f"{sentence.removesuffix(': ')} (raised by {place}{where})"
+
+
+def message_of(error: BaseException) -> str:
+    """Tell an error to the person whose wish it kept from being done.
+
+    >>> message_of(BlockError("no body is called 'bxo'"))
+    "no body is called 'bxo'"
+    >>> message_of(ValueError("no idea"))
+    'ValueError: no idea'
+    """
+    if isinstance(error, AI4UError):
+        return shorten(str(error), MAX_SENTENCE_CHARS)
+    return sentence_of(error)
 
 
 def storable(error: BaseException, agents: Iterable[BasicAgent] = ()) -> Exception:

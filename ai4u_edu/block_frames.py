@@ -9,6 +9,7 @@ from pathlib import Path
 from types import FrameType, TracebackType
 
 from ai4u_edu.agent import BasicAgent
+from ai4u_edu.agent.events import Event
 from ai4u_edu.blocks import Actuator, Brain, Controller, RewardFunc, Sensor
 from ai4u_edu.blocks.block import Block
 
@@ -26,10 +27,11 @@ MAX_NAME_CHARS = 80
 
 @dataclass(frozen=True, slots=True)
 class Place:
-    """The block and the line that some frames are in."""
+    """The block, or the event's handler, and the line that some frames are in."""
 
     block: str
-    """Kind, class and name, such as ``Sensor WallDistance 'wall'``; empty outside all blocks."""
+    """Kind, class and name, such as ``Sensor WallDistance 'wall'``, or ``Handler of end_of_step``;
+    empty outside all of them."""
     agent: str
     """The id of the block's agent; empty if it is not known."""
     where: str
@@ -63,21 +65,23 @@ def find_place(calls: Sequence[tuple[FrameType, int]], agents: Iterable[BasicAge
         calls: frames and their current lines, outermost call first.
         agents: of the world that runs; one of them may own the block.
     """
-    first, block = 0, None
-    for index, (frame, _) in enumerate(calls):
-        owner = _first_argument(frame)
-        if isinstance(owner, Block):
-            first, block = index, owner
-            break
+    owners = [_first_argument(frame) for frame, _ in calls]
+    first = next((n for n, each in enumerate(owners) if isinstance(each, Block)), None)
+    if first is None:  # a handler of a block's own is that block's
+        first = next((n for n, each in enumerate(owners) if isinstance(each, Event)), 0)
+    owner = owners[first] if owners else None
     inner = calls[first:]
     own = [call for call in inner if _is_users(call[0])]
     frame_and_line = (own or inner)[-1:]
     where = "".join(
         f"{Path(frame.f_code.co_filename).name}, line {line}" for frame, line in frame_and_line
     )
-    if block is None:
+    if isinstance(owner, Event):
+        agent = calls[first][0].f_locals.get("agent")
+        return Place(f"Handler of {owner.name}", getattr(agent, "id", ""), where)
+    if not isinstance(owner, Block):
         return Place("", "", where)
-    return Place(describe(block), _agent_of(block, agents, calls[:first]), where)
+    return Place(describe(owner), _agent_of(owner, agents, calls[:first]), where)
 
 
 def calls_of_thread(thread_id: int) -> list[tuple[FrameType, int]]:

@@ -5,6 +5,7 @@ from typing import Any
 
 from viser import ClientHandle
 
+from ai4u_edu.block_errors import message_of
 from ai4u_edu.runner import Runner
 from ai4u_edu.stall_monitor import Stall
 
@@ -22,7 +23,8 @@ def ask(client: ClientHandle | None, runner: Runner, future: "Future[Any]") -> N
     def tell(done: "Future[Any]") -> None:
         error = None if done.cancelled() else done.exception()
         if error is not None and client is not None:
-            client.add_notification("That didn't work", str(error), auto_close_seconds=8.0)
+            text = message_of(error)
+            client.add_notification("That didn't work", text, auto_close_seconds=8.0)
 
     future.add_done_callback(tell)
 

@@ -6,6 +6,7 @@ from typing import Any
 
 from viser import GuiButtonGroupHandle, GuiButtonHandle, GuiDropdownHandle, GuiEvent
 
+from ai4u_edu.block_errors import message_of
 from ai4u_edu.errors import AI4UError
 from ai4u_edu.parameters import Problem
 from ai4u_edu.snapshot import Snapshot
@@ -239,7 +240,7 @@ class BlocksTab:
                     error.problems,
                 )
             elif error is not None:
-                self._message = str(error)
+                self._message = message_of(error)
 
         future.add_done_callback(tell)
 

@@ -14,6 +14,7 @@ from viser import (
     GuiUploadButtonHandle,
 )
 
+from ai4u_edu.block_errors import message_of
 from ai4u_edu.errors import AI4UError
 from ai4u_edu.parameters import Problem
 from ai4u_edu.scenes import Scene
@@ -293,7 +294,7 @@ class WorldTab:
             else:
                 if of_form and isinstance(error, ChangeError):
                     self._problems = error.problems
-                self._tell(str(error), is_wrong=True)
+                self._tell(message_of(error), is_wrong=True)
 
         future.add_done_callback(tell)
 

@@ -125,7 +125,8 @@ class NativeSession(RuleBasedStateMachine):
     async def _make(self) -> None:
         world: Any = _World()
         excerpt: Any = _Excerpt()
-        self.session = Session(excerpt, world, lambda reason: None)
+        self.session = Session(world, lambda reason: None)
+        self.session.excerpt = excerpt
 
     @initialize()
     def come(self) -> None:

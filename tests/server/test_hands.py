@@ -93,7 +93,7 @@ def test_a_page_that_lets_go_and_leaves_at_once_gives_back(room: Room) -> None:
         page.say("let_go")
         page.say("nonsense")
         page.hear("error")
-        waiting = len(room.runner._commands)
+        waiting = len(room.runner._queue)
     may_go.set()
     until(lambda: brain_of(room) == "LocalBrain(ScriptController)")
     assert waiting < 5

@@ -59,21 +59,15 @@ class Seat:
         self._before: Brain | None = None
         self.is_claimed = asyncio.Event()
         """Whether it is settled that the agent is the script's, or can't be."""
-        try:
-            excerpt = Excerpt(agent, hello.keys)
-        except NameNotFoundError as error:
-            raise RefusalError("unknown_key", str(error)) from None
         alone = len(runner.sim.agents) == 1
         if hello.mode == "lockstep":
             _check_lockstep(rules, len(runner.sim.agents))
         self.session = Session(
-            excerpt,
             runner,
             self._taken_away,
             may_seed=alone or rules.seeded_resets,
             post=post,
         )
-        self._readings = excerpt.readings
         self.welcome = b""
 
     @property
@@ -82,9 +76,20 @@ class Seat:
         return self.session.line
 
     async def claim(self, title: str) -> None:
-        """Takes the agent's brain's place."""
+        """Takes the agent's brain's place.
 
-        def take() -> None:
+        All that is said of the agent is looked up in the runner's thread, since somebody may change
+        its blocks just now.
+
+        Raises:
+            RefusalError: it can't be taken.
+        """
+
+        def take() -> bytes:
+            try:
+                self.session.excerpt = Excerpt(self.agent, self._hello.keys)
+            except NameNotFoundError as error:
+                raise RefusalError("unknown_key", str(error)) from None
             self._before = before = self.agent.brain
             self._brain = RemoteBrain.over(
                 self.session,
@@ -95,10 +100,13 @@ class Seat:
                 repeat_action=before.repeat_action,
             )
             self.agent.use_brain(self._brain)
+            return self._welcome(title)
 
         try:
-            await asyncio.wrap_future(self._runner.submit(take))
-            self.welcome = self._welcome(title)
+            self.welcome = await asyncio.wrap_future(self._runner.submit(take))
+        except RefusalError as refusal:
+            self.leave(str(refusal))
+            raise
         except (AI4UError, asyncio.CancelledError) as error:
             self.leave("it could not be taken")
             raise RefusalError("ended", f"the agent can't be taken now ({error})") from None
@@ -151,7 +159,7 @@ class Seat:
                 max_steps=agent.max_steps_per_episode,
                 rewards=tuple(reward.name for reward in agent.fitting.rewards),
                 success=self._runner.sim.success,
-                readings=self._readings,
+                readings=self.session.excerpt.readings,
                 outputs=tuple(
                     output_of(name, each) for name, each in agent.fitting.actuators.items()
                 ),

@@ -24,7 +24,6 @@ class Session:
     """One script at one agent, over however many connections.
 
     Args:
-        excerpt: the readings that it wants.
         runner: the room's.
         on_close: called in the loop when the agent's brain is closed.
         may_seed: whether a reset may have a seed, which resets the whole world.
@@ -33,7 +32,6 @@ class Session:
 
     def __init__(
         self,
-        excerpt: Excerpt,
         runner: Runner,
         on_close: Callable[[str], None],
         *,
@@ -44,7 +42,8 @@ class Session:
         self.reason = ""
         self.ignored = 0
         self.heard = 0.0
-        self._excerpt = excerpt
+        self.excerpt: Excerpt
+        """The readings that the script wants; set in the runner's thread, before it is told any."""
         self._runner = runner
         self._post = post or Post()
         self._on_close = on_close
@@ -218,7 +217,7 @@ class Session:
             self._terms[name] = self._terms.get(name, 0.0) + amount
 
     def _tell(self, situation: Situation) -> None:
-        data, texts = self._excerpt.of(situation.percept)
+        data, texts = self.excerpt.of(situation.percept)
         frame = native.encode(
             native.Percept(
                 episode=situation.episode,

@@ -1,0 +1,76 @@
+"""Blocks that raise, exit, flood or never return: the world says so, and all else goes on."""
+
+import threading
+from collections.abc import Callable, Iterator
+
+import pytest
+
+from ai4u_edu import stall_monitor
+from ai4u_edu.block_errors import message_of
+from ai4u_edu.runner import Runner
+from tests.attacks.hostile import HOOKS, MISDEEDS, Misdeed, divide, exit_process, hostile_sim
+from tests.server.rooms import until
+
+
+def wait_for(event: threading.Event) -> None:
+    assert event.wait(30)
+
+
+@pytest.fixture(autouse=True)
+def disarmed() -> Iterator[None]:
+    yield
+    Misdeed.is_armed = False
+
+
+@pytest.fixture
+def runner(hook: str) -> Iterator[Runner]:
+    runner = Runner(hostile_sim(hook), seed=1)
+    runner.start()
+    yield runner
+    Misdeed.is_armed = False
+    runner.stop()
+
+
+@pytest.mark.parametrize(
+    ("hook", "misdeed"),
+    [(hook, each) for hook in HOOKS for each in (divide, exit_process)]
+    + [("sensor.read", each) for each in MISDEEDS],
+)
+def test_a_misdeed_is_told_and_a_reset_mends_it(
+    runner: Runner, misdeed: Callable[[], None]
+) -> None:
+    until(lambda: runner.latest.tick > 1)
+    Misdeed.misdeed, Misdeed.is_armed = staticmethod(misdeed), True
+    first = runner.reset()
+    until(lambda: first.done() and (first.exception() or runner.latest.error))
+    refused = first.exception()
+    error = runner.latest.error if refused is None else message_of(refused)
+    assert len(error) < 4000
+    assert "'red'" in error
+    assert "Hostile" in error or "andler" in error
+    runner.pause().result(5)  # commands go on meanwhile
+    runner.resume().result(5)
+    Misdeed.is_armed = False
+    runner.reset().result(5)
+    until(lambda: runner.latest.tick > 1)
+    assert not runner.latest.error
+
+
+@pytest.mark.parametrize("hook", HOOKS)
+def test_a_block_that_does_not_return_is_named_until_it_does(
+    runner: Runner, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(stall_monitor, "STALL_S", 0.1)
+    until(lambda: runner.latest.tick > 1)
+    release = threading.Event()
+    Misdeed.misdeed, Misdeed.is_armed = staticmethod(lambda: wait_for(release)), True
+    runner.reset()
+    try:
+        until(lambda: "'red'" in str(runner.stall))
+        assert "Hostile" in str(runner.stall) or "Handler of" in str(runner.stall)
+    finally:
+        Misdeed.is_armed = False
+        release.set()
+    until(lambda: runner.stall is None)
+    tick = runner.latest.tick
+    until(lambda: runner.latest.tick != tick)
