@@ -34,6 +34,8 @@ def parameters(command: str) -> dict[str, tuple[Any, Any, inspect.Parameter]]:
     hints = get_type_hints(function, include_extras=True)
     found = {}
     for name, parameter in inspect.signature(function).parameters.items():
+        if hints[name] is typer.Context:
+            continue
         kind, told = get_args(hints[name])
         # in an annotation Typer takes the first name for a default
         words = [

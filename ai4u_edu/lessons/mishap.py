@@ -22,9 +22,9 @@ def told(error: BaseException) -> str:
     Your code stopped with ZeroDivisionError: division by zero (line 2 of its cell).
     """
     line = _line(error)
+    if line:  # it says more than the notes about which block was asked
+        return f"Your code stopped with {type(error).__name__}: {error} ({line})."
     notes = "".join(f" ({note})" for note in getattr(error, "__notes__", ()))
-    if line:
-        return f"Your code stopped with {type(error).__name__}: {error}{notes} ({line})."
     if isinstance(error, AI4UError):
         return f"It could not be put together or run: {error}{notes}"
     return ""

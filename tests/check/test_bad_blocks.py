@@ -496,7 +496,7 @@ class Fee(RewardFunc):
         return -abs(body.position[0])
 
 
-class Words(Fee):
+class PaysWords(Fee):
     """Pays in words."""
 
     def on_update(self, body: Any, view: Any) -> Any:
@@ -542,10 +542,10 @@ class Flat(Fee):
         (Fee(), {}),
         (Fee(cause_episode_to_end=True), {}),
         (
-            Words(),
+            PaysWords(),
             {
                 "runs": "expected 20 decisions without an error, got ReadingError: agent '0', "
-                "Words 'words': expected a number from on_update, got 'a lot'"
+                "PaysWords 'pays_words': expected a number from on_update, got 'a lot'"
             },
         ),
         (

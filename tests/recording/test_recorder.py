@@ -9,6 +9,7 @@ from typing import Any
 import pytest
 
 from ai4u_edu import (
+    episode_commands,
     BasicAgent,
     BearingSensor,
     BoxShape,
@@ -178,9 +179,8 @@ def test_a_full_disk_stops_no_world_and_refuses_no_reset(
     sim, scene = chase()
     recorder = recorder_into(tmp_path, sim, scene)
     runner = Runner(sim, seed=1, recorder=recorder)
-    save = Episode.save
 
-    def full(episode: Episode, path: str | Path) -> Path:
+    def full(path: Path, *_: Any, **__: Any) -> None:
         raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC), str(path))
 
     def drive_and_reset(seed: int) -> None:
@@ -189,14 +189,14 @@ def test_a_full_disk_stops_no_world_and_refuses_no_reset(
         runner.advance()
         asked.result(0)
 
-    monkeypatch.setattr(Episode, "save", full)
+    monkeypatch.setattr(episode_commands, "write_atomically", full)
     for seed in (2, 3, 4):
         drive_and_reset(seed)
         assert "No space left on device" in recorder.save_problem
     assert runner.error == ""
     assert [each.seed for each in recorder.episodes] == [1, 2, 3]
     assert list(tmp_path.iterdir()) == []
-    monkeypatch.setattr(Episode, "save", save)
+    monkeypatch.undo()
     drive_and_reset(5)
     assert recorder.save_problem == ""
     assert [file.name for file in tmp_path.iterdir()] == ["box_chase-4.episode"]
@@ -218,7 +218,7 @@ def test_a_folder_that_was_removed_is_made_anew(tmp_path: Path) -> None:
 def test_a_folder_that_can_not_be_made_is_told(tmp_path: Path) -> None:
     sim, scene = chase()
     (tmp_path / "file").touch()
-    with pytest.raises(SetupError, match="expected a folder that can be made, or is there"):
+    with pytest.raises(SetupError, match="expected a folder for recorded episodes"):
         recorder_into(tmp_path / "file" / "kept", sim, scene)
 
 

@@ -130,16 +130,17 @@ def flood(script: Script, late: native.Percept, times: int = 3 * PER_SECOND) -> 
 
 def test_a_seated_script_that_floods_is_sent_away_and_may_come_back() -> None:
     with log_room(2, grace=5.0, receive_timeout=5000) as room:
-        with Script(room) as script, connect(room.url, "b", mode="lockstep") as other:
+        with Script(room) as script:
             welcome = script.hello()
             assert isinstance(welcome, native.Welcome)
-            late = script.percept()
-            script.act(late, 1)
-            ended: list[tuple[int, str]] = []
-            flooding = threading.Thread(target=lambda: ended.append(flood(script, late)))
-            flooding.start()
-            other.sense()
-            flooding.join(10)
+            late = script.percept()  # before the other one has the world wait
+            with connect(room.url, "b", mode="lockstep") as other:
+                script.act(late, 1)
+                ended: list[tuple[int, str]] = []
+                flooding = threading.Thread(target=lambda: ended.append(flood(script, late)))
+                flooding.start()
+                other.sense()
+                flooding.join(10)
             assert ended == [(native.PROBLEMS["too_fast"], FLOODED)]
         with Script(room) as script:
             assert script.hello(session=welcome.session) == welcome
