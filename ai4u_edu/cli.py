@@ -123,6 +123,7 @@ def play(
             help="Connections from one address, at most; each page has two. This machine's own "
             "are not counted.",
             min=1,
+            max=100_000,
         ),
     ] = 120,
     seeded_resets: Annotated[

@@ -9,7 +9,7 @@ MULTI_AGENT = [name for name in SCENES if len(Scene.load(name).description.agent
 
 def without_blocks(kind: str) -> Scene:
     """box_chase without its sensors, or without its actuators."""
-    plain = {**Scene.load("box_chase").plain(), "success": ""}
+    plain = {**Scene.load("box_chase").plain(), "success": None}
     agent = dict(plain["agents"][0], rewards=[])
     if kind == "actuators":
         agent["sensors"] = [agent["sensors"][1]]
