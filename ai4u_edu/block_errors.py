@@ -1,5 +1,6 @@
 """Errors of blocks, in words: a student's block may raise anything, ``SystemExit`` too."""
 
+import threading
 from collections.abc import Iterable
 
 from ai4u_edu.agent import BasicAgent
@@ -55,6 +56,12 @@ def storable(error: BaseException, agents: Iterable[BasicAgent] = ()) -> Excepti
     handed_on = BlockError(sentence_of(error, agents))
     handed_on.__cause__ = error
     return handed_on
+
+
+def may_be_kept(error: BaseException) -> bool:
+    """Return True unless it is Ctrl-C's or an exit's of the main thread, which has to end."""
+    on_main = threading.current_thread() is threading.main_thread()
+    return isinstance(error, Exception) or not on_main
 
 
 def reason_for_no_decision(agent: BasicAgent) -> str:

@@ -1,8 +1,10 @@
 """A world in which recorded actions are taken again, by the same decision cycle."""
 
 from collections.abc import Callable, Mapping
+from functools import partial
 from typing import Any, cast
 
+from ai4u_edu.block_errors import may_be_kept, sentence_of
 from ai4u_edu.blocks import Answer, Brain, Command, Percept
 from ai4u_edu.cycle import ControlRequestor
 from ai4u_edu.errors import AI4UError
@@ -78,12 +80,15 @@ class Player:
         """How many decisions of each agent were taken again."""
         self.restarted = 0
         """How many of the recorded restarts happened again."""
-        self.sim.reset(self.episode.seed)
+        self._guard(partial(self.sim.reset, self.episode.seed))
 
     def go_on(self, *, tick_by_tick: bool = False) -> None:
         """One thing more happens: a restart, or a tick, or (where that is the same) a decision."""
         if self._on_step is not None:
             self._on_step()
+        self._guard(partial(self._happen, tick_by_tick=tick_by_tick))
+
+    def _happen(self, *, tick_by_tick: bool) -> None:
         if self._restart_is_due():
             self._restart()
             return
@@ -142,6 +147,20 @@ class Player:
         if ahead is not None and self.episode.restarts[self.restarted].tick == ticks:
             return Command.HOLD
         return Command.WAIT
+
+    def _guard(self, happen: Callable[[], None]) -> None:
+        """Let something happen; a block may raise anything, and who plays again catches our errors.
+
+        Raises:
+            RecordingError: a block failed.
+        """
+        try:
+            happen()
+        except BaseException as error:
+            if isinstance(error, AI4UError) or not may_be_kept(error):
+                raise
+            told = f"a block failed: {sentence_of(error, self.sim.agents)}"
+            raise RecordingError(told) from error
 
     def _restart_is_due(self) -> bool:
         """Whether it is time, and all that was decided before was decided."""

@@ -7,6 +7,7 @@ from concurrent.futures import Future
 from dataclasses import dataclass, field
 from threading import Lock, Thread
 
+from ai4u_edu.block_errors import storable
 from ai4u_edu.errors import AI4UError
 from ai4u_edu.recording import Episode
 
@@ -115,8 +116,8 @@ class Exports:
                 data = self._make(job.episode, job.ending, job.check)
             except StoppedError:
                 continue
-            except Exception as error:  # a student's block may raise anything
-                self._finish(job, error)
+            except BaseException as error:  # else all who come later would wait for ever
+                self._finish(job, storable(error))
             else:
                 self._finish(job, data)
 

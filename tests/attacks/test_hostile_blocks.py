@@ -1,5 +1,6 @@
 """Blocks that raise, exit, flood or never return: the world says so, and all else goes on."""
 
+import asyncio
 import threading
 from collections.abc import Callable, Iterator
 
@@ -7,7 +8,10 @@ import pytest
 
 from ai4u_edu import stall_monitor
 from ai4u_edu.block_errors import message_of
+from ai4u_edu.errors import AI4UError
+from ai4u_edu.recording import Recorder, RecordingError, Replay
 from ai4u_edu.runner import Runner
+from ai4u_edu.server.exports import Exports
 from tests.attacks.hostile import HOOKS, MISDEEDS, Misdeed, divide, exit_process, hostile_sim
 from tests.server.rooms import until
 
@@ -74,3 +78,43 @@ def test_a_block_that_does_not_return_is_named_until_it_does(
     until(lambda: runner.stall is None)
     tick = runner.latest.tick
     until(lambda: runner.latest.tick != tick)
+
+
+@pytest.mark.parametrize("misdeed", [divide, exit_process])
+@pytest.mark.parametrize("hook", ["sensor.read", "actuator.act"])
+def test_a_replay_and_a_download_end_with_a_sentence(
+    hook: str, misdeed: Callable[[], None]
+) -> None:
+    sim = hostile_sim(hook)
+    recorder = Recorder(sim)
+    sim.reset(1)
+    for _ in range(5):
+        sim.step()
+    recorder.finish()
+    (episode,) = recorder.episodes
+    replay = Replay(episode)
+    Misdeed.misdeed, Misdeed.is_armed = staticmethod(misdeed), True
+    told: list[BaseException] = []
+
+    def play() -> None:  # as the page's timeline does, in a thread of its own
+        try:
+            replay.at(4)
+        except RecordingError as error:
+            told.append(error)
+
+    playing = threading.Thread(target=play)
+    playing.start()
+    playing.join(10)
+    assert "Hostile" in str(told)
+
+    def make(*_: object) -> bytes:
+        Misdeed.misdeed()
+        return b""
+
+    async def download() -> None:
+        files = Exports(make)
+        for _ in range(2):  # the first one takes nothing from the second one
+            with pytest.raises((AI4UError, ZeroDivisionError)):
+                await asyncio.wait_for(files.get(episode, "gif"), 10)
+
+    asyncio.run(download())
