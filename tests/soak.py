@@ -6,17 +6,24 @@ fifth: by more than five per cent, or, in a run of half an hour or more, by more
 """
 
 import argparse
+import json
 import random
 import statistics
 import sys
 import threading
 import time
+from collections.abc import Sequence
+from contextlib import ExitStack
 
 import psutil
 from playwright.sync_api import Browser, Page
+from websockets.sync.client import ClientConnection
+from websockets.sync.client import connect as open_socket
+from websockets.typing import Origin
 
 from ai4u_edu.errors import AI4UError
 from ai4u_edu.remote import RemoteError, connect
+from tests.attacks.panel import Panel
 from tests.playing import Played, browser, played
 
 KEYS = ["KeyW", "KeyS", "KeyA", "KeyD", "Space", "KeyJ", "ArrowUp", "ArrowLeft"]
@@ -62,6 +69,38 @@ class Player:
             page.keyboard.press("KeyR")
 
 
+class LightPlayer:
+    """A page without a browser: the two sockets of one, which come, play and go."""
+
+    def __init__(self, url: str, chance: random.Random) -> None:
+        self._url, self._chance = url, chance
+        self._page: tuple[Panel, ClientConnection] | None = None
+        self.errors: list[str] = []
+        self.visits = 0
+
+    def act(self) -> None:
+        """Do something random for about half a second."""
+        if self._page is None:
+            origin = Origin(self._url.rstrip("/"))
+            url = self._url.replace("http", "ws", 1) + "ws/input"
+            self._page = Panel(self._url), open_socket(url, origin=origin, proxy=None)
+            self.visits += 1
+            return
+        panel, keys = self._page
+        if self._chance.random() < 0.02 or not panel.is_open:
+            panel.close()
+            keys.close()
+            self._page = None
+            return
+        held = self._chance.sample(KEYS, self._chance.randint(1, 3))
+        for _ in range(5):  # a page says again what it holds
+            keys.send(json.dumps({"type": "keys", "held": held}))
+            time.sleep(0.1)
+        keys.send(json.dumps({"type": "keys", "held": []}))
+        if self._chance.random() < 0.2:
+            keys.send(json.dumps({"type": "command", "name": "reset"}))
+
+
 class Script:
     """A remote script that drives for some seconds, leaves, and connects anew."""
 
@@ -101,17 +140,20 @@ class Script:
                     robot.reset()
 
 
-def soak(minutes: float, scene: str, seed: int) -> list[str]:
+def soak(minutes: float, scene: str, seed: int, *, light: bool) -> list[str]:
     """Plays and looks; what went wrong, in sentences."""
     chance = random.Random(seed)
     memory: list[tuple[float, int]] = []  # (seconds, bytes)
     wrong: list[str] = []
-    with (
-        played(scene) as server,
-        browser() as chromium,
-        Script(server.url, random.Random(seed + 1)) as script,
-    ):
-        players = [Player(chromium, server.url, chance) for _ in range(2)]
+    players: list[Player | LightPlayer]
+    with ExitStack() as ending:
+        server = ending.enter_context(played(scene, "--no-autosave"))
+        script = ending.enter_context(Script(server.url, random.Random(seed + 1)))
+        if light:
+            players = [LightPlayer(server.url, chance) for _ in range(2)]
+        else:
+            chromium = ending.enter_context(browser())
+            players = [Player(chromium, server.url, chance) for _ in range(2)]
         process = psutil.Process(server.process.pid)
         began = time.monotonic()
         told = 0.0
@@ -136,7 +178,9 @@ def soak(minutes: float, scene: str, seed: int) -> list[str]:
     return wrong
 
 
-def _judge(server: Played, players: list[Player], memory: list[tuple[float, int]]) -> list[str]:
+def _judge(
+    server: Played, players: Sequence[Player | LightPlayer], memory: list[tuple[float, int]]
+) -> list[str]:
     wrong = [f"a page raised: {error}" for player in players for error in player.errors]
     if any("Traceback" in line for line in server.told):
         wrong.append("the server raised:\n" + "".join(server.told))
@@ -162,8 +206,11 @@ def main() -> None:
     parser.add_argument("--minutes", type=float, default=30)
     parser.add_argument("--scene", default="box_chase")
     parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument(
+        "--light", action="store_true", help="pages without a browser, which take no processor"
+    )
     options = parser.parse_args()
-    wrong = soak(options.minutes, options.scene, options.seed)
+    wrong = soak(options.minutes, options.scene, options.seed, light=options.light)
     print("\n".join(wrong) or "nothing went wrong")
     sys.exit(bool(wrong))
 

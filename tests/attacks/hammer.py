@@ -18,6 +18,7 @@ from typing import Any
 
 from websockets.exceptions import ConnectionClosed, InvalidHandshake
 from websockets.sync.client import connect as open_socket
+from websockets.typing import Origin
 
 from ai4u_edu.errors import ActionError
 from ai4u_edu.remote import RemoteError, connect
@@ -92,7 +93,7 @@ def drive_by_keys(
     url = server.url.replace("http", "ws", 1) + "ws/input"
     orders = ("reset", "pause", "resume", "resume")
     while not over.is_set():
-        with open_socket(url, origin=server.url.rstrip("/"), proxy=None) as page:  # type: ignore[arg-type]  # a NewType of str
+        with open_socket(url, origin=Origin(server.url.rstrip("/")), proxy=None) as page:
             for _ in range(chance.randint(20, 100)):
                 if over.is_set():
                     break

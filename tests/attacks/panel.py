@@ -10,7 +10,7 @@ import viser
 import zstandard
 from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import connect
-from websockets.typing import Subprotocol
+from websockets.typing import Origin, Subprotocol
 
 TEXTS = ("", "a", "wall", "box", "Lesson 1", "0", "-1.5", "ünï", "<b>x</b>", "../../etc", "x" * 300)
 
@@ -58,7 +58,7 @@ class Panel:
         self._socket = connect(
             url.replace("http", "ws", 1).rstrip("/"),
             subprotocols=[Subprotocol(f"viser-v{viser.__version__}")],
-            origin=url.rstrip("/"),  # type: ignore[arg-type]  # websockets' Origin is a NewType of str
+            origin=Origin(url.rstrip("/")),
             max_size=None,
             compression=None,
             proxy=None,

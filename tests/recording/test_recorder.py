@@ -9,7 +9,6 @@ from typing import Any
 import pytest
 
 from ai4u_edu import (
-    episode_commands,
     BasicAgent,
     BearingSensor,
     BoxShape,
@@ -18,6 +17,7 @@ from ai4u_edu import (
     RBMoveActuator,
     Scene,
     World,
+    episode_commands,
 )
 from ai4u_edu.agent import EVENTS
 from ai4u_edu.cycle import ControlRequestor
