@@ -13,7 +13,7 @@ import sys
 import threading
 import time
 from collections.abc import Sequence
-from contextlib import ExitStack
+from contextlib import ExitStack, suppress
 
 import psutil
 from playwright.sync_api import Browser, Page
@@ -95,10 +95,16 @@ class LightPlayer:
         held = self._chance.sample(KEYS, self._chance.randint(1, 3))
         for _ in range(5):  # a page says again what it holds
             keys.send(json.dumps({"type": "keys", "held": held}))
-            time.sleep(0.1)
+            self._read(keys, until=time.monotonic() + 0.1)
         keys.send(json.dumps({"type": "keys", "held": []}))
         if self._chance.random() < 0.2:
             keys.send(json.dumps({"type": "command", "name": "reset"}))
+
+    def _read(self, keys: ClientConnection, until: float) -> None:
+        """Read what the server says, as a page does: who reads nothing gets no pings either."""
+        with suppress(TimeoutError):
+            while True:
+                keys.recv(max(0.0, until - time.monotonic()))
 
 
 class Script:
