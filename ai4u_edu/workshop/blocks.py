@@ -26,6 +26,7 @@ from ai4u_edu.workshop.typed import (
     check_number,
     check_plain,
     check_typed,
+    check_typed_and,
     schema_of,
     shown,
 )
@@ -94,14 +95,13 @@ def changed(agent: Plain, path: Path, values: Plain) -> Plain:
         raise ChangeError([Problem((), f"expected parameters by name, got {shown(values)}")])
     block = dict(before) | dict(values)
     cls = Block.types.get(str(block["type"]))
-    if cls is not None:
-        check_typed(values, schema_of(cls))
     declared = cls.parameters() if cls else {}
     for name, value in values.items():
         default = declared[name].get_default(call_default_factory=True) if name in declared else ...
         if value is None or (value == default and type(value) is type(default)):
             del block[name]
-    from_plain(kind_at(path), block)
+    schema = schema_of(cls) if cls is not None else {}
+    check_typed_and(values, schema, lambda: from_plain(kind_at(path), block))
     return _put(agent, path, lambda _: block)
 
 

@@ -10,7 +10,14 @@ from ai4u_edu.errors import NameNotFoundError, suggest
 from ai4u_edu.parameters import MAX_NUMBER, Problem, explain
 from ai4u_edu.workshop.errors import ChangeError
 from ai4u_edu.workshop.state import State
-from ai4u_edu.workshop.typed import check_name, check_number, check_typed, shown
+from ai4u_edu.workshop.typed import (
+    check_name,
+    check_number,
+    check_plain,
+    check_typed,
+    check_typed_and,
+    shown,
+)
 from ai4u_edu.world import BodyDescription
 
 MAX_POSITION_M, MAX_HEADING_DEG = 1e4, 3600.0
@@ -66,12 +73,13 @@ def without_body(state: State, name: str) -> State:
 def with_other_body(state: State, name: str, values: Mapping[str, Any]) -> State:
     """With other parameters of a body; None leaves one out, so that it is as by default."""
     body = body_named(state, name)
-    check_typed(values, _SCHEMA)
+    check_plain(values)
     given = body.model_dump(exclude_unset=True, exclude_defaults=True) | dict(values)
     given["name"] = values.get("name", name)
     if "shape" not in values:
         given["shape"] = body.shape
-    other = described({key: value for key, value in given.items() if value is not None})
+    named = {key: value for key, value in given.items() if value is not None}
+    other = check_typed_and(values, _SCHEMA, lambda: described(named))
     bodies = state.description.bodies
     if other.name != name and any(each.name == other.name for each in state.description.things):
         raise ChangeError([Problem(("name",), f"something is named {other.name!r} already")])

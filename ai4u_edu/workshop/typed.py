@@ -1,8 +1,8 @@
 """Numbers that are numbers: text and true/false are none, although pydantic would convert them."""
 
 import math
-from collections.abc import Iterator, Mapping
-from typing import Any
+from collections.abc import Callable, Iterator, Mapping
+from typing import Any, TypeVar
 from weakref import WeakKeyDictionary
 
 from pydantic import BaseModel
@@ -10,8 +10,10 @@ from pydantic import BaseModel
 from ai4u_edu.blocks import Block
 from ai4u_edu.blocks.declared import Declared
 from ai4u_edu.parameters import Problem
+from ai4u_edu.scenes.plain import PlainError
 from ai4u_edu.workshop.errors import ChangeError
 
+T = TypeVar("T")
 Path = tuple[str | int, ...]
 NUMBERS = {"number": "a number", "integer": "a whole number"}
 MAX_TEXT_CHARS = 10_000
@@ -38,6 +40,31 @@ def check_typed(values: Any, schema: Mapping[str, Any]) -> None:
     problems = list(_untyped(values, schema, schema.get("$defs", {}), ()))
     if problems:
         raise ChangeError(problems)
+
+
+def check_typed_and(values: Any, schema: Mapping[str, Any], check: Callable[[], T]) -> T:
+    """Check the types of values, and then all else; a person is told of everything at once.
+
+    Args:
+        values: plain data, as an edit brings it.
+        schema: its JSON Schema.
+        check: raises a ChangeError or a PlainError for what is wrong besides.
+
+    Returns:
+        What ``check`` returns.
+    """
+    check_plain(values)
+    problems = list(_untyped(values, schema, schema.get("$defs", {}), ()))
+    known = {problem.path for problem in problems}
+    try:
+        found = check()
+    except (ChangeError, PlainError) as error:
+        if not problems:
+            raise
+        problems += [problem for problem in error.problems if problem.path not in known]
+    if problems:
+        raise ChangeError(problems)
+    return found
 
 
 def schema_of(cls: type[Declared]) -> dict[str, Any]:

@@ -198,12 +198,15 @@ def hear(script: Script) -> native.Message:
 
 def go_on(script: Script, percept: native.Percept) -> native.Percept:
     """Answers a percept; the next one, whatever else is said in between."""
-    if percept.truncated or percept.terminated:
-        script.say(native.Reset(percept.seq, None))
-    else:
-        script.act(percept, 1)
-    while not (isinstance(message := hear(script), native.Percept) and message.seq > percept.seq):
-        pass
+    message: native.Message | None = None
+    while not (isinstance(message, native.Percept) and message.seq > percept.seq):
+        # once more after a refusal: the world hears one answer at a time
+        if message is None or isinstance(message, native.Problem):
+            if percept.truncated or percept.terminated:
+                script.say(native.Reset(percept.seq, None))
+            else:
+                script.act(percept, 1)
+        message = hear(script)
     return message
 
 

@@ -48,6 +48,13 @@ def test_bad_values_are_told_field_by_field_and_nothing_changes(shop: Shop) -> N
         "number_of_rays: expected at least 1, got 0",
         "vision_max_distance: expected more than 0, got -1",
     }
+    with pytest.raises(ChangeError) as told:  # of the wrong type, and out of range: both at once
+        values = {"stacked_observations": 0, "noise": "wide"}
+        shop.done(shop.workshop.change_block("0", ("sensors", 0), values))
+    assert {str(each) for each in told.value.problems} == {
+        "stacked_observations: expected at least 1, got 0",
+        "noise: expected a number, got 'wide'",
+    }
     with pytest.raises(ChangeError) as told:
         shop.done(shop.workshop.change_block("0", ("sensors", 0), {"target": "bxo"}))
     (problem,) = told.value.problems
