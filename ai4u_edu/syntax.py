@@ -2,13 +2,17 @@
 
 CPython 3.11 counts the nesting of a tree that is being made per interpreter, not per thread. Where
 two threads make trees at once, either may get "SystemError: AST constructor recursion depth
-mismatch" (https://github.com/python/cpython/issues/106905).
+mismatch" (https://github.com/python/cpython/issues/106905). Our own wait for each other; others, such
+as the standard library where it formats a traceback, don't, so a tree is tried again.
 """
 
 import ast
 import inspect
 import textwrap
 import threading
+from collections.abc import Callable
+
+MAX_ATTEMPTS = 5
 
 _lock = threading.Lock()
 
@@ -20,8 +24,7 @@ def parsed(code: str) -> ast.Module:
         SyntaxError: it is no Python, or nested too deep.
         ValueError: it has characters that no Python text has.
     """
-    with _lock:
-        return ast.parse(code)
+    return _made(lambda: ast.parse(code))
 
 
 def parsed_class(cls: type) -> ast.Module:
@@ -32,5 +35,15 @@ def parsed_class(cls: type) -> ast.Module:
         TypeError: the class is built in.
         SyntaxError: its text can't be read alone.
     """
-    with _lock:  # to find the text, inspect parses as well
-        return ast.parse(textwrap.dedent(inspect.getsource(cls)))
+    # to find the text, inspect parses as well
+    return _made(lambda: ast.parse(textwrap.dedent(inspect.getsource(cls))))
+
+
+def _made(make: Callable[[], ast.Module]) -> ast.Module:
+    with _lock:
+        for _ in range(MAX_ATTEMPTS - 1):
+            try:
+                return make()
+            except SystemError:  # somebody else was at it
+                continue
+        return make()

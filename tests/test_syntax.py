@@ -1,5 +1,6 @@
 """Syntax trees that several threads want at once."""
 
+import ast
 import gc
 import sys
 import threading
@@ -52,3 +53,15 @@ def test_threads_that_parse_at_once_do_not_disturb_each_other() -> None:
     for thread in threads:
         thread.join()
     assert errors == []
+
+
+def test_who_is_disturbed_by_others_tries_again(monkeypatch: pytest.MonkeyPatch) -> None:
+    parse, calls = ast.parse, iter([SystemError("AST constructor recursion depth mismatch")] * 2)
+
+    def disturbed(code: str) -> ast.Module:
+        for error in calls:
+            raise error
+        return parse(code)
+
+    monkeypatch.setattr(ast, "parse", disturbed)
+    assert isinstance(parsed("x = 1").body[0], ast.Assign)

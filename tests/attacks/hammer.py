@@ -12,6 +12,7 @@ import signal
 import sys
 import threading
 import time
+import traceback
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any
@@ -54,7 +55,9 @@ def hammer(seconds: float, scene: str, seed: int) -> Tally:
         ]
         threads = [
             threading.Thread(
-                target=_guarded, args=(work, server, random.Random(n + seed), tally, over)
+                target=_guarded,
+                args=(work, server, random.Random(n + seed), tally, over),
+                daemon=True,
             )
             for n, work in enumerate(workers)
         ]
@@ -62,10 +65,13 @@ def hammer(seconds: float, scene: str, seed: int) -> Tally:
             thread.start()
         over.wait(seconds)
         over.set()
-        for thread in threads:
+        for thread in threads[:6]:  # the pages; a script waits as long as the world is paused
             thread.join(20)
-        tally.wrong += ["a worker did not end"] * sum(each.is_alive() for each in threads)
         tally.wrong += _goes_on(server)
+        for thread in threads[6:]:
+            thread.join(20)
+        stuck = [each for each in threads if each.is_alive()]
+        tally.wrong += [f"{_stack(each)}did not end: {_summary(server)}" for each in stuck]
         tally.wrong += ends_at_once(server.process)
     log = "".join(server.told)
     if "Traceback" in log or "never retrieved" in log:
@@ -152,11 +158,25 @@ def _goes_on(server: Played) -> list[str]:
         panel.set_value(time_buttons, "Resume")
         try:
             before = server.snapshot()
-            _until(lambda: _place(server.snapshot()) > _place(before))
+            _until(lambda: _place(server.snapshot()) != _place(before))
         except TimeoutError:
-            return [f"the world stands still: {server.snapshot()}"]
+            return [f"the world stands still: {_summary(server)}, before at {_place(before)}"]
     health = server.health()
     return [] if health["status"] == "ok" else [f"it is not well: {health}"]
+
+
+def _stack(thread: threading.Thread) -> str:
+    """The calls that a worker is in."""
+    frame = sys._current_frames().get(thread.ident or 0)
+    return "".join(traceback.format_stack(frame)[-8:])
+
+
+def _summary(server: Played) -> dict[str, Any]:
+    about = server.snapshot()
+    return {key: value for key, value in about.items() if key not in ("agents", "bodies")} | {
+        "brains": [agent["brain"] for agent in about["agents"]],
+        "health": server.health(),
+    }
 
 
 def _place(snapshot: dict[str, Any]) -> tuple[int, int]:
@@ -182,7 +202,7 @@ def _guarded(
         try:
             work(server, chance, tally, over)
         except GONE as error:
-            tally.count(f"{work.__name__}: {type(error).__name__}")
+            tally.count(f"{work.__name__}: {error}")
             over.wait(0.1)
         except Exception as error:
             tally.wrong.append(f"{work.__name__}: {error!r}")
