@@ -162,7 +162,7 @@ def _goes_on(server: Played) -> list[str]:
         except TimeoutError:
             return [f"the world stands still: {_summary(server)}, before at {_place(before)}"]
     health = server.health()
-    return [] if health["status"] == "ok" else [f"it is not well: {health}"]
+    return [] if health["status"] == "ok" else [f"it is not well: {_summary(server)}"]
 
 
 def _stack(thread: threading.Thread) -> str:

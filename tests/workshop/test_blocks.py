@@ -48,9 +48,9 @@ def test_bad_values_are_told_field_by_field_and_nothing_changes(shop: Shop) -> N
         "number_of_rays: expected at least 1, got 0",
         "vision_max_distance: expected more than 0, got -1",
     }
-    with pytest.raises(ChangeError) as told:  # of the wrong type, and out of range: both at once
-        values = {"stacked_observations": 0, "noise": "wide"}
-        shop.done(shop.workshop.change_block("0", ("sensors", 0), values))
+    both = {"stacked_observations": 0, "noise": "wide"}  # out of range, and of the wrong type
+    with pytest.raises(ChangeError) as told:
+        shop.done(shop.workshop.change_block("0", ("sensors", 0), both))
     assert {str(each) for each in told.value.problems} == {
         "stacked_observations: expected at least 1, got 0",
         "noise: expected a number, got 'wide'",
