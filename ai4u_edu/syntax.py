@@ -2,7 +2,7 @@
 
 CPython 3.11 counts the nesting of a tree that is being made per interpreter, not per thread. Where
 two threads make trees at once, either may get "SystemError: AST constructor recursion depth
-mismatch" (https://github.com/python/cpython/issues/106905). Our own wait for each other; others don't,
+mismatch" (https://github.com/python/cpython/issues/106905). Ours wait for each other; others don't,
 such as the standard library where it formats a traceback: so a tree is tried again.
 """
 
