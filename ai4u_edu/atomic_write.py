@@ -28,7 +28,7 @@ LEFTOVER = re.compile(re.escape(PREFIX) + r"[0-9a-f]{16}(\.\w{1,10})?")
 MIN_LEFTOVER_AGE_S = 600.0
 """Age from which a temporary file counts as left behind where a lock can't tell."""
 HAS_HELD_RENAME = sys.platform != "win32"
-"""Whether a file can be renamed while its lock is held."""
+"""True where a file can be renamed while its lock is held."""
 
 _cleaned: set[Path] = set()
 _cleaned_lock = threading.Lock()

@@ -20,7 +20,7 @@ KINDS: tuple[tuple[type[Block], str], ...] = (
     (Brain, "Brain"),
     (Controller, "Controller"),
 )
-"""How a block's kind is called in a sentence."""
+"""The kinds of blocks, with their names in a sentence."""
 NAME_FIELDS = ("perception_key", "action_name", "name")
 MAX_NAME_CHARS = 80
 

@@ -51,7 +51,7 @@ class SetupError(AI4UError):
     """Something was put together wrongly; nothing has run yet."""
 
     where: tuple[object, ...] = ()
-    """What it is about, if that is known: an agent, then one of its blocks or parameters."""
+    """The agent, then its block or parameter, that it is about; empty if that is not known."""
 
 
 class ParameterError(SetupError):

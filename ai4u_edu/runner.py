@@ -475,7 +475,7 @@ class Runner:
             self.error = sentence_of(error, self.sim.agents)
 
     def _may_keep(self, error: BaseException) -> bool:
-        """Whether an error is a block's, and not Ctrl-C's: that comes to the main thread only."""
+        """Return True for a block's error; Ctrl-C's comes to the main thread only."""
         return isinstance(error, Exception) or threading.current_thread() is self._thread
 
     def _close(self, brain: Brain, reason: str = "") -> None:

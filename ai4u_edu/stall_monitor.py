@@ -23,7 +23,7 @@ class Stall:
     since: float
     """When it began, by the runner's clock (s)."""
     seconds: float
-    """How long ago that was when this was noticed."""
+    """Time since then, when this was noticed."""
     place: Place
     """Where the thread is."""
 
@@ -98,7 +98,7 @@ class StallMonitor:
 
     @property
     def stall(self) -> Stall | None:
-        """What has not ended for too long; None while all is well."""
+        """The tick or command that has not ended for too long; None while all is well."""
         return self.under_way() if self.is_stalled else None
 
     def under_way(self) -> Stall | None:

@@ -41,7 +41,7 @@ class TickSchedule:
         self.lateness = 0.0
         """How late (s) ticks lately began, on average."""
         self.ticked = 0
-        """How many ticks there were."""
+        """Count of ticks so far."""
         self.is_ticking = threading.Lock()
         self.is_asleep = False
         """True until the next tick is due."""

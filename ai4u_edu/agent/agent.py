@@ -67,9 +67,9 @@ class BasicAgent(Declared):
     """Numbers (or choices) of an action "defaultAction", which ``action_handler`` carries out; 0
     for none, or for one if there is a handler."""
     action_is_continuous: bool = True
-    """Whether "defaultAction" is made of numbers from -1 to 1; else it is one choice."""
+    """True makes "defaultAction" of numbers from -1 to 1; False, of one choice."""
     check_episode_truncated: bool = False
-    """Whether the agent senses that its episode was cut off: adds a TruncatedSensor."""
+    """True adds a TruncatedSensor: the agent senses that its episode was cut off."""
     sensors: list[Sensor] = Field(default_factory=list)
     actuators: list[Actuator] = Field(default_factory=list)
     rewards: list[RewardFunc] = Field(default_factory=list)
@@ -127,7 +127,7 @@ class BasicAgent(Declared):
 
     @property
     def fitting_or_none(self) -> Fitting | None:
-        """How the blocks sit on the body; None before :meth:`setup`."""
+        """The blocks as they are set up; None before :meth:`setup`."""
         return self._fitting
 
     @property
@@ -376,7 +376,7 @@ def as_brain(given: object) -> Brain:
 
 
 def _drives(given: object) -> bool:
-    """Whether a LocalBrain can be made of it: a controller, or a function."""
+    """Return True for a controller or a function, of which a LocalBrain can be made."""
     if isinstance(given, Controller):
         return True
     return callable(given) and not isinstance(given, type | Declared)

@@ -33,7 +33,7 @@ def missing_groups(block: Block, view: WorldView) -> list[str]:
 
 
 def names_groups(block: Block) -> bool:
-    """Whether a block, or a block inside it, looks for groups."""
+    """Return True if a block, or a block inside it, looks for groups."""
     own = any(_names(getattr(block, parameter, None)) for parameter in PARAMETERS)
     return own or any(map(names_groups, _parts(block)))
 

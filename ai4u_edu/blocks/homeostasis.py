@@ -97,7 +97,7 @@ class HomeostaticVariable(Block):
         return self.check_value(self.level)
 
     def check_value(self, value: float) -> bool:
-        """Whether a level would be in the comfort zone; its ends belong to it."""
+        """Return True if a level would be in the comfort zone; its ends belong to it."""
         return self.comfort_min <= value <= self.comfort_max
 
     def centroid(self) -> float:
@@ -139,11 +139,11 @@ class HomeostaticVariable(Block):
         return abs(self.position_to_centroid())
 
     def distance_to_min(self) -> float:
-        """How far the level is from the lower end of the comfort zone, to either side."""
+        """Return the distance of the level from the lower end of the comfort zone."""
         return abs(self.position_to_min())
 
     def distance_to_max(self) -> float:
-        """How far the level is from the upper end of the comfort zone, to either side."""
+        """Return the distance of the level from the upper end of the comfort zone."""
         return abs(self.position_to_max())
 
     def discomfort(self) -> float:

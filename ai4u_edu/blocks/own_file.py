@@ -9,7 +9,7 @@ from ai4u_edu.blocks.block import Block, is_built_in
 from ai4u_edu.errors import SetupError
 
 PREFIX = "own_blocks_"
-"""What the names of the modules begin with that were made from such files."""
+"""Prefix of the names of modules that were made from such files."""
 
 
 def load_blocks(path: Path) -> list[type[Block]]:

@@ -156,7 +156,7 @@ class Scene:
 
 
 def _no_utf8(path: Path, error: UnicodeDecodeError) -> str:
-    """What is wrong with a file that is no UTF-8 text."""
+    """Return the error for a file that is no UTF-8 text."""
     head = error.object[:4]
     if head[:2] in (b"\xff\xfe", b"\xfe\xff"):
         return "expected UTF-8 text, got UTF-16; save it as UTF-8 in your editor"

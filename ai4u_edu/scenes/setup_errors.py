@@ -9,7 +9,7 @@ from ai4u_edu.scenes.plain import Path
 
 KINDS = ("sensors", "actuators", "rewards", "brains")
 COMPLAINTS = ("is named", "is called", "carries the tag", "the network")
-"""What stands before a name that nothing has."""
+"""Words that stand before a name that nothing has."""
 
 
 def path_of(error: AI4UError, agents: Iterable[Mapping[str, Any]]) -> Path:

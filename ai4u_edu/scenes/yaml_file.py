@@ -17,7 +17,7 @@ MAX_SIZE = 300_000 if IS_QUICK else 50_000
 """Characters that a scene file may have: what is read in a second, whatever it is. With 500 bodies
 it has 60,000."""
 EXPECTED = "lines such as name: ..., bodies: ..., agents: ..."
-"""What a scene file consists of."""
+"""The first keys of a scene file, for messages."""
 UNFOLDED = 1_000_000
 """Characters of a line that never ends."""
 
@@ -69,7 +69,7 @@ class YamlFile:
 
 
 def _kind(data: Any, text: str) -> str:
-    """What a file holds that holds no mapping, in words."""
+    """Describe the content of a file that holds no mapping."""
     if data is None:
         return "an empty file" if not text.strip() else "a file without any"
     if isinstance(data, list):

@@ -1,4 +1,4 @@
-"""What is wrong with YAML text, in words for somebody who has never read YAML's grammar.
+"""Faults of YAML text, in words for somebody who has never read YAML's grammar.
 
 The parser says what it had expected next ("did not find expected key"). The text around that place
 says what was meant: a tab, a missing colon, a quote that nobody closed. libyaml and PyYAML's own

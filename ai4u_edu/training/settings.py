@@ -14,7 +14,7 @@ from ai4u_edu.parameters import explain, listed
 from ai4u_edu.scenes.yaml_file import YamlFile
 
 EXPECTED = "lines such as algorithm: ..., sac: ..., ppo: ..."
-"""What a settings file consists of."""
+"""The keys of a settings file, for messages."""
 FOLDER = Path(__file__).parent / "settings"
 
 Algorithm = Literal["sac", "ppo", "dqn"]

@@ -40,9 +40,9 @@ from ai4u_edu.viewer.widget_values import ValueRefusedError, checked_value
 TELL_PERIOD_S = 1.0
 """A page is told at most once within this time that something didn't work."""
 MAX_PRESSES_PER_S = 30
-"""So often a page may press buttons, choose and hand in, in the long run; nobody is that quick."""
+"""Rate at which a page may press, choose and submit in the long run; nobody is that quick."""
 MAX_PRESSES_AT_ONCE = 100
-"""So many of these are heard without a break: what was done while a page had no connection."""
+"""Burst that is heard without a break: all that was done while a page had no connection."""
 
 _logger = logging.getLogger(__name__)
 

@@ -150,7 +150,7 @@ def _has_keys(cls: type[Block]) -> bool:
 
 
 def _needs_something(cls: type[Block]) -> bool:
-    """Whether a controller can't drive by itself: a parameter is missing, or a script."""
+    """Return True if a controller can't drive by itself: a parameter is missing, or a script."""
     needed = any(field.is_required() for field in cls.parameters().values())
     return needed or getattr(cls, "needs_script", False)
 

@@ -21,7 +21,7 @@ MAX_TEXT_CHARS = 10_000
 MAX_NAME_CHARS = 500
 """Length of a name that an edit may ask for; a path may be one."""
 MAX_DEPTH = 50
-"""How deep lists and mappings of an edit may lie in one another."""
+"""Depth to which lists and mappings of an edit may be nested."""
 MAX_VALUES = 100_000
 """Values of an edit, all in all."""
 MAX_SHOWN_CHARS = 60

@@ -101,7 +101,7 @@ class Workshop:
 
     @property
     def stall(self) -> Stall | None:
-        """What keeps changes from being made: something in the world does not return."""
+        """The block that does not return, and so keeps changes from being made; or None."""
         return self._runner.stall
 
     @property

@@ -33,7 +33,7 @@ FLAGS = (
     "-fPIC",
 )
 PREFIX = "compiling-"
-"""How the names of folders begin in which something is compiled."""
+"""Prefix of the folders in which something is compiled."""
 PATIENCE = 60.0
 """Seconds that a compiler gets; it takes a tenth of one."""
 

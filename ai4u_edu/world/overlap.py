@@ -55,12 +55,12 @@ def _mover_in_the_way(world: "World", body: "BodyView") -> "BodyView | None":
 
 
 def _level(body: "BodyView", other: "BodyView") -> bool:
-    """Whether neither of two bodies is above the other one."""
+    """Return True if neither of two bodies is above the other one."""
     return body.z < other.z + other.height and other.z < body.z + body.height
 
 
 def _pass_through(one: pymunk.ShapeFilter, other: pymunk.ShapeFilter) -> bool:
-    """Whether the physics lets two shapes pass through each other."""
+    """Return True if the physics lets two shapes pass through each other."""
     return not (one.categories & other.mask and other.categories & one.mask)
 
 

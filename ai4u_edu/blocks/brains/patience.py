@@ -1,4 +1,4 @@
-"""How long a world in lockstep waits for a script."""
+"""The time for which a world in lockstep waits for a script."""
 
 import time
 

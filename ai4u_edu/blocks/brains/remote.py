@@ -56,7 +56,7 @@ class RemoteBrain(Brain):
     port: Annotated[int, Field(ge=1, le=65535)] = 8080
     """Port at which the script listens."""
     receive_timeout: Annotated[int, quantity("ms", ge=200, le=600_000)] = 2000
-    """How long a world in lockstep waits for a script that is silent."""
+    """Time for which a world in lockstep waits for a script that is silent."""
     mode: Literal["lockstep", "realtime"] = "lockstep"
     """``lockstep``: the world waits for each action. ``realtime``: it never waits."""
     on_missing: Literal["hold", "coast", "stop"] = "hold"

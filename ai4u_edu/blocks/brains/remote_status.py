@@ -16,7 +16,7 @@ class RemoteStatus:
     missing: int
     """Decisions for which no action of the script was there in time."""
     ignored: int
-    """What came and was no answer."""
+    """Messages that were no answer."""
     refused: int
     """Actions that no actuator could carry out."""
     clipped: int

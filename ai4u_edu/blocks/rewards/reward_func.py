@@ -33,7 +33,7 @@ class RewardFunc(Block):
     name: str = ""
     """The term's name in the breakdown of rewards; left out: from the class's name."""
     cause_episode_to_end: bool = False
-    """Whether the episode ends when this pays something; And and Or end it when they hold."""
+    """True ends the episode when this pays something; And and Or end it when they hold."""
     is_active: bool = True
     """False switches the reward function off: it pays nothing."""
 

@@ -73,7 +73,7 @@ class Sensor(Block):
     normalized: bool = False
     """True divides the reading by the largest number that it can be (in AI4U the default)."""
     resetable: bool = True
-    """Whether a reset begins anew: on_reset runs, and stack and delay are filled with the first
+    """True lets a reset begin anew: on_reset runs, and stack and delay are filled with the first
     reading. Switched off, on_reset never runs, not even at the first reset (prepare in on_setup
     what a reading needs), and stack and delay go on over the resets."""
     is_input: bool = True

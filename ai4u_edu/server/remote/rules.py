@@ -13,7 +13,7 @@ MAX_RECEIVE_TIMEOUT_MS = 600_000
 
 @dataclass(frozen=True, slots=True)
 class Rules:
-    """How long a room waits for its scripts, what they have to know, and what they may.
+    """The limits of a room's scripts: their times, their token, their rights.
 
     Raises:
         SetupError: a number is out of range.

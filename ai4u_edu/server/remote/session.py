@@ -54,7 +54,7 @@ class Session:
         self._told: Situation | None = None
         self._is_answered = False
         self._is_resetting = False
-        """Whether an answer that asks for a reset waits for the brain."""
+        """True while an answer that asks for a reset waits for the brain."""
         self._frame = b""
         self._counted = (0, 0)
         self._reward = 0.0
