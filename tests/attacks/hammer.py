@@ -158,11 +158,17 @@ def _goes_on(server: Played) -> list[str]:
         panel.set_value(time_buttons, "Resume")
         try:
             before = server.snapshot()
-            _until(lambda: _place(server.snapshot()) != _place(before))
+            _until(lambda: _place(server.snapshot()) != _place(before) or _has_blocks_error(server))
         except TimeoutError:
             return [f"the world stands still: {_summary(server)}, before at {_place(before)}"]
-    health = server.health()
-    return [] if health["status"] == "ok" else [f"it is not well: {_summary(server)}"]
+    is_well = server.health()["status"] == "ok" or _has_blocks_error(server)
+    return [] if is_well else [f"it is not well: {_summary(server)}"]
+
+
+def _has_blocks_error(server: Played) -> bool:
+    """Return True if the world says which block can't go on: pages may have taken what it needs."""
+    error = str(server.snapshot()["error"])
+    return error.startswith(("BlockError: agent ", "ReadingError: agent ", "ActionError: "))
 
 
 def _stack(thread: threading.Thread) -> str:
