@@ -155,12 +155,18 @@ def _goes_on(server: Played) -> list[str]:
         _until(lambda: panel.labelled("Time"))
         (time_buttons,) = panel.labelled("Time")
         panel.set_value(time_buttons, "Reset")
-        panel.set_value(time_buttons, "Resume")
+        before = _place(server.snapshot())
+
+        def has_moved() -> bool:
+            if server.snapshot()["paused"]:  # what a page asked for may come only now
+                panel.set_value(time_buttons, "Resume")
+                return False
+            return _place(server.snapshot()) != before or _has_blocks_error(server)
+
         try:
-            before = server.snapshot()
-            _until(lambda: _place(server.snapshot()) != _place(before) or _has_blocks_error(server))
+            _until(has_moved)
         except TimeoutError:
-            return [f"the world stands still: {_summary(server)}, before at {_place(before)}"]
+            return [f"the world stands still: {_summary(server)}, before at {before}"]
     is_well = server.health()["status"] == "ok" or _has_blocks_error(server)
     return [] if is_well else [f"it is not well: {_summary(server)}"]
 

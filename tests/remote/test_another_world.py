@@ -1,11 +1,13 @@
 """What a script notices when its world is replaced, or goes back in time."""
 
+import threading
+
 import pytest
 
 from ai4u_edu import Scene
 from ai4u_edu.recording import Recorder, Replay
-from ai4u_edu.remote import LostError, Robot, connect
-from tests.server.rooms import served
+from ai4u_edu.remote import LostError, RemoteError, Robot, connect
+from tests.server.rooms import served, until
 
 AHEAD = [0.1, 0.0, 0.0, 0.0]
 
@@ -56,3 +58,23 @@ def test_a_script_is_told_the_title_of_the_scene_that_is_there() -> None:
         title = "Maze"
         with connect(room.url) as robot:
             assert robot.welcome.title == "Maze"
+
+
+def test_a_script_whose_world_is_replaced_while_it_asks_for_an_agent_is_told() -> None:
+    with served(Scene.load("box_chase").build()) as room:
+        may_go, told = threading.Event(), []
+
+        def drive_there() -> None:
+            try:
+                connect(room.url)
+            except RemoteError as error:
+                told.append(str(error))
+
+        room.runner.submit(lambda: may_go.wait(10))
+        room.runner.use(Scene.load("box_chase").build())
+        script = threading.Thread(target=drive_there)
+        script.start()
+        until(lambda: len(room.runner._queue) == 2)  # the other world, then the script's wish
+        may_go.set()
+        script.join(10)
+        assert "another world has taken its place" in told[0]

@@ -10,7 +10,7 @@ from ai4u_edu.blocks.brains.link import LinkState
 from ai4u_edu.blocks.brains.remote import RemoteBrain
 from ai4u_edu.errors import AI4UError, NameNotFoundError, shorten
 from ai4u_edu.post import Post
-from ai4u_edu.runner import Runner
+from ai4u_edu.runner import ANOTHER_WORLD, Runner
 from ai4u_edu.server.remote.line import Line
 from ai4u_edu.server.remote.refusal import RefusalError
 from ai4u_edu.server.remote.rules import Rules
@@ -86,6 +86,8 @@ class Seat:
         """
 
         def take() -> bytes:
+            if not any(agent is self.agent for agent in self._runner.sim.agents):
+                raise RefusalError("ended", ANOTHER_WORLD)  # since the script said hello
             try:
                 self.session.excerpt = Excerpt(self.agent, self._hello.keys)
             except NameNotFoundError as error:
