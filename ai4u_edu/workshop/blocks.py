@@ -16,7 +16,7 @@ from ai4u_edu.blocks import (
     RewardFunc,
     Sensor,
 )
-from ai4u_edu.errors import suggest
+from ai4u_edu.errors import shown, suggest
 from ai4u_edu.parameters import MAX_COUNT, Problem, dotted
 from ai4u_edu.scenes.plain import fits_a_file, from_plain
 from ai4u_edu.workshop.errors import ChangeError
@@ -28,7 +28,6 @@ from ai4u_edu.workshop.typed import (
     check_typed,
     check_typed_and,
     schema_of,
-    shown,
 )
 
 Path = tuple[str | int, ...]

@@ -6,7 +6,7 @@ from typing import Any
 
 from pydantic import ValidationError
 
-from ai4u_edu.errors import NameNotFoundError, suggest
+from ai4u_edu.errors import NameNotFoundError, shown, suggest
 from ai4u_edu.parameters import MAX_NUMBER, Problem, explain
 from ai4u_edu.workshop.errors import ChangeError
 from ai4u_edu.workshop.state import State
@@ -16,7 +16,6 @@ from ai4u_edu.workshop.typed import (
     check_plain,
     check_typed,
     check_typed_and,
-    shown,
 )
 from ai4u_edu.world import BodyDescription
 

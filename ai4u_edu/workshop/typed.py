@@ -9,6 +9,7 @@ from pydantic import BaseModel
 
 from ai4u_edu.blocks import Block
 from ai4u_edu.blocks.declared import Declared
+from ai4u_edu.errors import MAX_SHOWN_CHARS, shown
 from ai4u_edu.parameters import Problem
 from ai4u_edu.scenes.plain import PlainError
 from ai4u_edu.workshop.errors import ChangeError
@@ -24,7 +25,6 @@ MAX_DEPTH = 50
 """Depth to which lists and mappings of an edit may be nested."""
 MAX_VALUES = 100_000
 """Values of an edit, all in all."""
-MAX_SHOWN_CHARS = 60
 
 
 def check_typed(values: Any, schema: Mapping[str, Any]) -> None:
@@ -106,15 +106,6 @@ def check_name(value: Any, what: str) -> None:
     if not isinstance(value, str) or len(value) > MAX_NAME_CHARS:
         text = f"expected {what} of at most {MAX_NAME_CHARS} characters, got {shown(value)}"
         raise ChangeError([Problem((), text)])
-
-
-def shown(value: Any) -> str:
-    """Return a value as it stands in a message."""
-    try:
-        text = repr(value)
-    except (RecursionError, ValueError):  # nested too deep, or a number of too many digits
-        return f"a very large {type(value).__name__}"
-    return text if len(text) <= MAX_SHOWN_CHARS else text[: MAX_SHOWN_CHARS - 1] + "…"
 
 
 def _not_plain(values: Any) -> Iterator[Problem]:

@@ -7,7 +7,7 @@ from dataclasses import replace
 from pathlib import Path as FilePath
 from typing import Any
 
-from ai4u_edu.errors import AI4UError, SetupError
+from ai4u_edu.errors import AI4UError, SetupError, shown
 from ai4u_edu.runner import Runner
 from ai4u_edu.scenes import Scene
 from ai4u_edu.scenes.yaml_file import YamlFile, write_yaml
@@ -20,7 +20,7 @@ from ai4u_edu.workshop.drivers import Driver, Drivers
 from ai4u_edu.workshop.outcome import Outcome, failed
 from ai4u_edu.workshop.shelf import Shelf
 from ai4u_edu.workshop.state import State
-from ai4u_edu.workshop.typed import check_name, check_plain, shown
+from ai4u_edu.workshop.typed import check_name, check_plain
 from ai4u_edu.world import BodyDescription, Pose
 
 
