@@ -116,7 +116,7 @@ class Runner:
 
     @property
     def lateness(self) -> float:
-        """How late (s) ticks lately began, on average."""
+        """Lateness (s) with which ticks lately began, on average."""
         return self._schedule.lateness
 
     def give_way(self) -> None:

@@ -39,7 +39,7 @@ class TickSchedule:
         self.due = clock()
         """When the next tick is to begin."""
         self.lateness = 0.0
-        """How late (s) ticks lately began, on average."""
+        """Lateness (s) with which ticks lately began, on average."""
         self.ticked = 0
         """Count of ticks so far."""
         self.is_ticking = threading.Lock()

@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 
 from ai4u_edu.agent.agent import BasicAgent
-from ai4u_edu.errors import SetupError
+from ai4u_edu.errors import SetupError, shown
 from ai4u_edu.world import World
 
 
@@ -46,4 +46,4 @@ def _check_unique(agents: Sequence[BasicAgent]) -> None:
 def _shown(value: object) -> str:
     if isinstance(value, type):
         return f"the class {value.__name__}"
-    return f"{type(value).__name__} {value!r}"[:80]
+    return f"{type(value).__name__} {shown(value)}"

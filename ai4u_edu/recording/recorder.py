@@ -6,9 +6,9 @@ from collections.abc import Callable
 from typing import Any, TypeVar
 
 from ai4u_edu.agent import BasicAgent
+from ai4u_edu.block_errors import message_of
 from ai4u_edu.blocks import Block
 from ai4u_edu.cycle import ControlRequestor
-from ai4u_edu.errors import AI4UError
 from ai4u_edu.recording.archive import Archive
 from ai4u_edu.recording.episode import Episode
 from ai4u_edu.recording.errors import RecordingError
@@ -134,7 +134,7 @@ class Recorder:
         try:
             on_episode(episode)
         except Exception as error:
-            self.save_problem = f"the last episode could not be saved: {_told(error)}"
+            self.save_problem = f"the last episode could not be saved: {message_of(error)}"
             if not before:  # once, and not with every episode
                 logger.warning("%s; it is kept in memory", self.save_problem)
 
@@ -185,10 +185,6 @@ class Recorder:
                 for block in (*agent.sensors, *agent.actuators, *agent.rewards)
             ]
         return blocks
-
-
-def _told(error: Exception) -> str:
-    return str(error) if isinstance(error, AI4UError) else f"{type(error).__name__}: {error}"
 
 
 def _values(block: Block) -> dict[str, Any]:

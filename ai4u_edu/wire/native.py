@@ -53,7 +53,7 @@ LONGEST_GRACE = 86_400.0
 
 Mode = Literal["lockstep", "realtime"]
 OnMissing = Literal["", "hold", "coast", "stop"]
-"""What is done in place of an action that is missing: the last one again, nothing, or zeros for all
+"""Substitutes for an action that is missing: the last one again, nothing, or zeros for all
 actuators; empty: as the room has it."""
 
 

@@ -150,10 +150,7 @@ def _untyped(value: Any, schema: Any, known: Mapping[str, Any], path: Path) -> I
             schema = schema_of(Block.types[value["type"]])
             schemas, known = [schema], schema.get("$defs", {})
         for name, each in value.items():
-            fits = [
-                s.get("properties", {}).get(name, s.get("additionalProperties")) for s in schemas
-            ]
-            inner = [each for each in fits if isinstance(each, Mapping)]
+            inner = [found for s in schemas if (found := _property(s, name)) is not None]
             if inner:
                 yield from _untyped(each, {"anyOf": inner}, known, (*path, str(name)))
     elif isinstance(value, list | tuple):

@@ -316,7 +316,7 @@ class Workshop:
         return self._do(make, whole=True)
 
     def load(self, text: object, name: str = "scene.yaml") -> "Future[Outcome]":
-        """Has a scene run that somebody wrote: YAML text, which is read and checked, never run.
+        """Run a scene that somebody wrote: YAML text, which is read and checked, never executed.
 
         It is read in the caller's thread. The file's errors come with their lines.
         """

@@ -29,7 +29,7 @@ MAX_SENTENCE_CHARS = 1000
 
 
 class Packed(NamedTuple):
-    """What msgpack would not pack."""
+    """A value that msgpack would not pack."""
 
     data: bytes
 

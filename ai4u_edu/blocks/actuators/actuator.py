@@ -52,7 +52,7 @@ class Actuator(Block):
         super().__init_subclass__(**options)
         says, *does = (levels_up(cls, name) for name in ("steady_drive", "act", "drive"))
         if min(does) < says:  # what it inherits was said of another act
-            cls.steady_drive = Actuator.steady_drive  # type: ignore[method-assign]
+            cls.steady_drive = Actuator.steady_drive  # type: ignore[method-assign]  # see above
 
     def space(self) -> spaces.Space[Any]:
         """A Box of shape (n,), or a Discrete space: what an action of this actuator may be."""

@@ -6,7 +6,7 @@ from typing import Literal
 
 @dataclass(frozen=True, slots=True)
 class RemoteStatus:
-    """How it stands with a remote brain, for the page."""
+    """The state of a remote brain and its counts, for the page."""
 
     state: Literal["waiting", "connected", "late", "lost"]
     """``late``: a script is there, and its action is not; the reason says if it was given up."""

@@ -34,10 +34,10 @@ class Rules:
     seeded_resets: bool = False
     """Whether the script of one of several agents may begin a new episode for all of them."""
     lockstep: bool | None = None
-    """Whether a script may have the world wait for its actions; left out, only where its agent is
+    """True lets a script have the world wait for its actions; left out, only where its agent is
     the only one. A program that drives all agents of a world in lockstep needs True."""
     on_missing: OnMissing = ""
-    """What is done in place of an action that is missing, if a script does not choose; empty: hold
+    """Substitute for an action that is missing, if a script does not choose; empty: hold
     while its connection is there, stop when it is lost."""
 
     def __post_init__(self) -> None:
