@@ -4,10 +4,10 @@ Names are loaded when they are first asked for, so that a script that only drive
 loads no physics and no viewer.
 """
 
-from ai4u_edu.version import __version__
+from ai4u_edu.base.version import __version__
 
 _HOMES = {
-    "agent": ("EVENTS", "BasicAgent", "Event"),
+    "agent": ("EVENTS", "BasicAgent", "ControlRequestor", "Event"),
     "blocks": (
         "AStarController",
         "Action",
@@ -107,8 +107,7 @@ _HOMES = {
         "check_scene",
         "check_sensor",
     ),
-    "cycle": ("ControlRequestor",),
-    "errors": ("AI4UError",),
+    "base.errors": ("AI4UError",),
     "recording": ("Episode", "Recorder", "Replay"),
     "scenes": ("Scene",),
     "world": (

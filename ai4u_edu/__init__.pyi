@@ -1,6 +1,9 @@
 from ai4u_edu.agent import EVENTS as EVENTS
 from ai4u_edu.agent import BasicAgent as BasicAgent
 from ai4u_edu.agent import Event as Event
+from ai4u_edu.agent.cycle import ControlRequestor as ControlRequestor
+from ai4u_edu.base.errors import AI4UError as AI4UError
+from ai4u_edu.base.version import __version__ as __version__
 from ai4u_edu.blocks import Action as Action
 from ai4u_edu.blocks import ActionSensor as ActionSensor
 from ai4u_edu.blocks import Actuator as Actuator
@@ -96,13 +99,10 @@ from ai4u_edu.check import check_controller as check_controller
 from ai4u_edu.check import check_reward as check_reward
 from ai4u_edu.check import check_scene as check_scene
 from ai4u_edu.check import check_sensor as check_sensor
-from ai4u_edu.cycle import ControlRequestor as ControlRequestor
-from ai4u_edu.errors import AI4UError as AI4UError
 from ai4u_edu.recording import Episode as Episode
 from ai4u_edu.recording import Recorder as Recorder
 from ai4u_edu.recording import Replay as Replay
 from ai4u_edu.scenes import Scene as Scene
-from ai4u_edu.version import __version__ as __version__
 from ai4u_edu.world import AreaDescription as AreaDescription
 from ai4u_edu.world import Body as Body
 from ai4u_edu.world import BodyDescription as BodyDescription

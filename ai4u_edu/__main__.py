@@ -22,7 +22,7 @@ def main() -> None:
     restarted = os.environ.pop(AGAIN, None)
     missing = _missing()
     if missing is None:
-        from ai4u_edu.cli import main as run
+        from ai4u_edu.cli.main import main as run
 
         run()
         return
@@ -50,7 +50,7 @@ def _missing() -> str | None:
     if sys.version_info[:2] < bootstrap.OLDEST:
         return "tomllib"  # and our own code couldn't be read
     try:
-        import ai4u_edu.cli  # noqa: F401 - for what it imports
+        import ai4u_edu.cli.main  # noqa: F401 - for what it imports
     except ModuleNotFoundError as error:
         name = error.name or ""
         if name.partition(".")[0] == "ai4u_edu":

@@ -22,7 +22,7 @@
 from ai4u_edu import *
 from ai4u_edu.lessons import bars, check, film, hint, plot, progress, report, show, solution, stop
 from ai4u_edu.lessons.exercises.lesson_08 import late
-from ai4u_edu.lessons.rolls import drives
+from ai4u_edu.lessons.rollouts import drives
 from ai4u_edu.remote import connect
 
 # %% [markdown]

@@ -10,8 +10,8 @@ from pathlib import Path
 
 from ai4u_edu import Block
 from ai4u_edu.blocks.block import is_built_in
-from ai4u_edu.blocks.lesson_page import coming_from_ai4u
-from ai4u_edu.scenes.plain import KINDS
+from ai4u_edu.blocks.docs import coming_from_ai4u
+from ai4u_edu.scenes.serialization import KINDS
 from tests.check.samples import INSIDE_OTHERS, SAMPLES
 
 TESTS = Path(__file__).parent

@@ -7,8 +7,8 @@ import pytest
 TESTS = Path(__file__).parent
 ALONE = {"attacks", "browser", "load"}
 """Tests of these folders look at a page, and draw it without a graphics card; or are many."""
-REAL_TIME = ALONE | {"remote", "server", "training", "viewer", "workshop"}
-REAL_TIME_TOO = {"test_live.py", "test_runner.py", "test_slow_ticks.py"}
+REAL_TIME = ALONE | {"remote", "server", "training", "viewer", "editing", "runtime"}
+REAL_TIME_TOO = {"test_live.py"}
 """Tests of these folders and files keep real time or listen at ports: what a machine's bad moment
 failed gets another chance, and the log names it. All others must pass at once."""
 LOG = "components"

@@ -6,9 +6,9 @@ import numpy as np
 from PIL import Image, ImageDraw, ImageFont
 
 from ai4u_edu import Scene
-from ai4u_edu.drawing import draw
-from ai4u_edu.look import VOID
 from ai4u_edu.snapshot import picture_of
+from ai4u_edu.snapshot.raster import draw
+from ai4u_edu.snapshot.theme import VOID
 
 PICTURE = Path(__file__).parent / "pictures" / "scenes.png"
 COLUMNS = 5

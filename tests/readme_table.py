@@ -15,7 +15,7 @@ def between_marks(text: str) -> str:
 
 def main() -> None:
     """Replaces the table by what the code says."""
-    from ai4u_edu.blocks.lesson_page import coming_from_ai4u
+    from ai4u_edu.blocks.docs import coming_from_ai4u
 
     text = README.read_text(encoding="utf-8")
     fresh = MARKS.sub(lambda match: f"{match[1]}{coming_from_ai4u()}\n<!-- end -->", text)

@@ -1,9 +1,9 @@
 import numpy as np
 
 from ai4u_edu import Scene
-from ai4u_edu.drawing import draw
-from ai4u_edu.look import LIT, UNLIT
 from ai4u_edu.snapshot import picture_of
+from ai4u_edu.snapshot.raster import draw
+from ai4u_edu.snapshot.theme import LIT, UNLIT
 from tests.gallery import COLUMNS, SPACE, TILE, contact_sheet
 
 

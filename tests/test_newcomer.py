@@ -24,10 +24,10 @@ from ai4u_edu import (
     check_scene,
     check_sensor,
 )
-from ai4u_edu.blocks.own_file import load_blocks
+from ai4u_edu.base.errors import SceneError, SetupError
+from ai4u_edu.blocks.loading import load_blocks
 from ai4u_edu.check import Outcome
-from ai4u_edu.errors import SceneError, SetupError
-from ai4u_edu.runner import Runner
+from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.viewer import Viewer
 from tests.viewer.pages import page, shown
 from tests.viewer.test_agent_tab import text_of
@@ -156,7 +156,7 @@ def test_on_the_command_line_the_file_is_named(home: Path) -> None:
 
 
 def test_play_loads_the_file_as_well(home: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    from ai4u_edu import cli
+    from ai4u_edu.cli import main as cli
 
     served: list[str] = []
     monkeypatch.setattr("ai4u_edu.server.serve", lambda *_args, **_kwargs: served.append("a room"))

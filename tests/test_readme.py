@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 
 import ai4u_edu
-from ai4u_edu.blocks.lesson_page import coming_from_ai4u
+from ai4u_edu.blocks.docs import coming_from_ai4u
 from tests.builders import small_sim
 from tests.components import AI4U, AI4U_SETTINGS
 from tests.playing import played

@@ -35,11 +35,12 @@ CLI = "import sys, some_dependency\ndef main(): print(sys.prefix, *sys.argv[1:])
 
 def make_checkout(root: Path) -> Path:
     package = root / "ai4u_edu"
-    package.mkdir(parents=True)
+    (package / "cli").mkdir(parents=True)
     for name in ("__main__.py", "bootstrap.py"):
         shutil.copy(REPO / "ai4u_edu" / name, package)
     (package / "__init__.py").touch()
-    (package / "cli.py").write_text(CLI)
+    (package / "cli" / "__init__.py").touch()
+    (package / "cli" / "main.py").write_text(CLI)
     (root / "pyproject.toml").write_text(PYPROJECT)
     (root / "backend.py").write_text(BACKEND)
     return root

@@ -1,7 +1,8 @@
 """The agent: a body, its blocks, its brain, its events and its rewards."""
 
 from ai4u_edu.agent.agent import BasicAgent
+from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.agent.events import EVENTS, Event
 from ai4u_edu.agent.ledger import Entry, Ledger
 
-__all__ = ["EVENTS", "BasicAgent", "Entry", "Event", "Ledger"]
+__all__ = ["EVENTS", "BasicAgent", "ControlRequestor", "Entry", "Event", "Ledger"]

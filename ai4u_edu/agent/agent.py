@@ -7,11 +7,13 @@ from weakref import ReferenceType, ref
 
 from pydantic import Field, field_validator
 
+from ai4u_edu.agent.bound_blocks import Fitting
 from ai4u_edu.agent.events import Event
-from ai4u_edu.agent.fitting import Fitting
 from ai4u_edu.agent.ledger import HANDLERS, Ledger
 from ai4u_edu.agent.options import hand_on
 from ai4u_edu.agent.table import table
+from ai4u_edu.base.errors import ActionError, ReadingError, SetupError, suggest
+from ai4u_edu.base.parameters import Count, Name, Number, WholeNumber
 from ai4u_edu.blocks import (
     Action,
     Actuator,
@@ -27,9 +29,7 @@ from ai4u_edu.blocks import (
     Sensor,
 )
 from ai4u_edu.blocks.brains.command import Accepted
-from ai4u_edu.blocks.declared import Declared
-from ai4u_edu.errors import ActionError, ReadingError, SetupError, suggest
-from ai4u_edu.parameters import Count, Name, Number, WholeNumber
+from ai4u_edu.blocks.parameterized import Declared
 from ai4u_edu.world import Body, World, WorldView
 
 Numbers = tuple[float, ...]

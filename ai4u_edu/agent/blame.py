@@ -2,9 +2,9 @@
 
 from typing import Protocol
 
+from ai4u_edu.base.errors import AI4UError
 from ai4u_edu.blocks import Brain
 from ai4u_edu.blocks.block import Block
-from ai4u_edu.errors import AI4UError
 
 
 class HasId(Protocol):

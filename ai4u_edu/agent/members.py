@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 
 from ai4u_edu.agent.agent import BasicAgent
-from ai4u_edu.errors import SetupError, shown
+from ai4u_edu.base.errors import SetupError, shown
 from ai4u_edu.world import World
 
 

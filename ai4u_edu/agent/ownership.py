@@ -16,11 +16,11 @@ from typing import TYPE_CHECKING, Any
 from weakref import ref
 
 from ai4u_edu.agent.blame import named
+from ai4u_edu.base.errors import SetupError
 from ai4u_edu.blocks import Brain, Percept
 from ai4u_edu.blocks.agent_view import AgentView
 from ai4u_edu.blocks.block import Block
 from ai4u_edu.blocks.brains.command import Answer
-from ai4u_edu.errors import SetupError
 from ai4u_edu.world import WorldView
 
 if TYPE_CHECKING:

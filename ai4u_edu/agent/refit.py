@@ -4,9 +4,9 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 from ai4u_edu.agent.agent import BasicAgent
-from ai4u_edu.agent.fitting import Fitting
+from ai4u_edu.agent.bound_blocks import Fitting
 from ai4u_edu.blocks import Actuator, Brain, RemoteBrain, RewardFunc, Sensor
-from ai4u_edu.blocks.sensors.again import Memory, look_again
+from ai4u_edu.blocks.sensors.sensor_state import Memory, look_again
 from ai4u_edu.world import World
 
 FAREWELL = "the agent's blocks were changed; connect again to be told what it senses now"

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import Any, ClassVar
 
 from ai4u_edu.blocks.agent_view import AgentView
-from ai4u_edu.blocks.declared import Declared
+from ai4u_edu.blocks.parameterized import Declared
 from ai4u_edu.world import WorldView
 
 

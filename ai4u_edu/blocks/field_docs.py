@@ -4,7 +4,7 @@ import ast
 from functools import cache
 from itertools import pairwise
 
-from ai4u_edu.syntax import parsed_class
+from ai4u_edu.base.syntax import parsed_class
 
 
 @cache

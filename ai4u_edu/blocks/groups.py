@@ -3,8 +3,8 @@
 from collections.abc import Iterator, Mapping
 from typing import Any
 
+from ai4u_edu.base.errors import NameNotFoundError, suggest
 from ai4u_edu.blocks.block import Block
-from ai4u_edu.errors import NameNotFoundError, suggest
 from ai4u_edu.world import WorldView
 
 PARAMETERS = ("group", "target_group", "group_code", "channels", "blocked_by")

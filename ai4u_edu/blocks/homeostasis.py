@@ -2,10 +2,10 @@
 
 import math
 
+from ai4u_edu.base.errors import BlockError, ReadingError
+from ai4u_edu.base.parameters import Name, Number
 from ai4u_edu.blocks.agent_view import AgentView
 from ai4u_edu.blocks.block import Block
-from ai4u_edu.errors import BlockError, ReadingError
-from ai4u_edu.parameters import Name, Number
 from ai4u_edu.world import BodyView, WorldView
 
 MOVING = 0.05

@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from ai4u_edu.errors import NameNotFoundError, suggest
+from ai4u_edu.base.errors import NameNotFoundError, suggest
 
 DTYPES: dict[str, npt.DTypeLike] = {
     "sfloat": np.float32,

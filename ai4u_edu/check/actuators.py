@@ -3,13 +3,13 @@
 import math
 from typing import Any
 
+from ai4u_edu.base.errors import ActionError
 from ai4u_edu.blocks import Actuator
-from ai4u_edu.check.exam import DECISIONS, Exam, Options, said
+from ai4u_edu.check.block_check import DECISIONS, Exam, Options, said
 from ai4u_edu.check.ineffective import warn_of_groups
-from ai4u_edu.check.papers import check_papers
 from ai4u_edu.check.report import Outcome, Report
-from ai4u_edu.check.trial import Pose, Script, Trial, fresh, title_of
-from ai4u_edu.errors import ActionError
+from ai4u_edu.check.rollout import Pose, Script, Trial, fresh, title_of
+from ai4u_edu.check.static_checks import check_papers
 from ai4u_edu.scenes import Scene
 
 

@@ -4,10 +4,10 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from ai4u_edu.blocks import Actuator, Block, Brain, Controller, LocalBrain
-from ai4u_edu.check.exam import DECISIONS, Exam, Options
-from ai4u_edu.check.papers import check_papers
+from ai4u_edu.check.block_check import DECISIONS, Exam, Options
 from ai4u_edu.check.report import Report
-from ai4u_edu.check.trial import Script, Trial, fresh, title_of
+from ai4u_edu.check.rollout import Script, Trial, fresh, title_of
+from ai4u_edu.check.static_checks import check_papers
 from ai4u_edu.scenes import Scene
 
 

@@ -4,8 +4,8 @@ import math
 from collections.abc import Iterator
 
 from ai4u_edu.agent import BasicAgent
+from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.blocks import RespawnActuator
-from ai4u_edu.cycle import ControlRequestor
 from ai4u_edu.world.overlap import in_the_way
 
 

@@ -3,7 +3,7 @@
 from dataclasses import dataclass, field
 from enum import StrEnum
 
-from ai4u_edu.errors import AI4UError
+from ai4u_edu.base.errors import AI4UError
 
 
 class CheckError(AI4UError):

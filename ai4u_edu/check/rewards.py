@@ -1,11 +1,11 @@
 """Whether a reward function keeps its promises."""
 
 from ai4u_edu.blocks import RewardFunc
-from ai4u_edu.check.exam import DECISIONS, Exam, Options
+from ai4u_edu.check.block_check import DECISIONS, Exam, Options
 from ai4u_edu.check.ineffective import warn_of_groups, warn_of_no_end
-from ai4u_edu.check.papers import check_papers
 from ai4u_edu.check.report import Report
-from ai4u_edu.check.trial import Script, Trial, fresh, title_of
+from ai4u_edu.check.rollout import Script, Trial, fresh, title_of
+from ai4u_edu.check.static_checks import check_papers
 from ai4u_edu.scenes import Scene
 
 

@@ -6,14 +6,14 @@ from typing import Any
 import numpy as np
 
 from ai4u_edu.agent import BasicAgent
+from ai4u_edu.base.errors import AI4UError
 from ai4u_edu.blocks import Block, RewardFunc
-from ai4u_edu.check.exam import DECISIONS, Exam, Options, frozen, short
+from ai4u_edu.check.block_check import DECISIONS, Exam, Options, frozen, short
 from ai4u_edu.check.ineffective import warn_of_groups, warn_of_no_end
 from ai4u_edu.check.places import odd_places
 from ai4u_edu.check.report import Outcome, Report
+from ai4u_edu.check.rollout import Record, Script, Trial, title_of
 from ai4u_edu.check.sensors import not_in
-from ai4u_edu.check.trial import Record, Script, Trial, title_of
-from ai4u_edu.errors import AI4UError
 from ai4u_edu.scenes import Scene
 
 TEXTS = ("title", "goal", "controls", "rewards")

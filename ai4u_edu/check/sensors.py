@@ -7,11 +7,11 @@ import numpy as np
 from gymnasium import spaces
 
 from ai4u_edu.blocks import Sensor
-from ai4u_edu.check.exam import DECISIONS, Exam, Options, short
+from ai4u_edu.check.block_check import DECISIONS, Exam, Options, short
 from ai4u_edu.check.ineffective import warn_of_groups
-from ai4u_edu.check.papers import check_papers
 from ai4u_edu.check.report import Outcome, Report
-from ai4u_edu.check.trial import Script, Trial, fresh, title_of
+from ai4u_edu.check.rollout import Script, Trial, fresh, title_of
+from ai4u_edu.check.static_checks import check_papers
 from ai4u_edu.scenes import Scene
 
 

@@ -2,7 +2,7 @@
 
 from typing import TYPE_CHECKING, Any
 
-from ai4u_edu.envs.held_brain import HeldBrain
+from ai4u_edu.envs.external_brain import HeldBrain
 from ai4u_edu.envs.scene_env import SceneEnv, SceneLike
 from ai4u_edu.envs.scene_vector_env import SceneVectorEnv
 

@@ -1,10 +1,10 @@
 """The page of an environment: it shows the world that a learner's steps move."""
 
 from ai4u_edu.agent import BasicAgent
+from ai4u_edu.agent.cycle import ControlRequestor
+from ai4u_edu.base.errors import AI4UError
 from ai4u_edu.blocks import Percept
-from ai4u_edu.cycle import ControlRequestor
-from ai4u_edu.errors import AI4UError
-from ai4u_edu.runner import Runner
+from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.server import ServerThread, open_on_desktop, room_app, shut_side_door
 from ai4u_edu.viewer import Viewer
 

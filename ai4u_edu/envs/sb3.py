@@ -10,9 +10,9 @@ from typing import Any
 import numpy as np
 from stable_baselines3.common.vec_env import VecEnv
 
+from ai4u_edu.base.seeding import checked_seed
 from ai4u_edu.envs.scene_env import SceneEnv, SceneLike
 from ai4u_edu.envs.worlds import Worlds
-from ai4u_edu.seeding import checked_seed
 
 Indices = None | int | Sequence[int]
 

@@ -5,14 +5,14 @@ from typing import TYPE_CHECKING, Any
 
 import gymnasium
 
+from ai4u_edu.agent.cycle import ControlRequestor
+from ai4u_edu.base.errors import SetupError
 from ai4u_edu.blocks import Percept
-from ai4u_edu.cycle import ControlRequestor
-from ai4u_edu.drawing import draw
-from ai4u_edu.envs.held_brain import take_over
+from ai4u_edu.envs.external_brain import take_over
 from ai4u_edu.envs.spaces_of import Observer, action_space_of, outputs_of
-from ai4u_edu.errors import SetupError
 from ai4u_edu.scenes import Scene
 from ai4u_edu.snapshot import picture_of
+from ai4u_edu.snapshot.raster import draw
 
 if TYPE_CHECKING:
     from ai4u_edu.envs.live_page import LivePage

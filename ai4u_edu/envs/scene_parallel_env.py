@@ -6,12 +6,12 @@ from gymnasium import spaces
 from pettingzoo import ParallelEnv
 
 from ai4u_edu.agent import BasicAgent
-from ai4u_edu.drawing import draw
-from ai4u_edu.envs.held_brain import take_over
+from ai4u_edu.base.errors import ActionError, SetupError, suggest
+from ai4u_edu.envs.external_brain import take_over
 from ai4u_edu.envs.scene_env import SceneLike, load_scene
 from ai4u_edu.envs.spaces_of import Observer, action_space_of, outputs_of
-from ai4u_edu.errors import ActionError, SetupError, suggest
 from ai4u_edu.snapshot import picture_of
+from ai4u_edu.snapshot.raster import draw
 
 
 class SceneParallelEnv(ParallelEnv):  # type: ignore[misc]  # PettingZoo has no types

@@ -6,10 +6,10 @@ import numpy as np
 import numpy.typing as npt
 from gymnasium.vector import AutoresetMode, VectorEnv
 
+from ai4u_edu.base.errors import SetupError
+from ai4u_edu.base.seeding import checked_seed, seeds_from
 from ai4u_edu.envs.scene_env import SceneLike
 from ai4u_edu.envs.worlds import Worlds
-from ai4u_edu.errors import SetupError
-from ai4u_edu.seeding import checked_seed, seeds_from
 
 
 class SceneVectorEnv(VectorEnv[Any, Any, Any]):

@@ -8,8 +8,8 @@ import numpy.typing as npt
 from gymnasium import spaces
 
 from ai4u_edu.agent import BasicAgent
+from ai4u_edu.base.errors import SetupError, suggest
 from ai4u_edu.blocks import Actuator, Percept, Sensor
-from ai4u_edu.errors import SetupError, suggest
 
 Observation = Any
 

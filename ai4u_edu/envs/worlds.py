@@ -6,8 +6,8 @@ import numpy as np
 import numpy.typing as npt
 from gymnasium.vector.utils import batch_space, create_empty_array, iterate
 
+from ai4u_edu.base.errors import SetupError
 from ai4u_edu.envs.scene_env import SceneEnv, SceneLike, load_scene
-from ai4u_edu.errors import SetupError
 
 
 class Worlds:

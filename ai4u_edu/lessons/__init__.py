@@ -12,9 +12,9 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from ai4u_edu.lessons.checking import check, hint, progress, solution
     from ai4u_edu.lessons.filming import film
-    from ai4u_edu.lessons.handin import report
     from ai4u_edu.lessons.plots import bars, plot
     from ai4u_edu.lessons.readiness import ready
+    from ai4u_edu.lessons.report_page import report
     from ai4u_edu.lessons.showing import show, stop
 
 __all__ = [
@@ -34,7 +34,7 @@ __all__ = [
 _HOMES = {
     "checking": ("check", "hint", "progress", "solution"),
     "filming": ("film",),
-    "handin": ("report",),
+    "report_page": ("report",),
     "showing": ("show", "stop"),
     "plots": ("bars", "plot"),
     "readiness": ("ready",),

@@ -13,7 +13,7 @@ prints the first cell.
 
 from dataclasses import dataclass
 
-from ai4u_edu.errors import SetupError
+from ai4u_edu.base.errors import SetupError
 from ai4u_edu.lessons.course import course_folder
 from ai4u_edu.lessons.notebook import read_cells
 

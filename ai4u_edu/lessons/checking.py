@@ -5,11 +5,11 @@ from dataclasses import dataclass
 from typing import Any
 
 from ai4u_edu.lessons.answers import answers_to
+from ai4u_edu.lessons.cell_source import written
 from ai4u_edu.lessons.exercise import Done, Exercise, NotYet, find, unfinished
-from ai4u_edu.lessons.keeper import Entry, Keeper
-from ai4u_edu.lessons.mishap import told
-from ai4u_edu.lessons.out import card, put
-from ai4u_edu.lessons.written import written
+from ai4u_edu.lessons.notebook_output import card, put
+from ai4u_edu.lessons.progress_file import Entry, Keeper
+from ai4u_edu.lessons.student_errors import told
 
 YES, NO = "\u2714", "\u2013"
 UNFINISHED = "There is still `...` where your answer should be: run its cell once you wrote it."

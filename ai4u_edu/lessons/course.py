@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 
-from ai4u_edu.errors import SetupError, suggest
+from ai4u_edu.base.errors import SetupError, suggest
 from ai4u_edu.lessons.notebook import Cell, read_cells
 
 

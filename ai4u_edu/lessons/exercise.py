@@ -15,7 +15,7 @@ from dataclasses import dataclass, field
 from importlib import import_module
 from typing import Any, cast
 
-from ai4u_edu.errors import SetupError, suggest
+from ai4u_edu.base.errors import SetupError, suggest
 
 
 class NotYet(Exception):  # noqa: N818 - no error: the student is on the way

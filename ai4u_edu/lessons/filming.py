@@ -3,10 +3,10 @@
 from collections import deque
 from typing import Any
 
-from ai4u_edu.cycle import ControlRequestor
-from ai4u_edu.lessons.out import image, put
+from ai4u_edu.agent.cycle import ControlRequestor
+from ai4u_edu.lessons.notebook_output import image, put
 from ai4u_edu.lessons.pictures import RATE, SECONDS, animation, moving
-from ai4u_edu.lessons.rolls import LONGEST, Drive, drives
+from ai4u_edu.lessons.rollouts import LONGEST, Drive, drives
 from ai4u_edu.recording import Episode
 from ai4u_edu.scenes import Scene
 from ai4u_edu.snapshot import Snapshot, picture_of

@@ -6,11 +6,11 @@ import shutil
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from ai4u_edu.atomic_write import write_atomically
-from ai4u_edu.errors import SetupError
+from ai4u_edu.base.atomic_write import write_atomically
+from ai4u_edu.base.errors import SetupError
 from ai4u_edu.lessons.course import course_folder, lessons
-from ai4u_edu.lessons.keeper import FOLDER
 from ai4u_edu.lessons.notebook import dumps
+from ai4u_edu.lessons.progress_file import FOLDER
 
 LAB = {"disabledExtensions": {"@jupyterlab/apputils-extension:announcements": True}}
 """How JupyterLab is set up: it would ask whether it may fetch news from the internet."""

@@ -8,12 +8,12 @@ from itertools import count
 from pathlib import Path
 from secrets import token_urlsafe
 
-from ai4u_edu.cycle import ControlRequestor
-from ai4u_edu.errors import AI4UError
-from ai4u_edu.lessons.out import card, image, in_notebook, replace
+from ai4u_edu.agent.cycle import ControlRequestor
+from ai4u_edu.base.errors import AI4UError
+from ai4u_edu.lessons.notebook_output import card, image, in_notebook, replace
 from ai4u_edu.lessons.pictures import SIDE, animation, picture
 from ai4u_edu.recording import Episode, Recorder
-from ai4u_edu.runner import Runner
+from ai4u_edu.runtime.runner import Runner
 
 TOKEN = token_urlsafe(24)
 """Of all pages of this process. A notebook server may be one that many share, and under any name;

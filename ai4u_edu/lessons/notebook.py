@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from ai4u_edu.errors import SetupError
+from ai4u_edu.base.errors import SetupError
 
 _HEAD = re.compile(r"# %%(?P<text> \[markdown\])?(?: tags=(?P<tags>\[[^\]]*\]))?")
 KERNEL = {"display_name": "Python 3 (ipykernel)", "language": "python", "name": "python3"}

@@ -6,10 +6,10 @@ from collections.abc import Iterable, Sequence
 
 from PIL import Image, ImageDraw
 
-from ai4u_edu.drawing import MARGIN, draw
-from ai4u_edu.palette import rgb
+from ai4u_edu.base.colors import rgb
 from ai4u_edu.recording import Episode, Replay
 from ai4u_edu.snapshot import Snapshot
+from ai4u_edu.snapshot.raster import MARGIN, draw
 
 SIDE = 320
 """Pixels of a picture's longer side."""

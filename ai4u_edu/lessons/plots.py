@@ -4,9 +4,9 @@ import io
 import math
 from collections.abc import Mapping, Sequence
 
-from ai4u_edu.extras import need
-from ai4u_edu.lessons.out import image, put
-from ai4u_edu.palette import PALETTE
+from ai4u_edu.base.colors import PALETTE
+from ai4u_edu.base.optional_deps import need
+from ai4u_edu.lessons.notebook_output import image, put
 
 COLOURS = ("blue", "orange", "green", "vermillion", "purple", "sky blue", "black")
 STYLES = ("-", "--", "-.", ":")

@@ -3,9 +3,9 @@
 import platform
 from importlib.util import find_spec
 
-from ai4u_edu.lessons.out import card, put
-from ai4u_edu.lessons.rolls import drives
-from ai4u_edu.version import __version__
+from ai4u_edu.base.version import __version__
+from ai4u_edu.lessons.notebook_output import card, put
+from ai4u_edu.lessons.rollouts import drives
 
 NEEDED = {
     "lessons": ("matplotlib", "ipykernel"),

@@ -5,14 +5,13 @@ from pathlib import Path
 from typing import Any
 
 from ai4u_edu.agent import BasicAgent
+from ai4u_edu.agent.cycle import ControlRequestor
+from ai4u_edu.base.errors import SetupError
 from ai4u_edu.blocks import LocalBrain
-from ai4u_edu.cycle import ControlRequestor
-from ai4u_edu.episode_commands import recorder_into
-from ai4u_edu.errors import SetupError
 from ai4u_edu.lessons.live import Live
-from ai4u_edu.lessons.out import after_each_cell, in_notebook, put
-from ai4u_edu.lessons.rolls import brain_for
-from ai4u_edu.recording import Recorder
+from ai4u_edu.lessons.notebook_output import after_each_cell, in_notebook, put
+from ai4u_edu.lessons.rollouts import brain_for
+from ai4u_edu.recording import Recorder, recorder_into
 from ai4u_edu.scenes import Scene
 from ai4u_edu.world import World
 

@@ -3,8 +3,8 @@
 from typing import Any
 
 from ai4u_edu.agent import BasicAgent
+from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.blocks import Brain, LocalBrain
-from ai4u_edu.cycle import ControlRequestor
 from ai4u_edu.lessons.exercise import NotYet
 from ai4u_edu.world import BoxShape, CircleShape, Variation, World
 

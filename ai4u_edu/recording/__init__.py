@@ -5,6 +5,7 @@ from ai4u_edu.recording.episode import AgentRecord, Decision, Episode
 from ai4u_edu.recording.errors import RecordingError
 from ai4u_edu.recording.ghost import Ghost, ghost_of
 from ai4u_edu.recording.recorder import Recorder
+from ai4u_edu.recording.recorder_into import recorder_into
 from ai4u_edu.recording.replay import Moment, Replay, Verdict
 
 __all__ = [
@@ -20,4 +21,5 @@ __all__ = [
     "Replay",
     "Verdict",
     "ghost_of",
+    "recorder_into",
 ]

@@ -9,7 +9,7 @@ from typing import NamedTuple, Self
 import numpy as np
 import numpy.typing as npt
 
-from ai4u_edu.errors import NameNotFoundError, suggest
+from ai4u_edu.base.errors import NameNotFoundError, suggest
 from ai4u_edu.recording.table import Table
 from ai4u_edu.scenes import SceneDescription
 

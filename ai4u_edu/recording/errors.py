@@ -1,6 +1,6 @@
 """What can go wrong with a recorded episode."""
 
-from ai4u_edu.errors import AI4UError
+from ai4u_edu.base.errors import AI4UError
 
 
 class RecordingError(AI4UError):

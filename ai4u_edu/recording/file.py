@@ -16,15 +16,15 @@ import numpy as np
 import numpy.typing as npt
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
-from ai4u_edu.atomic_write import write_atomically
-from ai4u_edu.parameters import Problem, explain
+from ai4u_edu.base.atomic_write import write_atomically
+from ai4u_edu.base.parameters import Problem, explain
+from ai4u_edu.base.seeding import MAX_SEED
 from ai4u_edu.recording.episode import LONGEST_DRIVER, AgentRecord, Episode, Restart
+from ai4u_edu.recording.episode_builder import LATEST
 from ai4u_edu.recording.errors import RecordingError
-from ai4u_edu.recording.sound import check_sound
 from ai4u_edu.recording.table import MOST_FORMS, Table
-from ai4u_edu.recording.tape import LATEST
+from ai4u_edu.recording.validation import check_sound
 from ai4u_edu.scenes import Scene, SceneDescription
-from ai4u_edu.seeding import MAX_SEED
 
 HEAD = b"ai4u-edu episode 1\n"
 LARGEST_FILE = 16 * 2**20

@@ -4,15 +4,15 @@ from collections.abc import Callable, Mapping
 from functools import partial
 from typing import Any, cast
 
-from ai4u_edu.block_errors import may_be_kept, sentence_of
+from ai4u_edu.agent.block_errors import may_be_kept, sentence_of
+from ai4u_edu.agent.cycle import ControlRequestor
+from ai4u_edu.base.errors import AI4UError
 from ai4u_edu.blocks import Answer, Brain, Command, Percept
-from ai4u_edu.cycle import ControlRequestor
-from ai4u_edu.errors import AI4UError
 from ai4u_edu.recording.episode import REPEAT, Episode
 from ai4u_edu.recording.errors import RecordingError
-from ai4u_edu.recording.portrait import scene_of, without_brains, without_unknown_brains
+from ai4u_edu.recording.scene_export import scene_of, without_brains, without_unknown_brains
 from ai4u_edu.scenes.description import make_agents
-from ai4u_edu.scenes.plain import PlainError, from_plain
+from ai4u_edu.scenes.serialization import PlainError, from_plain
 from ai4u_edu.world import World
 
 

@@ -6,15 +6,15 @@ from collections.abc import Callable
 from typing import Any, TypeVar
 
 from ai4u_edu.agent import BasicAgent
-from ai4u_edu.block_errors import message_of
+from ai4u_edu.agent.block_errors import message_of
+from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.blocks import Block
-from ai4u_edu.cycle import ControlRequestor
 from ai4u_edu.recording.archive import Archive
+from ai4u_edu.recording.checksum import everything
 from ai4u_edu.recording.episode import Episode
+from ai4u_edu.recording.episode_builder import Tape
 from ai4u_edu.recording.errors import RecordingError
-from ai4u_edu.recording.fingerprint import everything
-from ai4u_edu.recording.portrait import scene_of
-from ai4u_edu.recording.tape import Tape
+from ai4u_edu.recording.scene_export import scene_of
 from ai4u_edu.scenes import SceneDescription
 
 T = TypeVar("T")

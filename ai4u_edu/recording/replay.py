@@ -5,15 +5,15 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from ai4u_edu.agent import BasicAgent
+from ai4u_edu.agent.cycle import ControlRequestor
+from ai4u_edu.base.errors import AI4UError, suggest
 from ai4u_edu.blocks import Brain, Percept
-from ai4u_edu.cycle import ControlRequestor
-from ai4u_edu.errors import AI4UError, suggest
 from ai4u_edu.recording.episode import ENDED, AgentRecord, Decision, Episode
+from ai4u_edu.recording.episode_builder import VERSIONS
 from ai4u_edu.recording.errors import RecordingError
 from ai4u_edu.recording.player import Player
-from ai4u_edu.recording.portrait import scene_of, without_brains
 from ai4u_edu.recording.recorder import Recorder
-from ai4u_edu.recording.tape import VERSIONS
+from ai4u_edu.recording.scene_export import scene_of, without_brains
 from ai4u_edu.snapshot import Snapshot, Stage, picture_of, set_stage
 
 NEAR = 100

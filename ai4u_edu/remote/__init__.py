@@ -2,11 +2,11 @@
 
 from typing import TYPE_CHECKING, Any
 
-from ai4u_edu.remote.asynchronous import AsyncRobot
-from ai4u_edu.remote.driven import Spaces
+from ai4u_edu.remote.async_robot import AsyncRobot
 from ai4u_edu.remote.errors import LostError, RefusedError, RemoteError
 from ai4u_edu.remote.percept import RemotePercept
 from ai4u_edu.remote.robot import Robot, connect
+from ai4u_edu.remote.robot_base import Spaces
 
 if TYPE_CHECKING:
     from ai4u_edu.remote.env import RemoteEnv

@@ -8,7 +8,7 @@ import time
 
 from ai4u_edu.remote.errors import RemoteError
 from ai4u_edu.wire.ai4u_dialogue import Dialogue, Heard, Phase, State
-from ai4u_edu.wire.strict import WireError
+from ai4u_edu.wire.validation import WireError
 
 KNOCK_EVERY = 0.25
 """Seconds between two knocks while no script is there."""

@@ -12,19 +12,19 @@ from typing import NamedTuple
 
 from gymnasium import spaces
 
-from ai4u_edu.errors import ActionError
+from ai4u_edu.base.errors import ActionError
 from ai4u_edu.remote.address import address_of
 from ai4u_edu.remote.ai4u_script import AI4UScript, ScriptGoneError
 from ai4u_edu.remote.dialogue import Dialogue
 from ai4u_edu.remote.errors import RemoteError
 from ai4u_edu.remote.percept import RemotePercept
-from ai4u_edu.remote.plain_line import NotWantedError, PlainLine
 from ai4u_edu.remote.spaces import output_space, reading_space
+from ai4u_edu.remote.sync_connection import NotWantedError, PlainLine
 from ai4u_edu.wire import ai4u_dialogue, native
 from ai4u_edu.wire.agent_codec import AgentCodec
 from ai4u_edu.wire.ai4u import Order, number
 from ai4u_edu.wire.ai4u_dialogue import Phase, State, Word
-from ai4u_edu.wire.strict import WireError
+from ai4u_edu.wire.validation import WireError
 
 SETTLE = 0.1
 """Seconds that a script gets to put itself together, before it is greeted and before it is told a

@@ -10,14 +10,14 @@ from contextlib import suppress
 from secrets import token_urlsafe
 from typing import Any, Literal, NoReturn, SupportsIndex, cast
 
-from ai4u_edu.errors import ActionError
+from ai4u_edu.base.errors import ActionError
+from ai4u_edu.base.seeding import checked_seed
 from ai4u_edu.remote.errors import LostError, RefusedError, RemoteError
 from ai4u_edu.remote.outputs import numbers_of
 from ai4u_edu.remote.percept import RemotePercept
 from ai4u_edu.remote.steps import Close, Flow, LineLost, Open, Pause, Receive, Send
-from ai4u_edu.seeding import checked_seed
 from ai4u_edu.wire import native
-from ai4u_edu.wire.strict import WireError
+from ai4u_edu.wire.validation import WireError
 
 FIRST_WAIT = 0.2
 """Seconds after which something is said again for the first time; then twice as many each time."""

@@ -18,8 +18,8 @@ from websockets.frames import CloseCode
 from websockets.protocol import State
 
 from ai4u_edu.remote.channel import Channel
+from ai4u_edu.remote.keepalive import Watch
 from ai4u_edu.remote.readiness import is_readable
-from ai4u_edu.remote.watch import Watch
 
 _FRESH = 0.0005
 """Seconds after a message in which nobody looks for a close before saying something: as long as a

@@ -5,11 +5,11 @@ from typing import Any
 import gymnasium
 import numpy as np
 
-from ai4u_edu.errors import SetupError
+from ai4u_edu.base.errors import SetupError
+from ai4u_edu.base.seeding import checked_seed
 from ai4u_edu.remote.percept import RemotePercept
 from ai4u_edu.remote.robot import connect
 from ai4u_edu.remote.spaces import action_space, observation_space
-from ai4u_edu.seeding import checked_seed
 
 
 class RemoteEnv(gymnasium.Env[Any, Any]):

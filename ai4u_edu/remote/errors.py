@@ -1,6 +1,6 @@
 """What can go wrong on a script's side of the line."""
 
-from ai4u_edu.errors import AI4UError
+from ai4u_edu.base.errors import AI4UError
 
 
 class RemoteError(AI4UError):

@@ -4,7 +4,7 @@ import math
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from ai4u_edu.errors import ActionError, shown, suggest
+from ai4u_edu.base.errors import ActionError, shown, suggest
 from ai4u_edu.wire.native import Output
 
 
@@ -24,7 +24,7 @@ def numbers_of(outputs: Mapping[str, Output], action: Any) -> dict[str, tuple[fl
     >>> numbers_of({"move": move}, {"mvoe": [1, 0]})
     Traceback (most recent call last):
     ...
-    ai4u_edu.errors.ActionError: no actuator is called 'mvoe'; did you mean 'move'?
+    ai4u_edu.base.errors.ActionError: no actuator is called 'mvoe'; did you mean 'move'?
     """
     if not isinstance(action, Mapping):
         if len(outputs) != 1:

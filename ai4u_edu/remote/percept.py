@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from ai4u_edu.errors import NameNotFoundError, suggest
+from ai4u_edu.base.errors import NameNotFoundError, suggest
 from ai4u_edu.remote.errors import RemoteError
 from ai4u_edu.wire import native
 from ai4u_edu.wire.texts import SEVERAL, unpack_texts

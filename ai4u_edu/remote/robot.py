@@ -5,9 +5,9 @@ from typing import Any, Self, SupportsIndex
 
 from ai4u_edu.remote.address import address_of
 from ai4u_edu.remote.dialogue import Dialogue
-from ai4u_edu.remote.driven import Driven
 from ai4u_edu.remote.percept import RemotePercept
-from ai4u_edu.remote.plain_line import PlainLine
+from ai4u_edu.remote.robot_base import Driven
+from ai4u_edu.remote.sync_connection import PlainLine
 from ai4u_edu.wire.native import Mode, OnMissing
 
 _robots: dict[tuple[str, str], "Robot"] = {}

@@ -8,7 +8,7 @@ import numpy as np
 import numpy.typing as npt
 from gymnasium import spaces
 
-from ai4u_edu.errors import shown
+from ai4u_edu.base.errors import shown
 from ai4u_edu.remote.errors import RemoteError
 from ai4u_edu.wire.native import LARGEST_HEARD, Output, Reading
 from ai4u_edu.wire.texts import SEVERAL

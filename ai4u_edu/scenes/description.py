@@ -7,10 +7,10 @@ from pydantic import Field
 
 from ai4u_edu.agent import BasicAgent
 from ai4u_edu.agent.ledger import HANDLERS
+from ai4u_edu.base.errors import suggest
+from ai4u_edu.base.parameters import Name, Problem, quantity
 from ai4u_edu.blocks.rewards.combined import CombinedRewardFunc
-from ai4u_edu.errors import suggest
-from ai4u_edu.parameters import Name, Problem, quantity
-from ai4u_edu.scenes.plain import Path, PlainError, make
+from ai4u_edu.scenes.serialization import Path, PlainError, make
 from ai4u_edu.world import AreaDescription, BodyDescription, FloorDescription, WorldSettings
 from ai4u_edu.world.shapes import Description
 

@@ -6,17 +6,17 @@ from typing import Any, Self
 from pydantic import ValidationError
 from yaml import YAMLError
 
-from ai4u_edu.atomic_write import write_atomically
+from ai4u_edu.agent.cycle import ControlRequestor
+from ai4u_edu.base.atomic_write import write_atomically
+from ai4u_edu.base.errors import AI4UError, SceneError, WorldError, suggest
+from ai4u_edu.base.parameters import Problem, explain
 from ai4u_edu.blocks.brains.network import files_in
-from ai4u_edu.cycle import ControlRequestor
-from ai4u_edu.errors import AI4UError, SceneError, WorldError, suggest
-from ai4u_edu.parameters import Problem, explain
 from ai4u_edu.scenes.description import SceneDescription, check_success, make_agents
-from ai4u_edu.scenes.plain import PlainError
+from ai4u_edu.scenes.serialization import PlainError
 from ai4u_edu.scenes.setup_errors import path_of
-from ai4u_edu.scenes.yaml_edit import edited
-from ai4u_edu.scenes.yaml_file import YamlFile, write_yaml
-from ai4u_edu.scenes.yaml_tree import NotYamlError, read_tree
+from ai4u_edu.scenes.yaml.edit import edited
+from ai4u_edu.scenes.yaml.file import YamlFile, write_yaml
+from ai4u_edu.scenes.yaml.tree import NotYamlError, read_tree
 from ai4u_edu.world import World
 
 LIBRARY = Path(__file__).parent / "library"

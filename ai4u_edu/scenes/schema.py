@@ -6,7 +6,7 @@ from ai4u_edu.agent import BasicAgent
 from ai4u_edu.blocks import Block
 from ai4u_edu.blocks.block import is_built_in
 from ai4u_edu.scenes.description import SceneDescription
-from ai4u_edu.scenes.plain import KINDS, fits_a_file
+from ai4u_edu.scenes.serialization import KINDS, fits_a_file
 
 
 def scene_schema() -> dict[str, Any]:

@@ -4,8 +4,8 @@ from collections.abc import Iterable, Mapping
 from typing import Any
 
 from ai4u_edu.agent import BasicAgent
-from ai4u_edu.errors import AI4UError, SetupError
-from ai4u_edu.scenes.plain import Path
+from ai4u_edu.base.errors import AI4UError, SetupError
+from ai4u_edu.scenes.serialization import Path
 
 KINDS = ("sensors", "actuators", "rewards", "brains")
 COMPLAINTS = ("is named", "is called", "carries the tag", "the network")

@@ -4,7 +4,7 @@ import errno
 import os
 import socket
 
-from ai4u_edu.errors import AI4UError
+from ai4u_edu.base.errors import AI4UError
 
 EVERYWHERE = {"": "127.0.0.1", "0.0.0.0": "127.0.0.1", "::": "::1"}  # noqa: S104 - read, not bound
 """What stands for all addresses of this machine, and one of them for the machine itself."""

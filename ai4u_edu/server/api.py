@@ -9,9 +9,9 @@ import numpy as np
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field
 from typing_extensions import TypeAliasType
 
+from ai4u_edu.base.version import __version__
+from ai4u_edu.runtime.stall_monitor import Stall
 from ai4u_edu.snapshot import AgentState, BodyState, Snapshot
-from ai4u_edu.stall_monitor import Stall
-from ai4u_edu.version import __version__
 
 
 def finite(value: float) -> float | None:

@@ -11,17 +11,17 @@ from starlette.responses import JSONResponse, Response
 from starlette.routing import Match, Mount, Route, WebSocketRoute
 from starlette.types import Scope
 
-from ai4u_edu.runner import Runner
+from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.server.api import Health, SnapshotView
 from ai4u_edu.server.attempts import Attempts, LimitScripts
-from ai4u_edu.server.door import LOOPBACK, Door
-from ai4u_edu.server.guard import Guard
+from ai4u_edu.server.host_origin import LOOPBACK, Door
 from ai4u_edu.server.input import Inputs
 from ai4u_edu.server.openapi import openapi
 from ai4u_edu.server.page import Page
 from ai4u_edu.server.past import Past
 from ai4u_edu.server.proxy import ViserProxy
-from ai4u_edu.server.remote import RemoteSockets, Rules
+from ai4u_edu.server.scripts import RemoteSockets, Rules
+from ai4u_edu.server.token_auth import Guard
 from ai4u_edu.snapshot import Snapshot
 from ai4u_edu.wire.native import PROBLEMS
 
@@ -41,7 +41,8 @@ def room_app(
         runner: lets the world run; started by the caller.
         viser_port: where the room's viser listens, on 127.0.0.1.
         title: of the page, and the scene's name in the API; or what tells it, where it may change.
-        allowed_hosts: names under which the room may be asked for; see :mod:`ai4u_edu.server.door`.
+        allowed_hosts: names under which the room may be asked for; see
+            :mod:`ai4u_edu.server.host_origin`.
         proxy_hosts: names under which a proxy gives out the page; see there.
         rules: for scripts that drive agents from other machines; their token is asked for by the
             page and the API too.

@@ -5,6 +5,7 @@ from collections.abc import Iterable
 from typing import TypeGuard
 
 from ai4u_edu.agent import BasicAgent
+from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.blocks import (
     Actuator,
     ArrowController,
@@ -23,7 +24,6 @@ from ai4u_edu.blocks import (
     WASDController,
     WASDRBMoveController,
 )
-from ai4u_edu.cycle import ControlRequestor
 
 _CODE = re.compile(
     r"Key[A-Z]|Digit\d|Arrow(Up|Down|Left|Right)|F\d+|Space|Enter|Tab|Escape|Backspace"

@@ -9,7 +9,7 @@ import selectors
 import sys
 import time
 
-from ai4u_edu.lookout import give_way
+from ai4u_edu.base.lookout import give_way
 
 EAGER = 2e-4
 """Seconds."""

@@ -7,8 +7,8 @@ from concurrent.futures import Future
 from dataclasses import dataclass, field
 from threading import Lock, Thread
 
-from ai4u_edu.block_errors import storable
-from ai4u_edu.errors import AI4UError
+from ai4u_edu.agent.block_errors import storable
+from ai4u_edu.base.errors import AI4UError
 from ai4u_edu.recording import Episode
 
 MAX_QUEUED = 16

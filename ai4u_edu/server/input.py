@@ -12,16 +12,17 @@ from starlette.types import Receive, Scope, Send
 from starlette.websockets import WebSocket, WebSocketDisconnect, WebSocketState
 
 from ai4u_edu.agent import BasicAgent
+from ai4u_edu.agent.cycle import ControlRequestor
+from ai4u_edu.base.errors import NameNotFoundError
 from ai4u_edu.blocks.brains.controllers.keyboard import Stick
-from ai4u_edu.cycle import ControlRequestor
-from ai4u_edu.errors import NameNotFoundError
-from ai4u_edu.runner import Runner
-from ai4u_edu.server import messages, news
+from ai4u_edu.runtime.runner import Runner
+from ai4u_edu.server import messages
+from ai4u_edu.server import page_events as news
 from ai4u_edu.server.bindings import choose
+from ai4u_edu.server.control_lock import Seat
 from ai4u_edu.server.frames import CAP, EXTENSION, FramesProtocol
-from ai4u_edu.server.hands import Hands
+from ai4u_edu.server.human_override import Hands
 from ai4u_edu.server.rate import Rate
-from ai4u_edu.server.seat import Seat
 
 LARGEST = 4096
 """Bytes of a message."""

@@ -12,7 +12,7 @@ import socket
 from contextlib import suppress
 from typing import Any
 
-from ai4u_edu.log_limit import log_limited
+from ai4u_edu.base.log_limit import log_limited
 from ai4u_edu.server.connections import MAX_EVICTING, Connections
 from ai4u_edu.server.refusal import refusal
 

@@ -4,7 +4,7 @@ from typing import Annotated, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, TypeAdapter, ValidationError
 
-from ai4u_edu.parameters import explain, listed
+from ai4u_edu.base.parameters import explain, listed
 
 CODE = r"^[A-Za-z0-9]{1,24}$"
 Code = Annotated[str, Field(pattern=CODE)]

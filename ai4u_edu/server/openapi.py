@@ -5,9 +5,9 @@ from typing import Any
 from pydantic import BaseModel
 from pydantic.json_schema import models_json_schema
 
+from ai4u_edu.base.version import __version__
 from ai4u_edu.server.api import Health, SnapshotView
 from ai4u_edu.server.past import RECORDING, WRITERS, PastView
-from ai4u_edu.version import __version__
 
 _ANSWERS: dict[str, tuple[str, type[BaseModel]]] = {
     "/healthz": ("Whether the room is well.", Health),

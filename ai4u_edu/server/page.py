@@ -10,7 +10,7 @@ from typing import NamedTuple
 from starlette.requests import Request
 from starlette.responses import FileResponse, PlainTextResponse, Response
 
-from ai4u_edu.errors import SetupError
+from ai4u_edu.base.errors import SetupError
 
 _PLACE = "<title>Viser</title>"
 _OURS = """<title>{title}</title>

@@ -14,7 +14,7 @@ from typing import Annotated, Literal
 import msgspec
 from msgspec import Meta
 
-from ai4u_edu.page_limits import MAX_EXACT_INT
+from ai4u_edu.base.limits import MAX_EXACT_INT
 
 MAX_VALUE_CHARS = 200_000
 """Characters of a widget's value; the viewer takes fewer, and tells the page when it does not."""

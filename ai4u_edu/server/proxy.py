@@ -17,14 +17,14 @@ from websockets.frames import DATA_OPCODES, Frame, Opcode
 from websockets.protocol import Event
 from websockets.typing import Subprotocol
 
-from ai4u_edu.direct import HEADER, Direct, left
-from ai4u_edu.log_limit import log_limited
-from ai4u_edu.post import Post, post_here
+from ai4u_edu.base.direct import HEADER, Direct, left
+from ai4u_edu.base.log_limit import log_limited
+from ai4u_edu.base.loop_queue import Post, post_here
 from ai4u_edu.server import page_messages
 from ai4u_edu.server.frames import EXTENSION, FramesProtocol
-from ai4u_edu.server.guard import with_token
 from ai4u_edu.server.rate import Rate
-from ai4u_edu.server.side_door import KNOCK, KNOCK_HEADER
+from ai4u_edu.server.token_auth import with_token
+from ai4u_edu.server.viser_lockdown import KNOCK, KNOCK_HEADER
 
 UPWARD = 500
 """Messages a second that viser gets from one page; a page that sends more is slowed down. Dragging

@@ -11,7 +11,7 @@ from typing import Self
 import uvicorn
 from starlette.types import ASGIApp
 
-from ai4u_edu.log_limit import limited_logs
+from ai4u_edu.base.log_limit import limited_logs
 from ai4u_edu.server.address import listen, url_of
 from ai4u_edu.server.connections import PER_ADDRESS, Connections, raise_descriptor_limit
 from ai4u_edu.server.frames import FramesProtocol

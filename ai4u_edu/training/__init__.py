@@ -27,7 +27,7 @@ from typing import TYPE_CHECKING
 from ai4u_edu.training.notebook import clone, demonstrate, evaluate, export, train
 
 if TYPE_CHECKING:
-    from ai4u_edu.training.tables import QTable, grid_state, q_learning, still
+    from ai4u_edu.training.q_table import QTable, grid_state, q_learning, still
 
 __all__ = [
     "QTable",
@@ -45,7 +45,7 @@ __all__ = [
 def __getattr__(name: str) -> object:
     # a command line that only tells its commands needs no physics
     if name in __all__:
-        from ai4u_edu.training import tables
+        from ai4u_edu.training import q_table as tables
 
         return getattr(tables, name)
     raise AttributeError(f"module 'ai4u_edu.training' has no attribute {name!r}")

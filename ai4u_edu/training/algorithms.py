@@ -12,7 +12,7 @@ from stable_baselines3.common.base_class import BaseAlgorithm
 from stable_baselines3.common.preprocessing import is_image_space
 from stable_baselines3.common.vec_env import VecEnv
 
-from ai4u_edu.errors import SetupError, suggest
+from ai4u_edu.base.errors import SetupError, suggest
 from ai4u_edu.training.settings import Algorithm, AlgorithmSettings
 
 CLASSES: dict[Algorithm, type[BaseAlgorithm]] = {"sac": SAC, "ppo": PPO, "dqn": DQN}

@@ -4,10 +4,10 @@ import re
 from collections.abc import Sequence
 from pathlib import Path
 
-from ai4u_edu.cycle import ControlRequestor
-from ai4u_edu.errors import NameNotFoundError, SetupError, suggest
+from ai4u_edu.agent.cycle import ControlRequestor
+from ai4u_edu.base.errors import NameNotFoundError, SetupError, suggest
 from ai4u_edu.scenes import Scene
-from ai4u_edu.training.entrants import Entrant, entrant, expect_here
+from ai4u_edu.training.policies import Entrant, entrant, expect_here
 
 _ID = re.compile(r"[\w .:\-]+")
 
@@ -19,7 +19,7 @@ def with_drivers(
 
     Args:
         scene: stays as it is.
-        specs: who drives, as :func:`~ai4u_edu.training.entrants.entrant` takes it; ``ID=...`` for
+        specs: who drives, as :func:`~ai4u_edu.training.policies.entrant` takes it; ``ID=...`` for
             another agent than the first.
         is_served: True if pages and scripts reach the world. Then an AI4U script may drive, and
             with several agents each driver has to be given to one by its id.

@@ -15,20 +15,20 @@ from rich.console import Console
 from torch import Tensor, nn
 
 from ai4u_edu.agent import BasicAgent
-from ai4u_edu.atomic_write import write_atomically
+from ai4u_edu.base.atomic_write import write_atomically
+from ai4u_edu.base.errors import SetupError
+from ai4u_edu.base.seeding import checked_seed
+from ai4u_edu.base.version import __version__
 from ai4u_edu.blocks.brains.network import ABOUT
 from ai4u_edu.envs.spaces_of import outputs_of
-from ai4u_edu.errors import SetupError
 from ai4u_edu.recording import Episode
 from ai4u_edu.recording.player import Player
-from ai4u_edu.scenes.plain import to_plain
-from ai4u_edu.seeding import checked_seed
+from ai4u_edu.scenes.serialization import to_plain
 from ai4u_edu.training.algorithms import THREADS
 from ai4u_edu.training.demonstrations import demonstrations
 from ai4u_edu.training.exporting import graph_of, inputs_of
-from ai4u_edu.training.meter import meter
+from ai4u_edu.training.progress_bar import meter
 from ai4u_edu.training.rays import Rays
-from ai4u_edu.version import __version__
 
 LAYERS = (128, 128)
 RATE = 1e-3

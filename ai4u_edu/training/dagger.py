@@ -16,14 +16,14 @@ import numpy as np
 import torch
 
 from ai4u_edu.agent import BasicAgent
+from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.blocks import LocalBrain, Percept
-from ai4u_edu.cycle import ControlRequestor
 from ai4u_edu.envs.spaces_of import Observer, action_space_of, outputs_of
 from ai4u_edu.scenes import Scene
 from ai4u_edu.training.algorithms import THREADS
 from ai4u_edu.training.cloning import BATCH, RATE, Clone, Floats, levels_of, write_network
 from ai4u_edu.training.evaluating import LONGEST
-from ai4u_edu.training.meter import meter
+from ai4u_edu.training.progress_bar import meter
 from ai4u_edu.training.rays import rays_of
 from ai4u_edu.training.settings import DaggerSettings
 

@@ -12,11 +12,11 @@ import numpy.typing as npt
 from gymnasium import spaces
 
 from ai4u_edu.agent import BasicAgent
-from ai4u_edu.atomic_write import partial_file
+from ai4u_edu.base.atomic_write import partial_file
+from ai4u_edu.base.errors import SetupError
+from ai4u_edu.base.optional_deps import need
 from ai4u_edu.blocks import Actuator
 from ai4u_edu.envs.spaces_of import Observer, action_space_of, outputs_of
-from ai4u_edu.errors import SetupError
-from ai4u_edu.extras import need
 from ai4u_edu.recording import AgentRecord, Episode, RecordingError, Replay
 from ai4u_edu.recording.player import Player
 from ai4u_edu.scenes import Scene, SceneDescription

@@ -8,10 +8,10 @@ from typing import Any
 import numpy as np
 
 from ai4u_edu.agent import BasicAgent
-from ai4u_edu.cycle import ControlRequestor
+from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.scenes import Scene
-from ai4u_edu.training.entrants import Entrant, expect_here
 from ai4u_edu.training.episode import Episode, wilson
+from ai4u_edu.training.policies import Entrant, expect_here
 
 LONGEST = 10_000
 """Decisions after which an episode is cut off in a scene that has no limit of its own."""

@@ -18,16 +18,16 @@ from gymnasium import spaces
 from stable_baselines3.common.base_class import BaseAlgorithm
 
 from ai4u_edu.agent import BasicAgent
-from ai4u_edu.atomic_write import write_atomically
+from ai4u_edu.base.atomic_write import write_atomically
+from ai4u_edu.base.version import __version__
 from ai4u_edu.blocks.brains.network import ABOUT
 from ai4u_edu.envs.spaces_of import outputs_of
 from ai4u_edu.scenes import Scene
-from ai4u_edu.scenes.plain import to_plain
+from ai4u_edu.scenes.serialization import to_plain
 from ai4u_edu.training.network import Drive, example
 from ai4u_edu.training.prepare import prepare
 from ai4u_edu.training.run import Config
 from ai4u_edu.training.worlds import table_for
-from ai4u_edu.version import __version__
 
 OPSET = 18
 

@@ -13,13 +13,13 @@ from stable_baselines3.common.logger import configure
 from stable_baselines3.common.off_policy_algorithm import OffPolicyAlgorithm
 from stable_baselines3.common.vec_env import VecEnv
 
+from ai4u_edu.base.errors import ParameterError, SetupError
+from ai4u_edu.base.seeding import MAX_TRAINING_SEED, checked_seed
 from ai4u_edu.envs import SceneEnv
-from ai4u_edu.errors import ParameterError, SetupError
 from ai4u_edu.scenes import Scene
-from ai4u_edu.seeding import MAX_TRAINING_SEED, checked_seed
 from ai4u_edu.training.algorithms import check_actions, load_model, new_model
+from ai4u_edu.training.eval_callback import Keeper
 from ai4u_edu.training.interrupt import Interrupt
-from ai4u_edu.training.keeper import Keeper
 from ai4u_edu.training.prepare import prepare
 from ai4u_edu.training.progress import Bar
 from ai4u_edu.training.run import Check, Config, Run

@@ -11,7 +11,7 @@ from stable_baselines3.common.base_class import BaseAlgorithm
 from stable_baselines3.common.preprocessing import is_image_space
 from torch import Tensor, nn
 
-from ai4u_edu.errors import SetupError
+from ai4u_edu.base.errors import SetupError
 from ai4u_edu.training.algorithms import CLASSES
 
 

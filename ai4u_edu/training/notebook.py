@@ -7,9 +7,9 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ai4u_edu.errors import SetupError, suggest
-from ai4u_edu.extras import need
-from ai4u_edu.seeding import seeds_from
+from ai4u_edu.base.errors import SetupError, suggest
+from ai4u_edu.base.optional_deps import need
+from ai4u_edu.base.seeding import seeds_from
 
 if TYPE_CHECKING:
     from ai4u_edu.blocks import Controller
@@ -129,9 +129,9 @@ def evaluate(
     >>> [each.seed for each in told.episodes]
     [0, 1]
     """
-    from ai4u_edu.training.entrants import entrant_of
     from ai4u_edu.training.evaluating import evaluate as evaluated
-    from ai4u_edu.training.meter import counted
+    from ai4u_edu.training.policies import entrant_of
+    from ai4u_edu.training.progress_bar import counted
 
     driver = entrant_of(who)
     where = scene if scene is not None else driver.scene
@@ -185,8 +185,8 @@ def demonstrate(
     >>> [episode.seed for episode in episodes]
     [1000, 1001]
     """
-    from ai4u_edu.training.entrants import entrant_of
-    from ai4u_edu.training.meter import counted
+    from ai4u_edu.training.policies import entrant_of
+    from ai4u_edu.training.progress_bar import counted
     from ai4u_edu.training.showing import show
 
     driver = entrant_of(who)

@@ -8,8 +8,8 @@ from matplotlib.backend_bases import FigureCanvasBase
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
-from ai4u_edu.errors import SetupError
-from ai4u_edu.palette import PALETTE
+from ai4u_edu.base.colors import PALETTE
+from ai4u_edu.base.errors import SetupError
 from ai4u_edu.training.evaluating import Evaluation
 from ai4u_edu.training.run import Check
 

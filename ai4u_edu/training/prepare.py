@@ -3,7 +3,7 @@
 from copy import deepcopy
 from typing import Any
 
-from ai4u_edu.errors import SetupError, suggest
+from ai4u_edu.base.errors import SetupError, suggest
 from ai4u_edu.scenes import Scene
 from ai4u_edu.training.settings import Settings
 

@@ -8,8 +8,8 @@ import numpy as np
 from rich.console import Console
 from stable_baselines3.common.callbacks import BaseCallback
 
-from ai4u_edu.training.keeper import Keeper
-from ai4u_edu.training.meter import OFTEN, Meter, Silence, meter
+from ai4u_edu.training.eval_callback import Keeper
+from ai4u_edu.training.progress_bar import OFTEN, Meter, Silence, meter
 
 WINDOW = 100
 """Episodes over which rewards and successes are averaged."""

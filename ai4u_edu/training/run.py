@@ -18,8 +18,8 @@ from typing import Any
 
 from pydantic import BaseModel, ConfigDict, ValidationError
 
-from ai4u_edu.atomic_write import make_folder, partial_file
-from ai4u_edu.errors import SetupError
+from ai4u_edu.base.atomic_write import make_folder, partial_file
+from ai4u_edu.base.errors import SetupError
 from ai4u_edu.scenes import Scene
 from ai4u_edu.training.settings import Algorithm, Settings
 

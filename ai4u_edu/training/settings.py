@@ -9,9 +9,9 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
 
-from ai4u_edu.errors import SceneError, SetupError
-from ai4u_edu.parameters import explain, listed
-from ai4u_edu.scenes.yaml_file import YamlFile
+from ai4u_edu.base.errors import SceneError, SetupError
+from ai4u_edu.base.parameters import explain, listed
+from ai4u_edu.scenes.yaml.file import YamlFile
 
 EXPECTED = "lines such as algorithm: ..., sac: ..., ppo: ..."
 """The keys of a settings file, for messages."""

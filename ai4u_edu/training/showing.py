@@ -4,8 +4,8 @@ from collections.abc import Iterable
 
 from ai4u_edu.recording import Episode, Recorder
 from ai4u_edu.scenes import Scene
-from ai4u_edu.training.entrants import Entrant, expect_here
 from ai4u_edu.training.evaluating import LONGEST
+from ai4u_edu.training.policies import Entrant, expect_here
 
 MOST = 100_000
 """Episodes; more are not kept."""

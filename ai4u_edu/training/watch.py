@@ -16,8 +16,7 @@ from pathlib import Path
 import torch
 from stable_baselines3.common.callbacks import BaseCallback
 
-from ai4u_edu.blocks.own_file import own_files
-from ai4u_edu.command_options import load_own_blocks
+from ai4u_edu.blocks.loading import load_blocks, own_files
 from ai4u_edu.training.run import Run
 
 OFTEN = 3.0
@@ -82,7 +81,7 @@ class Watch(BaseCallback):  # type: ignore[misc]  # seen without its types
 def show(folder: Path, port: int, *, open_page: bool) -> None:
     """Serves the page until somebody ends it; at another port if that one is taken."""
     from ai4u_edu.blocks import LocalBrain
-    from ai4u_edu.runner import Runner
+    from ai4u_edu.runtime.runner import Runner
     from ai4u_edu.server import (
         PortTakenError,
         open_on_desktop,
@@ -91,7 +90,7 @@ def show(folder: Path, port: int, *, open_page: bool) -> None:
         shut_side_door,
     )
     from ai4u_edu.training.algorithms import load_model
-    from ai4u_edu.training.entrants import driver_of
+    from ai4u_edu.training.policies import driver_of
     from ai4u_edu.training.prepare import prepare
     from ai4u_edu.viewer import Viewer
 
@@ -146,7 +145,8 @@ def show(folder: Path, port: int, *, open_page: bool) -> None:
 if __name__ == "__main__":
     if hasattr(os, "nice"):
         os.nice(19)
-    load_own_blocks(map(Path, sys.argv[4:]))
+    for file in sys.argv[4:]:
+        load_blocks(Path(file))
     show(Path(sys.argv[1]), int(sys.argv[2]), open_page=sys.argv[3] == "open")
     from ai4u_edu.server.process_exit import HAS_SERVED, end_process
 

@@ -9,8 +9,8 @@ import numpy.typing as npt
 from gymnasium import spaces
 from stable_baselines3.common.vec_env import VecEnv, VecEnvWrapper
 
+from ai4u_edu.base.errors import SetupError
 from ai4u_edu.envs.sb3 import SceneVecEnv
-from ai4u_edu.errors import SetupError
 from ai4u_edu.scenes import Scene
 from ai4u_edu.training.settings import Algorithm, Settings
 

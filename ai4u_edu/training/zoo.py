@@ -12,13 +12,13 @@ from pathlib import Path
 from typing import Any
 
 from ai4u_edu import zoo
-from ai4u_edu.atomic_write import write_atomically
+from ai4u_edu.base.atomic_write import write_atomically
 from ai4u_edu.scenes import Scene
 from ai4u_edu.training.algorithms import load_model
-from ai4u_edu.training.entrants import entrant
 from ai4u_edu.training.evaluating import Evaluation, evaluate
 from ai4u_edu.training.exporting import export
 from ai4u_edu.training.learning import train
+from ai4u_edu.training.policies import entrant
 from ai4u_edu.training.settings import settings_for
 
 EPISODES = 100

@@ -3,35 +3,35 @@
 import threading
 import time
 
-from ai4u_edu.runner import Runner
+from ai4u_edu.editing import State, Workshop
+from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.snapshot import Snapshot, Stage
-from ai4u_edu.viewer.actions import Actions
-from ai4u_edu.viewer.agent_html import AgentWriter
-from ai4u_edu.viewer.agent_tab import AgentTab
-from ai4u_edu.viewer.bodies import Bodies
-from ai4u_edu.viewer.complaints import Complaints
-from ai4u_edu.viewer.controls import Controls
-from ai4u_edu.viewer.framing import FIELD_OF_VIEW, frame
-from ai4u_edu.viewer.gaze import Gaze
-from ai4u_edu.viewer.ghosts import Ghosts
-from ai4u_edu.viewer.ground import Ground
-from ai4u_edu.viewer.housekeeping import Housekeeping
-from ai4u_edu.viewer.inspector import blocks_tab
-from ai4u_edu.viewer.labels import Labels
-from ai4u_edu.viewer.light import light
-from ai4u_edu.viewer.local_server import LocalServer
-from ai4u_edu.viewer.onlooker import Onlookers
-from ai4u_edu.viewer.pace import Pace
-from ai4u_edu.viewer.page_controls import PageControls
-from ai4u_edu.viewer.part import EACH_PAGE, MOST, Paced, Part
-from ai4u_edu.viewer.past import past
-from ai4u_edu.viewer.past_projector import Projector
-from ai4u_edu.viewer.payments import REMEMBERED
-from ai4u_edu.viewer.placing import seen_bounds
-from ai4u_edu.viewer.tabs import TabKind, Tabs
-from ai4u_edu.viewer.turns import Turns
-from ai4u_edu.viewer.world_tab import world_tab
-from ai4u_edu.workshop import State, Workshop
+from ai4u_edu.viewer.backend.gc_control import Housekeeping
+from ai4u_edu.viewer.backend.local_server import LocalServer
+from ai4u_edu.viewer.backend.log_once import Complaints
+from ai4u_edu.viewer.backend.pace import Pace
+from ai4u_edu.viewer.backend.part import EACH_PAGE, MOST, Paced, Part
+from ai4u_edu.viewer.backend.turns import Turns
+from ai4u_edu.viewer.panel.agent_html import AgentWriter
+from ai4u_edu.viewer.panel.agent_tab import AgentTab
+from ai4u_edu.viewer.panel.blocks_tab import blocks_tab
+from ai4u_edu.viewer.panel.controls import Controls
+from ai4u_edu.viewer.panel.page_controls import PageControls
+from ai4u_edu.viewer.panel.reward_table import REMEMBERED
+from ai4u_edu.viewer.panel.tabs import TabKind, Tabs
+from ai4u_edu.viewer.panel.world_tab import world_tab
+from ai4u_edu.viewer.replay.ghosts import Ghosts
+from ai4u_edu.viewer.replay.replay_player import Projector
+from ai4u_edu.viewer.replay.replay_tab import past
+from ai4u_edu.viewer.scene.actions import Actions
+from ai4u_edu.viewer.scene.bodies import Bodies
+from ai4u_edu.viewer.scene.framing import FIELD_OF_VIEW, frame
+from ai4u_edu.viewer.scene.ground import Ground
+from ai4u_edu.viewer.scene.labels import Labels
+from ai4u_edu.viewer.scene.light import light
+from ai4u_edu.viewer.scene.placing import seen_bounds
+from ai4u_edu.viewer.scene.sense_overlay import Gaze
+from ai4u_edu.viewer.viewer_client import Onlookers
 
 PANEL_WIDTH = 320
 """Pixels."""

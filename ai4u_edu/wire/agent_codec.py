@@ -11,7 +11,7 @@ from ai4u_edu.wire.ai4u import Kind, Order, packer
 from ai4u_edu.wire.ai4u_dialogue import STANDARD
 from ai4u_edu.wire.ai4u_metadata import ModelInput, ModelOutput, metadata
 from ai4u_edu.wire.png import grey_png
-from ai4u_edu.wire.strict import WireError
+from ai4u_edu.wire.validation import WireError
 
 KINDS = {
     "sfloat": Kind.FLOAT,

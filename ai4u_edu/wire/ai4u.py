@@ -22,7 +22,7 @@ from typing import Any, NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from ai4u_edu.wire.strict import WireError, shown
+from ai4u_edu.wire.validation import WireError, shown
 
 LARGEST = 65_507
 """Bytes of a datagram; more don't fit into one over IPv4."""
@@ -278,7 +278,7 @@ def decode_reply(data: bytes) -> list[Order]:
     >>> decode_reply(b"move;2;1.0")
     Traceback (most recent call last):
     ...
-    ai4u_edu.wire.strict.WireError: 'move': expected 2 arguments as it says, got 1
+    ai4u_edu.wire.validation.WireError: 'move': expected 2 arguments as it says, got 1
     """
     if len(data) > LARGEST:
         raise WireError(f"expected at most {LARGEST} bytes, got {len(data)}")

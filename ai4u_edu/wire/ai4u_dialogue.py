@@ -36,7 +36,7 @@ from ai4u_edu.wire.ai4u import (
     packed,
     packer,
 )
-from ai4u_edu.wire.strict import WireError
+from ai4u_edu.wire.validation import WireError
 
 COMMANDS = "restart, resume, start_and_reset, start"
 

@@ -25,9 +25,9 @@ from typing import Annotated, Any, Literal, NamedTuple
 
 import msgpack
 
-from ai4u_edu.errors import shorten
-from ai4u_edu.seeding import MAX_SEED
-from ai4u_edu.wire.strict import (
+from ai4u_edu.base.errors import shorten
+from ai4u_edu.base.seeding import MAX_SEED
+from ai4u_edu.wire.validation import (
     ENDLESS,
     LARGEST_FLOAT,
     LONGEST_TEXT,
@@ -264,8 +264,8 @@ def decode(frame: bytes, largest: int = LARGEST_SAID) -> Message:
     >>> decode(msgpack.packb(["rest", 3, None]))
     Traceback (most recent call last):
     ...
-    ai4u_edu.wire.strict.WireError: expected a message (hello, welcome, percept, action, reset, \
-order, problem, bye), got 'rest'
+    ai4u_edu.wire.validation.WireError: expected a message (hello, welcome, percept, action, \
+reset, order, problem, bye), got 'rest'
     """
     if len(frame) > largest:
         raise WireError(f"expected at most {largest} bytes, got {len(frame)}")

@@ -8,10 +8,10 @@ from ai4u_edu.world.descriptions import (
     RegionDescription,
     WorldSettings,
 )
+from ai4u_edu.world.edit import Pose, arrange, bring_in, rework
 from ai4u_edu.world.ray_grid import RayGrid
 from ai4u_edu.world.rays import Cast, RayFan
 from ai4u_edu.world.region import Region
-from ai4u_edu.world.renovate import Pose, arrange, bring_in, rework
 from ai4u_edu.world.shapes import (
     BoxShape,
     CapsuleShape,

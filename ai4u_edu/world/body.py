@@ -5,10 +5,10 @@ from typing import TYPE_CHECKING, Any, NamedTuple, NoReturn
 
 import pymunk
 
-from ai4u_edu.errors import WorldError
-from ai4u_edu.world._chipmunk import QUICK
+from ai4u_edu.base.errors import WorldError
 from ai4u_edu.world.descriptions import BodyDescription
-from ai4u_edu.world.grip import held_by, hold, let_go
+from ai4u_edu.world.grasp import held_by, hold, let_go
+from ai4u_edu.world.native.chipmunk import QUICK
 
 if TYPE_CHECKING:
     from ai4u_edu.world.world import World

@@ -7,8 +7,8 @@ from typing import Annotated, Literal
 
 from pydantic import Field, field_validator
 
-from ai4u_edu.palette import Colour
-from ai4u_edu.parameters import (
+from ai4u_edu.base.colors import Colour
+from ai4u_edu.base.parameters import (
     Bits,
     Degrees,
     Metres,

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Any
 
 import pymunk
 
-from ai4u_edu.world._chipmunk import QUICK
 from ai4u_edu.world.ground import SAME, Ground
+from ai4u_edu.world.native.chipmunk import QUICK
 
 if TYPE_CHECKING:
     from ai4u_edu.world.body import Body

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import pymunk
 
-from ai4u_edu.world._chipmunk import FAST, distances
+from ai4u_edu.world.native.chipmunk import FAST, distances
 
 if TYPE_CHECKING:
     from ai4u_edu.world.body import BodyView

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 import numpy.typing as npt
 
-from ai4u_edu.world._grid import compiled_grid
 from ai4u_edu.world.body import BodyView
+from ai4u_edu.world.native.grid import compiled_grid
 from ai4u_edu.world.rays import Cast, Caster, CodeOf, Floats, Obstacle
 
 if TYPE_CHECKING:

@@ -13,9 +13,9 @@ import numpy.typing as npt
 import pymunk
 from numpy import multiply
 
-from ai4u_edu.world._chipmunk import QUICK, shape_key
-from ai4u_edu.world._segments import segments
 from ai4u_edu.world.body import BodyView
+from ai4u_edu.world.native.chipmunk import QUICK, shape_key
+from ai4u_edu.world.native.segments import segments
 from ai4u_edu.world.region import Region
 
 if TYPE_CHECKING:

@@ -10,8 +10,8 @@ from typing import Annotated, Any, Literal, Self
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
 
-from ai4u_edu.errors import ParameterError, shown
-from ai4u_edu.parameters import MIN_LENGTH_M, Point, PositiveMetres, explain, listed
+from ai4u_edu.base.errors import ParameterError, shown
+from ai4u_edu.base.parameters import MIN_LENGTH_M, Point, PositiveMetres, explain, listed
 
 OUTLINE_CORNERS = 48
 

@@ -4,7 +4,7 @@ from typing import Annotated, Self
 
 from pydantic import AfterValidator, Field, model_validator
 
-from ai4u_edu.parameters import Degrees, Metres, NonNegativeMetres, Point, not_below, quantity
+from ai4u_edu.base.parameters import Degrees, Metres, NonNegativeMetres, Point, not_below, quantity
 from ai4u_edu.world.shapes import Description
 
 Pair = tuple[float, float]
@@ -32,7 +32,8 @@ class Variation(Description):
     >>> Variation(x=(4, -4))
     Traceback (most recent call last):
     ...
-    ai4u_edu.errors.ParameterError: Variation: x: expected the smaller number first, got [4.0, -4.0]
+    ai4u_edu.base.errors.ParameterError: Variation: x: expected the smaller number first, \
+got [4.0, -4.0]
     """
 
     x: Annotated[tuple[Metres, Metres], Ordered] | None = None

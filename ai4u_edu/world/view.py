@@ -6,13 +6,13 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
-from ai4u_edu.errors import NameNotFoundError, suggest
+from ai4u_edu.base.errors import NameNotFoundError, suggest
 from ai4u_edu.world.body import BodyView
 from ai4u_edu.world.descriptions import FloorDescription
+from ai4u_edu.world.line_of_sight import line_of_sight
 from ai4u_edu.world.ray_grid import RayGrid
 from ai4u_edu.world.rays import GROUND_TAGS, CodeOf, RayFan
 from ai4u_edu.world.region import Region
-from ai4u_edu.world.sight import line_of_sight
 
 if TYPE_CHECKING:
     from ai4u_edu.world.world import World

@@ -7,10 +7,8 @@ from typing import Any
 
 import pymunk
 
-from ai4u_edu.errors import NameNotFoundError, WorldError, suggest
-from ai4u_edu.seeding import Seeds
-from ai4u_edu.world._chipmunk import let_go, stepper
-from ai4u_edu.world._ticks import Ticks
+from ai4u_edu.base.errors import NameNotFoundError, WorldError, suggest
+from ai4u_edu.base.seeding import Seeds
 from ai4u_edu.world.body import Body, BodyView, Drive
 from ai4u_edu.world.bounds import Rectangle, around
 from ai4u_edu.world.build import build
@@ -21,12 +19,14 @@ from ai4u_edu.world.descriptions import (
     FloorDescription,
     WorldSettings,
 )
-from ai4u_edu.world.grip import tear_off
+from ai4u_edu.world.grasp import tear_off
 from ai4u_edu.world.height import Height
+from ai4u_edu.world.native.chipmunk import let_go, stepper
+from ai4u_edu.world.native.ticks import Ticks
 from ai4u_edu.world.overlap import in_the_way
-from ai4u_edu.world.places import Thing
+from ai4u_edu.world.placement import Thing
+from ai4u_edu.world.randomize import scatter, squeeze_in
 from ai4u_edu.world.region import Region
-from ai4u_edu.world.scatter import scatter, squeeze_in
 from ai4u_edu.world.shapes import BodyShape, RegionShape
 
 MAX_BODIES = 500

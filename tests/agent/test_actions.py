@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from ai4u_edu.errors import ActionError
+from ai4u_edu.base.errors import ActionError
 from tests.builders import small_sim
 
 EXAMPLE = "such as {'move': [0.0, 0.0, 0.0, 0.0]}"

@@ -15,8 +15,8 @@ from ai4u_edu import (
     VelocitySensor,
     WASDRBMoveController,
 )
-from ai4u_edu.errors import AI4UError, BlockError, ParameterError, ReadingError, SetupError
-from ai4u_edu.recording.portrait import scene_of
+from ai4u_edu.base.errors import AI4UError, BlockError, ParameterError, ReadingError, SetupError
+from ai4u_edu.recording.scene_export import scene_of
 from ai4u_edu.scenes.schema import scene_schema
 from tests.builders import small_sim, small_world
 

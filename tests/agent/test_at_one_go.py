@@ -22,8 +22,9 @@ from ai4u_edu import (
     Scene,
     World,
 )
-from ai4u_edu.cycle import ControlRequestor
-from ai4u_edu.world import Drive, _ticks
+from ai4u_edu.agent.cycle import ControlRequestor
+from ai4u_edu.world import Drive
+from ai4u_edu.world.native import ticks as _ticks
 from tests.builders import small_sim, small_world
 from tests.check.samples import SAMPLES
 from tests.world.one_go import state, tell
@@ -85,7 +86,7 @@ def test_in_every_scene(name: str, batches: list[int], monkeypatch: pytest.Monke
 
 PROGRAM = """
 import hashlib
-from ai4u_edu.world import _ticks
+from ai4u_edu.world.native import ticks as _ticks
 from tests.agent.test_at_one_go import cruise
 seen = [cruise(name, 60) for name in ("box_chase", "jumper", "yardstick")]
 print(_ticks.compiled() is None, hashlib.sha256(repr(seen).encode()).hexdigest())

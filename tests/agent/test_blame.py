@@ -17,7 +17,7 @@ from ai4u_edu import (
     RewardFunc,
     Sensor,
 )
-from ai4u_edu.errors import AI4UError, BlockError, ReadingError, WorldError
+from ai4u_edu.base.errors import AI4UError, BlockError, ReadingError, WorldError
 from tests.builders import small_sim, small_world
 
 MOVE = {"move": [1, 0, 0, 0]}

@@ -23,7 +23,7 @@ from ai4u_edu import (
     WASDRBMoveController,
     World,
 )
-from ai4u_edu.errors import SetupError
+from ai4u_edu.base.errors import SetupError
 from tests.builders import small_sim, small_world, still
 
 

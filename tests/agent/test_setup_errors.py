@@ -26,14 +26,14 @@ from ai4u_edu import (
     VelocitySensor,
     World,
 )
-from ai4u_edu.errors import (
+from ai4u_edu.base.errors import (
     AI4UError,
     BlockError,
     ParameterError,
     ReadingError,
     SetupError,
 )
-from ai4u_edu.seeding import MAX_SEED
+from ai4u_edu.base.seeding import MAX_SEED
 from tests.builders import small_sim, small_world, still
 
 

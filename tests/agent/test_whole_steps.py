@@ -5,7 +5,7 @@ import struct
 import pytest
 
 from ai4u_edu import LocalBrain, Scene
-from ai4u_edu.cycle import ControlRequestor
+from ai4u_edu.agent.cycle import ControlRequestor
 from tests.scenes.test_solvers import chance
 
 ALONE = [name for name in Scene.names() if len(Scene.load(name).description.agents) == 1]

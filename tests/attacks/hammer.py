@@ -21,7 +21,7 @@ from websockets.exceptions import ConnectionClosed, InvalidHandshake
 from websockets.sync.client import connect as open_socket
 from websockets.typing import Origin
 
-from ai4u_edu.errors import ActionError
+from ai4u_edu.base.errors import ActionError
 from ai4u_edu.remote import RemoteError, connect
 from tests.attacks.panel import Panel
 from tests.playing import Played, played

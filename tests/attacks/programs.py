@@ -19,7 +19,7 @@ import sys
 import viser
 from ai4u_edu import LocalBrain, Scene, WASDRBMoveController
 from ai4u_edu.recording import Recorder
-from ai4u_edu.runner import Runner
+from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.server import room_app, serve
 from tests.builders import small_sim
 

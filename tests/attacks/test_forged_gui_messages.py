@@ -21,12 +21,12 @@ from zstandard import ZstdDecompressor
 from ai4u_edu.server import ServerThread, page_messages, proxy, room_app, shut_side_door
 from ai4u_edu.server.page_messages import MAX_PART_BYTES
 from ai4u_edu.viewer import Viewer
-from ai4u_edu.viewer.controls import Controls
-from ai4u_edu.viewer.inspector import BlocksTab
-from ai4u_edu.viewer.past import PastTab
-from ai4u_edu.viewer.world_tab import WorldTab
+from ai4u_edu.viewer.panel.blocks_tab import BlocksTab
+from ai4u_edu.viewer.panel.controls import Controls
+from ai4u_edu.viewer.panel.world_tab import WorldTab
+from ai4u_edu.viewer.replay.replay_tab import PastTab
+from tests.editing.shops import Shop
 from tests.viewer.pages import Page, part_of, seen, shown, tabs_of, until
-from tests.workshop.shops import Shop
 
 ODD_VALUES: tuple[Any, ...] = (
     *(math.nan, math.inf, -math.inf, 1e20, -1e300, 2**53, 2**63, 2**64 - 1, -(2**63), 0.5),
@@ -139,7 +139,7 @@ def unharmed(caplog: pytest.LogCaptureFixture, capfd: pytest.CaptureFixture[str]
     assert [each.getMessage() for each in records if each.exc_info] == []
     assert {each.name for each in records if each.levelno >= logging.WARNING} <= {
         "ai4u_edu.server.proxy",
-        "ai4u_edu.viewer.incoming",
+        "ai4u_edu.viewer.backend.incoming",
     }
     assert len(records) < 20
     assert "Traceback" not in "".join(capfd.readouterr())

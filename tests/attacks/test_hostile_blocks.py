@@ -6,11 +6,11 @@ from collections.abc import Callable, Iterator
 
 import pytest
 
-from ai4u_edu import stall_monitor
-from ai4u_edu.block_errors import message_of
-from ai4u_edu.errors import AI4UError
+from ai4u_edu.agent.block_errors import message_of
+from ai4u_edu.base.errors import AI4UError
 from ai4u_edu.recording import Recorder, RecordingError, Replay
-from ai4u_edu.runner import Runner
+from ai4u_edu.runtime import stall_monitor
+from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.server.exports import Exports
 from tests.attacks.hostile import HOOKS, MISDEEDS, Misdeed, divide, exit_process, hostile_sim
 from tests.server.rooms import until

@@ -12,17 +12,17 @@ from typing import Any
 
 import pytest
 
+from ai4u_edu.base.errors import AI4UError
 from ai4u_edu.blocks import Actuator, Block, Brain, Controller, RewardFunc, Sensor
 from ai4u_edu.blocks.block import is_built_in
-from ai4u_edu.errors import AI4UError
-from ai4u_edu.scenes.plain import fits_a_file
-from ai4u_edu.workshop import Outcome
-from ai4u_edu.workshop.forms import form
-from ai4u_edu.workshop.names import Names
-from ai4u_edu.workshop.settings import agent_form, scene_form
-from ai4u_edu.workshop.suggestion import suggestion
+from ai4u_edu.editing import Outcome
+from ai4u_edu.editing.forms import form
+from ai4u_edu.editing.names import Names
+from ai4u_edu.editing.settings import agent_form, scene_form
+from ai4u_edu.editing.suggestion import suggestion
+from ai4u_edu.scenes.serialization import fits_a_file
 from ai4u_edu.world import BodyDescription
-from tests.workshop.shops import TEXT, Shop
+from tests.editing.shops import TEXT, Shop
 
 NESTED: list[Any] = []
 NESTED.append(NESTED)

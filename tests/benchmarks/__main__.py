@@ -17,7 +17,7 @@ from stable_baselines3.common.vec_env import DummyVecEnv
 
 from ai4u_edu.envs import SceneEnv, SceneVectorEnv
 from ai4u_edu.envs.sb3 import SceneVecEnv
-from ai4u_edu.world import _segments as segments
+from ai4u_edu.world.native import segments
 from tests.benchmarks.contenders import (
     SEED,
     Contender,

@@ -30,9 +30,9 @@ from ai4u_edu import (
     Sensor,
     World,
 )
-from ai4u_edu.blocks.brains.ai4u_codec import AI4UCodec
-from ai4u_edu.blocks.brains.link import Situation, offer_of
-from ai4u_edu.runner import Runner
+from ai4u_edu.blocks.brains.links.ai4u_codec import AI4UCodec
+from ai4u_edu.blocks.brains.links.link import Situation, offer_of
+from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.wire.ai4u_dialogue import Dialogue, Phase
 from ai4u_edu.world import BodyView, WorldView
 from tests.remote.test_ai4u_package import free_port, run_script

@@ -19,7 +19,7 @@ import numpy.typing as npt
 import pymunk
 from pymunk._chipmunk_cffi import ffi, lib
 
-from ai4u_edu.cycle import ControlRequestor
+from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.world.world import BIAS, SLOP
 
 RAYS, REACH, TICKS, DT = 32, 10.0, 4, 1 / 60

@@ -10,7 +10,7 @@ from collections.abc import Callable
 from typing import Any
 
 from ai4u_edu.scenes import Scene
-from ai4u_edu.scenes.yaml_file import write_yaml
+from ai4u_edu.scenes.yaml.file import write_yaml
 from ai4u_edu.world import overlap, world
 
 WALLS = 499

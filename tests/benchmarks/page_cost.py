@@ -34,7 +34,7 @@ from ai4u_edu import (
     TouchRewardFunc,
     World,
 )
-from ai4u_edu.runner import Runner
+from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.snapshot import Snapshot
 from ai4u_edu.viewer import Viewer
 from tests.load.clients import is_picture

@@ -45,7 +45,7 @@ def serve_world(agents: int, ready: Connection) -> None:
         Sensor,
         World,
     )
-    from ai4u_edu.runner import Runner
+    from ai4u_edu.runtime.runner import Runner
     from ai4u_edu.server import Rules, ServerThread, room_app
 
     class Numbers(Sensor):

@@ -17,7 +17,7 @@ from ai4u_edu import (
     GrabActuator,
     RBMoveActuator,
 )
-from ai4u_edu.errors import BlockError, ParameterError
+from ai4u_edu.base.errors import BlockError, ParameterError
 from tests.builders import small_sim
 
 

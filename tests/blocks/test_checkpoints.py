@@ -5,7 +5,7 @@ from collections.abc import Sequence
 import pytest
 
 from ai4u_edu import BoxShape, CheckpointsReward, CircleShape, ControlRequestor
-from ai4u_edu.errors import BlockError, ParameterError
+from ai4u_edu.base.errors import BlockError, ParameterError
 from tests.builders import small_sim, small_world
 
 PLACES = {"a": (2.0, 0.0), "b": (0.0, 2.0), "c": (-2.0, 0.0), "d": (0.0, -2.0), "-": (0.0, 0.0)}

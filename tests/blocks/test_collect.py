@@ -20,7 +20,7 @@ from ai4u_edu import (
     TouchRewardFunc,
     World,
 )
-from ai4u_edu.errors import BlockError
+from ai4u_edu.base.errors import BlockError
 from tests.builders import small_sim
 
 AHEAD, BACK, STAY = (1, 0, 0, 0), (-1, 0, 0, 0), (0, 0, 0, 0)

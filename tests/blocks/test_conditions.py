@@ -22,8 +22,8 @@ from ai4u_edu import (
     TouchRewardFunc,
     TouchSensor,
 )
+from ai4u_edu.base.errors import BlockError, ReadingError
 from ai4u_edu.blocks.rewards.properties import OF_A_BODY
-from ai4u_edu.errors import BlockError, ReadingError
 from tests.builders import small_sim, small_world
 
 

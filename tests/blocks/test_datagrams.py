@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from ai4u_edu.blocks.brains.datagrams import MOST_DRAINED, Datagrams
+from ai4u_edu.blocks.brains.links.udp import MOST_DRAINED, Datagrams
 
 SOON = 5000
 """Milliseconds within which what was sent is there."""

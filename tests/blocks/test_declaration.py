@@ -15,9 +15,9 @@ from ai4u_edu import (
     VelocitySensor,
     WASDRBMoveController,
 )
+from ai4u_edu.base.errors import AI4UError, ParameterError
 from ai4u_edu.blocks import Brain
 from ai4u_edu.blocks.block import is_built_in
-from ai4u_edu.errors import AI4UError, ParameterError
 
 
 def error_of(make: Any) -> str:

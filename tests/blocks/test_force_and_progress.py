@@ -16,7 +16,7 @@ from ai4u_edu import (
     ProgressReward,
     World,
 )
-from ai4u_edu.errors import BlockError, NameNotFoundError
+from ai4u_edu.base.errors import BlockError, NameNotFoundError
 
 
 def pushed(action: list[float], mass: float = 2.0) -> ControlRequestor:

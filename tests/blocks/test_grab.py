@@ -13,7 +13,7 @@ from ai4u_edu import (
     RBMoveActuator,
     World,
 )
-from ai4u_edu.errors import WorldError
+from ai4u_edu.base.errors import WorldError
 from tests.builders import small_sim
 
 

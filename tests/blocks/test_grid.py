@@ -16,7 +16,7 @@ from ai4u_edu import (
     SegmentShape,
     World,
 )
-from ai4u_edu.errors import ActionError
+from ai4u_edu.base.errors import ActionError
 from tests.builders import small_sim
 
 STAY, RIGHT, LEFT, UP, DOWN = range(5)

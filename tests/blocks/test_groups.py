@@ -17,7 +17,7 @@ from ai4u_edu import (
     World,
     WorldView,
 )
-from ai4u_edu.errors import BlockError
+from ai4u_edu.base.errors import BlockError
 from tests.builders import small_sim
 
 TYPO = {"tragt": 1}

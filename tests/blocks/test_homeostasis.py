@@ -13,7 +13,7 @@ from ai4u_edu import (
     HomeostaticVariable,
     RBMoveActuator,
 )
-from ai4u_edu.errors import BlockError, NameNotFoundError, ReadingError
+from ai4u_edu.base.errors import BlockError, NameNotFoundError, ReadingError
 from tests.builders import small_sim
 
 

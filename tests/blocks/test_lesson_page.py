@@ -3,9 +3,9 @@
 import pytest
 
 from ai4u_edu import Block, Sensor
-from ai4u_edu.blocks.lesson_page import built_in_blocks, lesson_page, summary
-from ai4u_edu.errors import NameNotFoundError
-from ai4u_edu.scenes.plain import KINDS
+from ai4u_edu.base.errors import NameNotFoundError
+from ai4u_edu.blocks.docs import built_in_blocks, lesson_page, summary
+from ai4u_edu.scenes.serialization import KINDS
 
 BLOCKS = [cls for kind in built_in_blocks().values() for cls in kind]
 

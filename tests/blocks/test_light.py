@@ -5,7 +5,7 @@ import math
 import pytest
 
 from ai4u_edu import CircleShape, LightSensor, World
-from ai4u_edu.errors import BlockError
+from ai4u_edu.base.errors import BlockError
 from tests.builders import small_sim
 
 

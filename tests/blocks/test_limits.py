@@ -16,7 +16,7 @@ from ai4u_edu import (
     StepSensor,
     TouchRewardFunc,
 )
-from ai4u_edu.errors import BlockError, ParameterError
+from ai4u_edu.base.errors import BlockError, ParameterError
 from ai4u_edu.world import BodyDescription, PolygonShape, SegmentShape, Variation
 
 

@@ -6,7 +6,7 @@ from typing import Any
 import pytest
 
 from ai4u_edu import BoxShape, CircleShape, LineSensor, PolygonShape, World
-from ai4u_edu.errors import BlockError
+from ai4u_edu.base.errors import BlockError
 from tests.builders import small_sim
 
 

@@ -17,8 +17,8 @@ from ai4u_edu import (
     SegmentShape,
     World,
 )
+from ai4u_edu.base.errors import BlockError
 from ai4u_edu.blocks.sensors.footprint import footprint
-from ai4u_edu.errors import BlockError
 from tests.builders import small_sim, small_world
 
 Picture = npt.NDArray[np.uint8]

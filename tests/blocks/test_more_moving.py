@@ -19,7 +19,7 @@ from ai4u_edu import (
     RBMoveActuator,
     World,
 )
-from ai4u_edu.errors import ActionError, BlockError, ParameterError
+from ai4u_edu.base.errors import ActionError, BlockError, ParameterError
 from tests.builders import small_sim
 
 

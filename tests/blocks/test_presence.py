@@ -3,7 +3,7 @@
 import pytest
 
 from ai4u_edu import BoxShape, CircleShape, PresenceSensor, World
-from ai4u_edu.errors import BlockError
+from ai4u_edu.base.errors import BlockError
 from tests.builders import small_sim
 
 

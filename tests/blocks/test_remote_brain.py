@@ -24,8 +24,9 @@ from ai4u_edu import (
     StepSensor,
     World,
 )
-from ai4u_edu.blocks.brains.ai4u_codec import AI4UCodec
-from ai4u_edu.blocks.brains.link import (
+from ai4u_edu.base.errors import ParameterError, SetupError
+from ai4u_edu.blocks.brains.links.ai4u_codec import AI4UCodec
+from ai4u_edu.blocks.brains.links.link import (
     Answered,
     LinkState,
     Offer,
@@ -34,8 +35,7 @@ from ai4u_edu.blocks.brains.link import (
     offer_of,
 )
 from ai4u_edu.blocks.brains.patience import YIELD_AFTER_S
-from ai4u_edu.errors import ParameterError, SetupError
-from ai4u_edu.runner import Runner
+from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.wire.ai4u import Order, decode_request
 from ai4u_edu.wire.ai4u_dialogue import Dialogue, Phase
 from tests.builders import small_sim
@@ -175,7 +175,7 @@ def test_who_waits_for_a_call_keeps_the_world_waiting() -> None:
 def test_a_call_ticks_nothing_and_a_world_that_was_called_is_not_asked_again_in_vain(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr("ai4u_edu.runner.ANSWER_POLL_S", 5.0)
+    monkeypatch.setattr("ai4u_edu.runtime.runner.ANSWER_POLL_S", 5.0)
     link = PaperLink(Reset(7))
     sim, _ = over(link)
     runner = Runner(sim, time_scale=math.inf)
@@ -243,7 +243,7 @@ def test_a_restart_of_one_agent_does_not_wait_for_the_world_to_go_on() -> None:
 
 
 def test_a_held_world_is_a_good_moment_for_a_command(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("ai4u_edu.runner.PATIENCE", math.inf)
+    monkeypatch.setattr("ai4u_edu.runtime.runner.PATIENCE", math.inf)
     sim = pair(PaperLink(), lambda percept: AHEAD)
     runner = Runner(sim, time_scale=math.inf)
     runner.start()

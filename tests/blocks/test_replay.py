@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from ai4u_edu import Command, DiscreteActuator, ReplayController
-from ai4u_edu.errors import ParameterError
+from ai4u_edu.base.errors import ParameterError
 from tests.builders import small_sim, small_world
 
 

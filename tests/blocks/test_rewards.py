@@ -13,7 +13,7 @@ from ai4u_edu import (
     RewardFunc,
     TouchRewardFunc,
 )
-from ai4u_edu.errors import ReadingError
+from ai4u_edu.base.errors import ReadingError
 from tests.builders import small_sim, small_world
 
 

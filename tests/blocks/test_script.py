@@ -5,7 +5,7 @@ from typing import Any
 import pytest
 
 from ai4u_edu import LocalBrain, Percept, Scene, ScriptController
-from ai4u_edu.errors import ParameterError, SceneError
+from ai4u_edu.base.errors import ParameterError, SceneError
 from tests.builders import small_sim
 
 

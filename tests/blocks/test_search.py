@@ -16,8 +16,8 @@ from ai4u_edu import (
     a_star,
     breadth_first,
 )
+from ai4u_edu.base.errors import BlockError
 from ai4u_edu.blocks.brains.controllers.planner import Cell, Map
-from ai4u_edu.errors import BlockError
 
 SEARCHES = (breadth_first, a_star)
 

@@ -25,7 +25,7 @@ from ai4u_edu import (
     StepSensor,
     VelocitySensor,
 )
-from ai4u_edu.errors import BlockError, NameNotFoundError, ReadingError
+from ai4u_edu.base.errors import BlockError, NameNotFoundError, ReadingError
 from tests.builders import small_sim, small_world
 
 

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from ai4u_edu import AgentArraySensor, CircleShape, HeadingSensor, TruncatedSensor, World
-from ai4u_edu.errors import BlockError, ReadingError
+from ai4u_edu.base.errors import BlockError, ReadingError
 from tests.builders import small_sim, small_world
 
 

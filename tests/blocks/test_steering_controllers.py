@@ -20,8 +20,8 @@ from ai4u_edu import (
     StrikerController,
     World,
 )
+from ai4u_edu.base.errors import BlockError
 from ai4u_edu.blocks.brains.controllers.steering import steer
-from ai4u_edu.errors import BlockError
 from tests.builders import small_sim
 
 Place = tuple[float, float]

@@ -8,16 +8,16 @@ from gymnasium import spaces
 from pydantic import Field
 
 from ai4u_edu import FloatArrayCompositeSensor, Sensor, check_scene, check_sensor
+from ai4u_edu.base.errors import BlockError, ReadingError
 from ai4u_edu.blocks import Layout, Percept
-from ai4u_edu.blocks.brains.link import Reading
+from ai4u_edu.blocks.brains.links.link import Reading
 from ai4u_edu.envs.spaces_of import Observer
-from ai4u_edu.errors import BlockError, ReadingError
-from ai4u_edu.recording.fingerprint import percept_print
+from ai4u_edu.recording.checksum import percept_print
 from ai4u_edu.remote import connect
 from ai4u_edu.remote.spaces import reading_space
-from ai4u_edu.server.remote.welcome import Excerpt
+from ai4u_edu.server.scripts.welcome import Excerpt
 from ai4u_edu.snapshot import picture_of
-from ai4u_edu.viewer.readings import reading
+from ai4u_edu.viewer.panel.readings import reading
 from ai4u_edu.wire import native
 from ai4u_edu.wire.agent_codec import AgentCodec
 from ai4u_edu.wire.texts import unpack_texts

@@ -14,7 +14,7 @@ from ai4u_edu import (
     TouchSensor,
     World,
 )
-from ai4u_edu.errors import BlockError
+from ai4u_edu.base.errors import BlockError
 from tests.builders import small_sim, small_world
 
 

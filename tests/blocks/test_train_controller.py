@@ -15,8 +15,8 @@ from ai4u_edu import (
     Trainer,
     check_controller,
 )
+from ai4u_edu.base.errors import ActionError
 from ai4u_edu.check import Outcome
-from ai4u_edu.errors import ActionError
 from tests.builders import small_sim
 
 AHEAD = (1.0, 0.0, 0.0, 0.0)

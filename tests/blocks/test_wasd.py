@@ -5,7 +5,7 @@ from typing import Any
 import pytest
 
 from ai4u_edu import Command, Keyboard, WASDRBMoveController
-from ai4u_edu.errors import ParameterError
+from ai4u_edu.base.errors import ParameterError
 from tests.builders import small_sim
 
 

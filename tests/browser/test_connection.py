@@ -9,7 +9,7 @@ from playwright.sync_api import Browser, expect
 from starlette.applications import Starlette
 
 from ai4u_edu import ControlRequestor
-from ai4u_edu.runner import Runner
+from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.server import RoomMount, ServerThread, room_app
 from tests.browser.theatre import Theatre, ready, seat
 from tests.server.rooms import Room, free_port, served, until

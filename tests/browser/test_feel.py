@@ -17,8 +17,8 @@ from ai4u_edu import (
     WASDRBMoveController,
     World,
 )
+from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.blocks.brains.controllers.keyboard import Stick
-from ai4u_edu.cycle import ControlRequestor
 from tests.browser.theatre import SPEED, Theatre, connected, ready, seat
 from tests.builders import small_sim
 from tests.playing import Played, played

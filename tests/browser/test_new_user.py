@@ -8,7 +8,7 @@ import pytest
 from playwright.sync_api import Browser, Locator, Page
 
 from ai4u_edu import Scene
-from tests.browser.hands import body, carry, take, where, whole
+from tests.browser.keys import body, carry, take, where, whole
 from tests.browser.theatre import ready
 from tests.playing import Played, played
 from tests.server.rooms import until

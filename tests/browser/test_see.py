@@ -12,10 +12,10 @@ from PIL import Image
 from playwright.sync_api import Browser, Locator, Page, expect
 
 from ai4u_edu import Scene
-from ai4u_edu.look import LIT, VOID, Rgb
 from ai4u_edu.snapshot import set_stage
-from ai4u_edu.viewer.framing import frame
-from ai4u_edu.viewer.placing import seen_bounds
+from ai4u_edu.snapshot.theme import LIT, VOID, Rgb
+from ai4u_edu.viewer.scene.framing import frame
+from ai4u_edu.viewer.scene.placing import seen_bounds
 from tests.playing import Played, played
 
 pytestmark = pytest.mark.browser

@@ -6,8 +6,8 @@ import pytest
 from playwright.sync_api import CDPSession, Locator, Page, expect
 
 from ai4u_edu import DiscreteActuator, DiscreteArrowController, LocalBrain
+from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.blocks.brains.controllers.keyboard import Stick
-from ai4u_edu.cycle import ControlRequestor
 from tests.browser.theatre import Theatre, centre, connected, seat
 from tests.builders import small_sim, still
 from tests.server.rooms import until

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import Browser, Locator, Page, expect
 
-from tests.browser.hands import body, carry, drag, take, where, whole
+from tests.browser.keys import body, carry, drag, take, where, whole
 from tests.browser.theatre import ready
 from tests.playing import Played, played
 from tests.server.rooms import until

@@ -84,7 +84,7 @@ from ai4u_edu import (
     WASDRBMoveController,
 )
 from ai4u_edu.blocks import Actuator, Brain, Controller, RewardFunc, Sensor
-from ai4u_edu.scenes.plain import KINDS
+from ai4u_edu.scenes.serialization import KINDS
 
 CODES = {"floor": 1, "target": 2, "wall": 4, "agent": 8}
 

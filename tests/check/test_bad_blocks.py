@@ -35,8 +35,8 @@ from ai4u_edu import (
     check_reward,
     check_sensor,
 )
+from ai4u_edu.base.errors import ActionError
 from ai4u_edu.check import CheckError, Outcome
-from ai4u_edu.errors import ActionError
 
 SHORT: dict[str, Any] = {"decisions": 20}
 

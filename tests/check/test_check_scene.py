@@ -7,9 +7,9 @@ import pytest
 from gymnasium.spaces import Box
 
 from ai4u_edu import Scene, Sensor, VelocitySensor, check_scene, check_sensor
+from ai4u_edu.base.errors import SceneError
 from ai4u_edu.check import Outcome
-from ai4u_edu.check.trial import standard_scene
-from ai4u_edu.errors import SceneError
+from ai4u_edu.check.rollout import standard_scene
 
 SCENE = """
 name: tiny

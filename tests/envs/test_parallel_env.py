@@ -10,8 +10,8 @@ from pettingzoo.test import max_cycles_test, parallel_api_test, parallel_seed_te
 from pettingzoo.utils import parallel_to_aec
 
 from ai4u_edu import Scene
+from ai4u_edu.base.errors import ActionError, SetupError
 from ai4u_edu.envs import SceneEnv, parallel_env
-from ai4u_edu.errors import ActionError, SetupError
 from tests.envs.scenes import MULTI_AGENT
 
 FORMS = ["dict", "flat"]

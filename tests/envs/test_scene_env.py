@@ -11,7 +11,7 @@ from gymnasium.utils.env_checker import check_env
 from gymnasium.wrappers import RecordEpisodeStatistics
 
 from ai4u_edu import LocalBrain, Scene
-from ai4u_edu.errors import SetupError
+from ai4u_edu.base.errors import SetupError
 from ai4u_edu.registration import env_id
 from tests.envs.scenes import SCENES, without_blocks
 

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 from gymnasium.vector import AutoresetMode
 
+from ai4u_edu.base.errors import SetupError
 from ai4u_edu.envs import SceneVectorEnv
-from ai4u_edu.errors import SetupError
 
 COUNT = 3
 

@@ -7,7 +7,7 @@ from typing import Any
 import msgpack
 import numpy as np
 
-from ai4u_edu.errors import AI4UError
+from ai4u_edu.base.errors import AI4UError
 from ai4u_edu.remote.percept import RemotePercept
 from ai4u_edu.server import messages
 from ai4u_edu.wire import native
@@ -21,7 +21,7 @@ from ai4u_edu.wire.ai4u import (
     encode_request,
     number,
 )
-from ai4u_edu.wire.strict import WireError
+from ai4u_edu.wire.validation import WireError
 from tests.fuzz.messages import KINDS, example
 from tests.fuzz.mutate import bent, bent_and_packed, mangled
 from tests.fuzz.target import MANY, Target

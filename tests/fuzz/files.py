@@ -9,8 +9,8 @@ from typing import Any
 import msgpack
 from ruamel.yaml import YAML
 
+from ai4u_edu.base.errors import AI4UError
 from ai4u_edu.blocks import Block
-from ai4u_edu.errors import AI4UError
 from ai4u_edu.recording import Episode, Recorder, RecordingError
 from ai4u_edu.recording.file import HEAD, LARGEST_FILE, decode, encode
 from ai4u_edu.scenes import Scene

@@ -6,7 +6,7 @@ from types import NoneType, UnionType
 from typing import Annotated, Any, Literal, Union, get_args, get_origin, get_type_hints
 
 from ai4u_edu.wire import native
-from ai4u_edu.wire.strict import Bounds
+from ai4u_edu.wire.validation import Bounds
 
 KINDS: tuple[type[native.Message], ...] = get_args(native.Message)
 NAMES = ("red", "move", "eyes", "", "s" * 20, "röbot", "speed")

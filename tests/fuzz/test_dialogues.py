@@ -9,14 +9,14 @@ from hypothesis import settings
 from hypothesis import strategies as st
 from hypothesis.stateful import RuleBasedStateMachine, initialize, invariant, rule
 
-from ai4u_edu.blocks.brains.link import Answered, Situation
-from ai4u_edu.blocks.brains.link import Reset as ResetAnswer
-from ai4u_edu.server.remote.line import Line
-from ai4u_edu.server.remote.session import Session
+from ai4u_edu.blocks.brains.links.link import Answered, Situation
+from ai4u_edu.blocks.brains.links.link import Reset as ResetAnswer
+from ai4u_edu.server.scripts.outbox import Line
+from ai4u_edu.server.scripts.session import Session
 from ai4u_edu.wire import native
 from ai4u_edu.wire.ai4u import decode_request
 from ai4u_edu.wire.ai4u_dialogue import WORDS, Dialogue, Phase, State, Word
-from ai4u_edu.wire.strict import WireError
+from ai4u_edu.wire.validation import WireError
 
 SAYABLE = {
     Word.CONFIGURED: b"max_steps;1;0@id;1;0",

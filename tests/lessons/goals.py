@@ -13,7 +13,7 @@ from typing import Any
 from ai4u_edu import trained_brain
 from ai4u_edu.lessons.answers import answers_to
 from ai4u_edu.lessons.course import course_folder, lessons
-from ai4u_edu.lessons.rolls import drives
+from ai4u_edu.lessons.rollouts import drives
 from tests.lessons.workbook import tried
 
 

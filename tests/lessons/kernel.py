@@ -10,8 +10,8 @@ from nbclient import NotebookClient
 
 from ai4u_edu.lessons.answers import answers_to
 from ai4u_edu.lessons.course import Lesson
-from ai4u_edu.lessons.keeper import Entry, Keeper
 from ai4u_edu.lessons.notebook import dumps
+from ai4u_edu.lessons.progress_file import Entry, Keeper
 from tests.lessons.workbook import solved
 
 LONGEST = 120

@@ -16,7 +16,7 @@ from typing import Any
 
 from ai4u_edu.lessons import stop
 from ai4u_edu.lessons.course import Lesson, lesson
-from ai4u_edu.lessons.keeper import Keeper
+from ai4u_edu.lessons.progress_file import Keeper
 from tests.lessons.workbook import run
 
 

@@ -7,13 +7,13 @@ from typing import Any
 
 import pytest
 
-from ai4u_edu.errors import SetupError
+from ai4u_edu.base.errors import SetupError
+from ai4u_edu.lessons import cell_source as written_module
 from ai4u_edu.lessons import check, hint, progress, solution
-from ai4u_edu.lessons import written as written_module
 from ai4u_edu.lessons.checking import UNFINISHED, judge
 from ai4u_edu.lessons.exercise import EXERCISES, Exercise, find
-from ai4u_edu.lessons.keeper import FILE, Keeper
 from ai4u_edu.lessons.notebook import Cell
+from ai4u_edu.lessons.progress_file import FILE, Keeper
 from tests.lessons.workbook import run
 
 

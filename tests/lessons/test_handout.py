@@ -8,10 +8,10 @@ from pathlib import Path
 import pytest
 from typer.testing import CliRunner
 
-from ai4u_edu.cli import app
-from ai4u_edu.errors import SetupError
+from ai4u_edu.base.errors import SetupError
+from ai4u_edu.cli.lessons import lab
+from ai4u_edu.cli.main import app
 from ai4u_edu.lessons import handout
-from ai4u_edu.lessons.commands import lab
 from ai4u_edu.lessons.course import lessons
 from ai4u_edu.lessons.handout import hand_out
 from ai4u_edu.lessons.notebook import dumps
@@ -79,7 +79,9 @@ def test_the_command_says_what_became_of_each(tmp_path: Path) -> None:
 
 
 def test_without_jupyterlab_the_command_says_how_to_get_it(tmp_path: Path) -> None:
-    hidden = "import sys; sys.modules['jupyterlab'] = None; from ai4u_edu.cli import main; main()"
+    hidden = (
+        "import sys; sys.modules['jupyterlab'] = None;from ai4u_edu.cli.main import main; main()"
+    )
     done = subprocess.run(
         [sys.executable, "-c", hidden, "lessons", "course"],
         cwd=tmp_path,

@@ -15,7 +15,7 @@ from playwright.sync_api import Browser, FrameLocator, Page
 
 from ai4u_edu import Recorder, Scene
 from ai4u_edu.lessons.live import Live
-from ai4u_edu.runner import Runner
+from ai4u_edu.runtime.runner import Runner
 from tests.lessons.lab import lab, wait_for
 from tests.playing import browser
 from tests.server.rooms import free_port, until

@@ -11,9 +11,10 @@ import pytest
 from PIL import Image
 
 from ai4u_edu import CircleShape, Episode, Scene, World
-from ai4u_edu.errors import AI4UError, SetupError
-from ai4u_edu.lessons import film, filming, live, out, readiness, ready, show, showing, stop
-from ai4u_edu.lessons.rolls import drives
+from ai4u_edu.base.errors import AI4UError, SetupError
+from ai4u_edu.lessons import film, filming, live, readiness, ready, show, showing, stop
+from ai4u_edu.lessons import notebook_output as out
+from ai4u_edu.lessons.rollouts import drives
 from tests.builders import small_sim
 from tests.server.rooms import raw_answer, until
 

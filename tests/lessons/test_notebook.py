@@ -6,7 +6,7 @@ import jupytext
 import nbformat
 import pytest
 
-from ai4u_edu.errors import SetupError
+from ai4u_edu.base.errors import SetupError
 from ai4u_edu.lessons.course import Lesson, lessons
 from ai4u_edu.lessons.notebook import cells_of, dumps
 

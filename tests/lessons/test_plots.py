@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 from PIL import Image
 
+from ai4u_edu.base.colors import PALETTE, rgb
 from ai4u_edu.lessons import bars, plot, plots
-from ai4u_edu.lessons.mishap import told
-from ai4u_edu.palette import PALETTE, rgb
+from ai4u_edu.lessons.student_errors import told
 
 
 @pytest.fixture

@@ -19,7 +19,7 @@ from websockets.asyncio.server import ServerConnection, broadcast, serve
 from websockets.exceptions import ConnectionClosed
 from websockets.typing import Subprotocol
 
-from ai4u_edu.tick_schedule import MAX_LAG_S
+from ai4u_edu.runtime.clock import MAX_LAG_S
 from ai4u_edu.wire import native
 from tests.load.clients import REMOTE, VISER
 from tests.load.world import RAYS, ROUND, SKIP, Told

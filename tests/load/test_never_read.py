@@ -8,9 +8,9 @@ from urllib.request import urlopen
 import psutil
 import viser
 
-from ai4u_edu.runner import Runner
+from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.server import ServerThread, room_app
-from ai4u_edu.server.remote import Rules
+from ai4u_edu.server.scripts import Rules
 from ai4u_edu.viewer import Viewer
 from ai4u_edu.wire import native
 from tests.load.clients import CAMERA

@@ -19,9 +19,9 @@ from ai4u_edu import (
     TouchRewardFunc,
     World,
 )
-from ai4u_edu.runner import Runner
+from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.server import ServerThread, room_app, shut_side_door
-from ai4u_edu.server.remote import Rules
+from ai4u_edu.server.scripts import Rules
 from ai4u_edu.viewer import Viewer
 from tests.builders import still
 

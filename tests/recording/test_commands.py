@@ -14,12 +14,12 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
-from ai4u_edu import LocalBrain, Scene, episode_commands
-from ai4u_edu.cli import app
-from ai4u_edu.episode_commands import recorder_into
-from ai4u_edu.errors import NoDecisionError
-from ai4u_edu.recording import Episode, Recorder, Replay
-from ai4u_edu.runner import Runner
+from ai4u_edu import LocalBrain, Scene
+from ai4u_edu.base.errors import NoDecisionError
+from ai4u_edu.cli import episodes as episode_commands
+from ai4u_edu.cli.main import app
+from ai4u_edu.recording import Episode, Recorder, Replay, recorder_into
+from ai4u_edu.runtime.runner import Runner
 from tests.playing import played
 from tests.server.rooms import free_port
 

@@ -13,12 +13,12 @@ import pytest
 from PIL import Image, ImageSequence
 
 from ai4u_edu import LocalBrain, Scene
-from ai4u_edu.drawing import draw
-from ai4u_edu.errors import SetupError
+from ai4u_edu.base.errors import SetupError
 from ai4u_edu.recording import Recorder, RecordingError, Replay
-from ai4u_edu.recording.csv_file import write_csv
-from ai4u_edu.recording.movie import write_gif, write_mp4
-from ai4u_edu.recording.page import write_html
+from ai4u_edu.recording.exports.csv_file import write_csv
+from ai4u_edu.recording.exports.html_page import write_html
+from ai4u_edu.recording.exports.movie import write_gif, write_mp4
+from ai4u_edu.snapshot.raster import draw
 from tests.playing import browser
 from tests.recording.takes import Take, take
 from tests.server.rooms import until
@@ -93,7 +93,7 @@ def test_an_mp4_that_can_not_be_written(replay: Replay, tmp_path: Path) -> None:
 def test_an_mp4_without_the_extra(
     replay: Replay, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("ai4u_edu.extras.find_spec", lambda name: None)
+    monkeypatch.setattr("ai4u_edu.base.optional_deps.find_spec", lambda name: None)
     with pytest.raises(SetupError, match=r'pip install "ai4u-edu\[video\]"'):
         write_mp4(replay, tmp_path / "one.mp4")
 
@@ -173,8 +173,8 @@ def test_the_page_plays_without_a_server(tmp_path: Path) -> None:
 
 def test_exporting_needs_no_browser_and_no_page() -> None:
     code = (
-        "import sys, ai4u_edu.recording.movie, ai4u_edu.recording.page, "
-        "ai4u_edu.recording.csv_file\n"
+        "import sys, ai4u_edu.recording.exports.movie, ai4u_edu.recording.exports.html_page, "
+        "ai4u_edu.recording.exports.csv_file\n"
         "assert not {'viser', 'torch', 'starlette', 'imageio_ffmpeg'} & set(sys.modules)"
     )
     import subprocess

@@ -12,7 +12,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from ai4u_edu import LocalBrain, Scene
-from ai4u_edu.errors import AI4UError
+from ai4u_edu.base.errors import AI4UError
 from ai4u_edu.recording import Episode, Recorder, RecordingError, Replay, file
 from ai4u_edu.recording.file import HEAD, decode, encode
 from tests.recording.takes import take

@@ -17,15 +17,15 @@ from ai4u_edu import (
     RBMoveActuator,
     Scene,
     World,
-    episode_commands,
 )
 from ai4u_edu.agent import EVENTS
-from ai4u_edu.cycle import ControlRequestor
-from ai4u_edu.episode_commands import recorder_into
-from ai4u_edu.errors import SetupError
-from ai4u_edu.recording import Episode, Recorder, RecordingError, Replay, tape
-from ai4u_edu.recording.portrait import scene_of
-from ai4u_edu.runner import Runner
+from ai4u_edu.agent.cycle import ControlRequestor
+from ai4u_edu.base.errors import SetupError
+from ai4u_edu.cli import episodes as episode_commands
+from ai4u_edu.recording import Episode, Recorder, RecordingError, Replay, recorder_into
+from ai4u_edu.recording import episode_builder as tape
+from ai4u_edu.recording.scene_export import scene_of
+from ai4u_edu.runtime.runner import Runner
 from tests.builders import small_sim
 from tests.recording.takes import driver, field_of
 

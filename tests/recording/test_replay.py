@@ -10,8 +10,8 @@ from ai4u_edu import ControlRequestor, LocalBrain, Percept, ReplayController, Sc
 from ai4u_edu.blocks import Layout
 from ai4u_edu.envs import SceneEnv
 from ai4u_edu.recording import Episode, Recorder, RecordingError, Replay, ghost_of
+from ai4u_edu.recording.checksum import percept_print
 from ai4u_edu.recording.file import decode, encode
-from ai4u_edu.recording.fingerprint import percept_print
 from ai4u_edu.recording.player import Player
 from tests.recording.again import digest
 from tests.recording.takes import (

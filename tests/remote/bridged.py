@@ -17,7 +17,7 @@ import numpy as np
 
 from ai4u_edu import BasicAgent, RemoteBrain, Scene
 from ai4u_edu.remote.bridge import Bridge
-from ai4u_edu.server.remote import Rules
+from ai4u_edu.server.scripts import Rules
 from tests.remote import test_ai4u_package
 from tests.remote.faults import BAD
 from tests.remote.faulty_proxy import Faults, FaultyProxy

@@ -17,7 +17,7 @@ from dataclasses import dataclass, field
 import psutil
 
 from ai4u_edu.agent import BasicAgent
-from ai4u_edu.server.remote import Rules
+from ai4u_edu.server.scripts import Rules
 from tests.remote.rooms import log_room
 from tests.server.rooms import Room
 

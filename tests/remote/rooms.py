@@ -18,7 +18,7 @@ from ai4u_edu import (
     Sensor,
     World,
 )
-from ai4u_edu.server.remote import Rules
+from ai4u_edu.server.scripts import Rules
 from ai4u_edu.wire import native
 from tests.builders import still
 from tests.server.rooms import Room, served

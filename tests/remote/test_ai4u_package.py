@@ -30,7 +30,7 @@ from ai4u_edu import (
     Scene,
     World,
 )
-from ai4u_edu.runner import Runner
+from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.wire.ai4u import encode_request
 from tests.remote import ai4u_venv
 from tests.wire.test_ai4u import EVERY_KIND

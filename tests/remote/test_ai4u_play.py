@@ -5,8 +5,8 @@ import json
 import pytest
 
 from ai4u_edu import RemoteBrain, Scene
+from ai4u_edu.base.errors import NameNotFoundError, ParameterError, SetupError
 from ai4u_edu.blocks.brains.address import brain_at
-from ai4u_edu.errors import NameNotFoundError, ParameterError, SetupError
 from ai4u_edu.training.assigned import with_drivers
 from tests.playing import played
 from tests.remote.test_ai4u_package import free_port, run_script

@@ -19,9 +19,9 @@ from ai4u_edu import (
     RemoteBrain,
     World,
 )
-from ai4u_edu.errors import SetupError
-from ai4u_edu.runner import Runner
-from ai4u_edu.wire.strict import WireError
+from ai4u_edu.base.errors import SetupError
+from ai4u_edu.runtime.runner import Runner
+from ai4u_edu.wire.validation import WireError
 from tests.builders import small_sim
 from tests.remote.udp_script import NOOP, RESET, WAIT, UDPScript, udp_script
 

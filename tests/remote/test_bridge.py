@@ -9,8 +9,8 @@ import pytest
 
 from ai4u_edu import ControlRequestor, RemoteBrain, Scene
 from ai4u_edu.blocks.agent_view import AgentView
-from ai4u_edu.blocks.brains.ai4u_codec import AI4UCodec
-from ai4u_edu.blocks.brains.link import offer_of
+from ai4u_edu.blocks.brains.links.ai4u_codec import AI4UCodec
+from ai4u_edu.blocks.brains.links.link import offer_of
 from ai4u_edu.remote import LostError, RefusedError, connect
 from ai4u_edu.remote.bridge import Bridge
 from tests.remote.bridged import OPTIONS, TOKEN, bridged, run, scene_room

@@ -8,7 +8,7 @@ import pytest
 
 from ai4u_edu.remote import Robot, connect
 from ai4u_edu.server import frames
-from ai4u_edu.server.remote import sockets
+from ai4u_edu.server.scripts import sockets
 from tests.remote.rooms import Place, Script, log_of, log_room
 from tests.server.rooms import until
 

@@ -20,8 +20,8 @@ from websockets.http11 import Request, Response
 from websockets.sync.server import ServerConnection
 
 from ai4u_edu.remote import channel
+from ai4u_edu.remote.connection_options import lost_by
 from ai4u_edu.remote.direct_socket import DirectSocket
-from ai4u_edu.remote.line_options import lost_by
 from ai4u_edu.remote.readiness import is_readable
 from tests.remote.far_ends import (
     SOON,

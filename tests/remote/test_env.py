@@ -8,12 +8,12 @@ import pytest
 from gymnasium.utils.env_checker import check_env
 
 from ai4u_edu import AI4UError
+from ai4u_edu.base.errors import ParameterError
+from ai4u_edu.base.seeding import MAX_SEED
 from ai4u_edu.envs import SceneEnv
-from ai4u_edu.errors import ParameterError
 from ai4u_edu.remote import RefusedError, RemoteEnv
 from ai4u_edu.scenes import Scene
-from ai4u_edu.seeding import MAX_SEED
-from ai4u_edu.server.remote import Rules
+from ai4u_edu.server.scripts import Rules
 from tests.server.rooms import Room, served
 
 

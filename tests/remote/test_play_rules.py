@@ -6,8 +6,8 @@ import pytest
 from typer.testing import CliRunner
 
 from ai4u_edu import server
-from ai4u_edu.cli import app
-from ai4u_edu.errors import SetupError
+from ai4u_edu.base.errors import SetupError
+from ai4u_edu.cli.main import app
 from ai4u_edu.server import Rules
 
 

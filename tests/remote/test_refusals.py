@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 from websockets.exceptions import ConnectionClosed
 
-from ai4u_edu.errors import ActionError, ParameterError
+from ai4u_edu.base.errors import ActionError, ParameterError
 from ai4u_edu.remote import LostError, RefusedError, RemoteError, connect
-from ai4u_edu.server.remote import sockets
+from ai4u_edu.server.scripts import sockets
 from ai4u_edu.wire import native
 from tests.remote.rooms import Script, log_of, log_room, log_sim
 from tests.server.rooms import UPGRADE, Room, free_port, raw_answer, served

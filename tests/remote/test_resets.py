@@ -11,8 +11,8 @@ from typing import Any
 import pytest
 
 from ai4u_edu import BasicAgent
-from ai4u_edu.blocks.brains.ai4u_desk import Desk
-from ai4u_edu.blocks.brains.link import Answered, Reset, Situation
+from ai4u_edu.blocks.brains.links.link import Answered, Reset, Situation
+from ai4u_edu.blocks.brains.links.link_thread import Desk
 from ai4u_edu.remote import Robot, connect
 from ai4u_edu.wire import native
 from tests.remote.faulty_proxy import Faults, FaultyProxy

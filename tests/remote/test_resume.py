@@ -11,7 +11,7 @@ from websockets.exceptions import ConnectionClosed
 from ai4u_edu.remote import LostError, RefusedError, Robot, connect
 from ai4u_edu.remote.dialogue import Dialogue
 from ai4u_edu.remote.steps import Flow, LineLost, Open, Receive, Send, Step
-from ai4u_edu.server.remote.sockets import PER_SECOND
+from ai4u_edu.server.scripts.sockets import PER_SECOND
 from ai4u_edu.wire import native
 from tests.remote.rooms import SECRET, Script, log_of, log_room
 from tests.server.rooms import until

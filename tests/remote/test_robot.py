@@ -5,7 +5,7 @@ import asyncio
 import numpy as np
 import pytest
 
-from ai4u_edu.errors import ActionError, NameNotFoundError
+from ai4u_edu.base.errors import ActionError, NameNotFoundError
 from ai4u_edu.remote import AsyncRobot, LostError, RemoteError, Robot, connect
 from ai4u_edu.wire.native import Output
 from tests.remote.rooms import log_of, log_room

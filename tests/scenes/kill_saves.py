@@ -12,7 +12,7 @@ import tempfile
 import time
 from pathlib import Path
 
-from ai4u_edu.atomic_write import remove_leftovers
+from ai4u_edu.base.atomic_write import remove_leftovers
 from ai4u_edu.scenes import Scene
 
 PADDING = 280_000

@@ -5,8 +5,8 @@ from typing import Any
 import pytest
 
 from ai4u_edu import Scene
-from ai4u_edu.scenes.yaml_file import write_yaml
-from tests.workshop.shops import Shop
+from ai4u_edu.scenes.yaml.file import write_yaml
+from tests.editing.shops import Shop
 
 TEXT = """\
 # A header of mine,

@@ -7,8 +7,8 @@ from typing import Any
 import pytest
 
 from ai4u_edu import Scene
-from ai4u_edu.errors import SceneError
-from ai4u_edu.scenes.plain import OWN
+from ai4u_edu.base.errors import SceneError
+from ai4u_edu.scenes.serialization import OWN
 from ai4u_edu.snapshot import body_states, set_stage
 
 GOOD = """

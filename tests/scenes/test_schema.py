@@ -7,8 +7,8 @@ import pytest
 
 from ai4u_edu import Block, Scene
 from ai4u_edu.blocks.block import is_built_in
-from ai4u_edu.scenes.plain import fits_a_file
 from ai4u_edu.scenes.schema import scene_schema
+from ai4u_edu.scenes.serialization import fits_a_file
 
 SCHEMA = scene_schema()
 
@@ -25,7 +25,7 @@ def test_it_is_a_schema() -> None:
 @pytest.mark.parametrize("name", Scene.names())
 def test_every_scene_of_the_library_fits(name: str) -> None:
     from ai4u_edu.scenes.scene import LIBRARY
-    from ai4u_edu.scenes.yaml_file import YamlFile
+    from ai4u_edu.scenes.yaml.file import YamlFile
 
     file = LIBRARY / f"{name}.yaml"
     assert errors_in(YamlFile(file.read_text(), file.name).data) == []

@@ -3,9 +3,9 @@
 import pytest
 
 from ai4u_edu import Scene
+from ai4u_edu.base.errors import SceneError
 from ai4u_edu.check import check_scene
-from ai4u_edu.errors import SceneError
-from ai4u_edu.scenes.plain import PlainError
+from ai4u_edu.scenes.serialization import PlainError
 
 SETUP = """
 name: small

@@ -9,10 +9,10 @@ import pytest
 import yaml
 from ruamel.yaml import YAML
 
-from ai4u_edu.errors import SceneError
+from ai4u_edu.base.errors import SceneError
 from ai4u_edu.scenes import Scene
-from ai4u_edu.scenes.yaml_file import MAX_SIZE, YamlFile
-from ai4u_edu.scenes.yaml_tree import IS_QUICK, read_tree
+from ai4u_edu.scenes.yaml.file import MAX_SIZE, YamlFile
+from ai4u_edu.scenes.yaml.tree import IS_QUICK, read_tree
 
 PLAIN = (
     "true True TRUE false False FALSE null Null NULL ~ yes no on off y n tRUE nil 1 -1 +1 007 "
@@ -106,7 +106,7 @@ FAULTS = {
 def test_a_fault_is_told_in_words_with_its_place_and_its_line(
     text: str, loader: type, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("ai4u_edu.scenes.yaml_tree._Loader", loader)  # where libyaml is missing
+    monkeypatch.setattr("ai4u_edu.scenes.yaml.tree._Loader", loader)  # where libyaml is missing
     line, column, words = FAULTS[text]
     with pytest.raises(SceneError) as caught:
         YamlFile(text, "x.yaml")

@@ -14,7 +14,7 @@ from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import connect
 
 from ai4u_edu import ControlRequestor, WASDRBMoveController
-from ai4u_edu.runner import Runner
+from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.server import ServerThread, room_app
 from tests.builders import small_sim
 

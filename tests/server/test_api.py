@@ -14,10 +14,10 @@ import pytest
 from gymnasium.spaces import Box
 
 from ai4u_edu import BasicAgent, MinDistReward, RayCastingSensor, Sensor, WASDRBMoveController
+from ai4u_edu.base.version import __version__
 from ai4u_edu.remote import connect
-from ai4u_edu.runner import Runner
+from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.server.api import SnapshotView, finite
-from ai4u_edu.version import __version__
 from tests.builders import small_sim
 from tests.server.rooms import Room, served, until
 
@@ -140,7 +140,7 @@ class Slow(Sensor):
 
 
 def test_health_tells_which_block_does_not_return(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("ai4u_edu.stall_monitor.STALL_S", 0.0)
+    monkeypatch.setattr("ai4u_edu.runtime.stall_monitor.STALL_S", 0.0)
     sensor = Slow()
     with served(small_sim([sensor])) as room:
         try:

@@ -18,7 +18,7 @@ from starlette.requests import Request
 from starlette.responses import PlainTextResponse, Response
 from starlette.routing import Route
 
-from ai4u_edu.errors import AI4UError
+from ai4u_edu.base.errors import AI4UError
 from ai4u_edu.server import AddressError, PortTakenError, ServerThread, serve
 from ai4u_edu.server.frames import FramesProtocol
 from tests.server.rooms import UPGRADE, Page, free_port, raw_answer, raw_request, served, until
@@ -27,7 +27,7 @@ PROGRAM = """
 import sys
 import viser
 from ai4u_edu import WASDRBMoveController
-from ai4u_edu.runner import Runner
+from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.server import room_app, serve
 from tests.builders import small_sim
 

@@ -12,8 +12,8 @@ from pathlib import Path
 
 from ai4u_edu import Scene, zoo
 from ai4u_edu.training.dagger import imitate
-from ai4u_edu.training.entrants import entrant
 from ai4u_edu.training.evaluating import evaluate
+from ai4u_edu.training.policies import entrant
 from ai4u_edu.training.settings import settings_for
 from ai4u_edu.training.zoo import EPISODES, TRIES, take, tell
 from tests.training.teachers import teacher_of

@@ -12,13 +12,13 @@ pytest.importorskip("stable_baselines3")
 import torch
 
 from ai4u_edu import LocalBrain, Percept, Scene
+from ai4u_edu.base.errors import SetupError
 from ai4u_edu.blocks.brains.network import Network
-from ai4u_edu.errors import SetupError
 from ai4u_edu.recording import Episode, Recorder
 from ai4u_edu.training.cloning import Clone, clone, levels_of
 from ai4u_edu.training.demonstrations import demonstrations
-from ai4u_edu.training.entrants import entrant
 from ai4u_edu.training.evaluating import evaluate
+from ai4u_edu.training.policies import entrant
 from tests.recording.takes import take
 from tests.scenes.solvers import solver_of
 

@@ -15,9 +15,9 @@ import pytest
 from typer.testing import CliRunner
 
 from ai4u_edu import Scene
+from ai4u_edu.base.errors import AI4UError, NameNotFoundError, SetupError
 from ai4u_edu.blocks import Block, RemoteBrain
-from ai4u_edu.cli import app
-from ai4u_edu.errors import AI4UError, NameNotFoundError, SetupError
+from ai4u_edu.cli.main import app
 from ai4u_edu.training import export
 from ai4u_edu.training.algorithms import load_model
 from ai4u_edu.training.assigned import with_drivers

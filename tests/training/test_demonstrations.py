@@ -6,8 +6,8 @@ from typing import Any
 import numpy as np
 import pytest
 
+from ai4u_edu.base.errors import SetupError
 from ai4u_edu.envs import SceneEnv
-from ai4u_edu.errors import SetupError
 from ai4u_edu.recording import Episode, Recorder, RecordingError
 from ai4u_edu.training.demonstrations import demonstrations
 from tests.recording.takes import LEFT, RESPAWN, driver, field_of, take
@@ -108,7 +108,7 @@ def test_a_minari_dataset(
 
 
 def test_minari_is_missing(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("ai4u_edu.extras.find_spec", lambda name: None)
+    monkeypatch.setattr("ai4u_edu.base.optional_deps.find_spec", lambda name: None)
     data = demonstrations([take("box_chase", decisions=3).episode])
     with pytest.raises(SetupError, match=r'pip install "ai4u-edu\[data\]"'):
         data.to_minari("x-v0")

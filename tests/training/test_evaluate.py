@@ -8,12 +8,12 @@ import pytest
 from typer.testing import CliRunner
 
 from ai4u_edu import BasicAgent, Command, LocalBrain, Percept, Scene
-from ai4u_edu.cli import app
-from ai4u_edu.errors import AI4UError, SetupError
-from ai4u_edu.training.entrants import Entrant, entrant
+from ai4u_edu.base.errors import AI4UError, SetupError
+from ai4u_edu.cli.main import app
 from ai4u_edu.training.episode import Episode, wilson
 from ai4u_edu.training.evaluating import LONGEST, Evaluation, evaluate
 from ai4u_edu.training.plots import plot_curves, plot_evaluations
+from ai4u_edu.training.policies import Entrant, entrant
 
 ROAD = """
 name: road

@@ -11,6 +11,7 @@ from gymnasium import spaces
 from stable_baselines3.common.vec_env import VecEnv
 
 from ai4u_edu import Command, Scene
+from ai4u_edu.base.version import __version__
 from ai4u_edu.blocks.brains.network import ABOUT, Network, Port
 from ai4u_edu.training.algorithms import load_model, new_model
 from ai4u_edu.training.exporting import export
@@ -18,7 +19,6 @@ from ai4u_edu.training.prepare import prepare
 from ai4u_edu.training.run import Config
 from ai4u_edu.training.settings import ALGORITHMS, Algorithm, Settings
 from ai4u_edu.training.worlds import Choices, make_worlds
-from ai4u_edu.version import __version__
 from tests.training.small import CHOICES, small_settings, small_training
 
 
@@ -128,7 +128,7 @@ def test_what_the_file_says_of_itself(tmp_path: Path) -> None:
 
 def test_a_network_decides_as_its_model_does(tmp_path: Path) -> None:
     """On a real agent, on all that it senses in a drive."""
-    from ai4u_edu.training.entrants import entrant
+    from ai4u_edu.training.policies import entrant
 
     done = small_training(tmp_path / "run", "ppo")
     run = done.run

@@ -28,7 +28,7 @@ from ai4u_edu import (
     World,
     trained_brain,
 )
-from ai4u_edu.errors import AI4UError, BlockError, SetupError
+from ai4u_edu.base.errors import AI4UError, BlockError, SetupError
 from tests.training.networks import network
 
 
@@ -319,7 +319,7 @@ def test_without_the_extra_it_says_what_to_install(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     file = network(tmp_path / "a.onnx", {"heading": (2,)})
-    monkeypatch.setattr("ai4u_edu.extras.find_spec", lambda _name: None)
+    monkeypatch.setattr("ai4u_edu.base.optional_deps.find_spec", lambda _name: None)
     with pytest.raises(SetupError) as caught:
         trained_brain(str(file))
     assert str(caught.value) == (
@@ -330,7 +330,7 @@ def test_without_the_extra_it_says_what_to_install(
 
 def test_the_core_loads_no_network_before_there_is_one() -> None:
     code = (
-        "import sys; from ai4u_edu import NeuralNetController; import ai4u_edu.cli;"
+        "import sys; from ai4u_edu import NeuralNetController; import ai4u_edu.cli.main;"
         "print(sorted({'onnxruntime', 'onnx', 'torch', 'stable_baselines3'} & set(sys.modules)))"
     )
     run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)

@@ -13,10 +13,10 @@ pytest.importorskip("torch")
 pytest.importorskip("stable_baselines3")
 
 from ai4u_edu import Controller, Percept, Scene
-from ai4u_edu.errors import SetupError
+from ai4u_edu.base.errors import SetupError
 from ai4u_edu.training import clone, demonstrate, evaluate, export, train
 from ai4u_edu.training.learning import Trained
-from ai4u_edu.training.meter import Line, NotebookMeter, Silence, counted, meter
+from ai4u_edu.training.progress_bar import Line, NotebookMeter, Silence, counted, meter
 from tests.training.small import SMALL
 from tests.training.test_evaluate import ROAD
 

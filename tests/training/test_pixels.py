@@ -15,10 +15,10 @@ from stable_baselines3.common.env_util import make_vec_env
 from stable_baselines3.common.vec_env import VecFrameStack
 
 from ai4u_edu import Scene
+from ai4u_edu.base.errors import SetupError
 from ai4u_edu.blocks.brains.network import Network
 from ai4u_edu.envs import SceneEnv
 from ai4u_edu.envs.sb3 import SceneVecEnv
-from ai4u_edu.errors import SetupError
 from ai4u_edu.training import evaluate, export, train
 from ai4u_edu.training.algorithms import load_model
 

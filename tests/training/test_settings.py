@@ -6,8 +6,8 @@ from typing import Any
 import pytest
 
 from ai4u_edu import Scene
+from ai4u_edu.base.errors import SetupError
 from ai4u_edu.envs import SceneEnv
-from ai4u_edu.errors import SetupError
 from ai4u_edu.training.prepare import prepare
 from ai4u_edu.training.settings import FOLDER, Settings, settings_for
 

@@ -9,9 +9,9 @@ import pytest
 import torch
 
 from ai4u_edu import Scene, World
-from ai4u_edu.errors import SetupError
+from ai4u_edu.base.errors import SetupError
 from ai4u_edu.training.algorithms import load_model
-from ai4u_edu.training.keeper import Keeper
+from ai4u_edu.training.eval_callback import Keeper
 from ai4u_edu.training.learning import resume, train
 from ai4u_edu.training.run import Check, Run
 from ai4u_edu.training.settings import ALGORITHMS, Algorithm
@@ -138,7 +138,7 @@ def test_the_best_is_kept_not_the_last(tmp_path: Path, monkeypatch: pytest.Monke
         reward = next(ranks)
         return [Episode(seed, False, reward, 5, False) for seed in seeds]
 
-    monkeypatch.setattr("ai4u_edu.training.keeper.trials", pretending)
+    monkeypatch.setattr("ai4u_edu.training.eval_callback.trials", pretending)
     done = small_training(tmp_path, "sac", sac=small_settings().sac.model_dump() | {"steps": 300})
     assert done.best.steps == 200
     assert load_model("sac", tmp_path / "best.zip").num_timesteps == 200
@@ -154,7 +154,7 @@ def test_it_ends_when_it_is_good_enough(tmp_path: Path, monkeypatch: pytest.Monk
         success = next(rates) == 1.0
         return [Episode(seed, success, 0.0, 5, True) for seed in seeds]
 
-    monkeypatch.setattr("ai4u_edu.training.keeper.trials", pretending)
+    monkeypatch.setattr("ai4u_edu.training.eval_callback.trials", pretending)
     many = small_settings().sac.model_dump() | {"steps": 1000}
     done = small_training(tmp_path, "sac", enough=2, sac=many)
     assert done.enough

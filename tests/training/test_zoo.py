@@ -4,8 +4,8 @@ import pytest
 
 from ai4u_edu import Scene, zoo
 from ai4u_edu.blocks.brains.network import Network
-from ai4u_edu.training.entrants import entrant
 from ai4u_edu.training.evaluating import evaluate
+from ai4u_edu.training.policies import entrant
 from ai4u_edu.training.zoo import LARGEST, WANTED
 
 NAMES = zoo.names()

@@ -4,10 +4,10 @@ from collections.abc import Iterator
 
 import pytest
 
-from ai4u_edu.runner import Runner
+from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.viewer import Viewer
+from tests.editing.shops import Shop
 from tests.viewer.worlds import busy_sim
-from tests.workshop.shops import Shop
 
 
 @pytest.fixture

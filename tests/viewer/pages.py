@@ -14,8 +14,8 @@ from websockets.sync.connection import Connection
 from websockets.typing import Subprotocol
 
 from ai4u_edu.viewer import Viewer
-from ai4u_edu.viewer.onlooker import AGENT_HEADER, DARK_HEADER
-from ai4u_edu.viewer.tabs import Tabs
+from ai4u_edu.viewer.panel.tabs import Tabs
+from ai4u_edu.viewer.viewer_client import AGENT_HEADER, DARK_HEADER
 
 P = TypeVar("P")
 

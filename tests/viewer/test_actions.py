@@ -1,9 +1,9 @@
 import numpy as np
 import pytest
 
-from ai4u_edu.runner import Runner
+from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.viewer import Viewer
-from ai4u_edu.viewer.actions import Actions, action_marks
+from ai4u_edu.viewer.scene.actions import Actions, action_marks
 from tests.viewer.worlds import busy_sim
 
 

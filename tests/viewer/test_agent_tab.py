@@ -7,10 +7,10 @@ import pytest
 from viser import GuiHtmlHandle
 
 from ai4u_edu import BasicAgent, CircleShape, ControlRequestor, LocalBrain, World
-from ai4u_edu.runner import Runner
+from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.viewer import Viewer
-from ai4u_edu.viewer.agent_html import overview, state, title
-from ai4u_edu.viewer.agent_tab import HIDDEN, SHOWN, AgentTab
+from ai4u_edu.viewer.panel.agent_html import overview, state, title
+from ai4u_edu.viewer.panel.agent_tab import HIDDEN, SHOWN, AgentTab
 from tests.viewer.pages import page, shown, tabs_of, until
 
 

@@ -3,7 +3,7 @@ import re
 import numpy as np
 import pytest
 
-from ai4u_edu.viewer.bars import bar, strip
+from ai4u_edu.viewer.panel.bars import bar, strip
 
 
 @pytest.mark.parametrize(

@@ -5,11 +5,11 @@ from collections.abc import Iterator
 
 import pytest
 
-from ai4u_edu.runner import Runner
+from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.viewer import Viewer
-from ai4u_edu.viewer.controls import Controls
-from ai4u_edu.viewer.page_controls import PageControls, _Page
-from ai4u_edu.viewer.view import Mode
+from ai4u_edu.viewer.panel.controls import Controls
+from ai4u_edu.viewer.panel.page_controls import PageControls, _Page
+from ai4u_edu.viewer.scene.view import Mode
 from tests.viewer.pages import Page, page, part_of, shown, until
 
 

@@ -5,10 +5,10 @@ from dataclasses import replace
 
 import pytest
 
-from ai4u_edu.cycle import Phase
-from ai4u_edu.runner import Runner
+from ai4u_edu.agent.cycle import Phase
+from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.snapshot import picture_of
-from ai4u_edu.viewer.decision import MOST_TICKS, decision
+from ai4u_edu.viewer.panel.decision import MOST_TICKS, decision
 from tests.builders import small_sim
 
 

@@ -2,7 +2,7 @@ import math
 
 import pytest
 
-from ai4u_edu.viewer.framing import (
+from ai4u_edu.viewer.scene.framing import (
     FIELD_OF_VIEW,
     FREE_IN_PORTRAIT,
     Bounds,

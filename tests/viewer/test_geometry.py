@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from ai4u_edu import BoxShape, CapsuleShape, CircleShape, PolygonShape, SegmentShape
-from ai4u_edu.viewer.geometry import (
+from ai4u_edu.viewer.scene.geometry import (
     Array,
     Mesh,
     band,

@@ -1,8 +1,8 @@
 import numpy as np
 import pytest
 
-from ai4u_edu.viewer.geometry import circle
-from ai4u_edu.viewer.grid import grid_in, grid_step
+from ai4u_edu.viewer.scene.geometry import circle
+from ai4u_edu.viewer.scene.grid import grid_in, grid_step
 
 PLATE = np.array([(5.0, 5.0), (-5.0, 5.0), (-5.0, -5.0), (5.0, -5.0)])
 

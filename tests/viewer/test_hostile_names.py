@@ -28,10 +28,10 @@ from ai4u_edu import (
     Sensor,
     World,
 )
-from ai4u_edu.runner import Runner
+from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.server import ServerThread, room_app, shut_side_door
 from ai4u_edu.viewer import Viewer
-from ai4u_edu.viewer.remote_lines import lines
+from ai4u_edu.viewer.panel.remote_lines import lines
 from tests.builders import still
 from tests.viewer.pages import Page, until
 

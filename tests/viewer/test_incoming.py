@@ -7,12 +7,13 @@ from typing import Any
 import pytest
 from viser import GuiEvent
 
-from ai4u_edu.errors import SetupError
-from ai4u_edu.viewer import Viewer, uploads
-from ai4u_edu.viewer.incoming import MAX_PRESSES_AT_ONCE
-from ai4u_edu.viewer.local_server import LocalServer
-from ai4u_edu.viewer.uploads import limit_uploads
-from ai4u_edu.viewer.widget_values import MAX_TEXT_CHARS, ValueRefusedError, checked_value
+from ai4u_edu.base.errors import SetupError
+from ai4u_edu.viewer import Viewer
+from ai4u_edu.viewer.backend.incoming import MAX_PRESSES_AT_ONCE
+from ai4u_edu.viewer.backend.local_server import LocalServer
+from ai4u_edu.viewer.backend.widget_values import MAX_TEXT_CHARS, ValueRefusedError, checked_value
+from ai4u_edu.viewer.panel import uploads
+from ai4u_edu.viewer.panel.uploads import limit_uploads
 from tests.viewer.pages import Page, page, until
 
 
@@ -39,7 +40,7 @@ def test_what_goes_wrong_in_a_callback_is_told_to_its_page_and_written_once(
     caplog: pytest.LogCaptureFixture,
     capfd: pytest.CaptureFixture[str],
 ) -> None:
-    monkeypatch.setattr("ai4u_edu.viewer.incoming.TELL_PERIOD_S", 0.0)
+    monkeypatch.setattr("ai4u_edu.viewer.backend.incoming.TELL_PERIOD_S", 0.0)
 
     async def fail(_event: GuiEvent[Any]) -> None:
         raise ValueError("this is no path")

@@ -6,11 +6,11 @@ from typing import Any
 import pytest
 
 from ai4u_edu.blocks import RemoteStatus
-from ai4u_edu.runner import Runner
+from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.snapshot import Snapshot
 from ai4u_edu.viewer import Viewer
-from ai4u_edu.viewer.agent_html import state
-from ai4u_edu.viewer.labels import Labels, trouble
+from ai4u_edu.viewer.panel.agent_html import state
+from ai4u_edu.viewer.scene.labels import Labels, trouble
 from tests.viewer.pages import part_of
 
 

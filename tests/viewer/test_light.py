@@ -1,9 +1,9 @@
 import numpy as np
 import pytest
 
-from ai4u_edu.look import FLOOR, VOID, WALL, Rgb
-from ai4u_edu.palette import PALETTE, rgb
-from ai4u_edu.viewer.light import film, lit, strokes, surfaces
+from ai4u_edu.base.colors import PALETTE, rgb
+from ai4u_edu.snapshot.theme import FLOOR, VOID, WALL, Rgb
+from ai4u_edu.viewer.scene.light import film, lit, strokes, surfaces
 
 GREYS = {"floor": FLOOR, "void": VOID, "wall": WALL}
 

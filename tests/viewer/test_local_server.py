@@ -5,7 +5,7 @@ import pytest
 import rich
 from viser import _messages
 
-from ai4u_edu.viewer.local_server import LocalServer
+from ai4u_edu.viewer.backend.local_server import LocalServer
 
 
 @pytest.fixture

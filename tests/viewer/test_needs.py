@@ -2,8 +2,8 @@ import re
 
 from ai4u_edu import Scene
 from ai4u_edu.snapshot import Need, picture_of
-from ai4u_edu.viewer.agent_html import AgentHtml
-from ai4u_edu.viewer.needs import needs
+from ai4u_edu.viewer.panel.agent_html import AgentHtml
+from ai4u_edu.viewer.panel.needs import needs
 
 ENERGY = Need("energy", 60.0, (0.0, 200.0), (50.0, 150.0))
 

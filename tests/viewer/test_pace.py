@@ -2,7 +2,7 @@
 
 import pytest
 
-from ai4u_edu.viewer.pace import CALM, HEAVY, LATE, LEAST, QUICK, Pace
+from ai4u_edu.viewer.backend.pace import CALM, HEAVY, LATE, LEAST, QUICK, Pace
 
 
 @pytest.mark.parametrize(("pages", "least", "most"), [(1, 75, 75), (8, 75, 75), (16, 40, 50)])

@@ -8,8 +8,8 @@ import imageio.v3
 import numpy as np
 import pytest
 
-from ai4u_edu.look import FLOOR, VOID
-from ai4u_edu.runner import Runner
+from ai4u_edu.runtime.runner import Runner
+from ai4u_edu.snapshot.theme import FLOOR, VOID
 from ai4u_edu.viewer import Viewer
 
 if TYPE_CHECKING:

@@ -3,9 +3,9 @@
 import pytest
 
 from ai4u_edu.snapshot import Snapshot, Stage
-from ai4u_edu.viewer import part
-from ai4u_edu.viewer.complaints import Complaints
-from ai4u_edu.viewer.part import Paced
+from ai4u_edu.viewer.backend import part
+from ai4u_edu.viewer.backend.log_once import Complaints
+from ai4u_edu.viewer.backend.part import Paced
 from tests.viewer.worlds import busy_sim, picture
 
 

@@ -5,8 +5,8 @@ import re
 import numpy as np
 
 from ai4u_edu.blocks import ChannelLegend, CodeLegend, GridSensor, LocalGridSensor, RayCastingSensor
-from ai4u_edu.look import UNKNOWN, VOID
-from ai4u_edu.viewer.pictures import MOST_CELLS, pictures
+from ai4u_edu.snapshot.theme import UNKNOWN, VOID
+from ai4u_edu.viewer.panel.pictures import MOST_CELLS, pictures
 
 COLOURS = {"wall": (1, 2, 3), "dirty": (4, 5, 6)}
 

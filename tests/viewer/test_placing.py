@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from ai4u_edu import BoxShape, CircleShape, World
-from ai4u_edu.viewer.placing import floor_under, lowest_floor, placed, seen_bounds, size
+from ai4u_edu.viewer.scene.placing import floor_under, lowest_floor, placed, seen_bounds, size
 from tests.viewer.worlds import busy_world, stage_of
 
 

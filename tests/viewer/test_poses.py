@@ -5,8 +5,8 @@ import numpy as np
 import pytest
 
 from ai4u_edu.snapshot import Snapshot
-from ai4u_edu.viewer.layers import Layers
-from ai4u_edu.viewer.poses import SHADOW_AT_REST, Poses, poses
+from ai4u_edu.viewer.scene.layers import Layers
+from ai4u_edu.viewer.scene.poses import SHADOW_AT_REST, Poses, poses
 from tests.viewer.worlds import busy_sim, picture
 
 

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from viser import _scene_handles as handles
 
-from ai4u_edu.viewer.quick_props import quick_props, set_pose
+from ai4u_edu.viewer.backend.quick_props import quick_props, set_pose
 
 
 @pytest.fixture(autouse=True)

@@ -8,7 +8,7 @@ import pytest
 
 from ai4u_edu import Scene
 from ai4u_edu.blocks import LocalGridSensor
-from ai4u_edu.runner import Runner
+from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.viewer import Viewer
 
 SCENE = """

@@ -1,13 +1,13 @@
 import numpy as np
 import pytest
 
+from ai4u_edu.base.colors import rgb
 from ai4u_edu.blocks import RayPicture
-from ai4u_edu.look import NOTHING, WALL, group_colours
-from ai4u_edu.palette import rgb
-from ai4u_edu.runner import Runner
+from ai4u_edu.runtime.runner import Runner
+from ai4u_edu.snapshot.theme import NOTHING, WALL, group_colours
 from ai4u_edu.viewer import Viewer
-from ai4u_edu.viewer.light import strokes, surfaces
-from ai4u_edu.viewer.rays import Rays, StageLook, ray_dots, ray_lines
+from ai4u_edu.viewer.scene.light import strokes, surfaces
+from ai4u_edu.viewer.scene.rays import Rays, StageLook, ray_dots, ray_lines
 
 PICTURE = RayPicture(
     origin=(0.0, 0.0, 0.5),

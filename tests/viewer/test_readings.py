@@ -3,8 +3,8 @@ import re
 import numpy as np
 import pytest
 
-from ai4u_edu.facts import Component, Control, facts_of
-from ai4u_edu.viewer.readings import BARS, IN_FULL, action, reading, rewards
+from ai4u_edu.snapshot.block_info import Component, Control, facts_of
+from ai4u_edu.viewer.panel.readings import BARS, IN_FULL, action, reading, rewards
 from tests.builders import small_sim
 
 EVIL = "<script>alert('&')</script>"

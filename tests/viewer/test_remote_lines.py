@@ -4,11 +4,11 @@ import viser
 from websockets.sync.client import connect
 from websockets.typing import Subprotocol
 
-from ai4u_edu.runner import Runner
+from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.server import Rules, ServerThread, room_app
 from ai4u_edu.viewer import Viewer
-from ai4u_edu.viewer.agent_tab import AgentTab
-from ai4u_edu.viewer.remote_lines import lines
+from ai4u_edu.viewer.panel.agent_tab import AgentTab
+from ai4u_edu.viewer.panel.remote_lines import lines
 from tests.builders import small_sim
 from tests.remote.rooms import log_sim
 from tests.viewer.pages import Page, page, shown, tabs_of, until

@@ -23,9 +23,9 @@ from ai4u_edu import (
     VelocitySensor,
 )
 from ai4u_edu.blocks import RayPicture
-from ai4u_edu.facts import Sense, Window, facts_of, pictures_of
-from ai4u_edu.look import NOTHING
-from ai4u_edu.viewer.senses import sense_html
+from ai4u_edu.snapshot.block_info import Sense, Window, facts_of, pictures_of
+from ai4u_edu.snapshot.theme import NOTHING
+from ai4u_edu.viewer.panel.senses import sense_html
 from tests.builders import small_sim
 
 EVIL = "<script>alert('&')</script>"

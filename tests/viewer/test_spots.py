@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 
 from ai4u_edu import Scene
-from ai4u_edu.look import LIT, UNLIT
 from ai4u_edu.snapshot import Snapshot, picture_of
+from ai4u_edu.snapshot.theme import LIT, UNLIT
 from ai4u_edu.viewer import Viewer
-from ai4u_edu.viewer.light import surfaces
-from ai4u_edu.viewer.spots import Spots
+from ai4u_edu.viewer.scene.light import surfaces
+from ai4u_edu.viewer.scene.spots import Spots
 
 
 @pytest.fixture

@@ -1,11 +1,11 @@
 import math
 from dataclasses import replace
 
-from ai4u_edu.block_frames import Place
+from ai4u_edu.agent.block_frames import Place
 from ai4u_edu.blocks import RemoteStatus
-from ai4u_edu.runner import Runner
-from ai4u_edu.stall_monitor import Stall
-from ai4u_edu.viewer.status import goal, legend, speed_name, status
+from ai4u_edu.runtime.runner import Runner
+from ai4u_edu.runtime.stall_monitor import Stall
+from ai4u_edu.viewer.panel.status import goal, legend, speed_name, status
 
 
 def test_an_error_is_shown_escaped(runner: Runner) -> None:

@@ -2,11 +2,11 @@
 
 import pytest
 
-from ai4u_edu.runner import Runner
+from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.snapshot import Snapshot
 from ai4u_edu.viewer import Viewer
-from ai4u_edu.viewer.onlooker import Onlooker
-from ai4u_edu.viewer.tabs import TabKind, Tabs
+from ai4u_edu.viewer.panel.tabs import TabKind, Tabs
+from ai4u_edu.viewer.viewer_client import Onlooker
 from tests.viewer.pages import page, part_of, shown, until
 
 

@@ -2,7 +2,7 @@
 
 import pytest
 
-from ai4u_edu.viewer.turns import AT_ONCE, Turns
+from ai4u_edu.viewer.backend.turns import AT_ONCE, Turns
 
 
 @pytest.mark.parametrize("pages", [1, AT_ONCE, AT_ONCE + 1, 100])

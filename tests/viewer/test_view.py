@@ -5,12 +5,12 @@ import numpy as np
 import pytest
 from viser import CameraHandle
 
-from ai4u_edu.runner import Runner
+from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.snapshot import Snapshot
 from ai4u_edu.viewer import Viewer
-from ai4u_edu.viewer.framing import Frame, centred, frame
-from ai4u_edu.viewer.placing import seen_bounds
-from ai4u_edu.viewer.view import FOLLOWED, Mode, View
+from ai4u_edu.viewer.scene.framing import Frame, centred, frame
+from ai4u_edu.viewer.scene.placing import seen_bounds
+from ai4u_edu.viewer.scene.view import FOLLOWED, Mode, View
 from tests.viewer.pages import Page, page, until
 
 PLACE = (1.0, -2.0, 80.0)
@@ -136,7 +136,7 @@ def test_a_followed_agent_comes_to_the_middle_smoothly(
     watched: Watched, runner: Runner, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     now = 100.0
-    monkeypatch.setattr("ai4u_edu.viewer.view.time.monotonic", lambda: now)
+    monkeypatch.setattr("ai4u_edu.viewer.scene.view.time.monotonic", lambda: now)
     view = watched.view
     view.update(runner.latest, "0")
     view.choose(Mode.FOLLOW)

@@ -6,10 +6,10 @@ from typing import Any
 import pytest
 
 from ai4u_edu import BoxShape
-from ai4u_edu.runner import Runner
+from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.snapshot import Snapshot
 from ai4u_edu.viewer import Viewer
-from ai4u_edu.viewer.bodies import Bodies
+from ai4u_edu.viewer.scene.bodies import Bodies
 from tests.viewer.pages import page, until
 from tests.viewer.worlds import busy_sim
 

@@ -10,16 +10,16 @@ from uuid import uuid4
 import pytest
 
 from ai4u_edu import Scene
+from ai4u_edu.editing.autosave import Unsaved
+from ai4u_edu.editing.scene_store import Shelf
 from ai4u_edu.snapshot import picture_of
 from ai4u_edu.viewer import Viewer
-from ai4u_edu.viewer.body_form import BodyForm
-from ai4u_edu.viewer.furnishing import THINGS, room_for
-from ai4u_edu.viewer.gallery_pictures import cards, cards_of
-from ai4u_edu.viewer.world_tab import NOTHING, WorldTab
-from ai4u_edu.workshop.autosave import Unsaved
-from ai4u_edu.workshop.shelf import Shelf
+from ai4u_edu.viewer.panel.add_menu import THINGS, room_for
+from ai4u_edu.viewer.panel.body_form import BodyForm
+from ai4u_edu.viewer.panel.gallery_pictures import cards, cards_of
+from ai4u_edu.viewer.panel.world_tab import NOTHING, WorldTab
+from tests.editing.shops import TEXT, Shop
 from tests.viewer.pages import Page, page, seen, shown, tabs_of, until
-from tests.workshop.shops import TEXT, Shop
 
 
 @pytest.fixture

@@ -24,7 +24,7 @@ from ai4u_edu.wire.ai4u import (
 )
 from ai4u_edu.wire.ai4u_dialogue import Dialogue, Phase, State, Word
 from ai4u_edu.wire.png import grey_png
-from ai4u_edu.wire.strict import WireError
+from ai4u_edu.wire.validation import WireError
 
 EVERY_KIND = (
     Field("reward", Kind.FLOAT, -0.1),

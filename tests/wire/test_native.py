@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from ai4u_edu.seeding import MAX_SEED
+from ai4u_edu.base.seeding import MAX_SEED
 from ai4u_edu.wire.native import (
     LARGEST_HEARD,
     LARGEST_SAID,
@@ -29,7 +29,7 @@ from ai4u_edu.wire.native import (
     decode,
     encode,
 )
-from ai4u_edu.wire.strict import WireError
+from ai4u_edu.wire.validation import WireError
 
 numbers = st.integers(0, 2**53 - 1)
 floats = st.floats(allow_nan=False, allow_infinity=False)

@@ -4,7 +4,7 @@ import math
 import random
 from typing import Any
 
-from ai4u_edu.errors import WorldError
+from ai4u_edu.base.errors import WorldError
 from ai4u_edu.world import (
     Body,
     BoxShape,

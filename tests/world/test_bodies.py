@@ -5,7 +5,7 @@ from typing import Any
 
 import pytest
 
-from ai4u_edu.errors import WorldError
+from ai4u_edu.base.errors import WorldError
 from ai4u_edu.world import BoxShape, CircleShape, SegmentShape, World
 from ai4u_edu.world.contacts import Contacts
 from ai4u_edu.world.shapes import BodyShape

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from ai4u_edu.world import _compiled
+from ai4u_edu.world.native import compiled as _compiled
 
 pytestmark = pytest.mark.skipif(os.name != "posix", reason="is compiled on Unix only")
 needs_compiler = pytest.mark.skipif(shutil.which("cc") is None, reason="no C compiler here")
@@ -97,7 +97,7 @@ def test_what_others_could_write_is_not_run(kept: Path) -> None:
 
 
 def begin_another_process() -> subprocess.Popen[str]:
-    program = "from ai4u_edu.world._compiled import library; print(library() is not None)"
+    program = "from ai4u_edu.world.native.compiled import library; print(library() is not None)"
     command = [sys.executable, "-c", program]
     return subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
 

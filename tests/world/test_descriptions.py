@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 from pydantic import ValidationError
 
-from ai4u_edu.errors import ParameterError
+from ai4u_edu.base.errors import ParameterError
 from ai4u_edu.world import (
     BodyDescription,
     BoxShape,

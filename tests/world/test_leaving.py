@@ -2,7 +2,7 @@
 
 import pytest
 
-from ai4u_edu.errors import WorldError
+from ai4u_edu.base.errors import WorldError
 from ai4u_edu.world import CircleShape, World, WorldView
 
 

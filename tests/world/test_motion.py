@@ -6,8 +6,8 @@ from typing import Any
 
 import pymunk
 
-from ai4u_edu.world import _chipmunk
-from ai4u_edu.world._chipmunk import PUBLIC, QUICK, Motion, stepper
+from ai4u_edu.world.native import chipmunk as _chipmunk
+from ai4u_edu.world.native.chipmunk import PUBLIC, QUICK, Motion, stepper
 
 
 def make_space() -> tuple[pymunk.Space, list[pymunk.Body]]:

@@ -6,9 +6,10 @@ from typing import Any
 import pymunk
 import pytest
 
-from ai4u_edu.world import AreaDescription, BodyDescription, RingShape, _chipmunk
-from ai4u_edu.world._chipmunk import distances
-from ai4u_edu.world.places import Places
+from ai4u_edu.world import AreaDescription, BodyDescription, RingShape
+from ai4u_edu.world.native import chipmunk as _chipmunk
+from ai4u_edu.world.native.chipmunk import distances
+from ai4u_edu.world.placement import Places
 from tests.world.random_worlds import SIDE, _body_shape, _region_shape
 
 

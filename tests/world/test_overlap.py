@@ -8,7 +8,7 @@ import pymunk
 import pytest
 
 from ai4u_edu import BoxShape, CapsuleShape, CircleShape, World
-from ai4u_edu.errors import WorldError
+from ai4u_edu.base.errors import WorldError
 from ai4u_edu.world import BodyDescription, PolygonShape, SegmentShape
 from tests.benchmarks.many_walls import query
 

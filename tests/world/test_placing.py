@@ -5,7 +5,7 @@ import weakref
 
 import pytest
 
-from ai4u_edu.errors import NameNotFoundError, WorldError
+from ai4u_edu.base.errors import NameNotFoundError, WorldError
 from ai4u_edu.world import BoxShape, CapsuleShape, CircleShape, World, WorldView
 from ai4u_edu.world.shapes import BodyShape
 from tests.world.samples import SHAPES

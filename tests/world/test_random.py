@@ -11,7 +11,7 @@ from typing import Any
 
 import pytest
 
-from ai4u_edu.errors import ParameterError, WorldError
+from ai4u_edu.base.errors import ParameterError, WorldError
 from ai4u_edu.world import (
     AreaDescription,
     Body,
@@ -27,7 +27,7 @@ from ai4u_edu.world import (
     World,
     WorldView,
 )
-from ai4u_edu.world.places import Places
+from ai4u_edu.world.placement import Places
 from tests.world.samples import SHAPES
 
 SEEDS = range(30)
@@ -487,7 +487,7 @@ def test_a_world_without_anything_random_pays_nothing(monkeypatch: pytest.Monkey
 
     world = World()
     monkeypatch.setattr("ai4u_edu.world.world.scatter", refuse)
-    monkeypatch.setattr("ai4u_edu.world.scatter.Places", refuse)
+    monkeypatch.setattr("ai4u_edu.world.randomize.Places", refuse)
     world.add_floor("plate", BoxShape(size=(9, 9)))
     ball = world.add_body("ball", CircleShape())
     world.reset()

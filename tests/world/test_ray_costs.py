@@ -8,7 +8,8 @@ from typing import Any
 import pymunk
 import pytest
 
-from ai4u_edu.world import BoxShape, CircleShape, RayFan, RayGrid, World, _segments, rays
+from ai4u_edu.world import BoxShape, CircleShape, RayFan, RayGrid, World, rays
+from ai4u_edu.world.native import segments as _segments
 
 
 class Queries:

@@ -8,9 +8,10 @@ import pymunk
 import pytest
 
 from ai4u_edu import Scene
-from ai4u_edu.world import RayFan, RayGrid, _segments, rays
-from ai4u_edu.world._chipmunk import shape_key
-from ai4u_edu.world._segments import CompiledSegments, QuickSegments, Segments
+from ai4u_edu.world import RayFan, RayGrid, rays
+from ai4u_edu.world.native import segments as _segments
+from ai4u_edu.world.native.chipmunk import shape_key
+from ai4u_edu.world.native.segments import CompiledSegments, QuickSegments, Segments
 from tests.world.random_worlds import SIDE, make_world, shuffle
 
 needs_compiler = pytest.mark.skipif(_segments.compiled() is None, reason="nothing is compiled here")

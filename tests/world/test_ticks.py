@@ -8,9 +8,10 @@ from typing import Any
 import pytest
 
 from ai4u_edu import Scene
-from ai4u_edu.errors import WorldError
-from ai4u_edu.world import Body, BoxShape, CircleShape, Drive, World, _ticks, rework
+from ai4u_edu.base.errors import WorldError
+from ai4u_edu.world import Body, BoxShape, CircleShape, Drive, World, rework
 from ai4u_edu.world.contacts import Contacts
+from ai4u_edu.world.native import ticks as _ticks
 from tests.world.one_go import Way, at_one_go, one_by_one, state
 
 pytestmark = pytest.mark.skipif(_ticks.compiled() is None, reason="nothing is compiled here")

@@ -7,8 +7,8 @@ from typing import Any, ClassVar
 import numpy as np
 from gymnasium import spaces
 
+from ai4u_edu.base.errors import ActionError, BlockError, shown
 from ai4u_edu.blocks.block import Block, default_name, levels_up
-from ai4u_edu.errors import ActionError, BlockError, shown
 from ai4u_edu.world import Body, Drive, WorldView
 
 

@@ -5,9 +5,9 @@ from typing import Annotated
 import numpy as np
 from gymnasium.spaces import Box
 
+from ai4u_edu.base.parameters import quantity
 from ai4u_edu.blocks.actuators.ground_motion import SMALLEST, GroundMotion, quiet
 from ai4u_edu.blocks.agent_view import AgentView
-from ai4u_edu.parameters import quantity
 from ai4u_edu.world import Body, Drive, WorldView
 
 Deviation = Annotated[float, quantity("1", ge=0, le=10)]

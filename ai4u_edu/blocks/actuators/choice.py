@@ -2,8 +2,8 @@
 
 from typing import Any
 
+from ai4u_edu.base.errors import ActionError, shown
 from ai4u_edu.blocks.actuators.actuator import Actuator
-from ai4u_edu.errors import ActionError, shown
 
 
 class ChoiceActuator(Actuator):

@@ -5,12 +5,12 @@ from typing import cast
 from gymnasium.spaces import Box
 from pydantic import Field
 
+from ai4u_edu.base.errors import WorldError
+from ai4u_edu.base.parameters import Name, Number, Seconds
 from ai4u_edu.blocks.actuators.actuator import Actuator
 from ai4u_edu.blocks.agent_view import AgentView
 from ai4u_edu.blocks.homeostasis import HomeostaticVariable
 from ai4u_edu.blocks.rewards.homeostatic import keeper_of
-from ai4u_edu.errors import WorldError
-from ai4u_edu.parameters import Name, Number, Seconds
 from ai4u_edu.world import Body, BodyView, WorldView
 
 WAIT = 1.0

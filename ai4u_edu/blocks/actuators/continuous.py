@@ -6,8 +6,8 @@ from typing import Annotated
 from gymnasium.spaces import Box
 from pydantic import Field
 
+from ai4u_edu.base.errors import BlockError
 from ai4u_edu.blocks.actuators.actuator import Actuator
-from ai4u_edu.errors import BlockError
 from ai4u_edu.world import Body
 
 

@@ -5,9 +5,9 @@ from typing import Annotated
 import numpy as np
 from gymnasium.spaces import Box
 
+from ai4u_edu.base.parameters import PositiveMetres, quantity
 from ai4u_edu.blocks.actuators.actuator import Actuator
 from ai4u_edu.blocks.actuators.ground_motion import Speeds, quiet, roll
-from ai4u_edu.parameters import PositiveMetres, quantity
 from ai4u_edu.world import Body, Drive
 
 

@@ -6,11 +6,11 @@ from typing import Annotated
 from gymnasium.spaces import Discrete
 from pydantic import Field
 
+from ai4u_edu.base.errors import BlockError
+from ai4u_edu.base.parameters import quantity
 from ai4u_edu.blocks.actuators.choice import ChoiceActuator
 from ai4u_edu.blocks.actuators.ground_motion import GroundMotion
 from ai4u_edu.blocks.agent_view import AgentView
-from ai4u_edu.errors import BlockError
-from ai4u_edu.parameters import quantity
 from ai4u_edu.world import Body, Drive, WorldView
 
 Signed = Annotated[float, quantity("1", ge=-1, le=1)]

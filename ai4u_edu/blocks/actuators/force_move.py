@@ -4,8 +4,8 @@ from typing import Annotated
 
 from gymnasium.spaces import Box
 
+from ai4u_edu.base.parameters import quantity
 from ai4u_edu.blocks.actuators.actuator import Actuator
-from ai4u_edu.parameters import quantity
 from ai4u_edu.world import Body, Drive
 
 

@@ -5,9 +5,9 @@ from typing import Annotated
 
 from gymnasium.spaces import Box
 
+from ai4u_edu.base.parameters import quantity
 from ai4u_edu.blocks.actuators.actuator import Actuator
 from ai4u_edu.blocks.agent_view import AgentView
-from ai4u_edu.parameters import quantity
 from ai4u_edu.world import Body, BodyView, WorldView
 
 

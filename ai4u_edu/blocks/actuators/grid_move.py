@@ -6,11 +6,11 @@ from typing import Annotated, ClassVar
 from gymnasium.spaces import Discrete
 from pydantic import Field
 
+from ai4u_edu.base.parameters import Name, Point
 from ai4u_edu.blocks.actuators.choice import ChoiceActuator
 from ai4u_edu.blocks.agent_view import AgentView
 from ai4u_edu.blocks.groups import check_groups
 from ai4u_edu.blocks.sensors.cells import Cell, OnGrid
-from ai4u_edu.parameters import Name, Point
 from ai4u_edu.world import Body, WorldView
 
 STEPS: tuple[Cell, ...] = ((0, 0), (0, 1), (0, -1), (-1, 0), (1, 0))

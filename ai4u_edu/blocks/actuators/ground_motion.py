@@ -3,8 +3,8 @@
 import math
 from typing import Annotated
 
+from ai4u_edu.base.parameters import quantity
 from ai4u_edu.blocks.actuators.actuator import Actuator
-from ai4u_edu.parameters import quantity
 from ai4u_edu.world import Body, Drive
 
 Speeds = tuple[float, float, float]

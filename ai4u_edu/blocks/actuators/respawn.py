@@ -7,9 +7,9 @@ import numpy as np
 from gymnasium.spaces import Box
 from pydantic import Field
 
+from ai4u_edu.base.parameters import Degrees, Metres
 from ai4u_edu.blocks.actuators.actuator import Actuator
 from ai4u_edu.blocks.agent_view import AgentView
-from ai4u_edu.parameters import Degrees, Metres
 from ai4u_edu.world import Body, WorldView
 
 Pose = tuple[Metres, Metres, Degrees]

@@ -3,8 +3,8 @@
 from typing import Any
 from urllib.parse import parse_qsl, urlsplit
 
+from ai4u_edu.base.errors import SetupError
 from ai4u_edu.blocks.brains.remote import RemoteBrain
-from ai4u_edu.errors import SetupError
 
 EXAMPLE = "ai4u://127.0.0.1:8080"
 
@@ -17,7 +17,7 @@ def brain_at(address: str) -> RemoteBrain:
     >>> brain_at("http://127.0.0.1:8090")
     Traceback (most recent call last):
     ...
-    ai4u_edu.errors.SetupError: brain: expected an address such as ai4u://127.0.0.1:8080, got \
+    ai4u_edu.base.errors.SetupError: brain: expected an address such as ai4u://127.0.0.1:8080, got \
 'http://127.0.0.1:8090'
     """
     try:

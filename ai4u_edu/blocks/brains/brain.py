@@ -4,10 +4,10 @@ from typing import Annotated
 
 from pydantic import Field
 
+from ai4u_edu.base.errors import BlockError
 from ai4u_edu.blocks.block import Block
 from ai4u_edu.blocks.brains.command import Answer
 from ai4u_edu.blocks.percept import Percept
-from ai4u_edu.errors import BlockError
 
 
 class Brain(Block):

@@ -5,6 +5,7 @@ from typing import Any, cast
 
 from pydantic import field_validator
 
+from ai4u_edu.base.errors import shown
 from ai4u_edu.blocks.agent_view import AgentView
 from ai4u_edu.blocks.block import Block
 from ai4u_edu.blocks.brains.brain import Brain
@@ -12,7 +13,6 @@ from ai4u_edu.blocks.brains.command import Answer
 from ai4u_edu.blocks.brains.controllers.controller import Controller
 from ai4u_edu.blocks.brains.controllers.script import ScriptController
 from ai4u_edu.blocks.percept import Percept
-from ai4u_edu.errors import shown
 from ai4u_edu.world import WorldView
 
 

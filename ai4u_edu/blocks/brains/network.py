@@ -13,8 +13,8 @@ import numpy as np
 import numpy.typing as npt
 
 from ai4u_edu import zoo
-from ai4u_edu.errors import BlockError, suggest
-from ai4u_edu.extras import need
+from ai4u_edu.base.errors import BlockError, suggest
+from ai4u_edu.base.optional_deps import need
 
 LARGEST = 64 * 2**20
 """Bytes that a network's file may have."""

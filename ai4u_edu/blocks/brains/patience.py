@@ -2,7 +2,7 @@
 
 import time
 
-from ai4u_edu.blocks.brains.link import Link
+from ai4u_edu.blocks.brains.links.link import Link
 
 WAIT_SLICE_S = 0.015
 """Time for which the world waits at once; then whoever runs it looks whether somebody wants

@@ -4,15 +4,15 @@ from typing import Annotated, Any, Literal, Self, assert_never
 
 from pydantic import Field
 
+from ai4u_edu.base.errors import ActionError, SetupError, shown, suggest
+from ai4u_edu.base.parameters import quantity
 from ai4u_edu.blocks.agent_view import AgentView
 from ai4u_edu.blocks.brains.brain import Brain
 from ai4u_edu.blocks.brains.command import Accepted, Action, Answer, Command
-from ai4u_edu.blocks.brains.link import Answered, Link, LinkState, Reset, Situation, offer_of
+from ai4u_edu.blocks.brains.links.link import Answered, Link, LinkState, Reset, Situation, offer_of
 from ai4u_edu.blocks.brains.patience import WAIT_SLICE_S, Patience
 from ai4u_edu.blocks.brains.remote_status import RemoteStatus
 from ai4u_edu.blocks.percept import Percept
-from ai4u_edu.errors import ActionError, SetupError, shown, suggest
-from ai4u_edu.parameters import quantity
 from ai4u_edu.world import WorldView
 
 BY_HAND = "a person drives; its actions are ignored"
@@ -233,7 +233,7 @@ class RemoteBrain(Brain):
         return hand.decide(situation.percept)
 
     def _own_link(self) -> Link:
-        from ai4u_edu.blocks.brains.ai4u_link import AI4ULink
+        from ai4u_edu.blocks.brains.links.ai4u import AI4ULink
 
         return AI4ULink(
             self.host,

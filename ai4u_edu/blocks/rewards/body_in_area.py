@@ -1,9 +1,9 @@
 """Pays when some thing is where it should be."""
 
+from ai4u_edu.base.errors import NameNotFoundError, suggest
+from ai4u_edu.base.parameters import Number
 from ai4u_edu.blocks.agent_view import AgentView
 from ai4u_edu.blocks.rewards.reward_func import RewardFunc
-from ai4u_edu.errors import NameNotFoundError, suggest
-from ai4u_edu.parameters import Number
 from ai4u_edu.world import BodyView, WorldView
 
 

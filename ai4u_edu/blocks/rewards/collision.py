@@ -1,8 +1,8 @@
 """Costs for every tick in contact."""
 
+from ai4u_edu.base.parameters import Number
 from ai4u_edu.blocks.agent_view import AgentView
 from ai4u_edu.blocks.rewards.reward_func import RewardFunc
-from ai4u_edu.parameters import Number
 from ai4u_edu.world import BodyView, WorldView
 
 

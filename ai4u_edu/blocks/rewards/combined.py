@@ -5,10 +5,10 @@ from typing import Annotated
 
 from pydantic import Field
 
+from ai4u_edu.base.parameters import Number
 from ai4u_edu.blocks.agent_view import AgentView
 from ai4u_edu.blocks.rewards.eval_value import EvalValue
 from ai4u_edu.blocks.rewards.reward_func import RewardFunc
-from ai4u_edu.parameters import Number
 from ai4u_edu.world import BodyView, WorldView
 
 

@@ -1,8 +1,8 @@
 """Pays for falling behind in height."""
 
+from ai4u_edu.base.parameters import Metres
 from ai4u_edu.blocks.agent_view import AgentView
 from ai4u_edu.blocks.rewards.fall import FallReward
-from ai4u_edu.parameters import Metres
 from ai4u_edu.world import BodyView, WorldView
 
 

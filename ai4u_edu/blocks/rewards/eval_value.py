@@ -1,10 +1,10 @@
 """Conditions for And and Or: whether a property has a value."""
 
+from ai4u_edu.base.errors import BlockError
+from ai4u_edu.base.parameters import Number, WholeNumber
 from ai4u_edu.blocks.agent_view import AgentView
 from ai4u_edu.blocks.rewards.properties import find_property
 from ai4u_edu.blocks.rewards.reward_func import RewardFunc
-from ai4u_edu.errors import BlockError
-from ai4u_edu.parameters import Number, WholeNumber
 from ai4u_edu.world import BodyView, WorldView
 
 

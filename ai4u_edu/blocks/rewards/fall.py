@@ -4,9 +4,9 @@ from typing import Annotated
 
 from pydantic import Field
 
+from ai4u_edu.base.parameters import MAX_COUNT, Metres, quantity
 from ai4u_edu.blocks.agent_view import AgentView
 from ai4u_edu.blocks.rewards.reward_func import RewardFunc
-from ai4u_edu.parameters import MAX_COUNT, Metres, quantity
 from ai4u_edu.world import BodyView, WorldView
 
 

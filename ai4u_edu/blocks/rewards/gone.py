@@ -1,8 +1,8 @@
 """Pays for what is gone."""
 
+from ai4u_edu.base.parameters import Name, Number
 from ai4u_edu.blocks.agent_view import AgentView
 from ai4u_edu.blocks.rewards.reward_func import RewardFunc
-from ai4u_edu.parameters import Name, Number
 from ai4u_edu.world import BodyView, WorldView
 
 

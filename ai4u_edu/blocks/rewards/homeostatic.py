@@ -5,11 +5,11 @@ from typing import Annotated
 
 from pydantic import Field
 
+from ai4u_edu.base.errors import BlockError, NameNotFoundError, suggest
+from ai4u_edu.base.parameters import Number
 from ai4u_edu.blocks.agent_view import AgentView
 from ai4u_edu.blocks.homeostasis import HomeostaticVariable
 from ai4u_edu.blocks.rewards.reward_func import RewardFunc
-from ai4u_edu.errors import BlockError, NameNotFoundError, suggest
-from ai4u_edu.parameters import Number
 from ai4u_edu.world import BodyView, WorldView
 
 

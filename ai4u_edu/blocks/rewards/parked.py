@@ -3,10 +3,10 @@
 import math
 from typing import Annotated
 
+from ai4u_edu.base.parameters import Number, quantity
 from ai4u_edu.blocks.agent_view import AgentView
 from ai4u_edu.blocks.rewards.body_in_area import check_area
 from ai4u_edu.blocks.rewards.reward_func import RewardFunc
-from ai4u_edu.parameters import Number, quantity
 from ai4u_edu.world import BodyView, WorldView
 
 ROUND = 2 * math.pi

@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 
+from ai4u_edu.base.errors import BlockError, ReadingError, suggest
 from ai4u_edu.blocks.agent_view import AgentView
-from ai4u_edu.errors import BlockError, ReadingError, suggest
 from ai4u_edu.world import BodyView, WorldView
 
 Look = Callable[[BodyView, WorldView], float]

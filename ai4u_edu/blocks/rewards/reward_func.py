@@ -2,8 +2,8 @@
 
 from typing import Any
 
+from ai4u_edu.base.errors import BlockError
 from ai4u_edu.blocks.block import Block, default_name, levels_up
-from ai4u_edu.errors import BlockError
 from ai4u_edu.world import BodyView, WorldView
 
 

@@ -2,9 +2,9 @@
 
 from typing import Annotated
 
+from ai4u_edu.base.parameters import quantity
 from ai4u_edu.blocks.agent_view import AgentView
 from ai4u_edu.blocks.rewards.fall import FallReward
-from ai4u_edu.parameters import quantity
 from ai4u_edu.world import BodyView, WorldView
 
 

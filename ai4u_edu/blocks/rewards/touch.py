@@ -3,9 +3,9 @@
 import math
 from typing import Annotated
 
+from ai4u_edu.base.parameters import Seconds, quantity
 from ai4u_edu.blocks.agent_view import AgentView
 from ai4u_edu.blocks.rewards.reward_func import RewardFunc
-from ai4u_edu.parameters import Seconds, quantity
 from ai4u_edu.world import BodyView, WorldView
 
 

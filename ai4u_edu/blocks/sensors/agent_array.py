@@ -7,10 +7,10 @@ import numpy as np
 from gymnasium.spaces import Box
 from pydantic import Field
 
+from ai4u_edu.base.errors import BlockError, ReadingError
+from ai4u_edu.base.parameters import Number
 from ai4u_edu.blocks.agent_view import AgentView
 from ai4u_edu.blocks.sensors.sensor import Array, Sensor
-from ai4u_edu.errors import BlockError, ReadingError
-from ai4u_edu.parameters import Number
 from ai4u_edu.world import BodyView, WorldView
 
 

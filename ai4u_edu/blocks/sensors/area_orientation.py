@@ -7,12 +7,12 @@ import numpy as np
 from gymnasium.spaces import Box
 from pydantic import Field
 
+from ai4u_edu.base.errors import BlockError, NameNotFoundError, suggest
+from ai4u_edu.base.parameters import MAX_COUNT, Name, PositiveMetres
 from ai4u_edu.blocks.agent_view import AgentView
 from ai4u_edu.blocks.groups import check_groups
 from ai4u_edu.blocks.sensors.ray_sensor import Code
 from ai4u_edu.blocks.sensors.sensor import Array, Sensor
-from ai4u_edu.errors import BlockError, NameNotFoundError, suggest
-from ai4u_edu.parameters import MAX_COUNT, Name, PositiveMetres
 from ai4u_edu.world import BodyView, WorldView
 
 

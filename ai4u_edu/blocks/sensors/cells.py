@@ -7,9 +7,9 @@ import numpy as np
 import numpy.typing as npt
 from pydantic import Field
 
-from ai4u_edu.blocks.declared import Declared
+from ai4u_edu.base.parameters import Point, PositiveMetres
+from ai4u_edu.blocks.parameterized import Declared
 from ai4u_edu.blocks.sensors.footprint import footprint
-from ai4u_edu.parameters import Point, PositiveMetres
 from ai4u_edu.world import BodyView, Region
 
 Cell = tuple[int, int]

@@ -9,11 +9,11 @@ import numpy as np
 from gymnasium.spaces import Box
 from pydantic import Field
 
+from ai4u_edu.base.errors import BlockError, ReadingError
+from ai4u_edu.base.parameters import quantity
 from ai4u_edu.blocks.agent_view import AgentView
 from ai4u_edu.blocks.percept import DTYPES
 from ai4u_edu.blocks.sensors.sensor import Array, Sensor
-from ai4u_edu.errors import BlockError, ReadingError
-from ai4u_edu.parameters import quantity
 from ai4u_edu.world import BodyView, WorldView
 
 ROUNDING = 1e-5

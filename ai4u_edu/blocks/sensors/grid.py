@@ -6,13 +6,13 @@ import numpy as np
 from gymnasium.spaces import Box
 from pydantic import Field
 
+from ai4u_edu.base.parameters import Name
 from ai4u_edu.blocks.agent_view import AgentView
 from ai4u_edu.blocks.groups import check_groups
 from ai4u_edu.blocks.sensors.cells import Cells, OnGrid
 from ai4u_edu.blocks.sensors.pictures import CodeLegend
 from ai4u_edu.blocks.sensors.ray_sensor import Code
 from ai4u_edu.blocks.sensors.sensor import Array, Sensor
-from ai4u_edu.parameters import Name
 from ai4u_edu.world import BodyView, Region, WorldView
 
 ENDLESS = ("floor",)

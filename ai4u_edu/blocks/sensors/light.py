@@ -4,9 +4,9 @@ import math
 
 from gymnasium.spaces import Box
 
+from ai4u_edu.base.parameters import Degrees, Name, PositiveMetres
 from ai4u_edu.blocks.agent_view import AgentView
 from ai4u_edu.blocks.sensors.sensor import Sensor
-from ai4u_edu.parameters import Degrees, Name, PositiveMetres
 from ai4u_edu.world import BodyView, WorldView
 
 

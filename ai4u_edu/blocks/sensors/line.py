@@ -7,11 +7,11 @@ import numpy.typing as npt
 from gymnasium.spaces import Box
 from pydantic import Field
 
+from ai4u_edu.base.errors import NameNotFoundError, suggest
+from ai4u_edu.base.parameters import Metres, Name, NonNegativeMetres
 from ai4u_edu.blocks.agent_view import AgentView
 from ai4u_edu.blocks.sensors.pictures import SpotPicture
 from ai4u_edu.blocks.sensors.sensor import Sensor
-from ai4u_edu.errors import NameNotFoundError, suggest
-from ai4u_edu.parameters import Metres, Name, NonNegativeMetres
 from ai4u_edu.world import BodyView, WorldView
 
 

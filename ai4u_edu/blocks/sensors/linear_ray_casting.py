@@ -9,11 +9,11 @@ import numpy.typing as npt
 from gymnasium.spaces import Box
 from pydantic import Field
 
+from ai4u_edu.base.errors import BlockError
 from ai4u_edu.blocks.agent_view import AgentView
 from ai4u_edu.blocks.groups import check_groups
 from ai4u_edu.blocks.sensors.ray_sensor import RayPicture, RaySensor, groups_met, spread
 from ai4u_edu.blocks.sensors.sensor import Array
-from ai4u_edu.errors import BlockError
 from ai4u_edu.world import BodyView, Cast, WorldView
 
 

@@ -6,14 +6,14 @@ import numpy as np
 from gymnasium.spaces import Box
 from pydantic import Field
 
+from ai4u_edu.base.errors import BlockError
+from ai4u_edu.base.parameters import Name, PositiveMetres
 from ai4u_edu.blocks.agent_view import AgentView
 from ai4u_edu.blocks.groups import check_groups
 from ai4u_edu.blocks.sensors.memory import check_memory
 from ai4u_edu.blocks.sensors.pictures import ChannelLegend
 from ai4u_edu.blocks.sensors.plan import VOID, Plan
 from ai4u_edu.blocks.sensors.sensor import Array, Sensor
-from ai4u_edu.errors import BlockError
-from ai4u_edu.parameters import Name, PositiveMetres
 from ai4u_edu.world import BodyView, WorldView
 
 Size = Annotated[int, Field(ge=1, le=512)]

@@ -3,7 +3,7 @@
 import math
 from typing import TYPE_CHECKING
 
-from ai4u_edu.errors import BlockError
+from ai4u_edu.base.errors import BlockError
 
 if TYPE_CHECKING:
     from ai4u_edu.blocks.sensors.sensor import Sensor

@@ -6,9 +6,9 @@ from typing import Any, Literal
 import numpy as np
 from gymnasium.spaces import Box
 
+from ai4u_edu.base.parameters import PositiveMetres
 from ai4u_edu.blocks.agent_view import AgentView
 from ai4u_edu.blocks.sensors.sensor import Sensor
-from ai4u_edu.parameters import PositiveMetres
 from ai4u_edu.world import BodyView, WorldView
 
 _SLOTS = {"angle": "cosine", "distance": "distance"}

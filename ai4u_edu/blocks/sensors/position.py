@@ -5,9 +5,9 @@ from typing import Literal
 import numpy as np
 from gymnasium.spaces import Box
 
+from ai4u_edu.base.errors import BlockError
 from ai4u_edu.blocks.agent_view import AgentView
 from ai4u_edu.blocks.sensors.sensor import Sensor
-from ai4u_edu.errors import BlockError
 from ai4u_edu.world import BodyView, WorldView
 
 MARGIN = 5.0

@@ -2,9 +2,9 @@
 
 from gymnasium.spaces import Box
 
+from ai4u_edu.base.parameters import Name
 from ai4u_edu.blocks.agent_view import AgentView
 from ai4u_edu.blocks.sensors.sensor import Sensor
-from ai4u_edu.parameters import Name
 from ai4u_edu.world import BodyView, WorldView
 
 

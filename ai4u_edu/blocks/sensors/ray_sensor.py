@@ -7,8 +7,8 @@ import numpy as np
 import numpy.typing as npt
 from pydantic import Field
 
+from ai4u_edu.base.parameters import Bits, Degrees, Metres, Name, PositiveMetres, quantity
 from ai4u_edu.blocks.sensors.sensor import Sensor
-from ai4u_edu.parameters import Bits, Degrees, Metres, Name, PositiveMetres, quantity
 
 Code = Annotated[int, Field(ge=0, le=255)]
 

@@ -13,12 +13,12 @@ import numpy.typing as npt
 from gymnasium import spaces
 from pydantic import Field
 
+from ai4u_edu.base.errors import BlockError, ReadingError, suggest
+from ai4u_edu.base.parameters import quantity
 from ai4u_edu.blocks.block import Block, default_name
 from ai4u_edu.blocks.percept import DTYPES, TEXTS
 from ai4u_edu.blocks.sensors.memory import check_memory
 from ai4u_edu.blocks.sensors.pictures import Legend, SpotPicture
-from ai4u_edu.errors import BlockError, ReadingError, suggest
-from ai4u_edu.parameters import quantity
 from ai4u_edu.world import BodyView, WorldView
 
 Array = npt.NDArray[Any]

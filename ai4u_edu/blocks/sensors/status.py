@@ -6,10 +6,10 @@ import numpy as np
 from gymnasium.spaces import Box, Discrete, Text
 from pydantic import Field
 
+from ai4u_edu.base.errors import BlockError, suggest
+from ai4u_edu.base.parameters import MAX_COUNT, quantity
 from ai4u_edu.blocks.agent_view import AgentView
 from ai4u_edu.blocks.sensors.sensor import Array, Sensor
-from ai4u_edu.errors import BlockError, suggest
-from ai4u_edu.parameters import MAX_COUNT, quantity
 from ai4u_edu.world import BodyView, WorldView
 
 LARGEST = 2**31 - 1

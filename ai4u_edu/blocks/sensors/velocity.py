@@ -6,8 +6,8 @@ from typing import Annotated
 import numpy as np
 from gymnasium.spaces import Box
 
+from ai4u_edu.base.parameters import quantity
 from ai4u_edu.blocks.sensors.sensor import Sensor
-from ai4u_edu.parameters import quantity
 from ai4u_edu.world import BodyView, WorldView
 
 

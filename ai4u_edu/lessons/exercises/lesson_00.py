@@ -4,7 +4,7 @@ import math
 from typing import Any
 
 from ai4u_edu.lessons.exercise import Done, exercise
-from ai4u_edu.lessons.rolls import Drive, drives, seeds_of
+from ai4u_edu.lessons.rollouts import Drive, drives, seeds_of
 
 STEPS = 8
 SCENE = "box_chase"

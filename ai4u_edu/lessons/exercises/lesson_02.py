@@ -8,7 +8,7 @@ import numpy as np
 from ai4u_edu.blocks import TouchRewardFunc
 from ai4u_edu.lessons.exercise import Done, NotYet, exercise
 from ai4u_edu.lessons.numeric import is_close
-from ai4u_edu.lessons.rolls import Drive, drive, seeds_of
+from ai4u_edu.lessons.rollouts import Drive, drive, seeds_of
 from ai4u_edu.lessons.worlds import forward, plate, put_in
 from ai4u_edu.world import Variation
 

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from ai4u_edu.agent import BasicAgent
+from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.blocks import (
     BearingSensor,
     LocalBrain,
@@ -16,11 +17,10 @@ from ai4u_edu.blocks import (
     Sensor,
     TouchRewardFunc,
 )
-from ai4u_edu.cycle import ControlRequestor
 from ai4u_edu.lessons.exercise import Done, NotYet, a_function, exercise
 from ai4u_edu.lessons.numeric import finite_number, finite_numbers, is_close
 from ai4u_edu.lessons.pictures import picture
-from ai4u_edu.lessons.rolls import as_brain, drive, seeds_of
+from ai4u_edu.lessons.rollouts import as_brain, drive, seeds_of
 from ai4u_edu.lessons.worlds import plate
 from ai4u_edu.snapshot import picture_of
 from ai4u_edu.world import BoxShape, CircleShape, World

@@ -7,10 +7,10 @@ from typing import Any
 import numpy as np
 
 from ai4u_edu.agent import BasicAgent
+from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.blocks import DifferentialDriveActuator, LightSensor
-from ai4u_edu.cycle import ControlRequestor
 from ai4u_edu.lessons.exercise import Done, exercise
-from ai4u_edu.lessons.rolls import Drive, as_brain, drive, seeds_of
+from ai4u_edu.lessons.rollouts import Drive, as_brain, drive, seeds_of
 from ai4u_edu.world import BoxShape, CircleShape, World
 
 TOUCH = 1.0

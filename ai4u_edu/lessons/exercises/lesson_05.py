@@ -5,6 +5,7 @@ from itertools import pairwise
 from typing import Any
 
 from ai4u_edu.agent import BasicAgent
+from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.blocks import (
     BearingSensor,
     Brain,
@@ -16,10 +17,9 @@ from ai4u_edu.blocks import (
     TouchRewardFunc,
     TouchSensor,
 )
-from ai4u_edu.cycle import ControlRequestor
 from ai4u_edu.lessons.exercise import Done, exercise
 from ai4u_edu.lessons.numeric import is_close
-from ai4u_edu.lessons.rolls import Drive, as_brain, drive, seeds_of
+from ai4u_edu.lessons.rollouts import Drive, as_brain, drive, seeds_of
 from ai4u_edu.lessons.worlds import ANYWHERE
 from ai4u_edu.world import BoxShape, CircleShape, Variation, World
 

@@ -3,11 +3,11 @@
 from typing import Any
 
 from ai4u_edu.agent import BasicAgent
+from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.blocks import LocalBrain, Percept, RayCastingSensor, RBMoveActuator
-from ai4u_edu.cycle import ControlRequestor
 from ai4u_edu.lessons.exercise import Done, NotYet, a_function, exercise
 from ai4u_edu.lessons.numeric import finite_number, is_close
-from ai4u_edu.lessons.rolls import drive
+from ai4u_edu.lessons.rollouts import drive
 from ai4u_edu.world import BoxShape, CircleShape, World
 
 LAZY = 16

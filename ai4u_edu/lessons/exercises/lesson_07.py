@@ -4,6 +4,7 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from ai4u_edu.agent import BasicAgent
+from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.blocks import (
     BearingSensor,
     LocalBrain,
@@ -12,10 +13,9 @@ from ai4u_edu.blocks import (
     RBMoveActuator,
     RewardFunc,
 )
-from ai4u_edu.cycle import ControlRequestor
 from ai4u_edu.lessons.exercise import Done, NotYet, exercise
 from ai4u_edu.lessons.numeric import finite_number
-from ai4u_edu.lessons.rolls import drive, seeds_of
+from ai4u_edu.lessons.rollouts import drive, seeds_of
 from ai4u_edu.lessons.worlds import plate
 
 Action = dict[str, list[float]]

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ai4u_edu.agent import BasicAgent
+from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.blocks import (
     BearingSensor,
     FallReward,
@@ -18,11 +19,10 @@ from ai4u_edu.blocks import (
     RBMoveActuator,
     TouchRewardFunc,
 )
-from ai4u_edu.cycle import ControlRequestor
 from ai4u_edu.envs.spaces_of import outputs_of
 from ai4u_edu.lessons.exercise import Done, NotYet, a_function, exercise
 from ai4u_edu.lessons.numeric import finite_numbers, is_close
-from ai4u_edu.lessons.rolls import Drive, drives, seeds_of
+from ai4u_edu.lessons.rollouts import Drive, drives, seeds_of
 from ai4u_edu.lessons.worlds import plate
 from ai4u_edu.scenes import Scene
 
@@ -41,7 +41,7 @@ SCENES = ("box_chase", "line_follow", "parking")
 def served(sim: ControlRequestor) -> "Iterator[Robot]":
     """A robot of a world that is served on this machine, in lockstep and as fast as it goes."""
     from ai4u_edu.remote import connect
-    from ai4u_edu.runner import Runner
+    from ai4u_edu.runtime.runner import Runner
     from ai4u_edu.server import Rules, ServerThread, room_app
 
     runner = Runner(sim, time_scale=math.inf)

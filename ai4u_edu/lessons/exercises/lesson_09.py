@@ -11,7 +11,7 @@ import numpy as np
 
 from ai4u_edu.lessons.exercise import Done, NotYet, a_function, exercise
 from ai4u_edu.lessons.numeric import finite_number, is_close
-from ai4u_edu.lessons.rolls import drive, seeds_of
+from ai4u_edu.lessons.rollouts import drive, seeds_of
 
 if TYPE_CHECKING:
     from ai4u_edu.training.learning import Trained
@@ -194,7 +194,7 @@ def has_learned(trained: Any) -> Done:
 
     if not isinstance(trained, Shortened):
         _expect_trained(trained)
-    from ai4u_edu.training.entrants import entrant_of
+    from ai4u_edu.training.policies import entrant_of
 
     who = entrant_of(trained)
     sim = who.fitted(Scene.load("box_chase")).build()

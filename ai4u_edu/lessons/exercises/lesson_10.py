@@ -7,10 +7,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ai4u_edu.agent import BasicAgent
+from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.blocks import Brain, LocalBrain, NeuralNetController, Percept
-from ai4u_edu.cycle import ControlRequestor
 from ai4u_edu.lessons.exercise import Done, NotYet, a_function, exercise
-from ai4u_edu.lessons.rolls import Drive, as_brain, drives, seeds_of
+from ai4u_edu.lessons.rollouts import Drive, as_brain, drives, seeds_of
 from ai4u_edu.scenes import Scene
 
 if TYPE_CHECKING:

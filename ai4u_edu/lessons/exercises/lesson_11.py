@@ -8,6 +8,9 @@ import numpy as np
 import numpy.typing as npt
 
 from ai4u_edu.agent import BasicAgent
+from ai4u_edu.agent.cycle import ControlRequestor
+from ai4u_edu.base.errors import BlockError
+from ai4u_edu.base.optional_deps import need
 from ai4u_edu.blocks import (
     BearingSensor,
     FallReward,
@@ -19,12 +22,9 @@ from ai4u_edu.blocks import (
     TouchRewardFunc,
     trained_brain,
 )
-from ai4u_edu.cycle import ControlRequestor
-from ai4u_edu.errors import BlockError
-from ai4u_edu.extras import need
 from ai4u_edu.lessons.exercise import Done, NotYet, a_function, exercise
 from ai4u_edu.lessons.numeric import finite_number, finite_numbers, is_close
-from ai4u_edu.lessons.rolls import drives, seeds_of
+from ai4u_edu.lessons.rollouts import drives, seeds_of
 from ai4u_edu.lessons.worlds import plate
 from ai4u_edu.scenes import Scene
 

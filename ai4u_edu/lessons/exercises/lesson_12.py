@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 
 from ai4u_edu.lessons.exercise import Done, NotYet, exercise
-from ai4u_edu.lessons.rolls import Drive, drives, seeds_of
+from ai4u_edu.lessons.rollouts import Drive, drives, seeds_of
 
 
 @exercise(

@@ -3,6 +3,7 @@
 from typing import Any
 
 from ai4u_edu.agent import BasicAgent
+from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.blocks import (
     AndRewardFunc,
     BearingSensor,
@@ -14,10 +15,9 @@ from ai4u_edu.blocks import (
     OrRewardFunc,
     RBMoveActuator,
 )
-from ai4u_edu.cycle import ControlRequestor
 from ai4u_edu.lessons.exercise import Done, NotYet, a_function, exercise
 from ai4u_edu.lessons.numeric import finite_number, is_close
-from ai4u_edu.lessons.rolls import Drive, as_brain, drive, seeds_of
+from ai4u_edu.lessons.rollouts import Drive, as_brain, drive, seeds_of
 from ai4u_edu.world import BoxShape, CircleShape, Variation, World
 
 MINUTE = 720

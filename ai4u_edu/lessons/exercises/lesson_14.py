@@ -4,13 +4,13 @@ import math
 from typing import Any, TypeVar
 
 from ai4u_edu.agent import BasicAgent
+from ai4u_edu.agent.cycle import ControlRequestor
+from ai4u_edu.base.errors import AI4UError
 from ai4u_edu.blocks import Actuator, Block, LocalBrain, RBMoveActuator, RewardFunc, Sensor
 from ai4u_edu.check import Report, check_actuator, check_reward, check_sensor
-from ai4u_edu.cycle import ControlRequestor
-from ai4u_edu.errors import AI4UError
 from ai4u_edu.lessons.exercise import Done, NotYet, exercise
 from ai4u_edu.lessons.numeric import is_close
-from ai4u_edu.lessons.rolls import drive
+from ai4u_edu.lessons.rollouts import drive
 from ai4u_edu.world import BoxShape, CircleShape, World
 
 B = TypeVar("B", bound=Block)

@@ -5,11 +5,11 @@ from typing import Any
 import numpy as np
 
 from ai4u_edu.agent import BasicAgent
+from ai4u_edu.base.errors import AI4UError
 from ai4u_edu.blocks import LocalBrain
-from ai4u_edu.errors import AI4UError
 from ai4u_edu.lessons.exercise import Done, NotYet, exercise
 from ai4u_edu.lessons.pictures import picture
-from ai4u_edu.lessons.rolls import drive, drives, seeds_of
+from ai4u_edu.lessons.rollouts import drive, drives, seeds_of
 from ai4u_edu.scenes import Scene
 from ai4u_edu.snapshot import picture_of
 

@@ -5,14 +5,14 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
+from ai4u_edu.base.errors import BlockError, suggest
+from ai4u_edu.base.parameters import Name, Number
 from ai4u_edu.blocks.agent_view import AgentView
 from ai4u_edu.blocks.brains.command import Answer, Command
 from ai4u_edu.blocks.brains.controllers.controller import Controller
 from ai4u_edu.blocks.brains.controllers.keyboard import together
 from ai4u_edu.blocks.brains.controllers.wasd import Amount, Keys
 from ai4u_edu.blocks.percept import Percept
-from ai4u_edu.errors import BlockError, suggest
-from ai4u_edu.parameters import Name, Number
 from ai4u_edu.world import WorldView
 
 Component = Literal[

@@ -1,9 +1,9 @@
 """What a LocalBrain asks for an action."""
 
+from ai4u_edu.base.errors import BlockError
 from ai4u_edu.blocks.block import Block
 from ai4u_edu.blocks.brains.command import Answer
 from ai4u_edu.blocks.percept import Percept
-from ai4u_edu.errors import BlockError
 
 
 class Controller(Block):

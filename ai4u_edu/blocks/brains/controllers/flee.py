@@ -4,13 +4,13 @@ import math
 
 import numpy as np
 
+from ai4u_edu.base.errors import BlockError
+from ai4u_edu.base.parameters import PositiveMetres
 from ai4u_edu.blocks.agent_view import AgentView
 from ai4u_edu.blocks.brains.controllers.steering import Spot, SteeringController
 from ai4u_edu.blocks.percept import Percept
 from ai4u_edu.blocks.sensors import LinearRayCastingSensor
 from ai4u_edu.blocks.sensors.ray_sensor import spread
-from ai4u_edu.errors import BlockError
-from ai4u_edu.parameters import PositiveMetres
 from ai4u_edu.world import WorldView
 
 STRAIGHT = 0.3

@@ -6,13 +6,13 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
+from ai4u_edu.base.errors import BlockError, suggest
 from ai4u_edu.blocks.agent_view import AgentView
 from ai4u_edu.blocks.brains.command import Answer, Command
 from ai4u_edu.blocks.brains.controllers.controller import Controller
 from ai4u_edu.blocks.brains.network import Network, Port, find_network, folder_of_files
 from ai4u_edu.blocks.percept import Percept
 from ai4u_edu.blocks.sensors.sensor import Sensor
-from ai4u_edu.errors import BlockError, suggest
 from ai4u_edu.world import WorldView
 
 

@@ -7,11 +7,11 @@ import numpy as np
 import numpy.typing as npt
 from pydantic import Field
 
+from ai4u_edu.base.errors import BlockError, suggest
+from ai4u_edu.base.parameters import Name
 from ai4u_edu.blocks.agent_view import AgentView
 from ai4u_edu.blocks.brains.controllers.controller import Controller
 from ai4u_edu.blocks.percept import Percept
-from ai4u_edu.errors import BlockError, suggest
-from ai4u_edu.parameters import Name
 from ai4u_edu.world import WorldView
 
 Cell = tuple[int, int]

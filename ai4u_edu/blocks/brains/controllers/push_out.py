@@ -2,9 +2,9 @@
 
 import math
 
+from ai4u_edu.base.parameters import Point, PositiveMetres
 from ai4u_edu.blocks.brains.controllers.steering import Spot, SteeringController
 from ai4u_edu.blocks.percept import Percept
-from ai4u_edu.parameters import Point, PositiveMetres
 
 FALLS = -0.1
 """What is lower than this (metres) need not be pushed any more."""

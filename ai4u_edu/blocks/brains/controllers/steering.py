@@ -7,14 +7,14 @@ from typing import Annotated, Any, ClassVar
 import numpy as np
 import numpy.typing as npt
 
+from ai4u_edu.base.errors import BlockError, suggest
+from ai4u_edu.base.parameters import Count, quantity
 from ai4u_edu.blocks.agent_view import AgentView
 from ai4u_edu.blocks.brains.command import Answer
 from ai4u_edu.blocks.brains.controllers.controller import Controller
 from ai4u_edu.blocks.brains.controllers.wasd import Amount
 from ai4u_edu.blocks.percept import Percept
 from ai4u_edu.blocks.sensors.sensor import Sensor
-from ai4u_edu.errors import BlockError, suggest
-from ai4u_edu.parameters import Count, quantity
 from ai4u_edu.world import WorldView
 
 Spot = tuple[float, float]

@@ -2,9 +2,9 @@
 
 import math
 
+from ai4u_edu.base.parameters import PositiveMetres
 from ai4u_edu.blocks.brains.controllers.steering import Spot, SteeringController, towards
 from ai4u_edu.blocks.percept import Percept
-from ai4u_edu.parameters import PositiveMetres
 
 IN_LINE, NEARLY = 0.9, 0.5
 """Cosine of the angle at the ball under which it shoots: from far off, and when it is close."""

@@ -5,11 +5,11 @@ from typing import Any, ClassVar
 
 import numpy as np
 
+from ai4u_edu.base.errors import ActionError, suggest
 from ai4u_edu.blocks.agent_view import AgentView
 from ai4u_edu.blocks.brains.command import Answer, Command
 from ai4u_edu.blocks.brains.controllers.controller import Controller
 from ai4u_edu.blocks.percept import Percept
-from ai4u_edu.errors import ActionError, suggest
 from ai4u_edu.world import WorldView
 
 

@@ -4,12 +4,12 @@ from typing import Annotated
 
 from pydantic import Field
 
+from ai4u_edu.base.parameters import quantity
 from ai4u_edu.blocks.agent_view import AgentView
 from ai4u_edu.blocks.brains.command import Answer, Command
 from ai4u_edu.blocks.brains.controllers.controller import Controller
 from ai4u_edu.blocks.brains.controllers.keyboard import together
 from ai4u_edu.blocks.percept import Percept
-from ai4u_edu.parameters import quantity
 from ai4u_edu.world import WorldView
 
 Keys = Annotated[list[str], Field(max_length=8)]

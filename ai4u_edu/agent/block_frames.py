@@ -1,0 +1,152 @@
+"""The block that a stack of Python frames is in: for errors that name none, and endless loops."""
+
+import os
+import sys
+import sysconfig
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from types import FrameType, TracebackType
+
+from ai4u_edu.agent import BasicAgent
+from ai4u_edu.agent.events import Event
+from ai4u_edu.blocks import Actuator, Brain, Controller, RewardFunc, Sensor
+from ai4u_edu.blocks.block import Block
+
+KINDS: tuple[tuple[type[Block], str], ...] = (
+    (Sensor, "Sensor"),
+    (Actuator, "Actuator"),
+    (RewardFunc, "Reward function"),
+    (Brain, "Brain"),
+    (Controller, "Controller"),
+)
+"""The kinds of blocks, with their names in a sentence."""
+NAME_FIELDS = ("perception_key", "action_name", "name")
+MAX_NAME_CHARS = 80
+
+
+@dataclass(frozen=True, slots=True)
+class Place:
+    """The block, or the event's handler, and the line that some frames are in."""
+
+    block: str
+    """Kind, class and name, such as ``Sensor WallDistance 'wall'``, or ``Handler of end_of_step``;
+    empty outside all of them."""
+    agent: str
+    """The id of the block's agent; empty if it is not known."""
+    where: str
+    """File and line, such as ``my_blocks.py, line 12``; a line of a user's own if there is one."""
+
+    def __str__(self) -> str:
+        """Name the block and its agent, to begin a sentence with.
+
+        >>> str(Place("Sensor WallDistance 'wall'", "0", "my_blocks.py, line 12"))
+        "Sensor WallDistance 'wall' of agent '0'"
+        """
+        return (self.block or "The world") + (f" of agent {self.agent!r}" if self.agent else "")
+
+
+def frames_of_thread(thread_id: int) -> list[FrameType]:
+    """Return what a thread runs now, outermost call first; empty if it has ended."""
+    if not hasattr(sys, "_current_frames"):  # CPython has it; another Python may not
+        return []
+    frame = sys._current_frames().get(thread_id)
+    frames = []
+    while frame is not None:
+        frames.append(frame)
+        frame = frame.f_back
+    return frames[::-1]
+
+
+def find_place(calls: Sequence[tuple[FrameType, int]], agents: Iterable[BasicAgent] = ()) -> Place:
+    """Find the block that some calls are in.
+
+    Args:
+        calls: frames and their current lines, outermost call first.
+        agents: of the world that runs; one of them may own the block.
+    """
+    owners = [_first_argument(frame) for frame, _ in calls]
+    first = next((n for n, each in enumerate(owners) if isinstance(each, Block)), None)
+    if first is None:  # a handler of a block's own is that block's
+        first = next((n for n, each in enumerate(owners) if isinstance(each, Event)), 0)
+    owner = owners[first] if owners else None
+    inner = calls[first:]
+    own = [call for call in inner if _is_users(call[0])]
+    frame_and_line = (own or inner)[-1:]
+    where = "".join(
+        f"{Path(frame.f_code.co_filename).name}, line {line}" for frame, line in frame_and_line
+    )
+    if isinstance(owner, Event):
+        agent = calls[first][0].f_locals.get("agent")
+        return Place(f"Handler of {owner.name}", getattr(agent, "id", ""), where)
+    if not isinstance(owner, Block):
+        return Place("", "", where)
+    return Place(describe(owner), _agent_of(owner, agents, calls[:first]), where)
+
+
+def calls_of_thread(thread_id: int) -> list[tuple[FrameType, int]]:
+    """Return the frames of a thread with the lines that they are at, outermost call first."""
+    return [(frame, frame.f_lineno or 0) for frame in frames_of_thread(thread_id)]
+
+
+def calls_of_error(trace: TracebackType | None) -> list[tuple[FrameType, int]]:
+    """Return the frames that an error came through with their lines, outermost call first."""
+    calls = []
+    while trace is not None:
+        calls.append((trace.tb_frame, trace.tb_lineno))
+        trace = trace.tb_next
+    return calls
+
+
+def describe(block: Block) -> str:
+    """Name a block in a sentence: kind, class, and its own name if it has one.
+
+    >>> from ai4u_edu import TouchSensor
+    >>> describe(TouchSensor(target="box"))
+    "Sensor TouchSensor 'touch'"
+    """
+    kind = next((word for base, word in KINDS if isinstance(block, base)), "Block")
+    if isinstance(block, Brain):
+        controller = getattr(block, "controller", None)
+        inner = f"({type(controller).__name__})" if isinstance(controller, Block) else ""
+        return f"{kind} {type(block).__name__}{inner}"
+    names = (getattr(block, field, "") for field in NAME_FIELDS)
+    name = next((name for name in names if isinstance(name, str) and name), "")
+    shown = f" {name[:MAX_NAME_CHARS]!r}" if name else ""
+    return f"{kind} {type(block).__name__}{shown}"
+
+
+def _first_argument(frame: FrameType) -> object:
+    """Return ``self`` of a method's frame, by whatever name it goes."""
+    code = frame.f_code
+    return frame.f_locals.get(code.co_varnames[0]) if code.co_argcount else None
+
+
+def _agent_of(
+    block: Block, agents: Iterable[BasicAgent], outer: Sequence[tuple[FrameType, int]]
+) -> str:
+    for agent in agents:
+        owned = (*agent.sensors, *agent.actuators, *agent.rewards, *agent.brains)
+        if any(each is block for each in owned):
+            return agent.id
+    for frame, _ in reversed(outer):  # an agent that is about to be put into the world
+        for value in frame.f_locals.values():
+            if isinstance(value, BasicAgent):
+                return value.id
+    return ""
+
+
+def _is_users(frame: FrameType) -> bool:
+    """Return whether a frame runs a user's own code, and not this package's or a library's."""
+    file = frame.f_code.co_filename
+    return not file.startswith(_FOREIGN)
+
+
+def _foreign() -> tuple[str, ...]:
+    paths = sysconfig.get_paths()
+    folders = {paths[name] for name in ("stdlib", "platstdlib", "purelib", "platlib")}
+    folders.add(str(Path(__file__).parent.parent))
+    return ("<frozen", *(f"{folder}{os.sep}" for folder in folders))
+
+
+_FOREIGN = _foreign()

@@ -1,0 +1,222 @@
+"""How parameters are declared and how a wrong one is explained, for blocks, bodies and scenes.
+
+A parameter is an annotated field. The annotation carries type, range and unit; validation at
+construction, the JSON Schema, forms and tables are derived from it::
+
+    reach: PositiveMetres = 20.0
+"""
+
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Annotated, Any, NamedTuple, get_args
+
+from pydantic import AfterValidator, BaseModel, Field, StringConstraints
+from pydantic_core import ErrorDetails
+
+from ai4u_edu.base.errors import shown, suggest
+
+
+def quantity(
+    unit: str,
+    *,
+    gt: float | None = None,
+    ge: float | None = None,
+    lt: float | None = None,
+    le: float | None = None,
+) -> Any:
+    """The metadata of a number with a unit and bounds; without any, +-``MAX_NUMBER`` are."""
+    ge = -MAX_NUMBER if ge is None and gt is None else ge
+    le = MAX_NUMBER if le is None and lt is None else le
+    return Field(json_schema_extra={"unit": unit}, gt=gt, ge=ge, lt=lt, le=le)
+
+
+MAX_NUMBER = 1e9
+"""Bound of numbers that have none of their own: a few multiplied still fit a 32-bit float."""
+MAX_COUNT = 2**31 - 1
+"""Bound of whole numbers that have none of their own."""
+MIN_LENGTH_M = 1e-4
+"""Smallest length, metres: of smaller bodies the physics finds neither area nor inertia."""
+
+
+def not_below(least: float) -> AfterValidator:
+    """Return a check that a positive number is not so small that nothing can be done with it."""
+
+    def check(number: float) -> float:
+        if number < least:
+            raise ValueError(f"expected at least {least:g}, got {number!r}")
+        return number
+
+    return AfterValidator(check)
+
+
+Name = Annotated[str, StringConstraints(min_length=1, max_length=80, pattern=r"^[\w .:\-]+$")]
+Metres = Annotated[float, quantity("m", ge=-1e4, le=1e4)]
+PositiveMetres = Annotated[float, quantity("m", gt=0, le=1e4), not_below(MIN_LENGTH_M)]
+NonNegativeMetres = Annotated[float, quantity("m", ge=0, le=1e4)]
+Degrees = Annotated[float, quantity("deg", ge=-3600, le=3600)]
+Seconds = Annotated[float, quantity("s", ge=0)]
+Number = Annotated[float, quantity("")]
+Count = Annotated[int, Field(ge=0, le=MAX_COUNT)]
+WholeNumber = Annotated[int, Field(ge=-MAX_COUNT, le=MAX_COUNT)]
+Point = tuple[Metres, Metres]
+Bits = Annotated[int, Field(ge=0, le=0xFFFFFFFF)]
+
+
+MAX_LISTED = 20
+"""Problems that are told at once."""
+MAX_HINTS = 50
+"""Problems for which a known name is looked for; to compare names takes longest."""
+
+
+def is_open(bound: float) -> bool:
+    """Return True for a bound that a number has only because it had none of its own."""
+    return abs(bound) in (MAX_NUMBER, MAX_COUNT)
+
+
+class Problem(NamedTuple):
+    """One wrong parameter: where it is and what is wrong with it."""
+
+    path: tuple[str | int, ...]
+    text: str
+
+    def __str__(self) -> str:
+        """``path: text``, as it stands in a message."""
+        return f"{dotted(self.path)}: {self.text}" if self.path else self.text
+
+
+def dotted(path: Sequence[str | int]) -> str:
+    """A path as a person writes it.
+
+    >>> dotted(("agents", 0, "sensors", 2, "reach"))
+    'agents[0].sensors[2].reach'
+    """
+    text = "".join(f"[{part}]" if isinstance(part, int) else f".{part}" for part in path)
+    return text.removeprefix(".")
+
+
+def explain(
+    errors: Iterable[ErrorDetails], known: type[BaseModel] | Iterable[str]
+) -> list[Problem]:
+    """Pydantic's findings in our words: expected, got, how to mend it.
+
+    Args:
+        errors: what pydantic found.
+        known: the model that was asked for, or the names of its parameters.
+    """
+    names = known if isinstance(known, type) else list(known)
+    found = [(error, *_walk(error["loc"], names)) for error in errors]
+    holders = {path[:length] for _, path, _ in found for length in range(len(path))}
+    return [
+        Problem(path, _sentence(error, names_there, hints=place < MAX_HINTS))
+        for place, (error, path, names_there) in enumerate(found)
+        # a list whose entries are wrong counts as too short as well; the entries say it better
+        if not (error["type"] == "too_short" and path in holders)
+    ]
+
+
+def listed(problems: Sequence[Problem]) -> str:
+    """Return problems as one text: the first ones, and how many more there are.
+
+    >>> listed([Problem((), "is wrong")] * 22)[-28:]
+    'wrong; and 2 more like these'
+    """
+    told = [*map(str, problems[:MAX_LISTED])]
+    if len(problems) > MAX_LISTED:
+        told.append(f"and {len(problems) - MAX_LISTED} more like these")
+    return "; ".join(told)
+
+
+def _walk(
+    location: tuple[int | str, ...], known: type[BaseModel] | list[str]
+) -> tuple[tuple[str | int, ...], list[str]]:
+    """A finding's path as a person wrote it, and the names that are known in its place.
+
+    Pydantic puts the tag of a union's member into the path ("circle"); nobody wrote that there.
+    """
+    if isinstance(known, list):
+        return location, known
+    path: list[str | int] = []
+    here: list[type[BaseModel]] = [known]
+    for part in location:
+        tagged = [model for model in here if _tag(model) == part]
+        if tagged and not any(part in model.model_fields for model in here):
+            here = tagged
+            continue
+        path.append(part)
+        if isinstance(part, str):
+            fields = [model.model_fields[part] for model in here if part in model.model_fields]
+            if not fields:
+                break
+            here = [each for field in fields for each in _models(field.annotation)]
+    return tuple(path), [name for model in here for name in model.model_fields]
+
+
+def _tag(model: type[BaseModel]) -> object:
+    field = model.model_fields.get("type")
+    return field.default if field else None
+
+
+def _models(annotation: Any) -> list[type[BaseModel]]:
+    if isinstance(annotation, type) and issubclass(annotation, BaseModel):
+        return [annotation]
+    return [model for part in get_args(annotation) for model in _models(part)]
+
+
+EXPECTED = {
+    "int_type": "a whole number",
+    "int_parsing": "a whole number",
+    "int_from_float": "a whole number",
+    "float_type": "a number",
+    "float_parsing": "a number",
+    "finite_number": "a finite number",
+    "string_type": "text",
+    "bool_type": "true or false",
+    "bool_parsing": "true or false",
+    "list_type": "a list",
+    "tuple_type": "a list",
+    "dict_type": "a mapping",
+    "mapping_type": "a mapping",
+    "model_type": "a mapping",
+    "model_attributes_type": "a mapping",
+    "literal_error": "{expected}",
+    "too_short": "at least {min_length} entries",
+    "too_long": "at most {max_length} entries",
+    "string_too_short": "at least {min_length} characters",
+    "string_too_long": "at most {max_length} characters",
+    "string_pattern_mismatch": "text that matches {pattern}",
+}
+"""What was expected, by pydantic's kind of finding."""
+
+BOUNDS = {
+    "greater_than": ("more than", "gt"),
+    "greater_than_equal": ("at least", "ge"),
+    "less_than": ("less than", "lt"),
+    "less_than_equal": ("at most", "le"),
+}
+
+
+def _sentence(error: ErrorDetails, known: Sequence[str], *, hints: bool) -> str:
+    kind, got = error["type"], error.get("input")
+    context: Mapping[str, Any] = error.get("ctx", {})
+    if kind in {"missing", "missing_argument", "missing_keyword_only_argument"}:
+        return "is missing and has no default"
+    if kind == "unexpected_positional_argument":
+        example = next(iter(known), "size")
+        return f"parameters are given by name, as in {example}=...; got {shown(got)}"
+    if kind in {"extra_forbidden", "unexpected_keyword_argument"}:
+        return "unknown parameter" + ("; " + suggest(str(error["loc"][-1]), known) if hints else "")
+    if kind == "union_tag_invalid":
+        tags = [tag.strip().strip("'") for tag in str(context["expected_tags"]).split(",")]
+        hint = f"; {suggest(str(context['tag']), tags)}" if hints else ""
+        return f"unknown type {shown(context['tag'])}{hint}"
+    if kind == "union_tag_not_found":
+        return "needs a 'type'"
+    if kind == "value_error":
+        return error["msg"].removeprefix("Value error, ")
+    what = shown(got)  # not sooner: it may be all that was handed in
+    if kind in BOUNDS:
+        words, key = BOUNDS[kind]
+        return f"expected {words} {context[key]:g}, got {what}"
+    if kind in EXPECTED:
+        return f"expected {EXPECTED[kind].format(**context)}, got {what}"
+    message = error["msg"].replace("Input should be ", "expected ").replace("valid ", "")
+    return f"{message}, got {what}"

@@ -1,0 +1,1 @@
+"""Transports between a RemoteBrain and its script."""

@@ -1,0 +1,130 @@
+"""A block explained from its own declaration."""
+
+import inspect
+import json
+import re
+from typing import Any
+
+from ai4u_edu.base.errors import NameNotFoundError, suggest
+from ai4u_edu.base.parameters import is_open
+from ai4u_edu.blocks.actuators.actuator import Actuator
+from ai4u_edu.blocks.ai4u_names import CLASSES
+from ai4u_edu.blocks.block import Block, is_built_in
+from ai4u_edu.blocks.brains.brain import Brain
+from ai4u_edu.blocks.brains.controllers.controller import Controller
+from ai4u_edu.blocks.rewards.reward_func import RewardFunc
+from ai4u_edu.blocks.sensors.sensor import Sensor
+
+KINDS: dict[str, type[Block]] = {
+    "sensors": Sensor,
+    "actuators": Actuator,
+    "rewards": RewardFunc,
+    "brains": Brain,
+    "controllers": Controller,
+}
+
+PARTS = "parts"
+"""Blocks that other blocks are made of: the internal variables of a HomeostaticReward."""
+
+
+def built_in_blocks() -> dict[str, list[type[Block]]]:
+    """All blocks of this package by kind, each kind in the order of their names."""
+    blocks = [Block.types[name] for name in sorted(Block.types)]
+    own = [cls for cls in blocks if is_built_in(cls) and not cls.__dict__.get("abstract")]
+    found = {
+        name: [cls for cls in own if issubclass(cls, kind) and cls is not kind]
+        for name, kind in KINDS.items()
+    }
+    kinds = tuple(KINDS.values())
+    return found | {PARTS: [cls for cls in own if not issubclass(cls, kinds)]}
+
+
+def summary(cls: type[Block]) -> str:
+    """The first line of a block's description."""
+    return (inspect.getdoc(cls) or "").split("\n", 1)[0]
+
+
+def differences(cls: type[Block]) -> str:
+    """The paragraph in which a block's description says what differs from AI4U; else empty."""
+    found = re.search(r"Differs from AI4U: (.*?)(?:\n\n|$)", inspect.getdoc(cls) or "", re.DOTALL)
+    text = " ".join(found[1].split()) if found else ""
+    return text[:1].upper() + text[1:]
+
+
+def ai4u_sources() -> dict[str, type[Block]]:
+    """The blocks that are AI4U's, by the name that they have there."""
+    found = {}
+    for cls in (cls for members in built_in_blocks().values() for cls in members):
+        source = re.search(r"Source:\s+AI4U(?:'s\s+(\w+))?", inspect.getdoc(cls) or "")
+        if source:
+            found[source[1] or cls.__name__] = cls
+    return found
+
+
+def coming_from_ai4u() -> str:
+    """Each class of AI4U, and what stands for it here, as a Markdown table."""
+    rows = [
+        (theirs, cls.__name__, summary(cls).split(" Source:")[0], differences(cls))
+        for theirs, cls in ai4u_sources().items()
+    ]
+    rows += [(*each, "") for each in CLASSES]
+    lines = ["| AI4U | here | what it is | what differs |", "|---|---|---|---|"]
+    for theirs, here, what, differs in sorted(rows, key=lambda row: row[0].lower()):
+        lines.append(f"| `{theirs}` | {f'`{here}`' if here else '-'} | {what} | {differs} |")
+    return "\n".join(lines)
+
+
+def lesson_page(name: str) -> str:
+    """What a block is and what parameters it has, as text.
+
+    Raises:
+        NameNotFoundError: there is no such block; the message suggests the nearest.
+
+    >>> print(lesson_page("BearingSensor").splitlines()[0])
+    BearingSensor: [sine, cosine] of the angle to the target, counter-clockwise from the heading.
+    """
+    known = {cls.__name__: cls for kind in built_in_blocks().values() for cls in kind}
+    if name not in known:
+        hint = _hint_from_ai4u(name) or suggest(name, known)
+        raise NameNotFoundError(f"no block is called {name!r}; {hint}")
+    cls = known[name]
+    described = (inspect.getdoc(cls) or "").split("\n\n>>>")[0]
+    rows = [("parameter", "default", "range", "")]
+    schema = cls.json_schema()
+    for field, about in schema.get("properties", {}).items():
+        missing = "(needed)" if field in schema.get("required", ()) else "(own)"
+        default = json.dumps(about["default"]) if "default" in about else missing
+        rows.append((field, default, _range(about), about.get("description", "")))
+    widths = [max(len(row[column]) for row in rows) for column in range(3)]
+    lines = ["  ".join((*map(str.ljust, row[:3], widths), row[3])).rstrip() for row in rows]
+    return "\n".join([f"{name}: {described}", "", *lines])
+
+
+def _hint_from_ai4u(name: str) -> str:
+    """A clause on what takes the place of a class of AI4U; empty for what is none."""
+    source = ai4u_sources().get(name)
+    if source is not None:
+        return f"AI4U's {name} is {source.__name__} here"
+    for each in CLASSES:
+        if each.ai4u == name:
+            there = f"is {each.here} here" if each.here else "has no class of its own here"
+            return f"AI4U's {name} {there}. {each.words}".replace("``", "")
+    return ""
+
+
+def _range(about: dict[str, Any]) -> str:
+    """A parameter's type, bounds and unit, in a few characters."""
+    if "enum" in about:
+        return " | ".join(map(str, about["enum"]))
+    options = [each for each in about.get("anyOf", ()) if each.get("type") != "null"]
+    about = {**about, **options[0]} if options else about
+    kind = {"number": "", "integer": "whole", "boolean": "true | false", "string": "text"}
+    low = about.get("minimum", about.get("exclusiveMinimum"))
+    high = about.get("maximum", about.get("exclusiveMaximum"))
+    bounds = f"{_show(low)}..{_show(high)}" if _show(low) or _show(high) else ""
+    name = str(about.get("type", ""))
+    return " ".join(filter(None, (kind.get(name, name), bounds, about.get("unit", ""))))
+
+
+def _show(bound: float | None) -> str:
+    return "" if bound is None or is_open(bound) else f"{bound:g}"

@@ -1,0 +1,84 @@
+"""Blocks out of somebody's own Python file, which may do all that Python can do."""
+
+import importlib.util
+import sys
+import traceback
+from pathlib import Path
+
+from ai4u_edu.base.errors import SetupError
+from ai4u_edu.blocks.block import Block, is_built_in
+
+PREFIX = "own_blocks_"
+"""Prefix of the names of modules that were made from such files."""
+
+
+def load_blocks(path: Path) -> list[type[Block]]:
+    """Runs a Python file; from then on scenes know the kinds of blocks that it defines.
+
+    For files that a person has named, and no others: nothing keeps them from doing harm.
+
+    Args:
+        path: of the file; modules that lie beside it can be imported in it.
+
+    Returns:
+        The new kinds of blocks.
+
+    Raises:
+        SetupError: it can't be read or run, it defines no block, or one with the name of a
+            built-in one; then no new kinds are known.
+    """
+    name = f"{PREFIX}{path.stem}"
+    spec = importlib.util.spec_from_file_location(name, path)
+    if path.suffix != ".py" or not path.is_file() or spec is None or spec.loader is None:
+        raise SetupError(f"{path}: expected a Python file (.py) with blocks of your own")
+    before = dict(Block.types)
+    module = sys.modules[name] = importlib.util.module_from_spec(spec)
+    beside = str(path.parent.resolve())
+    if beside not in sys.path:
+        sys.path.append(beside)
+    problem = ""
+    try:
+        spec.loader.exec_module(module)
+    except (Exception, SystemExit) as error:  # it is theirs, so it may be any
+        problem = f"{_place(path, error)}: {type(error).__name__}: {_text(error)}"
+    found = {name: cls for name, cls in Block.types.items() if before.get(name) is not cls}
+    taken = [name for name in found if name in before and is_built_in(before[name])]
+    if taken:
+        problem = f"{path}: {taken[0]} is the name of a built-in block; expected another name"
+    elif not problem and not found:
+        problem = (
+            f"{path}: defines no block; expected a class made from Sensor, Actuator, RewardFunc, "
+            "Brain or Controller"
+        )
+    if problem:
+        Block.types.clear()
+        Block.types.update(before)
+        raise SetupError(problem)
+    return list(found.values())
+
+
+def own_files() -> list[Path]:
+    """Return the files whose blocks are known here, for a child process to load them too."""
+    modules = {cls.__module__ for cls in Block.types.values()}
+    files = [
+        getattr(sys.modules.get(name), "__file__", None)
+        for name in sorted(modules)
+        if name.startswith(PREFIX)
+    ]
+    return [Path(file) for file in files if file]
+
+
+def _place(path: Path, error: BaseException) -> str:
+    """The file, and the line in it where something went wrong."""
+    if isinstance(error, SyntaxError) and error.filename == str(path):
+        return f"{path}, line {error.lineno}"
+    lines = [
+        frame.lineno
+        for frame in traceback.extract_tb(error.__traceback__)
+        if frame.filename == str(path)
+    ]
+    return f"{path}, line {lines[-1]}" if lines else str(path)
+
+
+def _text(error: BaseException) -> str:
+    return error.msg if isinstance(error, SyntaxError) else str(error)

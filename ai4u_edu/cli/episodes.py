@@ -1,0 +1,283 @@
+"""The commands for recorded episodes; what they need is loaded when they run."""
+
+import time
+from collections.abc import Callable
+from dataclasses import replace as with_changes
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+from rich.console import Console
+from rich.table import Table
+
+from ai4u_edu.base.errors import NoDecisionError, SetupError
+from ai4u_edu.base.seeding import seeds_from
+from ai4u_edu.cli.options import (
+    MAX_EPISODES,
+    MAX_UPDATES,
+    OwnBlocks,
+    load_own_blocks,
+    seed_option,
+)
+
+if TYPE_CHECKING:
+    from ai4u_edu.agent import BasicAgent
+    from ai4u_edu.agent.cycle import ControlRequestor
+    from ai4u_edu.recording import Episode
+    from ai4u_edu.scenes import Scene
+
+LONGEST = 5000
+"""Decisions after which an episode is cut off in a scene that has no limit of its own."""
+SCRIPT_POLL_S = 0.01
+"""Seconds between two ticks while the script that is to drive is not there."""
+
+Data = Annotated[
+    list[Path], typer.Argument(help="Recorded episodes (.episode), or folders of them.")
+]
+AgentId = Annotated[
+    str | None, typer.Option(help="The agent's id; left out, the one that acts first.")
+]
+
+
+def add_to(app: typer.Typer) -> None:
+    """Adds the commands to a command line."""
+    for command in (record, replay, dataset, clone):
+        app.command()(command)
+
+
+def record(
+    scene: Annotated[str, typer.Argument(help="A scene of the library, or a YAML file.")],
+    brain: Annotated[
+        list[str] | None,
+        typer.Option(
+            help="Who drives: FILE.py:NAME (a function or a Controller), a network (.onnx, zoo, "
+            "zoo:SCENE), a training's folder or a model (.zip) in it, a controller, random; ID=... "
+            "for another agent than the first. Left out, the scene's own."
+        ),
+    ] = None,
+    episodes: Annotated[int, typer.Option(min=1, max=10_000)] = 1,
+    seed: Annotated[int, seed_option("Of the first episode; then one by one.")] = 0,
+    out: Annotated[Path, typer.Option(help="A folder for the files.")] = Path("episodes"),
+    own_blocks: OwnBlocks = None,
+) -> None:
+    """Let somebody drive, and keep the episodes as files."""
+    from ai4u_edu.scenes import Scene
+
+    load_own_blocks(own_blocks)
+    seeds = seeds_from(seed, episodes)
+    loaded = Scene.load(scene)
+    sim, loaded = _with_brains(loaded, brain or [])
+    from ai4u_edu.recording import recorder_into
+
+    recorder = recorder_into(out, sim, loaded)
+    first = sim.agents[0]
+    try:
+        for each in seeds:
+            _drive(sim, first, each)
+            recorder.finish()
+    finally:
+        recorder.finish()  # Ctrl-C ends the episode, and loses nothing of it
+    Console().print(_overview(list(recorder.episodes)))
+    typer.echo(f"kept in {out}; look at one:  ai4u-edu replay {out}/... --html episode.html")
+
+
+def replay(
+    file: Annotated[Path, typer.Argument(help="A recorded episode (.episode).")],
+    html: Annotated[Path | None, typer.Option(help="Write a page that plays it.")] = None,
+    gif: Annotated[Path | None, typer.Option(help="Draw it as an animated GIF.")] = None,
+    mp4: Annotated[
+        Path | None, typer.Option(help='Draw it as a video; needs "ai4u-edu\\[video]".')
+    ] = None,
+    csv: Annotated[
+        Path | None, typer.Option(help="Write a table, a row for each decision.")
+    ] = None,
+    own_blocks: OwnBlocks = None,
+) -> None:
+    """Play a recorded episode again, say whether it is exact, and export it."""
+    from ai4u_edu.recording import Episode, Replay
+    from ai4u_edu.recording.exports.csv_file import write_csv
+    from ai4u_edu.recording.exports.html_page import write_html
+    from ai4u_edu.recording.exports.movie import write_gif, write_mp4
+
+    load_own_blocks(own_blocks)
+    played = Replay(Episode.load(file))
+    verdict = played.verdict
+    writers: list[tuple[Path | None, Callable[[Replay, Path], Path]]] = [
+        (html, write_html),
+        (gif, write_gif),
+        (mp4, write_mp4),
+        (csv, write_csv),
+    ]
+    Console().print(_details(played.episode))
+    for path, write in writers:
+        if path is not None:
+            typer.echo(f"{write(played, path)}: {path.stat().st_size / 1000:.0f} kB")
+    if verdict.exact:
+        typer.echo("it plays again exactly, bit for bit")
+        return
+    seconds = verdict.until / played.episode.scene.world.ticks_per_second
+    typer.echo(f"it plays again exactly up to {seconds:.2f} s and not beyond: {verdict.why}")
+    raise typer.Exit(1)
+
+
+def dataset(
+    data: Data,
+    out: Annotated[Path | None, typer.Option(help="Write NumPy arrays (.npz).")] = None,
+    minari: Annotated[
+        str, typer.Option(help='Make a Minari dataset of that name; needs "ai4u-edu\\[data]".')
+    ] = "",
+    observation: Annotated[str, typer.Option(help="flat or dict.")] = "flat",
+    agent: AgentId = None,
+    own_blocks: OwnBlocks = None,
+) -> None:
+    """Make data to learn from out of recorded episodes."""
+    from ai4u_edu.training.demonstrations import demonstrations, load_episodes
+
+    if out is None and not minari:
+        raise SetupError("expected --out FILE.npz, --minari NAME, or both")
+    load_own_blocks(own_blocks)
+    shown = demonstrations(load_episodes(data), agent=agent, observation=observation)
+    told = f"{len(shown.episodes)} episodes, {shown.decisions} decisions"
+    if out is not None:
+        typer.echo(f"{shown.save(out)}: {told}")
+    if minari:
+        shown.to_minari(minari)
+        typer.echo(f"Minari dataset {minari}: {told}")
+
+
+def clone(
+    data: Data,
+    out: Annotated[Path, typer.Option(help="The network's file.")] = Path("policy.onnx"),
+    seed: Annotated[int, seed_option("The same seed gives the same network.")] = 0,
+    updates: Annotated[int, typer.Option(help="Gradient steps.", min=1, max=MAX_UPDATES)] = 2000,
+    agent: AgentId = None,
+    evaluate: Annotated[
+        int,
+        typer.Option(
+            help="Episodes, on seeds of 1000 and more, in which it is tried out; 0 for none.",
+            min=0,
+            max=MAX_EPISODES,
+        ),
+    ] = 100,
+    own_blocks: OwnBlocks = None,
+) -> None:
+    r"""Let a network learn to do what was recorded (behaviour cloning).
+
+    Needs: pip install "ai4u-edu\[train]"
+    """
+    from ai4u_edu.base.optional_deps import need
+
+    need("train", "torch", "stable_baselines3", "onnx", "onnxscript")
+    from ai4u_edu.training.cloning import clone as cloned
+    from ai4u_edu.training.demonstrations import load_episodes
+    from ai4u_edu.training.evaluating import evaluate as evaluated
+    from ai4u_edu.training.policies import entrant
+    from ai4u_edu.training.report import table
+
+    load_own_blocks(own_blocks)
+    episodes = load_episodes(data)
+    done = cloned(episodes, out, agent=agent, seed=seed, updates=updates)
+    typer.echo(f"{done.path}: cloned from {done.decisions} decisions, error {done.loss:.4f}")
+    if evaluate:
+        who = with_changes(entrant(str(out)), agent=agent or "")
+        where = _driven_by(out, episodes[0], agent)
+        result = evaluated(who, where, range(1000, 1000 + evaluate))
+        Console().print(table([result]))
+    typer.echo(f"let it drive:  ai4u-edu play {episodes[0].scene.name} --brain {out}")
+
+
+def _driven_by(network: Path, episode: "Episode", agent_id: str | None) -> "Scene":
+    """A recorded scene with a network in the place of whoever drove: his file may not be here."""
+    from ai4u_edu.recording.scene_export import without_unknown_brains
+    from ai4u_edu.scenes import Scene
+
+    controller = {"type": "NeuralNetController", "model_path": str(network.absolute())}
+    brains = [{"type": "LocalBrain", "controller": controller}]
+    driven = episode.agent(agent_id).id
+    agents = tuple(
+        {**agent, "brains": brains} if agent.get("id", "0") == driven else agent
+        for agent in episode.scene.agents
+    )
+    return Scene(without_unknown_brains(episode.scene.model_copy(update={"agents": agents})))
+
+
+def _with_brains(scene: "Scene", specs: list[str]) -> "tuple[ControlRequestor, Scene]":
+    from ai4u_edu.training.assigned import with_drivers
+
+    sim, scene = with_drivers(scene, specs)
+    controller = getattr(sim.agents[0].brain, "controller", None)
+    if hasattr(controller, "_keyboard"):
+        raise SetupError(
+            f"agent {sim.agents[0].id!r} is driven by keys ({type(controller).__name__}), and "
+            "nobody is here to hold them; name who drives, as in --brain FILE.py:NAME, or drive "
+            f"yourself: ai4u-edu play {scene.description.name} --record DIR"
+        )
+    return sim, scene
+
+
+def _drive(sim: "ControlRequestor", agent: "BasicAgent", seed: int) -> None:
+    """Let one episode pass; while the agent's script is not there, say so and wait for it."""
+    from ai4u_edu.agent.block_errors import reason_for_no_decision
+    from ai4u_edu.blocks import RemoteBrain
+
+    sim.reset(seed)
+    episode, in_vain = sim.episode, 0
+    while not agent.done and agent.steps < LONGEST and sim.episode == episode:
+        steps = agent.steps
+        sim.step(agent)
+        if agent.stopped or agent.paused:
+            return
+        in_vain = 0 if agent.steps != steps else in_vain + 1
+        if not in_vain:
+            continue
+        if isinstance(agent.brain, RemoteBrain):
+            if in_vain == 1:
+                reason = reason_for_no_decision(agent)
+                typer.echo(f"agent {agent.id!r} waits: {reason}  (Ctrl-C ends it)", err=True)
+            time.sleep(SCRIPT_POLL_S)
+        elif in_vain == LONGEST:
+            reason = reason_for_no_decision(agent)
+            raise NoDecisionError(
+                f"agent {agent.id!r} took no decision in {LONGEST} ticks: {reason}"
+            )
+
+
+def _overview(episodes: "list[Episode]") -> Table:
+    told = Table(box=None, pad_edge=False)
+    for heading in ("scene", "seed", "seconds", "decisions", "reward", "success"):
+        told.add_column(heading, justify="left" if heading == "scene" else "right")
+    for each in episodes:
+        first = each.agents[0]
+        told.add_row(
+            each.scene.name,
+            str(each.seed),
+            f"{each.seconds:.1f}",
+            str(len(first)),
+            f"{first.total:.2f}",
+            _yes(each.success),
+        )
+    return told
+
+
+def _details(episode: "Episode") -> Table:
+    told = Table(
+        box=None,
+        pad_edge=False,
+        title=f"{episode.scene.name}, seed {episode.seed}, {episode.seconds:.1f} s, "
+        f"success: {_yes(episode.success)}",
+        title_justify="left",
+    )
+    for heading in ("agent", "decisions", "reward", "terms"):
+        told.add_column(heading, justify="right" if heading in ("decisions", "reward") else "left")
+    for record in episode.agents:
+        sums: dict[str, float] = {}
+        for decision in record:
+            for name, amount in decision.reward_terms.items():
+                sums[name] = sums.get(name, 0.0) + amount
+        terms = ", ".join(f"{name} {amount:.3g}" for name, amount in sums.items())
+        told.add_row(record.id, str(len(record)), f"{record.total:.2f}", terms)
+    return told
+
+
+def _yes(success: bool | None) -> str:
+    return "-" if success is None else "yes" if success else "no"

@@ -1,0 +1,69 @@
+"""The command for the course; what it needs is loaded when it runs."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+FIRST = "00_start_here.ipynb"
+
+
+def add_to(app: typer.Typer) -> None:
+    """Adds the command to a command line."""
+    app.command()(lessons)
+
+
+def lessons(
+    folder: Annotated[Path, typer.Argument(help="Where the notebooks are put.")] = Path(
+        "ai4u-lessons"
+    ),
+    port: Annotated[int, typer.Option(help="JupyterLab's port.", min=1, max=65535)] = 8888,
+    open_page: Annotated[bool, typer.Option("--open/--no-open", help="Open the browser.")] = True,
+    start: Annotated[bool, typer.Option("--start/--copy-only", help="Start JupyterLab.")] = True,
+) -> None:
+    r"""Copy the course into a folder, and start JupyterLab on its first lesson.
+
+    Notebooks that are there already stay as they are. Needs: pip install "ai4u-edu\[lessons]"
+    """
+    from ai4u_edu.base.optional_deps import need
+    from ai4u_edu.lessons.handout import hand_out, lab_config
+
+    if start:
+        need("lessons", "jupyterlab", "ipykernel", "matplotlib")
+    done = hand_out(folder)
+    typer.echo(f"{len(done.new)} new notebooks in {folder}")
+    if done.kept:
+        typer.echo(f"{len(done.kept)} were there already, and stay as they are")
+    for name in done.beside:
+        typer.echo(f"a newer {name.replace('.new', '')} lies beside yours: {name}")
+    if start:
+        _become(lab(folder, port, open_page=open_page), lab_config(folder))
+
+
+def lab(folder: Path, port: int, *, open_page: bool) -> list[str]:
+    """The command that starts JupyterLab on the first lesson; it asks the internet for nothing."""
+    return [
+        sys.executable,
+        "-m",
+        "jupyterlab",
+        str((folder / FIRST).absolute()),
+        f"--port={port}",
+        f"--ServerApp.root_dir={folder.absolute()}",
+        f"--ServerApp.open_browser={open_page}",
+        "--LabApp.news_url=None",
+        "--LabApp.check_for_updates_class=jupyterlab.NeverCheckForUpdate",
+        "--LabApp.extension_manager=readonly",
+        *(["--allow-root"] if os.name == "posix" and os.geteuid() == 0 else []),  # in a container
+    ]
+
+
+def _become(command: list[str], config: Path) -> None:
+    """Runs JupyterLab in the place of this process, so that every signal reaches it."""
+    paths = [str(config), os.environ.get("JUPYTER_CONFIG_PATH", "")]
+    env = {**os.environ, "JUPYTER_CONFIG_PATH": os.pathsep.join(filter(None, paths))}
+    if os.name == "posix":
+        os.execve(command[0], command, env)  # noqa: S606 - our own words
+    raise typer.Exit(subprocess.call(command, env=env))  # noqa: S603 - our own words

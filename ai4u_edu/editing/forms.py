@@ -1,0 +1,208 @@
+"""The form of a block, from its declaration: what a page asks for, and how it is read."""
+
+import json
+import re
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from inspect import get_annotations
+from typing import Any, Literal, get_args
+
+from ai4u_edu.base.errors import SceneError
+from ai4u_edu.base.parameters import Problem, is_open
+from ai4u_edu.blocks import Actuator, Block, Brain, Controller, RewardFunc, Sensor
+from ai4u_edu.blocks.docs import summary
+from ai4u_edu.editing.blocks import KINDS, Plain
+from ai4u_edu.editing.errors import ChangeError
+from ai4u_edu.editing.names import Names
+from ai4u_edu.scenes.yaml.file import YamlFile
+
+Kind = Literal["number", "whole", "switch", "choice", "text", "data"]
+BASES = (Sensor, Actuator, RewardFunc, Brain, Controller)
+SWITCHES = {"is_active", "enabled"}
+"""Not in a form: a button switches a block on and off."""
+NONE = "(none)"
+
+
+@dataclass(frozen=True)
+class Field:
+    """One parameter, as a person sees it."""
+
+    name: str
+    label: str
+    kind: Kind
+    value: Any
+    """As it is now, plain."""
+    hint: str
+    choices: tuple[Any, ...] = ()
+    is_common: bool = False
+    """Whether every block of the kind has it; then it is of less interest."""
+
+    @property
+    def shown(self) -> str:
+        """The value as it is written in a box, or named in a list."""
+        if self.value is None:
+            return NONE if self.kind == "choice" else ""
+        if self.kind == "data":
+            return _written(self.value)
+        if isinstance(self.value, float):
+            return f"{self.value:.10g}"
+        return str(self.value) if self.value != "" or self.kind != "choice" else NONE
+
+    def read(self, said: Any) -> Any:
+        """What a person made of it, plain; None for "as by default".
+
+        Raises:
+            ChangeError: it can't be read at all.
+        """
+        if self.kind == "switch":
+            return bool(said)
+        if self.kind == "choice":
+            return {**{str(each): each for each in self.choices}, NONE: None}.get(said, said)
+        if isinstance(said, str) and not said.strip():
+            return None
+        if self.kind in {"number", "whole"}:
+            return _number(said)
+        return _data(self.name, str(said)) if self.kind == "data" else str(said)
+
+
+def form(block: Plain, names: Names) -> list[Field]:
+    """The parameters of a block, its own before those that all of its kind have.
+
+    Args:
+        block: its type, and the parameters that are not as by default.
+        names: what there is in the scene, to choose from.
+    """
+    cls = Block.types[str(block["type"])]
+    schema = cls.json_schema()
+    common = {name for base in BASES if issubclass(cls, base) for name in base.parameters()}
+    fields = [
+        field_of(
+            name,
+            about,
+            block.get(name, about.get("default")),
+            known=names.fitting(name),
+            is_common=name in common,
+        )
+        for name, about in schema.get("properties", {}).items()
+        if name not in SWITCHES and not _holds_blocks(cls, name)
+    ]
+    needed = schema.get("required", ())
+
+    def turn(field: Field) -> tuple[bool, bool, int]:
+        return field.is_common, field.name not in needed, _distance(cls, field.name)
+
+    return sorted(fields, key=turn)
+
+
+def about(block: Plain) -> str:
+    """What a block is, in a sentence."""
+    return summary(Block.types[str(block["type"])])
+
+
+def _distance(cls: type[Block], name: str) -> int:
+    """How far above a class a parameter is declared; what is a block's own comes first."""
+    declared = [name in get_annotations(base) for base in cls.__mro__]
+    return declared.index(True) if True in declared else len(declared)
+
+
+def field_of(
+    name: str,
+    about: Mapping[str, Any],
+    value: Any,
+    *,
+    known: Iterable[str] | None = None,
+    is_common: bool = False,
+) -> Field:
+    """The field for a parameter.
+
+    Args:
+        name: the parameter's.
+        about: what the JSON Schema says of it.
+        value: as it is now, plain.
+        known: names in the scene that it may be, if it is a name.
+        is_common: whether every block of the kind has it.
+    """
+    options = [each for each in about.get("anyOf", ()) if each.get("type") != "null"]
+    can_be_none = len(options) < len(about.get("anyOf", ()))
+    what = {**about, **options[0]} if options else dict(about)
+    unit = str(what.get("unit", ""))
+    is_number = what.get("type") in {"number", "integer"}
+    words = name.replace("_", " ")
+    label = f"{words} ({unit})" if is_number and unit not in {"", "1"} else words
+    described = str(about.get("description", "")).rstrip(".").replace("``", "")
+    hint = f"{name}: " + ". ".join(filter(None, (described, _range(what))))
+    choices: tuple[Any, ...] = ()
+    kind: Kind = "text"
+    if "enum" in what:
+        kind, choices = "choice", tuple(what["enum"])
+    elif known is not None and what.get("type") == "string":
+        kind, choices = "choice", tuple(dict.fromkeys((*known, *([value] if value else []))))
+        can_be_none = can_be_none or value == "" or about.get("default") == ""
+    elif what.get("type") == "boolean":
+        kind = "switch"
+    elif what.get("type") in {"array", "object"}:
+        kind = "data"
+    elif is_number:
+        kind = "whole" if what["type"] == "integer" else "number"
+    if kind == "choice" and (can_be_none or value is None):
+        choices = (NONE, *(each for each in choices if each != ""))
+    return Field(name, label, kind, value, hint.removesuffix(": "), choices, is_common)
+
+
+def _range(what: Mapping[str, Any]) -> str:
+    words = [
+        f"{word} {what[key]:g}"
+        for key, word in (
+            ("minimum", "at least"),
+            ("exclusiveMinimum", "more than"),
+            ("maximum", "at most"),
+            ("exclusiveMaximum", "less than"),
+        )
+        if key in what and not is_open(what[key])
+    ]
+    unit = what.get("unit", "")
+    return " ".join((", ".join(words), unit if words and unit != "1" else "")).strip()
+
+
+def _holds_blocks(cls: type[Block], name: str) -> bool:
+    annotation = cls.parameters()[name].annotation
+    parts = (annotation, *get_args(annotation))
+    return name in KINDS and any(isinstance(p, type) and issubclass(p, Block) for p in parts)
+
+
+def _number(said: Any) -> Any:
+    text = str(said).strip()
+    if re.fullmatch(r"[+-]?\d+,\d+", text):
+        text = text.replace(",", ".")  # as half of the world writes it
+    for kind in (int, float):
+        try:
+            return kind(text)
+        except ValueError:
+            continue
+    return said
+
+
+def _written(value: Any) -> str:
+    """Lists and mappings on one line, as in a scene file."""
+    if isinstance(value, Mapping):
+        return "{" + ", ".join(f"{_word(k)}: {_written(v)}" for k, v in value.items()) + "}"
+    if isinstance(value, list | tuple):
+        return "[" + ", ".join(map(_written, value)) + "]"
+    return f"{value:.10g}" if isinstance(value, float) else _word(value)
+
+
+def _word(value: Any) -> str:
+    plain = isinstance(value, str) and re.fullmatch(r"[A-Za-z][\w -]*\w|[A-Za-z]", value)
+    if plain and value.lower() not in {"true", "false", "yes", "no", "on", "off", "null", "y", "n"}:
+        return str(value)
+    return json.dumps(value)
+
+
+def _data(name: str, said: str) -> Any:
+    text = said.strip()
+    try:
+        return YamlFile(f"x: {text}", name).data["x"]
+    except SceneError as error:
+        told = str(error).partition("\n")[0].split(": ", 1)[-1]
+        example = "[1, 2] for a list, {name: 1} for a mapping"
+        raise ChangeError([Problem((name,), f"{told}; write {example}")]) from None

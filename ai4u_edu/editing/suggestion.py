@@ -1,0 +1,89 @@
+"""A block that fits an agent, before anybody has said a word about its parameters."""
+
+from typing import Any
+
+from ai4u_edu.blocks import Actuator, Block, Brain, RewardFunc, Sensor
+from ai4u_edu.editing.blocks import Plain
+from ai4u_edu.editing.names import Names, name_of
+from ai4u_edu.editing.state import State
+from ai4u_edu.zoo import names as in_the_zoo
+
+NAMED = {
+    Sensor: ("sensors", "perception_key"),
+    Actuator: ("actuators", "action_name"),
+    RewardFunc: ("rewards", "name"),
+}
+
+
+def suggestion(state: State, agent_id: str, type_name: str) -> Plain:
+    """A new block as data: what has no default, or says nothing by default, is filled in.
+
+    Args:
+        state: the scene.
+        agent_id: whose block it is to be.
+        type_name: the block's type.
+    """
+    cls, names = Block.types[type_name], Names(state, agent_id)
+    block: dict[str, Any] = {"type": type_name}
+    for name, field in cls.parameters().items():
+        known, default = names.fitting(name), field.get_default(call_default_factory=True)
+        is_strange = known is not None and default not in ("", None, *known)
+        if not (field.is_required() or is_strange or name == "group_code"):
+            continue
+        value = _value(name, state, names)
+        if value is not None:
+            block[name] = value
+    for base, (kind, parameter) in NAMED.items():
+        if issubclass(cls, base):
+            _find_a_name(block, parameter, names.of_blocks(kind, parameter))
+    if issubclass(cls, Brain):
+        brains = names.agent.get("brains", ())
+        on: Plain = next((each for each in brains if each.get("enabled", True)), {})
+        block |= {name: on[name] for name in ("skip_frame", "repeat_action") if name in on}
+    return block
+
+
+def _value(name: str, state: State, names: Names) -> Any:
+    body = next(each for each in state.description.bodies if each.name == names.agent.get("body"))
+    target = next(iter(names.things), None)
+    match name:
+        case "group_code":
+            seen = [tag for tag in names.tags if tag not in body.tags]
+            return {tag: index for index, tag in enumerate(seen, 1)} or None
+        case "targets":
+            return list(names.things[:1]) or None
+        case "poses":
+            return [[*body.position, body.heading_deg]]
+        case "children":
+            return [{"type": "TouchRewardFunc", "target": target, "reward": 1.0}]
+        case "sensors":
+            return [{"type": "HeadingSensor"}]
+        case "variables":
+            return [{"type": "HomeostaticVariable", "name": "energy"}]
+        case "controller":
+            return {"type": "WASDRBMoveController"}
+        case "model_path":
+            scene = state.description.name
+            return f"zoo:{scene}" if scene in in_the_zoo() else "policy.onnx"
+        case "actions":
+            return [{each: [0.0, 0.0, 0.0, 0.0]} for each in _actuators(names)[:1]]
+        case "property":
+            return "speed"
+        case "min_value":
+            return 0.0
+        case "max_value":
+            return 1.0
+    return next(iter(names.fitting(name) or ()), None)
+
+
+def _actuators(names: Names) -> tuple[str, ...]:
+    return names.of_blocks("actuators", "action_name")
+
+
+def _find_a_name(block: dict[str, Any], parameter: str, taken: tuple[str, ...]) -> None:
+    name, number = name_of(block, parameter), 2
+    if name not in taken:
+        return
+    while f"{name}_{number}" in taken:
+        number += 1
+    block[parameter] = f"{name}_{number}"

@@ -1,0 +1,150 @@
+"""Scenes that were changed and not saved, as a server that has ended left them."""
+
+import json
+import math
+import re
+import time
+from collections.abc import Sequence
+from contextlib import suppress
+from dataclasses import dataclass
+from datetime import datetime
+from pathlib import Path
+
+from ai4u_edu.base.errors import AI4UError, SetupError
+from ai4u_edu.base.file_lock import FileLock, is_locked
+from ai4u_edu.scenes import Scene
+
+ENDING = ".unsaved"
+LOCK_ENDING = ".lock"
+OWNED = re.compile(r"(?P<name>.*)-(?P<instance>[0-9a-f]{12})-[0-9]+")
+"""A file's name, without its ending: the scene, the server that wrote it, and a number."""
+LOCK_NAME = re.compile(r"[0-9a-f]{12}" + re.escape(LOCK_ENDING))
+MAX_LEFT = 20
+"""Files that are kept; of each scene the latest is kept in any case."""
+MAX_AGE_S = 30 * 24 * 3600.0
+MAX_FILE_BYTES = 32 * 2**20
+MAX_TOLD = 5
+"""Unsaved scenes that a message lists."""
+
+
+@dataclass(frozen=True)
+class Unsaved:
+    """A scene that somebody changed and did not save."""
+
+    file: Path
+    text: str
+    folder: Path | None
+    saved_at: float
+    """Seconds since 1970."""
+    name: str = ""
+    """The scene's."""
+
+    @property
+    def when(self) -> str:
+        """The time of day, and the day if it was another one."""
+        then = datetime.fromtimestamp(self.saved_at)
+        today = then.date() == datetime.now().date()
+        return then.strftime("%H:%M" if today else "%Y-%m-%d %H:%M")
+
+    def scene(self) -> Scene:
+        """As a scene.
+
+        Raises:
+            SceneError: it can't be read.
+        """
+        return Scene.loads(self.text, name="the unsaved scene", folder=self.folder)
+
+    def discard(self) -> None:
+        """Delete its file, unless a server that lives has taken it over."""
+        with suppress(OSError):
+            self.file.unlink(missing_ok=True)
+
+
+def unsaved_scenes(folder: Path) -> list[Unsaved]:
+    """Return all that servers left there that no longer live, the latest first."""
+    found = []
+    with suppress(OSError):
+        for file in folder.glob(f"*{ENDING}"):
+            with suppress(OSError, ValueError, TypeError, KeyError, OverflowError, RecursionError):
+                if not _is_living(file):
+                    found.append(_read(file))
+    return sorted(found, key=lambda each: each.saved_at, reverse=True)
+
+
+def latest(folder: Path) -> Unsaved | None:
+    """Return what was left there last; None if there is nothing that can be read."""
+    return next(iter(unsaved_scenes(folder)), None)
+
+
+def chosen(left: Sequence[Unsaved], wanted: str = "") -> Unsaved:
+    """Return one of several unsaved scenes.
+
+    Args:
+        left: all of them, the latest first.
+        wanted: a scene, of which it is the latest; or a number, 1 for the latest of all; empty for
+            that too.
+
+    Raises:
+        SetupError: there is none, or none of that scene.
+    """
+    if not left:
+        raise SetupError("there is no unsaved scene; expected: ai4u-edu play SCENE")
+    if wanted.isascii() and wanted.isdecimal() and 1 <= int(wanted[:6]) <= len(left):
+        return left[int(wanted) - 1]
+    for each in left:
+        if not wanted or each.name in _names(wanted):
+            return each
+    raise SetupError(
+        f"there is no unsaved scene {wanted!r}; there are {listed(left)}; "
+        "expected: ai4u-edu play SCENE --restore, or its number"
+    )
+
+
+def listed(left: Sequence[Unsaved]) -> str:
+    """Return the names and times of unsaved scenes, numbered, as a person reads them."""
+    told = [f"{n} {each.name} ({each.when})" for n, each in enumerate(left[:MAX_TOLD], start=1)]
+    more = [f"{len(left) - MAX_TOLD} more"] if len(left) > MAX_TOLD else []
+    return ", ".join(told + more)
+
+
+def prune(folder: Path) -> None:
+    """Delete what is too old or too much, and locks of servers that no longer live."""
+    seen: set[str] = set()
+    for number, each in enumerate(unsaved_scenes(folder)):
+        is_old = number >= MAX_LEFT or time.time() - each.saved_at > MAX_AGE_S
+        if is_old and each.name in seen:
+            with suppress(OSError):
+                each.file.unlink(missing_ok=True)
+        seen.add(each.name)
+    for file in folder.glob(f"*{LOCK_ENDING}"):
+        if LOCK_NAME.fullmatch(file.name):
+            with suppress(OSError):
+                FileLock(file).release(remove=True)
+
+
+def _names(wanted: str) -> set[str]:
+    """The names that a scene may have which is given as a name or as a file."""
+    names = {wanted, Path(wanted).stem}
+    with suppress(AI4UError, OSError):
+        names.add(Scene.load(wanted).description.name)
+    return names
+
+
+def _is_living(file: Path) -> bool:
+    owned = OWNED.fullmatch(file.name.removesuffix(ENDING))
+    return owned is not None and is_locked(file.with_name(owned["instance"] + LOCK_ENDING))
+
+
+def _read(file: Path) -> Unsaved:
+    if file.stat().st_size > MAX_FILE_BYTES:
+        raise ValueError(file.name)
+    data = json.loads(file.read_text(encoding="utf-8"))
+    place = Path(data["folder"]) if data["folder"] else None
+    saved_at = float(data["saved_at"])
+    if not math.isfinite(saved_at):
+        raise ValueError(saved_at)
+    datetime.fromtimestamp(saved_at)
+    # an earlier version named its files by the scene alone, and wrote no name into them
+    owned = OWNED.fullmatch(file.name.removesuffix(ENDING))
+    stem = owned["name"] if owned else file.name.removesuffix(ENDING)
+    return Unsaved(file, str(data["text"]), place, saved_at, str(data.get("scene") or stem))

@@ -1,0 +1,46 @@
+"""What a student wrote into an exercise's cell: found by the names that the cell makes."""
+
+import ast
+from collections.abc import Sequence
+
+from ai4u_edu.base.syntax import parsed
+from ai4u_edu.lessons.course import lesson
+from ai4u_edu.lessons.notebook_output import cells_so_far
+
+
+def written(exercise: str) -> str:
+    """The code that was run last for an exercise; empty outside of a notebook, or if none was."""
+    cells = lesson(exercise.partition(".")[0]).cells
+    wanted = {name for cell in cells if cell.exercise == exercise for name in made_in(cell.source)}
+    return latest(wanted, cells_so_far())
+
+
+def latest(wanted: set[str], cells: Sequence[str]) -> str:
+    """The last of some cells that makes one of some names.
+
+    >>> latest({"go"}, ["def go(): ...", "go()", "x = 1"])
+    'def go(): ...'
+    """
+    found = (cell for cell in reversed(cells) if wanted & made_in(cell))
+    return next(found, "")
+
+
+def made_in(code: str) -> set[str]:
+    r"""The names that a cell makes, apart from those within a function.
+
+    >>> sorted(made_in("def f(): x = 1\na, b = 1, 2\nclass C: ..."))
+    ['C', 'a', 'b', 'f']
+    """
+    try:
+        statements = parsed(code).body
+    except (SyntaxError, ValueError):  # such as a line that is meant for the notebook alone
+        return set()
+    made = set()
+    for each in statements:
+        if isinstance(each, ast.FunctionDef | ast.ClassDef):
+            made.add(each.name)
+        elif isinstance(each, ast.Assign | ast.AnnAssign):
+            targets = each.targets if isinstance(each, ast.Assign) else [each.target]
+            parts = [part for target in targets for part in ast.walk(target)]
+            made |= {part.id for part in parts if isinstance(part, ast.Name)}
+    return made

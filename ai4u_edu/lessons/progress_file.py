@@ -1,0 +1,144 @@
+"""What a student has solved: a small file in the folder of the notebooks."""
+
+import json
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from dataclasses import asdict, dataclass
+from datetime import datetime
+from pathlib import Path
+
+from ai4u_edu.base.atomic_write import partial_file, write_atomically
+from ai4u_edu.base.file_lock import FileLock, LockedError
+
+FILE = "progress.json"
+FOLDER = ".ai4u-edu"
+"""In it lie the pictures of the checks."""
+VERSION = 1
+LOCK_FILE = "progress.lock"
+LOCK_TIMEOUT_S = 5.0
+"""Time after which a check no longer waits for another notebook that writes its own result."""
+LOCK_POLL_S = 0.01
+
+
+@dataclass
+class Entry:
+    """How it stands with one exercise."""
+
+    passed: bool = False
+    when: str = ""
+    """When it was passed first, local time."""
+    tries: int = 0
+    """Checks up to the first that passed."""
+    text: str = ""
+    """What the last check said."""
+    hint: str = ""
+    """The hint that it pointed to."""
+    code: str = ""
+    """What stood in the exercise's cell; empty if that is not known."""
+
+
+class Keeper:
+    """Reads and writes the file.
+
+    Args:
+        folder: of the notebooks; left out, the current one.
+    """
+
+    def __init__(self, folder: Path | None = None) -> None:
+        self.folder = folder or Path.cwd()
+        self.path = self.folder / FILE
+        self.trouble = ""
+        """What was wrong with the file, in a sentence; empty if nothing was."""
+
+    def entries(self) -> dict[str, Entry]:
+        """By the exercise's id; a damaged file is put aside, and it begins anew."""
+        try:
+            text = self.path.read_text(encoding="utf-8")
+        except FileNotFoundError:
+            return {}
+        except (OSError, UnicodeDecodeError) as error:
+            return self._damaged(str(error))
+        try:
+            plain = json.loads(text)
+            if plain["version"] != VERSION:
+                return self._damaged(f"version {plain['version']!r}, expected {VERSION}")
+            return {str(name): _entry(each) for name, each in plain["exercises"].items()}
+        except (ValueError, TypeError, KeyError, AttributeError, RecursionError) as error:
+            return self._damaged(str(error))
+
+    def note(
+        self, exercise: str, *, passed: bool, text: str, hint: str, picture: bytes, code: str = ""
+    ) -> None:
+        """Keeps what a check found; what was passed once stays passed."""
+        with self._alone():
+            self._note(exercise, passed, text, hint, picture, code)
+
+    def _note(
+        self, exercise: str, passed: bool, text: str, hint: str, picture: bytes, code: str
+    ) -> None:
+        entries = self.entries()
+        entry = entries.setdefault(exercise, Entry())
+        if not entry.passed:
+            entry.tries += 1
+            entry.passed = passed
+            entry.when = datetime.now().isoformat(" ", "minutes") if passed else ""
+        elif not passed:
+            return
+        entry.text, entry.hint, entry.code = text, hint, code
+        self._write(entries)
+        if picture:
+            place = self.picture(exercise)
+            place.parent.mkdir(exist_ok=True)
+            write_atomically(place, picture)
+
+    def picture(self, exercise: str) -> Path:
+        """Where the picture of the last check lies, if there is one."""
+        return self.folder / FOLDER / f"{exercise}.picture"
+
+    def _write(self, entries: dict[str, Entry]) -> None:
+        plain = {
+            "version": VERSION,
+            "exercises": {name: asdict(entries[name]) for name in sorted(entries)},
+        }
+        with partial_file(self.path) as beside, beside.open("w", encoding="utf-8") as out:
+            json.dump(plain, out, indent=1)
+
+    @contextmanager
+    def _alone(self) -> Iterator[None]:
+        """Exclude other notebooks: each reads the file, and writes all of it anew."""
+        deadline, lock = time.monotonic() + LOCK_TIMEOUT_S, None
+        with suppress(OSError):  # a folder that can't be written to is told of by what writes
+            (self.folder / FOLDER).mkdir(exist_ok=True)
+            while lock is None:
+                try:
+                    lock = FileLock(self.folder / FOLDER / LOCK_FILE)
+                except LockedError:
+                    if time.monotonic() > deadline:
+                        break
+                    time.sleep(LOCK_POLL_S)
+        try:
+            yield
+        finally:
+            if lock is not None:
+                lock.release()
+
+    def _damaged(self, why: str) -> dict[str, Entry]:
+        aside = self.path.with_name("progress.damaged.json")
+        self.trouble = f"{FILE} could not be read ({why})"
+        try:
+            self.path.replace(aside)
+        except OSError:
+            return {}
+        self.trouble += f"; it was put aside as {aside.name}, and a new one is begun"
+        return {}
+
+
+def _entry(plain: object) -> Entry:
+    if not isinstance(plain, dict):
+        raise TypeError(f"expected an entry, got {plain!r}")
+    entry = Entry(**plain)
+    for name, kind in Entry.__annotations__.items():
+        if type(getattr(entry, name)) is not kind:
+            raise TypeError(f"{name}: expected {kind.__name__}, got {getattr(entry, name)!r}")
+    return entry

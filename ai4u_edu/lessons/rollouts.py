@@ -1,0 +1,150 @@
+"""Lets what a student made drive in worlds that they have not seen."""
+
+import zlib
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
+from typing import Any
+
+from ai4u_edu.agent import BasicAgent
+from ai4u_edu.agent.cycle import ControlRequestor
+from ai4u_edu.blocks import Brain, Controller, LocalBrain
+from ai4u_edu.lessons.exercise import NotYet
+from ai4u_edu.lessons.pictures import picture
+from ai4u_edu.scenes import Scene
+from ai4u_edu.snapshot import Snapshot, agent_state, picture_of
+
+LONGEST = 600
+"""Decisions after which a drive in a scene without a limit is cut off."""
+
+
+@dataclass
+class Drive:
+    """One episode."""
+
+    sim: ControlRequestor
+    agent: BasicAgent
+    seed: int
+    trail: list[tuple[float, float]] = field(default_factory=list)
+    """Where the agent was at each decision, the beginning first; metres."""
+
+    @property
+    def steps(self) -> int:
+        """Decisions taken."""
+        return len(self.trail) - 1
+
+    @property
+    def won(self) -> bool:
+        """Whether the term that the scene calls its success was paid."""
+        return self.agent.ledger.episode_terms.get(self.sim.success, 0.0) > 0
+
+    @property
+    def fell(self) -> bool:
+        """Whether the agent's episode ended because it fell."""
+        return agent_state(self.agent, self.sim.success).fell
+
+    @property
+    def moved(self) -> float:
+        """Metres between the beginning and now."""
+        (x, y), (u, v) = self.trail[0], self.trail[-1]
+        return float(((x - u) ** 2 + (y - v) ** 2) ** 0.5)
+
+    @property
+    def where(self) -> str:
+        """The seed and the step, for a sentence."""
+        return f"seed {self.seed}, step {self.steps}"
+
+    def picture(self) -> bytes:
+        """The world as it is now, with the way that the agent took; PNG."""
+        shown: Snapshot = picture_of(self.sim)
+        return picture(shown, self.trail)
+
+    def not_yet(self, text: str, hint: str = "") -> NotYet:
+        """The reason why an exercise is not solved, with this drive's picture.
+
+        Args:
+            text: in which ``{where}`` stands for the seed and the step.
+            hint: the name of the hint.
+        """
+        return NotYet(text.replace("{where}", self.where), hint=hint, picture=self.picture())
+
+
+def seeds_of(exercise_id: str, count: int = 20) -> list[int]:
+    """Seeds for an exercise's worlds: the same each time, and none that a notebook shows."""
+    first = 10_000 + zlib.crc32(exercise_id.encode()) % 100_000
+    return list(range(first, first + count))
+
+
+def as_brain(thing: Any) -> Brain:
+    """A student's controller, function or brain as a brain.
+
+    Raises:
+        NotYet: it is none of these.
+    """
+    if isinstance(thing, Brain):
+        return thing
+    if isinstance(thing, type) and issubclass(thing, Controller | Brain):
+        return as_brain(thing())
+    if isinstance(thing, Controller) or callable(thing):
+        return LocalBrain(controller=thing)
+    raise NotYet(
+        f"Expected a function that gets a percept and returns an action, got `{thing!r}`. Give "
+        "the function's name, without brackets."
+    )
+
+
+def brain_for(thing: Any, agent: BasicAgent) -> Brain:
+    """What a student made as a brain that decides as often as the agent's own does."""
+    brain, before = as_brain(thing), agent.brain
+    if isinstance(thing, Brain):
+        return brain
+    return brain.changed(skip_frame=before.skip_frame, repeat_action=before.repeat_action)
+
+
+def drives(
+    source: str | Scene | Callable[[], ControlRequestor],
+    thing: Any,
+    seeds: list[int],
+    *,
+    agent: str = "",
+    limit: int = LONGEST,
+    watch: Callable[[Drive], object] = lambda _: None,
+) -> Iterator[Drive]:
+    """One episode for each seed, driven by what a student made.
+
+    Args:
+        source: a scene, its name, or a function that makes a world with its agents.
+        thing: a function, a controller, a brain; None where the agent has its own.
+        seeds: of the episodes.
+        agent: the id of who is driven; left out, who acts first.
+        limit: decisions after which an episode is cut off.
+        watch: called at the beginning and after each decision; may raise :class:`NotYet`.
+    """
+    if isinstance(source, str):
+        source = Scene.load(source)
+    sim = source.build() if isinstance(source, Scene) else source()
+    driven = sim.agent(agent) if agent else sim.agents[0]
+    if thing is not None:
+        driven.use_brain(brain_for(thing, driven))
+    for seed in seeds:
+        yield drive(sim, driven, seed, limit, watch)
+
+
+def drive(
+    sim: ControlRequestor,
+    agent: BasicAgent,
+    seed: int,
+    limit: int = LONGEST,
+    watch: Callable[[Drive], object] = lambda _: None,
+) -> Drive:
+    """One episode, from a reset to its end or the limit."""
+    sim.reset(seed)
+    done = Drive(sim, agent, seed, [agent.body.position])
+    watch(done)
+    episode = sim.episode
+    while not agent.done and done.steps < limit:
+        sim.step(agent)
+        if sim.episode != episode or agent.stopped or agent.paused:
+            break  # it gave up
+        done.trail.append(agent.body.position)
+        watch(done)
+    return done

@@ -1,0 +1,78 @@
+"""An episode as a table that any spreadsheet opens: a row for each decision of each agent."""
+
+import csv
+import math
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ai4u_edu.base.atomic_write import partial_file
+from ai4u_edu.recording.replay import Moment, Replay
+
+Row = dict[str, Any]
+
+
+def write_csv(replay: Replay, path: Path) -> Path:
+    """Writes the table.
+
+    Columns: agent, step, tick, time (s), x, y, z (m) and heading (degrees) of its body when it
+    decided; ``sensor[i]`` what it sensed; ``actuator[i]`` what it did; ``reward``, and
+    ``reward:term`` for each term that was paid; terminated, truncated.
+
+    Args:
+        replay: of the episode; rows go as far as it is exact.
+        path: of the file.
+    """
+    rows = [row for agent in replay.episode.ids for row in _rows(replay, agent)]
+    names = list(dict.fromkeys(name for row in rows for name in row))
+    with partial_file(path) as beside, beside.open("w", newline="", encoding="utf-8") as file:
+        writer = csv.DictWriter(file, [_text(name) for name in names], restval="")
+        writer.writeheader()
+        for row in rows:
+            writer.writerow({_text(name): _text(value) for name, value in row.items()})
+    return path
+
+
+def _rows(replay: Replay, agent: str) -> Iterator[Row]:
+    for moment in replay.moments(agent):
+        yield _row(agent, moment)
+
+
+def _row(agent: str, moment: Moment) -> Row:
+    decision, picture = moment.decision, moment.snapshot
+    (body,) = {state.body for state in picture.agents if state.id == agent}
+    (pose,) = [state for state in picture.bodies if state.name == body]
+    row: Row = {
+        "agent": agent,
+        "step": decision.step,
+        "tick": decision.begin,
+        "time": picture.time,
+        "x": pose.x,
+        "y": pose.y,
+        "z": pose.z,
+        "heading": math.degrees(pose.heading),
+    }
+    for name, reading in moment.percept.items():
+        row |= _cells(name, reading)
+    for name, numbers in decision.action.items():
+        row |= _cells(name, np.array(numbers))
+    row["reward"] = decision.reward
+    row |= {f"reward:{name}": amount for name, amount in decision.reward_terms.items()}
+    return row | {"terminated": int(decision.terminated), "truncated": int(decision.truncated)}
+
+
+def _cells(name: str, value: Any) -> Row:
+    if isinstance(value, tuple):
+        return {f"{name}[{index}]": each for index, each in enumerate(value)}
+    if isinstance(value, np.ndarray):
+        return {f"{name}[{index}]": each for index, each in enumerate(value.ravel().tolist())}
+    return {name: int(value) if isinstance(value, bool) else value}
+
+
+def _text(value: Any) -> Any:
+    """A spreadsheet takes text that begins like this for a formula, and would work it out."""
+    if isinstance(value, str) and value[:1] in ("=", "+", "-", "@", "\t", "\r"):
+        return "'" + value
+    return value

@@ -1,0 +1,177 @@
+"""An episode as one HTML file that plays itself: no server, and nothing fetched from anywhere."""
+
+import json
+import math
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ai4u_edu.base.atomic_write import write_atomically
+from ai4u_edu.blocks import Percept
+from ai4u_edu.recording.replay import Replay
+from ai4u_edu.snapshot import Snapshot, Stage
+from ai4u_edu.snapshot import theme as look
+from ai4u_edu.world import BodyDescription, CircleShape, RegionDescription, RingShape
+
+TEMPLATE = Path(__file__).parent / "player.html"
+PLACE = "/*EPISODE*/null"
+RATE = 30
+"""Poses a second, at most; the page finds those between them."""
+LARGEST_READING = 300
+"""Numbers of a reading that is shown; a larger one would make the file too large."""
+
+
+def write_html(replay: Replay, path: Path) -> Path:
+    """Writes the page.
+
+    Args:
+        replay: of the episode; it is shown as far as it is exact.
+        path: of the file.
+    """
+    text = json.dumps(_data(replay), ensure_ascii=True, separators=(",", ":"), allow_nan=False)
+    # whatever names and texts say, it stays data: nothing in it can end the script that it is in
+    for risky in "<>&":
+        text = text.replace(risky, f"\\u{ord(risky):04x}")
+    page = TEMPLATE.read_text(encoding="utf-8")
+    write_atomically(path, page.replace(PLACE, text))
+    return path
+
+
+def _data(replay: Replay) -> dict[str, Any]:
+    episode = replay.episode
+    scene = episode.scene
+    every = max(1, round(scene.world.ticks_per_second / RATE))
+    frames = list(replay.pictures(every))
+    stage = frames[0].stage
+    moving = [body.name for body in stage.bodies if body.kind != "static"]
+    verdict = replay.verdict
+    return {
+        "title": scene.title or scene.name,
+        "goal": scene.goal,
+        "seed": str(episode.seed),  # too large for a number there
+        "success": episode.success,
+        "exact": verdict.exact,
+        "why": verdict.why,
+        "dt": 1 / scene.world.ticks_per_second,
+        "bounds": stage.bounds,
+        "void": _css(look.VOID),
+        "ground": None if stage.floors else _css(look.FLOOR),
+        "regions": _regions(stage),
+        "bodies": [
+            _body(body, stage, frames[0])
+            for body in sorted(stage.bodies, key=lambda b: b.kind != "static")
+        ],
+        "moving": moving,
+        "ticks": [frame.tick for frame in frames],
+        "poses": [_poses(frame, moving) for frame in frames],
+        "agents": [_agent(replay, agent) for agent in episode.ids],
+    }
+
+
+def _regions(stage: Stage) -> list[dict[str, Any]]:
+    floors = [
+        _region(floor, look.floor_colour(floor), look.CLIFF)
+        for floor in sorted(stage.floors, key=lambda floor: floor.top)
+    ]
+    areas = [_region(area, look.area_fill(area), look.area_colour(area)) for area in stage.areas]
+    return floors + areas
+
+
+def _region(region: RegionDescription, fill: look.Rgb, edge: look.Rgb) -> dict[str, Any]:
+    hole = region.shape.hole() if isinstance(region.shape, RingShape) else []
+    x, y = region.position
+    return {
+        "points": _points(region.shape.outline()),
+        "hole": _points(hole),
+        "pose": [_short(x), _short(y), 0, _short(math.radians(region.heading_deg))],
+        "fill": _css(fill),
+        "edge": _css(edge),
+        "label": region.label,
+    }
+
+
+def _body(body: BodyDescription, stage: Stage, first: Snapshot) -> dict[str, Any]:
+    colour = look.body_colour(body, body.name in stage.agent_of)
+    shape = body.shape
+    reach = shape.radius if isinstance(shape, CircleShape) else shape.reach * 0.7
+    (state,) = [each for each in first.bodies if each.name == body.name]
+    return {
+        "name": body.name,
+        "label": body.label,
+        "points": _points(shape.outline()),
+        "fill": _css(colour),
+        "edge": _css(look.mixed(colour, (0, 0, 0), 0.45)),
+        "front": _short(reach) if body.name in stage.agent_of else 0,
+        "agent": stage.agent_of.get(body.name, ""),
+        "pose": None
+        if state.fallen
+        else [_short(state.x), _short(state.y), _short(state.z), _short(state.heading)],
+    }
+
+
+def _poses(picture: Snapshot, moving: list[str]) -> list[float | None]:
+    """x, y, z and heading of each body that can move, one after another."""
+    states = {state.name: state for state in picture.bodies}
+    row: list[float | None] = []
+    for name in moving:
+        state = states.get(name)
+        if state is None or state.fallen:
+            row += [None, None, None, None]
+        else:
+            row += [_short(state.x), _short(state.y), _short(state.z), _short(state.heading)]
+    return row
+
+
+def _agent(replay: Replay, agent: str) -> dict[str, Any]:
+    moments = list(replay.moments(agent))
+    return {
+        "id": agent,
+        "begin": [moment.decision.begin for moment in moments],
+        "end": [moment.decision.end for moment in moments],
+        "actions": [
+            {
+                name: [_digits(each) for each in numbers]
+                for name, numbers in m.decision.action.items()
+            }
+            for m in moments
+        ],
+        "terms": [
+            {name: _digits(amount) for name, amount in m.decision.reward_terms.items()}
+            for m in moments
+        ],
+        "readings": [_readings(moment.percept) for moment in moments],
+        "over": [
+            "terminated" if m.decision.terminated else "truncated" if m.decision.truncated else ""
+            for m in moments
+        ],
+    }
+
+
+def _readings(percept: Percept) -> dict[str, Any]:
+    shown: dict[str, Any] = {}
+    for name, reading in percept.items():
+        if not isinstance(reading, np.ndarray):
+            shown[name] = _digits(reading) if isinstance(reading, float) else reading
+        elif reading.size <= LARGEST_READING:
+            shown[name] = [_digits(float(each)) for each in reading.ravel()]
+        else:
+            shown[name] = f"{reading.size} numbers"
+    return shown
+
+
+def _points(points: Any) -> list[list[float]]:
+    return [[_short(x), _short(y)] for x, y in points]
+
+
+def _short(value: float) -> float:
+    """Millimetres are enough for a picture."""
+    return round(float(value), 3)
+
+
+def _digits(value: float) -> float:
+    return float(f"{value:.4g}")
+
+
+def _css(colour: look.Rgb) -> str:
+    return "#{:02x}{:02x}{:02x}".format(*colour)

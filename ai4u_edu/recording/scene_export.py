@@ -1,0 +1,131 @@
+"""The scene that a world is: as data, with which the same world can be made somewhere else."""
+
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+import numpy as np
+
+from ai4u_edu.agent import BasicAgent
+from ai4u_edu.agent.cycle import ControlRequestor
+from ai4u_edu.blocks import Block, Brain
+from ai4u_edu.blocks.block import is_built_in
+from ai4u_edu.recording.errors import RecordingError
+from ai4u_edu.scenes import SceneDescription
+from ai4u_edu.scenes.serialization import fits_a_file, to_plain
+from ai4u_edu.world import AreaDescription, BodyDescription, FloorDescription
+
+
+def scene_of(sim: ControlRequestor, like: SceneDescription | None = None) -> SceneDescription:
+    """A world and its agents as a scene.
+
+    A brain that no file can hold, such as a Python function, is left out; so is one of a student's
+    own file where the agent has another: replaying needs no driver, so it needs no such file.
+
+    Args:
+        sim: the world and its agents.
+        like: where name, title and goal come from.
+
+    Raises:
+        RecordingError: a parameter of a block is nothing that a file can hold.
+    """
+    things = sim.world.described
+    fields: dict[str, Any] = {
+        "time_scale": sim.default_time_scale,
+        "spread_decisions": sim.spread_decisions,
+        "world": sim.world.settings,
+        "floors": tuple(each for each in things if isinstance(each, FloorDescription)),
+        "areas": tuple(each for each in things if isinstance(each, AreaDescription)),
+        "bodies": tuple(each for each in things if isinstance(each, BodyDescription)),
+        "agents": tuple(_agent(agent) for agent in sim.agents),
+    }
+    if like is None:
+        return SceneDescription(
+            name="recorded", goal=sim.goal, success=sim.success or None, **fields
+        )
+    return like.model_copy(update=fields)
+
+
+def without_brains(scene: SceneDescription) -> list[Any]:
+    """What of a scene decides how its world goes on once the actions are given."""
+    agents = [{k: v for k, v in agent.items() if k != "brains"} for agent in scene.agents]
+    things = [scene.floors, scene.areas, scene.bodies]
+    return [scene.world, scene.spread_decisions, *things, agents]
+
+
+def without_unknown_brains(scene: SceneDescription) -> SceneDescription:
+    """Return a scene without the brains that can't be made here, so that it can be built.
+
+    An agent all of whose brains are unknown keeps them: building says then what is missing.
+    """
+    agents = tuple(_with_known_brains(agent) for agent in scene.agents)
+    return scene.model_copy(update={"agents": agents})
+
+
+def _with_known_brains(agent: Mapping[str, Any]) -> Mapping[str, Any]:
+    brains = agent.get("brains", ())
+    known = [brain for brain in brains if _is_known(brain)]
+    if not known or len(known) == len(brains):
+        return agent
+    if not any(brain.get("enabled", True) for brain in known):
+        known[0] = {**known[0], "enabled": True}
+    return {**agent, "brains": known}
+
+
+def _is_known(block: Any) -> bool:
+    """Return True unless a block, or one in it, is of a type that nobody has defined here."""
+    if not isinstance(block, Mapping):
+        return True
+    parts = [block.get("controller")] if "controller" in block else []
+    return block.get("type") in Block.types and all(map(_is_known, parts))
+
+
+def _agent(agent: BasicAgent) -> dict[str, Any]:
+    given = agent.given()
+    brains = given.pop("brains", [])
+    try:
+        plain: dict[str, Any] = _numbers(to_plain(given))
+    except TypeError as error:
+        raise RecordingError(f"agent {agent.id!r}: {error}") from None
+    fitting = [brain for brain in brains if _fits(brain)]
+    built_in = [brain for brain in fitting if all(is_built_in(type(b)) for b in _blocks(brain))]
+    kept = [_numbers(to_plain(brain)) for brain in built_in or fitting]
+    if kept:
+        plain["brains"] = kept
+        if sum(brain.get("enabled", True) for brain in kept) != 1:
+            # the one that drove is not among them
+            plain["brains"] = [brain | {"enabled": brain is kept[0]} for brain in kept]
+    return plain
+
+
+def _fits(brain: Brain) -> bool:
+    try:
+        _numbers(to_plain(brain))
+    except TypeError:
+        return False
+    return all(
+        fits_a_file(type(block)) and Block.types.get(type(block).__name__) is type(block)
+        for block in _blocks(brain)
+    )
+
+
+def _blocks(block: Block) -> Iterator[Block]:
+    yield block
+    for value in block.values().values():
+        if isinstance(value, Block):
+            yield from _blocks(value)
+
+
+def _numbers(value: Any) -> Any:
+    """Plain data, with Python's own numbers in it."""
+    if value is None or isinstance(value, bool | str):
+        return value
+    if isinstance(value, np.generic | np.ndarray):
+        return value.tolist()
+    for kind in (int, float):
+        if isinstance(value, kind):
+            return kind(value)
+    if isinstance(value, Mapping):
+        return {str(key): _numbers(each) for key, each in value.items()}
+    if isinstance(value, list | tuple):
+        return [_numbers(each) for each in value]
+    raise TypeError(f"expected a parameter that a file can hold, got {value!r}")

@@ -1,0 +1,83 @@
+"""A robot that is somewhere else, for scripts that do other things meanwhile."""
+
+from collections.abc import AsyncIterator, Sequence
+from typing import Any, Self, SupportsIndex
+
+from ai4u_edu.remote.address import address_of
+from ai4u_edu.remote.async_connection import AsynchronousLine
+from ai4u_edu.remote.dialogue import Dialogue
+from ai4u_edu.remote.percept import RemotePercept
+from ai4u_edu.remote.robot_base import Driven
+from ai4u_edu.wire.native import Mode, OnMissing
+
+
+class AsyncRobot(Driven):
+    """The verbs of :class:`~ai4u_edu.remote.Robot`, to be awaited.
+
+    ::
+
+        async with AsyncRobot("http://teacher:8080", agent="red") as robot:
+            async for percept in robot:
+                await robot.act(move=[1, 0, 0, 0])
+
+    Arguments and errors are those of :func:`~ai4u_edu.remote.connect`.
+    """
+
+    def __init__(
+        self,
+        url: str,
+        agent: str = "",
+        *,
+        token: str = "",
+        mode: Mode = "realtime",
+        keys: Sequence[str] = (),
+        session: str = "",
+        patience: float = 10.0,
+        on_missing: OnMissing = "",
+    ) -> None:
+        address = address_of(url)
+        self._line = AsynchronousLine(address)
+        super().__init__(
+            Dialogue(
+                agent,
+                token=token or address.token,
+                mode=mode,
+                keys=keys,
+                session=session,
+                patience=patience,
+                on_missing=on_missing,
+            )
+        )
+
+    async def open(self) -> Self:
+        """Gets the agent."""
+        await self._line.run(self._dialogue.begin())
+        return self
+
+    async def sense(self) -> RemotePercept:
+        """What the robot senses now; after an action, as soon as its decision is over."""
+        return await self._line.run(self._dialogue.sense())
+
+    async def act(self, action: Any = None, /, **numbers: Any) -> None:
+        """Decides: answers the latest percept."""
+        await self._line.run(self._dialogue.act(numbers if action is None else action))
+
+    async def reset(self, seed: SupportsIndex | None = None) -> RemotePercept:
+        """Begins an episode; what the robot senses first."""
+        return await self._line.run(self._dialogue.reset(seed))
+
+    async def close(self) -> None:
+        """Leaves the robot to the brain that it had before."""
+        await self._line.run(self._dialogue.end())
+
+    async def __aiter__(self) -> AsyncIterator[RemotePercept]:
+        """Every percept that needs an action, until the episode is over."""
+        while not (percept := await self.sense()).done:
+            yield percept
+            self._dialogue.expect_answer_to(percept)
+
+    async def __aenter__(self) -> Self:
+        return await self.open()
+
+    async def __aexit__(self, *_: object) -> None:
+        await self.close()

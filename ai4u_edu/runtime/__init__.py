@@ -1,0 +1,1 @@
+"""Running a world against the wall clock, in a thread of its own."""

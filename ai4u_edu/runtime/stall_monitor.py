@@ -1,0 +1,140 @@
+"""Detection of blocks that do not return: the thread that runs the world is stuck in one."""
+
+import logging
+import threading
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+
+from ai4u_edu.agent import BasicAgent
+from ai4u_edu.agent.block_frames import Place, calls_of_thread, find_place
+
+logger = logging.getLogger(__name__)
+
+STALL_S = 2.0
+"""Seconds after which a tick or a command that has not ended counts as stalled."""
+POLL_S = 0.5
+"""Seconds between two looks of the thread that writes the log."""
+
+
+@dataclass(frozen=True, slots=True)
+class Stall:
+    """A tick or a command that has not ended for too long."""
+
+    since: float
+    """When it began, by the runner's clock (s)."""
+    seconds: float
+    """Time since then, when this was noticed."""
+    place: Place
+    """Where the thread is."""
+
+    @property
+    def block(self) -> str:
+        """The block that does not return; empty if the thread is in none."""
+        return self.place.block
+
+    @property
+    def agent(self) -> str:
+        """The id of its agent; empty if it is not known."""
+        return self.place.agent
+
+    @property
+    def where(self) -> str:
+        """File and line; empty if they are not known."""
+        return self.place.where
+
+    @property
+    def title(self) -> str:
+        """The block, its agent and the line, without the time."""
+        return f"{self.place} ({self.where})" if self.where else str(self.place)
+
+    def __str__(self) -> str:
+        """Tell it in a sentence.
+
+        >>> place = Place("Sensor WallDistance 'wall'", "0", "my_blocks.py, line 12")
+        >>> str(Stall(since=3.0, seconds=5.2, place=place))
+        "Sensor WallDistance 'wall' of agent '0' has not answered for 5 s (my_blocks.py, line 12)"
+        """
+        where = f" ({self.where})" if self.where else ""
+        return f"{self.place} has not answered for {self.seconds:.0f} s{where}"
+
+
+class StallMonitor:
+    """Tells whether the thread that runs the world is stuck, and in which block.
+
+    That thread calls :meth:`begin` and :meth:`end`, which take no lock and cost no more than a look
+    at the clock. Any thread may ask for :attr:`stall`; only then, and only if too much time has
+    passed, the stack is looked at. A thread of the monitor's own asks now and then, for the log.
+
+    Args:
+        clock: seconds.
+        agents: returns those of the world that runs.
+    """
+
+    def __init__(
+        self, clock: Callable[[], float], agents: Callable[[], Iterable[BasicAgent]]
+    ) -> None:
+        self._clock = clock
+        self._agents = agents
+        self._since: float | None = None
+        self._thread_id = 0
+        self._seen: Stall | None = None
+        self._logged: Stall | None = None
+        self._ended = threading.Event()
+
+    def begin(self) -> None:
+        """Note that the calling thread begins something that should soon end."""
+        self._thread_id = threading.get_ident()
+        self._since = self._clock()
+
+    def end(self) -> None:
+        """Note that it has ended, or only waits for what may come."""
+        self._since = None
+
+    @property
+    def is_stalled(self) -> bool:
+        """True while something that should have ended has not; cheap."""
+        since = self._since
+        return since is not None and self._clock() - since > STALL_S
+
+    @property
+    def stall(self) -> Stall | None:
+        """The tick or command that has not ended for too long; None while all is well."""
+        return self.under_way() if self.is_stalled else None
+
+    def under_way(self) -> Stall | None:
+        """Return what has not ended, however long it has taken; None if nothing is under way."""
+        since = self._since
+        if since is None:
+            return None
+        place = find_place(calls_of_thread(self._thread_id), self._agents())
+        if self._since != since:
+            return None  # it ended while the stack was looked at
+        return Stall(since, self._clock() - since, place)
+
+    def start(self) -> None:
+        """Begin to log stalls, from a thread of its own."""
+        threading.Thread(target=self._run, name="stall monitor", daemon=True).start()
+
+    def stop(self) -> None:
+        """End that thread."""
+        self._ended.set()
+
+    def log_changes(self) -> None:
+        """Log a stall that has begun, or one that has ended, once each.
+
+        One that is seen for the first time is looked at once more: a process that was stopped for a
+        while, or a computer that slept, goes on in the middle of a tick.
+        """
+        stall, seen, logged = self.stall, self._seen, self._logged
+        self._seen = stall
+        if logged is not None and (stall is None or stall.since != logged.since):
+            self._logged = None
+            lasted = self._clock() - logged.since
+            logger.warning("%s goes on, after about %.0f s", logged.place, lasted)
+        elif stall is not None and logged is None and seen and seen.since == stall.since:
+            self._logged = stall
+            logger.warning("%s", stall)
+
+    def _run(self) -> None:
+        while not self._ended.wait(POLL_S):
+            self.log_changes()

@@ -1,0 +1,127 @@
+"""Blocks as plain data, as it stands in a scene file, and back."""
+
+import inspect
+from collections.abc import Mapping, Sequence
+from typing import Any, get_args
+
+from pydantic import ValidationError
+
+from ai4u_edu.base.errors import AI4UError, ParameterError, shown, suggest
+from ai4u_edu.base.parameters import MAX_HINTS, Problem, explain, listed
+from ai4u_edu.blocks import Actuator, Block, Brain, Controller, RewardFunc, ScriptController, Sensor
+from ai4u_edu.blocks.parameterized import Declared
+
+Path = tuple[str | int, ...]
+
+KINDS: tuple[type[Block], ...] = (Sensor, Actuator, RewardFunc, Brain, Controller)
+
+OWN = "a block of your own is known once its file is imported, or named with --blocks FILE.py"
+"""What to do about a type that is not built in."""
+
+
+def fits_a_file(cls: type[Block]) -> bool:
+    """Whether a scene file can name a class: not one that is only the base of others."""
+    # what holds a Python function can't be written down
+    return cls not in (*KINDS, ScriptController) and not cls.__dict__.get("abstract")
+
+
+class PlainError(AI4UError):
+    """What is wrong with plain data: every problem, with its path."""
+
+    def __init__(self, problems: Sequence[Problem]) -> None:
+        super().__init__(listed(problems))
+        self.problems = tuple(problems)
+
+
+def to_plain(value: Any) -> Any:
+    """A block with its type and the parameters that are not as by default; lists, dicts alike."""
+    if isinstance(value, Block):
+        return {"type": type(value).__name__} | to_plain(value.given())
+    if isinstance(value, Mapping):
+        return {str(key): to_plain(each) for key, each in value.items()}
+    if isinstance(value, list | tuple):
+        return [to_plain(each) for each in value]
+    return value
+
+
+def from_plain(kind: type[Block], data: Any, path: Path = ()) -> Block:
+    """Makes a block.
+
+    Args:
+        kind: what it has to be, such as :class:`Sensor`.
+        data: a mapping with a ``type`` and parameters.
+        path: where the data stands, for messages.
+
+    Raises:
+        PlainError: it is no block, of no such type, or its parameters are wrong.
+    """
+    if not isinstance(data, Mapping):
+        raise PlainError([Problem(path, f"expected a mapping with a 'type', got {shown(data)}")])
+    known = {
+        name: cls for name, cls in Block.types.items() if issubclass(cls, kind) and fits_a_file(cls)
+    }
+    name = data.get("type")
+    if name is None:
+        raise PlainError([Problem(path, f"needs a 'type'; {suggest('', known)}")])
+    if not isinstance(name, str) or name not in known:
+        hint = suggest(name if isinstance(name, str) else "", known)
+        text = f"unknown type of {kind.__name__.lower()} {shown(name)}; {hint}"
+        raise PlainError([Problem((*path, "type"), f"{text}; {OWN}")])
+    given = {str(key): value for key, value in data.items() if key != "type"}
+    made = make(known[name], given, path)
+    if not isinstance(made, Block):  # pragma: no cover - known holds blocks only
+        raise TypeError(name)
+    return made
+
+
+def make(cls: type[Declared], given: Mapping[str, Any], path: Path) -> Declared:
+    """Makes a declared thing from plain parameters, blocks among them."""
+    problems: list[Problem] = []
+    values: dict[str, Any] = {}
+    fields = cls.parameters()
+    for name, value in given.items():
+        kind = _block_kind(fields[name].annotation) if name in fields else None
+        try:
+            values[name] = _convert(kind, value, (*path, name)) if kind else value
+        except PlainError as error:
+            problems += error.problems
+    if problems:
+        raise PlainError(problems)
+    try:
+        return cls(**values)
+    except ParameterError as error:
+        cause = error.details
+        if not isinstance(cause, ValidationError):
+            raise PlainError([Problem(path, str(error))]) from None
+        found = explain(cause.errors(), fields)
+        raise PlainError([Problem((*path, *each.path), each.text) for each in found]) from None
+    except AI4UError as error:
+        raise PlainError([Problem(path, str(error))]) from None
+
+
+def _convert(kind: type[Block], value: Any, path: Path) -> Any:
+    if not isinstance(value, list | tuple):
+        return from_plain(kind, value, path)
+    problems: list[Problem] = []
+    blocks = []
+    for index, each in enumerate(value):
+        try:
+            blocks.append(from_plain(kind, each, (*path, index)))
+        except PlainError as error:
+            problems += error.problems
+            if len(problems) >= MAX_HINTS:  # as many as anybody reads; each costs time
+                break
+    if problems:
+        raise PlainError(problems)
+    return blocks
+
+
+def _block_kind(annotation: Any) -> type[Block] | None:
+    """Which kind of block a parameter holds, alone or in a list; None if it holds none."""
+    if inspect.isclass(annotation) and issubclass(annotation, Block):
+        return annotation
+    for part in get_args(annotation):
+        kind = _block_kind(part)
+        if kind is not None:
+            return kind
+    return None

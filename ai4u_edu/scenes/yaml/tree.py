@@ -1,0 +1,149 @@
+"""YAML's events to plain data and the line of everything; in C where there is libyaml."""
+
+import re
+from collections.abc import Callable, Iterator
+from typing import Any, NamedTuple
+
+import yaml
+
+from ai4u_edu.scenes.yaml.messages import fault_of
+
+MAX_DEPTH = 24
+LONGEST = 100
+"""Characters of a number."""
+
+_Event = Any  # PyYAML's types say nothing of what an event has
+_Loader: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
+IS_QUICK = _Loader is not yaml.SafeLoader
+"""Whether libyaml is there, as it is wherever PyYAML did not have to be built."""
+
+
+def _endless(text: str) -> float:
+    return float(text.replace(".", ""))
+
+
+# what YAML 1.2 takes for something else than a text
+_SPECIAL = re.compile(r"[-+.0-9~tTfFnN]")
+_WORDS = {
+    **dict.fromkeys(("true", "True", "TRUE"), True),
+    **dict.fromkeys(("false", "False", "FALSE"), False),
+    **dict.fromkeys(("null", "Null", "NULL", "~", ""), None),
+}
+_NUMBERS: tuple[tuple[re.Pattern[str], Callable[[str], int | float]], ...] = (
+    (re.compile(r"[-+]?[0-9][0-9_]*"), int),
+    (re.compile(r"[-+]?(\.[0-9]+|[0-9][0-9_]*(\.[0-9_]*)?)([eE][-+]?[0-9]+)?"), float),
+    (re.compile(r"[-+]?0o[0-7]+"), lambda text: int(text, 8)),
+    (re.compile(r"[-+]?0x[0-9a-fA-F]+"), lambda text: int(text, 16)),
+    (re.compile(r"[-+]?0b[01]+"), lambda text: int(text, 2)),
+    (
+        re.compile(r"[-+]?\.(inf|Inf|INF)|\.(nan|NaN|NAN)"),
+        _endless,
+    ),
+)
+
+
+class Tree(NamedTuple):
+    """A value and where it stands."""
+
+    data: Any
+    """Mappings, lists, texts, numbers, booleans and None."""
+    line: int
+    """From 1 on: of a mapping's entry its key's."""
+    parts: "dict[str | int, Tree]"
+    """What is in it, by key or by place."""
+
+
+_NONE: "dict[str | int, Tree]" = {}
+
+
+class NotYamlError(Exception):
+    """It can't be read.
+
+    Attributes:
+        line: from 1 on; 0 if it has none.
+        column: from 1 on; 0 for the whole line.
+    """
+
+    def __init__(self, line: int, text: str, column: int = 0) -> None:
+        super().__init__(text)
+        self.line, self.column = line, column
+
+
+def read_tree(text: str) -> Tree:
+    """Reads a document.
+
+    Raises:
+        NotYamlError: it is not YAML, or uses what a scene does not need.
+
+    >>> read_tree("a: [1, x]").data
+    {'a': [1, 'x']}
+    """
+    try:
+        events = yaml.parse(text, Loader=_Loader)
+        return _document(events)
+    except (yaml.YAMLError, ValueError) as error:
+        fault = fault_of(error, text)
+        raise NotYamlError(fault.line, fault.words, fault.column) from None
+
+
+def _document(events: Iterator[_Event]) -> Tree:
+    next(events)  # the stream begins
+    if isinstance(next(events), yaml.StreamEndEvent):
+        return Tree(None, 1, {})
+    tree = _tree(next(events), events, 0)
+    next(events)  # the document ends
+    after = next(events)
+    if not isinstance(after, yaml.StreamEndEvent):
+        raise NotYamlError(after.start_mark.line + 1, "expected one document, got another one")
+    return tree
+
+
+def _tree(event: _Event, events: Iterator[_Event], depth: int, line: int = 0) -> Tree:
+    line = line or event.start_mark.line + 1
+    # aliases blow a small file up to a huge one, tags ask for objects; a scene needs neither
+    if isinstance(event, yaml.AliasEvent) or event.anchor is not None or event.tag is not None:
+        raise NotYamlError(
+            line,
+            "expected plain values; anchors (&), aliases (*) and tags (!) are not used in scene "
+            "files",
+        )
+    if isinstance(event, yaml.ScalarEvent):
+        return Tree(_value(event.value, line) if event.implicit[0] else event.value, line, _NONE)
+    if depth > MAX_DEPTH:
+        raise NotYamlError(0, f"nested more than {MAX_DEPTH} deep")
+    parts: dict[str | int, Tree] = {}
+    if isinstance(event, yaml.SequenceStartEvent):
+        while not isinstance(event := next(events), yaml.SequenceEndEvent):
+            parts[len(parts)] = _tree(event, events, depth + 1)
+        return Tree([part.data for part in parts.values()], line, parts)
+    while not isinstance(event := next(events), yaml.MappingEndEvent):
+        named = _tree(event, events, depth + 1)
+        if not isinstance(event, yaml.ScalarEvent):
+            raise NotYamlError(named.line, "expected words as keys, got lists or mappings")
+        if event.value in parts:
+            first = parts[event.value].line
+            raise NotYamlError(
+                named.line,
+                f"{event.value!r} stands here for the second time, after line {first}; expected "
+                "each name once",
+                _column(event),
+            )
+        parts[event.value] = _tree(next(events), events, depth + 1, named.line)
+    return Tree({key: part.data for key, part in parts.items()}, line, parts)
+
+
+def _column(event: _Event) -> int:
+    return int(event.start_mark.column) + 1
+
+
+def _value(text: str, line: int) -> Any:
+    """What a text without quotes stands for."""
+    if text in _WORDS:
+        return _WORDS[text]
+    if _SPECIAL.match(text):
+        for pattern, number in _NUMBERS:
+            if pattern.fullmatch(text):
+                if len(text) > LONGEST:
+                    raise NotYamlError(line, f"expected numbers of at most {LONGEST} characters")
+                return number(text.replace("_", ""))
+    return text

@@ -1,0 +1,52 @@
+"""The rules of a room for all its scripts."""
+
+import math
+from dataclasses import dataclass
+
+from ai4u_edu.base.errors import SetupError
+from ai4u_edu.wire.native import OnMissing
+
+MAX_GRACE_S = 600.0
+MIN_RECEIVE_TIMEOUT_MS = 200
+MAX_RECEIVE_TIMEOUT_MS = 600_000
+
+
+@dataclass(frozen=True, slots=True)
+class Rules:
+    """The limits of a room's scripts: their times, their token, their rights.
+
+    Raises:
+        SetupError: a number is out of range.
+
+    >>> Rules(grace=-1.0)
+    Traceback (most recent call last):
+    ...
+    ai4u_edu.base.errors.SetupError: grace: expected a number of seconds from 0 to 600, got -1.0
+    """
+
+    grace: float = 3.0
+    """Seconds that a seat is kept for a script whose connection is lost."""
+    receive_timeout: int = 2000
+    """Milliseconds for which a world in lockstep waits for an action; a script that is silent for
+    longer is given up until it speaks again."""
+    token: str = ""
+    """What a script, and a page, has to say to be let in; empty for nothing."""
+    seeded_resets: bool = False
+    """Whether the script of one of several agents may begin a new episode for all of them."""
+    lockstep: bool | None = None
+    """True lets a script have the world wait for its actions; left out, only where its agent is
+    the only one. A program that drives all agents of a world in lockstep needs True."""
+    on_missing: OnMissing = ""
+    """Substitute for an action that is missing, if a script does not choose; empty: hold
+    while its connection is there, stop when it is lost."""
+
+    def __post_init__(self) -> None:
+        if not (math.isfinite(self.grace) and 0 <= self.grace <= MAX_GRACE_S):
+            raise SetupError(
+                f"grace: expected a number of seconds from 0 to {MAX_GRACE_S:g}, got {self.grace}"
+            )
+        if not MIN_RECEIVE_TIMEOUT_MS <= self.receive_timeout <= MAX_RECEIVE_TIMEOUT_MS:
+            raise SetupError(
+                f"receive_timeout: expected a number of milliseconds from {MIN_RECEIVE_TIMEOUT_MS} "
+                f"to {MAX_RECEIVE_TIMEOUT_MS}, got {self.receive_timeout}"
+            )

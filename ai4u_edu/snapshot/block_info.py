@@ -1,0 +1,231 @@
+"""What is known of an agent's readings and actions beforehand: names, units, ranges."""
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+from weakref import WeakKeyDictionary
+
+import numpy as np
+import numpy.typing as npt
+from gymnasium import spaces
+
+from ai4u_edu.agent import BasicAgent
+from ai4u_edu.agent.bound_blocks import Fitting
+from ai4u_edu.blocks import (
+    Actuator,
+    GridSensor,
+    Legend,
+    LocalGridSensor,
+    OrientationSensor,
+    Percept,
+    RayPicture,
+    RaySensor,
+    Sensor,
+    SpotPicture,
+)
+
+LEAST_SEEN = {"cosine": -1.0, "distance": 0.0}
+"""The least that an OrientationSensor reads of a target that it sees."""
+
+Floats = npt.NDArray[np.float64]
+
+
+class Window(NamedTuple):
+    """The piece of the world that a picture from above shows."""
+
+    size: tuple[float, float]
+    """Metres: along the heading and across it, or along x and y if it stays where it is."""
+    centre: tuple[float, float] | None
+    """Where it stays; None if it goes and turns with the agent."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Sense:
+    """One sensor's part of the percept."""
+
+    key: str
+    """Its perception key."""
+    block: str
+    """The sensor's class."""
+    unit: str
+    """Of a raw reading; empty if it is normalised, or has none."""
+    slots: tuple[str, ...]
+    """What the numbers of one reading are called; empty if they have no names."""
+    low: Floats
+    """The least that each number of one reading can be, in the percept."""
+    high: Floats
+    """The most."""
+    stack: int
+    """So many readings are shown together, oldest first."""
+    targets: tuple[str, ...]
+    """The bodies and areas that it is about, by name."""
+    groups: tuple[str, ...]
+    """The groups (tags) that it is about."""
+    legend: Legend | None
+    """How the reading is seen as a picture, if it is one."""
+    window: Window | None
+    """What that picture shows of the world, if it is one from above."""
+    eye: tuple[float, float, float] | None
+    """Where its eye sits on the body, if it has one: (forward, left, up), metres."""
+
+
+class Component(NamedTuple):
+    """One number of an action."""
+
+    name: str
+    """Empty if it has none."""
+    low: float
+    high: float
+
+
+@dataclass(frozen=True, slots=True)
+class Control:
+    """One actuator's part of the action."""
+
+    name: str
+    block: str
+    """The actuator's class."""
+    components: tuple[Component, ...]
+    is_choice: bool
+    """Whether the number is one of several choices."""
+
+
+class Facts(NamedTuple):
+    """What is known of an agent as long as it has these blocks."""
+
+    senses: tuple[Sense, ...]
+    controls: tuple[Control, ...]
+    legends: Mapping[str, Legend]
+    """How readings are seen as pictures, by perception key."""
+
+
+class RayPictures(Mapping[str, RayPicture]):
+    """The rays of one percept by perception key; each picture is made when it is looked at.
+
+    Args:
+        makers: of each picture.
+    """
+
+    def __init__(self, makers: Mapping[str, Callable[[], RayPicture]]) -> None:
+        self._makers = makers
+        self._made: dict[str, RayPicture] = {}
+
+    def __getitem__(self, key: str) -> RayPicture:
+        made = self._made.get(key)
+        if made is None:
+            made = self._made[key] = self._makers[key]()
+        return made
+
+    def __contains__(self, key: object) -> bool:
+        return key in self._makers
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._makers)
+
+    def __len__(self) -> int:
+        return len(self._makers)
+
+
+class Pictures(NamedTuple):
+    """What sensors looked at for one percept, by perception key."""
+
+    rays: Mapping[str, RayPicture]
+    spots: dict[str, SpotPicture]
+
+
+_facts: "WeakKeyDictionary[Fitting, Facts]" = WeakKeyDictionary()
+_pictures: "WeakKeyDictionary[Fitting, tuple[Percept, Pictures]]" = WeakKeyDictionary()
+
+
+def facts_of(agent: BasicAgent) -> Facts:
+    """What is known of an agent's readings and actions; worked out once for its blocks."""
+    fitting = agent.fitting
+    known = _facts.get(fitting)
+    if known is None:
+        senses = tuple(_sense(sensor) for sensor in fitting.sensors)
+        known = _facts[fitting] = Facts(
+            senses,
+            tuple(_control(actuator) for actuator in fitting.actuators.values()),
+            {sense.key: sense.legend for sense in senses if sense.legend is not None},
+        )
+    return known
+
+
+def pictures_of(agent: BasicAgent) -> Pictures:
+    """What an agent's sensors looked at; worked out once for each percept."""
+    fitting, percept = agent.fitting, agent.percept
+    known = _pictures.get(fitting)
+    if known is None or known[0] is not percept:
+        active = [sensor for sensor in fitting.sensors if sensor.is_active]
+        spots = {sensor.perception_key: sensor.spots() for sensor in active}
+        rays = RayPictures(
+            {
+                sensor.perception_key: sensor.later()
+                for sensor in active
+                if isinstance(sensor, RaySensor)
+            }
+        )
+        seen = Pictures(rays, {key: each for key, each in spots.items() if each is not None})
+        known = _pictures[fitting] = percept, seen
+    return known[1]
+
+
+def _sense(sensor: Sensor) -> Sense:
+    low, high = _range(sensor)
+    slots = sensor.slots()
+    return Sense(
+        key=sensor.perception_key,
+        block=type(sensor).__name__,
+        unit="" if sensor.normalized else sensor.unit,
+        # a student's own names may not fit; then the numbers go by their place
+        slots=slots if len(slots) == len(low) else (),
+        low=low,
+        high=high,
+        stack=sensor.stacked_observations,
+        targets=_named(sensor, "target", "area"),
+        groups=_named(sensor, "group", "target_group"),
+        legend=sensor.legend(),
+        window=_window(sensor),
+        eye=sensor.eye if isinstance(sensor, RaySensor) else None,
+    )
+
+
+def _range(sensor: Sensor) -> tuple[Floats, Floats]:
+    """The ends of each number's range, of one reading."""
+    space = sensor.observation_space()
+    if not isinstance(space, spaces.Box):
+        high = float(space.n - 1) if isinstance(space, spaces.Discrete) else 1.0
+        return np.zeros(1), np.full(1, high)
+    count = space.low.size // sensor.stacked_observations
+    ends: tuple[Any, Any] = (space.low, space.high)
+    low, high_each = (each.ravel()[:count].astype(np.float64) for each in ends)
+    if isinstance(sensor, OrientationSensor):  # its lowest numbers say "not to be seen"
+        low = np.array([LEAST_SEEN[slot] for slot in sensor.slots()])
+    return low, high_each
+
+
+def _window(sensor: Sensor) -> Window | None:
+    if isinstance(sensor, LocalGridSensor):
+        side = sensor.cell_size
+        return Window((sensor.height * side, sensor.width * side), None)
+    if isinstance(sensor, GridSensor) and not sensor.around:
+        side = sensor.cell_size
+        return Window((sensor.columns * side, sensor.rows * side), sensor.centre)
+    return None
+
+
+def _named(block: object, *fields: str) -> tuple[str, ...]:
+    found = (getattr(block, field, "") for field in fields)
+    return tuple(name for name in found if isinstance(name, str) and name)
+
+
+def _control(actuator: Actuator) -> Control:
+    low, high = actuator.limits()
+    slots = actuator.slots()
+    names = slots if len(slots) == len(low) else ("",) * len(low)
+    return Control(
+        name=actuator.action_name,
+        block=type(actuator).__name__,
+        components=tuple(map(Component, names, low, high)),
+        is_choice=isinstance(actuator.space(), spaces.Discrete),
+    )

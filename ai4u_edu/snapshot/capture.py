@@ -1,0 +1,166 @@
+"""Capture of a running world as an immutable snapshot."""
+
+from collections.abc import Iterator, Sequence
+
+from ai4u_edu.agent import BasicAgent
+from ai4u_edu.agent.cycle import ControlRequestor, Phase
+from ai4u_edu.blocks import (
+    FallReward,
+    HomeostaticReward,
+    RemoteBrain,
+    RewardFunc,
+)
+from ai4u_edu.snapshot.block_info import facts_of, pictures_of
+from ai4u_edu.snapshot.types import NOWHERE, AgentState, BodyState, Need, SlowTick, Snapshot, Stage
+from ai4u_edu.world import AreaDescription
+
+
+def picture_of(
+    sim: ControlRequestor,
+    stage: Stage | None = None,
+    *,
+    paused: bool = False,
+    time_scale: float = 1.0,
+    real_time_factor: float = 1.0,
+    error: str = "",
+    slow_tick: SlowTick | None = None,
+) -> Snapshot:
+    """Everything as it is now.
+
+    Args:
+        sim: the world and its agents.
+        stage: what :func:`set_stage` gave, if nothing was built since.
+        paused: whether the time stands still.
+        time_scale: how fast it should run.
+        real_time_factor: how fast it ran lately.
+        error: what stopped the world.
+        slow_tick: one that took too long, lately.
+    """
+    world = sim.world
+    return Snapshot(
+        stage=stage or set_stage(sim),
+        tick=world.ticks,
+        time=world.time,
+        seed=world.seeds.seed,
+        episode=sim.episode,
+        paused=paused,
+        time_scale=time_scale,
+        real_time_factor=real_time_factor,
+        error=error,
+        bodies=body_states(sim),
+        agents=tuple(agent_state(agent, sim.success, sim.phase(agent)) for agent in sim.agents),
+        slow_tick=slow_tick,
+    )
+
+
+def set_stage(sim: ControlRequestor) -> Stage:
+    """What does not move in a world."""
+    world = sim.world
+    return Stage(
+        settings=world.settings,
+        floors=world.floors,
+        areas=tuple(
+            region.description
+            for region in world.areas.values()
+            if isinstance(region.description, AreaDescription)
+        ),
+        bodies=tuple(body.drawn for body in world.bodies.values()),
+        agent_of={agent.body_name: agent.id for agent in sim.agents},
+        bounds=world.bounds(),
+        goal=sim.goal,
+        success=sim.success,
+    )
+
+
+def body_states(sim: ControlRequestor) -> tuple[BodyState, ...]:
+    """Where all bodies are now."""
+    states = []
+    for body in sim.world.bodies.values():
+        x, y = body.position
+        vx, vy = body.velocity
+        states.append(
+            BodyState(
+                name=body.name,
+                x=x,
+                y=y,
+                z=body.z,
+                heading=body.heading,
+                vx=vx,
+                vy=vy,
+                vz=body.vz,
+                angular_velocity=body.angular_velocity,
+                on_ground=body.on_ground,
+                fallen=body.fallen,
+            )
+        )
+    return tuple(states)
+
+
+def agent_state(agent: BasicAgent, success: str = "", phase: Phase = NOWHERE) -> AgentState:
+    """What an agent sensed, did and got in its last decision.
+
+    Args:
+        agent: which.
+        success: the reward term that is paid when the goal is reached.
+        phase: how far it is in its decision.
+    """
+    ledger, facts, pictures = agent.ledger, facts_of(agent), pictures_of(agent)
+    reward, terms = ledger.finished
+    return AgentState(
+        id=agent.id,
+        body=agent.body_name,
+        brain=agent.brain.title(),
+        percept=agent.percept,
+        action=dict(agent.last_action),
+        clipped=sum(actuator.clipped for actuator in agent.fitting.actuators.values()),
+        reward=reward,
+        reward_terms=dict(terms),
+        episode_reward=ledger.episode_total,
+        episode_terms=dict(ledger.episode_terms),
+        steps=agent.steps,
+        terminated=agent.terminated,
+        truncated=agent.truncated,
+        paused=agent.paused,
+        held_keys=agent.keyboard.held(),
+        rays=pictures.rays,
+        remote=agent.brain.status() if isinstance(agent.brain, RemoteBrain) else None,
+        episode=agent.episode,
+        succeeded=ledger.episode_terms.get(success, 0.0) > 0,
+        fell=_fell(agent),
+        needs=tuple(_needs(agent)),
+        spots=pictures.spots,
+        legends=facts.legends,
+        phase=phase,
+        history=ledger.latest(),
+        senses=facts.senses,
+        controls=facts.controls,
+    )
+
+
+def _fell(agent: BasicAgent) -> bool:
+    if not agent.terminated:
+        return False
+    low = agent.body.fallen and not agent.body.on_ground  # who was only taken away stood there
+    ends = [
+        reward
+        for reward in agent.fitting.rewards
+        if reward.cause_episode_to_end and agent.ledger.terms.get(reward.name)
+    ]
+    # after another end a body may yet roll over the edge
+    return any(_is_for_falling(reward, low=low) for reward in ends) if ends else low
+
+
+def _is_for_falling(reward: RewardFunc, *, low: bool) -> bool:
+    children: Sequence[RewardFunc] = getattr(reward, "children", ())
+    return isinstance(reward, FallReward) or (
+        low and any(_is_for_falling(child, low=low) for child in children)
+    )
+
+
+def _needs(agent: BasicAgent) -> Iterator[Need]:
+    for reward in agent.fitting.rewards:
+        if isinstance(reward, HomeostaticReward):
+            for each in reward.variables:
+                bounds = each.range_min, each.range_max
+                comfort = each.comfort_min, each.comfort_max
+                yield Need(each.name, each.level, bounds, comfort)

@@ -1,0 +1,89 @@
+"""Looks at the policy now and then, keeps the best one, and says when it is good enough."""
+
+import time
+from collections.abc import Callable
+
+import numpy as np
+import numpy.typing as npt
+from stable_baselines3.common.callbacks import BaseCallback
+
+from ai4u_edu.envs import SceneEnv
+from ai4u_edu.training.run import Check, Run
+from ai4u_edu.training.settings import Settings
+from ai4u_edu.training.vec_evaluation import trials
+from ai4u_edu.training.worlds import ABOVE
+
+SEEDS = 2 * ABOVE
+"""The checks' seeds begin here: they are neither the training's nor an evaluation's."""
+
+
+class Keeper(BaseCallback):  # type: ignore[misc]  # seen without its types
+    """Checks the policy every so many decisions.
+
+    Args:
+        run: where the best model is kept.
+        scene_env: makes a world to check in.
+        settings: on how many episodes, and when it is enough.
+        table: the actions, where the model chooses them by number.
+        every: decisions between two checks.
+        has_goal: whether the scene has a success.
+    """
+
+    def __init__(
+        self,
+        run: Run,
+        scene_env: Callable[[], SceneEnv],
+        settings: Settings,
+        *,
+        table: npt.NDArray[np.float32] | None,
+        every: int,
+        has_goal: bool,
+    ) -> None:
+        super().__init__()
+        self.checks = run.checks()
+        self.enough = False
+        """Whether the last checks saw nothing but success."""
+        self._run = run
+        self._settings = settings
+        self._table = table
+        self._every = every
+        self._has_goal = has_goal
+        self._envs = [scene_env() for _ in range(settings.check_episodes)]
+        self._seconds_before = self.checks[-1].seconds if self.checks else 0.0
+
+    @property
+    def best(self) -> Check | None:
+        """The best check so far."""
+        return max(self.checks, key=lambda check: check.rank, default=None)
+
+    def _on_training_start(self) -> None:
+        self._began = time.perf_counter()
+        self._next = self.num_timesteps + self._every
+
+    def _on_step(self) -> bool:
+        if self.num_timesteps >= self._next:
+            self._next += self._every
+            self.check()
+        return not self.enough
+
+    def check(self) -> Check:
+        """Looks at the policy now."""
+        best = self.best
+        seeds = range(SEEDS, SEEDS + len(self._envs))
+        episodes = trials(self.model, self._envs, seeds, self._table)
+        check = Check(
+            steps=self.num_timesteps,
+            seconds=self._seconds_before + time.perf_counter() - self._began,
+            success=float(np.mean([each.success for each in episodes])) if self._has_goal else None,
+            reward=float(np.mean([each.reward for each in episodes])),
+            length=float(np.mean([each.length for each in episodes])),
+        )
+        self.checks.append(check)
+        if best is None or check.rank >= best.rank:
+            self._run.put(self._run.best, self.model.save)
+        self._run.note(self.checks)
+        latest = [each.success for each in self.checks[-self._settings.enough :]]
+        self.enough = 0 < self._settings.enough <= latest.count(1.0)
+        self.logger.record("check/success", check.success or 0.0)
+        self.logger.record("check/reward", check.reward)
+        return check

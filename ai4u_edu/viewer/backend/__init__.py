@@ -1,0 +1,1 @@
+"""The connection to viser: broadcast, incoming messages, pace of drawing."""

@@ -1,0 +1,148 @@
+"""The tab in which a page shows an agent: what it senses, does and gets."""
+
+from viser import (
+    ClientHandle,
+    GuiButtonHandle,
+    GuiDropdownHandle,
+    GuiEvent,
+    GuiFolderHandle,
+    GuiHtmlHandle,
+    Icon,
+    IconName,
+)
+
+from ai4u_edu.runtime.runner import Runner
+from ai4u_edu.snapshot import AgentState, Snapshot, Stage
+from ai4u_edu.snapshot.block_info import Sense
+from ai4u_edu.snapshot.theme import Rgb, group_colours
+from ai4u_edu.viewer.panel.agent_html import SIMPLE, AgentWriter, title
+from ai4u_edu.viewer.panel.plot import RewardPlot
+from ai4u_edu.viewer.panel.readings import block, heading
+from ai4u_edu.viewer.panel.remote_lines import RemoteLines
+from ai4u_edu.viewer.panel.status import legend
+from ai4u_edu.viewer.scene.sense_overlay import is_seen, shows_by_itself
+from ai4u_edu.viewer.viewer_client import Onlooker
+
+SHOWN: IconName = Icon.EYE
+HIDDEN: IconName = Icon.EYE_OFF
+
+
+class AgentTab:
+    """One page's view of the agent that it looks at.
+
+    Args:
+        onlooker: the page.
+        runner: whose agents can be driven from elsewhere.
+        writer: the same for all pages.
+    """
+
+    def __init__(self, onlooker: Onlooker, runner: Runner, writer: AgentWriter) -> None:
+        gui = onlooker.client.gui
+        self._onlooker, self._writer = onlooker, writer
+        self._stage: Stage | None = None
+        self._colours: dict[str, Rgb] = {}
+        self._ids: dict[str, str] = {}
+        self._everybody = gui.add_html("", visible=False)
+        self.list = gui.add_dropdown("Look at", ("",), visible=False)
+        self.list.on_update(self._on_choice)
+        self._state, self._decision = gui.add_html(""), gui.add_html("")
+        self._inside = gui.add_html("")
+        self._legend = gui.add_html("")
+        self._senses = _Senses(onlooker)
+        self._also, self._action, self._ledger = (gui.add_html("") for _ in range(3))
+        self._plot = RewardPlot(gui)
+        self._lines = RemoteLines(onlooker, runner)
+
+    def draw(self, snapshot: Snapshot) -> None:
+        """Shows the agent's last decision."""
+        if snapshot.stage is not self._stage:
+            self._meet(snapshot.stage)
+        agent = next((each for each in snapshot.agents if each.id == self._onlooker.agent), None)
+        if agent is None:
+            return
+        name = next(name for name, each in self._ids.items() if each == agent.id)
+        if self.list.value != name:
+            self.list.value = name  # type: ignore[misc]  # a method parts getter from setter
+        self._senses.meet(agent)
+        html = self._writer.html(agent, snapshot, self._colours, self._senses.lit(agent))
+        self._everybody.content = html.everybody
+        self._state.content, self._decision.content = html.state, html.decision
+        self._inside.content, self._also.content = html.inside, html.also
+        self._action.content, self._ledger.content = html.action, html.ledger
+        self._senses.show(html.senses)
+        self._plot.draw(agent.history, lambda: self._writer.curves(agent))
+        self._lines.draw()
+
+    def _meet(self, stage: Stage) -> None:
+        self._stage, self._colours = stage, group_colours(stage)
+        self._legend.content = block(heading("Senses"), legend(stage))
+        self._ids = {title(agent_id, body): agent_id for body, agent_id in stage.agent_of.items()}
+        several = len(self._ids) > 1
+        self._everybody.visible = self.list.visible = several
+        if self.list.options != tuple(self._ids):
+            self.list.options = tuple(self._ids)
+
+    async def _on_choice(self, event: GuiEvent[GuiDropdownHandle[str]]) -> None:
+        if event.client is not None:  # not because the list has other options now
+            self._onlooker.agent = self._ids.get(event.target.value, self._onlooker.agent)
+
+
+class _Senses:
+    """A part for each sensor; one that can be shown in the scene has a button above it."""
+
+    def __init__(self, onlooker: Onlooker) -> None:
+        self._onlooker = onlooker
+        self._client: ClientHandle = onlooker.client
+        self._folder: GuiFolderHandle = self._client.gui.add_folder(None)
+        self._seen: tuple[str, tuple[Sense, ...]] | None = None
+        self._parts: dict[str, GuiHtmlHandle] = {}
+        self._buttons: dict[str, GuiButtonHandle] = {}
+        self._inside: list[GuiButtonHandle | GuiHtmlHandle] = []
+
+    def meet(self, agent: AgentState) -> None:
+        """Makes the parts, if it is another agent, or has other sensors."""
+        if self._seen is not None and self._seen == (agent.id, agent.senses):
+            return
+        self._seen = (agent.id, agent.senses)
+        for handle in self._inside:
+            handle.remove()
+        self._inside, self._parts, self._buttons = [], {}, {}
+        gui = self._client.gui
+        with self._folder:
+            for sense in agent.senses:
+                if sense.block in SIMPLE:
+                    continue
+                if is_seen(sense, agent):
+                    self._add_button(agent, sense)
+                self._parts[sense.key] = gui.add_html("")
+                self._inside.append(self._parts[sense.key])
+
+    def lit(self, agent: AgentState) -> set[str]:
+        """The keys of the sensors that are shown in the scene; their buttons say so."""
+        found = {
+            sense.key
+            for sense in agent.senses
+            if is_seen(sense, agent)
+            and self._onlooker.lights(sense.key, by_itself=shows_by_itself(sense, agent))
+        }
+        for key, button in self._buttons.items():
+            icon = SHOWN if key in found else HIDDEN
+            if button.icon != icon:
+                button.icon = icon
+        return found
+
+    def show(self, parts: dict[str, str]) -> None:
+        for key, html in parts.items():
+            self._parts[key].content = html
+
+    def _add_button(self, agent: AgentState, sense: Sense) -> None:
+        key, by_itself = sense.key, shows_by_itself(sense, agent)
+        hint = f"Shows in the scene what {key} is about, or hides it"
+        button = self._client.gui.add_button(key, icon=HIDDEN, hint=hint)
+
+        async def toggle(_event: object) -> None:
+            self._onlooker.light(key, not self._onlooker.lights(key, by_itself=by_itself))
+
+        button.on_click(toggle)
+        self._buttons[key] = button
+        self._inside.append(button)

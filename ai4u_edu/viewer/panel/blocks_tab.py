@@ -1,0 +1,266 @@
+"""The tab in which a page changes the agent that it looks at: its blocks, and who drives."""
+
+from concurrent.futures import Future
+from html import escape
+from typing import Any
+
+from viser import GuiButtonGroupHandle, GuiButtonHandle, GuiDropdownHandle, GuiEvent
+
+from ai4u_edu.agent.block_errors import message_of
+from ai4u_edu.base.errors import AI4UError
+from ai4u_edu.base.parameters import Problem
+from ai4u_edu.editing import ChangeError, Outcome, Workshop
+from ai4u_edu.editing.blocks import Path, block_at, is_on
+from ai4u_edu.editing.forms import Field
+from ai4u_edu.editing.names import Names
+from ai4u_edu.editing.settings import agent_form
+from ai4u_edu.editing.suggestion import suggestion
+from ai4u_edu.snapshot import Snapshot
+from ai4u_edu.viewer.panel.block_form import BlockForm
+from ai4u_edu.viewer.panel.block_labels import (
+    ADD,
+    BARE,
+    KINDS,
+    NO_BLOCK,
+    marked,
+    menu,
+    said,
+    titles,
+)
+from ai4u_edu.viewer.panel.notify import tell_of_stall
+from ai4u_edu.viewer.panel.settings_form import SettingsForm
+from ai4u_edu.viewer.panel.tabs import TabKind
+from ai4u_edu.viewer.viewer_client import Onlooker
+
+UNDO, REDO = "Undo", "Redo"
+ON, OFF, UP, DOWN, REMOVE = "On", "Off", "Up", "Down", "Remove"
+BRING_BACK, FORGET = "Bring it back", "Forget it"
+
+
+class BlocksTab:
+    """One page's hands on the agent that it looks at.
+
+    A form is made when somebody chooses a block: until then the tab is a few lists.
+
+    Args:
+        onlooker: the page.
+        workshop: carries out what is asked for.
+    """
+
+    def __init__(self, onlooker: Onlooker, workshop: Workshop) -> None:
+        gui = onlooker.client.gui
+        self._onlooker, self._workshop = onlooker, workshop
+        self._kind, self._path, self._form = "sensors", None, None
+        self._seen: tuple[object, ...] = ()
+        self._message, self._problems, self._agent = "", None, onlooker.agent
+        self._offer = gui.add_html("", visible=False)
+        self._offered = gui.add_button_group("", (BRING_BACK, FORGET), visible=False)
+        self._said = gui.add_html("")
+        gui.add_html(BARE)
+        self.changes = gui.add_button_group("Changes", (UNDO, REDO))
+        self.driver = gui.add_dropdown("Driven by", ("",))
+        self.settings = SettingsForm(
+            onlooker.client, "Agent's settings", self._settings, self._on_settings
+        )
+        self._mark = gui.add_html(marked(self._kind))
+        self.kind = gui.add_button_group("Blocks", tuple(KINDS))
+        self.new = gui.add_dropdown("New", (ADD,))
+        self.add = gui.add_button("Add", disabled=True)
+        self.block = gui.add_dropdown("Block", (NO_BLOCK,))
+        self._bare = gui.add_html(BARE, visible=False)
+        self.deeds = gui.add_button_group("This block", (OFF, UP, DOWN, REMOVE), visible=False)
+        self._place = gui.add_folder(None)
+        self._types: dict[str, str] = {}
+        self._paths: dict[str, Path] = {}
+        self._drivers: dict[str, str] = {}
+        self._offered.on_click(self._on_offer)
+        self.changes.on_click(self._on_changes)
+        self.driver.on_update(self._on_driver)
+        self.kind.on_click(self._on_kind)
+        self.block.on_update(self._on_block)
+        self.deeds.on_click(self._on_deed)
+        self.new.on_update(self._on_new)
+        self.add.on_click(self._on_add)
+
+    _path: Path | None
+    _form: BlockForm | None
+    _problems: tuple[Problem, ...] | None
+
+    def draw(self, snapshot: Snapshot) -> None:
+        """Shows what there is to change, when that is other than before."""
+        workshop, agent = self._workshop, self._onlooker.agent
+        if not any(each.id == agent for each in snapshot.agents):
+            return
+        if agent != self._agent:
+            self._agent, self._path = agent, None
+        brains = next(each.brain for each in snapshot.agents if each.id == agent)
+        seen = (workshop.version, agent, self._kind, self._path, brains)
+        if seen != self._seen:
+            try:
+                self._show(agent)
+            except AI4UError:
+                return  # another scene has just come: what is shown and what is wanted differ
+            self._seen = seen
+        self.settings.draw(agent, workshop.version)
+        if self._problems is not None and self._form is not None:
+            problems, self._problems = self._problems, None
+            self._form.explain(problems)
+            if not problems:
+                self._form.tell(self._message)
+        html = said(
+            workshop, next(each for each in snapshot.agents if each.id == agent), self._message
+        )
+        if self._said.content != html:
+            self._said.content = html
+        self._show_offer()
+
+    # -- what is shown ---------------------------------------------------------------------------
+
+    def _show(self, agent_id: str) -> None:
+        state = self._workshop.state
+        agent = state.agent(agent_id)
+        self._mark.content = marked(self._kind)
+        self._paths = titles(agent, self._kind)
+        if self._path not in self._paths.values():
+            self._path = None
+        chosen = next((t for t, path in self._paths.items() if path == self._path), NO_BLOCK)
+        _choose(self.block, (NO_BLOCK, *self._paths), chosen)
+        self._types = menu(self._kind)
+        _choose(self.new, (ADD, *self._types), ADD if self.new.value not in self._types else None)
+        self.add.disabled = self.new.value not in self._types
+        offered = self._workshop.drivers(agent_id)
+        self._drivers = {each.title: each.name for each in reversed(offered)}
+        drives = self._workshop.driver_of(agent_id)
+        title = next((t for t, name in self._drivers.items() if name == drives), "somebody else")
+        names = tuple(dict.fromkeys((*(each.title for each in offered), title)))
+        _choose(self.driver, names, title)
+        self._show_form(state, agent, agent_id)
+
+    def _show_form(self, state: Any, agent: Any, agent_id: str) -> None:
+        path = self._path
+        block = None if path is None else block_at(agent, path)
+        if self._form is not None and not self._form.takes(block, path):
+            self._form.remove()
+            self._form = None
+        if block is not None and path is not None:
+            if self._form is None:
+                with self._place:
+                    names = Names(state, agent_id)
+                    client = self._onlooker.client
+                    self._form = BlockForm(client, block, path, names, self._on_apply)
+            self.deeds.options = (OFF if is_on(path, block) else ON, UP, DOWN, REMOVE)
+        self._bare.visible = self.deeds.visible = path is not None and isinstance(path[-1], int)
+
+    def _show_offer(self) -> None:
+        unsaved = self._workshop.unsaved
+        if (unsaved is not None) != self._offer.visible:
+            self._offer.visible = self._offered.visible = unsaved is not None
+        if unsaved is not None:
+            told = f"<b>An unsaved scene from {escape(unsaved.when)} is there.</b>"
+            self._offer.content = f'<div class="ai4u">{told}</div>'
+
+    def _settings(self) -> list[Field]:
+        return agent_form(self._workshop.state.agent(self._onlooker.agent))
+
+    # -- what people ask for; in viser's loop, one after the other -------------------------------
+
+    async def _on_apply(self, _event: Any) -> None:
+        form, path = self._form, self._path
+        if form is None or path is None:
+            return
+        try:
+            values = form.changes()
+        except ChangeError as error:
+            self._problems = error.problems
+            return
+        self._ask(self._workshop.change_block(self._onlooker.agent, path, values), of_form=True)
+
+    def _on_settings(self, values: dict[str, Any]) -> "Future[Outcome]":
+        future = self._workshop.change_agent(self._onlooker.agent, values)
+        self._ask(future)
+        return future
+
+    async def _on_deed(self, event: GuiEvent[GuiButtonGroupHandle]) -> None:
+        agent, path = self._onlooker.agent, self._path
+        if path is None or not isinstance(path[-1], int):
+            return  # a controller belongs to its brain: it has no place in a list
+        match event.target.value:
+            case "On" | "Off" as word:
+                self._ask(self._workshop.switch_block(agent, path, word == ON))
+            case "Up" | "Down" as word:
+                by = -1 if word == UP else 1
+                *above, index = path
+                future = self._workshop.move_block(agent, path, by)
+                self._ask(future, (*above, max(0, int(index) + by)))
+            case "Remove":
+                self._ask(self._workshop.remove_block(agent, path))
+
+    async def _on_add(self, _event: GuiEvent[GuiButtonHandle]) -> None:
+        name, agent, state = self._types.get(self.new.value), self._onlooker.agent, None
+        if name is None:
+            return
+        state = self._workshop.state
+        where, count = (self._kind,), len(state.agent(agent).get(self._kind, ()))
+        future = self._workshop.add_block(agent, where, suggestion(state, agent, name))
+        self._ask(future, (*where, count))
+
+    async def _on_changes(self, event: GuiEvent[GuiButtonGroupHandle]) -> None:
+        undoes = event.target.value == UNDO
+        self._ask(self._workshop.undo() if undoes else self._workshop.redo())
+
+    async def _on_driver(self, event: GuiEvent[GuiDropdownHandle[str]]) -> None:
+        name = self._drivers.get(event.target.value)
+        if event.client is not None and name is not None:
+            self._seen = ()  # if it can't be, the list shows again who drives
+            self._ask(self._workshop.drive(self._onlooker.agent, name))
+
+    async def _on_kind(self, event: GuiEvent[GuiButtonGroupHandle]) -> None:
+        self._kind = KINDS.get(event.target.value, self._kind)
+
+    async def _on_block(self, event: GuiEvent[GuiDropdownHandle[str]]) -> None:
+        if event.client is not None:
+            self._path = self._paths.get(event.target.value)
+
+    async def _on_new(self, event: GuiEvent[GuiDropdownHandle[str]]) -> None:
+        self.add.disabled = event.target.value not in self._types
+
+    async def _on_offer(self, event: GuiEvent[GuiButtonGroupHandle]) -> None:
+        if event.target.value == BRING_BACK:
+            self._ask(self._workshop.bring_back())
+        else:
+            self._workshop.discard()
+
+    def _ask(
+        self, future: "Future[Outcome]", then: Path | None = None, *, of_form: bool = False
+    ) -> None:
+        """Says when it applies, or what is wrong; ``then`` is the block that is looked at then."""
+        tell_of_stall(self._onlooker.client, self._workshop.stall, future)
+
+        def tell(done: "Future[Outcome]") -> None:
+            error = None if done.cancelled() else done.exception()
+            if error is None and not done.cancelled():
+                outcome = done.result()
+                self._message = f"{outcome.label}: {outcome}" if outcome.label else str(outcome)
+                self._problems = ()
+                self._path = then or self._path
+            elif isinstance(error, ChangeError) and of_form:
+                self._message, self._problems = (
+                    "That can't be; see what is said below.",
+                    error.problems,
+                )
+            elif error is not None:
+                self._message = message_of(error)
+
+        future.add_done_callback(tell)
+
+
+def _choose(handle: GuiDropdownHandle[str], options: tuple[str, ...], value: str | None) -> None:
+    if handle.options != options:
+        handle.options = options
+    if value is not None and handle.value != value:
+        handle.value = value  # type: ignore[misc]  # a method parts getter from setter
+
+
+def blocks_tab(workshop: Workshop) -> TabKind:
+    """The tab for blocks and drivers."""
+    return TabKind("Blocks", lambda onlooker: BlocksTab(onlooker, workshop))

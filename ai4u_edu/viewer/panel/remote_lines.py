@@ -1,0 +1,62 @@
+"""The lines that drive an agent from a notebook, in its tab, ready to be copied."""
+
+from keyword import iskeyword
+
+from viser import GuiMarkdownHandle
+
+from ai4u_edu.agent import BasicAgent
+from ai4u_edu.runtime.runner import Runner
+from ai4u_edu.viewer.viewer_client import Onlooker
+
+HERE = "http://127.0.0.1:8080"
+"""The address in the lines, if nobody knows by which one the page was reached."""
+
+
+class RemoteLines:
+    """A folder with the lines for the agent that a page looks at.
+
+    Args:
+        onlooker: the page.
+        runner: whose agents can be driven.
+    """
+
+    def __init__(self, onlooker: Onlooker, runner: Runner) -> None:
+        self._onlooker, self._runner = onlooker, runner
+        self._agent: BasicAgent | None = None
+        gui = onlooker.client.gui
+        with gui.add_folder("Drive it from Python", expand_by_default=False):
+            self.lines: GuiMarkdownHandle = gui.add_markdown("")
+
+    def draw(self) -> None:
+        """Writes the lines anew, if the page looks at another agent."""
+        wanted = self._onlooker.agent
+        agent = next((each for each in self._runner.sim.agents if each.id == wanted), None)
+        if agent is not None and agent is not self._agent:
+            self._agent = agent
+            self.lines.content = lines(self._onlooker.address or HERE, agent)
+
+
+def lines(address: str, agent: BasicAgent) -> str:
+    """What is to be pasted into a notebook, as markdown.
+
+    Names stand in it as Python writes them, so that none can end the line, or the code.
+    """
+    example = {
+        name: [1] + [0] * (len(actuator.limits()[0]) - 1)
+        for name, actuator in agent.fitting.actuators.items()
+        if actuator.is_output
+    }
+    if all(name.isidentifier() and not iskeyword(name) for name in example):
+        numbers = ", ".join(f"{name}={values}" for name, values in example.items())
+    else:
+        numbers = repr(example)
+    return (
+        "Paste this into a notebook on any machine that has `ai4u-edu`:\n\n"
+        "```python\n"
+        "from ai4u_edu.remote import connect\n\n"
+        f"robot = connect({address!r}, agent={agent.id!r})\n"
+        "for percept in robot:\n"
+        f"    robot.act({numbers})\n"
+        "robot.close()\n"
+        "```\n"
+    )

@@ -1,0 +1,97 @@
+"""A window in which one page keeps the scene under a name."""
+
+import asyncio
+from collections.abc import Callable
+from html import escape
+from typing import Any
+
+from viser import ClientHandle, GuiButtonHandle, GuiHtmlHandle, GuiTextHandle
+from viser._gui_handles import GuiModalHandle
+
+from ai4u_edu.base.errors import AI4UError
+from ai4u_edu.editing.scene_store import Shelf, TakenError
+from ai4u_edu.scenes import Scene
+from ai4u_edu.viewer.panel.readings import block
+
+SAVE, REPLACE = "Save", "Replace it"
+
+
+class SaveWindow:
+    """Asks for a name, and once more before it replaces what has that name.
+
+    Args:
+        client: the page.
+        shelf: where scenes are kept.
+        scene: gives the one that is to be kept.
+        on_saved: called with the name, in viser's loop.
+    """
+
+    def __init__(
+        self,
+        client: ClientHandle,
+        shelf: Shelf,
+        scene: Callable[[], Scene],
+        on_saved: Callable[[str], None],
+    ) -> None:
+        self._client, self._shelf, self._scene = client, shelf, scene
+        self._on_saved = on_saved
+        self._window: GuiModalHandle | None = None
+        self._taken, self._is_saving = "", False
+        self.name: GuiTextHandle
+        self.save: GuiButtonHandle
+        self.told: GuiHtmlHandle
+
+    @property
+    def is_open(self) -> bool:
+        """Whether it is there."""
+        return self._window is not None
+
+    def open(self, name: str) -> None:
+        """Shows it, with a name that a person may keep."""
+        if self._window is not None:
+            return
+        self._taken, gui = "", self._client.gui
+        with self._client.atomic(), gui.add_modal("Save the scene") as self._window:
+            with gui.add_form(None) as form:
+                self.name = gui.add_text("Name", name)
+                self.told = gui.add_html("")
+                self.save = gui.add_button(SAVE, color="blue")
+            cancel = gui.add_button("Cancel")
+        form.on_submit(self._on_save)
+        self.save.on_click(self._on_save)
+        cancel.on_click(self._on_cancel)
+
+    def close(self) -> None:
+        """Takes it away."""
+        window, self._window = self._window, None
+        if window is not None:
+            window.close()
+
+    async def _on_save(self, _event: Any) -> None:
+        if self._is_saving or self._window is None:
+            return  # a double click
+        name, scene = self.name.value, self._scene()
+        over = bool(self._taken) and self._taken == name
+        self._is_saving = True
+        try:
+            kept = await asyncio.to_thread(self._shelf.save, name, scene, over=over)
+        except TakenError as error:
+            self._taken = name
+            self._tell(f"{error}; press “{REPLACE}”, or choose another name", REPLACE)
+        except AI4UError as error:
+            self._taken = ""
+            self._tell(str(error), SAVE)
+        else:
+            self.close()
+            self._on_saved(kept)
+        finally:
+            self._is_saving = False
+
+    def _tell(self, text: str, word: str) -> None:
+        self.told.content = block(f'<strong role="alert">{escape(text)}</strong>')
+        if self.save.label != word:
+            self.save.label = word
+
+    async def _on_cancel(self, _event: Any) -> None:
+        if not self._is_saving:
+            self.close()

@@ -1,0 +1,86 @@
+"""The tabs of each page's panel; whoever has something to show there adds one."""
+
+from collections.abc import Callable, Sequence
+from typing import NamedTuple, Protocol
+
+from viser import PanelHandle
+
+from ai4u_edu.snapshot import Snapshot, Stage
+from ai4u_edu.viewer.backend.log_once import Complaints
+from ai4u_edu.viewer.backend.turns import Turns
+from ai4u_edu.viewer.viewer_client import Onlooker, Onlookers
+
+
+class Tab(Protocol):
+    """What stands under one tab of one page.
+
+    viser doesn't tell which tab is open, and sends a value only if it has changed: a tab costs
+    nothing where it sets what it shows only when that is another than before.
+    """
+
+    def draw(self, snapshot: Snapshot) -> None:
+        """Shows a snapshot; called some times a second, and at once on a new stage."""
+
+
+class TabKind(NamedTuple):
+    """A tab that every page has."""
+
+    title: str
+    """One short word."""
+    open: Callable[[Onlooker], Tab]
+    """Fills the tab of one page; called where everything that is added to ``onlooker.client.gui``
+    comes to stand in it."""
+
+
+class Tabs:
+    """A panel below the main one, with a tab of each kind, on each page.
+
+    Args:
+        onlookers: the pages.
+        kinds: the tabs, from left to right.
+        complaints: gets to know what went wrong; the other tabs are drawn all the same.
+        give_way: called between two pages.
+    """
+
+    def __init__(
+        self,
+        onlookers: Onlookers,
+        kinds: Sequence[TabKind],
+        complaints: Complaints,
+        give_way: Callable[[], None],
+    ) -> None:
+        self._give_way, self._turns = give_way, Turns()
+        self._onlookers = onlookers
+        self._kinds = tuple(kinds)
+        self._complaints = complaints
+        self._pages: dict[int, _Page] = {}
+
+    def build(self, stage: Stage) -> None:
+        """Nothing: a tab finds the stage in the snapshot."""
+
+    def draw(self, snapshot: Snapshot) -> None:
+        """Shows a snapshot in all tabs of all pages, new ones too."""
+        for gone in self._pages.keys() - self._onlookers.keys():
+            del self._pages[gone]
+        for new in self._onlookers.keys() - self._pages.keys():
+            self._pages[new] = _Page(self._onlookers[new], self._kinds, self._complaints)
+        for number in self._turns.next(self._pages.keys()):
+            self._give_way()
+            for tab in self._pages[number].tabs:
+                with self._complaints.caught():
+                    tab.draw(snapshot)
+
+
+class _Page:
+    """The panel of one page."""
+
+    def __init__(
+        self, onlooker: Onlooker, kinds: Sequence[TabKind], complaints: Complaints
+    ) -> None:
+        gui = onlooker.client.gui
+        self.tabs: list[Tab] = []
+        self.panel: PanelHandle = gui.add_panel()
+        for kind in kinds:
+            with complaints.caught(), self.panel.add_tab(kind.title):
+                self.tabs.append(kind.open(onlooker))
+        self.panel.dock_below(gui.main_panel)

@@ -1,0 +1,1 @@
+"""Recorded episodes on the page: list, player, ghosts."""

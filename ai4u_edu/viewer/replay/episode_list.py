@@ -1,0 +1,85 @@
+"""The kept episodes as a table, and the links that download one."""
+
+from collections.abc import Iterable
+from html import escape
+
+from ai4u_edu.recording import Entry
+from ai4u_edu.viewer.panel.bars import number
+from ai4u_edu.viewer.panel.readings import block
+
+STYLE = """<style>
+.ai4u .episodes {max-height: 11em; overflow-y: auto; border: 1px solid var(--line)}
+.ai4u .episodes th, .ai4u .episodes td {padding: .05em .45em; white-space: nowrap}
+.ai4u .episodes thead th {position: sticky; top: 0; background: var(--well)}
+.ai4u .episodes td:last-child {width: 100%; max-width: 0; overflow: hidden; text-align: left;
+  text-overflow: ellipsis}
+.ai4u .episodes tr.chosen > * {font-weight: 700; color: var(--mantine-color-text);
+  background: var(--well)}
+.ai4u .downloads {display: flex; flex-wrap: wrap; gap: .4em; align-items: center}
+.ai4u .downloads a {padding: .15em .7em; border: 1px solid var(--soft); border-radius: 4px;
+  color: var(--mantine-color-text); text-decoration: none}
+.ai4u .downloads a:hover, .ai4u .downloads a:focus-visible {background: var(--well)}
+</style>"""
+HEADINGS = ("", "seed", "time", "reward", "goal", "driver")
+FORMATS = {"html": "Page", "gif": "GIF", "mp4": "MP4", "csv": "Table", "episode": "Recording"}
+"""What can be downloaded, by the file's ending."""
+
+
+def listed(entries: Iterable[Entry], chosen: int | None, best: Entry | None = None) -> str:
+    """A table, the latest episode first.
+
+    Args:
+        entries: the kept episodes.
+        chosen: the number of the one that was chosen.
+        best: the one that gets a star.
+    """
+    rows = [_row(each, each.number == chosen, each is best) for each in reversed(tuple(entries))]
+    if not rows:
+        return block("<small>Every episode is kept here when it is over.</small>")
+    head = "".join(f"<th>{heading}</th>" for heading in HEADINGS)
+    table = f"<table><thead><tr>{head}</tr></thead><tbody>{''.join(rows)}</tbody></table>"
+    region = 'class="episodes" tabindex="0" role="region" aria-label="Kept episodes"'
+    return STYLE + block(f"<div {region}>{table}</div>")
+
+
+def downloads(chosen: int, formats: Iterable[str]) -> str:
+    """Links to an episode's files.
+
+    Args:
+        chosen: the episode's number.
+        formats: some of :data:`FORMATS`.
+    """
+    links = [
+        f'<a href="api/past/{chosen}.{ending}" download>{FORMATS[ending]}</a>' for ending in formats
+    ]
+    return block(f'<div class="downloads">Download: {"".join(links)}</div>')
+
+
+def driver(entry: Entry) -> str:
+    """Who drove the first agent, in few words."""
+    return entry.source or short(entry.first.driver)
+
+
+def short(title: str) -> str:
+    """A brain's title without what all of them have in common.
+
+    >>> short("LocalBrain(WASDRBMoveController)"), short("Recording, RemoteBrain(a script)")
+    ('WASDRBMove', 'Recording, a script')
+    """
+    parts = [part.rstrip(")").rpartition("(")[2] for part in title.split(", ")]
+    return ", ".join(part.removesuffix("Controller") or part for part in parts)
+
+
+def _row(entry: Entry, is_chosen: bool, is_best: bool) -> str:
+    episode, goal = entry.episode, entry.success
+    cells = (
+        str(episode.seed) if episode.seed < 10**7 else f"{str(episode.seed)[:6]}…",
+        f"{episode.seconds:.1f} s",
+        number(entry.first.total),
+        "-" if goal is None else "yes" if goal else "no",
+        escape(driver(entry)),
+    )
+    row = "".join(f"<td>{cell}</td>" for cell in cells)
+    chosen = ' class="chosen" aria-current="true"' if is_chosen else ""
+    star = ' <b title="the best one" aria-label="the best one">★</b>' if is_best else ""
+    return f"<tr{chosen}><th>{entry.number}{star}</th>{row}</tr>"

@@ -1,0 +1,186 @@
+"""The tab in which the past is gone back to: kept episodes, and a slider through one of them."""
+
+import asyncio
+from html import escape
+
+from viser import (
+    GuiButtonGroupHandle,
+    GuiButtonHandle,
+    GuiDropdownHandle,
+    GuiEvent,
+    GuiSliderHandle,
+    GuiUploadButtonHandle,
+)
+
+from ai4u_edu.base.errors import AI4UError
+from ai4u_edu.base.optional_deps import has
+from ai4u_edu.recording import Entry, Episode
+from ai4u_edu.recording.file import LARGEST_FILE, decode
+from ai4u_edu.runtime.runner import Runner
+from ai4u_edu.snapshot import Snapshot
+from ai4u_edu.viewer.backend.reporting import reporting
+from ai4u_edu.viewer.panel.notify import ask
+from ai4u_edu.viewer.panel.readings import block
+from ai4u_edu.viewer.panel.tabs import TabKind
+from ai4u_edu.viewer.panel.uploads import limit_uploads, take_file
+from ai4u_edu.viewer.replay.episode_list import FORMATS, downloads, listed
+from ai4u_edu.viewer.replay.ghosts import Ghosts
+from ai4u_edu.viewer.replay.replay_player import NOW, Projector
+from ai4u_edu.viewer.viewer_client import Onlooker
+
+NONE, UNDER_WAY = "choose one", "this one, so far"
+BACK, PLAY, STOP, ON = "Step back", "Play", "Stop", "Step on"
+NOW_AGAIN, GO_ON, RACE = "Back to now", "Continue here", "Race it"
+BARE = block(kind="bare")
+SPEEDS = {"0.25x": 0.25, "0.5x": 0.5, "1x": 1.0, "2x": 2.0, "4x": 4.0}
+
+
+class PastTab:
+    """One page's way into the past; all pages see the same moment of it.
+
+    Args:
+        onlooker: the page.
+        runner: continues episodes.
+        projector: shows their moments.
+        ghosts: of episodes that are raced.
+    """
+
+    def __init__(
+        self, onlooker: Onlooker, runner: Runner, projector: Projector, ghosts: Ghosts
+    ) -> None:
+        gui = onlooker.client.gui
+        self._onlooker, self._client, self._runner = onlooker, onlooker.client, runner
+        self._projector, self._ghosts = projector, ghosts
+        self._seen: tuple[object, ...] = ()
+        self._numbers: dict[str, int] = {}
+        self._list = gui.add_html("")
+        self._episode = gui.add_dropdown("Episode", (NONE, UNDER_WAY))
+        self._step = gui.add_slider("Moment", 1, 2, 1, 1, visible=False)
+        self._told = gui.add_html(BARE)
+        self._steps = gui.add_button_group("Go", (BACK, PLAY, ON), visible=False)
+        self._speed = gui.add_dropdown("Pace", tuple(SPEEDS), initial_value="1x", visible=False)
+        gui.add_html(BARE)
+        self._verbs = gui.add_button_group("Then", (NOW_AGAIN, GO_ON, RACE), visible=False)
+        self._nobody = gui.add_button("No ghost", visible=False)
+        self._links = gui.add_html("")
+        hint = "An .episode file, of a friend's or your own"
+        self._upload = gui.add_upload_button("Open a recording", hint=hint)
+        limit_uploads(self._client, LARGEST_FILE)
+        self._episode.on_update(self._on_episode)
+        self._step.on_update(self._on_step)
+        self._steps.on_click(self._on_steps)
+        self._speed.on_update(self._on_speed)
+        self._verbs.on_click(self._on_verb)
+        self._nobody.on_click(self._on_nobody)
+        self._upload.on_upload(reporting(self._on_upload))
+
+    def draw(self, snapshot: Snapshot) -> None:
+        """Shows what there is, what was chosen, and which moment is seen."""
+        projector, archive = self._projector, self._projector.archive
+        entries = archive.entries if archive is not None else ()
+        seen = (entries, projector.number)
+        if seen != self._seen:
+            self._seen = seen
+            self._offer(entries)
+        self._follow(snapshot)
+
+    def _offer(self, entries: tuple[Entry, ...]) -> None:
+        """Lists the episodes, and marks the one that was chosen."""
+        chosen = self._projector.number
+        archive = self._projector.archive
+        best = archive.best if archive is not None and len(entries) > 1 else None
+        self._list.content = listed(entries, chosen, best)
+        numbers = {str(entry.number): entry.number for entry in reversed(entries)}
+        self._numbers = {UNDER_WAY: NOW} | numbers
+        options = (NONE, *self._numbers)
+        if self._episode.options != options:
+            self._episode.options = options
+        name = next((name for name, each in self._numbers.items() if each == chosen), NONE)
+        if self._episode.value != name:
+            self._episode.value = name  # type: ignore[misc]  # a method parts getter from setter
+        is_kept = chosen in numbers.values()
+        formats = [each for each in FORMATS if each != "mp4" or has("imageio_ffmpeg")]
+        self._links.content = downloads(chosen, formats) if is_kept and chosen else ""
+
+    def _follow(self, snapshot: Snapshot) -> None:
+        """Shows the moment that is wanted, whoever wanted it."""
+        projector, reel = self._projector, self._projector.reel
+        recorder = self._runner.recorder
+        there = reel is not None and reel.last >= 0
+        for handle in (self._step, self._steps, self._speed, self._verbs):
+            handle.visible = there
+        if reel is not None and there:
+            # people count from 1; the end comes after the last step
+            last, step = max(reel.last, 1) + 1, projector.step + 1
+            if self._step.max != last:
+                self._step.max = last
+            if self._step.value != step:
+                self._step.value = step  # type: ignore[misc]
+        options = (BACK, STOP if projector.playing else PLAY, ON)
+        if self._steps.options != options:
+            self._steps.options = options
+        self._nobody.visible = bool(self._ghosts.name)
+        told = [
+            snapshot.past and f"Seen now: {snapshot.past}",
+            escape(projector.problem or (reel.problem if reel is not None else "")),
+            self._ghosts.told(snapshot),
+            escape(recorder.problem or recorder.save_problem) if recorder is not None else "",
+        ]
+        lines = "<br>".join(f"<small>{each}</small>" for each in told if each)
+        self._told.content = block(lines, kind="bare")
+
+    # -- what people ask for; in viser's loop, one after the other -------------------------------
+
+    async def _on_episode(self, event: GuiEvent[GuiDropdownHandle[str]]) -> None:
+        number = self._numbers.get(event.target.value)
+        if event.client is not None and number is not None:
+            self._projector.open(number, self._onlooker.agent)
+
+    async def _on_step(self, event: GuiEvent[GuiSliderHandle[int]]) -> None:
+        if event.client is not None and self._projector.reel is not None:
+            self._projector.go_to(int(event.target.value) - 1)
+
+    async def _on_steps(self, event: GuiEvent[GuiButtonGroupHandle]) -> None:
+        match event.target.value:
+            case "Step back":
+                self._projector.move(-1)
+            case "Step on":
+                self._projector.move(1)
+            case "Play" | "Stop" as word:
+                self._projector.play(on=word == PLAY)
+
+    async def _on_speed(self, event: GuiEvent[GuiDropdownHandle[str]]) -> None:
+        self._projector.speed = SPEEDS.get(event.target.value, 1.0)
+
+    async def _on_verb(self, event: GuiEvent[GuiButtonGroupHandle]) -> None:
+        projector = self._projector
+        match event.target.value:
+            case "Back to now" if projector.is_showing:
+                ask(self._client, self._runner, projector.back())
+            case "Continue here":
+                ask(self._client, self._runner, await asyncio.to_thread(projector.go_on))
+            case "Race it" if projector.reel is not None:
+                reel = projector.reel
+                projector.leave()
+                self._ghosts.race(reel.episode, f"episode {reel.number}")
+                ask(self._client, self._runner, self._runner.reset(reel.episode.seed))
+                ask(self._client, self._runner, self._runner.resume())
+
+    async def _on_nobody(self, _event: GuiEvent[GuiButtonHandle]) -> None:
+        self._ghosts.race(None)
+
+    async def _on_upload(self, event: GuiEvent[GuiUploadButtonHandle]) -> None:
+        file, archive = take_file(event), self._projector.archive
+        if archive is None:
+            return
+        try:
+            episode = await asyncio.to_thread(decode, Episode, file.content, file.name[:80])
+        except AI4UError as error:
+            self._client.add_notification("That is no recording", str(error))
+            return
+        self._projector.open(archive.append(episode, file.name[:80]).number)
+
+
+def past(runner: Runner, projector: Projector, ghosts: Ghosts) -> TabKind:
+    """The tab for the past."""
+    return TabKind("Past", lambda onlooker: PastTab(onlooker, runner, projector, ghosts))

@@ -1,0 +1,1 @@
+"""The drawn world: bodies, sensors, overlays, handles."""

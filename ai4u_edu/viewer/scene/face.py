@@ -1,0 +1,29 @@
+"""What is drawn on top of bodies: an agent's face, a target's rings. Body frame, metres."""
+
+import numpy as np
+
+from ai4u_edu.viewer.scene.geometry import Mesh, cap, circle, joined, sheet
+
+
+def face(radius: float, z: float) -> Mesh:
+    """The light parts of an agent's face: a nose that points ahead (+x) and the whites of its eyes.
+
+    Args:
+        radius: of the disc on which the face is drawn.
+        z: its height.
+    """
+    nose = radius * np.array([(0.97, 0.0), (0.52, 0.24), (0.52, -0.24)])
+    eyes = [circle(0.23 * radius, 0.34 * radius, side * 0.5 * radius, 20) for side in (1, -1)]
+    return joined([cap(outline, z) for outline in (nose, *eyes)])
+
+
+def pupils(radius: float, z: float) -> Mesh:
+    """The dark parts of an agent's face: pupils that look ahead."""
+    eyes = [circle(0.12 * radius, 0.42 * radius, side * 0.48 * radius, 16) for side in (1, -1)]
+    return joined([cap(outline, z) for outline in eyes])
+
+
+def rings(radius: float, z: float) -> Mesh:
+    """A target's mark: a ring around a disc, so that a target is known without its colour."""
+    ring = sheet(circle(0.72 * radius), circle(0.5 * radius)).moved(0, 0, z)
+    return joined([ring, cap(circle(0.22 * radius), z)])

@@ -1,0 +1,91 @@
+"""What the agents that somebody looks at sense, in the scene: on each page its own agent's."""
+
+from collections.abc import Callable
+
+from ai4u_edu.snapshot import AgentState, Snapshot, Stage
+from ai4u_edu.snapshot.block_info import Sense
+from ai4u_edu.viewer.backend.turns import Turns
+from ai4u_edu.viewer.scene.layers import Layers
+from ai4u_edu.viewer.scene.pointers import Pointers, has_pointer
+from ai4u_edu.viewer.scene.rays import Rays, StageLook
+from ai4u_edu.viewer.scene.spots import Spots
+from ai4u_edu.viewer.viewer_client import Onlooker, Onlookers
+
+
+def is_seen(sense: Sense, agent: AgentState) -> bool:
+    """Whether a sensor has something that can be shown in the scene."""
+    return shows_by_itself(sense, agent) or has_pointer(sense)
+
+
+def shows_by_itself(sense: Sense, agent: AgentState) -> bool:
+    """Whether that is shown unless somebody switches it off: rays and spots are."""
+    return sense.key in agent.rays or sense.key in agent.spots
+
+
+class Gaze:
+    """Draws the rays, spots and targets of sensors; nothing for agents that nobody looks at.
+
+    Args:
+        onlookers: the pages.
+        give_way: called between two pages.
+    """
+
+    def __init__(self, onlookers: Onlookers, give_way: Callable[[], None]) -> None:
+        self._onlookers = onlookers
+        self._give_way, self._turns = give_way, Turns()
+        self._pages: dict[int, _Page] = {}
+
+    def build(self, stage: Stage) -> None:
+        """Learns how large the agents are, and the colours of what they see."""
+        layers = Layers.of(stage)
+        self._look = StageLook(stage)
+        lift = layers.body + 3 * layers.unit
+        self._lifts = {body.name: body.height + lift for body in stage.bodies}
+        for page in self._pages.values():
+            page.build(self._look)
+
+    def draw(self, snapshot: Snapshot) -> None:
+        """Draws what is looked at."""
+        for gone in self._pages.keys() - self._onlookers.keys():
+            del self._pages[gone]
+        agents = {agent.id: agent for agent in snapshot.agents}
+        for number in self._turns.next(self._onlookers.keys()):
+            onlooker = self._onlookers[number]
+            if number not in self._pages:
+                self._pages[number] = _Page(onlooker, self._look)
+            agent = agents.get(onlooker.agent)
+            if agent is not None:
+                self._give_way()
+                self._pages[number].draw(snapshot, agent, self._lifts[agent.body])
+
+
+class _Page:
+    """One page's."""
+
+    def __init__(self, onlooker: Onlooker, look: StageLook) -> None:
+        scene = onlooker.client.scene
+        self._onlooker = onlooker
+        self._rays, self._spots = Rays(scene, look), Spots(scene)
+        self._pointers = Pointers(scene)
+        self._seen: object = None
+        self._keys: list[str] = []
+
+    def draw(self, snapshot: Snapshot, agent: AgentState, lift: float) -> None:
+        (body,) = (each for each in snapshot.bodies if each.name == agent.body)
+        lit = [
+            sense
+            for sense in agent.senses
+            if not body.fallen
+            and self._onlooker.lights(sense.key, by_itself=shows_by_itself(sense, agent))
+        ]
+        keys = [sense.key for sense in lit]
+        with self._onlooker.client.atomic():
+            if agent.rays is not self._seen or keys != self._keys:  # else nothing was sensed since
+                self._seen, self._keys = agent.rays, keys
+                self._rays.draw([agent.rays[key] for key in keys if key in agent.rays])
+                self._spots.draw([agent.spots[key] for key in keys if key in agent.spots], lift)
+            self._pointers.draw(snapshot, body, lit)
+
+    def build(self, look: StageLook) -> None:
+        self._seen = None
+        self._rays.build(look)

@@ -1,0 +1,188 @@
+"""One page's camera: over the whole arena, over an agent, or in its eye."""
+
+import math
+import time
+from collections import deque
+from enum import StrEnum
+
+import numpy as np
+from viser import CameraHandle, ClientHandle
+
+from ai4u_edu.snapshot import AgentState, BodyState, Snapshot
+from ai4u_edu.viewer.scene.eye import EYE_FAR, EYE_NEAR, EYE_VIEW, Daylight, eye
+from ai4u_edu.viewer.scene.framing import (
+    FIELD_OF_VIEW,
+    Bounds,
+    Frame,
+    centred,
+    frame,
+    visible_height,
+)
+from ai4u_edu.viewer.scene.geometry import Array
+from ai4u_edu.viewer.scene.placing import seen_bounds, size
+
+FOLLOWED = 22.0
+"""A window in which an agent is followed is so many times as high as the agent's radius."""
+LAG = 0.18
+"""How long (s) the camera takes to catch up with most of an agent's lead."""
+
+
+NORTH = (0.0, 1.0, 0.0)
+
+
+class Mode(StrEnum):
+    """Where a page's camera is."""
+
+    ARENA = "Arena"
+    """Over the whole arena."""
+    FOLLOW = "Follow"
+    """Over the agent that the page looks at."""
+    TURN = "Turn"
+    """The same, and turning with it: ahead is up."""
+    EYES = "Eyes"
+    """In the agent's eye."""
+
+
+class View:
+    """The camera of one page. Once a person has moved it, it is theirs.
+
+    Args:
+        client: the page.
+    """
+
+    def __init__(self, client: ClientHandle) -> None:
+        self._client = client
+        self.mode = Mode.ARENA
+        self._bounds: Bounds | None = None
+        self._aspect = 0.0
+        self._frame = Frame(0.0, 0.0, 1.0)
+        self._known: deque[Array] = deque(maxlen=4)
+        self._has_arrived = False
+        self._is_theirs = False
+        self._followed = ""
+        self._daylight: Daylight | None = None
+        self._moved_at = 0.0
+        client.camera.on_update(self._on_report)
+
+    def choose(self, mode: Mode) -> None:
+        """Takes the camera elsewhere, from the next update on."""
+        self.mode, self._followed, self._bounds = mode, "", None
+
+    def update(self, snapshot: Snapshot, agent_id: str) -> None:
+        """Moves the camera, if there is a reason to.
+
+        Args:
+            snapshot: what is shown.
+            agent_id: the agent that the page looks at.
+        """
+        agent = next((each for each in snapshot.agents if each.id == agent_id), None)
+        if self.mode is Mode.ARENA or agent is None:
+            self._show_all(snapshot)
+            return
+        (body,) = (each for each in snapshot.bodies if each.name == agent.body)
+        begins, self._followed = agent.body != self._followed, agent.body
+        if self.mode is Mode.EYES:
+            self._look_out(snapshot, agent, body, begins=begins)
+        elif begins:
+            self._begin(snapshot, body)
+        else:
+            self._follow(body, self._shape())
+
+    def _shape(self) -> float:
+        """The window's width / height; a window that is folded away has neither."""
+        camera = self._client.camera
+        return max(camera.image_width, 1) / max(camera.image_height, 1)
+
+    def _show_all(self, snapshot: Snapshot) -> None:
+        bounds, aspect = seen_bounds(snapshot.stage), self._shape()
+        reshaped = abs(aspect - self._aspect) > 0.02 * self._aspect and not self._is_theirs
+        if bounds != self._bounds or reshaped:
+            self._bounds, self._aspect = bounds, aspect
+            self._put(frame(bounds, aspect))
+
+    def _begin(self, snapshot: Snapshot, body: BodyState) -> None:
+        aspect = self._shape()
+        (reach,) = (b.shape.reach for b in snapshot.stage.bodies if b.name == body.name)
+        whole = frame(seen_bounds(snapshot.stage), aspect).height
+        height = min(whole, FOLLOWED * reach)
+        self._put(centred(body.x, body.y, height, aspect), self._up(body))
+
+    def _look_out(
+        self, snapshot: Snapshot, agent: AgentState, body: BodyState, *, begins: bool
+    ) -> None:
+        """Through the agent's eye, ahead."""
+        camera = self._client.camera
+        place, ahead = eye(snapshot.stage, agent, body)
+        with self._client.atomic():
+            if begins:
+                self._daylight = Daylight(self._client.scene)
+                camera.min_orbit_distance, camera.max_orbit_distance = 0.01, 100.0
+                camera.up_direction = (0.0, 0.0, 1.0)
+                camera.fov = EYE_VIEW
+                camera.near, camera.far = EYE_NEAR, EYE_FAR * size(snapshot.stage)
+            camera.position = place
+            camera.look_at = ahead
+
+    def _up(self, body: BodyState) -> tuple[float, float, float]:
+        """Which way is up on the screen."""
+        if self.mode is not Mode.TURN:
+            return NORTH
+        return math.cos(body.heading), math.sin(body.heading), 0.0
+
+    async def _on_report(self, camera: CameraHandle) -> None:
+        """Finds out from what the page reports whether a person has moved the camera.
+
+        A slow page may still speak of where the camera was before: until a pose that we sent has
+        come back, and, as a report is read while the camera is being put elsewhere, even later.
+        """
+        ours = np.array([self._frame.x, self._frame.y, self._frame.distance])
+        if _same(camera.position, ours):
+            self._has_arrived = True
+        elif self._has_arrived and not any(_same(camera.position, each) for each in self._known):
+            self._is_theirs = True
+
+    def _leave_eye(self) -> None:
+        if self._daylight is not None:
+            self._daylight.remove()
+            self._daylight = None
+
+    def _put(self, wanted: Frame, up: tuple[float, float, float] = NORTH) -> None:
+        camera, distance = self._client.camera, wanted.distance
+        self._known.append(camera.position)
+        self._frame, self._has_arrived, self._is_theirs = wanted, False, False
+        self._moved_at = time.monotonic()
+        self._leave_eye()
+        with self._client.atomic():
+            camera.up_direction = up
+            camera.position = (wanted.x, wanted.y, distance)
+            camera.look_at = (wanted.x, wanted.y, 0.0)
+            camera.fov = FIELD_OF_VIEW
+            camera.near, camera.far = wanted.near, wanted.far
+            camera.min_orbit_distance, camera.max_orbit_distance = distance / 12, distance * 4
+
+    def _follow(self, body: BodyState, aspect: float) -> None:
+        camera, now, up = self._client.camera, time.monotonic(), self._up(body)
+        # from how far and from which side is the person's choice
+        offset: Array = camera.position - camera.look_at
+        goal = centred(body.x, body.y, visible_height(float(np.linalg.norm(offset))), aspect)
+        if self.mode is Mode.TURN:
+            # what covers the lower part of the window covers what is behind the agent
+            short = goal.y - body.y
+            goal = Frame(body.x + short * up[0], body.y + short * up[1], goal.height)
+        share = 1.0 - math.exp((self._moved_at - now) / LAG)
+        dx, dy = share * (goal.x - self._frame.x), share * (goal.y - self._frame.y)
+        self._moved_at = now
+        stands = math.hypot(dx, dy) < 1e-4 * goal.height
+        if stands and np.allclose(camera.up_direction, up, atol=1e-4):
+            return
+        self._frame = Frame(self._frame.x + dx, self._frame.y + dy, goal.height)
+        centre = np.array([self._frame.x, self._frame.y, 0.0])
+        with self._client.atomic():
+            if self.mode is Mode.TURN:
+                camera.up_direction = up
+            camera.position = centre + offset
+            camera.look_at = centre
+
+
+def _same(place: Array, other: Array) -> bool:
+    return bool(np.allclose(place, other, rtol=1e-3, atol=1e-2))

@@ -1,0 +1,172 @@
+"""Many rays from one point: three ways to ask pymunk, with the same numbers to the last bit.
+
+The compiled way is a loop in C, the quick way one in Python over Chipmunk's own query, the public
+way goes through pymunk's interface. :func:`segments` takes the first one that there is.
+"""
+
+from functools import cache
+from struct import Struct
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+import pymunk
+from numpy import add, fmod, multiply
+
+from ai4u_edu.world.native.chipmunk import FAST, address, c_function, ffi, lib, shape_key
+
+_HIT = np.dtype(
+    [("shape", "u8"), ("px", "f8"), ("py", "f8"), ("nx", "f8"), ("ny", "f8"), ("alpha", "f8")]
+)
+_FAN = Struct("=QqQIIQQQ")  # Fan in rays.c
+_QUERY = (
+    "struct cpShape *(*)(struct cpSpace *, struct cpVect, struct cpVect, double, "
+    "struct cpShapeFilter, struct cpSegmentQueryInfo *)"
+)
+_LAYOUT = {
+    "cpVect": (16, {"x": 0, "y": 8}),
+    "cpShapeFilter": (16, {"group": 0, "categories": 8, "mask": 12}),
+    "cpSegmentQueryInfo": (48, {"shape": 0, "point": 8, "normal": 24, "alpha": 40}),
+}
+_WHOLE = np.ones(())
+
+
+class Segments:
+    """Casts n segments that start at one point and tells what each meets first: the public way.
+
+    Args:
+        count: how many segments.
+
+    Attributes:
+        directions: (n, 2) float64, where each segment points; written by the caller, unit vectors.
+        alpha: (n,) float64, the share of each segment up to what it meets; 1 for nothing.
+        distances: (n,) float64, metres to what each meets; 0 for nothing.
+    """
+
+    def __init__(self, count: int) -> None:
+        self.directions: npt.NDArray[np.float64] = np.zeros((count, 2))
+        self.alpha: npt.NDArray[np.float64] = np.ones(count)
+        self.distances: npt.NDArray[np.float64] = np.zeros(count)
+        self._shapes: list[int] = [0] * count
+
+    def cast(
+        self, space: pymunk.Space, x: float, y: float, reach: float, accept: pymunk.ShapeFilter
+    ) -> None:
+        """Fills ``alpha`` and ``distances``, and what :meth:`shapes` tells."""
+        keys = []
+        for i, (dx, dy) in enumerate(self.directions.tolist()):
+            end = dx * reach + x, dy * reach + y
+            hit = space.segment_query_first((x, y), end, 0.0, accept)
+            self.alpha[i] = 1.0 if hit is None else hit.alpha
+            self.distances[i] = hit.alpha * reach if hit and hit.alpha < 1.0 else 0.0
+            keys.append(0 if hit is None else shape_key(hit.shape))
+        self._shapes = keys
+
+    def shapes(self) -> list[int]:
+        """What each met at the last cast, as :func:`shape_key` names it; 0 for nothing."""
+        return self._shapes
+
+
+class QuickSegments(Segments):
+    """The same through pymunk's cffi layer, into memory that is there already."""
+
+    def __init__(self, count: int) -> None:
+        super().__init__(count)
+        self._hit_memory = ffi.new("cpSegmentQueryInfo[]", count)
+        self._hits = np.frombuffer(ffi.buffer(self._hit_memory), _HIT)
+        self.alpha = self._hits["alpha"]
+        self._accept: pymunk.ShapeFilter | None = None
+        self._prepare()
+
+    def _prepare(self) -> None:
+        count = len(self.directions)
+        end_memory = ffi.new("cpVect[]", count)
+        ends = np.frombuffer(ffi.buffer(end_memory), np.float64)
+        self._ends = ends.reshape(count, 2)
+        # a pair (x, y) side by side is a complex number; for numpy, an array of one number is
+        # half the work of a number
+        self._end_points, self._start_point = ends.view(np.complex128), np.zeros((), np.complex128)
+        self._reach = np.zeros(())
+        self._start, self._filter = ffi.new("cpVect *")[0], ffi.new("cpShapeFilter *")[0]
+        self._pairs = [(end_memory[i], self._hit_memory + i) for i in range(count)]
+
+    def cast(
+        self, space: pymunk.Space, x: float, y: float, reach: float, accept: pymunk.ShapeFilter
+    ) -> None:
+        """Fills ``alpha`` and ``distances``, and what :meth:`shapes` tells."""
+        chosen = self._filter
+        if accept is not self._accept:  # turned into Chipmunk's form once, not for each ray
+            self._accept = accept
+            chosen.group, chosen.categories, chosen.mask = accept
+        self._reach[()], self._start_point[()] = reach, complex(x, y)
+        multiply(self.directions, self._reach, self._ends)
+        add(self._end_points, self._start_point, self._end_points)
+        start, handle, first = self._start, space._space, lib.cpSpaceSegmentQueryFirst
+        start.x, start.y = x, y
+        for end, hit in self._pairs:
+            first(handle, start, end, 0.0, chosen, hit)
+        # a ray that meets nothing has gone its whole way, and of 1 this leaves 0
+        fmod(self.alpha, _WHOLE, self.distances)
+        multiply(self.distances, self._reach, self.distances)
+
+    def shapes(self) -> list[int]:
+        """What each met at the last cast, as :func:`shape_key` names it; 0 for nothing."""
+        keys: list[int] = self._hits["shape"].tolist()
+        return keys
+
+
+class CompiledSegments(QuickSegments):
+    """The same in one call of a loop in C; only where :func:`compiled` finds it."""
+
+    def _prepare(self) -> None:
+        self._call = compiled()
+        self._fan = ffi.new("char[]", _FAN.size)
+        self._memory = ffi.buffer(self._fan)
+
+    def cast(
+        self, space: pymunk.Space, x: float, y: float, reach: float, accept: pymunk.ShapeFilter
+    ) -> None:
+        """Fills ``alpha`` and ``distances``, and what :meth:`shapes` tells."""
+        if accept is not self._accept:
+            self._accept = accept
+            self._memory[:] = _FAN.pack(
+                address(ffi.addressof(lib, "cpSpaceSegmentQueryFirst")),
+                len(self.directions),
+                *accept,
+                *self.addresses(),
+            )
+        self._call(self._fan, space._space, x, y, reach)
+
+    def addresses(self) -> tuple[int, int, int]:
+        """Where directions, hits and distances lie, for what goes on with them in C."""
+        hits = address(self._hit_memory)
+        return self.directions.ctypes.data, hits, self.distances.ctypes.data
+
+
+def segments(count: int) -> Segments:
+    """So many segments, by the fastest way there is."""
+    if not FAST:
+        return Segments(count)
+    return QuickSegments(count) if compiled() is None else CompiledSegments(count)
+
+
+@cache
+def compiled() -> Any:
+    """The loop in C: (fan, space, x, y, reach); None where it can't be had.
+
+    It calls Chipmunk's query by its address, so it is used only if that is what it was written for.
+    """
+    if not _as_expected():
+        return None
+    return c_function("cast_fan", "void (*)(void *, void *, double, double, double)")
+
+
+def _as_expected() -> bool:
+    """Whether pymunk's own declarations are those of rays.c."""
+    query = ffi.typeof(ffi.addressof(lib, "cpSpaceSegmentQueryFirst")).cname
+    return query == _QUERY and all(
+        ffi.sizeof(name) == size
+        and len(ffi.typeof(name).fields) == len(offsets)
+        and all(ffi.offsetof(name, field) == offset for field, offset in offsets.items())
+        for name, (size, offsets) in _LAYOUT.items()
+    )

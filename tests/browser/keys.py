@@ -1,0 +1,63 @@
+"""A mouse over the picture of the world."""
+
+from typing import Any
+
+from playwright.sync_api import Page
+
+from ai4u_edu.viewer.scene.framing import frame
+from tests.playing import Played
+
+Place = tuple[float, float]
+
+
+def whole(page: Page) -> None:
+    """Has the camera over the whole arena, whatever it was at."""
+    page.get_by_role("button", name="Arena", exact=True).click()
+    page.wait_for_timeout(700)
+
+
+def spot(page: Page, place: Place, half: float) -> Place:
+    """Where a place (metres) is on the screen, if the arena reaches from -half to half."""
+    box = page.locator("canvas[data-engine]").bounding_box()
+    assert box is not None
+    seen = frame(((-half, -half), (half, half)), box["width"] / box["height"])
+    scale = box["height"] / seen.height
+    x = box["x"] + box["width"] / 2 + scale * (place[0] - seen.x)
+    return x, box["y"] + box["height"] / 2 - scale * (place[1] - seen.y)
+
+
+def take(page: Page, at: Place, half: float) -> None:
+    """Puts the mouse on a place and its button down."""
+    page.mouse.move(*spot(page, at, half))
+    page.wait_for_timeout(300)
+    page.mouse.down()
+
+
+def carry(page: Page, at: Place, to: Place, half: float, steps: int = 8) -> None:
+    """Moves the mouse as a hand does."""
+    for step in range(1, steps + 1):
+        share = step / steps
+        place = tuple(a + share * (b - a) for a, b in zip(at, to, strict=True))
+        page.mouse.move(*spot(page, (place[0], place[1]), half))
+        page.wait_for_timeout(60)
+    page.wait_for_timeout(150)
+
+
+def drag(page: Page, at: Place, to: Place, half: float) -> None:
+    """Takes something up at one place and lets go of it at another."""
+    take(page, at, half)
+    carry(page, at, to, half)
+    page.mouse.up()
+
+
+def body(server: Played, name: str) -> list[float] | None:
+    """A body's pose: x, y, z, heading; None if there is none of that name."""
+    bodies: list[dict[str, Any]] = server.snapshot()["bodies"]
+    return next((list(each["pose"]) for each in bodies if each["name"] == name), None)
+
+
+def where(server: Played, name: str) -> Place:
+    """A body's place."""
+    pose = body(server, name)
+    assert pose is not None
+    return pose[0], pose[1]

@@ -1,0 +1,348 @@
+"""What nobody saved is there again."""
+
+import errno
+import json
+import os
+import re
+import subprocess
+import sys
+import time
+from pathlib import Path
+from threading import Event, Semaphore
+
+import pytest
+
+from ai4u_edu import Scene
+from ai4u_edu.base.errors import SetupError
+from ai4u_edu.editing import State, Workshop, autosave, unsaved
+from ai4u_edu.editing.autosave import Autosave, latest, unsaved_scenes
+from ai4u_edu.editing.unsaved import chosen
+from tests.editing.kill_autosaves import run
+from tests.editing.shops import TEXT, Shop
+from tests.playing import played
+
+
+@pytest.fixture
+def saver(tmp_path: Path) -> Autosave:
+    return Autosave(tmp_path / "deep" / "unsaved", "small/../scene")
+
+
+@pytest.fixture
+def written(monkeypatch: pytest.MonkeyPatch) -> Semaphore:
+    """Released after each write; without the usual delay before it."""
+    done, write = Semaphore(0), autosave._write
+
+    def tell(file: Path, state: State) -> None:
+        write(file, state)
+        done.release()
+
+    monkeypatch.setattr(autosave, "DELAY", 0.0)
+    monkeypatch.setattr(autosave, "_write", tell)
+    return done
+
+
+def test_a_changed_scene_is_written_and_read(saver: Autosave, tmp_path: Path) -> None:
+    shop = Shop()
+    shop.workshop.listeners.append(saver.note)
+    shop.done(shop.workshop.add_body({"name": "ball", "position": [0, 3]}))
+    shop.done(shop.workshop.move_body("ball", 1, 3))
+    saver.stop()
+    assert shop.workshop.is_as_opened is False
+    (file,) = (tmp_path / "deep" / "unsaved").iterdir()
+    assert re.fullmatch(r"small-[0-9a-f]{12}-1\.unsaved", file.name)
+    left = latest(file.parent)
+    assert left is not None
+    assert left.scene() == shop.workshop.scene
+    assert left.name == "small"
+    assert len(left.when) == 5
+
+
+def test_what_was_taken_back_is_not_offered(tmp_path: Path) -> None:
+    shop, saver = Shop(), Autosave(tmp_path, "small")
+    shop.workshop.autosave = saver
+    shop.done(shop.workshop.add_body({"name": "ball", "position": [0, 3]}))
+    shop.done(shop.workshop.open(Scene.load("sumo")))
+    saver.stop()
+    left = latest(tmp_path)  # of a scene that is only looked at nothing is lost
+    assert left is not None
+    assert "ball" in left.text
+
+
+def test_what_was_written_goes_when_it_is_taken_back(tmp_path: Path, written: Semaphore) -> None:
+    shop, saver = Shop(), Autosave(tmp_path, "small")
+    shop.workshop.autosave = saver
+    shop.done(shop.workshop.add_body({"name": "ball", "position": [0, 3]}))
+    assert written.acquire(timeout=30)
+    shop.done(shop.workshop.open(Scene.load("sumo")))
+    shop.done(shop.workshop.undo())
+    shop.done(shop.workshop.undo())
+    saver.stop()
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_each_scene_that_was_changed_is_kept(tmp_path: Path) -> None:
+    shop, saver = Shop(), Autosave(tmp_path, "small")
+    shop.workshop.autosave = saver
+    shop.done(shop.workshop.add_body({"name": "ball", "position": [0, 3]}))
+    shop.done(shop.workshop.open(Scene.load("sumo")))
+    shop.done(shop.workshop.add_body({"name": "pole", "position": [0, 3]}))
+    saver.stop()
+    assert {each.name: "ball" in each.text for each in unsaved_scenes(tmp_path)} == {
+        "small": True,
+        "sumo": False,
+    }
+    shop.workshop.autosave = saver = Autosave(tmp_path, "small")
+    shop.workshop.forget()  # the one that runs was saved
+    saver.stop()
+    assert {each.name for each in unsaved_scenes(tmp_path)} == {"small", "sumo"}
+
+
+def test_two_servers_on_one_scene_leave_each_other_s_work_alone(
+    tmp_path: Path, written: Semaphore
+) -> None:
+    shops = [Shop(), Shop()]
+    savers = [Autosave(tmp_path, "small") for _ in shops]
+    for number, (shop, saver) in enumerate(zip(shops, savers, strict=True)):
+        shop.workshop.autosave = saver
+        shop.done(shop.workshop.add_body({"name": f"ball {number}", "position": [0, 3]}))
+        assert written.acquire(timeout=30)
+    assert len(list(tmp_path.glob("*.unsaved"))) == 2
+    assert latest(tmp_path) is None, "the work of a server that lives is not offered"
+    shops[1].done(shops[1].workshop.undo())
+    savers[1].stop()
+    assert latest(tmp_path) is None
+    savers[0].stop()
+    (kept,) = unsaved_scenes(tmp_path)
+    assert "ball 0" in kept.text
+
+
+def test_a_restored_scene_is_kept_until_it_is_saved(tmp_path: Path) -> None:
+    shop, saver = Shop(), Autosave(tmp_path, "small")
+    shop.workshop.autosave = saver
+    shop.done(shop.workshop.add_body({"name": "ball", "position": [0, 3]}))
+    saver.stop()
+    left = latest(tmp_path)
+    assert left is not None
+    # as play --restore does; then it is changed, and the change is taken back
+    again, saver = Shop(left.scene()), Autosave(tmp_path, "small")
+    again.workshop.autosave = saver
+    again.workshop.restored(left)
+    assert latest(tmp_path) is None, "it has an owner again"
+    again.done(again.workshop.remove_body("wall"))
+    again.done(again.workshop.undo())
+    saver.stop()
+    (kept,) = unsaved_scenes(tmp_path)
+    assert kept.scene() == left.scene()
+    third, saver = Shop(), Autosave(tmp_path, "small")
+    third.workshop.autosave, third.workshop.unsaved = saver, kept
+    third.done(third.workshop.bring_back())
+    third.workshop.forget()
+    saver.stop()
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_of_two_servers_that_restore_one_scene_both_keep_it(tmp_path: Path) -> None:
+    left_by_an_earlier_version(tmp_path, "small", TEXT)
+    left = latest(tmp_path)
+    assert left is not None
+    savers = [Autosave(tmp_path, "small") for _ in range(2)]
+    for saver in savers:
+        shop = Shop(left.scene())
+        shop.workshop.autosave = saver
+        shop.workshop.restored(left)
+    for saver in savers:
+        saver.stop()
+    assert [each.text for each in unsaved_scenes(tmp_path)] == [Shop().workshop.text(), TEXT]
+
+
+def left_by_an_earlier_version(folder: Path, name: str, text: str, ago_s: float = 0.0) -> None:
+    data = {"text": text, "folder": "", "saved_at": time.time() - ago_s}
+    (folder / f"{name}.unsaved").write_text(json.dumps(data))
+
+
+def test_one_is_chosen_by_scene_or_number(tmp_path: Path) -> None:
+    for number, name in enumerate(["small", "sumo", "box_chase", "box_chase 2"]):
+        left_by_an_earlier_version(tmp_path, name, TEXT, ago_s=60.0 * number)
+    left = unsaved_scenes(tmp_path)
+    assert [each.name for each in left] == ["small", "sumo", "box_chase", "box_chase 2"]
+    assert chosen(left) is left[0]
+    assert chosen(left, "sumo") is left[1]
+    assert chosen(left, "3") is left[2]
+    assert chosen(left, str(tmp_path / "sumo.yaml")) is left[1]
+    for wrong in ("maze", "0", "5", "99999999999", "\u00b2", "a\0b"):
+        with pytest.raises(SetupError, match=r"there are 1 small \(.*\), 2 sumo \("):
+            chosen(left, wrong)
+
+
+def test_old_ones_go_but_never_the_latest_of_a_scene(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(unsaved, "MAX_LEFT", 3)
+    month = 40 * 24 * 3600.0
+    for name, ago_s in (("aa", 0), ("bb", month), ("cc", month), ("dd", 2)):
+        left_by_an_earlier_version(tmp_path, name, TEXT, ago_s=ago_s)
+    for number in range(5):
+        data = {"scene": "bb", "text": TEXT, "folder": "", "saved_at": time.time() - 10 - number}
+        (tmp_path / f"bb-0123456789a{number}-1.unsaved").write_text(json.dumps(data))
+    (tmp_path / "0123456789a0.lock").touch()
+    (tmp_path / "package.lock").touch()
+    Autosave(tmp_path, "small").stop()
+    names = sorted(path.name for path in tmp_path.iterdir())
+    kept = ["aa.unsaved", "bb-0123456789a0-1.unsaved", "cc.unsaved", "dd.unsaved"]
+    assert names == [*kept, "package.lock"]
+
+
+def test_it_is_brought_back_or_forgotten(tmp_path: Path) -> None:
+    left, saver = Shop(), Autosave(tmp_path, "small")
+    left.workshop.autosave = saver
+    left.done(left.workshop.add_body({"name": "ball", "position": [0, 3]}))
+    saver.stop()
+    shop = Shop()
+    shop.workshop.unsaved = latest(tmp_path)
+    shop.done(shop.workshop.bring_back())
+    assert shop.workshop.scene == left.workshop.scene
+    assert shop.workshop.unsaved is None
+    shop.done(shop.workshop.undo())
+    assert "ball" not in shop.world.bodies
+    shop.workshop.autosave = saver = Autosave(tmp_path, "small")
+    shop.workshop.forget()
+    saver.stop()
+    assert latest(tmp_path) is None
+    with pytest.raises(SetupError, match="there is no unsaved scene"):
+        shop.done(shop.workshop.bring_back())
+
+
+def test_many_changes_are_written_once(saver: Autosave, monkeypatch: pytest.MonkeyPatch) -> None:
+    written = []
+    monkeypatch.setattr(autosave, "_write", lambda _file, state: written.append(state))
+    state = Shop().workshop.state
+    for number in range(100):
+        state = state.describing(title=str(number))
+        saver.note(state)
+    saver.stop()
+    assert [each.description.title for each in written][-1] == "99"
+    assert len(written) <= 3
+
+
+def test_what_is_no_such_file_is_not_offered(tmp_path: Path) -> None:
+    for name, text in (("a", "{"), ("b", "[]"), ("c", '{"text": "x"}'), ("d", "\0")):
+        (tmp_path / f"{name}.unsaved").write_text(text)
+    assert latest(tmp_path) is None
+    assert latest(tmp_path / "nowhere") is None
+
+
+@pytest.mark.parametrize("where", ["file", "file/deeper", "/proc/self", "/dev/null"])
+def test_a_folder_that_can_t_be_made_is_told_of_once(tmp_path: Path, where: str) -> None:
+    (tmp_path / "file").touch()
+    told: list[str] = []
+    saver = Autosave(tmp_path / where / "unsaved", "small", told.append)
+    assert told == [saver.problem]
+    assert told[0].startswith("changes can't be kept in ")
+    shop = Shop()
+    shop.workshop.autosave = saver
+    shop.done(shop.workshop.add_body({"name": "ball", "position": [0, 3]}))
+    saver.stop()
+    assert told == [saver.problem]
+    assert unsaved_scenes(tmp_path / where / "unsaved") == []
+
+
+def test_a_full_disk_is_told_of_once_and_tried_again(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(autosave, "DELAY", 0.0)
+    monkeypatch.setattr(autosave, "RETRY_S", 0.01)
+    tries, is_written, write = Semaphore(0), Event(), autosave._write
+    is_full = [True]
+
+    def written(file: Path, state: State) -> None:
+        tries.release()
+        if is_full[0]:
+            raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+        write(file, state)
+        is_written.set()
+
+    monkeypatch.setattr(autosave, "_write", written)
+    told: list[str] = []
+    shop, saver = Shop(), Autosave(tmp_path, "small", told.append)
+    shop.workshop.autosave = saver
+    shop.done(shop.workshop.add_body({"name": "ball", "position": [0, 3]}))
+    for _ in range(3):
+        assert tries.acquire(timeout=30)
+    assert told == [f"changes can't be kept in {tmp_path}: the disk is full"]
+    assert latest(tmp_path) is None
+    is_full[0] = False
+    assert is_written.wait(30)
+    saver.stop()
+    assert len(told) == 1
+    assert saver.problem == ""
+    assert len(unsaved_scenes(tmp_path)) == 1
+
+
+def test_a_name_that_is_too_long_for_a_file_is_cut(tmp_path: Path) -> None:
+    shop, saver = Shop(), Autosave(tmp_path, "\u4e00" * 80)
+    saver.note(shop.workshop.state.describing(name="\u4e00" * 80))
+    saver.stop()
+    assert len(unsaved_scenes(tmp_path)) == 1
+
+
+def test_a_killed_server_leaves_it_whole() -> None:
+    assert run(2) == []
+
+
+def test_the_command_line_restores(tmp_path: Path) -> None:
+    command = [sys.executable, "-m", "ai4u_edu", "play", "--restore", "--no-open"]
+    environment = {**os.environ, "XDG_STATE_HOME": str(tmp_path)}
+    told = subprocess.run(command, capture_output=True, text=True, check=False, env=environment)
+    assert told.returncode == 1
+    assert told.stderr == "error: there is no unsaved scene; expected: ai4u-edu play SCENE\n"
+
+
+def test_a_state_folder_that_can_t_be_made_is_no_reason_not_to_start(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "state").touch()
+    monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path / "state"))
+    with played("box_chase") as server:
+        assert server.snapshot()["agents"]
+    told = "".join(server.told)
+    assert f"warning: changes can't be kept in {tmp_path}/state/ai4u-edu/unsaved: Not a" in told
+    assert "Traceback" not in told
+
+
+def test_restore_takes_the_scene_that_is_named(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path))
+    folder = autosave.unsaved_folder()
+    folder.mkdir(parents=True)
+    for ago_s, name in enumerate(["sumo", "tag", "tag"]):
+        text = Scene.load(name).dumps()
+        left_by_an_earlier_version(folder, f"{name}-0123456789a{ago_s}-1", text, ago_s=60 * ago_s)
+    with played("tag", "--restore") as server:
+        assert len(server.snapshot()["agents"]) == len(Scene.load("tag").description.agents)
+        assert [each.name for each in unsaved_scenes(folder)] == ["sumo", "tag"]
+        with played("2", "--restore") as other:
+            assert "unsaved scenes: 1 sumo (" in "".join(other.told)
+            assert [each.name for each in unsaved_scenes(folder)] == ["sumo"]
+
+
+@pytest.mark.parametrize("option", ["--record", "--scenes"])
+def test_a_folder_that_was_asked_for_has_to_be_one(tmp_path: Path, option: str) -> None:
+    (tmp_path / "file").touch()
+    command = [sys.executable, "-m", "ai4u_edu", "play", option, str(tmp_path / "file")]
+    told = subprocess.run(
+        [*command, "--no-open", "--no-autosave"], capture_output=True, text=True, check=False
+    )
+    assert told.returncode == 1
+    assert re.fullmatch(
+        rf"error: {tmp_path}/file: expected a folder for .*: File exists; choose another one\n",
+        told.stderr,
+    )
+
+
+def test_nothing_is_kept_unless_asked_for(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path))
+    shop = Shop(Scene.load("box_chase"))
+    assert isinstance(shop.workshop, Workshop)
+    shop.done(shop.workshop.add_body({"name": "ball", "position": [0, 3]}))
+    assert list(tmp_path.iterdir()) == []

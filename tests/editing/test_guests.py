@@ -1,0 +1,124 @@
+"""Drivers that stand in no scene file, and what becomes of them when blocks are changed."""
+
+from typing import Any
+
+import pytest
+
+from ai4u_edu import Controller, LocalBrain
+from ai4u_edu.base.errors import AI4UError, BlockError
+from ai4u_edu.blocks import RemoteBrain
+from ai4u_edu.blocks.brains.links.link import LinkState
+from tests.editing.shops import Shop
+
+
+class Line:
+    """A connection over which nobody says anything; remembers what it was told."""
+
+    state = LinkState.CONNECTED
+    reason = ""
+    ignored = 0
+    heard = 0.0
+    expecting = False
+    will_call = False
+
+    def __init__(self) -> None:
+        self.opened: list[Any] = []
+        self.closed: list[str] = []
+
+    def open(self, offer: Any) -> None:
+        self.opened.append(offer)
+
+    def ask(self, situation: Any, timeout: float) -> None:
+        return None
+
+    def tell(self, situation: Any) -> None: ...
+
+    def refuse(self, answered: Any, reason: str) -> bool:
+        return False
+
+    def idle(self) -> None: ...
+
+    def close(self, reason: str) -> None:
+        self.closed.append(reason)
+
+
+class Picky(Controller):
+    """Wants an actuator that is called "move"."""
+
+    def on_setup(self, agent: Any, view: Any) -> None:
+        if all(each.action_name != "move" for each in agent.actuators):
+            raise BlockError("where is my move")
+
+    def get_action(self, percept: Any) -> Any:
+        return {}
+
+
+@pytest.fixture
+def shop() -> Shop:
+    shop = Shop()
+    shop.tick(3)
+    return shop
+
+
+def test_a_function_drives_on_whatever_is_changed(shop: Shop) -> None:
+    brain = LocalBrain(controller=lambda percept: {"move": [0, 0.5, 0, 0]}, skip_frame=0)
+    shop.agent.use_brain(brain)
+    shop.done(shop.workshop.add_block("0", "sensors", {"type": "HeadingSensor"}))
+    shop.done(shop.workshop.move_body("wall", -4, 1))
+    shop.tick(2)
+    assert shop.agent.brain is brain
+    assert shop.agent.last_action == {"move": (0, 0.5, 0, 0)}
+    assert shop.workshop.driver_of("0") == ""
+    shop.done(shop.workshop.drive("0", "brain:0"))
+    assert shop.agent.brain is not brain
+    assert shop.workshop.driver_of("0") == "brain:0"
+
+
+def test_a_body_that_does_not_fit_the_brain_is_not_given_to_it(shop: Shop) -> None:
+    """What is wrong comes out last, when the brain is set up: all is put back, flags too."""
+    shop.done(shop.workshop.drive("0", "keys:Picky"))
+    with pytest.raises(AI4UError, match="where is my move"):
+        shop.done(shop.workshop.change_block("0", ("actuators", 0), {"action_name": "go"}))
+    assert [brain.enabled for brain in shop.agent.brains] == [False, True]
+    assert list(shop.agent.fitting.actuators) == ["move"]
+    shop.tick(2)
+    shop.done(shop.workshop.undo())
+    shop.tick(2)
+
+
+def test_one_who_took_over_stays(shop: Shop) -> None:
+    shop.done(shop.workshop.drive("0", "keys:WASDRBMoveController"))
+    first = shop.agent.brains[0]
+    shop.agent.use_brain(first)  # as a page does when somebody lets go
+    shop.done(shop.workshop.add_block("0", "sensors", {"type": "HeadingSensor"}))
+    assert shop.agent.brain is first
+    assert [brain.enabled for brain in shop.agent.brains] == [True, False]
+
+
+def test_a_script_that_was_told_what_it_senses_has_to_come_again(shop: Shop) -> None:
+    line = Line()
+    brain = RemoteBrain.over(line, mode="realtime")
+    shop.agent.use_brain(brain)
+    shop.tick(2)
+    shop.done(shop.workshop.move_body("wall", -4, 1))  # that changes nothing for it
+    assert shop.agent.brain is brain
+    assert line.closed == ["the agent is set up anew"] * 0
+    shop.done(shop.workshop.add_block("0", "sensors", {"type": "HeadingSensor"}))
+    assert shop.agent.brain is shop.agent.brains[0]
+    assert all(each is not brain for each in shop.agent.brains)
+    (told,) = line.closed
+    assert told.startswith("the agent's blocks were changed; connect again")
+    shop.tick(2)
+
+
+def test_a_change_that_fails_leaves_the_driver_in_its_place(shop: Shop) -> None:
+    line = Line()
+    brain = RemoteBrain.over(line, mode="realtime")
+    shop.agent.use_brain(brain)
+    fitting = shop.agent.fitting
+    with pytest.raises(Exception, match="perception_key"):
+        shop.done(
+            shop.workshop.add_block("0", "sensors", {"type": "BearingSensor", "target": "wall"})
+        )
+    assert (shop.agent.brain, shop.agent.fitting, line.closed) == (brain, fitting, [])
+    shop.tick(2)

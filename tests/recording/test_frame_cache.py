@@ -1,0 +1,178 @@
+"""What a reel shows of the past is what was seen then, bit for bit."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from ai4u_edu import LocalBrain, Scene
+from ai4u_edu.check.drive import RandomDrive
+from ai4u_edu.recording import Episode, Recorder
+from ai4u_edu.recording.frame_cache import Reel
+from ai4u_edu.snapshot import AgentState, Snapshot, picture_of, set_stage
+from tests.recording.takes import GO, HOLD, LEFT, RESPAWN, WAIT, driver, field_of, take
+
+
+def lived(name: str, decisions: int) -> tuple[Episode, dict[int, Snapshot]]:
+    """A drive by chance, and all that was to be seen meanwhile, by tick."""
+    sim = Scene.load(name).build()
+    for number, agent in enumerate(sim.agents):
+        drive = RandomDrive(agent)
+        drive.restart(number)
+        agent.ledger.remember(240)
+        skip = agent.brain.skip_frame + number  # each in a rhythm of its own
+        agent.use_brain(LocalBrain(controller=drive, skip_frame=skip))
+    recorder = Recorder(sim)
+    sim.reset(4)
+    stage = set_stage(sim)
+    seen = {0: picture_of(sim, stage)}
+    while sim.agents[0].steps < decisions and not sim.agents[0].done:
+        sim.tick()
+        seen[sim.world.ticks] = picture_of(sim, stage)
+    recorder.finish()
+    return recorder.episodes[-1], seen
+
+
+def sensed(state: AgentState) -> tuple[object, ...]:
+    rays = {
+        key: (ray.origin, ray.ends.tobytes(), tuple(ray.groups)) for key, ray in state.rays.items()
+    }
+    return state.percept.data, state.percept.texts, rays, state.needs, state.steps
+
+
+def paid(state: AgentState) -> tuple[object, ...]:
+    return (
+        state.action,
+        state.clipped,
+        state.reward,
+        list(state.reward_terms.items()),
+        state.episode_reward,
+        list(state.episode_terms.items()),
+        state.phase,
+        state.history,
+    )
+
+
+@pytest.mark.parametrize(("name", "decisions"), [("box_chase", 60), ("tag", 40), ("soccer", 30)])
+def test_every_step_is_as_it_was_seen_live(name: str, decisions: int) -> None:
+    episode, seen = lived(name, decisions)
+    reel = Reel(episode, number=3).start()
+    record = episode.agents[0]
+    assert reel.picture(len(record), timeout=None) is not None
+    assert (reel.last, reel.ended, reel.problem) == (len(record), True, "")
+    for step, decision in enumerate(record):
+        past = reel.picture(step)
+        assert past is not None
+        then, after = seen[decision.begin], seen[decision.end]
+        who = "" if len(episode.agents) == 1 else f" of agent {record.id}"
+        assert past.past == f"episode 3, step {step + 1} of {len(record)}{who}"
+        assert (past.tick, past.time, past.seed) == (then.tick, then.time, then.seed)
+        assert past.bodies == then.bodies
+        assert past.stage == then.stage
+        assert past.agents[0].brain == then.agents[0].brain
+        assert sensed(past.agents[0]) == sensed(then.agents[0])
+        assert paid(past.agents[0]) == paid(after.agents[0])
+        for other in range(1, len(episode.agents)):
+            assert sensed(past.agents[other]) == sensed(then.agents[other])
+            theirs = episode.agents[other]
+            now = int(np.searchsorted(theirs.begin, decision.begin, side="right")) - 1
+            ended = seen.get(int(theirs.end[now]))
+            if ended is not None and theirs.end[now] > theirs.begin[now]:
+                assert paid(past.agents[other]) == paid(ended.agents[other])
+    end, last = reel.picture(len(record)), seen[episode.ticks]
+    assert end is not None
+    assert end.past == f"episode 3, the end{who}"
+    assert end.bodies == last.bodies
+    assert sensed(end.agents[0]) == sensed(last.agents[0])
+    assert paid(end.agents[0]) == paid(last.agents[0])
+    assert end.agents[0].terminated == last.agents[0].terminated
+    reel.stop()
+
+
+def test_who_begins_anew_has_done_nothing_yet() -> None:
+    sim = field_of(
+        driver("a", [GO, WAIT, LEFT, RESPAWN, GO, HOLD, GO], max_steps_per_episode=4),
+        driver("b", [LEFT, RESPAWN, GO, HOLD, RESPAWN, GO], skip_frame=1),
+    )
+    recorder = Recorder(sim)
+    sim.reset(3)
+    for _ in range(50):
+        sim.tick()
+    recorder.finish()
+    episode = recorder.episodes[-1]
+    reel = Reel(episode, agent="b").start()
+    for step, decision in enumerate(episode.agent("b")):
+        picture = reel.picture(step, timeout=None)
+        assert picture is not None
+        assert picture.agents[1].action == decision.action
+        assert picture.agents[1].reward_terms == decision.reward_terms
+        assert picture.tick == decision.begin
+    reel.stop()
+
+
+def test_who_waits_after_a_restart_is_shown_with_nothing_done() -> None:
+    sim = field_of(driver("a", []), driver("b", [GO, GO, RESPAWN] + 100 * [WAIT]))
+    recorder = Recorder(sim)
+    sim.reset(3)
+    for _ in range(40):
+        sim.tick()
+    recorder.finish()
+    reel = Reel(recorder.episodes[-1], agent="a").start()
+    assert reel.picture(reel.last, timeout=None) is not None
+    actions = []
+    for step in range(reel.last):
+        picture = reel.picture(step)
+        assert picture is not None
+        actions.append(picture.agents[1].action)
+    assert actions[0] == {"move": (1.0, 0.0, 0.0, 0.0)}
+    assert actions[3:] == [{}] * (len(actions) - 3)
+    reel.stop()
+
+
+def test_with_little_memory_it_shows_the_same() -> None:
+    episode = take("box_chase", decisions=120).episode
+    whole, small = Reel(episode).start(), Reel(episode, largest=100_000).start()
+    last = len(episode.agents[0])
+    assert small.picture(last, timeout=None) is not None
+    assert small.stride >= 4
+    for step in (37, 36, 35, 2, last, 101, 5, last - 1, 0):
+        one, other = whole.picture(step, timeout=None), small.picture(step, timeout=None)
+        assert one is not None
+        assert other is not None
+        assert one.bodies == other.bodies
+        assert sensed(one.agents[0]) == sensed(other.agents[0])
+        assert paid(one.agents[0]) == paid(other.agents[0])
+    assert len(small._frames) < last / 2
+    whole.stop()
+    small.stop()
+
+
+def test_what_is_not_ready_is_made_and_can_be_asked_for_again() -> None:
+    episode = take("box_chase", decisions=30).episode
+    reel = Reel(episode)
+    assert reel.picture(3) is None
+    reel.start()
+    assert reel.picture(3, timeout=None) is not None
+    reel.stop()
+
+
+def test_it_ends_where_the_world_was_changed_by_hand() -> None:
+    episode = replace(take("box_chase", decisions=30).episode, changed=60)
+    reel = Reel(episode).start()
+    while reel.picture(11, timeout=None) is None:
+        pass
+    assert (reel.last, reel.ended) == (11, False)
+    assert reel.problem == "the world was changed by hand there"
+    reel.stop()
+
+
+def test_what_can_not_be_played_has_no_pictures_and_says_why() -> None:
+    episode = take("box_chase", decisions=5).episode
+    scene = episode.scene.model_copy(update={"agents": ({"body": "nobody"},)})
+    reel = Reel(replace(episode, scene=scene))
+    reel.start()
+    assert reel.picture(0, timeout=None) is None
+    reel._thread.join()
+    assert reel.last == -1
+    assert "the episode's scene can't be made" in reel.problem
+    reel.stop()

@@ -1,0 +1,427 @@
+"""Taking an agent over from a network or a script, and giving it back."""
+
+import asyncio
+import contextlib
+import threading
+from collections.abc import Iterator
+from typing import Any
+
+import pytest
+from starlette.types import ASGIApp, Message, Receive, Scope, Send
+
+from ai4u_edu import (
+    Actuator,
+    ArrowController,
+    BasicAgent,
+    CarActuator,
+    CBMoveActuator,
+    CircleShape,
+    ContinuousActuator,
+    ControlRequestor,
+    DifferentialDriveActuator,
+    DiscreteActuator,
+    ForceMoveActuator,
+    LocalBrain,
+    NeuralNetController,
+    RBMoveActuator,
+    RemoteBrain,
+    ReplayController,
+    Scene,
+    WASDRBMoveController,
+    World,
+)
+from ai4u_edu.blocks import trained_brain
+from ai4u_edu.blocks.brains.controllers.keyboard import Stick
+from ai4u_edu.remote import LostError, RemoteError, connect
+from ai4u_edu.runtime.runner import Runner
+from ai4u_edu.server.bindings import takes_a_stick
+from ai4u_edu.server.human_override import Hands, who
+from ai4u_edu.server.key_labels import useful_keys
+from tests.builders import small_sim, still
+from tests.server.rooms import Room, free_port, served, until
+
+
+def spin(_percept: Any) -> dict[str, Any]:
+    return {"move": [0, 0.5, 0, 0]}
+
+
+@pytest.fixture
+def room() -> Iterator[Room]:
+    with served(small_sim(controller=spin)) as room:
+        yield room
+
+
+def brain_of(room: Room) -> str:
+    return room.sim.agents[0].brain.title()
+
+
+def test_a_key_takes_over_and_letting_go_gives_back(room: Room) -> None:
+    agent = room.sim.agents[0]
+    script = agent.brain
+    with room.page() as page:
+        hello = page.hear("hello")
+        assert (hello["others"], hello["instead"]) == ("A script", "")
+        assert hello["keys"]["forward"] == ["KeyW", "ArrowUp"]
+        page.hold("KeyW")
+        page.hear("hello", others="", instead="A script")
+        until(lambda: room.runner.latest.agents[0].action["move"][0] == 1)
+        assert brain_of(room) == "LocalBrain(WASDRBMoveController)"
+        page.hold()
+        page.say("let_go")
+        page.hear("hello", others="A script", instead="")
+        assert agent.brain is script
+        assert agent.brains == [script], "what was made for this is gone again"
+        until(lambda: room.runner.latest.agents[0].action["move"][1] == 0.5)
+
+
+def test_a_page_that_is_gone_gives_back(room: Room) -> None:
+    with room.page() as page:
+        page.hold("KeyW")
+        page.hear("hello", others="")
+    until(lambda: brain_of(room) == "LocalBrain(ScriptController)")
+
+
+def test_a_page_that_lets_go_and_leaves_at_once_gives_back(room: Room) -> None:
+    may_go = threading.Event()
+    with room.page() as page:
+        page.hold("KeyW")
+        page.hear("hello", others="")
+        room.runner.submit(lambda: may_go.wait(5))
+        for _ in range(50):  # one of them is carried out, they are not heaped up
+            page.say("let_go")
+            page.say("take")
+        page.say("let_go")
+        page.say("nonsense")
+        page.hear("error")
+        waiting = len(room.runner._queue)
+    may_go.set()
+    until(lambda: brain_of(room) == "LocalBrain(ScriptController)")
+    assert waiting < 5
+
+
+def test_it_stays_taken_over_while_another_page_takes_the_seat(room: Room) -> None:
+    with room.page() as first, room.page() as second:
+        first.hold("KeyW")
+        second.hear("hello", others="")
+        second.say("take")
+        second.hold("KeyS")
+        until(lambda: room.held == ["KeyS"])
+        first.say("let_go")
+        first.say("nonsense")
+        first.hear("error")
+        assert brain_of(room) == "LocalBrain(WASDRBMoveController)"
+        second.say("let_go")
+        second.hear("hello", others="A script")
+
+
+def test_a_click_and_a_stick_take_over_as_well(room: Room) -> None:
+    with room.page() as page:
+        page.say("take")
+        page.hear("hello", others="")
+        page.say("let_go")
+        page.hear("hello", others="A script")
+        page.say("keys", held=[], stick={"forward": 0.5, "turn": -0.25})
+        page.hear("hello", others="")
+        until(lambda: room.runner.latest.agents[0].action["move"][:2] == (0.5, -0.25))
+
+
+def test_neither_restarting_nor_a_key_that_means_nothing_takes_over(room: Room) -> None:
+    with room.page() as page:
+        page.hold("KeyR", "KeyX")
+        page.say("nonsense")
+        page.hear("error")
+        assert page.last["seat"]["driver"] is None
+        assert brain_of(room) == "LocalBrain(ScriptController)"
+
+
+def test_a_brain_that_lies_ready_is_used_and_stays() -> None:
+    ready = LocalBrain(controller=ArrowController(speed=0.25), enabled=False)
+    mine = LocalBrain(controller=spin)
+    with served(small_sim(brains=[mine, ready])) as room, room.page() as page:
+        agent = room.sim.agents[0]
+        assert page.hear("hello")["keys"]["jump_forward"] == ["Enter"]
+        page.hold("ArrowUp")
+        until(lambda: agent.brain is ready)
+        until(lambda: room.runner.latest.agents[0].action["move"][0] == 0.25)
+        page.say("let_go")
+        until(lambda: agent.brain is mine)
+        assert agent.brains == [mine, ready]
+
+
+def test_where_a_script_is_waited_for_a_person_may_drive() -> None:
+    remote = RemoteBrain(port=free_port())
+    ready = LocalBrain(controller=WASDRBMoveController(), enabled=False)
+    with served(small_sim(brains=[remote, ready])) as room, room.page() as page:
+        agent = room.sim.agents[0]
+        hello = page.hear("hello")
+        assert (hello["others"], hello["keys"]["forward"][0]) == ("A script elsewhere", "KeyW")
+        page.hold("KeyW")
+        page.hear("hello", others="", instead="A script elsewhere")
+        until(lambda: room.runner.latest.agents[0].action["move"][0] == 1)
+        assert agent.brain is remote
+        page.say("let_go")
+        page.hear("hello", others="A script elsewhere", instead="")
+        assert agent.brains == [remote, ready]
+
+
+@pytest.mark.parametrize("mode", ["realtime", "lockstep"])
+def test_a_script_elsewhere_is_not_listened_to_while_a_person_drives(mode: Any) -> None:
+    steps: list[int] = []
+    with served(small_sim(controller=still)) as room:
+        agent = room.sim.agents[0]
+
+        def drive() -> None:
+            with contextlib.suppress(RemoteError, LostError):
+                for percept in robot:
+                    steps.append(percept.step)
+                    robot.act(move=[-0.5, 0, 0, 0])
+
+        def does(forward: float) -> bool:
+            return room.runner.latest.agents[0].action.get("move", (0,))[0] == forward
+
+        with connect(room.url, mode=mode) as robot, room.page() as page:
+            script = threading.Thread(target=drive, daemon=True)
+            script.start()
+            until(lambda: does(-0.5))
+            page.hold("KeyW")
+            page.hear("hello", others="", instead="A script elsewhere")
+            until(lambda: does(1))
+            brain = agent.brain
+            assert isinstance(brain, RemoteBrain)
+            seen, ignored = len(steps), brain.status().ignored
+            until(lambda: len(steps) > seen + 3)  # it goes on seeing
+            until(lambda: brain.status().ignored > ignored + 2)
+            assert does(1)
+            assert "a person drives" in brain.status().reason
+            page.hold()
+            page.say("let_go")
+            page.hear("hello", others="A script elsewhere", instead="")
+            until(lambda: does(-0.5))
+            assert agent.brain is brain
+            assert brain.status().reason == ""
+            assert steps == sorted(steps)
+        script.join(10)
+        until(lambda: brain_of(room) == "LocalBrain(ScriptController)")
+
+
+def test_a_script_that_leaves_meanwhile_takes_nobody_along() -> None:
+    sim = small_sim(controller=still)
+    with served(sim) as room, connect(room.url) as robot, room.page() as page:
+        page.hold("KeyW")
+        page.hear("hello", others="", instead="A script elsewhere")
+        robot.close()
+        until(lambda: brain_of(room) == "LocalBrain(ScriptController)")
+        page.hold()  # a page says again and again what it holds
+        page.say("let_go")
+        page.hear("hello", others="A script", instead="")
+        assert brain_of(room) == "LocalBrain(ScriptController)"
+
+
+def test_whoever_changes_the_brain_meanwhile_has_the_last_word(room: Room) -> None:
+    agent = room.sim.agents[0]
+    third = LocalBrain(controller=still)
+    with room.page() as page:
+        page.hold("KeyW")
+        page.hear("hello", others="")
+        room.runner.submit(lambda: agent.use_brain(third)).result(5)
+        page.hear("hello", others="A script", instead="")
+        page.say("let_go")
+        page.say("nonsense")
+        page.hear("error")
+        room.runner.submit(lambda: None).result(5)
+        assert agent.brain is third
+
+
+@pytest.mark.parametrize("paused", [True, False])
+def test_the_world_stays_as_it_is(room: Room, paused: bool) -> None:
+    if paused:
+        room.runner.pause().result(5)
+    before = room.runner.latest
+    with room.page() as page:
+        page.say("take")
+        page.hear("hello", others="")
+        after = room.runner.latest
+        assert (after.episode, after.seed) == (before.episode, before.seed)
+        assert after.paused == paused
+        assert (after.tick == before.tick) == paused
+
+
+@pytest.mark.parametrize(
+    ("actuator", "actions"),
+    [
+        (RBMoveActuator(), {"forward", "backward", "left", "right", "jump", "jump_forward"}),
+        (RBMoveActuator(jump_power=0), {"forward", "backward", "left", "right"}),
+        (CBMoveActuator(), {"forward", "backward", "turn_left", "turn_right"}),
+        (DifferentialDriveActuator(), {"forward", "backward", "turn_left", "turn_right"}),
+        (CarActuator(), {"forward", "backward", "turn_left", "turn_right"}),
+        (ForceMoveActuator(), {"forward", "backward", "turn_left", "turn_right"}),
+        (DiscreteActuator(), {"right", "left", "up", "down"}),
+        (DiscreteActuator(action_name="turn", table=[(0, 0, 0, 0), (0, 1, 0, 0)]), {"right"}),
+        (ContinuousActuator(action_name="free"), set()),
+    ],
+)
+def test_a_brain_is_made_that_fits_the_body(actuator: Actuator, actions: set[str]) -> None:
+    sim = small_sim(actuators=[actuator])
+    (agent,) = sim.agents
+    hands = Hands(Runner(sim), agent)
+    found = useful_keys(agent, hands.brain)
+    assert found.keys() - {"restart"} >= actions
+    assert found.keys() - {"restart", "jump", "jump_forward"} == actions - {"jump", "jump_forward"}
+    if actions:
+        agent.use_brain(hands.brain)
+        codes = next(iter(found.values()))
+        agent.keyboard.hold(codes[:1])
+        sim.step()
+        assert any(next(iter(agent.last_action.values())))
+
+
+def test_a_stick_is_offered_where_somebody_listens_to_it() -> None:
+    sims = [small_sim(actuators=[each]) for each in (CarActuator(), DiscreteActuator())]
+    brains = [Hands(Runner(sim), sim.agents[0]).brain for sim in sims]
+    assert [takes_a_stick(brain) for brain in brains] == [True, False]
+
+
+def test_who_drives_is_said_in_words() -> None:
+    network = trained_brain("zoo:box_chase")
+    assert isinstance(network.controller, NeuralNetController)
+    assert who(network) == "A network"
+    assert who(LocalBrain(controller=ReplayController(actions=[{}]))) == "A recording"
+    sim = Scene.load("sumo").build()
+    assert who(sim.agent("orange").brain) == "PushOutController"
+
+
+def test_a_network_goes_on_after_it_was_taken_over() -> None:
+    sim = Scene.load("box_chase").build()
+    (agent,) = sim.agents
+    keys, network = agent.brain, trained_brain("zoo:box_chase")
+    sim.reset(1)
+    agent.use_brain(network)
+    with served(sim) as room, room.page() as page:
+        assert page.hear("hello")["others"] == "A network"
+        page.hold("KeyS")
+        until(lambda: agent.brain is keys)
+        until(lambda: room.runner.latest.agents[0].action["move"][:2] == (-1, 0))
+        page.say("let_go")
+        until(lambda: agent.brain is network)
+        until(lambda: room.runner.latest.agents[0].action["move"][:2] != (-1, 0))
+
+
+# -- another world -------------------------------------------------------------------------------
+
+
+def another(*ids: str) -> ControlRequestor:
+    world = World()
+    agents = []
+    for number, agent_id in enumerate(ids):
+        world.add_body(f"body {agent_id}", CircleShape(radius=0.5), position=(3 * number, 0))
+        agents.append(
+            BasicAgent(
+                body=f"body {agent_id}",
+                id=agent_id,
+                actuators=[RBMoveActuator(move_amount=2)],
+                brains=[LocalBrain(controller=WASDRBMoveController(), skip_frame=0)],
+            )
+        )
+    return ControlRequestor(world, agents)
+
+
+def test_another_world_sends_pages_away_and_has_them_back() -> None:
+    with served() as room:
+        old, new = room.sim.agents[0], another("first", "0")
+        with room.page() as page:
+            page.hold("KeyW")
+            until(lambda: room.held == ["KeyW"])
+            room.runner.use(new).result(5)
+            assert page.end() == (1012, "another world")
+        with room.page("?after_another&agent=0") as page:
+            assert page.hear("hello")["agent"] == "0"
+            page.hold("KeyW")
+            until(lambda: new.agent("0").keyboard.held() == {"KeyW"})
+            assert old.keyboard.held() == set()
+            page.hear("state", held=["KeyW"])
+        with room.page("?after_another&agent=gone") as page:
+            assert page.hear("hello")["agent"] == "first"
+
+
+def test_an_agent_of_the_old_world_is_not_given_back(room: Room) -> None:
+    agent = room.sim.agents[0]
+    with room.page() as page:
+        page.hold("KeyW")
+        page.hear("hello", others="")
+        ours = agent.brain
+        room.runner.use(another("0")).result(5)
+        assert page.end()[0] == 1012
+    room.runner.submit(lambda: None).result(5)
+    assert agent.brain is ours
+
+
+# -- a stick -------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("stick", "told"),
+    [
+        ({"forward": 1.5}, "keys.stick.forward: expected at most 1, got 1.5"),
+        ({"turn": -1.01}, "keys.stick.turn: expected at least -1, got -1.01"),
+        ({"forward": "1"}, "number"),
+        ({"up": 1}, "up"),
+    ],
+)
+def test_a_stick_can_be_pushed_to_its_rim_and_no_further(
+    room: Room, stick: dict[str, Any], told: str
+) -> None:
+    with room.page() as page:
+        page.say("keys", held=[], stick=stick)
+        assert told in page.hear("error")["text"]
+
+
+def test_a_stick_is_finite(room: Room) -> None:
+    with room.page() as page:
+        page.socket.send('{"type": "keys", "held": [], "stick": {"forward": NaN}}')
+        assert "finite" in page.hear("error")["text"]
+
+
+def test_a_stick_rests_when_its_page_falls_silent(room: Room) -> None:
+    keyboard = room.sim.agents[0].keyboard
+    with room.page() as page:
+        page.say("keys", held=[], stick={"forward": 0.5})
+        until(lambda: keyboard.stick() == Stick(0.5, 0))
+        until(lambda: keyboard.stick() == Stick(0, 0), 2)
+
+
+# -- a page that stops reading -------------------------------------------------------------------
+
+
+def deaf_from_the_third_word_on(app: ASGIApp) -> ASGIApp:
+    """Whoever asks for agent "0" by name takes two frames, and then no more."""
+
+    async def wrapped(scope: Scope, receive: Receive, send: Send) -> None:
+        taken = 0
+
+        async def stuck(message: Message) -> None:
+            nonlocal taken
+            taken += message["type"] == "websocket.send"
+            if taken > 2:
+                await asyncio.Event().wait()
+            await send(message)
+
+        is_deaf = scope.get("query_string") == b"agent=0"
+        await app(scope, receive, stuck if is_deaf else send)
+
+    return wrapped
+
+
+def test_a_page_that_stops_reading_slows_nobody() -> None:
+    with served(wrap=deaf_from_the_third_word_on) as room, room.page() as other:
+        with room.page("?agent=0") as deaf:
+            deaf.hear("seat")
+            deaf.hold("KeyW")
+            other.hear("seat", pages=2, driver=2)
+            until(lambda: room.held == ["KeyW"])  # it speaks all the same
+            other.hear("state", held=["KeyW"])
+            before = room.runner.latest.tick
+            until(lambda: room.runner.latest.tick > before + 30)
+            other.say("take")
+            other.hold("KeyS")
+            other.hear("state", held=["KeyS"])
+        other.hear("seat", pages=1)

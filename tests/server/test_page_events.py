@@ -1,0 +1,142 @@
+"""How an episode ended is told in a word: whoever is told must be able to believe it."""
+
+from dataclasses import replace
+from typing import Any
+
+import pytest
+
+from ai4u_edu import Scene
+from ai4u_edu.agent.cycle import ControlRequestor
+from ai4u_edu.server.key_labels import captions, useful_keys
+from ai4u_edu.server.page_events import outcome
+from ai4u_edu.snapshot import Snapshot, picture_of
+from tests.builders import small_sim
+
+
+def sim_of(scene: str) -> ControlRequestor:
+    sim = Scene.load(scene).build()
+    sim.reset(1)
+    return sim
+
+
+def picture(scene: str, changes: dict[str, dict[str, Any]]) -> Snapshot:
+    """A scene in which some agents are as said."""
+    whole = picture_of(sim_of(scene))
+    agents = (agent._replace(**changes.get(agent.id, {})) for agent in whole.agents)
+    return replace(whole, agents=tuple(agents))
+
+
+def outcomes(scene: str, **changes: dict[str, Any]) -> dict[str, str]:
+    whole = picture(scene, changes)
+    return {agent.id: outcome(whole, agent) for agent in whole.agents}
+
+
+OVER = {"terminated": True}
+
+
+@pytest.mark.parametrize(
+    ("ended", "word"),
+    [
+        ({}, ""),
+        (OVER | {"succeeded": True}, "goal"),
+        (OVER | {"succeeded": True, "fell": True}, "goal"),
+        (OVER | {"fell": True, "episode_reward": 3.0}, "fell"),
+        (OVER | {"episode_reward": 3.0}, "over"),
+        ({"truncated": True}, "time"),
+        ({"truncated": True, "succeeded": True}, "goal"),
+    ],
+)
+def test_alone(ended: dict[str, Any], word: str) -> None:
+    whole = picture("box_chase", {})
+    agent = whole.agents[0]._replace(**ended)
+    assert outcome(replace(whole, agents=(agent,)), agent) == word
+
+
+def test_where_no_success_is_named_what_is_paid_at_the_end_is_one() -> None:
+    whole = picture("box_chase", {})
+    nameless = replace(whole, stage=replace(whole.stage, success=""))
+    agent = whole.agents[0]._replace(terminated=True, episode_reward=3.0)
+    assert outcome(replace(nameless, agents=(agent,)), agent) == "goal"
+
+
+def test_one_wins_and_the_others_lose() -> None:
+    won = OVER | {"succeeded": True}
+    assert outcomes("sumo", blue=won | {"fell": True}, orange=OVER | {"fell": True}) == {
+        "blue": "won",
+        "orange": "lost",
+    }
+    tie = {"truncated": True}
+    assert outcomes("sumo", blue=tie, orange=tie) == {"blue": "time", "orange": "time"}
+
+
+def test_who_is_caught_has_lost_while_the_others_play_on() -> None:
+    caught = OVER | {"reward": -10.0, "episode_reward": 3.0}
+    words = outcomes("tag", runner_1=caught)
+    assert words == {"chaser": "", "runner_1": "lost", "runner_2": "", "runner_3": ""}
+
+
+def test_a_runner_that_is_caught_did_not_fall() -> None:
+    sim = sim_of("tag")
+    chaser, runner = sim.agent("chaser"), sim.agent("runner_1")
+    x, y = chaser.body.position
+    sim.world["runner 1"].move_to(x + 1.0, y)
+    for _ in range(60):
+        if runner.done:
+            break
+        chaser.keyboard.hold({"KeyW"})
+        sim.world["chaser"].move_to(*chaser.body.position, heading=0.0)
+        sim.step(chaser)
+    assert runner.terminated
+    assert runner.body.fallen
+    whole = picture_of(sim)
+    caught = next(agent for agent in whole.agents if agent.id == "runner_1")
+    assert not caught.fell
+    assert outcome(whole, caught) == "lost"
+
+
+def test_who_is_taken_away_for_no_reward_did_not_fall_either() -> None:
+    sim = small_sim()
+    sim.world["robot"].leave()
+    sim.step()
+    (state,) = picture_of(sim).agents
+    assert (state.terminated, state.fell) == (True, False)
+
+
+def test_who_drives_over_the_edge_fell() -> None:
+    sim = sim_of("box_chase")
+    (agent,) = sim.agents
+    agent.body.move_to(20.0, 0.0)
+    while not agent.done:
+        sim.step()
+    for _ in range(120):
+        sim.tick()
+    assert picture_of(sim).agents[0].fell
+
+
+def test_who_won_and_rolls_over_the_edge_later_did_not_end_by_that() -> None:
+    sim = sim_of("platform")  # there every end is one of two terms, and falling is part of one
+    (agent,) = sim.agents
+    agent.body.move_to(31.0, -2.0)
+    while not agent.done:
+        sim.step()
+    agent.body.move_to(60.0, 0.0)
+    for _ in range(120):
+        sim.tick()
+    assert agent.body.fallen
+    (state,) = picture_of(sim).agents
+    assert (state.succeeded, state.fell) == (True, False)
+
+
+def test_keys_for_what_a_body_cannot_do_are_not_shown() -> None:
+    assert "jump" not in useful_keys(sim_of("box_chase").agents[0])
+    assert "jump_forward" not in useful_keys(sim_of("sumo").agents[0])
+    assert "jump" not in useful_keys(sim_of("yardstick").agents[0])
+    assert {"forward", "turn_left", "restart"} <= useful_keys(sim_of("yardstick").agents[0]).keys()
+    assert {"jump", "jump_forward"} <= useful_keys(sim_of("jumper").agents[0]).keys()
+
+
+def test_keys_are_called_what_they_do_in_the_scene() -> None:
+    names = {"right": "right", "left": "left", "up": "forward", "down": "leap"}
+    assert captions(sim_of("platform").agents[0]) == names
+    assert captions(sim_of("grid_world").agents[0]) == {}
+    assert captions(sim_of("box_chase").agents[0]) == {}

@@ -1,0 +1,240 @@
+"""The tab for blocks, on pages without a browser."""
+
+import gc
+from collections.abc import Iterator
+from functools import partial
+from typing import Any
+
+import pytest
+
+from ai4u_edu.editing.autosave import Unsaved
+from ai4u_edu.viewer import Viewer
+from ai4u_edu.viewer.panel.block_form import BlockForm
+from ai4u_edu.viewer.panel.blocks_tab import BlocksTab
+from ai4u_edu.viewer.panel.field_form import FieldForm
+from tests.editing.shops import TEXT, Shop
+from tests.viewer.pages import Page, page, seen, shown, tabs_of, until
+
+
+@pytest.fixture
+def viewer(shop: Shop) -> Iterator[Viewer]:
+    viewer = Viewer(shop.runner, workshop=shop.workshop)
+    yield viewer
+    viewer.stop()
+
+
+def tab_of(viewer: Viewer, number: int = 0) -> BlocksTab:
+    shown(viewer)
+    return tabs_of(viewer, BlocksTab)[number]
+
+
+def chosen(viewer: Viewer, here: Page, tab: BlocksTab, line: str) -> BlockForm:
+    here.change(tab.block, line)
+    seen(viewer, lambda: tab._form is not None and tab.block.value == line)
+    assert tab._form is not None
+    return tab._form
+
+
+def applied(viewer: Viewer, here: Page, tab: BlocksTab, **values: Any) -> None:
+    assert tab._form is not None
+    for name, value in values.items():
+        box: Any = tab._form.boxes[name]
+        here.change(box, value)
+        until(partial(_holds, box, value))
+    here.change(tab._form.apply, True)
+
+
+def _holds(box: Any, value: Any) -> bool:
+    return bool(box.value == value)
+
+
+def test_lists_of_blocks_and_of_who_may_drive(viewer: Viewer) -> None:
+    with page(viewer):
+        tab = tab_of(viewer)
+        assert tab.block.options == ("choose a block", "1 BearingSensor")
+        assert tab.driver.value == "Program: ReplayController"
+        assert "Keyboard: WASDRBMoveController" in tab.driver.options
+        assert "Program: TrainController" not in tab.driver.options  # by itself it does nothing
+        assert any(line.startswith("RayCastingSensor: Codes and") for line in tab.new.options)
+        assert tab._form is None  # made when it is asked for
+        assert not tab.deeds.visible
+
+
+def test_a_form_is_filled_in_and_handed_in(viewer: Viewer, shop: Shop) -> None:
+    with page(viewer) as here:
+        tab = tab_of(viewer)
+        form = chosen(viewer, here, tab, "1 BearingSensor")
+        assert form.boxes["target"].value == "box"
+        applied(viewer, here, tab, noise="0,5", target="wall")
+        until(lambda: shop.agent.sensors[0].target == "wall")
+        assert shop.agent.sensors[0].noise == 0.5
+        seen(viewer, lambda: "it applies at the next decision" in tab._said.content)
+        assert tab._form is form  # the same boxes
+        assert form.boxes["noise"].value == "0.5"
+
+
+def test_what_is_wrong_stands_beside_its_field(viewer: Viewer, shop: Shop) -> None:
+    with page(viewer) as here:
+        tab = tab_of(viewer)
+        form = chosen(viewer, here, tab, "1 BearingSensor")
+        applied(viewer, here, tab, noise="-1", delay=-2)
+        seen(viewer, lambda: len(form._complaints) == 2)
+        assert "expected at least 0, got -1" in form._complaints["noise"].content
+        assert "delay (decisions): expected at least 0, got -2" in form._told.content
+        for name, complaint in form._complaints.items():
+            place = [field.name for field in form.fields].index(name)
+            assert complaint.order == place + 0.5
+        assert shop.workshop.can_undo == ""
+        applied(viewer, here, tab, noise="0.1", delay=0)
+        seen(viewer, lambda: not form._complaints)
+        assert "it applies" in form._told.content
+
+
+def test_what_can_not_be_read_is_not_handed_in(viewer: Viewer, shop: Shop) -> None:
+    with page(viewer) as here:
+        tab = tab_of(viewer)
+        here.change(tab.kind, "Brains")
+        seen(viewer, lambda: "1.controller ReplayController" in tab.block.options)
+        form = chosen(viewer, here, tab, "1.controller ReplayController")
+        assert not tab.deeds.visible
+        applied(viewer, here, tab, actions="[{move: [1, 0")
+        seen(viewer, lambda: "actions" in form._complaints)
+        assert "for a list" in form._complaints["actions"].content
+        applied(viewer, here, tab, actions="[{move: [0, 1, 0, 0]}]")
+        until(lambda: shop.agent.brain.controller.actions == [{"move": [0, 1, 0, 0]}])
+
+
+def test_deeds(viewer: Viewer, shop: Shop) -> None:
+    with page(viewer) as here:
+        tab = tab_of(viewer)
+        here.change(tab.kind, "Rewards")
+        seen(viewer, lambda: "2 ProgressReward" in tab.block.options)
+        chosen(viewer, here, tab, "2 ProgressReward")
+        here.change(tab.deeds, "Up")
+        until(lambda: type(shop.agent.rewards[0]).__name__ == "ProgressReward")
+        seen(viewer, lambda: tab.block.value == "1 ProgressReward")  # it is still looked at
+        here.change(tab.deeds, "Off")
+        seen(viewer, lambda: tab.block.value == "1 ProgressReward (off)")
+        assert tab.deeds.options[0] == "On"
+        here.change(tab.deeds, "Remove")
+        until(lambda: len(shop.agent.rewards) == 1)
+        here.change(tab.changes, "Undo")
+        until(lambda: len(shop.agent.rewards) == 2)
+        seen(viewer, lambda: "redo: remove ProgressReward" in tab._said.content)
+
+
+def test_a_controller_has_no_place_in_a_list(
+    viewer: Viewer, shop: Shop, caplog: pytest.LogCaptureFixture
+) -> None:
+    with page(viewer) as here:
+        tab = tab_of(viewer)
+        here.change(tab.kind, "Brains")
+        seen(viewer, lambda: "1.controller ReplayController" in tab.block.options)
+        chosen(viewer, here, tab, "1.controller ReplayController")
+        before = shop.workshop.state
+        for word in tab.deeds.options:
+            here.change(tab.deeds, word)
+        here.change(tab.kind, "Rewards")  # after it, those were heard
+        seen(viewer, lambda: "1 TouchRewardFunc" in tab.block.options)
+        assert shop.workshop.state == before
+        gc.collect()
+        assert caplog.records == []
+
+
+def test_a_new_block_is_added_and_looked_at(viewer: Viewer, shop: Shop) -> None:
+    with page(viewer) as here:
+        tab = tab_of(viewer)
+        assert tab.add.disabled
+        line = next(line for line in tab.new.options if line.startswith("LinearRayCasting"))
+        here.change(tab.new, line)
+        until(lambda: not tab.add.disabled)
+        here.change(tab.add, True)
+        until(lambda: "linear_ray_casting" in shop.agent.percept)
+        seen(viewer, lambda: tab.block.value == "2 LinearRayCastingSensor")
+        assert tab._form is not None
+        assert tab._form.boxes["group_code"].value == "{target: 1, wall: 2}"
+
+
+def test_a_page_can_send_what_it_likes(viewer: Viewer, shop: Shop) -> None:
+    with page(viewer) as here:
+        tab = tab_of(viewer)
+        before = shop.workshop.state
+        for handle in (tab.block, tab.new, tab.driver, tab.kind, tab.changes, tab.deeds):
+            here.change(handle, "nonsense")
+        here.change(tab.add, True)
+        form = chosen(viewer, here, tab, "1 BearingSensor")
+        here.change(form.boxes["target"], "<script>")  # is none of its choices
+        applied(viewer, here, tab, noise="<script>")
+        seen(viewer, lambda: "noise" in form._complaints)
+        assert "&lt;script&gt;" in form._complaints["noise"].content
+        assert form.boxes["target"].value == "box"
+        assert shop.workshop.state == before
+
+
+def test_two_pages_have_a_form_each_and_see_each_others_changes(viewer: Viewer, shop: Shop) -> None:
+    with page(viewer) as mine, page(viewer) as theirs:
+        until(lambda: len(viewer.server.get_clients()) == 2)
+        one, two = tab_of(viewer, 0), tab_of(viewer, 1)
+        form = chosen(viewer, mine, one, "1 BearingSensor")
+        other = chosen(viewer, theirs, two, "1 BearingSensor")
+        assert form is not other
+        applied(viewer, mine, one, noise="0.25")
+        seen(viewer, lambda: other.boxes["noise"].value == "0.25")
+        assert "undo: change BearingSensor" in two._said.content
+
+
+def test_another_scene_has_other_lists(viewer: Viewer, shop: Shop) -> None:
+    with page(viewer) as here:
+        tab = tab_of(viewer)
+        chosen(viewer, here, tab, "1 BearingSensor")
+        other = "title: Another one\n" + TEXT.replace(
+            "BearingSensor, target: box, stacked_observations: 3", "HeadingSensor"
+        )
+        shop.workshop.load(other).result(5)
+        seen(viewer, lambda: "1 HeadingSensor" in tab.block.options)
+        assert viewer._title == "Another one"
+        seen(viewer, lambda: tab._form is None or tab._form._block["type"] == "HeadingSensor")
+
+
+def test_what_was_left_is_offered(viewer: Viewer, shop: Shop, tmp_path: Any) -> None:
+    text = TEXT.replace("position: [4, 0]", "position: [3, 3]")
+    shop.workshop.unsaved = Unsaved(tmp_path / "x", text, None, 0.0)
+    with page(viewer) as here:
+        tab = tab_of(viewer)
+        assert tab._offer.visible
+        here.change(tab._offered, "Bring it back")
+        until(lambda: shop.world["box"].position == (3, 3))
+        seen(viewer, lambda: not tab._offer.visible)
+
+
+def test_an_agents_own_settings_have_a_form(viewer: Viewer, shop: Shop) -> None:
+    with page(viewer) as here:
+        tab = tab_of(viewer)
+        here.press(tab.settings.button)  # the form is made when it is asked for
+        seen(viewer, lambda: tab.settings.form)
+        form = tab.settings.form
+        assert form is not None
+        assert form.boxes["skip_frame"].value == 0
+        hand_in(here, form, skip_frame=3, max_steps_per_episode=50, repeat_action=False)
+        until(lambda: shop.agent.brain.skip_frame == 3)
+        assert shop.agent.max_steps_per_episode == 50
+        assert shop.agent.brain.repeat_action is False
+        seen(viewer, lambda: "change agent 0: it applies at the next decision" in tab._said.content)
+        hand_in(here, form, skip_frame=-2)
+        seen(viewer, lambda: "skip frame: expected at least 0, got -2" in form._told.content)
+        assert shop.agent.brain.skip_frame == 3
+        here.change(tab.changes, "Undo")
+        seen(viewer, lambda: form.boxes["skip_frame"].value == 0)
+        assert tab.settings.form is form
+        assert shop.agent.brain.skip_frame == 0
+        hand_in(here, form, priority=2)
+        seen(viewer, lambda: "it applies at the next reset" in tab._said.content)
+        here.press(tab.settings.button)
+        seen(viewer, lambda: tab.settings.form is None)
+
+
+def hand_in(here: Page, form: FieldForm, **values: Any) -> None:
+    for name, value in values.items():
+        here.change(form.boxes[name], value)
+        until(partial(_holds, form.boxes[name], value))
+    here.press(form.apply)

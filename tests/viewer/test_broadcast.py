@@ -1,0 +1,397 @@
+"""Bare clients of viser's socket: what all get is packed once, and nobody misses anything."""
+
+import asyncio
+import inspect
+import re
+import time
+from collections.abc import Iterator
+from contextlib import ExitStack, suppress
+from threading import Event
+from typing import Any
+
+import msgspec
+import pytest
+import viser
+from viser import _assignable_props_api
+from viser._messages import GuiUpdateMessage
+from viser.infra import _infra
+from viser.infra._messages import Message
+from websockets.sync.client import ClientConnection, connect
+from websockets.sync.connection import Connection
+from websockets.typing import Subprotocol
+from zstandard import ZstdDecompressor
+
+from ai4u_edu.base import direct
+from ai4u_edu.viewer.backend import broadcast as fan_out
+from ai4u_edu.viewer.backend.broadcast import FanOut, Page
+from ai4u_edu.viewer.backend.local_server import LocalServer
+from ai4u_edu.viewer.backend.quick_props import quick_props
+from tests.load.clients import CAMERA
+from tests.server.rooms import served, until
+
+DOORS: dict[int, str] = {}
+"""Where pages go to, by viser's port, if not to viser itself."""
+
+
+@pytest.fixture(params=["to viser", "to our port"])
+def server(request: pytest.FixtureRequest) -> Iterator[LocalServer]:
+    server = LocalServer("AI4U Edu")
+    with ExitStack() as stack:
+        stack.callback(server.stop)
+        if request.param == "to our port":
+            room = stack.enter_context(served(viser_port=server.get_port()))
+            DOORS[server.get_port()] = room.url
+            stack.callback(DOORS.clear)
+        yield server
+
+
+@pytest.fixture
+def packings(monkeypatch: pytest.MonkeyPatch) -> list[list[Message]]:
+    """What was packed."""
+    made: list[list[Message]] = []
+    pack = fan_out.packed
+
+    def packed(messages: list[Message]) -> bytes:
+        made.append(list(messages))
+        return pack(messages)
+
+    monkeypatch.setattr(fan_out, "packed", packed)
+    return made
+
+
+def client(server: viser.ViserServer, door: str = "") -> ClientConnection:
+    port = server.get_port()
+    url = door or DOORS.get(port) or f"http://127.0.0.1:{port}"
+    return connect(
+        url.rstrip("/").replace("http", "ws", 1),
+        subprotocols=[Subprotocol(f"viser-v{viser.__version__}")],
+        compression=None,
+        max_size=None,
+        proxy=None,
+    )
+
+
+def told(frame: object) -> list[dict[str, Any]]:
+    """The messages in a frame."""
+    assert isinstance(frame, bytes)
+    size = int.from_bytes(frame[8:16], "little")
+    inside = ZstdDecompressor().decompress(frame[16 : 16 + size])
+    messages: list[dict[str, Any]] = msgspec.msgpack.decode(inside)["messages"]
+    return messages
+
+
+def frame_with(page: Connection, text: str) -> bytes:
+    """The first frame in which a text is."""
+    while True:
+        frame = page.recv(5)
+        assert isinstance(frame, bytes)
+        if text in str(told(frame)):
+            return frame
+
+
+def marks(messages: list[dict[str, Any]]) -> list[str]:
+    """What stands in angle brackets in each message, if anything does."""
+    found = (re.search(r"<(\w+)>", str(message)) for message in messages)
+    return [each[1] for each in found if each]
+
+
+def said(page: Connection) -> bool:
+    """Whether a page is told anything within a moment."""
+    try:
+        page.recv(0.3)
+    except TimeoutError:
+        return False
+    return True
+
+
+def settled(server: LocalServer, pages: int) -> FanOut:
+    """The server's fan-out, as soon as so many pages are up to date."""
+    out: FanOut = server._websock_server._broadcast_buffer._ai4u_edu_fan_out  # type: ignore[attr-defined]
+    until(lambda: len(out._pages) == pages)
+    until(lambda: all(page.is_clear() for page in out._pages.values()))
+    assert all((page.way is not None) == bool(DOORS) for page in out._pages.values())
+    return out
+
+
+def waiting(page: Page) -> int:
+    """Bytes that a page has not taken yet, and that wait for it."""
+    socket: Any = page.way._socket if page.way else page.connection
+    size: int = socket.transport.get_write_buffer_size()
+    return size
+
+
+def test_it_fits_the_viser_that_is_there(server: LocalServer) -> None:
+    assert viser.__version__ == fan_out.KNOWN, "look whether viewer/fan_out.py still fits"
+    assert fan_out.fan_out(server)
+    assert quick_props()
+    source = inspect.getsource(_assignable_props_api)
+    assert set(re.findall(r"npt\.(\w+)", source)) == {"NDArray"}
+    ours, theirs = (inspect.signature(f) for f in (fan_out._produce, fan_out._viser_does))
+    assert list(ours.parameters) == list(theirs.parameters)
+    assert "_message_producer" in inspect.getsource(_infra.WebsockServer)
+
+
+def test_what_has_to_be_on_time_goes_before() -> None:
+    may_go = Event()
+    may_go.set()
+
+    def give_way() -> None:
+        may_go.wait(5)
+
+    server = LocalServer("AI4U Edu", give_way)
+    try:
+        with client(server) as page:
+            page.send(CAMERA)
+            until(lambda: len(server.get_clients()) == 1)
+            (mine,) = server.get_clients().values()
+            for guis, mark in ((server, "all"), (mine, "one")):
+                until(lambda: not said(page))
+                may_go.clear()
+                guis.gui.add_markdown(f"<{mark}>")
+                assert not said(page)
+                may_go.set()
+                frame_with(page, f"<{mark}>")
+    finally:
+        may_go.set()
+        server.stop()
+
+
+def test_with_another_viser_all_goes_visers_way(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(fan_out, "KNOWN", "0.0.0")
+    server = LocalServer("AI4U Edu")
+    try:
+        with client(server) as page:
+            server.gui.add_markdown("hello")
+            frame_with(page, "hello")
+    finally:
+        server.stop()
+
+
+def test_a_server_that_is_not_ours_goes_visers_way(packings: list[list[Message]]) -> None:
+    server = viser.ViserServer(host="127.0.0.1", port=0, verbose=False)
+    try:
+        server.gui.add_markdown("hello")
+        with client(server) as page:
+            frame_with(page, "hello")
+        assert packings == []
+    finally:
+        server.stop()
+
+
+def test_pages_that_are_up_to_date_share_one_packing(
+    server: LocalServer, packings: list[list[Message]]
+) -> None:
+    pages = [client(server) for _ in range(5)]
+    settled(server, 5)
+    server.gui.add_markdown("hello")
+    frames = {frame_with(page, "hello") for page in pages}
+    assert len(frames) == 1
+    assert sum("hello" in str(messages) for messages in packings) == 1
+    for page in pages:
+        page.close()
+
+
+def test_who_comes_gets_what_there_is_then_the_mark_and_then_what_is_new(
+    server: LocalServer,
+) -> None:
+    text = server.gui.add_markdown("first")
+    for number in range(1000):
+        text.content = f"old {number}"
+    with client(server) as page:
+        settled(server, 1)
+        text.content = "new"
+        seen: list[dict[str, Any]] = []
+        while "new" not in str(seen[-1:]):
+            seen += told(page.recv(5))
+    kinds = [message["type"] for message in seen]
+    mark = kinds.index("ReplayDoneMessage")
+    assert kinds.count("ReplayDoneMessage") == 1
+    assert "old 999" in str(seen[:mark])
+    assert "old 998" not in str(seen)
+    assert "new" in str(seen[mark:])
+
+
+def test_what_belongs_together_comes_together(server: LocalServer) -> None:
+    with client(server) as page:
+        settled(server, 1)
+        with server.atomic():
+            for number in range(300):
+                server.scene.add_frame(f"/frame {number}")
+                if number == 150:
+                    time.sleep(0.1)
+        names = [
+            message.get("name")
+            for message in told(frame_with(page, "/frame 0"))
+            if message["type"] == "FrameMessage"
+        ]
+        assert names == [f"/frame {number}" for number in range(300)]
+
+
+def test_what_one_page_has_said_goes_to_all_others(server: LocalServer) -> None:
+    field = server.gui.add_text("Name", initial_value="before")
+    with client(server) as writer, client(server) as reader:
+        settled(server, 2)
+        update = {
+            "type": "GuiUpdateMessage",
+            "uuid": field._impl.uuid,
+            "updates": {"value": "mine"},
+        }
+        writer.send(msgspec.msgpack.encode(update))
+        frame_with(reader, "mine")
+        server.gui.add_markdown("later")
+        heard: list[dict[str, Any]] = []
+        while "later" not in str(heard[-1:]):
+            heard += told(writer.recv(5))
+        assert "mine" not in str(heard)
+
+
+def test_a_page_that_does_not_read_gets_the_newest_when_it_does(server: LocalServer) -> None:
+    slow, quick = client(server), client(server)
+    out = settled(server, 2)
+    text = server.gui.add_markdown("")
+    # more than the sockets and the client's queue take
+    for number in range(60):
+        text.content = f"{number} " + "".join(f"{number * each:x}" for each in range(100_000))
+        frame_with(quick, f"{number} ")
+    # one frame of it, and not sixty
+    assert 0 < max(waiting(page) for page in out._pages.values()) < 2_000_000
+    text.content = "the last"
+    seen: list[str] = []
+    while not seen or "the last" not in seen[-1]:
+        seen += [str(message) for message in told(slow.recv(5))]
+    assert len(seen) < 55
+    for page in (slow, quick):
+        page.close()
+
+
+def test_one_page_s_own_things_come_in_their_order_and_all(server: LocalServer) -> None:
+    with client(server) as page:
+        settled(server, 1)
+        page.send(CAMERA)
+        until(server.get_clients)
+        (own,) = server.get_clients().values()
+        for number in range(300):
+            own.gui.add_markdown(f"<{number}>")
+            if number % 50 == 0:
+                time.sleep(0.02)
+        seen: list[str] = []
+        while "299" not in seen:
+            seen += marks(told(page.recv(5)))
+    assert list(dict.fromkeys(seen)) == [str(number) for number in range(300)]
+
+
+class Unpackable:
+    """Nothing that msgpack knows."""
+
+
+@pytest.mark.parametrize("value", [10**20, -(2**70), Unpackable(), [[{"a": 2**64}]]])
+def test_a_message_that_can_not_be_packed_is_left_out(
+    server: LocalServer, value: object, caplog: pytest.LogCaptureFixture
+) -> None:
+    with client(server) as page:
+        settled(server, 1)
+        server.gui.add_markdown("<before>")
+        server._websock_server.queue_message(GuiUpdateMessage("no widget", {"value": value}))
+        server.gui.add_markdown("<after>")
+        frame_with(page, "<after>")
+        with client(server) as late:  # the message is still kept for who comes
+            seen: list[dict[str, Any]] = []
+            while "ReplayDoneMessage" not in str(seen):
+                seen += told(late.recv(5))
+            assert {"before", "after"} <= set(marks(seen))
+            assert "no widget" not in str(seen)
+            server.gui.add_markdown("<last>")
+            frame_with(page, "<last>")
+            frame_with(late, "<last>")
+    lines = [each for each in caplog.records if each.name == fan_out.__name__]
+    assert len(lines) <= 1, "they are limited, over all of these tests"
+    assert not any(each.exc_info for each in caplog.records)
+
+
+def test_a_page_keeps_what_can_be_packed_of_its_own(server: LocalServer) -> None:
+    with client(server) as page:
+        settled(server, 1)
+        page.send(CAMERA)
+        until(server.get_clients)
+        (own,) = server.get_clients().values()
+        own.gui.add_number("Number", 10**20)
+        own.gui.add_markdown("<after>")
+        frame_with(page, "<after>")
+        server.gui.add_markdown("<for all>".replace(" ", "_"))
+        frame_with(page, "<for_all>")
+
+
+def test_nothing_that_goes_wrong_while_sending_ends_it(
+    server: LocalServer, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def fail(*_: object) -> None:
+        raise RuntimeError("no memory")
+
+    with client(server) as page, client(server) as other:
+        out = settled(server, 2)
+        with monkeypatch.context() as patched:
+            patched.setattr(out, "give_way", fail)
+            server.gui.add_markdown("<first>")
+            server.gui.add_markdown("<second>")
+        with monkeypatch.context() as patched:
+            patched.setattr(fan_out, "_plain", fail)
+            server.gui.add_markdown("<third>")
+            server.flush()
+        server.gui.add_markdown("<last>")
+        frame_with(page, "<last>")
+        frame_with(other, "<last>")
+        assert out._sending is not None
+        assert not out._sending.done()
+
+
+def test_the_direct_way_is_not_taken_before_it_is_open(monkeypatch: pytest.MonkeyPatch) -> None:
+    ways: list[direct.Direct] = []
+    opened = direct.Direct.open
+    monkeypatch.setattr(direct.Direct, "open", lambda way: ways.append(way))
+    server = LocalServer("AI4U Edu")
+    server.gui.add_markdown("<there>")
+    with ExitStack() as stack:
+        stack.callback(server.stop)
+        room = stack.enter_context(served(viser_port=server.get_port()))
+        page = stack.enter_context(client(server, room.url))
+        page.send(CAMERA)
+        until(lambda: ways and server.get_clients())
+        (own,) = server.get_clients().values()
+        seen: list[str] = []
+        with suppress(TimeoutError):
+            while True:
+                before, seen = seen, seen + marks(told(page.recv(0.3)))
+                if "there" in seen and "there" not in before:
+                    server.gui.add_markdown("<new>")
+                    own.gui.add_markdown("<own>")
+        assert set(seen) == {"there"}
+        opened(ways[0])
+        while not {"new", "own"} <= set(seen):
+            seen += marks(told(page.recv(5)))
+
+
+def test_from_another_thread_nobody_is_woken_and_nothing_is_forgotten() -> None:
+    async def main() -> None:
+        event = fan_out.Awakener()
+        waits = asyncio.create_task(event.wait())
+        await asyncio.sleep(0)
+        await asyncio.to_thread(event.set)
+        assert event.is_set()
+        assert not waits.done()
+        event.set()
+        await asyncio.wait_for(waits, 1)
+
+    asyncio.run(main())
+
+
+def test_nothing_is_left_of_pages_that_are_gone(server: LocalServer) -> None:
+    with client(server), client(server):
+        out = settled(server, 2)
+    settled(server, 0)
+    until(lambda: not direct._left)
+    until(lambda: not out._buffer.generator_cursors)
+    assert out._sending is None
+    with client(server) as page:
+        settled(server, 1)
+        server.gui.add_markdown("again")
+        frame_with(page, "again")
