@@ -28,8 +28,8 @@ class TabKind(NamedTuple):
     title: str
     """One short word."""
     open: Callable[[ViewerClient], Tab]
-    """Fills the tab of one page; called where everything that is added to ``viewer_client.client.gui``
-    comes to stand in it."""
+    """Fill the tab of one page. Called inside the tab's GUI container, so whatever is added to
+    ``viewer_client.client.gui`` lands in the tab."""
 
 
 class Tabs:
