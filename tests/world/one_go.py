@@ -3,7 +3,7 @@
 import struct
 from collections.abc import Callable
 
-from ai4u_edu.blocks.actuators.ground_motion import roll
+from ai4u_edu.blocks.actuators.ground_motion import set_body_velocity
 from ai4u_edu.world import Body, Drive, World
 
 
@@ -15,7 +15,7 @@ def tell(body: Body, drive: Drive) -> None:
         body.apply_force(drive.forward, drive.left)
         body.set_angular_velocity(drive.turning)
     else:
-        roll(body, *drive[:3])
+        set_body_velocity(body, *drive[:3])
 
 
 def one_by_one(world: World, body: Body, drive: Drive, ticks: int) -> int:
