@@ -15,7 +15,7 @@ LONGEST_BREAK = 1.0
 """Seconds for which a moment is shown at most while it plays: nobody has to wait twice."""
 
 
-class Projector:
+class ReplayPlayer:
     """One for all pages: a class looks at the same moment. Any thread may ask it for things.
 
     Args:
