@@ -6,7 +6,7 @@ import numpy as np
 from gymnasium.spaces import Box
 
 from ai4u_edu.base.parameters import quantity
-from ai4u_edu.blocks.actuators.ground_motion import SMALLEST, GroundMotion, quiet
+from ai4u_edu.blocks.actuators.ground_motion import SMALLEST, GroundMotion, apply_dead_zone
 from ai4u_edu.blocks.agent_view import AgentView
 from ai4u_edu.world import Body, WorldView
 
@@ -49,7 +49,7 @@ class CBMoveActuator(GroundMotion):
 
     def on_reset(self, agent: AgentView, view: WorldView) -> None:
         """Takes the episode's chance."""
-        self._chance = view.random(f"{agent.id}/actuator/{self.action_name}")
+        self._rng = view.random(f"{agent.id}/actuator/{self.action_name}")
 
     def slots(self) -> tuple[str, ...]:
         """As AI4U orders them."""
@@ -59,7 +59,7 @@ class CBMoveActuator(GroundMotion):
         """Sets the body's speeds, if it stands on the ground."""
         if not body.on_ground:
             return
-        forward, strafe, turn, jump, leap = quiet(action, self.dead_zone)
+        forward, strafe, turn, jump, leap = apply_dead_zone(action, self.dead_zone)
         self.drive(
             body,
             self._missed(forward, self.move_noise),
@@ -72,4 +72,4 @@ class CBMoveActuator(GroundMotion):
     def _missed(self, number: float, deviation: float) -> float:
         if not (number and deviation):
             return number
-        return number + float(self._chance.normal(0.0, deviation))
+        return number + float(self._rng.normal(0.0, deviation))

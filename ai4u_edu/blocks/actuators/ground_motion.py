@@ -52,7 +52,7 @@ class GroundMotion(Actuator):
             leap: share of ``jump_forward_power`` forward and of ``jump_power`` upward.
             strafe: share of ``move_amount``; above 0 to the right.
         """
-        roll(body, *self._speeds(forward, turn, leap, strafe))
+        set_body_velocity(body, *self._speeds(forward, turn, leap, strafe))
         if jump or leap:
             body.jump((jump + leap) * self.jump_power)
 
@@ -61,7 +61,7 @@ class GroundMotion(Actuator):
         return ahead, -strafe * self.move_amount, -turn * self.turn_amount
 
 
-def roll(body: Body, forward: float, left: float, turning: float) -> None:
+def set_body_velocity(body: Body, forward: float, left: float, turning: float) -> None:
     """Sets a body's speeds in its own frame: m/s, m/s, rad/s (counter-clockwise positive)."""
     heading = body.heading
     cos, sin = math.cos(heading), math.sin(heading)
@@ -69,10 +69,10 @@ def roll(body: Body, forward: float, left: float, turning: float) -> None:
     body.set_angular_velocity(turning)
 
 
-def quiet(numbers: tuple[float, ...], dead_zone: float = SMALLEST) -> tuple[float, ...]:
+def apply_dead_zone(numbers: tuple[float, ...], dead_zone: float = SMALLEST) -> tuple[float, ...]:
     """The numbers of an action, with 0 for those that are next to nothing.
 
-    >>> quiet((0.5, -0.0005))
+    >>> apply_dead_zone((0.5, -0.0005))
     (0.5, 0.0)
     """
     return tuple([0.0 if abs(number) < dead_zone else number for number in numbers])

@@ -3,7 +3,7 @@
 import numpy as np
 from gymnasium.spaces import Box
 
-from ai4u_edu.blocks.actuators.ground_motion import GroundMotion, quiet
+from ai4u_edu.blocks.actuators.ground_motion import GroundMotion, apply_dead_zone
 from ai4u_edu.world import Body
 
 
@@ -38,4 +38,4 @@ class RBMoveActuator(GroundMotion):
     def act(self, body: Body, action: tuple[float, ...]) -> None:
         """Sets the body's speeds, if it stands on the ground."""
         if body.on_ground:
-            self.drive(body, *quiet(action))
+            self.drive(body, *apply_dead_zone(action))
