@@ -222,6 +222,7 @@ def play(
     from ai4u_edu.editing.scene_store import Shelf
     from ai4u_edu.editing.unsaved import chosen, listed
     from ai4u_edu.recording import Episode, recorder_into
+    from ai4u_edu.runtime.process_tuning import tuned_process
     from ai4u_edu.runtime.runner import Runner
     from ai4u_edu.scenes import Scene
     from ai4u_edu.server import (
@@ -293,6 +294,7 @@ def play(
     runner.start()
     viewer.start()
     with ExitStack() as ending:  # the last one first: the runner may yet change what is saved
+        ending.enter_context(tuned_process())
         ending.callback(viewer.stop)
         if saver is not None:
             ending.callback(saver.stop)
