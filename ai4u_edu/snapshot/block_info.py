@@ -160,7 +160,7 @@ def pictures_of(agent: BasicAgent) -> Pictures:
         spots = {sensor.perception_key: sensor.spots() for sensor in active}
         rays = RayPictures(
             {
-                sensor.perception_key: sensor.later()
+                sensor.perception_key: sensor.capture()
                 for sensor in active
                 if isinstance(sensor, RaySensor)
             }
