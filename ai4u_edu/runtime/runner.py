@@ -6,7 +6,6 @@ runner's thread. Whoever wants to look takes the latest snapshot, without a lock
 
 import logging
 import math
-import sys
 import threading
 import time
 import warnings
@@ -36,9 +35,6 @@ logger = logging.getLogger(__name__)
 PATIENCE = 0.25
 """Where agents decide at different times there may be no moment between all decisions; a command
 waits this long (s) for one, and then takes any moment between two ticks."""
-SWITCH_INTERVAL_S = 0.0002
-"""Seconds after which a thread that computes lets another one go on. Python's own 5 ms would make a
-tick late whenever pages are drawn."""
 ANSWER_POLL_S = 0.015
 """While a world waits for scripts that will call, their brains look so often who is late."""
 HOLD_POLL_S = 0.001
@@ -309,7 +305,6 @@ class Runner:
 
     def start(self) -> None:
         """Begins to tick."""
-        sys.setswitchinterval(min(sys.getswitchinterval(), SWITCH_INTERVAL_S))
         self._thread = threading.Thread(target=self._run, name="runner", daemon=True)
         self._schedule.due = self._clock()
         self._thread.start()
