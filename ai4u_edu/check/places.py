@@ -1,4 +1,4 @@
-"""The places of a scene: whether its agents can move, and stand where they are put."""
+"""A check of the positions in a scene: agents can move, and nothing starts in a wrong place."""
 
 import math
 from collections.abc import Iterator
@@ -9,15 +9,15 @@ from ai4u_edu.blocks import RespawnActuator
 from ai4u_edu.world.overlap import in_the_way
 
 
-def odd_places(sim: ControlRequestor, seed: int) -> list[str]:
-    """Return what a person would hardly have meant, in words.
+def implausible_places(sim: ControlRequestor, seed: int) -> list[str]:
+    """Return a sentence for each position that is probably a mistake.
 
-    An agent on a body that can't move, though it has actuators; a body that begins over the void;
+    These are: an agent with actuators on a body that can't move; a body that starts over the void;
     a respawn pose over the void or inside another body.
 
     Args:
-        sim: is reset, and its bodies are moved about.
-        seed: of the reset.
+        sim: will be reset, and its bodies moved.
+        seed: for the reset.
     """
     sim.reset(seed)
     return [*_immovable(sim), *_over_the_void(sim), *_respawn_poses(sim)]
@@ -25,7 +25,7 @@ def odd_places(sim: ControlRequestor, seed: int) -> list[str]:
 
 def _immovable(sim: ControlRequestor) -> Iterator[str]:
     for agent in sim.agents:
-        driven = [name for name, each in agent.fitting.actuators.items() if each.is_output]
+        driven = [name for name, each in agent.bound_blocks.actuators.items() if each.is_output]
         if driven and not agent.body.moves:
             yield (
                 f"agent {agent.id!r} is on body {agent.body_name!r}, which can't move (its kind is "
@@ -42,7 +42,7 @@ def _over_the_void(sim: ControlRequestor) -> Iterator[str]:
 
 def _respawn_poses(sim: ControlRequestor) -> Iterator[str]:
     for agent in sim.agents:
-        for actuator in agent.fitting.actuators.values():
+        for actuator in agent.bound_blocks.actuators.values():
             if isinstance(actuator, RespawnActuator):
                 yield from _poses_of(sim, agent, actuator)
 

@@ -8,7 +8,7 @@ import numpy.typing as npt
 from pydantic import Field
 
 from ai4u_edu.base.parameters import Point, PositiveMetres
-from ai4u_edu.blocks.parameterized import Declared
+from ai4u_edu.blocks.parameterized import Parameterized
 from ai4u_edu.blocks.sensors.footprint import footprint
 from ai4u_edu.world import BodyView, Region
 
@@ -22,7 +22,7 @@ RIM = 1e-9
 """A cell's centre this close to a rim (metres) lies on it, and belongs to the shape."""
 
 
-class OnGrid(Declared):
+class OnGrid(Parameterized):
     """The parameters of blocks that take the world for a grid; the same ones, where they meet."""
 
     rows: Length = 20
@@ -88,7 +88,7 @@ class Grid:
 
         A body thinner than a cell counts as one cell thick, so that no wall has gaps.
         """
-        where = body.pose, body.drawn
+        where = body.pose, body.sampled
         known = self._known.get(body)
         if known is None or known[0] != where:
             known = self._known[body] = where, self._covered(body)
@@ -99,7 +99,7 @@ class Grid:
         return np.flatnonzero(region.contains_each(self._x, self._y))
 
     def _covered(self, body: BodyView) -> Cells:
-        (x, y, _, heading), shape = body.pose, body.drawn.shape
+        (x, y, _, heading), shape = body.pose, body.sampled.shape
         cos, sin = math.cos(heading), math.sin(heading)
         dx, dy = self._x - x, self._y - y
         u, v = cos * dx + sin * dy, cos * dy - sin * dx

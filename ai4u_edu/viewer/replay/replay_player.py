@@ -103,7 +103,7 @@ class ReplayPlayer:
     def back(self) -> "Future[None]":
         """Back to now."""
         self.leave()
-        return self._runner.show(None)
+        return self._runner.show_past(None)
 
     def leave(self) -> None:
         """Shows nothing more of the past, whatever was wanted; what is seen stays for now."""
@@ -203,7 +203,7 @@ class ReplayPlayer:
         with self._changed:
             if wish != self._wish:
                 return False
-            shown = self._runner.show(picture, goes_on=goes_on)
+            shown = self._runner.show_past(picture, goes_on=goes_on)
         with suppress(CancelledError, TimeoutError):
             shown.result(1.0)
         return True
