@@ -217,10 +217,10 @@ def play(
     ] = True,
 ) -> None:
     """Serve a scene in the browser; drive with W, A, S, D."""
-    from ai4u_edu.editing import Workshop
+    from ai4u_edu.editing import SceneEditor
     from ai4u_edu.editing.autosave import Autosave, unsaved_folder, unsaved_scenes
-    from ai4u_edu.editing.scene_store import Shelf
-    from ai4u_edu.editing.unsaved import chosen, listed
+    from ai4u_edu.editing.scene_store import SceneStore
+    from ai4u_edu.editing.unsaved import choose_unsaved, format_unsaved
     from ai4u_edu.recording import Episode, recorder_into
     from ai4u_edu.runtime.runner import Runner
     from ai4u_edu.scenes import Scene
@@ -250,7 +250,7 @@ def play(
     left = unsaved_scenes(unsaved_folder()) if autosave or restore else []
     source = context.get_parameter_source("scene")
     is_named = source is not None and source.name != "DEFAULT"
-    wanted = chosen(left, scene if is_named else "") if restore else None
+    wanted = choose_unsaved(left, scene if is_named else "") if restore else None
     loaded = Scene.load(scene) if wanted is None else wanted.scene()
     title = loaded.description.title or loaded.description.name
     sim, loaded = _built(loaded, brain or [])
@@ -259,22 +259,22 @@ def play(
     if run is not None and seed is None:
         seed = run.seed
     runner = Runner(sim, seed=seed, time_scale=time_scale, recorder=recorder)
-    workshop = Workshop(runner, loaded, offers=[*(offer or ()), *([record] if record else ())])
+    editor = SceneEditor(runner, loaded, offers=[*(offer or ()), *([record] if record else ())])
     saver = Autosave(unsaved_folder(), loaded.description.name, _warn) if autosave else None
-    workshop.autosave = saver
+    editor.autosave = saver
     if wanted is not None:
-        workshop.restored(wanted)
+        editor.mark_restored(wanted)
     elif left:
-        workshop.unsaved = left[0]
-    workshop.shelf = Shelf(kept_scenes) if kept_scenes is not None else None
-    viewer = Viewer(runner, title=title, workshop=workshop)
+        editor.unsaved = left[0]
+    editor.scene_store = SceneStore(kept_scenes) if kept_scenes is not None else None
+    viewer = Viewer(runner, title=title, editor=editor)
     if run is not None and ghost is not None:
         viewer.ghosts.race(run, ghost.name)
     shut_side_door(viewer.server)
     room = room_app(
         runner,
         viser_port=viewer.port,
-        title=lambda: workshop.title,
+        title=lambda: editor.title,
         allowed_hosts=hosts_for(host),
         proxy_hosts=allow_host or (),
         rules=rules,
@@ -282,11 +282,11 @@ def play(
 
     def ready(url: str) -> None:
         typer.echo(announcement(title, host, url, rules.token))
-        if workshop.unsaved is not None:
-            when = workshop.unsaved.when
+        if editor.unsaved is not None:
+            when = editor.unsaved.when
             typer.echo(f"an unsaved scene from {when} is there: ai4u-edu play --restore")
         if len(left) > 1:
-            typer.echo(f"unsaved scenes: {listed(left)}: ai4u-edu play SCENE --restore")
+            typer.echo(f"unsaved scenes: {format_unsaved(left)}: ai4u-edu play SCENE --restore")
         if open_page:
             open_on_desktop(with_token(url, rules.token))
 

@@ -40,9 +40,9 @@ def projector(runner: Runner) -> Iterator[Projector]:
 def opened(projector: Projector, number: int) -> None:
     projector.open(number)
     until(lambda: projector.number == number)
-    reel = projector.reel
-    assert reel is not None
-    until(lambda: reel.picture(reel.last) is not None)
+    frame_cache = projector.frame_cache
+    assert frame_cache is not None
+    until(lambda: frame_cache.snapshot(frame_cache.last) is not None)
 
 
 def test_whoever_chooses_an_episode_does_not_see_it_yet(
