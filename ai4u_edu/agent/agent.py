@@ -29,13 +29,13 @@ from ai4u_edu.blocks import (
     Sensor,
 )
 from ai4u_edu.blocks.brains.command import Accepted
-from ai4u_edu.blocks.parameterized import Declared
+from ai4u_edu.blocks.parameterized import Parameterized
 from ai4u_edu.world import Body, World, WorldView
 
 Numbers = tuple[float, ...]
 
 
-class BasicAgent(Declared):
+class BasicAgent(Parameterized):
     """A body plus blocks (sensors, actuators, reward functions) plus exactly one enabled brain.
 
     Events are attributes: ``agent.end_of_step.connect(f)``, and so on for all of
@@ -379,4 +379,4 @@ def _drives(given: object) -> bool:
     """Return True for a controller or a function, of which a LocalBrain can be made."""
     if isinstance(given, Controller):
         return True
-    return callable(given) and not isinstance(given, type | Declared)
+    return callable(given) and not isinstance(given, type | Parameterized)

@@ -182,10 +182,7 @@ class _Cycle:
         """The rest of a step at one go, as one tick after another would do it; the ticks."""
         began = world.ticks
         body, tick = self._fitting.body, world.tick
-        gone = self._drive(world)
-        if gone and body.fallen:
-            gone = self._ticks  # there are no others
-        for index in range(self._tick + gone, self._ticks):
+        for index in range(self._tick, self._ticks):
             if self._repeat or not index:
                 self._act(body)
             tick()
@@ -194,17 +191,6 @@ class _Cycle:
         ticks = world.ticks - began
         self._end()
         return ticks
-
-    def _drive(self, world: World) -> int:
-        """As many ticks at one go as can be had; how many."""
-        body = self._fitting.body
-        if not self._repeat or len(self._action) != 1 or not body.on_ground:
-            return 0
-        ((actuator, numbers),) = self._action
-        drive = actuator.steady_drive(numbers)
-        if drive is None:
-            return 0
-        return world.drive(body, drive, self._ticks - self._tick)
 
     def _end(self) -> None:
         self.under_way = False

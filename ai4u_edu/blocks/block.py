@@ -6,11 +6,11 @@ from collections.abc import Sequence
 from typing import Any, ClassVar
 
 from ai4u_edu.blocks.agent_view import AgentView
-from ai4u_edu.blocks.parameterized import Declared
+from ai4u_edu.blocks.parameterized import Parameterized
 from ai4u_edu.world import WorldView
 
 
-class Block(Declared):
+class Block(Parameterized):
     """The base of sensors, actuators, reward functions, brains and controllers."""
 
     types: ClassVar[dict[str, type["Block"]]] = {}

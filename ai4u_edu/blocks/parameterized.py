@@ -25,13 +25,13 @@ _CONFIG = ConfigDict(
 
 
 @dataclass_transform(kw_only_default=True, eq_default=False, field_specifiers=(Field,))
-class Declared:
+class Parameterized:
     """The base of blocks and agents.
 
     A subclass declares parameters; it writes no ``__init__``. Attributes of its own it may set
     at any time later.
 
-    >>> class Thermometer(Declared):
+    >>> class Thermometer(Parameterized):
     ...     '''Reads how warm it is.'''
     ...     offset: float = 0.0
     >>> Thermometer(offset=2)
@@ -115,11 +115,11 @@ class Declared:
         return f"{type(self).__name__}({given})"
 
 
-def _explained(construct: Callable[..., None], cls: type[Declared]) -> Callable[..., None]:
+def _explained(construct: Callable[..., None], cls: type[Parameterized]) -> Callable[..., None]:
     inner = getattr(construct, "_inner", construct)
 
     @wraps(inner)
-    def explained(self: Declared, *args: Any, **values: Any) -> None:
+    def explained(self: Parameterized, *args: Any, **values: Any) -> None:
         try:
             inner(self, *args, **values)
         except ValidationError as error:

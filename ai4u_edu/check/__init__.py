@@ -1,4 +1,4 @@
-"""Checks that every block and every scene has to pass, those of the package and your own.
+"""Checks that every built-in block and scene passes, and that you can run on your own.
 
 >>> from ai4u_edu import check_sensor, VelocitySensor
 >>> print(check_sensor(VelocitySensor(), decisions=20))

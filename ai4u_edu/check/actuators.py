@@ -1,15 +1,15 @@
-"""Whether an actuator keeps its promises."""
+"""The check of an actuator."""
 
 import math
 from typing import Any
 
 from ai4u_edu.base.errors import ActionError
 from ai4u_edu.blocks import Actuator
-from ai4u_edu.check.block_check import DECISIONS, Exam, Options, said
+from ai4u_edu.check.block_check import DEFAULT_DECISIONS, BlockCheck, Options, format_error
 from ai4u_edu.check.ineffective import warn_of_groups
 from ai4u_edu.check.report import Outcome, Report
-from ai4u_edu.check.rollout import Pose, Script, Trial, fresh, title_of
-from ai4u_edu.check.static_checks import check_papers
+from ai4u_edu.check.rollout import Pose, Rollout, Script, fresh, title_of
+from ai4u_edu.check.static_checks import run_static_checks
 from ai4u_edu.scenes import Scene
 
 
@@ -19,24 +19,23 @@ def check_actuator(
     scene: Scene | str | None = None,
     script: Script | None = None,
     seed: int = 0,
-    decisions: int = DECISIONS,
+    decisions: int = DEFAULT_DECISIONS,
 ) -> Report:
-    """Drives with an actuator in a small world, and tells what is wrong with it.
+    """Drive an agent at random with an actuator in a small world, and report what is wrong.
 
-    It has to be documented; come back from a scene file as it was; take whatever its space holds
-    and refuse what is no number; leave all bodies at places that are finite; do the same from the
-    same seed; forget everything at a reset; leave the global generators alone; and move something.
-    One that looks for groups that are not there gets a warning.
+    The actuator must have a docstring; survive being written to a scene file and read back; accept
+    every action in its space and refuse what is not a number; leave all bodies at finite positions;
+    do the same for the same seed; keep nothing across a reset; leave the global random generators
+    alone; and move something. A group that no body carries gives a warning.
 
     Args:
-        actuator: stays as it is; copies of it (with its ``handler``, if it has one) are driven.
-        scene: where, a Scene or the name of one; left out: a small world with bodies "robot" (the
-            agent's), "box", "ball", "other", "wall" and "step" and an area "goal". The agent can
-            move besides, by an actuator "move", unless this one is called so.
-        script: what a script does besides, called before each decision with the agent and the
-            decision's number.
-        seed: of the drive and the world.
-        decisions: how long each run is.
+        actuator: is not changed; the check drives copies of it (with its ``handler``, if any).
+        scene: a Scene or the name of one. By default a small world with the bodies "robot" (the
+            agent's), "box", "ball", "other", "wall" and "step" and the area "goal". There the agent
+            also has an actuator "move", unless this one has that name.
+        script: called before each decision with the agent and the decision's number.
+        seed: for the random actions and the world.
+        decisions: length of each run.
 
     >>> from ai4u_edu import RBMoveActuator
     >>> check_actuator(RBMoveActuator()).ok
@@ -47,24 +46,24 @@ def check_actuator(
     report = Report(title_of(actuator))
     copies: list[Actuator] = []
 
-    def make() -> Trial:
+    def make() -> Rollout:
         copies.append(fresh(actuator))
-        return Trial(the_scene, copies[-1], script=script)
+        return Rollout(the_scene, copies[-1], script=script)
 
-    exam = Exam(
+    checks = BlockCheck(
         report,
         make,
         options,
         of=lambda record: record.poses,
         words="places of all bodies",
     )
-    check_papers(report, actuator, "what it does")
-    if exam.run():
-        warn_of_groups(report, [("", actuator)], exam.view)
-        report.add("finite", _not_finite(exam.values()))
+    run_static_checks(report, actuator, "what it does")
+    if checks.run():
+        warn_of_groups(report, [("", actuator)], checks.view)
+        report.add("finite", _not_finite(checks.values()))
         _refuses(report, copies[0])
-        without = exam.drive(Trial(the_scene, without=actuator, script=script))
-        _has_effect(report, exam.values(), [record.poses for record in without])
+        without = checks.drive(Rollout(the_scene, without=actuator, script=script))
+        _has_effect(report, checks.values(), [record.poses for record in without])
     return report
 
 
@@ -92,7 +91,7 @@ def _refuses(report: Report, actuator: Actuator) -> None:
         except ActionError:
             continue
         except Exception as error:  # whatever it is, the report says it
-            problem = said(error)
+            problem = format_error(error)
         report.add(
             "refuses",
             f"expected an ActionError for the action {values!r}, got {problem}; "

@@ -1,4 +1,4 @@
-"""What is looked at in a run, whatever the block."""
+"""The checks that are the same for every kind of block."""
 
 import random
 from collections.abc import Callable
@@ -8,47 +8,47 @@ from typing import Any
 import numpy as np
 
 from ai4u_edu.check.report import Outcome, Report
-from ai4u_edu.check.rollout import Record, Script, Trial, standard_scene
+from ai4u_edu.check.rollout import Record, Rollout, Script, standard_scene
 from ai4u_edu.scenes import Scene
 
-DECISIONS = 120
-"""How long a run is, unless told otherwise."""
+DEFAULT_DECISIONS = 120
+"""Default length of a run."""
 
-LONGEST = 120
-"""So many characters of a value are shown."""
+MAX_VALUE_CHARS = 120
+"""Maximum length of a value in a message."""
 
 
 @dataclass
 class Options:
-    """Where, how and for how long something is driven."""
+    """The scene, script, seed and length of the runs."""
 
     scene: Scene | str | None = None
     script: Script | None = None
     seed: int = 0
-    decisions: int = DECISIONS
+    decisions: int = DEFAULT_DECISIONS
 
     def the_scene(self) -> Scene:
-        """The scene that was given, or the standard one."""
+        """Return the scene that was given, or the standard one."""
         if isinstance(self.scene, str):
             return Scene.load(self.scene)
         return self.scene or standard_scene()
 
 
-class Exam:
-    """Runs something, and looks at what every run has to be like.
+class BlockCheck:
+    """Runs a block several times and checks that it is deterministic and resets cleanly.
 
     Args:
-        report: where the findings go.
-        make: makes a new trial, each time with new blocks.
+        report: receives the findings.
+        make: returns a new rollout, each time with new blocks.
         options: the seed and the length of the runs.
-        of: what in a record is looked at, such as a sensor's reading.
-        words: what that is called, such as "readings".
+        of: returns the value to compare from a record, such as a sensor's reading.
+        words: the name of these values in messages, such as "readings".
     """
 
     def __init__(
         self,
         report: Report,
-        make: Callable[[], Trial],
+        make: Callable[[], Rollout],
         options: Options,
         *,
         of: Callable[[Record], Any],
@@ -58,30 +58,34 @@ class Exam:
         self._make, self._of, self._words = make, of, words
         self._seed, self._decisions = options.seed, options.decisions
         self.records: list[Record] = []
-        """What the first run gave."""
+        """The records of the first run."""
 
-    def run(self, *, forgets: str = "") -> bool:
-        """Sets up and drives, more than once; whether it could be driven at all.
+    def run(self, *, reset_exemption: str = "") -> bool:
+        """Run the checks; return False if the first run failed.
 
         Args:
-            forgets: why a reset need not forget everything, if so.
+            reset_exemption: why the block may keep state across a reset; empty if it may not.
         """
-        before = global_chance()
+        before = global_generator_states()
         try:
-            trial = self._make()
+            rollout = self._make()
         except Exception as error:  # whatever it is, the report says it
-            self.report.add("setup", f"expected a setup without an error, got {said(error)}")
+            self.report.add(
+                "setup", f"expected a setup without an error, got {format_error(error)}"
+            )
             return False
         self.report.add("setup")
-        self.view = trial.agent.view  # the world that was built for the first run
+        self.view = rollout.agent.view  # the world that was built for the first run
         try:
-            self.records = self.drive(trial)
+            self.records = self.drive(rollout)
         except Exception as error:  # whatever it is, the report says it
-            text = f"expected {self._decisions} decisions without an error, got {said(error)}"
+            text = (
+                f"expected {self._decisions} decisions without an error, got {format_error(error)}"
+            )
             self.report.add("runs", text)
             return False
         self.report.add("runs")
-        drawn = [name for name, state in global_chance().items() if state != before[name]]
+        drawn = [name for name, state in global_generator_states().items() if state != before[name]]
         self.report.add(
             "global chance",
             f"expected no draw from a global generator, got one from {' and '.join(drawn)}; "
@@ -90,24 +94,24 @@ class Exam:
             else "",
         )
         self._same_twice()
-        self._forgets(trial, forgets)
+        self._check_reset(rollout, reset_exemption)
         return True
 
-    def drive(self, trial: Trial) -> list[Record]:
-        """One run."""
-        return trial.run(self._seed, self._decisions)
+    def drive(self, rollout: Rollout) -> list[Record]:
+        """Run a rollout with the check's seed and length."""
+        return rollout.run(self._seed, self._decisions)
 
     def values(self) -> list[Any]:
-        """What is looked at, of the first run."""
+        """Return the compared value of each record of the first run."""
         return [self._of(record) for record in self.records]
 
     def changes(self, *, warning: bool) -> None:
-        """Looks whether it is ever different.
+        """Check that the value changes at some time.
 
         Args:
-            warning: whether that is no failure.
+            warning: a value that never changes is a warning, not a failure.
         """
-        # at a reset nothing is paid or answered
+        # right after a reset there is no reward and no answer yet
         values = [value for value in self.values() if value is not None]
         same = all(frozen(value) == frozen(values[0]) for value in values)
         got = f"{short(values[0])} all {len(values)} times" if values else "none"
@@ -120,8 +124,8 @@ class Exam:
             outcome=Outcome.WARNING if same and warning else None,
         )
 
-    def only_looks(self, without: Trial) -> None:
-        """Looks whether the world goes on as it does without the block, for an episode."""
+    def only_looks(self, without: Rollout) -> None:
+        """Check that the first episode runs as it does without the block."""
         problem = ""
         for number, (one, other) in enumerate(zip(self.records, self.drive(without), strict=False)):
             moved = [name for name in one.poses if one.poses[name] != other.poses[name]]
@@ -132,7 +136,7 @@ class Exam:
                     "must not move anything"
                 )
             if moved or one.done or other.done:
-                break  # an end that a reward asked for is no move, and after it nothing compares
+                break  # a reward may end the episode; after that the runs can't be compared
         self.report.add("only looks", problem)
 
     def _same_twice(self) -> None:
@@ -145,13 +149,13 @@ class Exam:
             else "",
         )
 
-    def _forgets(self, trial: Trial, why_not: str) -> None:
+    def _check_reset(self, rollout: Rollout, why_not: str) -> None:
         if self.report.findings[-1].outcome is Outcome.FAILED:
             why_not = "it differs even without a reset"
         if why_not:
             self.report.add("forgets", why_not, outcome=Outcome.NOT_APPLICABLE)
             return
-        problem = self._difference(lambda: self.drive(trial))
+        problem = self._difference(lambda: self.drive(rollout))
         self.report.add(
             "forgets",
             f"expected the same {self._words} again after a reset, got {problem}; "
@@ -161,11 +165,11 @@ class Exam:
         )
 
     def _difference(self, run: Callable[[], list[Record]]) -> str:
-        """Where another run first differs from the first one; empty if nowhere."""
+        """Return where another run first differs from the first one; empty if nowhere."""
         try:
             others = run()
         except Exception as error:  # whatever it is, the report says it
-            return said(error)
+            return format_error(error)
         for number, (one, other) in enumerate(zip(self.records, others, strict=False)):
             expected, got = self._of(one), self._of(other)
             if frozen(expected) != frozen(got):
@@ -173,8 +177,8 @@ class Exam:
         return "" if len(others) == len(self.records) else "episodes of other lengths"
 
 
-def global_chance() -> dict[str, str]:
-    """The states of Python's and numpy's global generators."""
+def global_generator_states() -> dict[str, str]:
+    """Return the states of Python's and numpy's global random generators."""
     _, state, *rest = np.random.get_state(legacy=True)
     return {
         "random": repr(random.getstate()),
@@ -183,18 +187,18 @@ def global_chance() -> dict[str, str]:
 
 
 def frozen(value: Any) -> Any:
-    """Something that is equal for values that are the same to the last bit, and no others."""
+    """Return a value that compares equal only for bit-identical values."""
     if isinstance(value, np.ndarray):
         return value.shape, value.dtype.str, value.tobytes()
     return repr(value)
 
 
 def short(value: Any) -> str:
-    """A value in at most a line."""
+    """Return a value as text that fits on one line."""
     text = str(value.tolist()) if isinstance(value, np.ndarray) else str(value)
-    return text if len(text) <= LONGEST else text[: LONGEST - 3] + "..."
+    return text if len(text) <= MAX_VALUE_CHARS else text[: MAX_VALUE_CHARS - 3] + "..."
 
 
-def said(error: Exception) -> str:
-    """What an error says, with its kind and its notes."""
+def format_error(error: Exception) -> str:
+    """Return an error's type, message and notes as one line."""
     return "; ".join([f"{type(error).__name__}: {error}", *getattr(error, "__notes__", [])])

@@ -1,13 +1,13 @@
-"""Whether a brain, or a controller, keeps its promises."""
+"""The checks of controllers and brains."""
 
 from collections.abc import Callable, Sequence
 from typing import Any
 
 from ai4u_edu.blocks import Actuator, Block, Brain, Controller, LocalBrain
-from ai4u_edu.check.block_check import DECISIONS, Exam, Options
+from ai4u_edu.check.block_check import DEFAULT_DECISIONS, BlockCheck, Options
 from ai4u_edu.check.report import Report
-from ai4u_edu.check.rollout import Script, Trial, fresh, title_of
-from ai4u_edu.check.static_checks import check_papers
+from ai4u_edu.check.rollout import Rollout, Script, fresh, title_of
+from ai4u_edu.check.static_checks import run_static_checks
 from ai4u_edu.scenes import Scene
 
 
@@ -18,31 +18,30 @@ def check_controller(
     scene: Scene | str | None = None,
     script: Script | None = None,
     seed: int = 0,
-    decisions: int = DECISIONS,
+    decisions: int = DEFAULT_DECISIONS,
 ) -> Report:
-    """Lets a controller drive in a small world, and tells what is wrong with it.
+    """Let a controller drive an agent in a small world, and report what is wrong.
 
-    It has to be documented; come back from a scene file as it was; answer every percept with an
-    action that the agent's actuators take, or a command; answer the same from the same seed; forget
-    everything at a reset; leave the global generators alone. One that always answers the same gets
-    a warning. Meanwhile keys are pressed at random.
+    The controller must have a docstring; survive being written to a scene file and read back;
+    answer every percept with an action that the agent's actuators accept, or with a command; answer
+    the same for the same seed; keep nothing across a reset; and leave the global random generators
+    alone. An answer that never changes gives a warning. Keys are pressed at random meanwhile.
 
     Args:
-        controller: stays as it is; copies of it drive.
-        actuators: what the agent has besides an RBMoveActuator "move", or in its place.
-        scene: where, a Scene or the name of one; left out: a small world with bodies "robot" (the
-            agent's), "box", "ball", "other", "wall" and "step" and an area "goal".
-        script: what a script does besides, called before each decision with the agent and the
-            decision's number.
-        seed: of the keys and the world.
-        decisions: how long each run is.
+        controller: is not changed; the check runs copies of it.
+        actuators: added to the agent's RBMoveActuator "move"; one of that name replaces it.
+        scene: a Scene or the name of one. By default a small world with the bodies "robot" (the
+            agent's), "box", "ball", "other", "wall" and "step" and the area "goal".
+        script: called before each decision with the agent and the decision's number.
+        seed: for the keys and the world.
+        decisions: length of each run.
 
     >>> from ai4u_edu import WASDRBMoveController
     >>> check_controller(WASDRBMoveController()).ok
     True
     """
     options = Options(scene, script, seed, decisions)
-    return _examined(controller, options, actuators, lambda copy: LocalBrain(controller=copy))
+    return _check(controller, options, actuators, lambda copy: LocalBrain(controller=copy))
 
 
 def check_brain(
@@ -52,19 +51,19 @@ def check_brain(
     scene: Scene | str | None = None,
     script: Script | None = None,
     seed: int = 0,
-    decisions: int = DECISIONS,
+    decisions: int = DEFAULT_DECISIONS,
 ) -> Report:
-    """As :func:`check_controller`, for a whole brain.
+    """Let a brain drive an agent in a small world; checks as in :func:`check_controller`.
 
     >>> from ai4u_edu import LocalBrain, WASDRBMoveController
     >>> check_brain(LocalBrain(controller=WASDRBMoveController())).ok
     True
     """
     options = Options(scene, script, seed, decisions)
-    return _examined(brain, options, actuators, lambda copy: copy)
+    return _check(brain, options, actuators, lambda copy: copy)
 
 
-def _examined(
+def _check(
     block: Block,
     options: Options,
     actuators: Sequence[Actuator],
@@ -72,9 +71,9 @@ def _examined(
 ) -> Report:
     scene = options.the_scene()
     report = Report(title_of(block))
-    exam = Exam(
+    checks = BlockCheck(
         report,
-        lambda: Trial(
+        lambda: Rollout(
             scene,
             brain_of(fresh(block)),
             actuators=fresh(list(actuators)),
@@ -84,7 +83,7 @@ def _examined(
         of=lambda record: record.answer,
         words="answers",
     )
-    check_papers(report, block, "what it does")
-    if exam.run():
-        exam.changes(warning=True)
+    run_static_checks(report, block, "what it does")
+    if checks.run():
+        checks.changes(warning=True)
     return report

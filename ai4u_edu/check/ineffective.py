@@ -1,4 +1,4 @@
-"""Warnings about a block that does run, but can't do what was meant."""
+"""Warnings about blocks that run without an error and still have no effect."""
 
 from collections.abc import Iterable
 
@@ -10,12 +10,12 @@ from ai4u_edu.world import WorldView
 
 
 def warn_of_groups(report: Report, blocks: Iterable[tuple[str, Block]], view: WorldView) -> None:
-    """Warn of groups that nothing in the world carries; silent where no block looks for any.
+    """Add a warning for groups that no body carries; add nothing if no block names a group.
 
     Args:
-        report: where the finding goes.
-        blocks: each with the words that say which one it is; none needed for a single one.
-        view: the world that they are in.
+        report: receives the finding.
+        blocks: pairs of a prefix that names the block (may be empty) and the block.
+        view: the blocks' world.
     """
     looking = [(words, block) for words, block in blocks if names_groups(block)]
     if not looking:
@@ -25,11 +25,11 @@ def warn_of_groups(report: Report, blocks: Iterable[tuple[str, Block]], view: Wo
 
 
 def warn_of_no_end(report: Report, rewards: Iterable[tuple[str, RewardFunc]]) -> None:
-    """Warn of rewards that are to end the episode, and never can; silent where none is to.
+    """Add a warning for rewards that are meant to end the episode and cannot.
 
     Args:
-        report: where the finding goes.
-        rewards: each with the words that say which one it is; none needed for a single one.
+        report: receives the finding; nothing is added if no reward is meant to end the episode.
+        rewards: pairs of a prefix that names the reward (may be empty) and the reward.
     """
     ending = [(words, reward) for words, reward in rewards if reward.cause_episode_to_end]
     if not ending:
@@ -39,13 +39,13 @@ def warn_of_no_end(report: Report, rewards: Iterable[tuple[str, RewardFunc]]) ->
 
 
 def _why_it_never_ends(reward: RewardFunc) -> str:
-    """A sentence on why a reward can't end an episode; empty if it can."""
+    """Return why a reward can't end an episode, as a sentence; empty if it can."""
     if isinstance(reward, EvalValue):
         return (
             "expected a condition inside an AndRewardFunc or OrRewardFunc, with "
             "cause_episode_to_end there: alone it pays nothing, so the episode never ends by it"
         )
-    if type(reward).ends is not RewardFunc.ends:  # it decides by itself
+    if type(reward).ends is not RewardFunc.ends:  # the class overrides when it ends the episode
         return ""
     amounts = [name for name in reward.parameters() if ("_" + name).endswith("_reward")]
     if not amounts or any(getattr(reward, name) for name in amounts):

@@ -1,4 +1,4 @@
-"""The places of a scene: whether its agents can move, and stand where they are put."""
+"""A check of the positions in a scene: agents can move, and nothing starts in a wrong place."""
 
 import math
 from collections.abc import Iterator
@@ -9,15 +9,15 @@ from ai4u_edu.blocks import RespawnActuator
 from ai4u_edu.world.overlap import in_the_way
 
 
-def odd_places(sim: ControlRequestor, seed: int) -> list[str]:
-    """Return what a person would hardly have meant, in words.
+def implausible_places(sim: ControlRequestor, seed: int) -> list[str]:
+    """Return a sentence for each position that is probably a mistake.
 
-    An agent on a body that can't move, though it has actuators; a body that begins over the void;
+    These are: an agent with actuators on a body that can't move; a body that starts over the void;
     a respawn pose over the void or inside another body.
 
     Args:
-        sim: is reset, and its bodies are moved about.
-        seed: of the reset.
+        sim: will be reset, and its bodies moved.
+        seed: for the reset.
     """
     sim.reset(seed)
     return [*_immovable(sim), *_over_the_void(sim), *_respawn_poses(sim)]

@@ -1,4 +1,4 @@
-"""What a check found."""
+"""The report of a check."""
 
 from dataclasses import dataclass, field
 from enum import StrEnum
@@ -11,26 +11,26 @@ class CheckError(AI4UError):
 
 
 class Outcome(StrEnum):
-    """How one of the checks went."""
+    """The result of one check."""
 
     PASSED = "passed"
     FAILED = "FAILED"
     WARNING = "warning"
-    """It may be meant so, or the run was too short to tell."""
+    """Suspicious, but it may be intended, or the run was too short to tell."""
     NOT_APPLICABLE = "not applicable"
 
 
 @dataclass(frozen=True, slots=True)
 class Finding:
-    """One of the checks, and how it went."""
+    """One check and its result."""
 
     check: str
     outcome: Outcome
     text: str = ""
-    """What was expected, what came, how to mend it; or why it doesn't apply. Empty if passed."""
+    """Expected, got and how to mend it; or why the check doesn't apply. Empty if it passed."""
 
     def __str__(self) -> str:
-        """One line."""
+        """Return the finding as one line."""
         return f"{self.outcome:<14}  {self.check}" + (f": {self.text}" if self.text else "")
 
 
@@ -53,27 +53,27 @@ class Report:
 
     @property
     def ok(self) -> bool:
-        """Whether no check failed; warnings are allowed."""
+        """True if no check failed; warnings are allowed."""
         return not self.failed
 
     @property
     def failed(self) -> list[Finding]:
-        """The findings that have to be mended."""
+        """The failed checks."""
         return [each for each in self.findings if each.outcome is Outcome.FAILED]
 
     def add(self, check: str, problem: str = "", *, outcome: Outcome | None = None) -> None:
-        """Adds a finding.
+        """Add a finding.
 
         Args:
-            check: what was looked at.
-            problem: what is wrong; nothing for a check that passed.
-            outcome: if it is neither passed nor failed.
+            check: the check's name.
+            problem: a description of what is wrong; empty if the check passed.
+            outcome: given if the check neither passed nor failed.
         """
         found = outcome or (Outcome.FAILED if problem else Outcome.PASSED)
         self.findings.append(Finding(check, found, problem))
 
     def raise_for_findings(self) -> None:
-        """Raises the report if a check failed.
+        """Raise an error with the report as its message if a check failed.
 
         Raises:
             CheckError: at least one check failed.
@@ -82,7 +82,7 @@ class Report:
             raise CheckError(str(self))
 
     def __str__(self) -> str:
-        """A line in short, then a line a finding."""
+        """Return a summary line, then a line for each finding."""
         failed, total = len(self.failed), len(self.findings)
         short = f"{failed} of {total} checks failed" if failed else f"in order ({total} checks)"
         return "\n".join([f"{self.subject}: {short}", *(f"  {each}" for each in self.findings)])

@@ -1,11 +1,11 @@
-"""Whether a reward function keeps its promises."""
+"""The check of a reward function."""
 
 from ai4u_edu.blocks import RewardFunc
-from ai4u_edu.check.block_check import DECISIONS, Exam, Options
+from ai4u_edu.check.block_check import DEFAULT_DECISIONS, BlockCheck, Options
 from ai4u_edu.check.ineffective import warn_of_groups, warn_of_no_end
 from ai4u_edu.check.report import Report
-from ai4u_edu.check.rollout import Script, Trial, fresh, title_of
-from ai4u_edu.check.static_checks import check_papers
+from ai4u_edu.check.rollout import Rollout, Script, fresh, title_of
+from ai4u_edu.check.static_checks import run_static_checks
 from ai4u_edu.scenes import Scene
 
 
@@ -15,23 +15,22 @@ def check_reward(
     scene: Scene | str | None = None,
     script: Script | None = None,
     seed: int = 0,
-    decisions: int = DECISIONS,
+    decisions: int = DEFAULT_DECISIONS,
 ) -> Report:
-    """Lets a reward function pay a random driver in a small world, and tells what is wrong with it.
+    """Drive an agent at random in a small world, and report what is wrong with a reward function.
 
-    It has to be documented; come back from a scene file as it was; pay finite numbers; pay the same
-    from the same seed; forget everything at a reset; move nothing; leave the global generators
-    alone. One that always pays the same gets a warning, and so does one that is to end the episode
-    and never can, and one that looks for groups that are not there.
+    The reward function must have a docstring; survive being written to a scene file and read back;
+    pay finite numbers; pay the same for the same seed; keep nothing across a reset; move nothing;
+    and leave the global random generators alone. It gives a warning if it always pays the same, if
+    it is meant to end the episode and cannot, or if no body carries its group.
 
     Args:
-        reward: stays as it is; copies of it are driven.
-        scene: where, a Scene or the name of one; left out: a small world with bodies "robot" (the
-            agent's), "box", "ball", "other", "wall" and "step" and an area "goal".
-        script: what a script does besides, called before each decision with the agent and the
-            decision's number.
-        seed: of the drive and the world.
-        decisions: how long each run is.
+        reward: is not changed; the check runs copies of it.
+        scene: a Scene or the name of one. By default a small world with the bodies "robot" (the
+            agent's), "box", "ball", "other", "wall" and "step" and the area "goal".
+        script: called before each decision with the agent and the decision's number.
+        seed: for the random actions and the world.
+        decisions: length of each run.
 
     >>> from ai4u_edu import FallReward
     >>> check_reward(FallReward()).ok
@@ -41,17 +40,17 @@ def check_reward(
     options = Options(scene, script, seed, decisions)
     the_scene = options.the_scene()
     report = Report(title_of(reward))
-    exam = Exam(
+    checks = BlockCheck(
         report,
-        lambda: Trial(the_scene, fresh(reward), script=script),
+        lambda: Rollout(the_scene, fresh(reward), script=script),
         options,
         of=lambda record: next(iter(record.terms.values())).get(name),
         words="rewards",
     )
-    check_papers(report, reward, "what it pays for")
+    run_static_checks(report, reward, "what it pays for")
     warn_of_no_end(report, [("", reward)])
-    if exam.run():
-        warn_of_groups(report, [("", reward)], exam.view)
-        exam.only_looks(Trial(the_scene, without=reward, script=script))
-        exam.changes(warning=True)
+    if checks.run():
+        warn_of_groups(report, [("", reward)], checks.view)
+        checks.only_looks(Rollout(the_scene, without=reward, script=script))
+        checks.changes(warning=True)
     return report

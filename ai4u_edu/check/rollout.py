@@ -1,4 +1,4 @@
-"""A block, on an agent in a world, driven about."""
+"""A run of a scene with the block that is checked, under random actions."""
 
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
@@ -21,49 +21,49 @@ from ai4u_edu.check.drive import RandomDrive
 from ai4u_edu.scenes import Scene
 
 Script = Callable[[BasicAgent, int], None]
-"""What a person does besides, before each decision: gets the agent and the decision's number."""
+"""Called before each decision with the agent and the decision's number."""
 
 Pose = tuple[float, float, float, float]
 
-KEYS = np.array(
+KEY_NAMES = np.array(
     [
         *("ArrowUp", "ArrowDown", "ArrowLeft", "ArrowRight", "Space", "Enter"),
         *("KeyW", "KeyA", "KeyS", "KeyD", "KeyU", "KeyJ", "KeyG", "KeyR"),
     ]
 )
-PRESSED = 0.1
-"""The chance that a key is held in a decision."""
+KEY_HELD_PROBABILITY = 0.1
+"""Probability that a key is held during a decision."""
 
 NAMES = {Sensor: "perception_key", Actuator: "action_name", RewardFunc: "name"}
 
 SCRIPTED = ("handler", "trainer")
-"""What a script sets on a block, and a copy has to have too."""
+"""Attributes that a script sets on a block; a copy needs them too."""
 
 
 class Record(NamedTuple):
-    """What there was after one decision."""
+    """The state after one decision."""
 
     percepts: dict[str, Percept]
-    """By the agent's id."""
+    """Percepts by agent id."""
     terms: dict[str, dict[str, float]]
-    """The rewards by the agent's id and the term's name."""
+    """Rewards by agent id and term name."""
     poses: dict[str, Pose]
-    """By the body's name."""
+    """Poses by body name."""
     answer: Answer | None
-    """The first agent's brain's, that led there."""
+    """The answer of the first agent's brain in this decision."""
     done: bool
-    """Whether the first agent's episode is over."""
+    """True if the first agent's episode is over."""
 
 
-class Trial:
-    """A scene whose agents are driven at random, with one more block on the first one.
+class Rollout:
+    """A scene whose agents act at random, with the block under test on the first agent.
 
     Args:
-        scene: where it lives.
-        block: is put on the agent, in place of one of the same name; a brain in place of the
-            driver.
-        actuators: put on the agent as well.
-        without: a block whose namesake is taken off the agent.
+        scene: the scene to build.
+        block: is added to the first agent and replaces a block of the same name; a brain replaces
+            the random one.
+        actuators: are added to the first agent as well.
+        without: the first agent's block of the same name is removed.
         script: called before every decision.
     """
 
@@ -86,17 +86,17 @@ class Trial:
             put_on(self.agent, each)
         self._drives = [RandomDrive(agent) for agent in self.sim.agents]
         for agent, drive in zip(self.sim.agents, self._drives, strict=True):
-            # a clock that stands still: no key is let go because the check is slow
+            # a clock that stands still: no key times out because the check is slow
             agent.keyboard = Keyboard(clock=lambda: 0.0)
             agent.brains[:] = [LocalBrain(controller=drive)]
         if block is not None:
             put_on(self.agent, block)
         for agent in self.sim.agents:
             agent.setup(self.sim.world)
-        self._listen(self.agent.brain)
+        self._record_answers(self.agent.brain)
 
     def run(self, seed: int, decisions: int) -> list[Record]:
-        """Drives, from a reset with this seed on; whenever an episode ends the next one begins."""
+        """Reset with a seed and run; return a record of each decision and each reset."""
         agent, sim = self.agent, self.sim
         sim.reset(seed)
         for number, drive in enumerate(self._drives):
@@ -107,7 +107,9 @@ class Trial:
         for number in range(decisions):
             if self._script is not None:
                 self._script(agent, number)
-            agent.keyboard.hold(KEYS[keys.random(len(KEYS)) < PRESSED].tolist())
+            agent.keyboard.hold(
+                KEY_NAMES[keys.random(len(KEY_NAMES)) < KEY_HELD_PROBABILITY].tolist()
+            )
             sim.step()
             records.append(self._record())
             if agent.done or agent.stopped:
@@ -125,24 +127,24 @@ class Trial:
             done=self.agent.done,
         )
 
-    def _listen(self, brain: Any) -> None:
+    def _record_answers(self, brain: Any) -> None:
         decide = brain.decide
 
-        def listened(percept: Percept) -> Answer:
+        def recorded(percept: Percept) -> Answer:
             answer: Answer = decide(percept)
             self._answer = answer
             return answer
 
-        brain.decide = listened
+        brain.decide = recorded
 
 
 def standard_scene() -> Scene:
-    """The small world in which blocks are checked."""
+    """Load the small world in which blocks are checked."""
     return Scene.load(Path(__file__).with_name("standard_world.yaml"))
 
 
 def fresh(value: Any) -> Any:
-    """A new block with the same parameters, and new blocks inside it; other things as they are."""
+    """Return a deep copy of blocks, made anew from their parameters; other values are shared."""
     if isinstance(value, Block):
         new = type(value)(**{name: fresh(each) for name, each in value.values().items()})
         for name in SCRIPTED:
@@ -157,19 +159,19 @@ def fresh(value: Any) -> Any:
 
 
 def put_on(agent: BasicAgent, block: Block) -> None:
-    """Gives an agent a block, in place of one of the same name."""
+    """Give an agent a block, replacing one of the same name."""
     take_off(agent, block)
     _row_for(agent, block).append(block)
 
 
 def take_off(agent: BasicAgent, block: Block) -> None:
-    """Takes an agent's blocks off that are called like a block; for a brain all brains."""
+    """Remove an agent's blocks of the same kind and name; for a brain, all brains."""
     row = _row_for(agent, block)
     row[:] = [each for each in row if name_of(each) != name_of(block)]
 
 
 def name_of(block: Block) -> str:
-    """A block's own name; empty for what has none."""
+    """Return a block's name; empty if its kind has none."""
     for kind, field in NAMES.items():
         if isinstance(block, kind):
             return str(getattr(block, field))
@@ -177,7 +179,7 @@ def name_of(block: Block) -> str:
 
 
 def title_of(block: Block) -> str:
-    """A block's class and name."""
+    """Return a block's class and name."""
     name = name_of(block)
     return f"{type(block).__name__} {name!r}" if name else type(block).__name__
 

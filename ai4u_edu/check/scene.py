@@ -1,4 +1,4 @@
-"""Whether a scene keeps its promises."""
+"""The check of a scene."""
 
 from collections.abc import Sequence
 from typing import Any
@@ -8,11 +8,11 @@ import numpy as np
 from ai4u_edu.agent import BasicAgent
 from ai4u_edu.base.errors import AI4UError
 from ai4u_edu.blocks import Block, RewardFunc
-from ai4u_edu.check.block_check import DECISIONS, Exam, Options, frozen, short
+from ai4u_edu.check.block_check import DEFAULT_DECISIONS, BlockCheck, Options, frozen, short
 from ai4u_edu.check.ineffective import warn_of_groups, warn_of_no_end
-from ai4u_edu.check.places import odd_places
+from ai4u_edu.check.places import implausible_places
 from ai4u_edu.check.report import Outcome, Report
-from ai4u_edu.check.rollout import Record, Script, Trial, title_of
+from ai4u_edu.check.rollout import Record, Rollout, Script, title_of
 from ai4u_edu.check.sensors import not_in
 from ai4u_edu.scenes import Scene
 
@@ -24,22 +24,21 @@ def check_scene(
     *,
     script: Script | None = None,
     seed: int = 0,
-    decisions: int = DECISIONS,
+    decisions: int = DEFAULT_DECISIONS,
 ) -> Report:
-    """Drives all agents of a scene about at random, and tells what is wrong with it.
+    """Drive all agents of a scene at random, and report what is wrong with the scene.
 
-    It has to say what it is about; come back from its file as it was; give finite readings, inside
-    the sensors' spaces; go the same way from the same seed, also after a reset; and leave the
-    global generators alone. Sensors that always read the same, rewards that nobody got, agents that
-    can't move and places over the void or inside a body are told as warnings; so are groups that
-    nothing carries, and rewards that are to end the episode and never can.
+    The scene must survive being written to a file and read back; give finite readings inside the
+    sensors' spaces; run the same for the same seed, also after a reset; and leave the global random
+    generators alone. Warnings: no description, a sensor that always reads the same, a reward that
+    is never paid, an agent that cannot move, a position over the void or inside another body, a
+    group that no body carries, and a reward that is meant to end the episode and cannot.
 
     Args:
         scene: a Scene, or the name of one.
-        script: what a script does besides, called before each decision with the first agent and
-            the decision's number.
-        seed: of the drive and the world.
-        decisions: how long each run is.
+        script: called before each decision with the first agent and the decision's number.
+        seed: for the random actions and the world.
+        decisions: length of each run.
 
     >>> check_scene("box_chase", decisions=20).ok
     True
@@ -56,18 +55,18 @@ def check_scene(
         outcome=Outcome.WARNING if missing else None,
     )
     report.add("scene file", _lost(the_scene))
-    trials: list[Trial] = []
+    rollouts: list[Rollout] = []
 
-    def make() -> Trial:
-        trials.append(Trial(the_scene, script=script))
-        return trials[-1]
+    def make() -> Rollout:
+        rollouts.append(Rollout(the_scene, script=script))
+        return rollouts[-1]
 
-    exam = Exam(report, make, options, of=_all_of, words="world")
-    if exam.run():
-        _warn(report, trials[0].sim.agents)
-        _look_at_sensors(report, trials[0], exam.records)
-        _look_at_rewards(report, trials[0], exam.records)
-        odd = odd_places(the_scene.build(), seed)
+    checks = BlockCheck(report, make, options, of=_all_of, words="world")
+    if checks.run():
+        _warn(report, rollouts[0].sim.agents)
+        _look_at_sensors(report, rollouts[0], checks.records)
+        _look_at_rewards(report, rollouts[0], checks.records)
+        odd = implausible_places(the_scene.build(), seed)
         report.add(
             "places",
             f"expected agents that can move and stand where they are put, got: {'; '.join(odd)}"
@@ -105,9 +104,9 @@ def _warn(report: Report, agents: Sequence[BasicAgent]) -> None:
     warn_of_no_end(report, rewards)
 
 
-def _look_at_sensors(report: Report, trial: Trial, records: list[Record]) -> None:
+def _look_at_sensors(report: Report, rollout: Rollout, records: list[Record]) -> None:
     wrong, still = [], []
-    for agent in trial.sim.agents:
+    for agent in rollout.sim.agents:
         for sensor in agent.fitting.sensors:
             key, space = sensor.perception_key, sensor.observation_space()
             values = [record.percepts[agent.id][key] for record in records]
@@ -132,10 +131,10 @@ def _look_at_sensors(report: Report, trial: Trial, records: list[Record]) -> Non
     )
 
 
-def _look_at_rewards(report: Report, trial: Trial, records: list[Record]) -> None:
+def _look_at_rewards(report: Report, rollout: Rollout, records: list[Record]) -> None:
     never = [
         f"{reward.name!r} of agent {agent.id!r}"
-        for agent in trial.sim.agents
+        for agent in rollout.sim.agents
         for reward in agent.fitting.rewards
         if not any(record.terms[agent.id].get(reward.name) for record in records)
     ]

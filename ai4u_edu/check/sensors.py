@@ -1,4 +1,4 @@
-"""Whether a sensor keeps its promises."""
+"""The check of a sensor."""
 
 from itertools import pairwise
 from typing import Any
@@ -7,11 +7,11 @@ import numpy as np
 from gymnasium import spaces
 
 from ai4u_edu.blocks import Sensor
-from ai4u_edu.check.block_check import DECISIONS, Exam, Options, short
+from ai4u_edu.check.block_check import DEFAULT_DECISIONS, BlockCheck, Options, short
 from ai4u_edu.check.ineffective import warn_of_groups
 from ai4u_edu.check.report import Outcome, Report
-from ai4u_edu.check.rollout import Script, Trial, fresh, title_of
-from ai4u_edu.check.static_checks import check_papers
+from ai4u_edu.check.rollout import Rollout, Script, fresh, title_of
+from ai4u_edu.check.static_checks import run_static_checks
 from ai4u_edu.scenes import Scene
 
 
@@ -21,68 +21,64 @@ def check_sensor(
     scene: Scene | str | None = None,
     script: Script | None = None,
     seed: int = 0,
-    decisions: int = DECISIONS,
+    decisions: int = DEFAULT_DECISIONS,
 ) -> Report:
-    """Drives a sensor about in a small world, and tells what is wrong with it.
+    """Drive an agent at random in a small world, and report what is wrong with a sensor.
 
-    It has to be documented; come back from a scene file as it was; read finite numbers inside its
-    space, in new memory each time; read the same from the same seed; forget everything at a reset;
-    move nothing; leave the global generators alone; and read not always the same (where it is no
-    input of a policy, that is a warning only). One that looks for groups that are not there gets a
-    warning.
+    The sensor must have a docstring; survive being written to a scene file and read back; read
+    finite numbers inside its space, in a new array each time; read the same for the same seed; keep
+    nothing across a reset; move nothing; leave the global random generators alone; and change its
+    reading at some time (only a warning if it is no policy input). A group that no body carries
+    gives a warning.
 
     Args:
-        sensor: stays as it is; copies of it are driven.
-        scene: where, a Scene or the name of one; left out: a small world with bodies "robot" (the
-            agent's), "box", "ball", "other", "wall" and "step" and an area "goal".
-        script: what a script does besides, called before each decision with the agent and the
-            decision's number.
-        seed: of the drive and the world.
-        decisions: how long each run is.
+        sensor: is not changed; the check runs copies of it.
+        scene: a Scene or the name of one. By default a small world with the bodies "robot" (the
+            agent's), "box", "ball", "other", "wall" and "step" and the area "goal".
+        script: called before each decision with the agent and the decision's number.
+        seed: for the random actions and the world.
+        decisions: length of each run.
 
     >>> from ai4u_edu import VelocitySensor
     >>> check_sensor(VelocitySensor()).ok
     True
     """
-    key = sensor.perception_key
     options = Options(scene, script, seed, decisions)
     the_scene = options.the_scene()
     copies: list[Sensor] = []
     reads: list[Any] = []
 
-    def make() -> Trial:
+    def make() -> Rollout:
         copy = fresh(sensor)
         if not copies:
-            _listen(copy, reads)
+            _record_reads(copy, reads)
         copies.append(copy)
-        return Trial(the_scene, copy, script=script)
+        return Rollout(the_scene, copy, script=script)
 
     report = Report(title_of(sensor))
-    exam = Exam(
+    checks = BlockCheck(
         report,
         make,
         options,
-        of=lambda record: next(iter(record.percepts.values()))[key],
+        of=lambda record: next(iter(record.percepts.values()))[sensor.perception_key],
         words="readings",
     )
-    check_papers(report, sensor, "what it reads")
-    if exam.run(forgets="" if sensor.resetable else "resetable is off"):
-        warn_of_groups(report, [("", sensor)], exam.view)
-        values = exam.values()
-        report.add(
-            "finite",
-            _not_finite(values),
-            outcome=Outcome.NOT_APPLICABLE if isinstance(values[0], str | tuple) else None,
-        )
-        report.add("in its space", _outside(values, copies[0].observation_space()))
+    run_static_checks(report, sensor, "what it reads")
+    if checks.run(reset_exemption="" if sensor.resetable else "resetable is off"):
+        warn_of_groups(report, [("", sensor)], checks.view)
+        values = checks.values()
+        is_text = isinstance(values[0], str | tuple)
+        outcome = Outcome.NOT_APPLICABLE if is_text else None
+        report.add("finite", _not_finite(values), outcome=outcome)
+        report.add("in its space", _out_of_space(values, copies[0].observation_space()))
         _unshared(report, reads)
-        exam.only_looks(Trial(the_scene, without=sensor, script=script))
-        exam.changes(warning=not sensor.is_input)
+        checks.only_looks(Rollout(the_scene, without=sensor, script=script))
+        checks.changes(warning=not sensor.is_input)
     return report
 
 
 def not_in(space: spaces.Space[Any], reading: Any) -> str:
-    """What a space holds, if it does not hold a reading; empty if it does."""
+    """Return a description of a space that does not contain a reading; empty if it does."""
     if isinstance(space, spaces.Box):
         array = np.asarray(reading, np.float64)
         slack = 1e-5 * (1 + np.abs(array))
@@ -102,8 +98,8 @@ def not_in(space: spaces.Space[Any], reading: Any) -> str:
     return "" if space.contains(np.int64(reading)) else str(space)
 
 
-def _listen(sensor: Any, reads: list[Any]) -> None:
-    """From now on, what the sensor's read returns is also kept in a list."""
+def _record_reads(sensor: Any, reads: list[Any]) -> None:
+    """Wrap the sensor's ``read`` so that every result is also appended to a list."""
     inner = sensor.read
 
     def read(body: Any, view: Any) -> Any:
@@ -125,7 +121,7 @@ def _not_finite(values: list[Any]) -> str:
     return ""
 
 
-def _outside(values: list[Any], space: spaces.Space[Any]) -> str:
+def _out_of_space(values: list[Any], space: spaces.Space[Any]) -> str:
     for number, value in enumerate(values):
         expected = not_in(space, value)
         if expected:

@@ -1,4 +1,4 @@
-"""What can be seen of a block without running it: its docstring, and its lines in a scene file."""
+"""Checks of a block without running it: its docstring, and its form in a scene file."""
 
 import json
 from typing import Any
@@ -10,16 +10,16 @@ from ai4u_edu.scenes.serialization import from_plain, is_serializable, to_plain
 
 KINDS: tuple[type[Block], ...] = (Sensor, Actuator, RewardFunc, Brain, Controller)
 
-MEND = "are all parameters declared as annotated fields, and left as they were given?"
+HINT = "are all parameters declared as annotated fields, and left as they were given?"
 
 
-def check_papers(report: Report, block: Block, says: str) -> None:
-    """Looks at a block's docstring, and writes it to a scene file and back.
+def run_static_checks(report: Report, block: Block, says: str) -> None:
+    """Check that a block has a docstring and survives being written to a scene file and read back.
 
     Args:
-        report: where the findings go.
+        report: receives the findings.
         block: the block.
-        says: what its docstring should say.
+        says: what its docstring should say, for the message.
     """
     cls = type(block)
     written = (cls.__dict__.get("__doc__") or "").strip()
@@ -38,13 +38,13 @@ def check_papers(report: Report, block: Block, says: str) -> None:
 
 
 def _lost(block: Block, plain: Any) -> str:
-    """What is lost on the way to a file and back; empty for nothing."""
+    """Return the difference after writing and reading a block; empty if there is none."""
     kind = next(kind for kind in KINDS if isinstance(block, kind))
     try:
         again = to_plain(from_plain(kind, json.loads(json.dumps(plain))))
     except (AI4UError, TypeError, ValueError) as error:
-        return f"expected {plain} to make the same block, got {error}; {MEND}"
-    return "" if again == plain else f"expected {plain} back, got {again}; {MEND}"
+        return f"expected {plain} to make the same block, got {error}; {HINT}"
+    return "" if again == plain else f"expected {plain} back, got {again}; {HINT}"
 
 
 def _holds_a_function(plain: Any) -> bool:

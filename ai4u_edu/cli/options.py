@@ -3,7 +3,7 @@
 import math
 from collections.abc import Iterable
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal
 
 import typer
 
@@ -17,6 +17,9 @@ MAX_UPDATES = 10_000_000
 """Gradient steps of one network."""
 MIN_TIME_SCALE, MAX_TIME_SCALE = 0.01, 100.0
 """As in a scene file, where 1 is real time."""
+
+OnMissing = Literal["hold", "coast", "stop"]
+"""Policies for an agent whose script's action is missing."""
 
 OwnBlocks = Annotated[
     list[Path] | None,

@@ -82,7 +82,7 @@ class Live:
                 self._driven(agent, state)
         if self._runner.recorder is not None:
             self._runner.recorder.scene = state.description
-        self._runner.exchange(sim, seed=seed)
+        self._runner.replace_sim_now(sim, seed=seed)
         self.shown = self.wanted = state
         self._watch()
 

@@ -10,7 +10,7 @@ from pydantic import BaseModel
 from ai4u_edu.base.errors import MAX_SHOWN_CHARS, shown
 from ai4u_edu.base.parameters import Problem
 from ai4u_edu.blocks import Block
-from ai4u_edu.blocks.parameterized import Declared
+from ai4u_edu.blocks.parameterized import Parameterized
 from ai4u_edu.editing.errors import ChangeError
 from ai4u_edu.scenes.serialization import PlainDataError
 
@@ -67,7 +67,7 @@ def check_typed_and(values: Any, schema: Mapping[str, Any], check: Callable[[], 
     return found
 
 
-def schema_of(cls: type[Declared]) -> dict[str, Any]:
+def schema_of(cls: type[Parameterized]) -> dict[str, Any]:
     """Return the JSON Schema of a block or an agent; it takes a while to make, so it is kept."""
     found = _schemas.get(cls)
     if found is None:

@@ -6,13 +6,13 @@ runner's thread. Whoever wants to look takes the latest snapshot, without a lock
 
 import logging
 import math
-import sys
 import threading
 import time
+import warnings
 from collections.abc import Callable
 from concurrent.futures import Future
 from dataclasses import replace
-from typing import TypeVar
+from typing import TYPE_CHECKING, TypeVar
 
 from ai4u_edu.agent.block_errors import reason_for_no_decision, sentence_of, storable
 from ai4u_edu.agent.cycle import ControlRequestor
@@ -35,9 +35,6 @@ logger = logging.getLogger(__name__)
 PATIENCE = 0.25
 """Where agents decide at different times there may be no moment between all decisions; a command
 waits this long (s) for one, and then takes any moment between two ticks."""
-SWITCH_INTERVAL_S = 0.0002
-"""Seconds after which a thread that computes lets another one go on. Python's own 5 ms would make a
-tick late whenever pages are drawn."""
 ANSWER_POLL_S = 0.015
 """While a world waits for scripts that will call, their brains look so often who is late."""
 HOLD_POLL_S = 0.001
@@ -47,15 +44,23 @@ REST_POLL_S = 0.1
 STOP_S = 1.0
 """Seconds that the thread has to end; a block that does not return may keep it from that."""
 
+RENAMED_METHODS = {
+    "use": "replace_sim",
+    "exchange": "replace_sim_now",
+    "show": "show_past",
+    "call": "notify_answer",
+    "expect_call": "expect_answer",
+}
+
 ANOTHER_WORLD = "another world has taken its place; connect anew to drive there"
 
 
 class Runner:
     """Ticks a world against the wall clock, in a thread of its own.
 
-    Physics and the code of blocks run in that thread and no other, so a block that does not return
-    keeps nobody but the world waiting; :attr:`stall` tells of it. Commands, :meth:`call` and
-    :meth:`stop` come from any thread: they leave word, set one event and go on.
+    Physics and the code of blocks run in that thread only, so a block that does not return delays
+    nothing but the world; :attr:`stall` reports it. Commands, :meth:`notify_answer` and
+    :meth:`stop` may be called from any thread: they only queue, set one event and return.
 
     Args:
         sim: the world and its agents.
@@ -191,7 +196,7 @@ class Runner:
         """Lets the time run faster or slower."""
         return self.submit(lambda: self.set_time_scale(time_scale))
 
-    def show(self, past: Snapshot | None, *, goes_on: bool = False) -> "Future[None]":
+    def show_past(self, past: Snapshot | None, *, goes_on: bool = False) -> "Future[None]":
         """Has all who look see a moment of the past; meanwhile the time stands still.
 
         It goes on with the world as it is now, which nothing of this changes: as soon as somebody
@@ -240,43 +245,43 @@ class Runner:
 
         return self.submit(carry_out)
 
-    def use(
+    def replace_sim(
         self, sim: ControlRequestor, recorder: Recorder | None = None, *, seed: int | None = None
     ) -> "Future[None]":
-        """Lets another world run in place of this one; the pace and the pause stay.
+        """Run another world in place of this one; time scale and pause stay.
 
-        Who held a key of the old one's lets go, and its agents' brains are closed, but for those
-        that drive agents of the new one. Whoever has hold of an agent finds out by looking whether
-        it is still among ``runner.sim.agents``.
+        Keys held in the old world are released. Brains of its agents are closed, except those that
+        also drive agents of the new one. Code that holds an agent can check whether it is still in
+        ``runner.sim.agents``.
 
         Args:
-            sim: the other world. If it has begun no episode yet, one begins; else it goes on where
-                it stands.
-            recorder: of the other world. Left out, the one that there is listens to it from now on.
+            sim: the other world. If it has no episode yet, one begins; else it continues where it
+                is.
+            recorder: of the other world. Left out, the present recorder listens to it from now on.
             seed: of the episode that begins.
         """
-        return self.submit(lambda: self.exchange(sim, recorder, seed=seed))
+        return self.submit(lambda: self.replace_sim_now(sim, recorder, seed=seed))
 
-    def exchange(
+    def replace_sim_now(
         self, sim: ControlRequestor, recorder: Recorder | None = None, *, seed: int | None = None
     ) -> None:
-        """Lets another world run, as :meth:`use` does, at once; only for the runner's thread."""
+        """Run another world at once, as :meth:`replace_sim` does; only for the runner's thread."""
         if not sim.episode:
             sim.reset(seed)  # before anything else: if it fails, all stays as it was
         self._replace(sim, recorder)
 
-    # -- for those who are waited for ------------------------------------------------------------
+    # -- for links that answer -------------------------------------------------------------------
 
-    def expect_call(self) -> None:
-        """Said by a link that was asked: its answer will come with a :meth:`call`."""
+    def expect_answer(self) -> None:
+        """Count an answer for which :meth:`notify_answer` will be called; a link says so."""
         with self._expecting:
             self._expected += 1
 
-    def call(self) -> None:
-        """Wakes the world up: something that it waits for is there; from any thread.
+    def notify_answer(self) -> None:
+        """Wake the runner's thread: an answer that it waits for is there. Thread-safe.
 
-        Where several are waited for, the last one wakes it. Nothing else is done in the caller's
-        thread: the next tick may take long.
+        Where several are expected, the last one wakes it. Nothing else is done in the caller's
+        thread, since the next tick may take long.
         """
         with self._expecting:
             self._expected -= 1
@@ -284,11 +289,20 @@ class Runner:
         if is_last:
             self._wake.set()
 
+    if not TYPE_CHECKING:  # a type checker is to report the old names
+
+        def __getattr__(self, name: str) -> object:
+            """Return a method by the name that it had before; deprecated for one release."""
+            new = RENAMED_METHODS.get(name)
+            if new is None:
+                raise AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}")
+            warnings.warn(f"Runner.{name} is now Runner.{new}", DeprecationWarning, stacklevel=2)
+            return getattr(self, new)
+
     # -- the thread ------------------------------------------------------------------------------
 
     def start(self) -> None:
         """Begins to tick."""
-        sys.setswitchinterval(min(sys.getswitchinterval(), SWITCH_INTERVAL_S))
         self._thread = threading.Thread(target=self._run, name="runner", daemon=True)
         self._schedule.due = self._clock()
         self._thread.start()

@@ -9,7 +9,7 @@ from pydantic import ValidationError
 from ai4u_edu.base.errors import AI4UError, ParameterError, shown, suggest
 from ai4u_edu.base.parameters import MAX_HINTS, Problem, explain, listed
 from ai4u_edu.blocks import Actuator, Block, Brain, Controller, RewardFunc, ScriptController, Sensor
-from ai4u_edu.blocks.parameterized import Declared
+from ai4u_edu.blocks.parameterized import Parameterized
 
 Path = tuple[str | int, ...]
 
@@ -78,7 +78,7 @@ def from_plain(kind: type[Block], data: Any, path: Path = ()) -> Block:
     return made
 
 
-def make(cls: type[Declared], given: Mapping[str, Any], path: Path) -> Declared:
+def make(cls: type[Parameterized], given: Mapping[str, Any], path: Path) -> Parameterized:
     """Makes a declared thing from plain parameters, blocks among them."""
     problems: list[Problem] = []
     values: dict[str, Any] = {}

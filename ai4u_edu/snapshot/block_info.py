@@ -160,7 +160,7 @@ def sensor_pictures_of(agent: BasicAgent) -> SensorPictures:
         spots = {sensor.perception_key: sensor.spots() for sensor in active}
         rays = RayPictures(
             {
-                sensor.perception_key: sensor.later()
+                sensor.perception_key: sensor.capture()
                 for sensor in active
                 if isinstance(sensor, RaySensor)
             }

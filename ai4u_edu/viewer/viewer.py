@@ -7,13 +7,12 @@ import warnings
 from ai4u_edu.editing import EditState, SceneEditor
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.snapshot import Snapshot, StaticScene
-from ai4u_edu.viewer.backend.gc_control import Housekeeping
 from ai4u_edu.viewer.backend.local_server import LocalServer
 from ai4u_edu.viewer.backend.log_once import Complaints
 from ai4u_edu.viewer.backend.pace import Pace
 from ai4u_edu.viewer.backend.part import EACH_PAGE, MOST, Paced, Part
 from ai4u_edu.viewer.backend.turns import Turns
-from ai4u_edu.viewer.panel.agent_html import AgentWriter
+from ai4u_edu.viewer.panel.agent_html import AgentHtmlCache
 from ai4u_edu.viewer.panel.agent_tab import AgentTab
 from ai4u_edu.viewer.panel.blocks_tab import blocks_tab
 from ai4u_edu.viewer.panel.controls import Controls
@@ -22,8 +21,8 @@ from ai4u_edu.viewer.panel.reward_table import REMEMBERED
 from ai4u_edu.viewer.panel.tabs import TabKind, Tabs
 from ai4u_edu.viewer.panel.world_tab import world_tab
 from ai4u_edu.viewer.replay.ghosts import Ghosts
-from ai4u_edu.viewer.replay.replay_player import Projector
-from ai4u_edu.viewer.replay.replay_tab import past
+from ai4u_edu.viewer.replay.replay_player import ReplayPlayer
+from ai4u_edu.viewer.replay.replay_tab import replay_tab
 from ai4u_edu.viewer.scene.actions import Actions
 from ai4u_edu.viewer.scene.bodies import Bodies
 from ai4u_edu.viewer.scene.framing import FIELD_OF_VIEW, frame
@@ -31,8 +30,8 @@ from ai4u_edu.viewer.scene.ground import Ground
 from ai4u_edu.viewer.scene.labels import Labels
 from ai4u_edu.viewer.scene.light import light
 from ai4u_edu.viewer.scene.placing import seen_bounds
-from ai4u_edu.viewer.scene.sense_overlay import Gaze
-from ai4u_edu.viewer.viewer_client import Onlookers
+from ai4u_edu.viewer.scene.sense_overlay import SenseOverlay
+from ai4u_edu.viewer.viewer_client import ViewerClients
 
 PANEL_WIDTH = 320
 """Pixels."""
@@ -71,7 +70,7 @@ class Viewer:
         self.runner = runner
         self.server = server = LocalServer(title, runner.give_way)
         self._title = title
-        self._onlookers = onlookers = Onlookers(server, first=runner.sim.agents[0].id)
+        self._viewer_clients = viewer_clients = ViewerClients(server, first=runner.sim.agents[0].id)
         self._static_scene: StaticScene | None = None
         self._complaints = Complaints()
         self._stopping = threading.Event()
@@ -81,33 +80,33 @@ class Viewer:
         server.gui.main_panel.dock_right()
         server.gui.main_panel.set_width(PANEL_WIDTH)
         light(server.scene)
-        writer = AgentWriter()
+        html_cache = AgentHtmlCache()
         kinds = [
-            TabKind("Agent", lambda onlooker: AgentTab(onlooker, runner, writer)),
+            TabKind("Agent", lambda viewer_client: AgentTab(viewer_client, runner, html_cache)),
         ]
         if editor is not None:
             kinds += [blocks_tab(editor), world_tab(editor)]
             editor.listeners.append(self._rename)
-        self._projector, self.ghosts = Projector(runner), Ghosts(server)
+        self._player, self.ghosts = ReplayPlayer(runner), Ghosts(server)
         if runner.recorder is not None:
-            kinds.append(past(runner, self._projector, self.ghosts))
+            kinds.append(replay_tab(runner, self._player, self.ghosts))
 
         def rounds() -> int:
-            return Turns.rounds(len(onlookers))
+            return Turns.rounds(len(viewer_clients))
 
         parts: list[tuple[Part, float, float]] = [
-            (onlookers, FRAMES, MOST),
+            (viewer_clients, FRAMES, MOST),
             (Ground(server), 1, MOST),
             (Bodies(server, self._choose), FRAMES, MOST),
             (Labels(server), FRAMES, MOST),
             (self.ghosts, 30, MOST),
             (Actions(server), 30, MOST),
-            (Controls(server, runner, onlookers), 8, MOST),
-            (PageControls(onlookers), 8, EACH_PAGE),
+            (Controls(server, runner, viewer_clients), 8, MOST),
+            (PageControls(viewer_clients), 8, EACH_PAGE),
         ]
         in_turn: list[tuple[Part, float]] = [
-            (Gaze(onlookers, runner.give_way), 30),
-            (Tabs(onlookers, kinds, self._complaints, runner.give_way), 8),
+            (SenseOverlay(viewer_clients, runner.give_way), 30),
+            (Tabs(viewer_clients, kinds, self._complaints, runner.give_way), 8),
         ]
         self._parts = [Paced(part, rate, self._complaints, share) for part, rate, share in parts]
         self._parts += [
@@ -138,7 +137,7 @@ class Viewer:
     def _end(self) -> None:
         if self._thread.is_alive():
             self._thread.join()
-        self._projector.stop()
+        self._player.stop()
         self.server.stop()
 
     def _rename(self, state: EditState) -> None:
@@ -148,29 +147,27 @@ class Viewer:
             self.server.gui.set_panel_label(state.title)
 
     def _run(self) -> None:
-        seen, housekeeping = self.runner.latest, Housekeeping()
+        seen = self.runner.latest
         while not self._stopping.is_set():
             seen = self.runner.wait(seen, IDLE)
             began, worked = time.monotonic(), time.thread_time()
             with self._complaints.caught():
-                self._onlookers.meet()
-                if self._onlookers or seen.static_scene is not self._static_scene:
+                self._viewer_clients.meet()
+                if self._viewer_clients or seen.static_scene is not self._static_scene:
                     self._draw(seen)
             spent = time.monotonic() - began
             period = self._pace.period(
-                pages=len(self._onlookers),
+                pages=len(self._viewer_clients),
                 late=self.runner.lateness,
                 spent=time.thread_time() - worked,
             )
-            housekeeping.look(self._onlookers.keys())
-            self._stopping.wait(max((period if self._onlookers else IDLE) - spent, 0.001))
-        housekeeping.end()
+            self._stopping.wait(max((period if self._viewer_clients else IDLE) - spent, 0.001))
 
     def _choose(self, client_id: int, body: str) -> None:
         """On one page, looks at the agent with that body."""
-        onlooker, static_scene = self._onlookers.get(client_id), self._static_scene
-        if onlooker is not None and static_scene is not None and body in static_scene.agent_of:
-            onlooker.agent = static_scene.agent_of[body]
+        viewer_client, static_scene = self._viewer_clients.get(client_id), self._static_scene
+        if viewer_client is not None and static_scene is not None and body in static_scene.agent_of:
+            viewer_client.agent = static_scene.agent_of[body]
 
     def _draw(self, snapshot: Snapshot) -> None:
         for agent in self.runner.sim.agents:
@@ -184,9 +181,9 @@ class Viewer:
             for part in self._parts:
                 self.runner.give_way()
                 part.draw(snapshot)
-        for onlooker in self._onlookers.values():
+        for viewer_client in self._viewer_clients.values():
             with self._complaints.caught():
-                onlooker.view.update(snapshot, onlooker.agent)
+                viewer_client.view.update(snapshot, viewer_client.agent)
 
     def _aim(self, static_scene: StaticScene) -> None:
         """Tells pages that are about to open where to look until their shape is known."""

@@ -17,7 +17,7 @@ DARK_HEADER = "X-AI4U-Edu-Dark"
 """By this our proxy tells viser that a page is to be dark; empty for light."""
 
 
-class Onlooker:
+class ViewerClient:
     """One page, and what its person has chosen to see there; other pages choose for themselves.
 
     Args:
@@ -58,7 +58,7 @@ class Onlooker:
         self._lit[self.agent, key] = on
 
 
-class Onlookers(Mapping[int, Onlooker]):
+class ViewerClients(Mapping[int, ViewerClient]):
     """Everybody who looks at a page, by viser's number of it.
 
     Args:
@@ -70,9 +70,9 @@ class Onlookers(Mapping[int, Onlooker]):
         self._server = server
         self._first = first
         self._ids: tuple[str, ...] = (first,)
-        self._all: dict[int, Onlooker] = {}
+        self._all: dict[int, ViewerClient] = {}
 
-    def __getitem__(self, client_id: int) -> Onlooker:
+    def __getitem__(self, client_id: int) -> ViewerClient:
         return self._all[client_id]
 
     def __iter__(self) -> Iterator[int]:
@@ -85,8 +85,8 @@ class Onlookers(Mapping[int, Onlooker]):
         """Learns which agents there are."""
         ids = list(static_scene.agent_of.values())
         self._ids = tuple(sorted(ids, key=lambda each: each != self._first))
-        for onlooker in self._all.values():
-            onlooker.settle(self._ids)
+        for viewer_client in self._all.values():
+            viewer_client.settle(self._ids)
 
     def draw(self, _snapshot: Snapshot) -> None:
         """Greets new pages: before other parts draw for them."""
@@ -100,9 +100,9 @@ class Onlookers(Mapping[int, Onlooker]):
         for new in sorted(clients.keys() - self._all.keys()):
             asked, address = unquote(self._told(new, AGENT_HEADER)), self._told(new, PAGE_HEADER)
             is_dark = bool(self._told(new, DARK_HEADER))
-            onlooker = Onlooker(clients[new], asked, address, is_dark=is_dark)
-            onlooker.settle(self._ids)
-            self._all[new] = onlooker
+            viewer_client = ViewerClient(clients[new], asked, address, is_dark=is_dark)
+            viewer_client.settle(self._ids)
+            self._all[new] = viewer_client
 
     def _told(self, client_id: int, header: str) -> str:
         connection = self._server._websock_server._live_connections.get(client_id)

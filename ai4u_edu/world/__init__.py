@@ -1,6 +1,6 @@
 """The physics: the only room in which pymunk lives."""
 
-from ai4u_edu.world.body import Body, BodyView, Drive
+from ai4u_edu.world.body import Body, BodyView
 from ai4u_edu.world.descriptions import (
     AreaDescription,
     BodyDescription,
@@ -33,7 +33,6 @@ __all__ = [
     "CapsuleShape",
     "Cast",
     "CircleShape",
-    "Drive",
     "FloorDescription",
     "PolygonShape",
     "Pose",

@@ -1,7 +1,7 @@
 """A body that lives in a world: what can be asked of it, and how it is moved."""
 
 import math
-from typing import TYPE_CHECKING, Any, NamedTuple, NoReturn
+from typing import TYPE_CHECKING, Any, NoReturn
 
 import pymunk
 
@@ -19,19 +19,6 @@ TAU = 2 * math.pi
 _place, _angle, _push = QUICK.place, QUICK.angle, QUICK.push
 _set_velocity, _set_angular_velocity = QUICK.set_velocity, QUICK.set_angular_velocity
 _CENTRE = QUICK.vector()
-
-
-class Drive(NamedTuple):
-    """What a body on the ground is told for a tick, in its own frame."""
-
-    forward: float
-    """m/s; newtons if it is pushed."""
-    left: float
-    """As forward."""
-    turning: float
-    """rad/s, counter-clockwise positive."""
-    pushed: bool = False
-    """Whether a force moves it; else it is given a velocity."""
 
 
 class BodyView:

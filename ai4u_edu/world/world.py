@@ -9,7 +9,7 @@ import pymunk
 
 from ai4u_edu.base.errors import NameNotFoundError, WorldError, suggest
 from ai4u_edu.base.seeding import Seeds
-from ai4u_edu.world.body import Body, BodyView, Drive
+from ai4u_edu.world.body import Body, BodyView
 from ai4u_edu.world.bounds import Rectangle, around
 from ai4u_edu.world.build import build
 from ai4u_edu.world.contacts import Contacts
@@ -22,7 +22,6 @@ from ai4u_edu.world.descriptions import (
 from ai4u_edu.world.grasp import tear_off
 from ai4u_edu.world.height import Height
 from ai4u_edu.world.native.chipmunk import let_go, stepper
-from ai4u_edu.world.native.ticks import Ticks
 from ai4u_edu.world.overlap import in_the_way
 from ai4u_edu.world.placement import Thing
 from ai4u_edu.world.randomize import scatter, squeeze_in
@@ -220,7 +219,6 @@ class World:
         self.ticks = 0
         self.owners = {}
         self._step = stepper(self.space, self._dt)
-        self._at_one_go = Ticks(self)
         self.contacts.attach(self.space, self.owners)
         self._groups = 0
         for body in self._bodies.values():
@@ -237,38 +235,9 @@ class World:
         if self._height.movers:
             self._height.step(self._dt)
         if contacts.error is not None or ticks % self._ticks_per_second == 0:
-            self._end_tick()
-
-    def drive(self, body: Body, drive: Drive, ticks: int) -> int:
-        """Ticks several times at one go; each time a body is told the same before.
-
-        It goes as far as it can, which may be nowhere: only where there is a compiled part, and the
-        body is on the ground; until somebody leaves the floor, at most to the end of a second. What
-        happens is the same as tick by tick.
-
-        Args:
-            body: who drives.
-            drive: what it is told.
-            ticks: at most so many.
-
-        Returns:
-            How many ticks have passed.
-        """
-        began, contacts = self.ticks, self.contacts
-        at_most = self._ticks_per_second - began % self._ticks_per_second
-        look = self._at_one_go.run(body, drive, min(ticks, at_most))
-        gone, contacts.clock[0] = contacts.clock[0], 0
-        if gone:
-            self.ticks = contacts.tick = began + gone
-            if look:
-                self._height.step(self._dt)
-            self._end_tick()
-        return gone
-
-    def _end_tick(self) -> None:
-        self.contacts.raise_error()
-        if self.ticks % self._ticks_per_second == 0:
-            self._check_finite()
+            contacts.raise_error()
+            if ticks % self._ticks_per_second == 0:
+                self._check_finite()
 
     def ground(self, x: float, y: float) -> float | None:
         """The height of the highest floor at a place; None over the void."""

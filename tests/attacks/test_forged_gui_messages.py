@@ -24,7 +24,7 @@ from ai4u_edu.viewer import Viewer
 from ai4u_edu.viewer.panel.blocks_tab import BlocksTab
 from ai4u_edu.viewer.panel.controls import Controls
 from ai4u_edu.viewer.panel.world_tab import WorldTab
-from ai4u_edu.viewer.replay.replay_tab import PastTab
+from ai4u_edu.viewer.replay.replay_tab import ReplayTab
 from tests.editing.shops import Shop
 from tests.viewer.pages import Page, part_of, seen, shown, tabs_of, until
 
@@ -86,7 +86,7 @@ def page(room: Room) -> Iterator[Page]:
         here = Page(connection)
         here.report_camera()
         until(lambda: len(room.viewer.server.get_clients()) == before + 1)
-        room.viewer._onlookers.meet()
+        room.viewer._viewer_clients.meet()
         shown(room.viewer)
         yield here
 
@@ -229,7 +229,7 @@ def test_no_widget_takes_a_value_that_is_not_of_its_kind(
 
 def test_a_number_is_within_the_bounds_of_its_widget(room: Room) -> None:
     with page(room) as here:
-        (past,), seed = tabs_of(room.viewer, PastTab), part_of(room.viewer, Controls)._seed
+        (past,), seed = tabs_of(room.viewer, ReplayTab), part_of(room.viewer, Controls)._seed
         for widget, odd in ((seed, (-1, 2**53, 1e20, 1.5)), (past._step, (0, 77, 1.5, -1e9))):
             was = widget.value
             for value in odd:

@@ -161,7 +161,7 @@ def test_a_page_that_floods_a_world_that_goes_is_sent_away_once(
         pages = [opened(room) for _ in range(8)]
         for page in pages:
             page.hear("hello")
-        room.runner.use(small_sim())
+        room.runner.replace_sim(small_sim())
         for page in pages:
             with page:
                 with suppress(ConnectionClosed):

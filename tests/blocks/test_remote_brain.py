@@ -185,8 +185,8 @@ def test_a_call_ticks_nothing_and_a_world_that_was_called_is_not_asked_again_in_
     link.answers.append(AHEAD)
     link.will_call = True
     link.timeouts.clear()
-    runner.expect_call()
-    runner.call()
+    runner.expect_answer()
+    runner.notify_answer()
     assert sim.world.ticks == 0  # whoever calls has other things to do
     runner.start()
     try:

@@ -523,7 +523,7 @@ def worlds_robot(theatre: Theatre) -> BasicAgent:
         )
         for body, agent_id in (("other", "1"), ("robot", "0"))
     ]
-    theatre.room.runner.use(ControlRequestor(world, agents)).result(5)
+    theatre.room.runner.replace_sim(ControlRequestor(world, agents)).result(5)
     return agents[1]
 
 

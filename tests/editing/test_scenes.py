@@ -133,7 +133,7 @@ def test_what_waits_can_be_taken_back() -> None:
 def test_somebody_elses_world_is_taken_over() -> None:
     shop = Shop()
     shop.done(shop.editor.add_body({"name": "ball", "position": [0, 3]}))
-    shop.done(shop.runner.use(shop.scene.build()))
+    shop.done(shop.runner.replace_sim(shop.scene.build()))
     shop.done(shop.editor.add_block("0", "sensors", {"type": "HeadingSensor"}))
     assert "ball" not in shop.editor.text()
     assert "heading" in shop.agent.percept

@@ -93,10 +93,10 @@ class AI4USession(RuleBasedStateMachine):
 class _World:
     """What a session needs of a runner."""
 
-    def expect_call(self) -> None:
+    def expect_answer(self) -> None:
         pass
 
-    def call(self) -> None:
+    def notify_answer(self) -> None:
         pass
 
     def is_unpaced(self) -> bool:

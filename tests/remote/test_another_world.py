@@ -22,7 +22,7 @@ def test_a_script_is_told_and_gets_the_agent_of_the_same_id_in_the_other_world()
         robot = connect(room.url)
         robot.act(move=AHEAD)
         other = Scene.load("box_chase").build()
-        room.runner.use(other, seed=3).result(5)
+        room.runner.replace_sim(other, seed=3).result(5)
         with pytest.raises(LostError, match="another world has taken its place; connect anew"):
             drive(robot, 20)
         with connect(room.url, mode="lockstep") as again:
@@ -71,7 +71,7 @@ def test_a_script_whose_world_is_replaced_while_it_asks_for_an_agent_is_told() -
                 told.append(str(error))
 
         room.runner.submit(lambda: may_go.wait(10))
-        room.runner.use(Scene.load("box_chase").build())
+        room.runner.replace_sim(Scene.load("box_chase").build())
         script = threading.Thread(target=drive_there)
         script.start()
         until(lambda: len(room.runner._queue) == 2)  # the other world, then the script's wish

@@ -303,7 +303,7 @@ def test_another_world_takes_this_ones_place(runner: Runner) -> None:
     before.agents[0].brain.close = lambda: closed.append("old")  # type: ignore[method-assign]
     other = Scene.load("donut").build()
     runner.pause().result(5)
-    runner.use(other, seed=7).result(5)
+    runner.replace_sim(other, seed=7).result(5)
     assert runner.sim is other
     assert (runner.latest.seed, runner.latest.tick, runner.latest.paused) == (7, 0, True)
     assert {body.name for body in runner.latest.static_scene.bodies} == set(other.world.bodies)
@@ -325,9 +325,19 @@ def test_another_world_goes_on_where_it_stands_with_the_brain_that_it_shares(
     other.step()
     other.agents[0].use_brain(brain)
     ticks = other.world.ticks
-    runner.use(other).result(5)
+    runner.replace_sim(other).result(5)
     assert (runner.latest.seed, runner.latest.tick) == (3, ticks)
     del brain.close
+
+
+@pytest.mark.parametrize(
+    ("old", "new"), [("use", "replace_sim"), ("show", "show_past"), ("call", "notify_answer")]
+)
+def test_old_names_of_methods_still_work_and_warn(runner: Runner, old: str, new: str) -> None:
+    with pytest.warns(DeprecationWarning, match=f"Runner.{old} is now Runner.{new}"):
+        assert getattr(runner, old) == getattr(runner, new)
+    with pytest.raises(AttributeError, match="'Runner' object has no attribute 'unknown'"):
+        getattr(runner, "unknown")  # noqa: B009 - a type checker would refuse it
 
 
 def test_a_world_that_can_not_begin_changes_nothing(runner: Runner) -> None:
@@ -338,7 +348,7 @@ def test_a_world_that_can_not_begin_changes_nothing(runner: Runner) -> None:
 
     other.agents[0].before_the_reset.connect(fail)
     with pytest.raises(ZeroDivisionError):
-        runner.use(other).result(5)
+        runner.replace_sim(other).result(5)
     assert runner.sim is before
     wait_for(runner, runner.latest.tick + 5)
 
@@ -349,7 +359,7 @@ def test_the_recorder_goes_along_to_another_world() -> None:
     runner = Runner(sim, seed=1, recorder=recorder)
     for _ in range(20):
         sim.tick()
-    runner.use(Scene.load("donut").build(), seed=2)
+    runner.replace_sim(Scene.load("donut").build(), seed=2)
     runner.advance()
     while runner.sim.agents[0].steps < 4:
         runner.sim.tick()
@@ -382,7 +392,7 @@ def test_the_past_is_seen_and_changes_nothing(runner: Runner) -> None:
     runner.pause().result(5)
     live = runner.latest
     past = replace(live, past="step 1 of 3", tick=-7, paused=False)
-    runner.show(past).result(5)
+    runner.show_past(past).result(5)
     seen = runner.latest
     assert (seen.past, seen.tick, seen.paused, seen.static_scene) == (
         "step 1 of 3",
@@ -392,14 +402,14 @@ def test_the_past_is_seen_and_changes_nothing(runner: Runner) -> None:
     )
     time.sleep(0.25)
     assert runner.latest is seen  # nobody has to draw it again
-    runner.show(None).result(5)
+    runner.show_past(None).result(5)
     assert (runner.latest.past, runner.latest.tick, runner.latest.paused) == ("", live.tick, True)
 
 
 def test_whoever_looks_at_the_past_has_the_time_stand_still(runner: Runner) -> None:
     keyboard = runner.sim.agents[0].keyboard
     keyboard.hold(["KeyW"])
-    runner.show(replace(runner.latest, past="then")).result(5)
+    runner.show_past(replace(runner.latest, past="then")).result(5)
     ticks = runner.sim.world.ticks
     assert not keyboard.held()
     time.sleep(0.1)
@@ -408,7 +418,7 @@ def test_whoever_looks_at_the_past_has_the_time_stand_still(runner: Runner) -> N
 
 @pytest.mark.parametrize("order", ["resume", "reset", "step"])
 def test_as_soon_as_something_goes_on_it_is_now(runner: Runner, order: str) -> None:
-    runner.show(replace(runner.latest, past="then")).result(5)
+    runner.show_past(replace(runner.latest, past="then")).result(5)
     getattr(runner, order)().result(5)
     assert runner.latest.past == ""
 

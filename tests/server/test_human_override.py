@@ -331,7 +331,7 @@ def test_another_world_sends_pages_away_and_has_them_back() -> None:
         with room.page() as page:
             page.hold("KeyW")
             until(lambda: room.held == ["KeyW"])
-            room.runner.use(new).result(5)
+            room.runner.replace_sim(new).result(5)
             assert page.end() == (1012, "another world")
         with room.page("?after_another&agent=0") as page:
             assert page.hear("hello")["agent"] == "0"
@@ -349,7 +349,7 @@ def test_an_agent_of_the_old_world_is_not_given_back(room: Room) -> None:
         page.hold("KeyW")
         page.hear("hello", others="")
         ours = agent.brain
-        room.runner.use(another("0")).result(5)
+        room.runner.replace_sim(another("0")).result(5)
         assert page.end()[0] == 1012
     room.runner.submit(lambda: None).result(5)
     assert agent.brain is ours

@@ -90,7 +90,7 @@ def test_only_what_changed_is_sent(viewer: Viewer, runner: Runner) -> None:
 def test_a_page_opens_with_its_own_agent(crowded: Viewer, asked: str, opened: str) -> None:
     with page(crowded, asked):
         shown(crowded)
-        assert [each.agent for each in crowded._onlookers.values()] == [opened]
+        assert [each.agent for each in crowded._viewer_clients.values()] == [opened]
         assert f"<p>{opened}</p>" in text_of(crowded)
 
 
@@ -98,7 +98,7 @@ def test_another_agent_is_chosen_from_the_list(crowded: Viewer) -> None:
     with page(crowded) as here, page(crowded, "five"):
         until(lambda: len(crowded.server.get_clients()) == 2)
         shown(crowded)
-        first, second = crowded._onlookers.values()
+        first, second = crowded._viewer_clients.values()
         tab = tabs_of(crowded, AgentTab)[0]
         here.change(tab.list, "four")
         until(lambda: first.agent == "four")
@@ -115,13 +115,13 @@ def test_another_agent_is_chosen_from_the_list(crowded: Viewer) -> None:
 def test_another_agent_is_chosen_by_a_click_on_it(crowded: Viewer) -> None:
     with page(crowded) as here:
         shown(crowded)
-        (onlooker,) = crowded._onlookers.values()
+        (viewer_client,) = crowded._viewer_clients.values()
         here.click("/bodies1/0/body", 2)
-        until(lambda: onlooker.agent == "three")
+        until(lambda: viewer_client.agent == "three")
         for nothing in (None, 17):
             here.click("/bodies1/0/body", nothing)
         here.click("/bodies1/0/body", 3)
-        until(lambda: onlooker.agent == "four")
+        until(lambda: viewer_client.agent == "four")
         shown(crowded)
         (tab,) = tabs_of(crowded, AgentTab)
         assert tab.list.value == "four"
@@ -132,13 +132,13 @@ def test_other_agents_are_looked_at_as_soon_as_they_are_there(
 ) -> None:
     with page(viewer):
         shown(viewer)
-        (onlooker,) = viewer._onlookers.values()
+        (viewer_client,) = viewer._viewer_clients.values()
         (tab,) = tabs_of(viewer, AgentTab)
         static_scene = replace(runner.latest.static_scene, agent_of={"robot": "7"})
         viewer._draw(
             replace(runner.latest, static_scene=static_scene)
         )  # the agents of before are no error
-        assert onlooker.agent == "7"
+        assert viewer_client.agent == "7"
         assert tab.list.options == ("Agent 7: robot",)
 
 
@@ -146,15 +146,15 @@ def test_a_sensor_is_shown_and_hidden_by_its_button(viewer: Viewer, runner: Runn
     with page(viewer) as here:
         shown(viewer)
         (tab,) = tabs_of(viewer, AgentTab)
-        (onlooker,) = viewer._onlookers.values()
+        (viewer_client,) = viewer._viewer_clients.values()
         button = tab._senses._buttons["fan"]
         assert button.icon == SHOWN
         here.press(button)
-        until(lambda: not onlooker.lights("fan", by_itself=True))
+        until(lambda: not viewer_client.lights("fan", by_itself=True))
         shown(viewer)
         assert button.icon == HIDDEN
         here.press(button)
-        until(lambda: onlooker.lights("fan", by_itself=True))
+        until(lambda: viewer_client.lights("fan", by_itself=True))
 
 
 def test_each_agent_has_a_row_of_its_own(crowd: Runner) -> None:

@@ -24,7 +24,7 @@ def here(viewer: Viewer, runner: Runner) -> Iterator[Page]:
     runner.start()
     viewer.start()
     with page(viewer) as here:
-        until(lambda: viewer._onlookers)
+        until(lambda: viewer._viewer_clients)
         yield here
     runner.stop()
 
@@ -139,10 +139,10 @@ def test_what_is_made_up_is_ignored(
 
 
 def test_the_camera_is_chosen_page_by_page(here: Page, camera: _Page, viewer: Viewer) -> None:
-    (onlooker,) = viewer._onlookers.values()
+    (viewer_client,) = viewer._viewer_clients.values()
     for place, mode in enumerate(Mode, start=1):
         here.change(camera.camera, mode.value)
-        until(lambda mode=mode: onlooker.view.mode is mode)  # type: ignore[misc]
+        until(lambda mode=mode: viewer_client.view.mode is mode)  # type: ignore[misc]
         until(lambda place=place: f'data-on="{place}"' in camera._mark.content)  # type: ignore[misc]
 
 

@@ -79,7 +79,7 @@ def test_they_are_those_of_the_agent_that_the_page_looks_at() -> None:
     viewer = Viewer(runner)
     with page(viewer):
         assert "agent='a'" in lines_on(viewer)[0]
-        (onlooker,) = viewer._onlookers.values()
-        onlooker.agent = "b"
+        (viewer_client,) = viewer._viewer_clients.values()
+        viewer_client.agent = "b"
         assert "agent='b'" in lines_on(viewer)[0]
     viewer.stop()

@@ -7,7 +7,7 @@ import pytest
 from ai4u_edu import LocalBrain, Scene
 from ai4u_edu.recording import Archive, Recorder
 from ai4u_edu.runtime.runner import Runner
-from ai4u_edu.viewer.replay.replay_player import NOW, Projector
+from ai4u_edu.viewer.replay.replay_player import NOW, ReplayPlayer
 from tests.viewer.pages import until
 
 
@@ -31,122 +31,122 @@ def runner() -> Iterator[Runner]:
 
 
 @pytest.fixture
-def projector(runner: Runner) -> Iterator[Projector]:
-    projector = Projector(runner)
-    yield projector
-    projector.stop()
+def player(runner: Runner) -> Iterator[ReplayPlayer]:
+    player = ReplayPlayer(runner)
+    yield player
+    player.stop()
 
 
-def opened(projector: Projector, number: int) -> None:
-    projector.open(number)
-    until(lambda: projector.number == number)
-    frame_cache = projector.frame_cache
+def opened(player: ReplayPlayer, number: int) -> None:
+    player.open(number)
+    until(lambda: player.number == number)
+    frame_cache = player.frame_cache
     assert frame_cache is not None
     until(lambda: frame_cache.snapshot(frame_cache.last) is not None)
 
 
 def test_whoever_chooses_an_episode_does_not_see_it_yet(
-    runner: Runner, projector: Projector
+    runner: Runner, player: ReplayPlayer
 ) -> None:
-    opened(projector, 1)
-    assert not projector.is_showing
-    assert projector.step == 0
+    opened(player, 1)
+    assert not player.is_showing
+    assert player.step == 0
 
 
-def test_a_moment_is_shown_and_left(runner: Runner, projector: Projector) -> None:
-    opened(projector, 1)
-    projector.go_to(7)
+def test_a_moment_is_shown_and_left(runner: Runner, player: ReplayPlayer) -> None:
+    opened(player, 1)
+    player.go_to(7)
     until(lambda: runner.latest.past == "episode 1, step 8 of 20")
     assert (runner.latest.seed, runner.latest.tick) == (5, 35)
-    projector.move(-2)
+    player.move(-2)
     until(lambda: runner.latest.past == "episode 1, step 6 of 20")
-    projector.move(-100)
+    player.move(-100)
     until(lambda: runner.latest.past == "episode 1, step 1 of 20")
-    projector.go_to(99)
+    player.go_to(99)
     until(lambda: runner.latest.past == "episode 1, the end")
-    projector.back().result(5)
+    player.back().result(5)
     assert (runner.latest.past, runner.latest.seed, runner.latest.tick) == ("", 6, 40)
     assert runner.latest.paused
 
 
 def test_the_episode_that_is_under_way_can_be_looked_at_from_its_end(
-    runner: Runner, projector: Projector
+    runner: Runner, player: ReplayPlayer
 ) -> None:
-    opened(projector, NOW)
-    assert projector.step == 8
-    projector.move(-1)
+    opened(player, NOW)
+    assert player.step == 8
+    player.move(-1)
     until(lambda: runner.latest.past == "episode 2, step 8 of 8")
     assert runner.latest.tick == 35
 
 
 def test_what_is_under_way_is_taken_anew_when_it_has_gone_on(
-    runner: Runner, projector: Projector
+    runner: Runner, player: ReplayPlayer
 ) -> None:
-    opened(projector, NOW)
-    projector.go_to(3)
+    opened(player, NOW)
+    player.go_to(3)
     until(lambda: runner.latest.past == "episode 2, step 4 of 8")
-    projector.back().result(5)
+    player.back().result(5)
 
     def go_on() -> None:
         for _ in range(4):
             runner.sim.step()
 
     runner.submit(go_on).result(5)
-    projector.move(-1)
+    player.move(-1)
     until(lambda: runner.latest.past == "episode 2, step 12 of 12")
-    projector.back().result(5)
-    projector.go_to(10)
+    player.back().result(5)
+    player.go_to(10)
     until(lambda: runner.latest.past == "episode 2, step 11 of 12")
 
 
-def test_it_plays_to_the_end_and_stops(runner: Runner, projector: Projector) -> None:
-    opened(projector, 1)
-    projector.speed = 20.0
-    projector.play()
+def test_it_plays_to_the_end_and_stops(runner: Runner, player: ReplayPlayer) -> None:
+    opened(player, 1)
+    player.speed = 20.0
+    player.play()
     seen: list[str] = []
 
     def ended() -> bool:
         if not seen or seen[-1] != runner.latest.past:
             seen.append(runner.latest.past)
-        return not projector.playing and projector.step == 20
+        return not player.playing and player.step == 20
 
     until(ended)
     assert seen[-1] == "episode 1, the end"
     assert len(seen) > 5
-    projector.play()
-    until(lambda: projector.step < 20)
-    projector.play(on=False)
-    assert not projector.playing
+    player.play()
+    until(lambda: player.step < 20)
+    player.play(on=False)
+    assert not player.playing
 
 
 def test_if_somebody_has_the_world_go_on_it_stops_playing(
-    runner: Runner, projector: Projector
+    runner: Runner, player: ReplayPlayer
 ) -> None:
-    opened(projector, 1)
-    projector.play()
+    opened(player, 1)
+    player.play()
     until(lambda: runner.latest.past)
     runner.resume().result(5)
-    until(lambda: not projector.playing)
+    until(lambda: not player.playing)
     assert runner.latest.past == ""
     assert not runner.paused
 
 
-def test_the_world_goes_on_from_a_moment(runner: Runner, projector: Projector) -> None:
-    opened(projector, 1)
-    projector.go_to(4)
+def test_the_world_goes_on_from_a_moment(runner: Runner, player: ReplayPlayer) -> None:
+    opened(player, 1)
+    player.go_to(4)
     until(lambda: runner.latest.past)
-    projector.go_on().result(5)
+    player.go_on().result(5)
     assert runner.latest.past == ""
     until(lambda: runner.latest.tick > 20)
     assert (runner.latest.seed, runner.sim.world.seeds.seed) == (5, 5)
-    assert len(projector.archive or ()) == 2  # what was under way is kept as well
+    assert len(player.archive or ()) == 2  # what was under way is kept as well
 
 
-def test_what_is_not_there_is_said(runner: Runner, projector: Projector) -> None:
+def test_what_is_not_there_is_said(runner: Runner, player: ReplayPlayer) -> None:
     with pytest.raises(Exception, match="choose an episode first"):
-        projector.go_on().result(5)
-    projector.open(99)
-    assert projector.problem == "episode 99 is not kept any more"
+        player.go_on().result(5)
+    player.open(99)
+    assert player.problem == "episode 99 is not kept any more"
     runner.reset(7).result(5)
-    projector.open(NOW)
-    until(lambda: projector.problem == "nothing of it is recorded yet")
+    player.open(NOW)
+    until(lambda: player.problem == "nothing of it is recorded yet")

@@ -11,7 +11,7 @@ from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.viewer import Viewer
 from ai4u_edu.viewer.panel.uploads import limit_uploads
 from ai4u_edu.viewer.replay.episode_list import downloads, listed, short
-from ai4u_edu.viewer.replay.replay_tab import PastTab
+from ai4u_edu.viewer.replay.replay_tab import ReplayTab
 from tests.recording.takes import take
 from tests.viewer.pages import Page, page, shown, tabs_of, until
 
@@ -40,20 +40,20 @@ def viewer(runner: Runner) -> Iterator[Viewer]:
     viewer.stop()
 
 
-def tab_of(viewer: Viewer) -> PastTab:
+def tab_of(viewer: Viewer) -> ReplayTab:
     """The tab of the only page, as it is now."""
-    viewer._onlookers.meet()
+    viewer._viewer_clients.meet()
     shown(viewer)
-    (tab,) = tabs_of(viewer, PastTab)
+    (tab,) = tabs_of(viewer, ReplayTab)
     return tab
 
 
-def opened(viewer: Viewer, here: Page) -> PastTab:
+def opened(viewer: Viewer, here: Page) -> ReplayTab:
     """The tab, in which episode 1 was chosen."""
     tab = tab_of(viewer)
     here.change(tab._episode, "1")
-    until(lambda: viewer._projector.number == 1)
-    frame_cache = viewer._projector.frame_cache
+    until(lambda: viewer._player.number == 1)
+    frame_cache = viewer._player.frame_cache
     assert frame_cache is not None
     until(lambda: frame_cache.snapshot(frame_cache.last) is not None)
     shown(viewer)
@@ -83,9 +83,9 @@ def test_the_slider_moves_what_all_see(viewer: Viewer, runner: Runner) -> None:
         assert "Seen now: episode 1, step 7 of 20" in tab._told.content
         with page(viewer):  # whoever comes later sees the same
             until(lambda: len(viewer.server.get_clients()) == 2)
-            viewer._onlookers.meet()
+            viewer._viewer_clients.meet()
             shown(viewer)
-            assert [each._step.value for each in tabs_of(viewer, PastTab)] == [7, 7]
+            assert [each._step.value for each in tabs_of(viewer, ReplayTab)] == [7, 7]
         here.change(tab._verbs, "Back to now")
         until(lambda: runner.latest.past == "")
         assert runner.latest.seed == 6
@@ -111,7 +111,9 @@ def test_a_race_begins_with_the_same_seed(viewer: Viewer, runner: Runner) -> Non
         until(lambda: viewer.ghosts.told(runner.latest) == "")
 
 
-def send(here: Page, tab: PastTab, name: str, content: bytes, declared: int | None = None) -> None:
+def send(
+    here: Page, tab: ReplayTab, name: str, content: bytes, declared: int | None = None
+) -> None:
     size = len(content) if declared is None else declared
     uuid = tab._upload._impl.uuid
     here.say(
@@ -138,11 +140,11 @@ def test_a_friends_recording_is_taken(viewer: Viewer) -> None:
     with page(viewer) as here:
         tab = tab_of(viewer)
         send(here, tab, "<friend>.episode", encode(take("donut", decisions=9).episode))
-        until(lambda: viewer._projector.number == 2)
+        until(lambda: viewer._player.number == 2)
         shown(viewer)
         assert "<td>&lt;friend&gt;.episode</td>" in tab._list.content
-        assert viewer._projector.archive is not None
-        entry = viewer._projector.archive.find(2)
+        assert viewer._player.archive is not None
+        entry = viewer._player.archive.find(2)
         assert entry is not None
         assert entry.episode.scene.name == "donut"
 
@@ -194,9 +196,9 @@ def test_the_table_marks_what_was_chosen_and_shortens_what_is_long() -> None:
 def test_without_a_recorder_there_is_no_such_tab() -> None:
     viewer = Viewer(Runner(Scene.load("box_chase").build(), seed=1))
     with page(viewer):
-        viewer._onlookers.meet()
+        viewer._viewer_clients.meet()
         shown(viewer)
-        assert tabs_of(viewer, PastTab) == []
+        assert tabs_of(viewer, ReplayTab) == []
     viewer.stop()
 
 

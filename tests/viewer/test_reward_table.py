@@ -5,14 +5,14 @@ from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.snapshot import capture_snapshot
 from ai4u_edu.viewer.panel.plot import INCREMENTS
 from ai4u_edu.viewer.panel.readings import rewards
-from ai4u_edu.viewer.panel.reward_table import LAST, curves, ledger
+from ai4u_edu.viewer.panel.reward_table import LAST, curves, reward_table
 from tests.builders import small_sim
 
 
 def test_the_latest_decisions_in_which_something_was_paid(runner: Runner) -> None:
     entries = [Entry(step, {"a<b": float(step % 2), "c": -0.001}, 1.0) for step in range(1, 10)]
     idle = [Entry(10, {"a<b": 0.0}, 1.0)]
-    html = ledger(runner.latest.agents[0]._replace(history=(*entries, *idle)))
+    html = reward_table(runner.latest.agents[0]._replace(history=(*entries, *idle)))
     assert html.count("<th>decision ") == LAST
     assert html.index("decision 9") < html.index("decision 8")
     assert "decision 10" not in html
@@ -21,7 +21,7 @@ def test_the_latest_decisions_in_which_something_was_paid(runner: Runner) -> Non
 
 
 def test_nothing_paid_is_nothing_told(runner: Runner) -> None:
-    assert "Paid last" not in ledger(runner.latest.agents[0]._replace(history=()))
+    assert "Paid last" not in reward_table(runner.latest.agents[0]._replace(history=()))
 
 
 def test_curves_have_a_point_for_each_decision() -> None:

@@ -112,20 +112,20 @@ def test_each_page_shows_the_agent_that_it_looks_at(viewer: Viewer) -> None:
 def test_a_sensor_lights_up_at_a_click_and_goes_out_again(viewer: Viewer) -> None:
     with page(viewer):
         shown(viewer)
-        (onlooker,) = viewer._onlookers.values()
+        (viewer_client,) = viewer._viewer_clients.values()
         assert "/pointers" not in own_nodes(viewer)
-        onlooker.light("bearing", True)
+        viewer_client.light("bearing", True)
         shown(viewer)
         assert "/pointers" in own_nodes(viewer)
-        onlooker.light("bearing", False)
-        onlooker.light("fan", False)
+        viewer_client.light("bearing", False)
+        viewer_client.light("fan", False)
         shown(viewer)
         assert "/pointers" not in own_nodes(viewer)
         assert "/rays1/lines" not in own_nodes(viewer)
-        onlooker.agent = "1"
-        onlooker.agent = "0"
+        viewer_client.agent = "1"
+        viewer_client.agent = "0"
         shown(viewer)
-        assert not onlooker.lights("fan", by_itself=True)  # it stays as it was chosen
+        assert not viewer_client.lights("fan", by_itself=True)  # it stays as it was chosen
 
 
 def test_who_fell_out_of_the_world_sees_nothing(viewer: Viewer, runner: Runner) -> None:
@@ -154,4 +154,4 @@ def test_a_page_that_is_gone_is_forgotten(viewer: Viewer) -> None:
         shown(viewer)
     until(lambda: not viewer.server.get_clients())
     shown(viewer)
-    assert not viewer._onlookers
+    assert not viewer._viewer_clients

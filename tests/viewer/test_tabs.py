@@ -6,15 +6,15 @@ from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.snapshot import Snapshot
 from ai4u_edu.viewer import Viewer
 from ai4u_edu.viewer.panel.tabs import TabKind, Tabs
-from ai4u_edu.viewer.viewer_client import Onlooker
+from ai4u_edu.viewer.viewer_client import ViewerClient
 from tests.viewer.pages import page, part_of, shown, until
 
 
 class Counter:
     """Counts how often it is drawn."""
 
-    def __init__(self, onlooker: Onlooker) -> None:
-        self.html = onlooker.client.gui.add_html("")
+    def __init__(self, viewer_client: ViewerClient) -> None:
+        self.html = viewer_client.client.gui.add_html("")
         self.drawn = 0
 
     def draw(self, snapshot: Snapshot) -> None:
@@ -29,7 +29,7 @@ class Broken(Counter):
         raise ValueError("no drawing today")
 
 
-def broken(onlooker: Onlooker) -> Counter:
+def broken(viewer_client: ViewerClient) -> Counter:
     raise ValueError("not even opened")
 
 

@@ -161,7 +161,7 @@ def test_an_error_beside_the_parts_does_not_end_the_thread(
         failed.set()
         raise OSError("no clients")
 
-    monkeypatch.setattr(viewer._onlookers, "meet", fail)
+    monkeypatch.setattr(viewer._viewer_clients, "meet", fail)
     viewer.start()
     assert failed.wait(5)
     failed.clear()
@@ -187,9 +187,9 @@ def test_pages_come_and_go(viewer: Viewer, runner: Runner) -> None:
     viewer.start()
     for _ in range(3):
         with page(viewer) as first, page(viewer) as second:
-            until(lambda: len(viewer._onlookers) == 2)
+            until(lambda: len(viewer._viewer_clients) == 2)
             until(lambda: min(first.received, second.received) > 1000)
-        until(lambda: not viewer._onlookers)
+        until(lambda: not viewer._viewer_clients)
         assert not viewer.server.get_clients()
     runner.stop()
 

@@ -14,7 +14,7 @@ from ai4u_edu.editing.autosave import Unsaved
 from ai4u_edu.editing.scene_store import SceneStore
 from ai4u_edu.snapshot import capture_snapshot
 from ai4u_edu.viewer import Viewer
-from ai4u_edu.viewer.panel.add_menu import THINGS, room_for
+from ai4u_edu.viewer.panel.add_menu import BODY_TEMPLATES, free_position
 from ai4u_edu.viewer.panel.body_form import BodyForm
 from ai4u_edu.viewer.panel.gallery_pictures import cards, cards_of
 from ai4u_edu.viewer.panel.world_tab import NOTHING, WorldTab
@@ -53,7 +53,7 @@ def drag(
     lets_go: bool = True,
 ) -> None:
     """Takes something up at the first place and lets go of it at the last."""
-    owner = tab._onlooker.client.scene._owner_id
+    owner = tab._viewer_client.client.scene._owner_id
     phases = ["start", *["update"] * (len(path) - 1), *(["end"] if lets_go else [])]
     for phase, place in zip(phases, (*path, path[-1]), strict=False):
         here.say(
@@ -159,7 +159,7 @@ def test_a_click_chooses(viewer: Viewer, shop: Shop) -> None:
     with page(viewer) as here:
         tab = tab_of(viewer)
         moving(viewer, here, tab)
-        owner = tab._onlooker.client.scene._owner_id
+        owner = tab._viewer_client.client.scene._owner_id
         here.click(tab.handles.node, index(shop, "box"), owner=owner)
         seen(viewer, lambda: tab.thing.value == "box")
         assert tab._form is not None
@@ -263,11 +263,11 @@ def test_in_the_past_nothing_can_be_taken_up(viewer: Viewer, shop: Shop) -> None
         assert tab.handles.node == ""
 
 
-@pytest.mark.parametrize("word", THINGS)
+@pytest.mark.parametrize("word", BODY_TEMPLATES)
 def test_things_are_added_where_there_is_room(viewer: Viewer, shop: Shop, word: str) -> None:
     with page(viewer) as here:
         tab = tab_of(viewer)
-        name = shop.editor.free_name(THINGS[word]["name"])
+        name = shop.editor.free_name(BODY_TEMPLATES[word]["name"])
         here.change(tab.new, word)
         until(lambda: name in shop.world.bodies)
         seen(viewer, lambda: tab._form is not None and tab._form.body.name == name)
@@ -282,7 +282,7 @@ def test_things_are_added_where_there_is_room(viewer: Viewer, shop: Shop, word: 
 def test_a_thing_comes_where_the_page_looks(viewer: Viewer, shop: Shop) -> None:
     with page(viewer) as here:
         tab = tab_of(viewer)
-        camera = tab._onlooker.client.camera
+        camera = tab._viewer_client.client.camera
         for number, place in enumerate([(3.0, 3.0), (-3.0, 4.0)]):
             here.report_camera(position=(*place, 30.0))
             until(lambda place=place: tuple(camera.look_at[:2]) == place)  # type: ignore[misc]
@@ -508,10 +508,10 @@ def test_room_is_found_beside_what_there_is_and_never_over_the_void() -> None:
     sim = Scene.loads(TEXT).build()
     sim.reset(1)
     snapshot = capture_snapshot(sim)
-    place = room_for(snapshot, THINGS["Disc"], 0, 0)
+    place = free_position(snapshot, BODY_TEMPLATES["Disc"], 0, 0)
     assert place is not None
     assert 1.0 < abs(complex(*place)) < 2  # as near as the robot, at (0, 0), lets it be
-    far = room_for(snapshot, THINGS["Disc"], 5.9, 5.9)
+    far = free_position(snapshot, BODY_TEMPLATES["Disc"], 5.9, 5.9)
     assert far is not None
     assert max(far) < 5.5  # the plate ends at 6
-    assert room_for(snapshot, THINGS["Disc"], 100, 0) is None
+    assert free_position(snapshot, BODY_TEMPLATES["Disc"], 100, 0) is None

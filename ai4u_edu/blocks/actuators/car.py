@@ -8,8 +8,8 @@ from gymnasium.spaces import Box
 
 from ai4u_edu.base.parameters import PositiveMetres, quantity
 from ai4u_edu.blocks.actuators.actuator import Actuator
-from ai4u_edu.blocks.actuators.ground_motion import Speeds, quiet, roll
-from ai4u_edu.world import Body, Drive
+from ai4u_edu.blocks.actuators.ground_motion import Speeds, apply_dead_zone, set_body_velocity
+from ai4u_edu.world import Body
 
 
 class CarActuator(Actuator):
@@ -50,14 +50,10 @@ class CarActuator(Actuator):
     def act(self, body: Body, action: tuple[float, ...]) -> None:
         """Sets the body's speeds, if it stands on the ground."""
         if body.on_ground:
-            roll(body, *self._speeds(action))
-
-    def steady_drive(self, action: tuple[float, ...]) -> Drive:
-        """All that it does."""
-        return Drive(*self._speeds(action))
+            set_body_velocity(body, *self._speeds(action))
 
     def _speeds(self, action: tuple[float, ...]) -> Speeds:
-        throttle, steering = quiet(action)
+        throttle, steering = apply_dead_zone(action)
         speed = throttle * self.max_speed
         angle = -steering * math.radians(self.max_steering_deg)
         turning = speed * math.tan(angle) / self.wheelbase

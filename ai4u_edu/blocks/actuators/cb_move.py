@@ -6,9 +6,9 @@ import numpy as np
 from gymnasium.spaces import Box
 
 from ai4u_edu.base.parameters import quantity
-from ai4u_edu.blocks.actuators.ground_motion import SMALLEST, GroundMotion, quiet
+from ai4u_edu.blocks.actuators.ground_motion import SMALLEST, GroundMotion, apply_dead_zone
 from ai4u_edu.blocks.agent_view import AgentView
-from ai4u_edu.world import Body, Drive, WorldView
+from ai4u_edu.world import Body, WorldView
 
 Deviation = Annotated[float, quantity("1", ge=0, le=10)]
 
@@ -49,7 +49,7 @@ class CBMoveActuator(GroundMotion):
 
     def on_reset(self, agent: AgentView, view: WorldView) -> None:
         """Takes the episode's chance."""
-        self._chance = view.random(f"{agent.id}/actuator/{self.action_name}")
+        self._rng = view.random(f"{agent.id}/actuator/{self.action_name}")
 
     def slots(self) -> tuple[str, ...]:
         """As AI4U orders them."""
@@ -59,7 +59,7 @@ class CBMoveActuator(GroundMotion):
         """Sets the body's speeds, if it stands on the ground."""
         if not body.on_ground:
             return
-        forward, strafe, turn, jump, leap = quiet(action, self.dead_zone)
+        forward, strafe, turn, jump, leap = apply_dead_zone(action, self.dead_zone)
         self.drive(
             body,
             self._missed(forward, self.move_noise),
@@ -69,14 +69,7 @@ class CBMoveActuator(GroundMotion):
             self._missed(strafe, self.move_noise),
         )
 
-    def steady_drive(self, action: tuple[float, ...]) -> Drive | None:
-        """All that it does, unless it jumps or errs."""
-        if self.move_noise or self.turn_noise:
-            return None
-        forward, strafe, turn, jump, leap = quiet(action, self.dead_zone)
-        return self.without_jump(forward, turn, jump, max(0.0, leap), strafe)
-
     def _missed(self, number: float, deviation: float) -> float:
         if not (number and deviation):
             return number
-        return number + float(self._chance.normal(0.0, deviation))
+        return number + float(self._rng.normal(0.0, deviation))

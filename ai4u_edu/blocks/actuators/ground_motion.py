@@ -5,7 +5,7 @@ from typing import Annotated
 
 from ai4u_edu.base.parameters import quantity
 from ai4u_edu.blocks.actuators.actuator import Actuator
-from ai4u_edu.world import Body, Drive
+from ai4u_edu.world import Body
 
 Speeds = tuple[float, float, float]
 """(forward, left, turning) in a body's own frame: m/s, m/s, rad/s (counter-clockwise positive)."""
@@ -52,22 +52,16 @@ class GroundMotion(Actuator):
             leap: share of ``jump_forward_power`` forward and of ``jump_power`` upward.
             strafe: share of ``move_amount``; above 0 to the right.
         """
-        roll(body, *self._speeds(forward, turn, leap, strafe))
+        set_body_velocity(body, *self._speeds(forward, turn, leap, strafe))
         if jump or leap:
             body.jump((jump + leap) * self.jump_power)
-
-    def without_jump(
-        self, forward: float, turn: float, jump: float, leap: float, strafe: float = 0.0
-    ) -> Drive | None:
-        """What :meth:`drive` tells the body; None if it jumps."""
-        return None if jump or leap else Drive(*self._speeds(forward, turn, leap, strafe))
 
     def _speeds(self, forward: float, turn: float, leap: float, strafe: float) -> Speeds:
         ahead = forward * self.move_amount + leap * self.jump_forward_power
         return ahead, -strafe * self.move_amount, -turn * self.turn_amount
 
 
-def roll(body: Body, forward: float, left: float, turning: float) -> None:
+def set_body_velocity(body: Body, forward: float, left: float, turning: float) -> None:
     """Sets a body's speeds in its own frame: m/s, m/s, rad/s (counter-clockwise positive)."""
     heading = body.heading
     cos, sin = math.cos(heading), math.sin(heading)
@@ -75,10 +69,10 @@ def roll(body: Body, forward: float, left: float, turning: float) -> None:
     body.set_angular_velocity(turning)
 
 
-def quiet(numbers: tuple[float, ...], dead_zone: float = SMALLEST) -> tuple[float, ...]:
+def apply_dead_zone(numbers: tuple[float, ...], dead_zone: float = SMALLEST) -> tuple[float, ...]:
     """The numbers of an action, with 0 for those that are next to nothing.
 
-    >>> quiet((0.5, -0.0005))
+    >>> apply_dead_zone((0.5, -0.0005))
     (0.5, 0.0)
     """
     return tuple([0.0 if abs(number) < dead_zone else number for number in numbers])

@@ -3,8 +3,8 @@
 import numpy as np
 from gymnasium.spaces import Box
 
-from ai4u_edu.blocks.actuators.ground_motion import GroundMotion, quiet
-from ai4u_edu.world import Body, Drive
+from ai4u_edu.blocks.actuators.ground_motion import GroundMotion, apply_dead_zone
+from ai4u_edu.world import Body
 
 
 class RBMoveActuator(GroundMotion):
@@ -38,8 +38,4 @@ class RBMoveActuator(GroundMotion):
     def act(self, body: Body, action: tuple[float, ...]) -> None:
         """Sets the body's speeds, if it stands on the ground."""
         if body.on_ground:
-            self.drive(body, *quiet(action))
-
-    def steady_drive(self, action: tuple[float, ...]) -> Drive | None:
-        """All that it does, unless it jumps."""
-        return self.without_jump(*quiet(action))
+            self.drive(body, *apply_dead_zone(action))

@@ -68,12 +68,12 @@ class RespawnActuator(Actuator):
             self._put(agent, agent.view)
 
     def _put(self, agent: AgentView, view: WorldView) -> None:
-        chance = view.random(f"actuator/{self.action_name}")
-        self.last_selected = int(chance.integers(len(self.poses)))
+        rng = view.random(f"actuator/{self.action_name}")
+        self.last_selected = int(rng.integers(len(self.poses)))
         x, y, degrees = self.poses[self.last_selected]
         heading = float(np.radians(degrees))
         if self.randomise_heading:
-            heading = float(chance.uniform(-math.pi, math.pi))
+            heading = float(rng.uniform(-math.pi, math.pi))
         body = agent.body
         if isinstance(body, Body):
             body.move_to(x, y, heading=heading)

@@ -8,7 +8,7 @@ import numpy.typing as npt
 from pydantic import Field
 
 from ai4u_edu.base.parameters import Point, PositiveMetres
-from ai4u_edu.blocks.parameterized import Declared
+from ai4u_edu.blocks.parameterized import Parameterized
 from ai4u_edu.blocks.sensors.footprint import footprint
 from ai4u_edu.world import BodyView, Region
 
@@ -22,7 +22,7 @@ RIM = 1e-9
 """A cell's centre this close to a rim (metres) lies on it, and belongs to the shape."""
 
 
-class OnGrid(Declared):
+class OnGrid(Parameterized):
     """The parameters of blocks that take the world for a grid; the same ones, where they meet."""
 
     rows: Length = 20

@@ -86,7 +86,7 @@ class LinearRayCastingSensor(RaySensor):
         np.divide(distances, self._far, self._shares)
         return self._shares
 
-    def later(self) -> Callable[[], RayPicture]:
+    def capture(self) -> Callable[[], RayPicture]:
         """Makes the picture of the last reading when it is called."""
         return partial(_picture, self._fan.kept(), self.vision_max_distance, self._names())
 

@@ -89,7 +89,7 @@ class RayCastingSensor(RaySensor):
             far = self.vision_max_distance / self.farthest
             np.divide(grid.distances, far, out=planes[1], casting="unsafe")
 
-    def later(self) -> Callable[[], RayPicture]:
+    def capture(self) -> Callable[[], RayPicture]:
         """Makes the picture of the last reading when it is called; the rays row by row."""
         grid = self._grid
         return partial(_picture, grid.kept(), grid.pitches, self.vision_max_distance, self._names())

@@ -71,7 +71,7 @@ class RaySensor(Sensor):
         """The largest distance that can be read."""
         return 1.0 if self.normalize_distance else self.vision_max_distance
 
-    def later(self) -> Callable[[], RayPicture]:
+    def capture(self) -> Callable[[], RayPicture]:
         """Makes the picture of the last reading when it is called, and as often as it is.
 
         It has numbers of its own, and holds on to neither the sensor nor its world.
@@ -80,7 +80,7 @@ class RaySensor(Sensor):
 
     def picture(self) -> RayPicture:
         """The rays of the last reading."""
-        return self.later()()
+        return self.capture()()
 
     def _options(self) -> dict[str, Any]:
         return {

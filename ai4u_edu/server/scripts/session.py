@@ -88,7 +88,7 @@ class Session:
             if self._told is None or (self._line is None and _replaces(situation, self._told)):
                 self._tell(situation)
             if timeout:  # the world waits for it
-                self._runner.expect_call()
+                self._runner.expect_answer()
             return None
         answered = self._newest()
         is_reset = isinstance(answered.answer, Reset)
@@ -166,7 +166,7 @@ class Session:
             self._is_answered = True
             self._is_resetting = isinstance(answered.answer, Reset)
             self._answers.append(answered)
-        self._runner.call()
+        self._runner.notify_answer()
         if self._runner.is_unpaced():
             look_out()  # the next answer is as good as here
         return None

@@ -8,7 +8,7 @@ from ai4u_edu.snapshot import Snapshot
 from ai4u_edu.viewer.scene.placing import floor_under
 from ai4u_edu.world import BodyDescription
 
-THINGS: dict[str, dict[str, Any]] = {
+BODY_TEMPLATES: dict[str, dict[str, Any]] = {
     "Wall": {
         "name": "wall",
         "shape": {"type": "box", "size": [2, 0.3]},
@@ -46,17 +46,17 @@ CLEARANCE = 0.15
 """Metres that are left free between a new thing and what there is."""
 
 
-def looked_at(position: Iterable[float], look_at: Iterable[float]) -> tuple[float, float]:
+def ground_at_center(position: Iterable[float], look_at: Iterable[float]) -> tuple[float, float]:
     """Where on the ground a camera has the middle of its picture.
 
     Where it hardly looks down, as out of an agent's eye, that is far off; then it is what the
     camera looks at.
 
-    >>> looked_at((3, 4, 10), (3, 4, 5))
+    >>> ground_at_center((3, 4, 10), (3, 4, 5))
     (3.0, 4.0)
-    >>> looked_at((0, 0, 10), (2, 0, 5))
+    >>> ground_at_center((0, 0, 10), (2, 0, 5))
     (4.0, 0.0)
-    >>> looked_at((0, 0, 1), (2, 0, 0.99))
+    >>> ground_at_center((0, 0, 1), (2, 0, 0.99))
     (2.0, 0.0)
     """
     (x, y, z), (ahead, aside, level) = position, look_at
@@ -65,7 +65,7 @@ def looked_at(position: Iterable[float], look_at: Iterable[float]) -> tuple[floa
     return float(x + share * dx), float(y + share * dy)
 
 
-def room_for(
+def free_position(
     snapshot: Snapshot, thing: dict[str, Any], x: float, y: float
 ) -> tuple[float, float] | None:
     """The free place for a thing that is nearest to (x, y); None if there is none around."""

@@ -10,7 +10,7 @@ from ai4u_edu.viewer.panel.bars import number
 from ai4u_edu.viewer.panel.decision import decision
 from ai4u_edu.viewer.panel.needs import needs
 from ai4u_edu.viewer.panel.readings import action, block, heading, reading
-from ai4u_edu.viewer.panel.reward_table import Curves, curves, ledger
+from ai4u_edu.viewer.panel.reward_table import Curves, curves, reward_table
 from ai4u_edu.viewer.panel.senses import sense_html
 from ai4u_edu.viewer.scene.labels import trouble
 from ai4u_edu.viewer.scene.sense_overlay import is_seen
@@ -71,11 +71,11 @@ class AgentHtml(NamedTuple):
             senses=senses,
             also=_also(agent),
             action=action(agent.action, agent.actuator_infos),
-            ledger=ledger(agent),
+            ledger=reward_table(agent),
         )
 
 
-class AgentWriter:
+class AgentHtmlCache:
     """Writes each agent once for all pages that look at it, and not once for each page."""
 
     def __init__(self) -> None:

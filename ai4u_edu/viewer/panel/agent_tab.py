@@ -15,13 +15,13 @@ from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.snapshot import AgentState, Snapshot, StaticScene
 from ai4u_edu.snapshot.block_info import SensorInfo
 from ai4u_edu.snapshot.theme import Rgb, group_colours
-from ai4u_edu.viewer.panel.agent_html import SIMPLE, AgentWriter, title
+from ai4u_edu.viewer.panel.agent_html import SIMPLE, AgentHtmlCache, title
 from ai4u_edu.viewer.panel.plot import RewardPlot
 from ai4u_edu.viewer.panel.readings import block, heading
 from ai4u_edu.viewer.panel.remote_lines import RemoteLines
 from ai4u_edu.viewer.panel.status import legend
 from ai4u_edu.viewer.scene.sense_overlay import is_seen, shows_by_itself
-from ai4u_edu.viewer.viewer_client import Onlooker
+from ai4u_edu.viewer.viewer_client import ViewerClient
 
 SHOWN: IconName = Icon.EYE
 HIDDEN: IconName = Icon.EYE_OFF
@@ -31,14 +31,16 @@ class AgentTab:
     """One page's view of the agent that it looks at.
 
     Args:
-        onlooker: the page.
+        viewer_client: the page.
         runner: whose agents can be driven from elsewhere.
-        writer: the same for all pages.
+        html_cache: the same for all pages.
     """
 
-    def __init__(self, onlooker: Onlooker, runner: Runner, writer: AgentWriter) -> None:
-        gui = onlooker.client.gui
-        self._onlooker, self._writer = onlooker, writer
+    def __init__(
+        self, viewer_client: ViewerClient, runner: Runner, html_cache: AgentHtmlCache
+    ) -> None:
+        gui = viewer_client.client.gui
+        self._viewer_client, self._html_cache = viewer_client, html_cache
         self._static_scene: StaticScene | None = None
         self._colours: dict[str, Rgb] = {}
         self._ids: dict[str, str] = {}
@@ -48,29 +50,31 @@ class AgentTab:
         self._state, self._decision = gui.add_html(""), gui.add_html("")
         self._inside = gui.add_html("")
         self._legend = gui.add_html("")
-        self._senses = _Senses(onlooker)
+        self._senses = _Senses(viewer_client)
         self._also, self._action, self._ledger = (gui.add_html("") for _ in range(3))
         self._plot = RewardPlot(gui)
-        self._lines = RemoteLines(onlooker, runner)
+        self._lines = RemoteLines(viewer_client, runner)
 
     def draw(self, snapshot: Snapshot) -> None:
         """Shows the agent's last decision."""
         if snapshot.static_scene is not self._static_scene:
             self._meet(snapshot.static_scene)
-        agent = next((each for each in snapshot.agents if each.id == self._onlooker.agent), None)
+        agent = next(
+            (each for each in snapshot.agents if each.id == self._viewer_client.agent), None
+        )
         if agent is None:
             return
         name = next(name for name, each in self._ids.items() if each == agent.id)
         if self.list.value != name:
             self.list.value = name  # type: ignore[misc]  # a method parts getter from setter
         self._senses.meet(agent)
-        html = self._writer.html(agent, snapshot, self._colours, self._senses.lit(agent))
+        html = self._html_cache.html(agent, snapshot, self._colours, self._senses.lit(agent))
         self._everybody.content = html.everybody
         self._state.content, self._decision.content = html.state, html.decision
         self._inside.content, self._also.content = html.inside, html.also
         self._action.content, self._ledger.content = html.action, html.ledger
         self._senses.show(html.senses)
-        self._plot.draw(agent.history, lambda: self._writer.curves(agent))
+        self._plot.draw(agent.history, lambda: self._html_cache.curves(agent))
         self._lines.draw()
 
     def _meet(self, static_scene: StaticScene) -> None:
@@ -86,15 +90,15 @@ class AgentTab:
 
     async def _on_choice(self, event: GuiEvent[GuiDropdownHandle[str]]) -> None:
         if event.client is not None:  # not because the list has other options now
-            self._onlooker.agent = self._ids.get(event.target.value, self._onlooker.agent)
+            self._viewer_client.agent = self._ids.get(event.target.value, self._viewer_client.agent)
 
 
 class _Senses:
     """A part for each sensor; one that can be shown in the scene has a button above it."""
 
-    def __init__(self, onlooker: Onlooker) -> None:
-        self._onlooker = onlooker
-        self._client: ClientHandle = onlooker.client
+    def __init__(self, viewer_client: ViewerClient) -> None:
+        self._viewer_client = viewer_client
+        self._client: ClientHandle = viewer_client.client
         self._folder: GuiFolderHandle = self._client.gui.add_folder(None)
         self._seen: tuple[str, tuple[SensorInfo, ...]] | None = None
         self._parts: dict[str, GuiHtmlHandle] = {}
@@ -125,7 +129,7 @@ class _Senses:
             sense.key
             for sense in agent.sensor_infos
             if is_seen(sense, agent)
-            and self._onlooker.lights(sense.key, by_itself=shows_by_itself(sense, agent))
+            and self._viewer_client.lights(sense.key, by_itself=shows_by_itself(sense, agent))
         }
         for key, button in self._buttons.items():
             icon = SHOWN if key in found else HIDDEN
@@ -143,7 +147,7 @@ class _Senses:
         button = self._client.gui.add_button(key, icon=HIDDEN, hint=hint)
 
         async def toggle(_event: object) -> None:
-            self._onlooker.light(key, not self._onlooker.lights(key, by_itself=by_itself))
+            self._viewer_client.light(key, not self._viewer_client.lights(key, by_itself=by_itself))
 
         button.on_click(toggle)
         self._buttons[key] = button

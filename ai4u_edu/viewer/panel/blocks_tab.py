@@ -27,10 +27,10 @@ from ai4u_edu.viewer.panel.block_labels import (
     said,
     titles,
 )
-from ai4u_edu.viewer.panel.notify import tell_of_stall
+from ai4u_edu.viewer.panel.notify import notify_stall
 from ai4u_edu.viewer.panel.settings_form import SettingsForm
 from ai4u_edu.viewer.panel.tabs import TabKind
-from ai4u_edu.viewer.viewer_client import Onlooker
+from ai4u_edu.viewer.viewer_client import ViewerClient
 
 UNDO, REDO = "Undo", "Redo"
 ON, OFF, UP, DOWN, REMOVE = "On", "Off", "Up", "Down", "Remove"
@@ -43,16 +43,16 @@ class BlocksTab:
     A form is made when somebody chooses a block: until then the tab is a few lists.
 
     Args:
-        onlooker: the page.
+        viewer_client: the page.
         editor: carries out what is asked for.
     """
 
-    def __init__(self, onlooker: Onlooker, editor: SceneEditor) -> None:
-        gui = onlooker.client.gui
-        self._onlooker, self._editor = onlooker, editor
+    def __init__(self, viewer_client: ViewerClient, editor: SceneEditor) -> None:
+        gui = viewer_client.client.gui
+        self._viewer_client, self._editor = viewer_client, editor
         self._kind, self._path, self._form = "sensors", None, None
         self._seen: tuple[object, ...] = ()
-        self._message, self._problems, self._agent = "", None, onlooker.agent
+        self._message, self._problems, self._agent = "", None, viewer_client.agent
         self._offer = gui.add_html("", visible=False)
         self._offered = gui.add_button_group("", (BRING_BACK, FORGET), visible=False)
         self._said = gui.add_html("")
@@ -60,7 +60,7 @@ class BlocksTab:
         self.changes = gui.add_button_group("Changes", (UNDO, REDO))
         self.driver = gui.add_dropdown("Driven by", ("",))
         self.settings = SettingsForm(
-            onlooker.client, "Agent's settings", self._settings, self._on_settings
+            viewer_client.client, "Agent's settings", self._settings, self._on_settings
         )
         self._mark = gui.add_html(marked(self._kind))
         self.kind = gui.add_button_group("Blocks", tuple(KINDS))
@@ -88,7 +88,7 @@ class BlocksTab:
 
     def draw(self, snapshot: Snapshot) -> None:
         """Shows what there is to change, when that is other than before."""
-        editor, agent = self._editor, self._onlooker.agent
+        editor, agent = self._editor, self._viewer_client.agent
         if not any(each.id == agent for each in snapshot.agents):
             return
         if agent != self._agent:
@@ -146,7 +146,7 @@ class BlocksTab:
             if self._form is None:
                 with self._place:
                     names = SceneNames(state, agent_id)
-                    client = self._onlooker.client
+                    client = self._viewer_client.client
                     self._form = BlockForm(client, block, path, names, self._on_apply)
             self.deeds.options = (OFF if is_enabled(path, block) else ON, UP, DOWN, REMOVE)
         self._bare.visible = self.deeds.visible = path is not None and isinstance(path[-1], int)
@@ -160,7 +160,7 @@ class BlocksTab:
             self._offer.content = f'<div class="ai4u">{told}</div>'
 
     def _settings(self) -> list[Field]:
-        return agent_form(self._editor.state.agent(self._onlooker.agent))
+        return agent_form(self._editor.state.agent(self._viewer_client.agent))
 
     # -- what people ask for; in viser's loop, one after the other -------------------------------
 
@@ -173,15 +173,15 @@ class BlocksTab:
         except ChangeError as error:
             self._problems = error.problems
             return
-        self._ask(self._editor.change_block(self._onlooker.agent, path, values), of_form=True)
+        self._ask(self._editor.change_block(self._viewer_client.agent, path, values), of_form=True)
 
     def _on_settings(self, values: dict[str, Any]) -> "Future[ChangeResult]":
-        future = self._editor.change_agent(self._onlooker.agent, values)
+        future = self._editor.change_agent(self._viewer_client.agent, values)
         self._ask(future)
         return future
 
     async def _on_deed(self, event: GuiEvent[GuiButtonGroupHandle]) -> None:
-        agent, path = self._onlooker.agent, self._path
+        agent, path = self._viewer_client.agent, self._path
         if path is None or not isinstance(path[-1], int):
             return  # a controller belongs to its brain: it has no place in a list
         match event.target.value:
@@ -196,7 +196,7 @@ class BlocksTab:
                 self._ask(self._editor.remove_block(agent, path))
 
     async def _on_add(self, _event: GuiEvent[GuiButtonHandle]) -> None:
-        name, agent, state = self._types.get(self.new.value), self._onlooker.agent, None
+        name, agent, state = self._types.get(self.new.value), self._viewer_client.agent, None
         if name is None:
             return
         state = self._editor.state
@@ -212,7 +212,7 @@ class BlocksTab:
         name = self._drivers.get(event.target.value)
         if event.client is not None and name is not None:
             self._seen = ()  # if it can't be, the list shows again who drives
-            self._ask(self._editor.set_driver(self._onlooker.agent, name))
+            self._ask(self._editor.set_driver(self._viewer_client.agent, name))
 
     async def _on_kind(self, event: GuiEvent[GuiButtonGroupHandle]) -> None:
         self._kind = KINDS.get(event.target.value, self._kind)
@@ -238,7 +238,7 @@ class BlocksTab:
         of_form: bool = False,
     ) -> None:
         """Says when it applies, or what is wrong; ``then`` is the block that is looked at then."""
-        tell_of_stall(self._onlooker.client, self._editor.stall, future)
+        notify_stall(self._viewer_client.client, self._editor.stall, future)
 
         def tell(done: "Future[ChangeResult]") -> None:
             error = None if done.cancelled() else done.exception()
@@ -267,4 +267,4 @@ def _choose(handle: GuiDropdownHandle[str], options: tuple[str, ...], value: str
 
 def blocks_tab(editor: SceneEditor) -> TabKind:
     """The tab for blocks and drivers."""
-    return TabKind("Blocks", lambda onlooker: BlocksTab(onlooker, editor))
+    return TabKind("Blocks", lambda viewer_client: BlocksTab(viewer_client, editor))

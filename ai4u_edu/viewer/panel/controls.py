@@ -9,10 +9,10 @@ from ai4u_edu.base.limits import MAX_EXACT_INT
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.snapshot import Snapshot, StaticScene
 from ai4u_edu.viewer.backend.local_server import LocalServer
-from ai4u_edu.viewer.panel.notify import ask
+from ai4u_edu.viewer.panel.notify import notify_failure
 from ai4u_edu.viewer.panel.status import goal, speed_name, status
 from ai4u_edu.viewer.panel.style import STYLE
-from ai4u_edu.viewer.viewer_client import Onlookers
+from ai4u_edu.viewer.viewer_client import ViewerClients
 
 T = TypeVar("T")
 SPEEDS = {speed_name(speed): speed for speed in (0.1, 0.25, 0.5, 1.0, 2.0, 4.0, 10.0, float("inf"))}
@@ -29,12 +29,12 @@ class Controls:
     Args:
         server: viser's.
         runner: gets the commands.
-        onlookers: know which agent a page looks at.
+        viewer_clients: know which agent a page looks at.
     """
 
-    def __init__(self, server: LocalServer, runner: Runner, onlookers: Onlookers) -> None:
+    def __init__(self, server: LocalServer, runner: Runner, viewer_clients: ViewerClients) -> None:
         gui = server.gui
-        self._runner, self._onlookers = runner, onlookers
+        self._runner, self._viewer_clients = runner, viewer_clients
         self._scale_shown, self._seed_shown = 0.0, -1
         gui.add_html(STYLE)
         self._goal = gui.add_html("")
@@ -78,27 +78,31 @@ class Controls:
         runner, client = self._runner, event.client
         match event.target.value:
             case "Pause":
-                ask(client, runner, runner.pause())
+                notify_failure(client, runner, runner.pause())
             case "Resume":
-                ask(client, runner, runner.resume())
+                notify_failure(client, runner, runner.resume())
             case "Tick":
-                ask(client, runner, runner.pause())
-                ask(client, runner, runner.step())
+                notify_failure(client, runner, runner.pause())
+                notify_failure(client, runner, runner.step())
             case "Decision":
-                onlooker = self._onlookers.get(-1 if client is None else client.client_id)
-                ask(client, runner, runner.pause())
-                ask(client, runner, runner.step_decision(onlooker.agent if onlooker else None))
+                viewer_client = self._viewer_clients.get(-1 if client is None else client.client_id)
+                notify_failure(client, runner, runner.pause())
+                notify_failure(
+                    client,
+                    runner,
+                    runner.step_decision(viewer_client.agent if viewer_client else None),
+                )
             case "Reset":
-                ask(client, runner, runner.reset())
+                notify_failure(client, runner, runner.reset())
 
     async def _on_speed(self, event: GuiEvent[GuiDropdownHandle[str]]) -> None:
         speed = SPEEDS.get(event.target.value)
         if event.client is not None and speed is not None:
-            ask(event.client, self._runner, self._runner.scale_time(speed))
+            notify_failure(event.client, self._runner, self._runner.scale_time(speed))
 
     async def _on_seed(self, event: GuiEvent[Any]) -> None:
         await asyncio.sleep(LATE)
-        ask(event.client, self._runner, self._runner.reset(int(self._seed.value)))
+        notify_failure(event.client, self._runner, self._runner.reset(int(self._seed.value)))
 
 
 def _show(handle: GuiInputHandle[T], value: T) -> None:

@@ -10,7 +10,7 @@ from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.runtime.stall_monitor import Stall
 
 
-def ask(client: ClientHandle | None, runner: Runner, future: "Future[Any]") -> None:
+def notify_failure(client: ClientHandle | None, runner: Runner, future: "Future[Any]") -> None:
     """Tells whoever asked if it couldn't be done, or has to wait for a block that does not return.
 
     Args:
@@ -18,7 +18,7 @@ def ask(client: ClientHandle | None, runner: Runner, future: "Future[Any]") -> N
         runner: carries it out.
         future: what the runner answers.
     """
-    tell_of_stall(client, runner.stall, future)
+    notify_stall(client, runner.stall, future)
 
     def tell(done: "Future[Any]") -> None:
         error = None if done.cancelled() else done.exception()
@@ -29,7 +29,7 @@ def ask(client: ClientHandle | None, runner: Runner, future: "Future[Any]") -> N
     future.add_done_callback(tell)
 
 
-def tell_of_stall(client: ClientHandle | None, stall: Stall | None, future: "Future[Any]") -> None:
+def notify_stall(client: ClientHandle | None, stall: Stall | None, future: "Future[Any]") -> None:
     """Tell whoever asked that it has to wait, if something keeps the world from going on."""
     if client is not None and stall is not None and not future.done():
         text = f"{stall}. It is done as soon as that answers; else end the server with Ctrl-C."

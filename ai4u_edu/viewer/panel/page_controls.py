@@ -4,7 +4,7 @@ from viser import GuiButtonGroupHandle, GuiCheckboxHandle, GuiEvent
 
 from ai4u_edu.snapshot import Snapshot, StaticScene
 from ai4u_edu.viewer.scene.view import Mode
-from ai4u_edu.viewer.viewer_client import Onlooker, Onlookers
+from ai4u_edu.viewer.viewer_client import ViewerClient, ViewerClients
 
 MODES = tuple(mode.value for mode in Mode)
 
@@ -12,8 +12,8 @@ MODES = tuple(mode.value for mode in Mode)
 class PageControls:
     """In the main panel of each page, below what is the same for all."""
 
-    def __init__(self, onlookers: Onlookers) -> None:
-        self._onlookers = onlookers
+    def __init__(self, viewer_clients: ViewerClients) -> None:
+        self._viewer_clients = viewer_clients
         self._pages: dict[int, _Page] = {}
 
     def build(self, static_scene: StaticScene) -> None:
@@ -21,40 +21,40 @@ class PageControls:
 
     def draw(self, _snapshot: Snapshot) -> None:
         """Gives pages that have come their controls."""
-        for gone in self._pages.keys() - self._onlookers.keys():
+        for gone in self._pages.keys() - self._viewer_clients.keys():
             del self._pages[gone]
-        for new in self._onlookers.keys() - self._pages.keys():
-            self._pages[new] = _Page(self._onlookers[new])
+        for new in self._viewer_clients.keys() - self._pages.keys():
+            self._pages[new] = _Page(self._viewer_clients[new])
 
 
 class _Page:
-    def __init__(self, onlooker: Onlooker) -> None:
-        gui = onlooker.client.gui
-        self._onlooker = onlooker
+    def __init__(self, viewer_client: ViewerClient) -> None:
+        gui = viewer_client.client.gui
+        self._viewer_client = viewer_client
         self._mark = gui.add_html("")
         self.camera = gui.add_button_group("Camera", MODES)
         # the page remembers what is chosen here, by the box's name
-        self.dark = gui.add_checkbox("Dark", initial_value=onlooker.is_dark)
+        self.dark = gui.add_checkbox("Dark", initial_value=viewer_client.is_dark)
         self.camera.on_click(self._on_camera)
         self.dark.on_update(self._on_dark)
         self._show_mode()
-        if onlooker.is_dark:
+        if viewer_client.is_dark:
             self._dress(dark=True)
 
     async def _on_camera(self, event: GuiEvent[GuiButtonGroupHandle]) -> None:
         if event.target.value in MODES:
-            self._onlooker.view.choose(Mode(event.target.value))
+            self._viewer_client.view.choose(Mode(event.target.value))
             self._show_mode()
 
     async def _on_dark(self, event: GuiEvent[GuiCheckboxHandle]) -> None:
         self._dress(dark=bool(event.target.value))
 
     def _dress(self, *, dark: bool) -> None:
-        self._onlooker.client.gui.configure_theme(
+        self._viewer_client.client.gui.configure_theme(
             show_logo=False, show_share_button=False, dark_mode=dark
         )
 
     def _show_mode(self) -> None:
         """Marks the button of the camera that is on; viser's buttons can't be marked."""
-        place = 1 + MODES.index(self._onlooker.view.mode)
+        place = 1 + MODES.index(self._viewer_client.view.mode)
         self._mark.content = f'<div class="ai4u mark bare" data-on="{place}"></div>'

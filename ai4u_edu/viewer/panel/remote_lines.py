@@ -6,7 +6,7 @@ from viser import GuiMarkdownHandle
 
 from ai4u_edu.agent import BasicAgent
 from ai4u_edu.runtime.runner import Runner
-from ai4u_edu.viewer.viewer_client import Onlooker
+from ai4u_edu.viewer.viewer_client import ViewerClient
 
 HERE = "http://127.0.0.1:8080"
 """The address in the lines, if nobody knows by which one the page was reached."""
@@ -16,24 +16,24 @@ class RemoteLines:
     """A folder with the lines for the agent that a page looks at.
 
     Args:
-        onlooker: the page.
+        viewer_client: the page.
         runner: whose agents can be driven.
     """
 
-    def __init__(self, onlooker: Onlooker, runner: Runner) -> None:
-        self._onlooker, self._runner = onlooker, runner
+    def __init__(self, viewer_client: ViewerClient, runner: Runner) -> None:
+        self._viewer_client, self._runner = viewer_client, runner
         self._agent: BasicAgent | None = None
-        gui = onlooker.client.gui
+        gui = viewer_client.client.gui
         with gui.add_folder("Drive it from Python", expand_by_default=False):
             self.lines: GuiMarkdownHandle = gui.add_markdown("")
 
     def draw(self) -> None:
         """Writes the lines anew, if the page looks at another agent."""
-        wanted = self._onlooker.agent
+        wanted = self._viewer_client.agent
         agent = next((each for each in self._runner.sim.agents if each.id == wanted), None)
         if agent is not None and agent is not self._agent:
             self._agent = agent
-            self.lines.content = lines(self._onlooker.address or HERE, agent)
+            self.lines.content = lines(self._viewer_client.address or HERE, agent)
 
 
 def lines(address: str, agent: BasicAgent) -> str:

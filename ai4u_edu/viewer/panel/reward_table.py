@@ -19,7 +19,7 @@ LAST = 6
 """So many of them stand in the table; one in which nothing was paid says nothing."""
 
 
-def ledger(agent: AgentState) -> str:
+def reward_table(agent: AgentState) -> str:
     """This decision and this episode by term, and the latest decisions in which something was."""
     paid = [entry for entry in agent.history if any(entry.terms.values())][-LAST:]
     rows = [

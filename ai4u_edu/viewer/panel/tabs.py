@@ -8,7 +8,7 @@ from viser import PanelHandle
 from ai4u_edu.snapshot import Snapshot, StaticScene
 from ai4u_edu.viewer.backend.log_once import Complaints
 from ai4u_edu.viewer.backend.turns import Turns
-from ai4u_edu.viewer.viewer_client import Onlooker, Onlookers
+from ai4u_edu.viewer.viewer_client import ViewerClient, ViewerClients
 
 
 class Tab(Protocol):
@@ -27,16 +27,16 @@ class TabKind(NamedTuple):
 
     title: str
     """One short word."""
-    open: Callable[[Onlooker], Tab]
-    """Fills the tab of one page; called where everything that is added to ``onlooker.client.gui``
-    comes to stand in it."""
+    open: Callable[[ViewerClient], Tab]
+    """Fill the tab of one page. Called inside the tab's GUI container, so whatever is added to
+    ``viewer_client.client.gui`` lands in the tab."""
 
 
 class Tabs:
     """A panel below the main one, with a tab of each kind, on each page.
 
     Args:
-        onlookers: the pages.
+        viewer_clients: the pages.
         kinds: the tabs, from left to right.
         complaints: gets to know what went wrong; the other tabs are drawn all the same.
         give_way: called between two pages.
@@ -44,13 +44,13 @@ class Tabs:
 
     def __init__(
         self,
-        onlookers: Onlookers,
+        viewer_clients: ViewerClients,
         kinds: Sequence[TabKind],
         complaints: Complaints,
         give_way: Callable[[], None],
     ) -> None:
         self._give_way, self._turns = give_way, Turns()
-        self._onlookers = onlookers
+        self._viewer_clients = viewer_clients
         self._kinds = tuple(kinds)
         self._complaints = complaints
         self._pages: dict[int, _Page] = {}
@@ -60,10 +60,10 @@ class Tabs:
 
     def draw(self, snapshot: Snapshot) -> None:
         """Shows a snapshot in all tabs of all pages, new ones too."""
-        for gone in self._pages.keys() - self._onlookers.keys():
+        for gone in self._pages.keys() - self._viewer_clients.keys():
             del self._pages[gone]
-        for new in self._onlookers.keys() - self._pages.keys():
-            self._pages[new] = _Page(self._onlookers[new], self._kinds, self._complaints)
+        for new in self._viewer_clients.keys() - self._pages.keys():
+            self._pages[new] = _Page(self._viewer_clients[new], self._kinds, self._complaints)
         for number in self._turns.next(self._pages.keys()):
             self._give_way()
             for tab in self._pages[number].tabs:
@@ -75,12 +75,12 @@ class _Page:
     """The panel of one page."""
 
     def __init__(
-        self, onlooker: Onlooker, kinds: Sequence[TabKind], complaints: Complaints
+        self, viewer_client: ViewerClient, kinds: Sequence[TabKind], complaints: Complaints
     ) -> None:
-        gui = onlooker.client.gui
+        gui = viewer_client.client.gui
         self.tabs: list[Tab] = []
         self.panel: PanelHandle = gui.add_panel()
         for kind in kinds:
             with complaints.caught(), self.panel.add_tab(kind.title):
-                self.tabs.append(kind.open(onlooker))
+                self.tabs.append(kind.open(viewer_client))
         self.panel.dock_below(gui.main_panel)

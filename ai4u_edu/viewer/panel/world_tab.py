@@ -24,18 +24,18 @@ from ai4u_edu.scenes import Scene
 from ai4u_edu.scenes.yaml.file import MAX_SCENE_CHARS
 from ai4u_edu.snapshot import Snapshot
 from ai4u_edu.viewer.backend.reporting import reporting
-from ai4u_edu.viewer.panel.add_menu import THINGS, looked_at, room_for
+from ai4u_edu.viewer.panel.add_menu import BODY_TEMPLATES, free_position, ground_at_center
 from ai4u_edu.viewer.panel.block_labels import WAITS
 from ai4u_edu.viewer.panel.body_form import BodyForm
 from ai4u_edu.viewer.panel.gallery import Gallery, Load
-from ai4u_edu.viewer.panel.notify import tell_of_stall
+from ai4u_edu.viewer.panel.notify import notify_stall
 from ai4u_edu.viewer.panel.readings import block
 from ai4u_edu.viewer.panel.save_window import SaveWindow
 from ai4u_edu.viewer.panel.settings_form import SettingsForm
 from ai4u_edu.viewer.panel.tabs import TabKind
 from ai4u_edu.viewer.panel.uploads import limit_uploads, take_file
 from ai4u_edu.viewer.scene.handles import Handles
-from ai4u_edu.viewer.viewer_client import Onlooker
+from ai4u_edu.viewer.viewer_client import ViewerClient
 from ai4u_edu.world import BodyDescription
 
 UNDO, REDO = "Undo", "Redo"
@@ -51,26 +51,26 @@ class WorldTab:
     """One page's hands on the world.
 
     Args:
-        onlooker: the page.
+        viewer_client: the page.
         editor: carries out what is asked for.
     """
 
-    def __init__(self, onlooker: Onlooker, editor: SceneEditor) -> None:
-        gui = onlooker.client.gui
-        self._onlooker, self._editor = onlooker, editor
+    def __init__(self, viewer_client: ViewerClient, editor: SceneEditor) -> None:
+        gui = viewer_client.client.gui
+        self._viewer_client, self._editor = viewer_client, editor
         self._chosen, self._message, self._is_wrong = "", "", False
         self._problems: tuple[Problem, ...] | None = None
         self._form: BodyForm | None = None
         self._is_applied = False
         self._seen: tuple[object, ...] = ()
         self._latest: Snapshot | None = None
-        self.gallery = Gallery(onlooker.client, self._open)
+        self.gallery = Gallery(viewer_client.client, self._open)
         self.saving: SaveWindow | None = None
         """There if scenes can be kept here."""
         if editor.scene_store is not None:
-            client, store = onlooker.client, editor.scene_store
+            client, store = viewer_client.client, editor.scene_store
             self.saving = SaveWindow(client, store, lambda: editor.scene, self._on_saved)
-        self.handles = Handles(onlooker, editor, self._choose, self._ask)
+        self.handles = Handles(viewer_client, editor, self._choose, self._ask)
         self._offer = gui.add_html("", visible=False)
         self._bare = gui.add_html(BARE, visible=False)
         self.offered = gui.add_button_group("Unsaved", (RESTORE, DISCARD), visible=False)
@@ -81,16 +81,16 @@ class WorldTab:
         gui.add_html(BARE)
         self.changes = gui.add_button_group("Changes", (UNDO, REDO))
         self.settings = SettingsForm(
-            onlooker.client, "Scene's settings", self._settings, self._on_settings
+            viewer_client.client, "Scene's settings", self._settings, self._on_settings
         )
         self.moves = gui.add_checkbox("Move things", False)
         self._hint = gui.add_html(block(f"<small>{HINT}</small>"))
         self.thing = gui.add_dropdown("Thing", (NOTHING,))
-        self.new = gui.add_button_group("Add", tuple(THINGS))
+        self.new = gui.add_button_group("Add", tuple(BODY_TEMPLATES))
         self._place = gui.add_folder(None)
         self.delete = gui.add_button("Delete", visible=False)
         self.upload = gui.add_upload_button("Open a scene file", hint="A .yaml file")
-        limit_uploads(onlooker.client, 4 * MAX_SCENE_CHARS)  # no character takes more bytes
+        limit_uploads(viewer_client.client, 4 * MAX_SCENE_CHARS)  # no character takes more bytes
         self.offered.on_click(self._on_offer)
         self.scene.on_click(self._on_scene)
         self.changes.on_click(self._on_changes)
@@ -160,7 +160,7 @@ class WorldTab:
             self._form = None
         if body is not None and self._form is None:
             with self._place:
-                self._form = BodyForm(self._onlooker.client, body, self._on_apply)
+                self._form = BodyForm(self._viewer_client.client, body, self._on_apply)
         self.delete.visible = body is not None
         if body is not None:
             self.delete.label = f"Delete {body.name}"
@@ -193,7 +193,7 @@ class WorldTab:
             self.saving.open(_file_name(self._editor.scene))
         elif event.target.value == DOWNLOAD:
             scene = self._editor.scene
-            self._onlooker.client.send_file_download(
+            self._viewer_client.client.send_file_download(
                 f"{_file_name(scene)}.yaml", scene.dumps().encode(), save_immediately=True
             )
             self._editor.mark_saved()
@@ -213,11 +213,11 @@ class WorldTab:
             self._chosen = "" if name == NOTHING else name
 
     async def _on_new(self, event: GuiEvent[GuiButtonGroupHandle]) -> None:
-        thing, snapshot = THINGS.get(event.target.value), self._latest
+        thing, snapshot = BODY_TEMPLATES.get(event.target.value), self._latest
         if thing is None or snapshot is None:
             return
-        camera = self._onlooker.client.camera
-        place = room_for(snapshot, thing, *looked_at(camera.position, camera.look_at))
+        camera = self._viewer_client.client.camera
+        place = free_position(snapshot, thing, *ground_at_center(camera.position, camera.look_at))
         if place is None:
             self._tell("there is no room for it around the middle of the picture", is_wrong=True)
             return
@@ -273,14 +273,14 @@ class WorldTab:
     def _tell(self, message: str, *, is_wrong: bool = False) -> None:
         self._message, self._is_wrong = message, is_wrong
         if is_wrong:
-            client = self._onlooker.client
+            client = self._viewer_client.client
             client.add_notification("That didn't work", message, auto_close_seconds=8.0)
 
     def _ask(
         self, future: "Future[ChangeResult]", then: str | None = None, *, of_form: bool = False
     ) -> None:
         """Says when it applies, or what is wrong; ``then`` is the body that is chosen then."""
-        tell_of_stall(self._onlooker.client, self._editor.stall, future)
+        notify_stall(self._viewer_client.client, self._editor.stall, future)
 
         def tell(done: "Future[ChangeResult]") -> None:
             if done.cancelled():
@@ -306,4 +306,4 @@ def _file_name(scene: Scene) -> str:
 
 def world_tab(editor: SceneEditor) -> TabKind:
     """The tab for the world."""
-    return TabKind("World", lambda onlooker: WorldTab(onlooker, editor))
+    return TabKind("World", lambda viewer_client: WorldTab(viewer_client, editor))

@@ -14,8 +14,8 @@ from ai4u_edu.viewer.backend.local_server import LocalServer
 from ai4u_edu.viewer.scene.face import face
 from ai4u_edu.viewer.scene.geometry import half_width, prism
 from ai4u_edu.viewer.scene.layers import Layers
-from ai4u_edu.viewer.scene.mesh_drawer import Brush
-from ai4u_edu.viewer.scene.subtree import Root
+from ai4u_edu.viewer.scene.mesh_drawer import MeshDrawer
+from ai4u_edu.viewer.scene.subtree import Subtree
 from ai4u_edu.world import BodyDescription
 
 PALE: Rgb = (255, 255, 255)
@@ -35,7 +35,7 @@ class Ghosts:
 
     def __init__(self, server: LocalServer) -> None:
         self._scene = server.scene
-        self._root = Root(server.scene, "ghosts")
+        self._subtree = Subtree(server.scene, "ghosts")
         self.name = ""
         """Whose ghost it is, in words; empty if there is none."""
         self.problem = ""
@@ -92,13 +92,13 @@ class Ghosts:
     def _make(self, ghost: Ghost | None, static_scene: StaticScene, layers: Layers) -> None:
         self._made, self._bodies = ghost, []
         episode = self._episode
-        with self._root.rebuilt() as root:
+        with self._subtree.rebuild() as parent:
             if ghost is None or episode is None or self._is_elsewhere(static_scene):
                 return
             drivers = {str(agent.get("body", "")) for agent in episode.scene.agents}
             for number, body in enumerate(episode.scene.bodies):
                 if body.name in drivers:
-                    node = f"{root}/{number}"
+                    node = f"{parent}/{number}"
                     self._bodies.append(_Body(self._scene, node, body, layers))
 
     def _play(self, episode: Episode) -> None:
@@ -130,12 +130,12 @@ class _Body:
         self._radius = radius = half_width(outline)
         colour = mix_colours(body_colour(body, is_agent=True), PALE, 0.35)
         self._frame: FrameHandle = scene.add_frame(node, show_axes=False, visible=False)
-        brush = Brush(scene, node)
+        drawer = MeshDrawer(scene, node)
         # a little below a living body, so that the two never flicker through each other
         shape = prism(outline, body.height, 0.16 * radius)
-        brush.mesh("body", shape, -layers.unit, colour, OPACITY)
-        brush.mesh("face", face(radius, body.height), 0.0, PALE, OPACITY)
-        self._label: LabelHandle = Brush(scene, f"{node}-name").label("label", "")
+        drawer.mesh("body", shape, -layers.unit, colour, OPACITY)
+        drawer.mesh("face", face(radius, body.height), 0.0, PALE, OPACITY)
+        self._label: LabelHandle = MeshDrawer(scene, f"{node}-name").label("label", "")
         self._label.visible = False
         self._pose: Pose | None = None
         self._text = ""

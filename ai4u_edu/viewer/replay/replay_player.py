@@ -15,7 +15,7 @@ LONGEST_BREAK = 1.0
 """Seconds for which a moment is shown at most while it plays: nobody has to wait twice."""
 
 
-class Projector:
+class ReplayPlayer:
     """One for all pages: a class looks at the same moment. Any thread may ask it for things.
 
     Args:
@@ -103,7 +103,7 @@ class Projector:
     def back(self) -> "Future[None]":
         """Back to now."""
         self.leave()
-        return self._runner.show(None)
+        return self._runner.show_past(None)
 
     def leave(self) -> None:
         """Shows nothing more of the past, whatever was wanted; what is seen stays for now."""
@@ -207,7 +207,7 @@ class Projector:
         with self._changed:
             if wish != self._wish:
                 return False
-            shown = self._runner.show(picture, goes_on=goes_on)
+            shown = self._runner.show_past(picture, goes_on=goes_on)
         with suppress(CancelledError, TimeoutError):
             shown.result(1.0)
         return True

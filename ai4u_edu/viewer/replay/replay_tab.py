@@ -19,14 +19,14 @@ from ai4u_edu.recording.file import MAX_FILE_BYTES, decode
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.snapshot import Snapshot
 from ai4u_edu.viewer.backend.reporting import reporting
-from ai4u_edu.viewer.panel.notify import ask
+from ai4u_edu.viewer.panel.notify import notify_failure
 from ai4u_edu.viewer.panel.readings import block
 from ai4u_edu.viewer.panel.tabs import TabKind
 from ai4u_edu.viewer.panel.uploads import limit_uploads, take_file
 from ai4u_edu.viewer.replay.episode_list import FORMATS, downloads, listed
 from ai4u_edu.viewer.replay.ghosts import Ghosts
-from ai4u_edu.viewer.replay.replay_player import NOW, Projector
-from ai4u_edu.viewer.viewer_client import Onlooker
+from ai4u_edu.viewer.replay.replay_player import NOW, ReplayPlayer
+from ai4u_edu.viewer.viewer_client import ViewerClient
 
 NONE, UNDER_WAY = "choose one", "this one, so far"
 BACK, PLAY, STOP, ON = "Step back", "Play", "Stop", "Step on"
@@ -35,22 +35,26 @@ BARE = block(kind="bare")
 SPEEDS = {"0.25x": 0.25, "0.5x": 0.5, "1x": 1.0, "2x": 2.0, "4x": 4.0}
 
 
-class PastTab:
+class ReplayTab:
     """One page's way into the past; all pages see the same moment of it.
 
     Args:
-        onlooker: the page.
+        viewer_client: the page.
         runner: continues episodes.
-        projector: shows their moments.
+        player: shows their moments.
         ghosts: of episodes that are raced.
     """
 
     def __init__(
-        self, onlooker: Onlooker, runner: Runner, projector: Projector, ghosts: Ghosts
+        self, viewer_client: ViewerClient, runner: Runner, player: ReplayPlayer, ghosts: Ghosts
     ) -> None:
-        gui = onlooker.client.gui
-        self._onlooker, self._client, self._runner = onlooker, onlooker.client, runner
-        self._projector, self._ghosts = projector, ghosts
+        gui = viewer_client.client.gui
+        self._viewer_client, self._client, self._runner = (
+            viewer_client,
+            viewer_client.client,
+            runner,
+        )
+        self._player, self._ghosts = player, ghosts
         self._seen: tuple[object, ...] = ()
         self._numbers: dict[str, int] = {}
         self._list = gui.add_html("")
@@ -76,9 +80,9 @@ class PastTab:
 
     def draw(self, snapshot: Snapshot) -> None:
         """Shows what there is, what was chosen, and which moment is seen."""
-        projector, archive = self._projector, self._projector.archive
+        player, archive = self._player, self._player.archive
         entries = archive.entries if archive is not None else ()
-        seen = (entries, projector.number)
+        seen = (entries, player.number)
         if seen != self._seen:
             self._seen = seen
             self._offer(entries)
@@ -86,8 +90,8 @@ class PastTab:
 
     def _offer(self, entries: tuple[ArchiveEntry, ...]) -> None:
         """Lists the episodes, and marks the one that was chosen."""
-        chosen = self._projector.number
-        archive = self._projector.archive
+        chosen = self._player.number
+        archive = self._player.archive
         best = archive.best if archive is not None and len(entries) > 1 else None
         self._list.content = listed(entries, chosen, best)
         numbers = {str(entry.number): entry.number for entry in reversed(entries)}
@@ -104,25 +108,25 @@ class PastTab:
 
     def _follow(self, snapshot: Snapshot) -> None:
         """Shows the moment that is wanted, whoever wanted it."""
-        projector, frame_cache = self._projector, self._projector.frame_cache
+        player, frame_cache = self._player, self._player.frame_cache
         recorder = self._runner.recorder
         there = frame_cache is not None and frame_cache.last >= 0
         for handle in (self._step, self._steps, self._speed, self._verbs):
             handle.visible = there
         if frame_cache is not None and there:
             # people count from 1; the end comes after the last step
-            last, step = max(frame_cache.last, 1) + 1, projector.step + 1
+            last, step = max(frame_cache.last, 1) + 1, player.step + 1
             if self._step.max != last:
                 self._step.max = last
             if self._step.value != step:
                 self._step.value = step  # type: ignore[misc]
-        options = (BACK, STOP if projector.playing else PLAY, ON)
+        options = (BACK, STOP if player.playing else PLAY, ON)
         if self._steps.options != options:
             self._steps.options = options
         self._nobody.visible = bool(self._ghosts.name)
         told = [
             snapshot.past and f"Seen now: {snapshot.past}",
-            escape(projector.problem or (frame_cache.problem if frame_cache is not None else "")),
+            escape(player.problem or (frame_cache.problem if frame_cache is not None else "")),
             self._ghosts.told(snapshot),
             escape(recorder.problem or recorder.save_problem) if recorder is not None else "",
         ]
@@ -134,43 +138,45 @@ class PastTab:
     async def _on_episode(self, event: GuiEvent[GuiDropdownHandle[str]]) -> None:
         number = self._numbers.get(event.target.value)
         if event.client is not None and number is not None:
-            self._projector.open(number, self._onlooker.agent)
+            self._player.open(number, self._viewer_client.agent)
 
     async def _on_step(self, event: GuiEvent[GuiSliderHandle[int]]) -> None:
-        if event.client is not None and self._projector.frame_cache is not None:
-            self._projector.go_to(int(event.target.value) - 1)
+        if event.client is not None and self._player.frame_cache is not None:
+            self._player.go_to(int(event.target.value) - 1)
 
     async def _on_steps(self, event: GuiEvent[GuiButtonGroupHandle]) -> None:
         match event.target.value:
             case "Step back":
-                self._projector.move(-1)
+                self._player.move(-1)
             case "Step on":
-                self._projector.move(1)
+                self._player.move(1)
             case "Play" | "Stop" as word:
-                self._projector.play(on=word == PLAY)
+                self._player.play(on=word == PLAY)
 
     async def _on_speed(self, event: GuiEvent[GuiDropdownHandle[str]]) -> None:
-        self._projector.speed = SPEEDS.get(event.target.value, 1.0)
+        self._player.speed = SPEEDS.get(event.target.value, 1.0)
 
     async def _on_verb(self, event: GuiEvent[GuiButtonGroupHandle]) -> None:
-        projector = self._projector
+        player = self._player
         match event.target.value:
-            case "Back to now" if projector.is_showing:
-                ask(self._client, self._runner, projector.back())
+            case "Back to now" if player.is_showing:
+                notify_failure(self._client, self._runner, player.back())
             case "Continue here":
-                ask(self._client, self._runner, await asyncio.to_thread(projector.go_on))
-            case "Race it" if projector.frame_cache is not None:
-                frame_cache = projector.frame_cache
-                projector.leave()
+                notify_failure(self._client, self._runner, await asyncio.to_thread(player.go_on))
+            case "Race it" if player.frame_cache is not None:
+                frame_cache = player.frame_cache
+                player.leave()
                 self._ghosts.race(frame_cache.episode, f"episode {frame_cache.number}")
-                ask(self._client, self._runner, self._runner.reset(frame_cache.episode.seed))
-                ask(self._client, self._runner, self._runner.resume())
+                notify_failure(
+                    self._client, self._runner, self._runner.reset(frame_cache.episode.seed)
+                )
+                notify_failure(self._client, self._runner, self._runner.resume())
 
     async def _on_nobody(self, _event: GuiEvent[GuiButtonHandle]) -> None:
         self._ghosts.race(None)
 
     async def _on_upload(self, event: GuiEvent[GuiUploadButtonHandle]) -> None:
-        file, archive = take_file(event), self._projector.archive
+        file, archive = take_file(event), self._player.archive
         if archive is None:
             return
         try:
@@ -178,9 +184,9 @@ class PastTab:
         except AI4UError as error:
             self._client.add_notification("That is no recording", str(error))
             return
-        self._projector.open(archive.append(episode, file.name[:80]).number)
+        self._player.open(archive.append(episode, file.name[:80]).number)
 
 
-def past(runner: Runner, projector: Projector, ghosts: Ghosts) -> TabKind:
+def replay_tab(runner: Runner, player: ReplayPlayer, ghosts: Ghosts) -> TabKind:
     """The tab for the past."""
-    return TabKind("Past", lambda onlooker: PastTab(onlooker, runner, projector, ghosts))
+    return TabKind("Past", lambda viewer_client: ReplayTab(viewer_client, runner, player, ghosts))

@@ -15,9 +15,9 @@ from ai4u_edu.viewer.scene.face import face, pupils, rings
 from ai4u_edu.viewer.scene.geometry import cap, half_width, joined, prism, soft
 from ai4u_edu.viewer.scene.layers import Layers
 from ai4u_edu.viewer.scene.light import surfaces
-from ai4u_edu.viewer.scene.mesh_drawer import Brush
+from ai4u_edu.viewer.scene.mesh_drawer import MeshDrawer
 from ai4u_edu.viewer.scene.poses import Poses, poses
-from ai4u_edu.viewer.scene.subtree import Root
+from ai4u_edu.viewer.scene.subtree import Subtree
 
 BLACK: Rgb = (0, 0, 0)
 LIGHT: Rgb = (240, 243, 246)
@@ -39,7 +39,7 @@ class Bodies:
     def __init__(self, server: LocalServer, on_agent: Callable[[int, str], None]) -> None:
         self._on_agent = on_agent
         self._scene = server.scene
-        self._root = Root(server.scene, "bodies")
+        self._subtree = Subtree(server.scene, "bodies")
         self._seen: object = None
         self._kinds: list[_Kind] = []
 
@@ -53,9 +53,14 @@ class Bodies:
         for index, body in enumerate(static_scene.bodies):
             role = (body.name in static_scene.agent_of, "target" in body.tags)
             members[body.shape, body.height, role].append(index)
-        with self._root.rebuilt() as root:
+        with self._subtree.rebuild() as parent:
             self._kinds = [
-                _Kind(Brush(self._scene, f"{root}/{number}"), self._layers, static_scene, indices)
+                _Kind(
+                    MeshDrawer(self._scene, f"{parent}/{number}"),
+                    self._layers,
+                    static_scene,
+                    indices,
+                )
                 for number, indices in enumerate(members.values())
             ]
             for kind in self._kinds:
@@ -74,7 +79,7 @@ class _Kind:
     """Bodies that look alike but for their colour."""
 
     def __init__(
-        self, brush: Brush, layers: Layers, static_scene: StaticScene, members: list[int]
+        self, drawer: MeshDrawer, layers: Layers, static_scene: StaticScene, members: list[int]
     ) -> None:
         self._members = np.array(members)
         bodies = [static_scene.bodies[index] for index in members]
@@ -86,16 +91,16 @@ class _Kind:
         outline, height = bodies[0].shape.outline(), bodies[0].height
         radius, top, count = half_width(outline), height + layers.unit, len(members)
         pile = joined([cap(*each) for each in soft(outline, min(BLUR, radius), 5 * layers.unit, 9)])
-        self._shadow = brush.batch("shadow", pile, [BLACK] * count, opacity=0.05)
+        self._shadow = drawer.batch("shadow", pile, [BLACK] * count, opacity=0.05)
         body = prism(outline, height, min(RIM, 0.16 * radius))
-        self._body = brush.batch("body", body, colours)
+        self._body = drawer.batch("body", body, colours)
         self._marks = []
         if is_agent:
             eyes = pupils(radius, top + layers.unit)
-            self._marks.append(brush.batch("face", face(radius, top), [LIGHT] * count))
-            self._marks.append(brush.batch("pupils", eyes, [DARK] * count))
+            self._marks.append(drawer.batch("face", face(radius, top), [LIGHT] * count))
+            self._marks.append(drawer.batch("pupils", eyes, [DARK] * count))
         elif "target" in bodies[0].tags:
-            self._marks.append(brush.batch("rings", rings(radius, top), [LIGHT] * count))
+            self._marks.append(drawer.batch("rings", rings(radius, top), [LIGHT] * count))
 
     def listen(self, on_agent: Callable[[int, str], None]) -> None:
         """Has a click on a member told, with the page on which it was clicked."""

@@ -15,9 +15,9 @@ from ai4u_edu.viewer.scene.geometry import (
 )
 from ai4u_edu.viewer.scene.grid import grid_in
 from ai4u_edu.viewer.scene.layers import Layers
-from ai4u_edu.viewer.scene.mesh_drawer import Brush
+from ai4u_edu.viewer.scene.mesh_drawer import MeshDrawer
 from ai4u_edu.viewer.scene.placing import floor_under, lowest_floor, placed, size
-from ai4u_edu.viewer.scene.subtree import Root
+from ai4u_edu.viewer.scene.subtree import Subtree
 from ai4u_edu.world import AreaDescription, FloorDescription
 
 RIM = 0.0025
@@ -40,7 +40,7 @@ class Ground:
 
     def __init__(self, server: LocalServer) -> None:
         self._scene = server.scene
-        self._root = Root(server.scene, "ground")
+        self._subtree = Subtree(server.scene, "ground")
         self._seen: object = None
 
     def build(self, static_scene: StaticScene) -> None:
@@ -48,30 +48,30 @@ class Ground:
         wanted = (static_scene.floors, static_scene.areas, static_scene.bounds)
         if wanted == self._seen:
             return
-        with self._root.rebuilt() as root:
-            brush, layers = Brush(self._scene, root), Layers.of(static_scene)
+        with self._subtree.rebuild() as parent:
+            drawer, layers = MeshDrawer(self._scene, parent), Layers.of(static_scene)
             if static_scene.floors:
-                brush.mesh("void", _around(static_scene, 200), layers.void, VOID)
+                drawer.mesh("void", _around(static_scene, 200), layers.void, VOID)
             else:
-                _endless_floor(brush, layers, static_scene)
+                _endless_floor(drawer, layers, static_scene)
             for floor in static_scene.floors:
-                _floor(brush, layers, floor, size(static_scene))
+                _floor(drawer, layers, floor, size(static_scene))
             for area in static_scene.areas:
                 top = floor_under(static_scene, *area.position)
-                _area(brush, layers, area, lowest_floor(static_scene) if top is None else top)
-            brush.finish()
+                _area(drawer, layers, area, lowest_floor(static_scene) if top is None else top)
+            drawer.finish()
         self._seen = wanted
 
     def draw(self, snapshot: Snapshot) -> None:
         """Nothing moves here."""
 
 
-def _endless_floor(brush: Brush, layers: Layers, static_scene: StaticScene) -> None:
-    brush.mesh("floor", _around(static_scene, 200), 0.0, FLOOR)
-    brush.line(grid_in(_around(static_scene, 2).vertices[:, :2], None, layers.grid), GRID)
+def _endless_floor(drawer: MeshDrawer, layers: Layers, static_scene: StaticScene) -> None:
+    drawer.mesh("floor", _around(static_scene, 200), 0.0, FLOOR)
+    drawer.line(grid_in(_around(static_scene, 2).vertices[:, :2], None, layers.grid), GRID)
 
 
-def _floor(brush: Brush, layers: Layers, floor: FloorDescription, scale: float) -> None:
+def _floor(drawer: MeshDrawer, layers: Layers, floor: FloorDescription, scale: float) -> None:
     outline, hole = placed(floor)
     name, top, colour = f"floor {floor.name}", floor.top, floor_colour(floor)
     dark = mix_colours(colour, VOID, 0.55)
@@ -79,13 +79,13 @@ def _floor(brush: Brush, layers: Layers, floor: FloorDescription, scale: float) 
     edge_hole = grow(hole, -RIM * scale) if hole is not None else _out_of_sight(outline, scale)
     cliff = sheet(edge, edge_hole).moved(0, -CLIFF * scale)
     shadow = _shadow(outline, hole, layers, scale)
-    brush.mesh(f"{name}/shadow", shadow, top + layers.floor_shadow, BLACK, opacity=0.08)
-    brush.mesh(f"{name}/cliff", cliff, top + layers.cliff, dark)
-    brush.mesh(f"{name}/rim", sheet(edge, edge_hole), top + layers.rim, dark)
-    brush.mesh(f"{name}/top", sheet(outline, hole), top, colour)
-    brush.line(grid_in(outline, hole, top + layers.grid), mix_colours(colour, VOID, 0.12))
+    drawer.mesh(f"{name}/shadow", shadow, top + layers.floor_shadow, BLACK, opacity=0.08)
+    drawer.mesh(f"{name}/cliff", cliff, top + layers.cliff, dark)
+    drawer.mesh(f"{name}/rim", sheet(edge, edge_hole), top + layers.rim, dark)
+    drawer.mesh(f"{name}/top", sheet(outline, hole), top, colour)
+    drawer.line(grid_in(outline, hole, top + layers.grid), mix_colours(colour, VOID, 0.12))
     if floor.label:
-        brush.label(f"{name}/label", floor.label, (*floor.position, top))
+        drawer.label(f"{name}/label", floor.label, (*floor.position, top))
 
 
 def _shadow(outline: Array, hole: Array | None, layers: Layers, scale: float) -> Mesh:
@@ -104,20 +104,20 @@ def _out_of_sight(outline: Array, scale: float) -> Array | None:
     return grow(outline, -reach) if half_width(outline) > 1.2 * reach else None
 
 
-def _area(brush: Brush, layers: Layers, area: AreaDescription, top: float) -> None:
+def _area(drawer: MeshDrawer, layers: Layers, area: AreaDescription, top: float) -> None:
     outline, hole = placed(area)
     name, colour = f"area {area.name}", area_colour(area)
     if area.paint:
         # a little larger, so that no seam shows where two pieces meet
         edge = grow(outline, SEAM)
-        brush.mesh(f"{name}/fill", sheet(edge, hole), top + layers.paint, colour)
+        drawer.mesh(f"{name}/fill", sheet(edge, hole), top + layers.paint, colour)
         return
-    brush.mesh(f"{name}/fill", sheet(outline, hole), top + layers.area, colour, opacity=0.28)
+    drawer.mesh(f"{name}/fill", sheet(outline, hole), top + layers.area, colour, opacity=0.28)
     for edge in (outline,) if hole is None else (outline, hole):
-        brush.line(segments(edge, top + layers.outline), colour)
+        drawer.line(segments(edge, top + layers.outline), colour)
     text = area.label or area.name
     if not text.isspace():
-        brush.label(f"{name}/label", text, (*area.position, top))
+        drawer.label(f"{name}/label", text, (*area.position, top))
 
 
 def _around(static_scene: StaticScene, times: float) -> Mesh:

@@ -23,11 +23,11 @@ from ai4u_edu.viewer.backend.reporting import reporting
 from ai4u_edu.viewer.scene.geometry import Array, circle, grow, prism, segments
 from ai4u_edu.viewer.scene.layers import Layers
 from ai4u_edu.viewer.scene.light import strokes
-from ai4u_edu.viewer.scene.mesh_drawer import Brush
+from ai4u_edu.viewer.scene.mesh_drawer import MeshDrawer
 from ai4u_edu.viewer.scene.placing import size
-from ai4u_edu.viewer.scene.subtree import Root
+from ai4u_edu.viewer.scene.subtree import Subtree
 from ai4u_edu.viewer.scene.view import Mode
-from ai4u_edu.viewer.viewer_client import Onlooker
+from ai4u_edu.viewer.viewer_client import ViewerClient
 from ai4u_edu.world import BodyDescription
 
 ROOM = 0.015
@@ -61,7 +61,7 @@ class Handles:
     that page goes, or when what it drags by is taken away.
 
     Args:
-        onlooker: the page.
+        viewer_client: the page.
         editor: moves the bodies.
         on_choose: called with the name of a body that was clicked on, or taken up.
         on_drop: called with what becomes of a body that was let go of.
@@ -69,15 +69,15 @@ class Handles:
 
     def __init__(
         self,
-        onlooker: Onlooker,
+        viewer_client: ViewerClient,
         editor: SceneEditor,
         on_choose: Callable[[str], None],
         on_drop: Callable[["Future[ChangeResult]"], None],
     ) -> None:
-        self._onlooker, self._editor = onlooker, editor
+        self._viewer_client, self._editor = viewer_client, editor
         self._on_choose, self._on_drop = on_choose, on_drop
-        scene = onlooker.client.scene
-        self._root, self._mark_root = Root(scene, "handles"), Root(scene, "chosen")
+        scene = viewer_client.client.scene
+        self._subtree, self._frame_subtree = Subtree(scene, "handles"), Subtree(scene, "chosen")
         self._lock = threading.Lock()
         self.grip: Grip | None = None
         """The body that is held just now."""
@@ -107,12 +107,12 @@ class Handles:
         """
         static_scene = snapshot.static_scene
         self._states = {state.name: state for state in snapshot.bodies}
-        is_on = on and not snapshot.past and self._onlooker.view.mode is not Mode.EYES
+        is_on = on and not snapshot.past and self._viewer_client.view.mode is not Mode.EYES
         wanted = static_scene.bodies if is_on else ()
         body = next((each for each in wanted if each.name == chosen), None)
         if wanted != self._bodies or (body != self._marked and self.grip and self.grip.turns):
             self._lose_hold(static_scene.bodies)
-        with self._onlooker.client.atomic():
+        with self._viewer_client.client.atomic():
             if wanted != self._bodies:
                 self._bodies = wanted
                 self._build(static_scene)
@@ -127,10 +127,10 @@ class Handles:
 
     def _build(self, static_scene: StaticScene) -> None:
         self._boxes = None
-        with self._root.rebuilt() as root:
+        with self._subtree.rebuild() as parent:
             if self._bodies:
-                brush = Brush(self._onlooker.client.scene, root)
-                boxes = brush.batch("boxes", BOX, [INK] * len(self._bodies), opacity=0.0)
+                drawer = MeshDrawer(self._viewer_client.client.scene, parent)
+                boxes = drawer.batch("boxes", BOX, [INK] * len(self._bodies), opacity=0.0)
                 boxes.on_click(reporting(self._on_click))
                 boxes.on_drag(reporting(self._on_drag))
                 self._boxes = boxes
@@ -143,24 +143,24 @@ class Handles:
     def _build_mark(self, static_scene: StaticScene) -> None:
         self._mark = self.knob = None
         body, unit = self._marked, size(static_scene)
-        with self._mark_root.rebuilt() as root:
+        with self._frame_subtree.rebuild() as parent:
             if body is None:
                 return
-            scene = self._onlooker.client.scene
-            self._mark = scene.add_frame(f"{root}/frame", show_axes=False)
+            scene = self._viewer_client.client.scene
+            self._mark = scene.add_frame(f"{parent}/frame", show_axes=False)
             outline = np.asarray(body.shape.outline())
             near, far = float(outline[:, 0].max()), float(outline[:, 0].max()) + STEM * unit
             lines = [segments(grow(outline, 0.006 * unit)), np.array([[(near, 0, 0), (far, 0, 0)]])]
             scene.add_line_segments(
-                f"{root}/frame/edge",
+                f"{parent}/frame/edge",
                 np.concatenate(lines).astype(np.float32),
                 strokes(INK),
                 thickness=3.0,
                 thickness_units="screen",
             )
-            brush = Brush(scene, f"{root}/frame")
+            drawer = MeshDrawer(scene, f"{parent}/frame")
             rim = circle(KNOB * unit, corners=24)
-            knob = brush.batch("knob", prism(rim, KNOB * unit, 0.0).moved(far, 0.0), [INK])
+            knob = drawer.batch("knob", prism(rim, KNOB * unit, 0.0).moved(far, 0.0), [INK])
             knob.batched_scales = np.ones(1, np.float32)
             knob.on_drag(reporting(self._on_turn))
             self.knob = knob
@@ -215,7 +215,7 @@ class Handles:
     def _listen(self, is_on: bool) -> None:
         """Has Escape mean something here, or no longer."""
         if is_on and self.escape is None:
-            gui = self._onlooker.client.gui
+            gui = self._viewer_client.client.gui
             self.escape = gui.add_command("Put back what is held", hotkey="escape")
             self.escape.on_trigger(self._on_escape)
         elif not is_on and self.escape is not None:

@@ -8,8 +8,8 @@ from viser import LabelHandle
 from ai4u_edu.snapshot import AgentState, Snapshot, StaticScene
 from ai4u_edu.viewer.backend.local_server import LocalServer
 from ai4u_edu.viewer.scene.geometry import Array, turn
-from ai4u_edu.viewer.scene.mesh_drawer import Brush
-from ai4u_edu.viewer.scene.subtree import Root
+from ai4u_edu.viewer.scene.mesh_drawer import MeshDrawer
+from ai4u_edu.viewer.scene.subtree import Subtree
 
 TROUBLES = {
     "waiting": "⌛ waits for its script",
@@ -24,7 +24,7 @@ class Labels:
 
     def __init__(self, server: LocalServer) -> None:
         self._scene = server.scene
-        self._root = Root(server.scene, "labels")
+        self._subtree = Subtree(server.scene, "labels")
         self._seen: object = None
         self._labels: list[_Label] = []
 
@@ -34,15 +34,15 @@ class Labels:
         if wanted == self._seen:
             return
         labels = []
-        with self._root.rebuilt() as root:
-            brush = Brush(self._scene, root)
+        with self._subtree.rebuild() as parent:
+            drawer = MeshDrawer(self._scene, parent)
             for index, body in enumerate(static_scene.bodies):
                 text = body.label or (body.name if body.name in static_scene.agent_of else "")
                 if text:
                     outline = np.array(body.shape.outline())
                     centre = outline.mean(axis=0)
                     reach = float(np.linalg.norm(outline - centre, axis=1).max())
-                    handle = brush.label(str(index), text, anchor="top-center")
+                    handle = drawer.label(str(index), text, anchor="top-center")
                     label = _Label(index, text, centre, 1.08 * reach, body.height, handle)
                     labels.append(label)
         self._labels, self._seen = labels, wanted

@@ -10,17 +10,17 @@ from ai4u_edu.viewer.scene.geometry import Array, Mesh
 from ai4u_edu.viewer.scene.light import strokes, surfaces
 
 
-class Brush:
+class MeshDrawer:
     """Draws below a node; lines are collected and drawn as one by :meth:`finish`.
 
     Args:
         scene: viser's scene.
-        root: the name of the node.
+        parent: the name of the node.
     """
 
-    def __init__(self, scene: SceneApi, root: str) -> None:
+    def __init__(self, scene: SceneApi, parent: str) -> None:
         self._scene = scene
-        self._root = root
+        self._parent = parent
         self._lines: list[Array] = []
         self._colours: list[Rgb] = []
 
@@ -42,7 +42,7 @@ class Brush:
         """Draws a mesh many times, once for each colour; all of them still at the origin."""
         count = len(colours)
         return self._scene.add_batched_meshes_simple(
-            f"{self._root}/{name}",
+            f"{self._parent}/{name}",
             mesh.vertices,
             mesh.faces,
             np.tile([1.0, 0.0, 0.0, 0.0], (count, 1)),
@@ -61,7 +61,7 @@ class Brush:
     def moving_lines(self, name: str, count: int, thickness: float = 1.5) -> LineSegmentsHandle:
         """Draws line segments that are to be moved and coloured later; thickness in pixels."""
         return self._scene.add_line_segments(
-            f"{self._root}/{name}",
+            f"{self._parent}/{name}",
             np.zeros((count, 2, 3)),
             np.zeros((count, 2, 3), np.uint8),
             thickness=thickness,
@@ -81,7 +81,7 @@ class Brush:
         anchor: Literal["center-center", "top-center"] = "center-center",
     ) -> LabelHandle:
         """Writes a text that keeps its size on the screen."""
-        return self._scene.add_label(f"{self._root}/{name}", text, position=place, anchor=anchor)
+        return self._scene.add_label(f"{self._parent}/{name}", text, position=place, anchor=anchor)
 
     def finish(self) -> None:
         """Draws the collected lines."""

@@ -12,9 +12,9 @@ from ai4u_edu.snapshot.theme import RAY_MISS, UNKNOWN_GROUP, group_colours
 from ai4u_edu.viewer.scene.geometry import Array, cap, circle
 from ai4u_edu.viewer.scene.layers import Layers
 from ai4u_edu.viewer.scene.light import strokes, surfaces
-from ai4u_edu.viewer.scene.mesh_drawer import Brush
+from ai4u_edu.viewer.scene.mesh_drawer import MeshDrawer
 from ai4u_edu.viewer.scene.placing import size
-from ai4u_edu.viewer.scene.subtree import Root
+from ai4u_edu.viewer.scene.subtree import Subtree
 
 Points = npt.NDArray[np.float32]
 DOT = 0.0055
@@ -43,7 +43,7 @@ class Rays:
 
     def __init__(self, scene: SceneApi, look: StageLook) -> None:
         self._scene = scene
-        self._root = Root(scene, "rays")
+        self._subtree = Subtree(scene, "rays")
         self._look, self._count = look, 0
 
     def build(self, look: StageLook) -> None:
@@ -70,12 +70,12 @@ class Rays:
         self._dots.batched_colors = look.fills[numbers]
 
     def _make(self, count: int) -> None:
-        with self._root.rebuilt() as root:
+        with self._subtree.rebuild() as parent:
             if count:
-                brush = Brush(self._scene, root)
-                self._lines = brush.moving_lines("lines", count)
+                drawer = MeshDrawer(self._scene, parent)
+                self._lines = drawer.moving_lines("lines", count)
                 dot = cap(circle(self._look.dot, corners=12))
-                self._dots = brush.batch("dots", dot, count * [RAY_MISS])
+                self._dots = drawer.batch("dots", dot, count * [RAY_MISS])
         self._count = count
 
 

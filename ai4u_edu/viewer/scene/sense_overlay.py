@@ -9,7 +9,7 @@ from ai4u_edu.viewer.scene.layers import Layers
 from ai4u_edu.viewer.scene.pointers import Pointers, has_pointer
 from ai4u_edu.viewer.scene.rays import Rays, StageLook
 from ai4u_edu.viewer.scene.spots import Spots
-from ai4u_edu.viewer.viewer_client import Onlooker, Onlookers
+from ai4u_edu.viewer.viewer_client import ViewerClient, ViewerClients
 
 
 def is_seen(sense: SensorInfo, agent: AgentState) -> bool:
@@ -22,16 +22,16 @@ def shows_by_itself(sense: SensorInfo, agent: AgentState) -> bool:
     return sense.key in agent.rays or sense.key in agent.spots
 
 
-class Gaze:
+class SenseOverlay:
     """Draws the rays, spots and targets of sensors; nothing for agents that nobody looks at.
 
     Args:
-        onlookers: the pages.
+        viewer_clients: the pages.
         give_way: called between two pages.
     """
 
-    def __init__(self, onlookers: Onlookers, give_way: Callable[[], None]) -> None:
-        self._onlookers = onlookers
+    def __init__(self, viewer_clients: ViewerClients, give_way: Callable[[], None]) -> None:
+        self._viewer_clients = viewer_clients
         self._give_way, self._turns = give_way, Turns()
         self._pages: dict[int, _Page] = {}
 
@@ -46,14 +46,14 @@ class Gaze:
 
     def draw(self, snapshot: Snapshot) -> None:
         """Draws what is looked at."""
-        for gone in self._pages.keys() - self._onlookers.keys():
+        for gone in self._pages.keys() - self._viewer_clients.keys():
             del self._pages[gone]
         agents = {agent.id: agent for agent in snapshot.agents}
-        for number in self._turns.next(self._onlookers.keys()):
-            onlooker = self._onlookers[number]
+        for number in self._turns.next(self._viewer_clients.keys()):
+            viewer_client = self._viewer_clients[number]
             if number not in self._pages:
-                self._pages[number] = _Page(onlooker, self._look)
-            agent = agents.get(onlooker.agent)
+                self._pages[number] = _Page(viewer_client, self._look)
+            agent = agents.get(viewer_client.agent)
             if agent is not None:
                 self._give_way()
                 self._pages[number].draw(snapshot, agent, self._lifts[agent.body])
@@ -62,9 +62,9 @@ class Gaze:
 class _Page:
     """One page's."""
 
-    def __init__(self, onlooker: Onlooker, look: StageLook) -> None:
-        scene = onlooker.client.scene
-        self._onlooker = onlooker
+    def __init__(self, viewer_client: ViewerClient, look: StageLook) -> None:
+        scene = viewer_client.client.scene
+        self._viewer_client = viewer_client
         self._rays, self._spots = Rays(scene, look), Spots(scene)
         self._pointers = Pointers(scene)
         self._seen: object = None
@@ -76,10 +76,10 @@ class _Page:
             sense
             for sense in agent.sensor_infos
             if not body.fallen
-            and self._onlooker.lights(sense.key, by_itself=shows_by_itself(sense, agent))
+            and self._viewer_client.lights(sense.key, by_itself=shows_by_itself(sense, agent))
         ]
         keys = [sense.key for sense in lit]
-        with self._onlooker.client.atomic():
+        with self._viewer_client.client.atomic():
             if agent.rays is not self._seen or keys != self._keys:  # else nothing was sensed since
                 self._seen, self._keys = agent.rays, keys
                 self._rays.draw([agent.rays[key] for key in keys if key in agent.rays])

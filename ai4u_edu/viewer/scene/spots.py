@@ -9,8 +9,8 @@ from ai4u_edu.blocks import SpotPicture
 from ai4u_edu.snapshot.theme import SPOT_LIT, SPOT_RADIUS_M, SPOT_UNLIT
 from ai4u_edu.viewer.scene.geometry import cap, circle
 from ai4u_edu.viewer.scene.light import surfaces
-from ai4u_edu.viewer.scene.mesh_drawer import Brush
-from ai4u_edu.viewer.scene.subtree import Root
+from ai4u_edu.viewer.scene.mesh_drawer import MeshDrawer
+from ai4u_edu.viewer.scene.subtree import Subtree
 
 
 class Spots:
@@ -22,7 +22,7 @@ class Spots:
 
     def __init__(self, scene: SceneApi) -> None:
         self._scene = scene
-        self._root = Root(scene, "spots")
+        self._subtree = Subtree(scene, "spots")
         self._colours = surfaces([SPOT_UNLIT, SPOT_LIT])
         self._count = 0
 
@@ -44,9 +44,11 @@ class Spots:
             self._dots.batched_colors = self._colours[lit]
 
     def _make(self, count: int) -> None:
-        with self._root.rebuilt() as root:
+        with self._subtree.rebuild() as parent:
             if count:
                 dot = cap(circle(SPOT_RADIUS_M, corners=16))
-                self._dots = Brush(self._scene, root).batch("dots", dot, count * [SPOT_UNLIT])
+                self._dots = MeshDrawer(self._scene, parent).batch(
+                    "dots", dot, count * [SPOT_UNLIT]
+                )
                 self._dots.batched_scales = np.ones(count, np.float32)
         self._count = count

@@ -6,7 +6,7 @@ from contextlib import contextmanager
 from viser import FrameHandle, SceneApi
 
 
-class Root:
+class Subtree:
     """The node under which a part of the scene hangs.
 
     Args:
@@ -21,7 +21,7 @@ class Root:
         self._frame: FrameHandle | None = None
 
     @contextmanager
-    def rebuilt(self) -> Iterator[str]:
+    def rebuild(self) -> Iterator[str]:
         """Gives the name of a new, empty node; the old one goes once the new one is complete."""
         old, self._turn = self._frame, 1 - self._turn
         new = self._scene.add_frame(f"/{self._name}{self._turn}", show_axes=False)

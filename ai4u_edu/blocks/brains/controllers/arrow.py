@@ -10,7 +10,7 @@ from ai4u_edu.base.parameters import Name, Number
 from ai4u_edu.blocks.agent_view import AgentView
 from ai4u_edu.blocks.brains.command import Answer, Command
 from ai4u_edu.blocks.brains.controllers.controller import Controller
-from ai4u_edu.blocks.brains.controllers.keyboard import together
+from ai4u_edu.blocks.brains.controllers.keyboard import combine
 from ai4u_edu.blocks.brains.controllers.wasd import Amount, Keys
 from ai4u_edu.blocks.percept import Percept
 from ai4u_edu.world import WorldView
@@ -105,8 +105,8 @@ class ArrowController(Controller):
             return Command.RESTART
         forward = _any(keys, self.forward) - _any(keys, self.backward)
         right = _any(keys, self.turn_right) - _any(keys, self.turn_left)
-        ahead = self.speed * together(forward, stick.forward)
-        turn = self.turn_amount * together(right, stick.turn)
+        ahead = self.speed * combine(forward, stick.forward)
+        turn = self.turn_amount * combine(right, stick.turn)
         parts: dict[str, float] = {
             "forward": ahead,
             "strafe": self.speed * (_any(keys, self.right) - _any(keys, self.left)),

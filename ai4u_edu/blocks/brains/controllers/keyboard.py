@@ -90,10 +90,10 @@ class Keyboard:
         self._stick = AT_REST
 
 
-def together(keys: float, stick: float) -> float:
+def combine(keys: float, stick: float) -> float:
     """What keys and a stick say of one direction, from -1 to 1.
 
-    >>> together(1, 0.5), together(-1, 0.25), together(0, 0.25)
+    >>> combine(1, 0.5), combine(-1, 0.25), combine(0, 0.25)
     (1, -0.75, 0.25)
     """
     return max(-1, min(1, keys + stick))

@@ -62,8 +62,8 @@ class SteeringController(Controller):
 
     def on_reset(self, agent: AgentView, view: WorldView) -> None:
         """Draws how it feels in this episode."""
-        self._chance = view.random(f"{agent.id}/controller")
-        self._vigour = 1.0 - self.whim * float(self._chance.random())
+        self._rng = view.random(f"{agent.id}/controller")
+        self._vigour = 1.0 - self.whim * float(self._rng.random())
         self._error = 0.0
         self._backward = 0
         self._waits = self.head_start
@@ -73,9 +73,9 @@ class SteeringController(Controller):
         if self._waits:
             self._waits -= 1
             return {self.actuator_name: (0.0, 0.0, 0.0, 0.0)}
-        if self._chance.random() < NEW_WHIM:
-            self._error = LONGEST_ERROR * self.whim * float(self._chance.uniform(-1, 1))
-        if not self._backward and self._chance.random() < BACKS_OFF * self.whim:
+        if self._rng.random() < NEW_WHIM:
+            self._error = LONGEST_ERROR * self.whim * float(self._rng.uniform(-1, 1))
+        if not self._backward and self._rng.random() < BACKS_OFF * self.whim:
             self._backward = BACKWARD
         if self._backward:
             self._backward -= 1

@@ -8,7 +8,7 @@ from ai4u_edu.base.parameters import quantity
 from ai4u_edu.blocks.agent_view import AgentView
 from ai4u_edu.blocks.brains.command import Answer, Command
 from ai4u_edu.blocks.brains.controllers.controller import Controller
-from ai4u_edu.blocks.brains.controllers.keyboard import together
+from ai4u_edu.blocks.brains.controllers.keyboard import combine
 from ai4u_edu.blocks.percept import Percept
 from ai4u_edu.world import WorldView
 
@@ -71,8 +71,8 @@ class WASDRBMoveController(Controller):
         leap = not keys.isdisjoint(self.jump_forward)
         return {
             self.actuator_name: (
-                together(ahead, stick.forward) * self.speed,
-                together(turn, stick.turn) * self.turn_amount,
+                combine(ahead, stick.forward) * self.speed,
+                combine(turn, stick.turn) * self.turn_amount,
                 jump * self.jump_power,
                 leap * self.jump_power,
             )
