@@ -7,11 +7,10 @@ from typing import Any
 import pytest
 
 import ai4u_edu
-from ai4u_edu.blocks.docs import coming_from_ai4u
 from tests.builders import small_sim
 from tests.components import AI4U, AI4U_SETTINGS
+from tests.names import readme_table
 from tests.playing import played
-from tests.readme_table import between_marks
 
 README = (Path(__file__).parents[1] / "README.md").read_text()
 
@@ -31,12 +30,8 @@ def test_python_blocks_run(capsys: pytest.CaptureFixture[str]) -> None:
     assert "the robot is done: {'touch': 100.0" in told
 
 
-def test_the_table_for_those_who_come_from_ai4u_is_the_codes_own() -> None:
-    assert between_marks(README) == coming_from_ai4u()
-
-
 def test_every_class_of_ai4u_has_a_row_that_says_something() -> None:
-    rows = [line.split(" | ") for line in between_marks(README).splitlines()[2:]]
+    rows = [line.split(" | ") for line in readme_table(README).splitlines()[2:]]
     assert [row[0].strip("|` ") for row in rows] == sorted(AI4U.split(), key=str.lower)
     assert all(len(row[2].split()) > 2 for row in rows)
 

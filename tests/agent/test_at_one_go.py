@@ -26,7 +26,7 @@ from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.world import Drive
 from ai4u_edu.world.native import ticks as _ticks
 from tests.builders import small_sim, small_world
-from tests.check.samples import SAMPLES
+from tests.check.samples import built_in_kinds, sample_of
 from tests.world.one_go import state, tell
 
 needs_compiler = pytest.mark.skipif(_ticks.compiled() is None, reason="nothing is compiled here")
@@ -119,7 +119,7 @@ def at_rest(chance: random.Random) -> tuple[World, Body]:
 @pytest.mark.parametrize(
     "actuator",
     [
-        *(each for each in SAMPLES if isinstance(each, Actuator)),
+        *(sample_of(each).block for each in built_in_kinds() if issubclass(each, Actuator)),
         CBMoveActuator(dead_zone=0.0, move_amount=3.0),
     ],
     ids=lambda each: type(each).__name__,
