@@ -4,7 +4,7 @@
 
 - the ``__init__.py`` of each folder of blocks: a module's ``__all__``, or else its public blocks;
 - ``ai4u_edu/__init__.pyi``: the names of all blocks. The other packages' lines are kept;
-- the README's table of AI4U's names, from the docstrings.
+- the table of AI4U's names in ``docs/from-ai4u.md``, from the docstrings.
 """
 
 import importlib
@@ -21,7 +21,7 @@ import ai4u_edu.blocks
 from ai4u_edu import Block
 
 PACKAGE = Path(ai4u_edu.__file__).parent
-README = Path(__file__).parents[1] / "README.md"
+AI4U_PAGE = Path(__file__).parents[1] / "docs" / "from-ai4u.md"
 FOLDERS = ("actuators", "brains", "brains/controllers", "rewards", "sensors")
 """The folders of ``ai4u_edu/blocks`` whose modules define blocks."""
 
@@ -85,15 +85,15 @@ def block_names() -> Iterator[str]:
     yield from sorted(own)
 
 
-def readme_source(old: str) -> str:
-    """Return the README with its table of AI4U's names."""
+def ai4u_page_source(old: str) -> str:
+    """Return the page for users of AI4U with its table of names."""
     from ai4u_edu.blocks.docs import coming_from_ai4u
 
     return TABLE.sub(lambda match: f"{match[1]}{coming_from_ai4u()}\n<!-- end -->", old)
 
 
-def readme_table(text: str) -> str:
-    """Return the table of AI4U's names as it stands in the README."""
+def table_in(text: str) -> str:
+    """Return the table of AI4U's names as it stands in the page."""
     found = TABLE.search(text)
     return found[2] if found else ""
 
@@ -116,7 +116,7 @@ def derived() -> Iterator[tuple[Path, str]]:
         yield file, folder_source(folder, file.read_text(encoding="utf-8"))
     stub = PACKAGE / "__init__.pyi"
     yield stub, stub_source(stub.read_text(encoding="utf-8"))
-    yield README, readme_source(README.read_text(encoding="utf-8"))
+    yield AI4U_PAGE, ai4u_page_source(AI4U_PAGE.read_text(encoding="utf-8"))
 
 
 def stale() -> list[Path]:

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).parents[1]
-COPIED = ("README.md", "pyproject.toml", "ai4u_edu", "tests")
+COPIED = ("pyproject.toml", "ai4u_edu", "docs", "tests")
 
 SENSOR = '''"""A sensor of the distance to the origin."""
 

@@ -160,7 +160,6 @@ def test_play_loads_the_file_as_well(home: Path, monkeypatch: pytest.MonkeyPatch
 
     served: list[str] = []
     monkeypatch.setattr("ai4u_edu.server.serve", lambda *_args, **_kwargs: served.append("a room"))
-    monkeypatch.setattr("gc.freeze", lambda: None)
     scene, robot = str(home / "robot_scene.yaml"), str(home / "robot.py")
     with pytest.raises(SceneError, match="unknown type of sensor 'Smell'"):
         cli.app(["play", scene, "--no-open"], standalone_mode=False)

@@ -118,6 +118,7 @@ def serve_scene(settings: PlaySettings) -> None:
     from ai4u_edu.editing.autosave import Autosave, unsaved_folder, unsaved_scenes
     from ai4u_edu.editing.unsaved import chosen
     from ai4u_edu.recording import Episode, recorder_into
+    from ai4u_edu.runtime.process_tuning import tuned_process
     from ai4u_edu.runtime.runner import Runner
     from ai4u_edu.scenes import Scene
     from ai4u_edu.server import hosts_for, room_app, serve, shut_side_door
@@ -159,6 +160,7 @@ def serve_scene(settings: PlaySettings) -> None:
     runner.start()
     viewer.start()
     with ExitStack() as ending:  # the last one first: the runner may yet change what is saved
+        ending.enter_context(tuned_process())
         ending.callback(viewer.stop)
         if autosave is not None:
             ending.callback(autosave.stop)

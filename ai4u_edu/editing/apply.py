@@ -5,7 +5,7 @@ from contextlib import contextmanager
 from typing import Any, cast
 
 from ai4u_edu.agent import BasicAgent
-from ai4u_edu.agent.refit import Blocks, look_anew, refit
+from ai4u_edu.agent.rebind import Blocks, rebind, sense_again
 from ai4u_edu.base.errors import AI4UError
 from ai4u_edu.blocks import Actuator, Block, Brain, RemoteBrain, RewardFunc, Sensor
 from ai4u_edu.blocks.brains.network import files_in
@@ -102,7 +102,7 @@ class Live:
         if self._runner.recorder is not None:
             self._runner.recorder.finish()
         for agent in self._sim.agents if look else ():
-            look_anew(agent)
+            sense_again(agent)
 
     # -- how -------------------------------------------------------------------------------------
 
@@ -122,7 +122,7 @@ class Live:
             for agent in sim.agents:
                 _set_own(agent, before.agent(agent.id))
             for agent, had in done:
-                refit(agent, sim.world, had)
+                rebind(agent, sim.world, had)
             raise
         if not moved and _without_brains(before) == _without_brains(state):
             return  # who drives is no part of what is recorded
@@ -165,7 +165,7 @@ class Live:
                 guests = self._with_guest(agent.id, state, blocks.brains)
                 blocks = Blocks(blocks.sensors, blocks.actuators, blocks.rewards, guests)
             if world_changed or blocks_changed:
-                refit(agent, self._sim.world, blocks, brain_goes_on=not blocks_changed)
+                rebind(agent, self._sim.world, blocks, brain_goes_on=not blocks_changed)
             else:
                 _swap(agent, blocks.brains)
         return True

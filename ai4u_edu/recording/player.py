@@ -62,8 +62,8 @@ class Player:
         self._before: list[Brain] = []
         for index, (agent, brain) in enumerate(zip(self.sim.agents, self.brains, strict=True)):
             brain.play(self, index)
-            self._before.append(agent.fitting.brain)
-            agent.fitting.brain = brain
+            self._before.append(agent.bound_blocks.brain)
+            agent.bound_blocks.brain = brain
         self.rewind()
 
     @property
@@ -97,7 +97,7 @@ class Player:
             return
         before = list(self.taken)
         self.sim.tick()
-        if self.sim.held and self.taken == before:
+        if self.sim.waiting_for_brain and self.taken == before:
             self._restart()  # who should have decided before it never will: it went otherwise
 
     def go_to(self, index: int, step: int) -> None:
@@ -123,7 +123,7 @@ class Player:
                 brain that the scene says, and else the one that it had.
         """
         for index, agent in enumerate(self.sim.agents):
-            before = agent.fitting.brain = self._before[index]
+            before = agent.bound_blocks.brain = self._before[index]
             if agent.id in brains:
                 agent.use_brain(brains[agent.id])
             elif self._own:

@@ -179,7 +179,7 @@ class Recorder:
         """All that a person may change by hand; who drives is no part of it."""
         blocks: list[Any] = [everything(self.sim.world)]
         for agent in self.sim.agents:
-            blocks.append(agent.fitting)
+            blocks.append(agent.bound_blocks)
             blocks += [
                 (block, _values(block))
                 for block in (*agent.sensors, *agent.actuators, *agent.rewards)

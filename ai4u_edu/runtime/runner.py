@@ -6,7 +6,6 @@ runner's thread. Whoever wants to look takes the latest snapshot, without a lock
 
 import logging
 import math
-import sys
 import threading
 import time
 import warnings
@@ -36,9 +35,6 @@ logger = logging.getLogger(__name__)
 PATIENCE = 0.25
 """Where agents decide at different times there may be no moment between all decisions; a command
 waits this long (s) for one, and then takes any moment between two ticks."""
-SWITCH_INTERVAL_S = 0.0002
-"""Seconds after which a thread that computes lets another one go on. Python's own 5 ms would make a
-tick late whenever pages are drawn."""
 ANSWER_POLL_S = 0.015
 """While a world waits for scripts that will call, their brains look so often who is late."""
 HOLD_POLL_S = 0.001
@@ -188,7 +184,9 @@ class Runner:
             agent = sim.agents[0] if agent_id is None else sim.agent(agent_id)
             before, is_over = (agent.episode, agent.steps), agent.done
             self._tick()
-            while sim.is_deciding(agent) and not (self.error or sim.held or self._stopping):
+            while sim.is_deciding(agent) and not (
+                self.error or sim.waiting_for_brain or self._stopping
+            ):
                 self._tick()
             if (agent.episode, agent.steps) == before and not (is_over or self.error):
                 why = reason_for_no_decision(agent)
@@ -307,7 +305,6 @@ class Runner:
 
     def start(self) -> None:
         """Begins to tick."""
-        sys.setswitchinterval(min(sys.getswitchinterval(), SWITCH_INTERVAL_S))
         self._thread = threading.Thread(target=self._run, name="runner", daemon=True)
         self._schedule.due = self._clock()
         self._thread.start()
@@ -373,7 +370,7 @@ class Runner:
 
     def _wait_for_answers(self, began: float) -> None:
         """Waits until all links that will call have called, or somebody wants something else."""
-        if self.sim.held:
+        if self.sim.waiting_for_brain:
             to_come = 0
         elif self.is_unpaced() and self._all_keep_waiting():
             to_come = len(self.sim.agents)  # they were told already, and need not be asked
@@ -422,14 +419,14 @@ class Runner:
         def tick() -> None:
             nonlocal ticks
             if leaps:
-                ticks = self.sim.leap() or 1
+                ticks = self.sim.step_decision() or 1
             else:
                 self.sim.tick()
 
         with self._schedule.is_ticking:
             self._attempt(tick)
             ended = self._clock()
-            if not self.sim.held:  # a world that waits for a script is not slow
+            if not self.sim.waiting_for_brain:  # a world that waits for a script is not slow
                 self._schedule.ticked += ticks
                 self._slow.note((ended - began) / ticks, self.sim.world.count_contacts)
             self._show(ended, ended - began)
@@ -443,7 +440,7 @@ class Runner:
             self._publish()
 
     def _keep_time(self) -> None:
-        self._schedule.tick_ended(self._period, held=self.sim.held)
+        self._schedule.tick_ended(self._period, held=self.sim.waiting_for_brain)
         self._monitor.end()
         self._schedule.sleep(self._wake, self._listen)
 
@@ -462,7 +459,12 @@ class Runner:
 
     def _carry_out_commands(self) -> None:
         while (first := self._queue.first) is not None and not self._stopping:
-            standing = self.paused or self.error or self.sim.held or self.sim.between_decisions()
+            standing = (
+                self.paused
+                or self.error
+                or self.sim.waiting_for_brain
+                or self.sim.between_decisions()
+            )
             if not standing and self._clock() - first.asked_at < PATIENCE:
                 return
             command = self._queue.take()

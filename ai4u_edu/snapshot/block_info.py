@@ -10,7 +10,7 @@ import numpy.typing as npt
 from gymnasium import spaces
 
 from ai4u_edu.agent import BasicAgent
-from ai4u_edu.agent.bound_blocks import Fitting
+from ai4u_edu.agent.bound_blocks import BoundBlocks
 from ai4u_edu.blocks import (
     Actuator,
     GridSensor,
@@ -133,19 +133,19 @@ class Pictures(NamedTuple):
     spots: dict[str, SpotPicture]
 
 
-_facts: "WeakKeyDictionary[Fitting, Facts]" = WeakKeyDictionary()
-_pictures: "WeakKeyDictionary[Fitting, tuple[Percept, Pictures]]" = WeakKeyDictionary()
+_facts: "WeakKeyDictionary[BoundBlocks, Facts]" = WeakKeyDictionary()
+_pictures: "WeakKeyDictionary[BoundBlocks, tuple[Percept, Pictures]]" = WeakKeyDictionary()
 
 
 def facts_of(agent: BasicAgent) -> Facts:
     """What is known of an agent's readings and actions; worked out once for its blocks."""
-    fitting = agent.fitting
-    known = _facts.get(fitting)
+    bound = agent.bound_blocks
+    known = _facts.get(bound)
     if known is None:
-        senses = tuple(_sense(sensor) for sensor in fitting.sensors)
-        known = _facts[fitting] = Facts(
+        senses = tuple(_sense(sensor) for sensor in bound.sensors)
+        known = _facts[bound] = Facts(
             senses,
-            tuple(_control(actuator) for actuator in fitting.actuators.values()),
+            tuple(_control(actuator) for actuator in bound.actuators.values()),
             {sense.key: sense.legend for sense in senses if sense.legend is not None},
         )
     return known
@@ -153,10 +153,10 @@ def facts_of(agent: BasicAgent) -> Facts:
 
 def pictures_of(agent: BasicAgent) -> Pictures:
     """What an agent's sensors looked at; worked out once for each percept."""
-    fitting, percept = agent.fitting, agent.percept
-    known = _pictures.get(fitting)
+    bound, percept = agent.bound_blocks, agent.percept
+    known = _pictures.get(bound)
     if known is None or known[0] is not percept:
-        active = [sensor for sensor in fitting.sensors if sensor.is_active]
+        active = [sensor for sensor in bound.sensors if sensor.is_active]
         spots = {sensor.perception_key: sensor.spots() for sensor in active}
         rays = RayPictures(
             {
@@ -166,7 +166,7 @@ def pictures_of(agent: BasicAgent) -> Pictures:
             }
         )
         seen = Pictures(rays, {key: each for key, each in spots.items() if each is not None})
-        known = _pictures[fitting] = percept, seen
+        known = _pictures[bound] = percept, seen
     return known[1]
 
 

@@ -64,7 +64,7 @@ def set_stage(sim: ControlRequestor) -> Stage:
             for region in world.areas.values()
             if isinstance(region.description, AreaDescription)
         ),
-        bodies=tuple(body.drawn for body in world.bodies.values()),
+        bodies=tuple(body.sampled for body in world.bodies.values()),
         agent_of={agent.body_name: agent.id for agent in sim.agents},
         bounds=world.bounds(),
         goal=sim.goal,
@@ -112,7 +112,7 @@ def agent_state(agent: BasicAgent, success: str = "", phase: Phase = NOWHERE) ->
         brain=agent.brain.title(),
         percept=agent.percept,
         action=dict(agent.last_action),
-        clipped=sum(actuator.clipped for actuator in agent.fitting.actuators.values()),
+        clipped=sum(actuator.clipped for actuator in agent.bound_blocks.actuators.values()),
         reward=reward,
         reward_terms=dict(terms),
         episode_reward=ledger.episode_total,
@@ -143,7 +143,7 @@ def _fell(agent: BasicAgent) -> bool:
     low = agent.body.fallen and not agent.body.on_ground  # who was only taken away stood there
     ends = [
         reward
-        for reward in agent.fitting.rewards
+        for reward in agent.bound_blocks.rewards
         if reward.cause_episode_to_end and agent.ledger.terms.get(reward.name)
     ]
     # after another end a body may yet roll over the edge
@@ -158,7 +158,7 @@ def _is_for_falling(reward: RewardFunc, *, low: bool) -> bool:
 
 
 def _needs(agent: BasicAgent) -> Iterator[Need]:
-    for reward in agent.fitting.rewards:
+    for reward in agent.bound_blocks.rewards:
         if isinstance(reward, HomeostaticReward):
             for each in reward.variables:
                 bounds = each.range_min, each.range_max

@@ -258,7 +258,7 @@ def _learn(
 def levels_of(agent: BasicAgent) -> list[int]:
     """Of each number in a flat observation: how many whole numbers it can be, from 0 on, if few."""
     levels: list[int] = []
-    for sensor in agent.fitting.sensors:
+    for sensor in agent.bound_blocks.sensors:
         if sensor.is_input:
             space = sensor.observation_space()
             size = int(np.prod(space.shape or (1,)))

@@ -54,7 +54,7 @@ def rays_of(agent: BasicAgent) -> list[Rays]:
     """Those of an agent's sensors that tell both what their rays met and how far it is."""
     found: list[Rays] = []
     first = 0
-    for sensor in agent.fitting.sensors:
+    for sensor in agent.bound_blocks.sensors:
         if sensor.is_input:
             if _tells_both(sensor):
                 found.append(Rays(sensor, first))

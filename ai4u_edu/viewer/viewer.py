@@ -6,7 +6,6 @@ import time
 from ai4u_edu.editing import State, Workshop
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.snapshot import Snapshot, Stage
-from ai4u_edu.viewer.backend.gc_control import Housekeeping
 from ai4u_edu.viewer.backend.local_server import LocalServer
 from ai4u_edu.viewer.backend.log_once import Complaints
 from ai4u_edu.viewer.backend.pace import Pace
@@ -138,7 +137,7 @@ class Viewer:
             self.server.gui.set_panel_label(state.title)
 
     def _run(self) -> None:
-        seen, housekeeping = self.runner.latest, Housekeeping()
+        seen = self.runner.latest
         while not self._stopping.is_set():
             seen = self.runner.wait(seen, IDLE)
             began, worked = time.monotonic(), time.thread_time()
@@ -152,9 +151,7 @@ class Viewer:
                 late=self.runner.lateness,
                 spent=time.thread_time() - worked,
             )
-            housekeeping.look(self._viewer_clients.keys())
             self._stopping.wait(max((period if self._viewer_clients else IDLE) - spent, 0.001))
-        housekeeping.end()
 
     def _choose(self, client_id: int, body: str) -> None:
         """On one page, looks at the agent with that body."""

@@ -1,13 +1,13 @@
 """A body that lives in a world: what can be asked of it, and how it is moved."""
 
 import math
-from typing import TYPE_CHECKING, Any, NamedTuple, NoReturn
+from typing import TYPE_CHECKING, Any, NoReturn
 
 import pymunk
 
 from ai4u_edu.base.errors import WorldError
 from ai4u_edu.world.descriptions import BodyDescription
-from ai4u_edu.world.grasp import held_by, hold, let_go
+from ai4u_edu.world.grasp import held_by, hold, release
 from ai4u_edu.world.native.chipmunk import QUICK
 
 if TYPE_CHECKING:
@@ -21,19 +21,6 @@ _set_velocity, _set_angular_velocity = QUICK.set_velocity, QUICK.set_angular_vel
 _CENTRE = QUICK.vector()
 
 
-class Drive(NamedTuple):
-    """What a body on the ground is told for a tick, in its own frame."""
-
-    forward: float
-    """m/s; newtons if it is pushed."""
-    left: float
-    """As forward."""
-    turning: float
-    """rad/s, counter-clockwise positive."""
-    pushed: bool = False
-    """Whether a force moves it; else it is given a velocity."""
-
-
 class BodyView:
     """A body as a sensor or a reward sees it: to be asked, not to be moved.
 
@@ -45,7 +32,7 @@ class BodyView:
         self._world = world
         self.description = description
         """What was said of it: by a scene file, or when it was added."""
-        self.drawn = description
+        self.sampled = description
         """What holds in this episode: the description, with what is random in it drawn."""
         self.name = description.name
         self.tags = description.tags
@@ -173,7 +160,7 @@ class Body(BodyView):
 
     def release(self) -> None:
         """Lets go of what this body holds."""
-        let_go(self._world, self)
+        release(self._world, self)
 
     def move_to(
         self, x: float, y: float, *, heading: float | None = None, z: float | None = None

@@ -4,7 +4,6 @@ Only bodies somebody watches (agents' bodies) and bodies off their ground level 
 pile of boxes that nobody asks about costs nothing.
 """
 
-from array import array
 from collections.abc import Callable
 from typing import Any
 
@@ -24,9 +23,7 @@ class Contacts:
 
     def __init__(self) -> None:
         self.tick = 0
-        """The last tick, or the one that is under way; at one go, the last one before."""
-        self.clock = array("q", (0, 0))
-        """How many ticks of one go have begun, and 1 once a handler has failed; see ticks.c."""
+        """The last tick, or the one that is under way."""
         self.error: BaseException | None = None
         self._space: pymunk.Space | None = None
         self._owners: dict[pymunk.Shape, Body] = {}
@@ -38,7 +35,6 @@ class Contacts:
     def attach(self, space: pymunk.Space, owners: dict[pymunk.Shape, Body]) -> None:
         """Starts over, on a space that was built anew."""
         self.tick, self.error = 0, None
-        self.clock[0] = self.clock[1] = 0
         self._space, self._owners = space, owners
         self._touching.clear()
         self._last.clear()
@@ -51,7 +47,6 @@ class Contacts:
         """Raises what a handler has raised since the last time, if any did."""
         if self.error is not None:
             error, self.error = self.error, None
-            self.clock[1] = 0
             raise error
 
     def watch(self, body: Body) -> None:
@@ -89,9 +84,9 @@ class Contacts:
         for other in list(self._passing):
             self._meet_again(other, body)
         for name in list(self._touching):
-            self._end(name, body.name, self._now())
+            self._end(name, body.name, self.tick)
         for name in self.of(body.name):
-            self._end(body.name, name, self._now())
+            self._end(body.name, name, self.tick)
 
     def _compare(self, arbiter: pymunk.Arbiter) -> None:
         a, b = self._pair(arbiter)
@@ -107,12 +102,12 @@ class Contacts:
             else:
                 self._meet_again(one, other)
             if gap > TOUCH:
-                self._end(one.name, other.name, self._now() - 1)
+                self._end(one.name, other.name, self.tick - 1)
 
     def _separate(self, arbiter: pymunk.Arbiter) -> None:
         a, b = self._pair(arbiter)
         # what is taken out of the space was touched until now, else it was until the last tick
-        last = self._now() if arbiter.is_removal else self._now() - 1
+        last = self.tick if arbiter.is_removal else self.tick - 1
         for one, other in ((a, b), (b, a)):
             self._meet_again(one, other)
             self._end(one.name, other.name, last)
@@ -125,9 +120,6 @@ class Contacts:
             if not passing:
                 del self._passing[one]
                 self.classify(one)
-
-    def _now(self) -> int:
-        return self.tick + self.clock[0]
 
     def _pair(self, arbiter: pymunk.Arbiter) -> tuple[Body, Body]:
         a, b = arbiter.shapes
@@ -155,6 +147,5 @@ class Contacts:
                 handle(arbiter)
             except Exception as error:  # whatever it is, World.tick raises it
                 self.error = self.error or error
-                self.clock[1] = 1
 
         return guarded

@@ -18,14 +18,6 @@ class Ground:
     def __init__(self, floors: Iterable[tuple[float, Region]] = ()) -> None:
         self.floors = sorted(floors, key=lambda pair: -pair[0])
 
-    def level(self, z: float) -> list[Region]:
-        """The floors of exactly this height: who is so high, and above one of them, stands there.
-
-        None if there is one a hair higher, which :meth:`at` would take for the same.
-        """
-        near = [(top, region) for top, region in self.floors if z <= top <= z + SAME]
-        return [region for _, region in near] if all(top == z for top, _ in near) else []
-
     def at(self, x: float, y: float, below: float = float("inf")) -> float | None:
         """The highest floor at a place that is not above ``below``; None over the void."""
         if not self.floors:

@@ -32,18 +32,13 @@ class Height:
         self._ground = Ground()
         self.ground = self._ground.at
         """The highest floor at a place; see :meth:`Ground.at`."""
-        self.level = self._ground.level
-        """The floors of a height; see :meth:`Ground.level`."""
         self.movers: dict[Body, None] = {}
-        self.changes = 0
-        """Grows whenever a mover comes or goes, takes off or lands."""
 
     def rebuild(self) -> None:
         """Starts over with the world's floors as they are now."""
         self._ground = Ground((floor.top, region) for floor, region in self._world._floor_regions())
-        self.ground, self.level = self._ground.at, self._ground.level
+        self.ground = self._ground.at
         self.movers.clear()
-        self.changes += 1
 
     def settle(self, body: "Body", z: float | None) -> None:
         """Gives a body that was put somewhere its height: on the floor there, or the given one."""
@@ -58,7 +53,6 @@ class Height:
     def forget(self, body: "Body") -> None:
         """Looks no more at a body that is not in the physics."""
         self.movers.pop(body, None)
-        self.changes += 1
 
     def launch(self, body: "Body", speed: float) -> None:
         """Gives a body an upward speed; on the ground one that points down does nothing."""
@@ -82,7 +76,6 @@ class Height:
     def _mark(self, body: "Body", on_ground: bool) -> None:
         """Puts a body on the ground or into the air, and among those to look at if need be."""
         body.on_ground = on_ground
-        self.changes += 1
         moved_by = pymunk.Body.update_velocity if on_ground else _fly
         if body._pm.velocity_func is not moved_by:
             body._pm.velocity_func = moved_by

@@ -49,11 +49,6 @@ class Region:
         inside: npt.NDArray[np.bool_] = self._contains(*self._to_local(x, y))
         return inside
 
-    @property
-    def upright_box(self) -> tuple[float, float, float, float] | None:
-        """(x, y, width, depth) if it is a box that is not turned."""
-        return None if self._box is None else (self.x, self.y, *self._box)
-
     def outline(self) -> list[tuple[float, float]]:
         """The rim in world coordinates, counter-clockwise."""
         return self.placed(self.description.shape.outline())

@@ -111,10 +111,10 @@ agents:
 """
     scene = Scene.loads(text)
     (agent,) = scene.build().agents
-    assert list(agent.fitting.actuators) == ["defaultAction"]
-    assert set(agent.fitting.layout.slots) == {"__initial_input__", "truncated", "done"}
+    assert list(agent.bound_blocks.actuators) == ["defaultAction"]
+    assert set(agent.bound_blocks.layout.slots) == {"__initial_input__", "truncated", "done"}
     again = Scene(scene_of(scene.build()))  # as it is recorded
-    assert list(again.build().agents[0].fitting.actuators) == ["defaultAction"]
+    assert list(again.build().agents[0].bound_blocks.actuators) == ["defaultAction"]
     fields = scene_schema()["$defs"]["BasicAgent"]["properties"]
     assert {"array_input_size", "action_size", "action_is_continuous"} <= set(fields)
 

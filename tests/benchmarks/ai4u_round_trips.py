@@ -32,6 +32,7 @@ from ai4u_edu import (
 )
 from ai4u_edu.blocks.brains.links.ai4u_codec import AI4UCodec
 from ai4u_edu.blocks.brains.links.link import Situation, offer_of
+from ai4u_edu.runtime.process_tuning import tuned_process
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.wire.ai4u_dialogue import Dialogue, Phase
 from ai4u_edu.world import BodyView, WorldView
@@ -101,7 +102,8 @@ def with_a_world(sim: ControlRequestor, steps: int) -> float:
     sim.agents[0].use_brain(RemoteBrain(port=port))
     runner = Runner(sim, seed=1, time_scale=math.inf)
     runner.start()
-    found = run_script("clocked.py", port, steps)
+    with tuned_process():
+        found = run_script("clocked.py", port, steps)
     runner.stop()
     return float(found)
 

@@ -34,6 +34,7 @@ from ai4u_edu import (
     TouchRewardFunc,
     World,
 )
+from ai4u_edu.runtime.process_tuning import tuned_process
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.snapshot import Snapshot
 from ai4u_edu.viewer import Viewer
@@ -94,8 +95,9 @@ def serve(there: Connection) -> None:
     runner.start()
     viewer.start()
     there.send(viewer.port)
-    while there.recv() != "enough":
-        there.send(tuple(drawn))
+    with tuned_process():
+        while there.recv() != "enough":
+            there.send(tuple(drawn))
     viewer.stop()
     runner.stop()
 

@@ -45,6 +45,7 @@ def serve_world(agents: int, ready: Connection) -> None:
         Sensor,
         World,
     )
+    from ai4u_edu.runtime.process_tuning import tuned_process
     from ai4u_edu.runtime.runner import Runner
     from ai4u_edu.server import Rules, ServerThread, room_app
 
@@ -73,7 +74,8 @@ def serve_world(agents: int, ready: Connection) -> None:
     runner = Runner(ControlRequestor(world, crew), seed=1, time_scale=math.inf)
     runner.start()
     rules = Rules(lockstep=True)
-    with ServerThread(room_app(runner, viser_port=9, title="benchmark", rules=rules)) as server:
+    app = room_app(runner, viser_port=9, title="benchmark", rules=rules)
+    with tuned_process(), ServerThread(app) as server:
         ready.send(server.url)
         ready.recv()
 

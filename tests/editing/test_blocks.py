@@ -40,7 +40,7 @@ def test_a_sensor_is_added_without_a_reset(shop: Shop) -> None:
 
 def test_bad_values_are_told_field_by_field_and_nothing_changes(shop: Shop) -> None:
     shop.tick(4)
-    fitting, text, version = shop.agent.fitting, shop.workshop.text(), shop.workshop.version
+    fitting, text, version = shop.agent.bound_blocks, shop.workshop.text(), shop.workshop.version
     values = {"number_of_rays": 0, "vision_max_distance": -1}
     with pytest.raises(ChangeError) as told:
         shop.done(shop.workshop.add_block("0", "sensors", RAYS | values))
@@ -60,7 +60,7 @@ def test_bad_values_are_told_field_by_field_and_nothing_changes(shop: Shop) -> N
     (problem,) = told.value.problems
     assert problem.path == ("target",)
     assert problem.text.endswith("no body is named 'bxo'; did you mean 'box'?")
-    assert (shop.agent.fitting, shop.workshop.text()) == (fitting, text)
+    assert (shop.agent.bound_blocks, shop.workshop.text()) == (fitting, text)
     assert (shop.workshop.version, shop.workshop.can_undo) == (version, "")
 
 

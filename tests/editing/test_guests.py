@@ -80,7 +80,7 @@ def test_a_body_that_does_not_fit_the_brain_is_not_given_to_it(shop: Shop) -> No
     with pytest.raises(AI4UError, match="where is my move"):
         shop.done(shop.workshop.change_block("0", ("actuators", 0), {"action_name": "go"}))
     assert [brain.enabled for brain in shop.agent.brains] == [False, True]
-    assert list(shop.agent.fitting.actuators) == ["move"]
+    assert list(shop.agent.bound_blocks.actuators) == ["move"]
     shop.tick(2)
     shop.done(shop.workshop.undo())
     shop.tick(2)
@@ -115,10 +115,10 @@ def test_a_change_that_fails_leaves_the_driver_in_its_place(shop: Shop) -> None:
     line = Line()
     brain = RemoteBrain.over(line, mode="realtime")
     shop.agent.use_brain(brain)
-    fitting = shop.agent.fitting
+    fitting = shop.agent.bound_blocks
     with pytest.raises(Exception, match="perception_key"):
         shop.done(
             shop.workshop.add_block("0", "sensors", {"type": "BearingSensor", "target": "wall"})
         )
-    assert (shop.agent.brain, shop.agent.fitting, line.closed) == (brain, fitting, [])
+    assert (shop.agent.brain, shop.agent.bound_blocks, line.closed) == (brain, fitting, [])
     shop.tick(2)

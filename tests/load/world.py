@@ -19,6 +19,7 @@ from ai4u_edu import (
     TouchRewardFunc,
     World,
 )
+from ai4u_edu.runtime.process_tuning import tuned_process
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.server import ServerThread, room_app, shut_side_door
 from ai4u_edu.server.scripts import Rules
@@ -101,7 +102,7 @@ def serve(agents: int, ends: Connection, *, in_turn: bool = True) -> None:
     app = room_app(runner, viser_port=viewer.port, title="Load", rules=Rules(grace=1.0))
     runner.start()
     viewer.start()
-    with ServerThread(app) as server:
+    with tuned_process(), ServerThread(app) as server:
         ends.send(server.url)
         processor = time.process_time()
         while ends.recv() != "end":

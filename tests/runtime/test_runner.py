@@ -690,7 +690,7 @@ def test_a_world_that_stands_still_or_waits_for_a_script_is_not_stalled(
         "ai4u_edu.runtime.stall_monitor.STALL_S", -1.0
     )  # whatever is under way is one
     runner.start()
-    until(lambda: sim.held and runner.stall is None)
+    until(lambda: sim.waiting_for_brain and runner.stall is None)
     runner.pause().result(5)
     until(lambda: runner.stall is None)
     runner.stop()

@@ -43,7 +43,7 @@ def compiler(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Callable[[str],
 def test_it_is_made_once(kept: Path, compiler: Callable[[str], None]) -> None:
     made = library()
     assert made is not None
-    assert all(hasattr(made, name) for name in ("cast_fan", "look", "run"))
+    assert all(hasattr(made, name) for name in ("cast_fan", "look"))
     (path,) = kept.iterdir()
     compiler("exit 1")
     assert library() is not None, "the one that is there"

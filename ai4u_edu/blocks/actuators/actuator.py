@@ -8,8 +8,8 @@ import numpy as np
 from gymnasium import spaces
 
 from ai4u_edu.base.errors import ActionError, BlockError, shown
-from ai4u_edu.blocks.block import Block, default_name, levels_up
-from ai4u_edu.world import Body, Drive, WorldView
+from ai4u_edu.blocks.block import Block, default_name
+from ai4u_edu.world import Body, WorldView
 
 
 class Actuator(Block):
@@ -48,12 +48,6 @@ class Actuator(Block):
     def __post_init__(self) -> None:
         self.action_name = self.action_name or default_name(type(self), "Actuator")
 
-    def __init_subclass__(cls, **options: Any) -> None:
-        super().__init_subclass__(**options)
-        says, *does = (levels_up(cls, name) for name in ("steady_drive", "act", "drive"))
-        if min(does) < says:  # what it inherits was said of another act
-            cls.steady_drive = Actuator.steady_drive  # type: ignore[method-assign]  # see above
-
     def space(self) -> spaces.Space[Any]:
         """A Box of shape (n,), or a Discrete space: what an action of this actuator may be."""
         raise BlockError(
@@ -72,17 +66,6 @@ class Actuator(Block):
             action: n finite numbers within :meth:`space`.
         """
         raise BlockError(f"{type(self).__name__} has no act(self, body, action)")
-
-    def steady_drive(self, action: tuple[float, ...]) -> Drive | None:
-        """What :meth:`act` tells a body on the ground, if that is all, and at every tick the same.
-
-        Optional: where it is known, the ticks of a decision may pass at one go, without a call of
-        act for each. A class with another act does not inherit it.
-
-        Returns:
-            None if act may do anything else with this action.
-        """
-        return None
 
     def on_tick(self, body: Body, view: WorldView) -> None:
         """Called after every tick of a decision, acted or not; only where a subclass fills it.

@@ -8,7 +8,7 @@ from gymnasium.spaces import Box
 from ai4u_edu.base.parameters import quantity
 from ai4u_edu.blocks.actuators.ground_motion import SMALLEST, GroundMotion, apply_dead_zone
 from ai4u_edu.blocks.agent_view import AgentView
-from ai4u_edu.world import Body, Drive, WorldView
+from ai4u_edu.world import Body, WorldView
 
 Deviation = Annotated[float, quantity("1", ge=0, le=10)]
 
@@ -68,13 +68,6 @@ class CBMoveActuator(GroundMotion):
             max(0.0, self._missed(leap, self.jump_noise)),
             self._missed(strafe, self.move_noise),
         )
-
-    def steady_drive(self, action: tuple[float, ...]) -> Drive | None:
-        """All that it does, unless it jumps or errs."""
-        if self.move_noise or self.turn_noise:
-            return None
-        forward, strafe, turn, jump, leap = apply_dead_zone(action, self.dead_zone)
-        return self.without_jump(forward, turn, jump, max(0.0, leap), strafe)
 
     def _missed(self, number: float, deviation: float) -> float:
         if not (number and deviation):

@@ -8,7 +8,7 @@ from gymnasium.spaces import Box
 from ai4u_edu.base.parameters import PositiveMetres, quantity
 from ai4u_edu.blocks.actuators.actuator import Actuator
 from ai4u_edu.blocks.actuators.ground_motion import Speeds, apply_dead_zone, set_body_velocity
-from ai4u_edu.world import Body, Drive
+from ai4u_edu.world import Body
 
 
 class DifferentialDriveActuator(Actuator):
@@ -45,10 +45,6 @@ class DifferentialDriveActuator(Actuator):
         """Sets the body's speeds, if it stands on the ground."""
         if body.on_ground:
             set_body_velocity(body, *self._speeds(action))
-
-    def steady_drive(self, action: tuple[float, ...]) -> Drive:
-        """All that it does."""
-        return Drive(*self._speeds(action))
 
     def _speeds(self, action: tuple[float, ...]) -> Speeds:
         left, right = (wheel * self.max_wheel_speed for wheel in apply_dead_zone(action))

@@ -11,7 +11,7 @@ from ai4u_edu.base.parameters import quantity
 from ai4u_edu.blocks.actuators.choice import ChoiceActuator
 from ai4u_edu.blocks.actuators.ground_motion import GroundMotion
 from ai4u_edu.blocks.agent_view import AgentView
-from ai4u_edu.world import Body, Drive, WorldView
+from ai4u_edu.world import Body, WorldView
 
 Signed = Annotated[float, quantity("1", ge=-1, le=1)]
 Share = Annotated[float, quantity("1", ge=0, le=1)]
@@ -68,9 +68,3 @@ class DiscreteActuator(GroundMotion, ChoiceActuator):
             self.handler(body, index)
         elif body.on_ground:
             self.drive(body, *self.table[index])
-
-    def steady_drive(self, action: tuple[float, ...]) -> Drive | None:
-        """What the table says, unless that is a jump."""
-        if self.handler is not None:
-            return None
-        return self.without_jump(*self.table[int(action[0])])

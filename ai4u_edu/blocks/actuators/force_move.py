@@ -6,7 +6,7 @@ from gymnasium.spaces import Box
 
 from ai4u_edu.base.parameters import quantity
 from ai4u_edu.blocks.actuators.actuator import Actuator
-from ai4u_edu.world import Body, Drive
+from ai4u_edu.world import Body
 
 
 class ForceMoveActuator(Actuator):
@@ -44,8 +44,3 @@ class ForceMoveActuator(Actuator):
             forward, turn = action
             body.apply_force(forward * self.force, 0.0)
             body.set_angular_velocity(-turn * self.turn_amount)
-
-    def steady_drive(self, action: tuple[float, ...]) -> Drive:
-        """All that it does."""
-        forward, turn = action
-        return Drive(forward * self.force, 0.0, -turn * self.turn_amount, pushed=True)

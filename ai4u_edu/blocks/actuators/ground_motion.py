@@ -5,7 +5,7 @@ from typing import Annotated
 
 from ai4u_edu.base.parameters import quantity
 from ai4u_edu.blocks.actuators.actuator import Actuator
-from ai4u_edu.world import Body, Drive
+from ai4u_edu.world import Body
 
 Speeds = tuple[float, float, float]
 """(forward, left, turning) in a body's own frame: m/s, m/s, rad/s (counter-clockwise positive)."""
@@ -55,12 +55,6 @@ class GroundMotion(Actuator):
         set_body_velocity(body, *self._speeds(forward, turn, leap, strafe))
         if jump or leap:
             body.jump((jump + leap) * self.jump_power)
-
-    def without_jump(
-        self, forward: float, turn: float, jump: float, leap: float, strafe: float = 0.0
-    ) -> Drive | None:
-        """What :meth:`drive` tells the body; None if it jumps."""
-        return None if jump or leap else Drive(*self._speeds(forward, turn, leap, strafe))
 
     def _speeds(self, forward: float, turn: float, leap: float, strafe: float) -> Speeds:
         ahead = forward * self.move_amount + leap * self.jump_forward_power

@@ -4,7 +4,7 @@ import numpy as np
 from gymnasium.spaces import Box
 
 from ai4u_edu.blocks.actuators.ground_motion import GroundMotion, apply_dead_zone
-from ai4u_edu.world import Body, Drive
+from ai4u_edu.world import Body
 
 
 class RBMoveActuator(GroundMotion):
@@ -39,7 +39,3 @@ class RBMoveActuator(GroundMotion):
         """Sets the body's speeds, if it stands on the ground."""
         if body.on_ground:
             self.drive(body, *apply_dead_zone(action))
-
-    def steady_drive(self, action: tuple[float, ...]) -> Drive | None:
-        """All that it does, unless it jumps."""
-        return self.without_jump(*apply_dead_zone(action))

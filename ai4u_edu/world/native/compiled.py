@@ -19,16 +19,13 @@ import time
 from functools import cache
 from pathlib import Path
 
-SOURCES = tuple(Path(__file__).with_name(name) for name in ("rays.c", "ticks.c"))
+SOURCE = Path(__file__).with_name("rays.c")
 SWITCH = "AI4U_COMPILED"
-# without contraction: a * b + c is rounded twice, as in Python; and cos and sin are called one by
-# one, as Python does: what some compilers make of the two is a third function
+# without contraction a * b + c is rounded twice, as in Python
 FLAGS = (
     "-std=c11",
     "-O2",
     "-ffp-contract=off",
-    "-fno-builtin-cos",
-    "-fno-builtin-sin",
     "-shared",
     "-fPIC",
 )
@@ -64,8 +61,7 @@ def _load(kept: Path) -> ctypes.CDLL | None:
     Raises:
         OSError: there is no room for it, or it can't be loaded.
     """
-    sources = [source.read_bytes() for source in SOURCES]
-    key = repr((sources, FLAGS, sysconfig.get_platform(), sys.maxsize)).encode()
+    key = repr((SOURCE.read_bytes(), FLAGS, sysconfig.get_platform(), sys.maxsize)).encode()
     path = kept / f"compiled-{hashlib.sha256(key).hexdigest()[:20]}.so"
     kept.mkdir(mode=0o700, parents=True, exist_ok=True)
     if not _ours(kept):
@@ -90,7 +86,7 @@ def _make(path: Path) -> bool:
     _remove_leftovers(path.parent)
     with tempfile.TemporaryDirectory(prefix=PREFIX, dir=path.parent) as here:
         made = Path(here) / path.name
-        if not _run(compiler, *FLAGS, "-o", str(made), *map(str, SOURCES), "-lm"):
+        if not _run(compiler, *FLAGS, "-o", str(made), str(SOURCE), "-lm"):
             return False
         made.replace(path)
     return True

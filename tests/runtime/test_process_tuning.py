@@ -1,0 +1,47 @@
+"""Process-wide settings: only a command that owns its process changes them."""
+
+import gc
+import sys
+
+import pytest
+
+from ai4u_edu.cli import main as cli
+from ai4u_edu.runtime.process_tuning import tuned_process
+from ai4u_edu.runtime.runner import Runner
+from ai4u_edu.viewer import Viewer
+from tests.builders import small_sim
+
+
+def settings() -> tuple[object, ...]:
+    return sys.getswitchinterval(), gc.get_threshold(), gc.get_freeze_count()
+
+
+def test_a_tuned_process_is_as_it_was_afterwards() -> None:
+    before = settings()
+    with tuned_process():
+        assert sys.getswitchinterval() < 0.001
+        assert gc.get_threshold()[0] > 10_000
+        assert gc.get_freeze_count() > 10_000
+    assert settings() == before
+
+
+def test_a_runner_and_a_viewer_change_nothing_of_the_process() -> None:
+    before = settings()
+    runner = Runner(small_sim(), seed=1)
+    viewer = Viewer(runner)
+    runner.start()
+    viewer.start()
+    try:
+        assert runner.submit(settings).result(5) == before
+    finally:
+        viewer.stop()
+        runner.stop()
+
+
+def test_play_tunes_its_process_while_it_serves(monkeypatch: pytest.MonkeyPatch) -> None:
+    before, during = settings(), []
+    monkeypatch.setattr("ai4u_edu.server.serve", lambda *_, **__: during.append(settings()))
+    cli.app(["play", "--no-open", "--no-autosave"], standalone_mode=False)
+    (seen,) = during
+    assert all(each != other for each, other in zip(seen, before, strict=True))
+    assert settings() == before

@@ -1,0 +1,120 @@
+"""Programs in the docs run, links and named files are there, and tables are the code's own."""
+
+import re
+from contextlib import ExitStack
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+import ai4u_edu
+from tests.builders import small_sim
+from tests.components import AI4U, AI4U_SETTINGS
+from tests.names import AI4U_PAGE, table_in
+from tests.playing import played
+
+ROOT = Path(__file__).parents[1]
+PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
+FROM_AI4U = AI4U_PAGE.read_text(encoding="utf-8")
+PROGRAMS = {
+    "python.md": ["'touch': 1.0"],
+    "training.md": ["(126,) {'touch': 0.0", "['blue_striker', 'blue_keeper', 'orange_striker'"],
+    "remote.md": ["the robot is done: {'touch': 100.0"],
+}
+"""The pages with Python programs, and what each page's programs print."""
+
+
+def programs(page: Path) -> list[str]:
+    return re.findall(r"```python\n(.*?)```", page.read_text(encoding="utf-8"), re.DOTALL)
+
+
+@pytest.mark.parametrize("name", PROGRAMS)
+def test_programs_run(name: str, capsys: pytest.CaptureFixture[str]) -> None:
+    names: dict[str, Any] = {}
+    with ExitStack() as stack:
+        for block in programs(ROOT / "docs" / name):
+            if "http://127.0.0.1:8080" in block:
+                game = stack.enter_context(played("box_chase", "--time-scale", "10"))
+                block = block.replace("http://127.0.0.1:8080", game.url)
+            exec(block, names)  # noqa: S102 - our own
+    told = capsys.readouterr().out
+    for text in PROGRAMS[name]:
+        assert text in told
+    if "DistanceTo" in names:
+        assert names["DistanceTo"](target="box").reach == 20.0
+
+
+def test_no_other_page_has_a_program_that_is_not_run() -> None:
+    assert {page.name for page in PAGES if programs(page)} == set(PROGRAMS)
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: str(page.relative_to(ROOT)))
+def test_links_lead_to_files_that_are_there(page: Path) -> None:
+    text = page.read_text(encoding="utf-8")
+    links = re.findall(r"\]\(([^)#\s]+)(?:#[^)]*)?\)", text)
+    missing = [
+        link for link in links if "://" not in link and not (page.parent / link).resolve().exists()
+    ]
+    assert missing == []
+
+
+PLACES = re.compile(r"`((?:ai4u_edu|tests|lessons|web)/[\w./]*)(?:::(\w+))?`")
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: str(page.relative_to(ROOT)))
+def test_files_and_names_in_them_are_there(page: Path) -> None:
+    """``path`` or ``path::NAME`` in backticks; NAME stands for a file of the reader's own."""
+    missing = []
+    for path, name in PLACES.findall(page.read_text(encoding="utf-8")):
+        if "NAME" in path or "NN" in path:
+            continue
+        file = ROOT / path
+        if not file.exists() or (name and not defines(file, name)):
+            missing.append(f"{path}::{name}")
+    assert missing == []
+
+
+def defines(file: Path, name: str) -> bool:
+    pattern = rf"^(class|def|async def) {name}\b|^{name}\b.*="
+    return re.search(pattern, file.read_text(encoding="utf-8"), re.MULTILINE) is not None
+
+
+def test_every_class_of_ai4u_has_a_row_that_says_something() -> None:
+    rows = [line.split(" | ") for line in table_in(FROM_AI4U).splitlines()[2:]]
+    assert [row[0].strip("|` ") for row in rows] == sorted(AI4U.split(), key=str.lower)
+    assert all(len(row[2].split()) > 2 for row in rows)
+
+
+def test_every_setting_of_ai4u_has_a_row() -> None:
+    named = {name for theirs, _ in settings() for name in re.findall(r"`([^`]+)`", theirs)}
+    assert {each.replace("_FPS", " FPS") for each in AI4U_SETTINGS.split()} - named == set()
+
+
+def test_what_the_rows_name_is_here() -> None:
+    named = [name for _, here in settings() for name in re.findall(r"`([\w.]+)`", here)]
+    assert len(named) > 70
+    strange = [name for name in named if not is_known(name)]
+    assert strange == []
+
+
+def settings() -> list[tuple[str, str]]:
+    """The table of methods and settings: AI4U's names, and what stands for them."""
+    table = FROM_AI4U.split("## Methods and settings")[1]
+    return re.findall(r"^\| (`.*?) \| (.*?) \|$", table, re.MULTILINE)
+
+
+def is_known(name: str) -> bool:
+    """Whether there is such a class, attribute, parameter, event or method."""
+    owner, _, member = name.rpartition(".")
+    if owner == "BasicAgent":
+        return hasattr(small_sim().agents[0], member)
+    if owner:
+        cls = getattr(ai4u_edu, owner)
+        return hasattr(cls, member) or (owner != "Command" and member in cls.parameters())
+    return name in {*dir(ai4u_edu), *ai4u_edu.EVENTS, *WORDS}
+
+
+WORDS = {"Box", "Discrete", "handler", "default_time_scale"} | {
+    f"__{each}__" for each in ("restart", "pause", "resume", "stop")
+}
+"""What stands in the rows and is not a name of the package."""
