@@ -144,8 +144,8 @@ def _names(piece: ast.stmt) -> Iterator[str]:
 
 
 def _is_put_off(piece: ast.stmt) -> bool:
-    """Whether it marks tests to be left out, or is such a test: skip, skipif, xfail, soak."""
-    return not {"skip", "skipif", "xfail", "soak"}.isdisjoint(
+    """Whether it marks tests to be left out, or is such a test: skip, skipif, xfail, nightly."""
+    return not {"skip", "skipif", "xfail", "nightly"}.isdisjoint(
         node.attr for node in ast.walk(piece) if isinstance(node, ast.Attribute)
     )
 

@@ -10,13 +10,13 @@ import pytest
 import ai4u_edu
 from ai4u_edu import Block
 from tests.components import AI4U, MISSING, Component, components, parity_rows, table
-from tests.conftest import LOG
+from tests.conftest import COMPONENT_TABLE
 
 
 def test_the_table_is_in_the_log(record_property: Callable[[str, object], None]) -> None:
     told = table()
     assert len(told.splitlines()) > 50
-    record_property(LOG, told)
+    record_property(COMPONENT_TABLE, told)
 
 
 @pytest.mark.parametrize("component", components(), ids=lambda component: component.name)
