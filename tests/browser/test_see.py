@@ -38,7 +38,7 @@ def opened(chromium: Browser, server: Played, width: int = 1280, height: int = 8
     page = chromium.new_page(viewport={"width": width, "height": height})
     page.set_default_timeout(PATIENCE)
     page.goto(server.url)
-    page.locator(".ai4u-cap").first.wait_for()
+    page.locator(".ai4u-keycap").first.wait_for()
     return page
 
 
