@@ -105,7 +105,7 @@ class _Server(uvicorn.Server):
     ) -> None:
         config = ServerConfig(
             app,
-            loop="ai4u_edu.server.eager:new_loop",
+            loop="asyncio",
             http=RequestProtocol,
             ws=FramesProtocol,
             ws_max_size=MAX_MESSAGE_BYTES,
