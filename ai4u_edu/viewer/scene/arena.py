@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 
-from ai4u_edu.snapshot import Stage
+from ai4u_edu.snapshot import StaticScene
 from ai4u_edu.viewer.scene.geometry import Array, rotate
 from ai4u_edu.world import Region, RegionDescription, RingShape
 
@@ -19,31 +19,33 @@ def region_outlines(region: RegionDescription) -> tuple[Array, Array | None]:
     return outline, rotate(np.array(shape.hole()), angle) + region.position
 
 
-def floor_under(stage: Stage, x: float, y: float, below: float = math.inf) -> float | None:
+def floor_under(
+    static_scene: StaticScene, x: float, y: float, below: float = math.inf
+) -> float | None:
     """Return the height of the highest floor at (x, y), at most ``below``; None over the void."""
-    if not stage.floors:
+    if not static_scene.floors:
         return 0.0
     tops = [
         floor.top
-        for floor in stage.floors
+        for floor in static_scene.floors
         if floor.top <= below + 1e-6 and Region(floor).contains(x, y)
     ]
     return max(tops, default=None)
 
 
-def lowest_floor(stage: Stage) -> float:
+def lowest_floor(static_scene: StaticScene) -> float:
     """Return the height of the lowest floor; bodies below it are falling."""
-    return min((floor.top for floor in stage.floors), default=0.0)
+    return min((floor.top for floor in static_scene.floors), default=0.0)
 
 
-def arena_size(stage: Stage) -> float:
+def arena_size(static_scene: StaticScene) -> float:
     """Return the length of the arena's longer side, at least 4 m."""
-    (left, low), (right, high) = stage.bounds
+    (left, low), (right, high) = static_scene.bounds
     return max(right - left, high - low, 4.0)
 
 
-def camera_bounds(stage: Stage) -> tuple[tuple[float, float], tuple[float, float]]:
+def camera_bounds(static_scene: StaticScene) -> tuple[tuple[float, float], tuple[float, float]]:
     """Return the bounds for the camera: the whole arena, with a margin if the ground is endless."""
-    (left, low), (right, high) = stage.bounds
-    margin = 0.0 if stage.floors else max(3.0, 0.2 * arena_size(stage))
+    (left, low), (right, high) = static_scene.bounds
+    margin = 0.0 if static_scene.floors else max(3.0, 0.2 * arena_size(static_scene))
     return (left - margin, low - margin), (right + margin, high + margin)

@@ -7,8 +7,8 @@ import numpy as np
 import numpy.typing as npt
 from viser import BatchedMeshHandle, SceneNodePointerEvent
 
-from ai4u_edu.snapshot import Snapshot, Stage
-from ai4u_edu.snapshot.theme import VOID, Rgb, body_colour, mixed
+from ai4u_edu.snapshot import Snapshot, StaticScene
+from ai4u_edu.snapshot.theme import VOID, Rgb, body_colour, mix_colours
 from ai4u_edu.viewer.backend.local_server import LocalServer
 from ai4u_edu.viewer.backend.reporting import reporting
 from ai4u_edu.viewer.scene.face import face, pupils, rings
@@ -45,25 +45,28 @@ class Bodies:
         self._built_for: object = None
         self._groups: list[_BodyGroup] = []
 
-    def build(self, stage: Stage) -> None:
+    def build(self, static_scene: StaticScene) -> None:
         """Create a batch for each kind of body, if the bodies have changed."""
-        self._layers = Layers.of(stage)
-        wanted = (stage.bodies, stage.agent_of, self._layers)
+        self._layers = Layers.of(static_scene)
+        wanted = (static_scene.bodies, static_scene.agent_of, self._layers)
         if wanted == self._built_for:
             return
         members: defaultdict[object, list[int]] = defaultdict(list)
-        for index, body in enumerate(stage.bodies):
-            role = (body.name in stage.agent_of, "target" in body.tags)
+        for index, body in enumerate(static_scene.bodies):
+            role = (body.name in static_scene.agent_of, "target" in body.tags)
             members[body.shape, body.height, role].append(index)
         with self._subtree.rebuild() as parent:
             self._groups = [
                 _BodyGroup(
-                    MeshDrawer(self._scene, f"{parent}/{number}"), self._layers, stage, indices
+                    MeshDrawer(self._scene, f"{parent}/{number}"),
+                    self._layers,
+                    static_scene,
+                    indices,
                 )
                 for number, indices in enumerate(members.values())
             ]
             for group in self._groups:
-                if group.names[0] in stage.agent_of:
+                if group.names[0] in static_scene.agent_of:
                     group.listen(self._on_agent)
         self._built_for = wanted
 
@@ -78,15 +81,15 @@ class _BodyGroup:
     """Bodies that differ only in colour and pose."""
 
     def __init__(
-        self, drawer: MeshDrawer, layers: Layers, stage: Stage, members: list[int]
+        self, drawer: MeshDrawer, layers: Layers, static_scene: StaticScene, members: list[int]
     ) -> None:
         self._members = np.array(members)
-        bodies = [stage.bodies[index] for index in members]
+        bodies = [static_scene.bodies[index] for index in members]
         self.names = [body.name for body in bodies]
-        is_agent = bodies[0].name in stage.agent_of
+        is_agent = bodies[0].name in static_scene.agent_of
         colours = [body_colour(body, is_agent) for body in bodies]
         self._own = surface_colours(colours)
-        self._deep = surface_colours([mixed(colour, VOID, 0.75) for colour in colours])
+        self._deep = surface_colours([mix_colours(colour, VOID, 0.75) for colour in colours])
         outline, height = bodies[0].shape.outline(), bodies[0].height
         radius, top, count = half_width(outline), height + layers.unit, len(members)
         blur = min(MAX_SHADOW_BLUR_M, radius)

@@ -5,7 +5,7 @@ import math
 import numpy as np
 from viser import SceneApi
 
-from ai4u_edu.snapshot import AgentState, BodyState, Stage
+from ai4u_edu.snapshot import AgentState, BodyState, StaticScene
 from ai4u_edu.viewer.scene.layers import Layers
 
 EYE_FIELD_OF_VIEW_RAD = math.radians(65)
@@ -50,19 +50,21 @@ class Daylight:
             light.remove()
 
 
-def eye_pose(stage: Stage, agent: AgentState, body: BodyState) -> tuple[Position, Position]:
+def eye_pose(
+    static_scene: StaticScene, agent: AgentState, body: BodyState
+) -> tuple[Position, Position]:
     """Return the eye's position and a point about 1 m ahead of it; world frame, metres.
 
     The eye is that of the agent's first ray sensor, else a point near the top of its body.
     """
-    eyes = [sense.eye for sense in agent.senses if sense.eye is not None]
-    forward, left, up = eyes[0] if eyes else _default_eye(stage, body)
+    eyes = [sense.eye for sense in agent.sensor_infos if sense.eye is not None]
+    forward, left, up = eyes[0] if eyes else _default_eye(static_scene, body)
     cos, sin = math.cos(body.heading), math.sin(body.heading)
     x, y = body.x + cos * forward - sin * left, body.y + sin * forward + cos * left
-    z = body.z + Layers.of(stage).body + up  # bodies are drawn that much higher
+    z = body.z + Layers.of(static_scene).body + up  # bodies are drawn that much higher
     return (x, y, z), (x + cos, y + sin, z - DOWNWARD_SLOPE)
 
 
-def _default_eye(stage: Stage, body: BodyState) -> Position:
-    (height,) = (each.height for each in stage.bodies if each.name == body.name)
+def _default_eye(static_scene: StaticScene, body: BodyState) -> Position:
+    (height,) = (each.height for each in static_scene.bodies if each.name == body.name)
     return 0.0, 0.0, 0.8 * height

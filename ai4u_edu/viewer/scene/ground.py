@@ -1,7 +1,7 @@
 """The static ground: the void, floors with their edges and shadows, areas."""
 
-from ai4u_edu.snapshot import Snapshot, Stage
-from ai4u_edu.snapshot.theme import FLOOR, GRID, VOID, Rgb, area_colour, floor_colour, mixed
+from ai4u_edu.snapshot import Snapshot, StaticScene
+from ai4u_edu.snapshot.theme import FLOOR, GRID, VOID, Rgb, area_colour, floor_colour, mix_colours
 from ai4u_edu.viewer.backend.local_server import LocalServer
 from ai4u_edu.viewer.scene.arena import arena_size, floor_under, lowest_floor, region_outlines
 from ai4u_edu.viewer.scene.geometry import (
@@ -45,22 +45,22 @@ class Ground:
         self._subtree = Subtree(server.scene, "ground")
         self._built_for: object = None
 
-    def build(self, stage: Stage) -> None:
+    def build(self, static_scene: StaticScene) -> None:
         """Draw the ground, if it has changed."""
-        wanted = (stage.floors, stage.areas, stage.bounds)
+        wanted = (static_scene.floors, static_scene.areas, static_scene.bounds)
         if wanted == self._built_for:
             return
         with self._subtree.rebuild() as parent:
-            drawer, layers = MeshDrawer(self._scene, parent), Layers.of(stage)
-            if stage.floors:
-                drawer.mesh("void", _rectangle_around(stage, 200), layers.void, VOID)
+            drawer, layers = MeshDrawer(self._scene, parent), Layers.of(static_scene)
+            if static_scene.floors:
+                drawer.mesh("void", _rectangle_around(static_scene, 200), layers.void, VOID)
             else:
-                _endless_floor(drawer, layers, stage)
-            for floor in stage.floors:
-                _floor(drawer, layers, floor, arena_size(stage))
-            for area in stage.areas:
-                top = floor_under(stage, *area.position)
-                _area(drawer, layers, area, lowest_floor(stage) if top is None else top)
+                _endless_floor(drawer, layers, static_scene)
+            for floor in static_scene.floors:
+                _floor(drawer, layers, floor, arena_size(static_scene))
+            for area in static_scene.areas:
+                top = floor_under(static_scene, *area.position)
+                _area(drawer, layers, area, lowest_floor(static_scene) if top is None else top)
             drawer.finish()
         self._built_for = wanted
 
@@ -68,15 +68,17 @@ class Ground:
         """Do nothing: the ground does not move."""
 
 
-def _endless_floor(drawer: MeshDrawer, layers: Layers, stage: Stage) -> None:
-    drawer.mesh("floor", _rectangle_around(stage, 200), 0.0, FLOOR)
-    drawer.line(grid_in(_rectangle_around(stage, 2).vertices[:, :2], None, layers.grid), GRID)
+def _endless_floor(drawer: MeshDrawer, layers: Layers, static_scene: StaticScene) -> None:
+    drawer.mesh("floor", _rectangle_around(static_scene, 200), 0.0, FLOOR)
+    drawer.line(
+        grid_in(_rectangle_around(static_scene, 2).vertices[:, :2], None, layers.grid), GRID
+    )
 
 
 def _floor(drawer: MeshDrawer, layers: Layers, floor: FloorDescription, scale: float) -> None:
     outline, hole = region_outlines(floor)
     name, top, colour = f"floor {floor.name}", floor.top, floor_colour(floor)
-    dark = mixed(colour, VOID, 0.55)
+    dark = mix_colours(colour, VOID, 0.55)
     edge = grow(outline, RIM_WIDTH * scale)
     edge_hole = grow(hole, -RIM_WIDTH * scale) if hole is not None else _hidden_part(outline, scale)
     side = flat_mesh(edge, edge_hole).moved(0, -SIDE_HEIGHT * scale)
@@ -85,7 +87,7 @@ def _floor(drawer: MeshDrawer, layers: Layers, floor: FloorDescription, scale: f
     drawer.mesh(f"{name}/side", side, top + layers.floor_side, dark)
     drawer.mesh(f"{name}/rim", flat_mesh(edge, edge_hole), top + layers.rim, dark)
     drawer.mesh(f"{name}/top", flat_mesh(outline, hole), top, colour)
-    drawer.line(grid_in(outline, hole, top + layers.grid), mixed(colour, VOID, 0.12))
+    drawer.line(grid_in(outline, hole, top + layers.grid), mix_colours(colour, VOID, 0.12))
     if floor.label:
         drawer.label(f"{name}/label", floor.label, (*floor.position, top))
 
@@ -121,9 +123,9 @@ def _area(drawer: MeshDrawer, layers: Layers, area: AreaDescription, top: float)
         drawer.label(f"{name}/label", text, (*area.position, top))
 
 
-def _rectangle_around(stage: Stage, times: float) -> Mesh:
+def _rectangle_around(static_scene: StaticScene, times: float) -> Mesh:
     """Return a rectangle that reaches ``times`` the arena's size beyond it."""
-    (left, low), (right, high) = stage.bounds
-    by = times * arena_size(stage)
+    (left, low), (right, high) = static_scene.bounds
+    by = times * arena_size(static_scene)
     a, b = (left - by, low - by), (right + by, high + by)
     return flat_mesh([b, (a[0], b[1]), a, (b[0], a[1])])

@@ -16,8 +16,8 @@ from viser import (
 )
 
 from ai4u_edu.base.colors import rgb
-from ai4u_edu.editing import Outcome, Workshop
-from ai4u_edu.snapshot import BodyState, Snapshot, Stage
+from ai4u_edu.editing import ChangeResult, SceneEditor
+from ai4u_edu.snapshot import BodyState, Snapshot, StaticScene
 from ai4u_edu.snapshot.theme import Rgb
 from ai4u_edu.viewer.backend.reporting import reporting
 from ai4u_edu.viewer.scene.arena import arena_size
@@ -31,7 +31,7 @@ from ai4u_edu.viewer.viewer_client import ViewerClient
 from ai4u_edu.world import BodyDescription
 
 HANDLE_MARGIN = 0.015
-"""Margin of a handle around its body, as a share of the arena's size: thin walls are hard to hit."""
+"""Margin of a handle around its body, as a share of the arena's size; it helps with thin walls."""
 KNOB_RADIUS, KNOB_DISTANCE = 0.02, 0.05
 """Radius of the rotation knob and its distance from the body, as shares of the arena's size."""
 ROTATION_STEP_DEG = 5.0
@@ -55,7 +55,7 @@ class Drag(NamedTuple):
 class Handles:
     """Invisible boxes over the bodies, to drag them, and a knob to rotate the chosen one.
 
-    The bodies are drawn from snapshots, after the workshop has moved them. At most one move is
+    The bodies are drawn from snapshots, after the editor has moved them. At most one move is
     pending during a drag, so a slow world is not flooded. Escape cancels the drag. If the page
     disconnects or the handle is removed, viser ends the drag, and the body is dropped at its last
     position.
@@ -65,7 +65,7 @@ class Handles:
 
     Args:
         viewer_client: the page.
-        workshop: moves the bodies.
+        editor: moves the bodies.
         on_choose: called with the name of a body that was clicked, or whose drag starts.
         on_drop: called with the future of a dropped body's move.
     """
@@ -73,11 +73,11 @@ class Handles:
     def __init__(
         self,
         viewer_client: ViewerClient,
-        workshop: Workshop,
+        editor: SceneEditor,
         on_choose: Callable[[str], None],
-        on_drop: Callable[["Future[Outcome]"], None],
+        on_drop: Callable[["Future[ChangeResult]"], None],
     ) -> None:
-        self._viewer_client, self._workshop = viewer_client, workshop
+        self._viewer_client, self._editor = viewer_client, editor
         self._on_choose, self._on_drop = on_choose, on_drop
         scene = viewer_client.client.scene
         self._subtree, self._frame_subtree = Subtree(scene, "handles"), Subtree(scene, "chosen")
@@ -108,28 +108,28 @@ class Handles:
             chosen: name of the chosen body, or "".
             on: False removes all handles.
         """
-        stage = snapshot.stage
+        static_scene = snapshot.static_scene
         self._states = {state.name: state for state in snapshot.bodies}
         is_on = on and not snapshot.past and self._viewer_client.view.mode is not Mode.EYES
-        wanted = stage.bodies if is_on else ()
+        wanted = static_scene.bodies if is_on else ()
         body = next((each for each in wanted if each.name == chosen), None)
         is_rotating = self.drag is not None and self.drag.is_rotation
         if wanted != self._bodies or (body != self._marked and is_rotating):
-            self._end_drag_before_rebuild(stage.bodies)
+            self._end_drag_before_rebuild(static_scene.bodies)
         with self._viewer_client.client.atomic():
             if wanted != self._bodies:
                 self._bodies = wanted
-                self._build(stage)
+                self._build(static_scene)
                 self._listen(is_on)
             if body != self._marked:
                 self._marked = body
-                self._build_mark(stage)
-            self._move_handles(stage)
+                self._build_mark(static_scene)
+            self._move_handles(static_scene)
         self._send_drag()
 
     # -- drawing; on the viewer's thread ---------------------------------------------------------
 
-    def _build(self, stage: Stage) -> None:
+    def _build(self, static_scene: StaticScene) -> None:
         self._boxes = None
         with self._subtree.rebuild() as parent:
             if self._bodies:
@@ -139,14 +139,14 @@ class Handles:
                 boxes.on_drag(reporting(self._on_drag))
                 self._boxes = boxes
         extents = [_extent(body) for body in self._bodies]
-        margin = HANDLE_MARGIN * arena_size(stage)
+        margin = HANDLE_MARGIN * arena_size(static_scene)
         self._centres = np.array([each[0] for each in extents]).reshape(-1, 2)
         self._sizes = np.array([(*each[1], 0.0) for each in extents]).reshape(-1, 3) + margin
-        self._lift = Layers.of(stage).body
+        self._lift = Layers.of(static_scene).body
 
-    def _build_mark(self, stage: Stage) -> None:
+    def _build_mark(self, static_scene: StaticScene) -> None:
         self._mark = self.knob = None
-        body, unit = self._marked, arena_size(stage)
+        body, unit = self._marked, arena_size(static_scene)
         with self._frame_subtree.rebuild() as parent:
             if body is None:
                 return
@@ -172,7 +172,7 @@ class Handles:
             knob.on_drag(reporting(self._on_rotate))
             self.knob = knob
 
-    def _move_handles(self, stage: Stage) -> None:
+    def _move_handles(self, static_scene: StaticScene) -> None:
         if self._boxes is not None:
             states = [self._states[body.name] for body in self._bodies]
             wxyzs = np.array([_quaternion(state.heading) for state in states])
@@ -184,7 +184,12 @@ class Handles:
         if self._mark is not None and self._marked is not None:
             state = self._states[self._marked.name]
             self._mark.visible = not state.fallen
-            top = state.z + self._marked.height + self._lift + 2 * HANDLE_MARGIN * arena_size(stage)
+            top = (
+                state.z
+                + self._marked.height
+                + self._lift
+                + 2 * HANDLE_MARGIN * arena_size(static_scene)
+            )
             self._mark.position = (state.x, state.y, top)
             self._mark.wxyz = _quaternion(state.heading)
 
@@ -236,7 +241,7 @@ class Handles:
         with self._lock:
             drag, goal, self.drag = self.drag, self._goal, None
             if drag is not None and goal is not None:
-                self._workshop.put_back(drag.name)
+                self._editor.cancel_drag(drag.name)
 
     def _end_drag_before_rebuild(self, new_bodies: tuple[BodyDescription, ...]) -> None:
         """Drop the dragged body if it still exists unchanged, else cancel the drag."""
@@ -282,14 +287,14 @@ class Handles:
         with self._lock:
             is_idle = self._pending is None or self._pending.done()
             if self.drag is not None and self._goal is not None and is_idle:
-                self._pending = self._workshop.carry(self.drag.name, *self._goal)
+                self._pending = self._editor.drag(self.drag.name, *self._goal)
 
     def _drop(self) -> None:
         with self._lock:
             drag, goal, self.drag = self.drag, self._goal, None
             if drag is None or goal is None:
                 return
-            future = self._workshop.move_body(drag.name, *goal)
+            future = self._editor.move_body(drag.name, *goal)
         self._on_drop(future)
 
 

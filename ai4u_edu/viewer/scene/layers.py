@@ -6,7 +6,7 @@ which gets coarser with the camera's distance and so with the arena's size.
 
 from dataclasses import dataclass
 
-from ai4u_edu.snapshot import Stage
+from ai4u_edu.snapshot import StaticScene
 from ai4u_edu.viewer.scene.arena import arena_size, lowest_floor
 
 
@@ -20,10 +20,10 @@ class Layers:
     """Height of the background plane, below everything else."""
 
     @classmethod
-    def of(cls, stage: Stage) -> "Layers":
-        """Return the layers for a stage."""
-        unit = arena_size(stage) / 2500
-        deepest = min(stage.settings.fall_threshold, lowest_floor(stage))
+    def of(cls, static_scene: StaticScene) -> "Layers":
+        """Return the layers for a static scene."""
+        unit = arena_size(static_scene) / 2500
+        deepest = min(static_scene.settings.fall_threshold, lowest_floor(static_scene))
         return cls(unit, deepest - 5.0 - 20 * unit)
 
     @property

@@ -7,8 +7,8 @@ import numpy as np
 from viser import LineSegmentsHandle, SceneApi
 
 from ai4u_edu.snapshot import BodyState, Snapshot
-from ai4u_edu.snapshot.block_info import Sense, Window
-from ai4u_edu.snapshot.theme import LIT, Rgb
+from ai4u_edu.snapshot.block_info import SensorInfo, Window
+from ai4u_edu.snapshot.theme import SPOT_LIT, Rgb
 from ai4u_edu.viewer.scene.arena import floor_under, lowest_floor, region_outlines
 from ai4u_edu.viewer.scene.geometry import Array, circle, rotate, segments
 from ai4u_edu.viewer.scene.layers import Layers
@@ -17,10 +17,10 @@ from ai4u_edu.viewer.scene.light import line_colours
 RING_RADIUS = 1.25
 """Radius of the ring around a body, as a multiple of the body's reach."""
 LINE_THICKNESS_PX = 3.0
-INK: Rgb = LIT
+INK: Rgb = SPOT_LIT
 
 
-def has_pointer(sense: Sense) -> bool:
+def has_pointer(sense: SensorInfo) -> bool:
     """Return True if a sensor refers to bodies, areas or a window of the world."""
     return bool(sense.targets or sense.groups or sense.window)
 
@@ -36,7 +36,7 @@ class Pointers:
         self._scene = scene
         self._lines: LineSegmentsHandle | None = None
 
-    def draw(self, snapshot: Snapshot, body: BodyState, senses: Iterable[Sense]) -> None:
+    def draw(self, snapshot: Snapshot, body: BodyState, senses: Iterable[SensorInfo]) -> None:
         """Draw the targets of these sensors, and remove all other marks.
 
         Args:
@@ -61,23 +61,23 @@ class Pointers:
         self._lines.points, self._lines.visible = points, True
 
 
-def pointer(snapshot: Snapshot, body: BodyState, sense: Sense) -> list[Array]:
+def pointer(snapshot: Snapshot, body: BodyState, sense: SensorInfo) -> list[Array]:
     """Return a sensor's marks as arrays of line segments (n, 2, 3); world frame, metres."""
-    stage = snapshot.stage
-    z = body.z + 2 * Layers.of(stage).body
+    static_scene = snapshot.static_scene
+    z = body.z + 2 * Layers.of(static_scene).body
     bodies = {each.name: each for each in snapshot.bodies}
     marks = []
-    for described in stage.bodies:
+    for described in static_scene.bodies:
         state = bodies[described.name]
         is_target = described.name in sense.targets or set(described.tags) & set(sense.groups)
         if is_target and not state.fallen and state.name != body.name:
             reach = described.shape.reach
             ring = segments(circle(RING_RADIUS * reach, state.x, state.y), state.z + z - body.z)
             marks += [ring, _line(body, state.x, state.y, z, short_by=RING_RADIUS * reach)]
-    for area in stage.areas:
+    for area in static_scene.areas:
         if area.name in sense.targets or set(area.tags) & set(sense.groups):
-            top = floor_under(stage, *area.position)
-            level = (lowest_floor(stage) if top is None else top) + z - body.z
+            top = floor_under(static_scene, *area.position)
+            level = (lowest_floor(static_scene) if top is None else top) + z - body.z
             outline, hole = region_outlines(area)
             marks += [segments(edge, level) for edge in (outline, hole) if edge is not None]
             if area.name in sense.targets:

@@ -7,8 +7,8 @@ import numpy.typing as npt
 from viser import SceneApi
 
 from ai4u_edu.blocks import RayPicture
-from ai4u_edu.snapshot import Stage
-from ai4u_edu.snapshot.theme import NOTHING, UNKNOWN, group_colours
+from ai4u_edu.snapshot import StaticScene
+from ai4u_edu.snapshot.theme import RAY_MISS, UNKNOWN_GROUP, group_colours
 from ai4u_edu.viewer.scene.arena import arena_size
 from ai4u_edu.viewer.scene.geometry import Array, cap, circle
 from ai4u_edu.viewer.scene.layers import Layers
@@ -22,15 +22,15 @@ DOT_RADIUS = 0.0055
 
 
 class RayStyle:
-    """Colours and dot size of the rays on a stage."""
+    """Colours and dot size of the rays on a static scene."""
 
-    def __init__(self, stage: Stage) -> None:
-        colours = {"?": UNKNOWN, "": NOTHING} | group_colours(stage)
+    def __init__(self, static_scene: StaticScene) -> None:
+        colours = {"?": UNKNOWN_GROUP, "": RAY_MISS} | group_colours(static_scene)
         self.index_of_group = {group: index for index, group in enumerate(colours)}
         self.line_colours = line_colours(list(colours.values()))
         self.dot_colours = surface_colours(list(colours.values()))
-        self.layers = Layers.of(stage)
-        self.dot_radius = DOT_RADIUS * arena_size(stage)
+        self.layers = Layers.of(static_scene)
+        self.dot_radius = DOT_RADIUS * arena_size(static_scene)
 
 
 class Rays:
@@ -38,7 +38,7 @@ class Rays:
 
     Args:
         scene: viser's scene of the page.
-        style: colours and sizes for the stage.
+        style: colours and sizes for the static scene.
     """
 
     def __init__(self, scene: SceneApi, style: RayStyle) -> None:
@@ -47,7 +47,7 @@ class Rays:
         self._style, self._count = style, 0
 
     def build(self, style: RayStyle) -> None:
-        """Rebuild the rays at the next drawing, in the style of another stage."""
+        """Rebuild the rays at the next drawing, in the style of another static scene."""
         self._style, self._count = style, -1
 
     def draw(self, pictures: Sequence[RayPicture]) -> None:
@@ -75,7 +75,7 @@ class Rays:
                 drawer = MeshDrawer(self._scene, parent)
                 self._lines = drawer.moving_lines("lines", count)
                 dot = cap(circle(self._style.dot_radius, corners=12))
-                self._dots = drawer.batch("dots", dot, count * [NOTHING])
+                self._dots = drawer.batch("dots", dot, count * [RAY_MISS])
         self._count = count
 
 

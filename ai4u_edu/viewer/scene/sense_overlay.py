@@ -1,9 +1,7 @@
 """Sensor readings drawn in the scene: on each page, those of the agent that it shows."""
 
-from collections.abc import Callable
-
-from ai4u_edu.snapshot import AgentState, Snapshot, Stage
-from ai4u_edu.snapshot.block_info import Sense
+from ai4u_edu.snapshot import AgentState, Snapshot, StaticScene
+from ai4u_edu.snapshot.block_info import SensorInfo
 from ai4u_edu.viewer.backend.turns import Turns
 from ai4u_edu.viewer.scene.layers import Layers
 from ai4u_edu.viewer.scene.pointers import Pointers, has_pointer
@@ -12,12 +10,12 @@ from ai4u_edu.viewer.scene.spots import Spots
 from ai4u_edu.viewer.viewer_client import ViewerClient, ViewerClients
 
 
-def is_drawable(sense: Sense, agent: AgentState) -> bool:
+def is_drawable(sense: SensorInfo, agent: AgentState) -> bool:
     """Return True if a sensor has something to draw in the scene."""
     return is_shown_by_default(sense, agent) or has_pointer(sense)
 
 
-def is_shown_by_default(sense: Sense, agent: AgentState) -> bool:
+def is_shown_by_default(sense: SensorInfo, agent: AgentState) -> bool:
     """Return True if a sensor is drawn unless switched off: one with rays or spots."""
     return sense.key in agent.rays or sense.key in agent.spots
 
@@ -27,20 +25,19 @@ class SenseOverlay:
 
     Args:
         viewer_clients: the pages.
-        give_way: called between two pages.
     """
 
-    def __init__(self, viewer_clients: ViewerClients, give_way: Callable[[], None]) -> None:
+    def __init__(self, viewer_clients: ViewerClients) -> None:
         self._viewer_clients = viewer_clients
-        self._give_way, self._turns = give_way, Turns()
+        self._turns = Turns()
         self._pages: dict[int, _Page] = {}
 
-    def build(self, stage: Stage) -> None:
-        """Read the agents' sizes and the colours of groups from a stage."""
-        layers = Layers.of(stage)
-        self._style = RayStyle(stage)
+    def build(self, static_scene: StaticScene) -> None:
+        """Read the agents' sizes and the colours of groups from a static scene."""
+        layers = Layers.of(static_scene)
+        self._style = RayStyle(static_scene)
         margin = layers.body + 3 * layers.unit
-        self._tops = {body.name: body.height + margin for body in stage.bodies}
+        self._tops = {body.name: body.height + margin for body in static_scene.bodies}
         for page in self._pages.values():
             page.build(self._style)
 
@@ -55,7 +52,6 @@ class SenseOverlay:
                 self._pages[number] = _Page(viewer_client, self._style)
             agent = agents.get(viewer_client.agent)
             if agent is not None:
-                self._give_way()
                 self._pages[number].draw(snapshot, agent, self._tops[agent.body])
 
 
@@ -74,7 +70,7 @@ class _Page:
         (body,) = (each for each in snapshot.bodies if each.name == agent.body)
         shown = [
             sense
-            for sense in agent.senses
+            for sense in agent.sensor_infos
             if not body.fallen
             and self._viewer_client.lights(sense.key, by_itself=is_shown_by_default(sense, agent))
         ]
