@@ -20,8 +20,8 @@ class SceneParallelEnv(ParallelEnv):  # type: ignore[misc]  # PettingZoo has no 
     A step gives every agent its action, and is over when their decisions are; all decide as seldom
     as the one that decides most seldom. An agent whose episode ends takes part no more, and the
     others go on: ``agents`` has those that are left, and is empty when a reset is due. ``infos``
-    has for each ``reward_terms`` (by name) and ``success`` (True once it reached the scene's goal in
-    this episode).
+    has for each ``reward_terms`` (by name) and ``success`` (True once it reached the
+    scene's goal in this episode).
 
     Args:
         scene: a name out of the library, a YAML file, or a Scene.
