@@ -2,16 +2,17 @@
 
 import math
 from collections.abc import Callable
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 from weakref import ReferenceType, ref
 
 from pydantic import Field, field_validator
 
-from ai4u_edu.agent.bound_blocks import Fitting
+from ai4u_edu.agent.bound_blocks import BoundBlocks
 from ai4u_edu.agent.events import Event
 from ai4u_edu.agent.ledger import HANDLERS, Ledger
-from ai4u_edu.agent.options import hand_on
+from ai4u_edu.agent.options import set_action_handler
 from ai4u_edu.agent.table import table
+from ai4u_edu.base.deprecation import RenamedAttribute
 from ai4u_edu.base.errors import ActionError, ReadingError, SetupError, suggest
 from ai4u_edu.base.parameters import Count, Name, Number, WholeNumber
 from ai4u_edu.blocks import (
@@ -87,7 +88,7 @@ class BasicAgent(Parameterized):
         self.ledger = Ledger()
         self.episode = 0
         """How many episodes it has begun; those that it began alone count too."""
-        self.companions = 0
+        self.other_agents = 0
         """How many other agents are in its world."""
         self.steps = 0
         """Decisions taken in this episode."""
@@ -100,7 +101,7 @@ class BasicAgent(Parameterized):
         self.last_action: dict[str, Numbers] = {}
         self._action_handler: Callable[..., None] | None = None
         self._requestor: ReferenceType[object] | None = None
-        self._fitting: Fitting | None = None
+        self._bound_blocks: BoundBlocks | None = None
         self._percept: Percept | None = None
         self._done_requested = False
         self.agent_start = Event("agent_start")
@@ -114,21 +115,27 @@ class BasicAgent(Parameterized):
         self.end_of_step = Event("end_of_step")
         self.end_of_episode = Event("end_of_episode")
 
+    if not TYPE_CHECKING:  # a type checker is to report the old names
+        fitting = RenamedAttribute("bound_blocks")
+        companions = RenamedAttribute("other_agents")
+        see = RenamedAttribute("replace_percept")
+        obey = RenamedAttribute("apply_command")
+
     # -- what can be asked -----------------------------------------------------------------------
 
     @property
-    def fitting(self) -> Fitting:
+    def bound_blocks(self) -> BoundBlocks:
         """How the blocks sit on the body; made by :meth:`setup`."""
-        if self._fitting is None:
+        if self._bound_blocks is None:
             raise SetupError(
                 f"agent {self.id!r} is in no world yet; expected ControlRequestor(world, [agent])"
             )
-        return self._fitting
+        return self._bound_blocks
 
     @property
-    def fitting_or_none(self) -> Fitting | None:
+    def bound_blocks_or_none(self) -> BoundBlocks | None:
         """The blocks as they are set up; None before :meth:`setup`."""
-        return self._fitting
+        return self._bound_blocks
 
     @property
     def requestor(self) -> object | None:
@@ -159,22 +166,22 @@ class BasicAgent(Parameterized):
                 f"agent.action_handler = lambda body, numbers: ..., got {handler!r}"
             )
         self._action_handler = handler
-        hand_on(self)
+        set_action_handler(self)
 
     @property
     def body(self) -> Body:
         """The agent's body."""
-        return self.fitting.body
+        return self.bound_blocks.body
 
     @property
     def view(self) -> WorldView:
         """The world, to be asked."""
-        return self.fitting.view
+        return self.bound_blocks.view
 
     @property
     def brain(self) -> Brain:
         """The one brain that is enabled."""
-        return self.fitting.brain
+        return self.bound_blocks.brain
 
     @property
     def percept(self) -> Percept:
@@ -203,7 +210,7 @@ class BasicAgent(Parameterized):
 
     # -- what can be done ------------------------------------------------------------------------
 
-    def belong_to(self, requestor: object) -> None:
+    def set_requestor(self, requestor: object) -> None:
         """Say which ControlRequestor has the agent from now on; it is not kept alive by that."""
         self._requestor = ref(requestor)
 
@@ -216,7 +223,7 @@ class BasicAgent(Parameterized):
         Raises:
             SetupError: something does not fit, or an agent beside this one has a block of it.
         """
-        self._fitting = Fitting(self, world)
+        self._bound_blocks = BoundBlocks(self, world)
         self.agent_start.fire(self)
 
     def add_reward(self, amount: float, request_done: bool = False, name: str = HANDLERS) -> None:
@@ -252,7 +259,7 @@ class BasicAgent(Parameterized):
         Raises:
             SetupError: it is none of these, or it does not fit the agent.
         """
-        self.fitting.swap_brain(as_brain(brain))
+        self.bound_blocks.swap_brain(as_brain(brain))
 
     # -- the steps of a decision; ControlRequestor calls them ------------------------------------
 
@@ -264,23 +271,23 @@ class BasicAgent(Parameterized):
         self.terminated = self.truncated = self.paused = self.stopped = False
         self._done_requested = False
         self.last_action = {}
-        self.fitting.reset()
+        self.bound_blocks.reset()
 
     def sense(self) -> Percept:
         """Every active sensor reads once."""
-        fitting = self.fitting
+        bound = self.bound_blocks
         if self.begin_of_update_state.handlers:
             self.begin_of_update_state.fire(self)
-        self._percept = fitting.sense()
+        self._percept = bound.sense()
         if self.end_of_update_state.handlers:
             self.end_of_update_state.fire(self)
         return self._percept
 
-    def see(self, percept: Percept) -> None:
+    def replace_percept(self, percept: Percept) -> None:
         """Puts another percept in place of the last one: what it is made from was changed."""
         self._percept = percept
 
-    def obey(self, command: Command) -> None:
+    def apply_command(self, command: Command) -> None:
         """What a brain's command changes in the agent itself."""
         match command:
             case Command.PAUSE:
@@ -296,7 +303,7 @@ class BasicAgent(Parameterized):
         Raises:
             ActionError: it names an actuator that there is not, or its numbers don't fit.
         """
-        actuators = self.fitting.actuators
+        actuators = self.bound_blocks.actuators
         if type(action) is Accepted:
             self.last_action = dict(action)
             known = [(actuators[name], numbers) for name, numbers in action.items()]
@@ -324,8 +331,8 @@ class BasicAgent(Parameterized):
 
     def end_step(self) -> None:
         """The decision's last tick is over: pays, and finds out whether the episode ends."""
-        fitting = self.fitting
-        if fitting.pay(self.ledger, self.reward_scale):
+        bound = self.bound_blocks
+        if bound.pay(self.ledger, self.reward_scale):
             self._done_requested = True
         if self.end_of_step.handlers:
             self.end_of_step.fire(self)
@@ -334,7 +341,7 @@ class BasicAgent(Parameterized):
         total = self.ledger.total
         self.terminated = (
             self._done_requested
-            or fitting.body.fallen
+            or bound.body.fallen
             or (self.done_at_negative_reward and total < 0)
             or (self.done_at_positive_reward and total > 0)
         )
@@ -344,7 +351,7 @@ class BasicAgent(Parameterized):
             self.end_of_episode.fire(self)
 
     def _refuse(self, action: object) -> None:
-        known = self.fitting.actuators
+        known = self.bound_blocks.actuators
         if isinstance(action, dict):
             for name in action:
                 if name not in known:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ai4u_edu.agent.blame import blame, named
+from ai4u_edu.agent.error_context import add_context, block_label
 from ai4u_edu.agent.ledger import Ledger
 from ai4u_edu.agent.options import add_optional_blocks
 from ai4u_edu.agent.ownership import LostBrain, check_each_once, claim
@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     from ai4u_edu.agent.agent import BasicAgent
 
 
-class Fitting:
+class BoundBlocks:
     """An agent's active blocks, set up: reward functions first, then sensors, then actuators.
 
     Args:
@@ -65,7 +65,7 @@ class Fitting:
         ]
         self.tick_rewards = [reward for reward in self.rewards if reward.has_ticks]
         claim(agent, self.blocks)
-        agent._fitting = self
+        agent._bound_blocks = self
         for reward in self.rewards:
             self._set_up(reward)
         for sensor in self.sensors:
@@ -105,9 +105,9 @@ class Fitting:
         """Those whose readings are made of numbers."""
         return tuple(self._number_sensors)
 
-    def take_up(self) -> None:
-        """Is the agent's fitting again, after another one could not be made."""
-        self._agent._fitting = self
+    def restore(self) -> None:
+        """Is the agent's bound again, after another one could not be made."""
+        self._agent._bound_blocks = self
         self._attach()
 
     def percept(self) -> Percept:
@@ -179,9 +179,9 @@ class Fitting:
         """Names block and agent; what is one of our errors becomes a ReadingError."""
         if isinstance(error, AI4UError) and not isinstance(error, ReadingError):
             told = ReadingError(str(error))
-            blame(told, self._agent, block, doing)
+            add_context(told, self._agent, block, doing)
             raise told from error
-        blame(error, self._agent, block, doing)
+        add_context(error, self._agent, block, doing)
 
     def _with_standard_ones(self) -> list[Sensor]:
         """The agent's sensors, and those that every agent has."""
@@ -274,11 +274,13 @@ class Fitting:
             if isinstance(block, LostBrain):
                 raise
             who = f"agent {self._agent.id!r}"
-            told = BlockError(f"{who}, {named(block)}: {error}" if block else f"{who}: {error}")
+            told = BlockError(
+                f"{who}, {block_label(block)}: {error}" if block else f"{who}: {error}"
+            )
             told.where = (self._agent, block or "body")
             raise told from error
         except Exception as error:
-            blame(error, self._agent, block, doing)
+            add_context(error, self._agent, block, doing)
             raise
 
 

@@ -42,12 +42,13 @@ first one does, is shorter: it ends at its own agent's turn.
 
 import time
 from collections.abc import Sequence
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from ai4u_edu.agent import BasicAgent
 from ai4u_edu.agent.agent import Numbers
-from ai4u_edu.agent.blame import blame
+from ai4u_edu.agent.error_context import add_context
 from ai4u_edu.agent.members import check_members
+from ai4u_edu.base.deprecation import RenamedAttribute
 from ai4u_edu.base.errors import NameNotFoundError, NoDecisionError, SetupError, suggest
 from ai4u_edu.base.seeding import checked_seed
 from ai4u_edu.blocks import Actuator, Command, Percept, RewardFunc
@@ -78,25 +79,25 @@ class _Cycle:
         self._ticks = 1
         self._repeat = True
         self._action: list[tuple[Actuator, Numbers]] = []
-        self._fitting = agent.fitting
+        self._bound_blocks = agent.bound_blocks
 
     def decide(self) -> Command | None:
         """Asks the brain; a command is handed back, an action begins a step."""
         agent = self.agent
         if agent.stopped:
             return None
-        fitting = agent.fitting
-        if fitting is not self._fitting:
-            self.look_at_fitting()
-        brain = fitting.brain
+        bound = agent.bound_blocks
+        if bound is not self._bound_blocks:
+            self.refresh_binding()
+        brain = bound.brain
         try:
             answer = brain.decide(agent.percept)
         except Exception as error:
-            blame(error, agent, brain, "was deciding")
+            add_context(error, agent, brain, "was deciding")
             raise
         if isinstance(answer, Command):
             if answer is not Command.HOLD:
-                agent.obey(answer)
+                agent.apply_command(answer)
             return answer
         if agent.terminated or agent.truncated or agent.paused:
             return None
@@ -107,16 +108,16 @@ class _Cycle:
         agent.begin_step()
         return None
 
-    def look_at_fitting(self) -> None:
-        """Take up the agent's fitting; raise SetupError if it is in another world by now."""
-        fitting = self.agent.fitting
-        if fitting.world is not self._fitting.world:
+    def refresh_binding(self) -> None:
+        """Take up the agent's bound; raise SetupError if it is in another world by now."""
+        bound = self.agent.bound_blocks
+        if bound.world is not self._bound_blocks.world:
             raise SetupError(
                 f"agent {self.agent.id!r} was set up in another world since; make one for each"
             )
-        self._fitting = fitting
+        self._bound_blocks = bound
 
-    def end_in_turn(self, ticks: int) -> None:
+    def align_to_slot(self, ticks: int) -> None:
         """Has a decision end at the agent's turn, if one has just begun, and not there.
 
         Args:
@@ -129,7 +130,7 @@ class _Cycle:
         """Lets the actuators act, if it is a tick on which they do."""
         if self._tick and not self._repeat:
             return
-        agent, body = self.agent, self._fitting.body
+        agent, body = self.agent, self._bound_blocks.body
         if agent.begin_of_apply_action.handlers:
             agent.begin_of_apply_action.fire(agent)
         self._act(body)
@@ -142,46 +143,46 @@ class _Cycle:
             for actuator, numbers in self._action:
                 actuator.act(body, numbers)
         except Exception as error:
-            blame(error, self.agent, actuator, "was acting")
+            add_context(error, self.agent, actuator, "was acting")
             raise
 
     def advance(self) -> None:
         """A tick is over; the last one ends the step and senses anew."""
-        fitting = self._fitting
+        bound = self._bound_blocks
         self._tick += 1
         block: Actuator | RewardFunc | None = None
         try:
-            for block in fitting.tick_actuators:
-                block.on_tick(fitting.body, fitting.view)
-            for block in fitting.tick_rewards:
-                block.on_tick(fitting.body, fitting.view)
+            for block in bound.tick_actuators:
+                block.on_tick(bound.body, bound.view)
+            for block in bound.tick_rewards:
+                block.on_tick(bound.body, bound.view)
         except Exception as error:
-            blame(error, self.agent, block, "was in its on_tick")
+            add_context(error, self.agent, block, "was in its on_tick")
             raise
-        if self._tick >= self._ticks or fitting.body.fallen:
+        if self._tick >= self._ticks or bound.body.fallen:
             self._end()
 
     def phase(self) -> Phase:
         """How far it is."""
         if self.under_way or self.agent.steps:
             return Phase(self._tick, self._ticks, self._repeat)
-        brain = self._fitting.brain
+        brain = self._bound_blocks.brain
         return Phase(0, brain.skip_frame + 1, brain.repeat_action)
 
-    def can_hurry(self) -> bool:
+    def can_run_to_end(self) -> bool:
         """Whether a step has begun, and nothing but acting and ticking happens until its end."""
-        agent, fitting = self.agent, self._fitting
+        agent, bound = self.agent, self._bound_blocks
         return self.under_way and not (
-            fitting.tick_actuators
-            or fitting.tick_rewards
+            bound.tick_actuators
+            or bound.tick_rewards
             or agent.begin_of_apply_action.handlers
             or agent.end_of_apply_action.handlers
         )
 
-    def hurry(self, world: World) -> int:
+    def run_to_end(self, world: World) -> int:
         """The rest of a step at one go, as one tick after another would do it; the ticks."""
         began = world.ticks
-        body, tick = self._fitting.body, world.tick
+        body, tick = self._bound_blocks.body, world.tick
         for index in range(self._tick, self._ticks):
             if self._repeat or not index:
                 self._act(body)
@@ -245,15 +246,19 @@ class ControlRequestor:
         self.spread_decisions = spread_decisions
         self.episode = 0
         """How many episodes of the world have begun."""
-        self.held = False
+        self.waiting_for_brain = False
         """Whether the last tick did not take place, because a brain has the world wait for it."""
         for agent in self.agents:
-            agent.companions = len(self.agents) - 1
-            agent.belong_to(self)
+            agent.other_agents = len(self.agents) - 1
+            agent.set_requestor(self)
         for agent in self.agents:
             agent.setup(world)
         self._cycles = [_Cycle(agent) for agent in self.agents]
         self._respawning: list[_Cycle] = []
+
+    if not TYPE_CHECKING:  # a type checker is to report the old names
+        leap = RenamedAttribute("step_decision")
+        held = RenamedAttribute("waiting_for_brain")
 
     def agent(self, agent_id: str) -> BasicAgent:
         """The agent of that id."""
@@ -295,7 +300,7 @@ class ControlRequestor:
         if self._decide():
             self._move()
 
-    def leap(self) -> int:
+    def step_decision(self) -> int:
         """A whole decision, where nobody and nothing else has to be asked meanwhile; else a tick.
 
         What happens is the same as tick by tick, in less time.
@@ -306,8 +311,8 @@ class ControlRequestor:
         if not self._decide():
             return 0
         cycle = self._cycles[0]
-        if len(self._cycles) == 1 and cycle.can_hurry():
-            return cycle.hurry(self.world)
+        if len(self._cycles) == 1 and cycle.can_run_to_end():
+            return cycle.run_to_end(self.world)
         self._move()
         return 1
 
@@ -322,11 +327,11 @@ class ControlRequestor:
         """
         agent = agent or self.agents[0]
         cycle = self._cycle_of(agent)
-        self.leap()
+        self.step_decision()
         held_since = None
         while cycle.under_way:
             self.tick()
-            if self.held:
+            if self.waiting_for_brain:
                 held_since = held_since or time.monotonic()
                 if time.monotonic() - held_since > HOLD_LIMIT_S:
                     raise NoDecisionError(
@@ -352,24 +357,24 @@ class ControlRequestor:
     def _decide(self) -> bool:
         """Asks the brains whose turn it is; whether there is a tick then."""
         self._respawning = []
-        self.held = False
+        self.waiting_for_brain = False
         for turn, cycle in enumerate(self._cycles):
             if cycle.under_way:
                 continue
             command = cycle.decide()
             if command is None:
                 if self.spread_decisions:
-                    cycle.end_in_turn(self.world.ticks - turn)
+                    cycle.align_to_slot(self.world.ticks - turn)
                 continue
             if command is Command.RESTART:
                 self.reset(cycle.agent.brain.restart_seed())
                 return False
             if command is Command.RESPAWN:
                 self._respawning.append(cycle)
-            self.held = self.held or command is Command.HOLD
-        if self.held:
+            self.waiting_for_brain = self.waiting_for_brain or command is Command.HOLD
+        if self.waiting_for_brain:
             self._restart(self._respawning)
-        return not self.held
+        return not self.waiting_for_brain
 
     def _move(self) -> None:
         for cycle in self._cycles:
@@ -394,7 +399,7 @@ class ControlRequestor:
     def _begin(self, cycles: list[_Cycle]) -> None:
         """What a reset and a restart share, when the bodies are in their places."""
         for cycle in cycles:
-            cycle.look_at_fitting()
+            cycle.refresh_binding()
         for cycle in cycles:
             cycle.under_way = False
             cycle.agent.begin_episode()

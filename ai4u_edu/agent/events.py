@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
-from ai4u_edu.agent.blame import blame
+from ai4u_edu.agent.error_context import add_context
 
 if TYPE_CHECKING:
     from ai4u_edu.agent.agent import BasicAgent
@@ -63,7 +63,7 @@ class Event:
         except Exception as error:
             title = getattr(handler, "__qualname__", type(handler).__name__)
             title = title.rpartition("<locals>.")[2]
-            blame(error, agent, f"handler {title} of {self.name}", "was called")
+            add_context(error, agent, f"handler {title} of {self.name}", "was called")
             raise
 
     def __repr__(self) -> str:

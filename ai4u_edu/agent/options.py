@@ -30,7 +30,7 @@ def add_optional_blocks(agent: "BasicAgent") -> None:
     agent.actuators += [each for each in _actuators(agent) if each.action_name not in names]
 
 
-def hand_on(agent: "BasicAgent") -> None:
+def set_action_handler(agent: "BasicAgent") -> None:
     """Give the agent's action handler to the actuator that calls it, if it is there already."""
     for actuator in agent.actuators:
         if actuator.action_name == DEFAULT_ACTION and hasattr(actuator, "handler"):

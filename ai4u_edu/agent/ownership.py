@@ -15,7 +15,7 @@ from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING, Any
 from weakref import ref
 
-from ai4u_edu.agent.blame import named
+from ai4u_edu.agent.error_context import block_label
 from ai4u_edu.base.errors import SetupError
 from ai4u_edu.blocks import Brain, Percept
 from ai4u_edu.blocks.agent_view import AgentView
@@ -42,7 +42,7 @@ class LostBrain(Brain):
     def lose(self, brain: Brain, block: Block, problem: str) -> None:
         """Say in whose place it stands, and why."""
         self._title = brain.title()
-        self.is_replaceable = any(block is each for each in every([brain]))
+        self.is_replaceable = any(block is each for each in walk_blocks([brain]))
         """True if another brain mends it: nothing but the brain was lost."""
         self.problem = problem
 
@@ -67,11 +67,11 @@ class LostBrain(Brain):
         return self._title
 
 
-def every(blocks: Iterable[Block]) -> Iterator[Block]:
+def walk_blocks(blocks: Iterable[Block]) -> Iterator[Block]:
     """Return blocks, each followed by the blocks inside it."""
     for block in blocks:
         yield block
-        yield from every(block.inner_blocks())
+        yield from walk_blocks(block.inner_blocks())
 
 
 def check_each_once(agent: "BasicAgent", blocks: Iterable[Block]) -> None:
@@ -81,10 +81,10 @@ def check_each_once(agent: "BasicAgent", blocks: Iterable[Block]) -> None:
         SetupError: one does.
     """
     known: set[int] = set()
-    for block in every(blocks):
+    for block in walk_blocks(blocks):
         if id(block) in known:
             raise SetupError(
-                f"agent {agent.id!r}: the same {named(block)} stands in it twice; "
+                f"agent {agent.id!r}: the same {block_label(block)} stands in it twice; "
                 f"make one for each place, as in {type(block).__name__}(...) there as well"
             )
         known.add(id(block))
@@ -96,14 +96,14 @@ def claim(agent: "BasicAgent", blocks: Iterable[Block]) -> None:
     Raises:
         SetupError: an agent beside it has one of them.
     """
-    claimed = list(every(blocks))
+    claimed = list(walk_blocks(blocks))
     for block in claimed:
         owner = _owner_of(block)
         if owner is None or owner is agent:
             continue
         if _are_together(agent, owner):
             raise SetupError(
-                f"agents {owner.id!r} and {agent.id!r} share the same {named(block)}; "
+                f"agents {owner.id!r} and {agent.id!r} share the same {block_label(block)}; "
                 f"make one for each agent, as in {type(block).__name__}(...) for each"
             )
         _take_away(owner, block, agent)
@@ -115,8 +115,8 @@ def _owner_of(block: Block) -> "BasicAgent | None":
     """The agent that works with a block now."""
     reference: Any = getattr(block, _OWNER, None)
     owner: BasicAgent | None = reference() if reference is not None else None
-    fitting = owner.fitting_or_none if owner is not None else None
-    if fitting is None or not any(each is block for each in every(fitting.blocks)):
+    bound = owner.bound_blocks_or_none if owner is not None else None
+    if bound is None or not any(each is block for each in walk_blocks(bound.blocks)):
         return None
     return owner
 
@@ -126,15 +126,15 @@ def _are_together(one: "BasicAgent", other: "BasicAgent") -> bool:
 
 
 def _take_away(owner: "BasicAgent", block: Block, agent: "BasicAgent") -> None:
-    fitting = owner.fitting
-    if isinstance(fitting.brain, LostBrain) and not fitting.brain.is_replaceable:
+    bound = owner.bound_blocks
+    if isinstance(bound.brain, LostBrain) and not bound.brain.is_replaceable:
         return
-    lost = LostBrain(skip_frame=fitting.brain.skip_frame, repeat_action=fitting.brain.repeat_action)
+    lost = LostBrain(skip_frame=bound.brain.skip_frame, repeat_action=bound.brain.repeat_action)
     lost.lose(
-        fitting.brain,
+        bound.brain,
         block,
-        f"agent {owner.id!r} has lost its {named(block)} to agent {agent.id!r} of another "
+        f"agent {owner.id!r} has lost its {block_label(block)} to agent {agent.id!r} of another "
         "ControlRequestor, which was made later; make one for each agent, or make the "
         f"ControlRequestor of agent {owner.id!r} anew",
     )
-    fitting.brain = lost
+    bound.brain = lost

@@ -30,7 +30,7 @@ class AgentView(Protocol):
     max_steps_per_episode: int
     episode: int
     """How many episodes it has begun."""
-    companions: int
+    other_agents: int
     """How many other agents are in its world."""
     paused: bool
     actuators: list["Actuator"]

@@ -34,7 +34,7 @@ class RandomDrive:
 
     def __call__(self, _percept: Percept) -> dict[str, Any]:
         """Return an action for every actuator that takes one."""
-        for name, actuator in self._agent.fitting.actuators.items():
+        for name, actuator in self._agent.bound_blocks.actuators.items():
             if actuator.is_output:
                 rng = self._rngs.setdefault(
                     name, np.random.default_rng([self._seed, crc32(name.encode())])

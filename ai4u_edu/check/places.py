@@ -25,7 +25,7 @@ def implausible_places(sim: ControlRequestor, seed: int) -> list[str]:
 
 def _immovable(sim: ControlRequestor) -> Iterator[str]:
     for agent in sim.agents:
-        driven = [name for name, each in agent.fitting.actuators.items() if each.is_output]
+        driven = [name for name, each in agent.bound_blocks.actuators.items() if each.is_output]
         if driven and not agent.body.moves:
             yield (
                 f"agent {agent.id!r} is on body {agent.body_name!r}, which can't move (its kind is "
@@ -42,7 +42,7 @@ def _over_the_void(sim: ControlRequestor) -> Iterator[str]:
 
 def _respawn_poses(sim: ControlRequestor) -> Iterator[str]:
     for agent in sim.agents:
-        for actuator in agent.fitting.actuators.values():
+        for actuator in agent.bound_blocks.actuators.values():
             if isinstance(actuator, RespawnActuator):
                 yield from _poses_of(sim, agent, actuator)
 

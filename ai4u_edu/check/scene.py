@@ -94,8 +94,8 @@ def _warn(report: Report, agents: Sequence[BasicAgent]) -> None:
     blocks: list[tuple[str, Block]] = []
     rewards: list[tuple[str, RewardFunc]] = []
     for agent in agents:
-        fitting = agent.fitting  # what is switched off sits on no body
-        for block in (*fitting.sensors, *fitting.actuators.values(), *fitting.rewards):
+        bound = agent.bound_blocks  # what is switched off sits on no body
+        for block in (*bound.sensors, *bound.actuators.values(), *bound.rewards):
             words = f"agent {agent.id!r}, {title_of(block)}: "
             blocks.append((words, block))
             if isinstance(block, RewardFunc):
@@ -107,7 +107,7 @@ def _warn(report: Report, agents: Sequence[BasicAgent]) -> None:
 def _look_at_sensors(report: Report, rollout: Rollout, records: list[Record]) -> None:
     wrong, still = [], []
     for agent in rollout.sim.agents:
-        for sensor in agent.fitting.sensors:
+        for sensor in agent.bound_blocks.sensors:
             key, space = sensor.perception_key, sensor.observation_space()
             values = [record.percepts[agent.id][key] for record in records]
             for value in values:
@@ -135,7 +135,7 @@ def _look_at_rewards(report: Report, rollout: Rollout, records: list[Record]) ->
     never = [
         f"{reward.name!r} of agent {agent.id!r}"
         for agent in rollout.sim.agents
-        for reward in agent.fitting.rewards
+        for reward in agent.bound_blocks.rewards
         if not any(record.terms[agent.id].get(reward.name) for record in records)
     ]
     report.add(

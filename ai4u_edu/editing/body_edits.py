@@ -4,7 +4,7 @@ import math
 from collections.abc import Callable, Mapping
 
 from ai4u_edu.scenes import SceneDescription
-from ai4u_edu.world import BodyDescription, Pose, World, arrange, bring_in, rework
+from ai4u_edu.world import BodyDescription, Pose, World, edit_body, insert_body, reorder
 
 NEAR = 1e-6
 """Bodies closer to where they belong than this (m) are there."""
@@ -46,7 +46,7 @@ class Furniture:
             self.undo()
             raise
         if self._undo:
-            arrange(self._world, [thing.name for thing in new.things])
+            reorder(self._world, [thing.name for thing in new.things])
         return bool(self._undo)
 
     def undo(self) -> None:
@@ -60,7 +60,7 @@ class Furniture:
         """After a reset: chance, or an actuator, may have put elsewhere what a person placed."""
         for name, pose in places.items():
             if name in self._world.bodies and math.dist(self.pose(name)[:2], pose[:2]) > NEAR:
-                rework(self._world, self._world[name].description, pose)
+                edit_body(self._world, self._world[name].description, pose)
                 self.is_astray = True
 
     def pose(self, name: str) -> Pose:
@@ -70,11 +70,11 @@ class Furniture:
 
     def _add(self, body: BodyDescription, pose: Pose | None) -> None:
         if pose is None:
-            bring_in(self._world, body)
+            insert_body(self._world, body)
         else:
             here = {"position": pose[:2], "heading_deg": math.degrees(pose[2]), "random": None}
-            bring_in(self._world, body.model_copy(update=here))
-            rework(self._world, body, pose)
+            insert_body(self._world, body.model_copy(update=here))
+            edit_body(self._world, body, pose)
         self._undo.append(lambda: self._world.remove(body.name))
 
     def _remove(self, name: str) -> None:
@@ -90,5 +90,5 @@ class Furniture:
             new.z,
         ):
             pose = (*new.position, math.radians(new.heading_deg))
-        rework(self._world, new, pose)
-        self._undo.append(lambda: rework(self._world, old, was))
+        edit_body(self._world, new, pose)
+        self._undo.append(lambda: edit_body(self._world, old, was))

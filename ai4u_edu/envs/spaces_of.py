@@ -33,7 +33,7 @@ class Observer:
                 f"observation: expected one of {', '.join(FORMS)}, got {form!r}; "
                 f"{suggest(form, FORMS)}"
             )
-        sensors = [sensor for sensor in agent.fitting.sensors if sensor.is_input]
+        sensors = [sensor for sensor in agent.bound_blocks.sensors if sensor.is_input]
         if not sensors:
             raise SetupError(
                 f"agent {agent.id!r} has no sensor that a policy could observe (is_input)"
@@ -45,7 +45,7 @@ class Observer:
         self.space: spaces.Space[Any] = (
             each[self.image] if self.image else _flattened(each) if self.flat else spaces.Dict(each)
         )
-        slots = agent.fitting.layout.slots
+        slots = agent.bound_blocks.layout.slots
         self._slots = {key: slots[key] for key in self._keys if key in slots}
         floats = [slot for slot in self._slots.values() if slot.dtype == np.float32]
         # inputs lie first and side by side in a percept, so all-float ones are one run of bytes
@@ -110,7 +110,9 @@ def action_space_of(agent: BasicAgent) -> spaces.Space[Any]:
 def outputs_of(agent: BasicAgent) -> dict[str, Actuator]:
     """Return the actuators that a policy drives."""
     found = {
-        name: actuator for name, actuator in agent.fitting.actuators.items() if actuator.is_output
+        name: actuator
+        for name, actuator in agent.bound_blocks.actuators.items()
+        if actuator.is_output
     }
     if not found:
         raise SetupError(f"agent {agent.id!r} has no actuator for a policy to drive (is_output)")

@@ -10,9 +10,9 @@ from ai4u_edu.base.errors import AI4UError
 from ai4u_edu.blocks import Answer, Brain, Command, Percept
 from ai4u_edu.recording.episode import REPEAT, Episode
 from ai4u_edu.recording.errors import RecordingError
-from ai4u_edu.recording.scene_export import scene_of, without_brains, without_unknown_brains
+from ai4u_edu.recording.scene_export import export_scene, without_brains, without_unknown_brains
 from ai4u_edu.scenes.description import make_agents
-from ai4u_edu.scenes.serialization import PlainError, from_plain
+from ai4u_edu.scenes.serialization import PlainDataError, from_plain
 from ai4u_edu.world import World
 
 
@@ -62,8 +62,8 @@ class Player:
         self._before: list[Brain] = []
         for index, (agent, brain) in enumerate(zip(self.sim.agents, self.brains, strict=True)):
             brain.play(self, index)
-            self._before.append(agent.fitting.brain)
-            agent.fitting.brain = brain
+            self._before.append(agent.bound_blocks.brain)
+            agent.bound_blocks.brain = brain
         self.rewind()
 
     @property
@@ -97,7 +97,7 @@ class Player:
             return
         before = list(self.taken)
         self.sim.tick()
-        if self.sim.held and self.taken == before:
+        if self.sim.waiting_for_brain and self.taken == before:
             self._restart()  # who should have decided before it never will: it went otherwise
 
     def go_to(self, index: int, step: int) -> None:
@@ -123,7 +123,7 @@ class Player:
                 brain that the scene says, and else the one that it had.
         """
         for index, agent in enumerate(self.sim.agents):
-            before = agent.fitting.brain = self._before[index]
+            before = agent.bound_blocks.brain = self._before[index]
             if agent.id in brains:
                 agent.use_brain(brains[agent.id])
             elif self._own:
@@ -185,7 +185,7 @@ class Player:
             if data.get("enabled", True):
                 try:
                     return cast(Brain, from_plain(Brain, data, ("agents", index, "brains", path)))
-                except PlainError as error:
+                except PlainDataError as error:
                     raise RecordingError(f"the episode's scene: {error}") from None
         agent = self.episode.agents[index].id
         raise RecordingError(
@@ -218,7 +218,7 @@ def _new_world(episode: Episode, brains: list[RecordedBrain]) -> ControlRequesto
 
 
 def _same(sim: ControlRequestor, episode: Episode) -> ControlRequestor:
-    if without_brains(scene_of(sim)) != without_brains(episode.scene):
+    if without_brains(export_scene(sim)) != without_brains(episode.scene):
         raise RecordingError(
             "the episode was recorded in another world, or with other blocks; expected a sim of "
             "its own scene: Scene(episode.scene).build()"

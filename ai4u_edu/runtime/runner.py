@@ -26,7 +26,7 @@ from ai4u_edu.runtime.slow_ticks import SlowTicks
 from ai4u_edu.runtime.snapshot_publisher import Publisher
 from ai4u_edu.runtime.stall_monitor import Stall, StallMonitor
 from ai4u_edu.scenes import Scene
-from ai4u_edu.snapshot import Snapshot, Stage, picture_of, set_stage
+from ai4u_edu.snapshot import Snapshot, StaticScene, capture_snapshot, capture_static_scene
 
 T = TypeVar("T")
 
@@ -100,7 +100,7 @@ class Runner:
         sim.reset(seed)
         self._past: Snapshot | None = None
         self._generation = -1
-        self._stage: Stage
+        self._static_scene: StaticScene
         self._publisher = Publisher(self._picture(), clock)
 
     # -- for those who look ----------------------------------------------------------------------
@@ -184,7 +184,9 @@ class Runner:
             agent = sim.agents[0] if agent_id is None else sim.agent(agent_id)
             before, is_over = (agent.episode, agent.steps), agent.done
             self._tick()
-            while sim.is_deciding(agent) and not (self.error or sim.held or self._stopping):
+            while sim.is_deciding(agent) and not (
+                self.error or sim.waiting_for_brain or self._stopping
+            ):
                 self._tick()
             if (agent.episode, agent.steps) == before and not (is_over or self.error):
                 why = reason_for_no_decision(agent)
@@ -368,7 +370,7 @@ class Runner:
 
     def _wait_for_answers(self, began: float) -> None:
         """Waits until all links that will call have called, or somebody wants something else."""
-        if self.sim.held:
+        if self.sim.waiting_for_brain:
             to_come = 0
         elif self.is_unpaced() and self._all_keep_waiting():
             to_come = len(self.sim.agents)  # they were told already, and need not be asked
@@ -417,14 +419,14 @@ class Runner:
         def tick() -> None:
             nonlocal ticks
             if leaps:
-                ticks = self.sim.leap() or 1
+                ticks = self.sim.step_decision() or 1
             else:
                 self.sim.tick()
 
         with self._schedule.is_ticking:
             self._attempt(tick)
             ended = self._clock()
-            if not self.sim.held:  # a world that waits for a script is not slow
+            if not self.sim.waiting_for_brain:  # a world that waits for a script is not slow
                 self._schedule.ticked += ticks
                 self._slow.note((ended - began) / ticks, self.sim.world.count_contacts)
             self._show(ended, ended - began)
@@ -438,7 +440,7 @@ class Runner:
             self._publish()
 
     def _keep_time(self) -> None:
-        self._schedule.tick_ended(self._period, held=self.sim.held)
+        self._schedule.tick_ended(self._period, held=self.sim.waiting_for_brain)
         self._monitor.end()
         self._schedule.sleep(self._wake, self._listen)
 
@@ -457,7 +459,12 @@ class Runner:
 
     def _carry_out_commands(self) -> None:
         while (first := self._queue.first) is not None and not self._stopping:
-            standing = self.paused or self.error or self.sim.held or self.sim.between_decisions()
+            standing = (
+                self.paused
+                or self.error
+                or self.sim.waiting_for_brain
+                or self.sim.between_decisions()
+            )
             if not standing and self._clock() - first.asked_at < PATIENCE:
                 return
             command = self._queue.take()
@@ -540,11 +547,11 @@ class Runner:
             self._publisher.publish(lambda: replace(self.latest, error=self.error))
 
     def _as_past(self, past: Snapshot) -> Snapshot:
-        """A moment of the past, as it is shown; where it can be, on the stage that is there now."""
-        same = past.stage is self._stage or past.stage == self._stage
+        """Return a past snapshot as it is shown; it shares the current static scene if equal."""
+        same = past.static_scene is self._static_scene or past.static_scene == self._static_scene
         return replace(
             past,
-            stage=self._stage if same else past.stage,
+            static_scene=self._static_scene if same else past.static_scene,
             paused=True,
             time_scale=self.time_scale,
         )
@@ -553,12 +560,12 @@ class Runner:
         sim = self.sim
         if sim.world.generation != self._generation:
             self._generation = sim.world.generation
-            stage = set_stage(sim)
-            if getattr(self, "_stage", None) != stage:
-                self._stage = stage
-        return picture_of(
+            static_scene = capture_static_scene(sim)
+            if getattr(self, "_static_scene", None) != static_scene:
+                self._static_scene = static_scene
+        return capture_snapshot(
             sim,
-            self._stage,
+            self._static_scene,
             paused=self.paused,
             time_scale=self.time_scale,
             real_time_factor=self._real_time_factor(),

@@ -84,7 +84,7 @@ def keyboard_brain(agent: BasicAgent) -> Brain | None:
     for brain in agent.brains:
         if brain is not now and keys_of(agent, brain):
             return brain
-    for name, actuator in agent.fitting.actuators.items():
+    for name, actuator in agent.bound_blocks.actuators.items():
         controller = _controller_for(name, actuator)
         if controller is not None:
             return LocalBrain(

@@ -78,7 +78,7 @@ def _idle(agent: BasicAgent, brain: Brain) -> set[str]:
 def _actuator(agent: BasicAgent, brain: Brain) -> Actuator | None:
     """The actuator that a brain's controller drives."""
     controller = getattr(brain, "controller", None)
-    return agent.fitting.actuators.get(getattr(controller, "actuator_name", ""))
+    return agent.bound_blocks.actuators.get(getattr(controller, "actuator_name", ""))
 
 
 def _sign(number: float) -> int:

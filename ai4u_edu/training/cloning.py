@@ -254,7 +254,7 @@ def _learn(
 def levels_of(agent: BasicAgent) -> list[int]:
     """Return for each number of a flat observation how many whole values it has, or 0."""
     levels: list[int] = []
-    for sensor in agent.fitting.sensors:
+    for sensor in agent.bound_blocks.sensors:
         if sensor.is_input:
             space = sensor.observation_space()
             size = int(np.prod(space.shape or (1,)))

@@ -95,13 +95,13 @@ def export(model: BaseAlgorithm, scene: Scene, config: Config, path: Path) -> Pa
 
 def inputs_of(agent: BasicAgent) -> dict[str, tuple[tuple[int, ...], np.dtype[Any]]]:
     """Return shape and type of each reading of a policy, in the order of the observation."""
-    slots = agent.fitting.layout.slots
+    slots = agent.bound_blocks.layout.slots
     return {
         sensor.perception_key: (
             slots[sensor.perception_key].shape,
             slots[sensor.perception_key].dtype,
         )
-        for sensor in agent.fitting.sensors
+        for sensor in agent.bound_blocks.sensors
         if sensor.is_input and sensor.perception_key in slots
     }
 

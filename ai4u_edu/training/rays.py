@@ -54,7 +54,7 @@ def rays_of(agent: BasicAgent) -> list[Rays]:
     """Return encoders for an agent's sensors that give both codes and distances."""
     found: list[Rays] = []
     first = 0
-    for sensor in agent.fitting.sensors:
+    for sensor in agent.bound_blocks.sensors:
         if sensor.is_input:
             if _tells_both(sensor):
                 found.append(Rays(sensor, first))

@@ -8,7 +8,7 @@ from ai4u_edu.world.descriptions import (
     RegionDescription,
     WorldSettings,
 )
-from ai4u_edu.world.edit import Pose, arrange, bring_in, rework
+from ai4u_edu.world.edit import Pose, edit_body, insert_body, reorder
 from ai4u_edu.world.ray_grid import RayGrid
 from ai4u_edu.world.rays import Cast, RayFan
 from ai4u_edu.world.region import Region
@@ -46,7 +46,7 @@ __all__ = [
     "World",
     "WorldSettings",
     "WorldView",
-    "arrange",
-    "bring_in",
-    "rework",
+    "edit_body",
+    "insert_body",
+    "reorder",
 ]

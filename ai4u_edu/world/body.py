@@ -7,7 +7,7 @@ import pymunk
 
 from ai4u_edu.base.errors import WorldError
 from ai4u_edu.world.descriptions import BodyDescription
-from ai4u_edu.world.grasp import held_by, hold, let_go
+from ai4u_edu.world.grasp import held_by, hold, release
 from ai4u_edu.world.native.chipmunk import QUICK
 
 if TYPE_CHECKING:
@@ -32,7 +32,7 @@ class BodyView:
         self._world = world
         self.description = description
         """What was said of it: by a scene file, or when it was added."""
-        self.drawn = description
+        self.sampled = description
         """What holds in this episode: the description, with what is random in it drawn."""
         self.name = description.name
         self.tags = description.tags
@@ -160,7 +160,7 @@ class Body(BodyView):
 
     def release(self) -> None:
         """Lets go of what this body holds."""
-        let_go(self._world, self)
+        release(self._world, self)
 
     def move_to(
         self, x: float, y: float, *, heading: float | None = None, z: float | None = None

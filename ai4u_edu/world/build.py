@@ -57,7 +57,7 @@ def build(body: Body, space: pymunk.Space, group: int) -> None:
         space: where they are added.
         group: a number of the body's own (not 0), so that its own rays don't meet it.
     """
-    description = body.drawn
+    description = body.sampled
     pm = QuickBody(body_type=KINDS[description.kind])
     pm.position = description.position
     pm.angle = math.radians(description.heading_deg)

@@ -16,7 +16,7 @@ Pose = tuple[float, float, float]
 """x, y (metres), heading (radians)."""
 
 
-def bring_in(world: "World", description: BodyDescription) -> "Body":
+def insert_body(world: "World", description: BodyDescription) -> "Body":
     """Adds a body where it is free now; nothing else is put back, however young the episode is.
 
     Raises:
@@ -26,7 +26,7 @@ def bring_in(world: "World", description: BodyDescription) -> "Body":
     return world[description.name]
 
 
-def rework(world: "World", description: BodyDescription, pose: Pose | None = None) -> "Body":
+def edit_body(world: "World", description: BodyDescription, pose: Pose | None = None) -> "Body":
     """Makes another body of the one that has this name; whoever knows it knows the new one.
 
     Nobody holds it or touches it then.
@@ -41,7 +41,7 @@ def rework(world: "World", description: BodyDescription, pose: Pose | None = Non
         WorldError: it would overlap another body; then all stays as it was.
     """
     body = world[description.name]
-    before, drawn = body.description, body.drawn
+    before, drawn = body.description, body.sampled
     place, speed, z = body.pose, (body.velocity, body.angular_velocity, body.vz), body.z
     fallen = body.fallen
     x, y, heading = pose or (place[0], place[1], place[3])
@@ -60,7 +60,7 @@ def rework(world: "World", description: BodyDescription, pose: Pose | None = Non
             update={"position": place[:2], "heading_deg": math.degrees(place[3])}
         )
         _remake(world, body, before, then)
-        body.drawn = drawn
+        body.sampled = drawn
         _go_on(world, body, speed, z, fallen=fallen)
         raise WorldError(
             f"body {body.name!r}: at ({x:.2f}, {y:.2f}) it would overlap body {taken.name!r}; "
@@ -70,7 +70,7 @@ def rework(world: "World", description: BodyDescription, pose: Pose | None = Non
     return body
 
 
-def arrange(world: "World", names: Iterable[str]) -> None:
+def reorder(world: "World", names: Iterable[str]) -> None:
     """Puts all things into this order; the physics is built in it from the next reset on."""
     order = {name: index for index, name in enumerate(names)}
     for things in (world._described, world._bodies, world._floors, world._areas):
@@ -84,7 +84,7 @@ def _remake(
     world: "World", body: "Body", description: BodyDescription, drawn: BodyDescription
 ) -> None:
     world._remove_parts(body)
-    body.description, body.drawn = description, drawn
+    body.description, body.sampled = description, drawn
     body.tags, body.height = description.tags, description.height
     world._described[body.name] = description
     world._has_random = any(thing.random for thing in world._described.values())

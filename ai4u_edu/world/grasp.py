@@ -41,12 +41,12 @@ def held_by(world: "World", holder: "BodyView") -> "BodyView | None":
     return None
 
 
-def let_go(world: "World", holder: "BodyView") -> None:
+def release(world: "World", holder: "BodyView") -> None:
     """Ends what a body holds."""
     _cut(world, [joint for joint in world.space.constraints if joint.a is holder._pm])
 
 
-def tear_off(world: "World", body: "BodyView") -> None:
+def detach(world: "World", body: "BodyView") -> None:
     """Ends what a body holds, and whatever holds it: it goes away, or somewhere else."""
     ends = [joint for joint in world.space.constraints if body._pm in (joint.a, joint.b)]
     _cut(world, ends)

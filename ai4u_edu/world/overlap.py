@@ -41,7 +41,7 @@ def _mover_in_the_way(world: "World", body: "BodyView") -> "BodyView | None":
     for other in world._bodies.values():
         if not other.moves or other is body or other.fallen:
             continue
-        reach = body.drawn.shape.reach + other.drawn.shape.reach + OVERLAP
+        reach = body.sampled.shape.reach + other.sampled.shape.reach + OVERLAP
         if math.dist((x, y), other.position) > reach or not _level(body, other):
             continue
         for shape in body._shapes:

@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     from ai4u_edu.world.world import World
 
 
-def scatter(seed: int, things: Iterable[Thing]) -> dict[str, Thing]:
+def randomize(seed: int, things: Iterable[Thing]) -> dict[str, Thing]:
     """Everything as it is in one episode, by name; a thing without a ``random`` is as described.
 
     Args:
@@ -25,7 +25,7 @@ def scatter(seed: int, things: Iterable[Thing]) -> dict[str, Thing]:
     return {thing.name: places.find(thing) for thing in sorted(things, key=_turn)}
 
 
-def squeeze_in(world: "World", thing: Some, seed: int | None = None) -> Some:
+def place_now(world: "World", thing: Some, seed: int | None = None) -> Some:
     """Something that comes late, or again; what is random in it finds a place among the rest.
 
     Args:
@@ -45,7 +45,7 @@ def squeeze_in(world: "World", thing: Some, seed: int | None = None) -> Some:
         if not other.fallen and other.name != thing.name:
             x, y, z, heading = other.pose
             now = {"position": (x, y), "z": z, "heading_deg": math.degrees(heading)}
-            places.take(other.drawn.model_copy(update=now), _clearance(other.description))
+            places.take(other.sampled.model_copy(update=now), _clearance(other.description))
     for name, area in world.areas.items():
         if isinstance(area.description, AreaDescription):
             places.take(area.description, _clearance(world._described[name]))

@@ -19,12 +19,12 @@ from ai4u_edu.world.descriptions import (
     FloorDescription,
     WorldSettings,
 )
-from ai4u_edu.world.grasp import tear_off
+from ai4u_edu.world.grasp import detach
 from ai4u_edu.world.height import Height
 from ai4u_edu.world.native.chipmunk import let_go, stepper
 from ai4u_edu.world.overlap import in_the_way
 from ai4u_edu.world.placement import Thing
-from ai4u_edu.world.randomize import scatter, squeeze_in
+from ai4u_edu.world.randomize import place_now, randomize
 from ai4u_edu.world.region import Region
 from ai4u_edu.world.shapes import BodyShape, RegionShape
 
@@ -198,10 +198,10 @@ class World:
         """
         body = self[name]
         chance = self.seeds.child(f"put back/{name}")
-        body.drawn = squeeze_in(self, body.description, int(chance.integers(2**63)))
+        body.sampled = place_now(self, body.description, int(chance.integers(2**63)))
         self._remove_parts(body)
         self._embody(body)
-        self._height.settle(body, body.drawn.z)
+        self._height.settle(body, body.sampled.z)
         self._height.rest(body)
 
     def rebuild(self) -> None:
@@ -223,7 +223,7 @@ class World:
         self._groups = 0
         for body in self._bodies.values():
             if not self._has_random:
-                body.drawn = body.description  # it may have been changed where it stood
+                body.sampled = body.description  # it may have been changed where it stood
             self._embody(body)
         self._rest_all()
 
@@ -270,9 +270,9 @@ class World:
         """Adds one thing to what is there, wherever that is now."""
         self._check_name(thing)
         if isinstance(thing, BodyDescription):
-            self._add_body(thing, squeeze_in(self, thing))
+            self._add_body(thing, place_now(self, thing))
         else:
-            self._put_region(squeeze_in(self, thing))
+            self._put_region(place_now(self, thing))
             if isinstance(thing, FloorDescription):
                 self._rest_all()
             self.generation += 1
@@ -300,7 +300,7 @@ class World:
 
     def _add_body(self, description: BodyDescription, drawn: BodyDescription) -> None:
         body = Body(self, description)
-        body.drawn = drawn
+        body.sampled = drawn
         self._embody(body)
         self._height.settle(body, drawn.z)
         try:
@@ -328,10 +328,10 @@ class World:
 
     def _draw(self) -> None:
         """Finds a place in this episode for all that is random."""
-        found = scatter(self.seeds.seed, self._described.values())
+        found = randomize(self.seeds.seed, self._described.values())
         for thing in found.values():
             if isinstance(thing, BodyDescription):
-                self._bodies[thing.name].drawn = thing
+                self._bodies[thing.name].sampled = thing
             else:
                 self._put_region(thing)
         self.generation += 1
@@ -357,7 +357,7 @@ class World:
         if body.fallen:
             self.space.add(body._pm, *body._shapes)
             body.fallen = False
-        tear_off(self, body)
+        detach(self, body)
         body._pm.position, body._pm.angle = (x, y), angle
         body._pm.velocity, body._pm.angular_velocity = (0.0, 0.0), 0.0
         body._pm.force, body._pm.torque = (0.0, 0.0), 0.0
@@ -371,14 +371,14 @@ class World:
     def _drop(self, body: Body) -> None:
         """Takes a body out of the physics; it stays known."""
         body.fallen = True
-        tear_off(self, body)
+        detach(self, body)
         self.space.remove(body._pm, *body._shapes)
         self.contacts.forget(body)
         body._pm.velocity, body._pm.angular_velocity, body.vz = (0.0, 0.0), 0.0, 0.0
         self._height.forget(body)
 
     def _remove_parts(self, body: Body) -> None:
-        tear_off(self, body)
+        detach(self, body)
         if not body.fallen:
             self.space.remove(body._pm, *body._shapes)
         self.contacts.forget(body)
@@ -392,8 +392,8 @@ class World:
         taken = in_the_way(self, body)
         if taken is not None:
             raise WorldError(
-                f"body {body.name!r}: its place {body.drawn.position} overlaps body "
-                f"{taken.name!r} at {taken.drawn.position}; move one of them",
+                f"body {body.name!r}: its place {body.sampled.position} overlaps body "
+                f"{taken.name!r} at {taken.sampled.position}; move one of them",
                 thing=body.name,
             )
 

@@ -52,7 +52,7 @@ def test_out_of_range_is_cut_and_counted() -> None:
     sim.step()
     agent = sim.agents[0]
     assert agent.last_action == {"move": (1.0, 0.0, 0.0, 0.0)}
-    assert agent.fitting.actuators["move"].clipped == 2
+    assert agent.bound_blocks.actuators["move"].clipped == 2
     assert agent.body.velocity[0] == pytest.approx(2.0, rel=0.1)
 
 

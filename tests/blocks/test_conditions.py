@@ -323,4 +323,4 @@ def test_ticks_are_passed_on_only_where_a_child_wants_them() -> None:
     for name, reward in rewards.items():
         reward.name = name
     sim = small_sim(rewards=list(rewards.values()), skip_frame=4)
-    assert [each.name for each in sim.agents[0].fitting.tick_rewards] == ["deep", "own"]
+    assert [each.name for each in sim.agents[0].bound_blocks.tick_rewards] == ["deep", "own"]

@@ -118,7 +118,7 @@ def test_who_drives_in_its_place_decides_and_its_answers_are_counted() -> None:
     for _ in range(3):
         sim.tick()
         assert sim.agents[0].last_action["move"][0] == -1
-        assert not sim.held  # nobody waits for it
+        assert not sim.waiting_for_brain  # nobody waits for it
     assert [each.steps for each in link.told] == [0, 1, 2, 3, 4]
     assert link.timeouts[1:] == [0.0] * 3
     assert (brain.status().ignored, brain.status().decisions) == (2, 1)
@@ -146,10 +146,10 @@ def test_hold_lets_no_time_pass_and_asks_the_same_again() -> None:
     sim, _ = over(link)
     for _ in range(2):
         sim.tick()
-        assert sim.held
+        assert sim.waiting_for_brain
     assert sim.world.ticks == 0
     sim.tick()
-    assert not sim.held
+    assert not sim.waiting_for_brain
     assert sim.world.ticks == 1
     assert [each.steps for each in link.told] == [0, 1]
 
@@ -158,7 +158,7 @@ def test_who_waits_for_a_call_keeps_the_world_waiting() -> None:
     link = PaperLink(None, AHEAD)
     sim, brain = over(link)
     sim.tick()
-    assert (sim.held, brain.keeps_waiting) == (True, False)  # it has to be asked
+    assert (sim.waiting_for_brain, brain.keeps_waiting) == (True, False)  # it has to be asked
     link.will_call = True
     assert brain.keeps_waiting
     brain.lend(LocalBrain(controller=lambda _: {}))
@@ -167,7 +167,10 @@ def test_who_waits_for_a_call_keeps_the_world_waiting() -> None:
     link.will_call = False
     sim.tick()
     link.will_call = True
-    assert (sim.held, brain.keeps_waiting) == (False, True)  # it was told what it brought
+    assert (sim.waiting_for_brain, brain.keeps_waiting) == (
+        False,
+        True,
+    )  # it was told what it brought
     brain.mode = "realtime"
     assert not brain.keeps_waiting
 
@@ -181,7 +184,7 @@ def test_a_call_ticks_nothing_and_a_world_that_was_called_is_not_asked_again_in_
     runner = Runner(sim, time_scale=math.inf)
     runner.advance()
     runner.advance()
-    assert sim.held
+    assert sim.waiting_for_brain
     link.answers.append(AHEAD)
     link.will_call = True
     link.timeouts.clear()
@@ -237,7 +240,7 @@ def test_a_restart_of_one_agent_does_not_wait_for_the_world_to_go_on() -> None:
     answers = iter([Command.RESPAWN, AHEAD])
     sim = pair(PaperLink(None, AHEAD), lambda percept: next(answers))
     sim.tick()
-    assert sim.held
+    assert sim.waiting_for_brain
     assert [agent.episode for agent in sim.agents] == [1, 2]
     assert sim.world.ticks == 0
 
@@ -247,7 +250,10 @@ def test_a_held_world_is_a_good_moment_for_a_command(monkeypatch: pytest.MonkeyP
     sim = pair(PaperLink(), lambda percept: AHEAD)
     runner = Runner(sim, time_scale=math.inf)
     runner.start()
-    assert runner.submit(lambda: (sim.held, sim.between_decisions())).result(5) == (True, False)
+    assert runner.submit(lambda: (sim.waiting_for_brain, sim.between_decisions())).result(5) == (
+        True,
+        False,
+    )
     runner.stop()
 
 
@@ -323,14 +329,14 @@ def test_a_script_that_was_given_up_is_not_waited_for() -> None:
     link.will_call = True
     for missing in range(2, 30):
         sim.tick()
-        assert not sim.held
+        assert not sim.waiting_for_brain
         assert not brain.keeps_waiting
         assert brain.status().missing == missing
     assert set(link.timeouts) == {0.0}
     assert "given up, the world goes on until it answers" in brain.status().reason
     sim.reset()
     sim.tick()
-    assert not sim.held  # in another episode neither
+    assert not sim.waiting_for_brain  # in another episode neither
 
 
 @pytest.mark.parametrize("speaks", ["late", "now", "asks for time", "resets"])
@@ -350,11 +356,11 @@ def test_a_script_that_was_given_up_is_waited_for_again_once_it_speaks(speaks: s
     sim.tick()
     assert sim.agents[0].last_action != {"move": (0.0, 1.0, 0.0, 0.0)}
     sim.tick()
-    assert sim.held
+    assert sim.waiting_for_brain
     assert brain.status().state == "connected"
     link.answers.append({"move": [0, 0, 1, 0]})
     sim.tick()
-    assert not sim.held
+    assert not sim.waiting_for_brain
     assert sim.agents[0].last_action == {"move": (0.0, 0.0, 1.0, 0.0)}
 
 
@@ -365,7 +371,7 @@ def test_another_script_begins_anew() -> None:
     sim.tick()
     link.state = LinkState.CONNECTED
     sim.tick()
-    assert sim.held
+    assert sim.waiting_for_brain
 
 
 def test_a_late_answer_in_lockstep_is_dropped_and_counted() -> None:
@@ -374,7 +380,7 @@ def test_a_late_answer_in_lockstep_is_dropped_and_counted() -> None:
     sim.tick()
     link.answers.append(Answered({"move": [0, 1, 0, 0]}, link.told[0]))  # that one is answered
     sim.tick()
-    assert sim.held
+    assert sim.waiting_for_brain
     assert brain.status().ignored == 1
     assert sim.agents[0].last_action == {"move": (1.0, 0.0, 0.0, 0.0)}
 
@@ -470,7 +476,7 @@ def test_where_the_transport_can_say_so_the_script_answers_again() -> None:
     link.may_try_again = True
     sim, brain = over(link)
     sim.tick()
-    assert sim.held
+    assert sim.waiting_for_brain
     assert link.refused == ["agent '0' has no actuator 'mvoe'; did you mean 'move'?"]
     sim.tick()
     assert [each.number for each in link.told] == [1, 2]  # 1 was not told twice

@@ -121,7 +121,7 @@ def test_the_world_stands_still_while_the_script_asks_for_time(script: UDPScript
         script.say(WAIT)
         state = script.next(sim)
         assert state["steps"] == 0
-    assert sim.held
+    assert sim.waiting_for_brain
     assert sim.world.ticks == ticks
     script.say(AHEAD)
     assert script.next(sim)["steps"] == 1

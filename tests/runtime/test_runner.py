@@ -27,7 +27,7 @@ from ai4u_edu import (
 from ai4u_edu.base.errors import BlockError, NoDecisionError
 from ai4u_edu.recording import Recorder, Replay
 from ai4u_edu.runtime.runner import Runner
-from ai4u_edu.snapshot import Snapshot, picture_of
+from ai4u_edu.snapshot import Snapshot, capture_snapshot
 from tests.builders import small_sim, small_world
 from tests.server.rooms import free_port, until
 
@@ -126,7 +126,7 @@ def test_at_one_go_a_decision_is_what_it_is_tick_by_tick() -> None:
         runner = Runner(sim, seed=3)
         while sim.agents[0].steps < 20:
             runner._tick(leaps=leaps)
-        state = picture_of(sim)
+        state = capture_snapshot(sim)
         seen.append((state.tick, state.bodies, state.agents[0].percept, state.agents[0].reward))
         assert runner._schedule.ticked == sim.world.ticks == 100
     assert seen[0] == seen[1]
@@ -273,7 +273,7 @@ def test_snapshots_are_frozen_and_replaced(runner: Runner) -> None:
     first = runner.latest
     later = runner.wait(first, 5.0)
     assert later is not first
-    assert later.stage is first.stage
+    assert later.static_scene is first.static_scene
     with pytest.raises(AttributeError):
         first.tick = 3  # type: ignore[misc]  # that it can't be set is what is tested
     percept = first.agents[0].percept
@@ -306,7 +306,7 @@ def test_another_world_takes_this_ones_place(runner: Runner) -> None:
     runner.replace_sim(other, seed=7).result(5)
     assert runner.sim is other
     assert (runner.latest.seed, runner.latest.tick, runner.latest.paused) == (7, 0, True)
-    assert {body.name for body in runner.latest.stage.bodies} == set(other.world.bodies)
+    assert {body.name for body in runner.latest.static_scene.bodies} == set(other.world.bodies)
     assert closed == ["old"]
     assert not before.agents[0].keyboard.held()
     runner.resume().result(5)
@@ -394,7 +394,12 @@ def test_the_past_is_seen_and_changes_nothing(runner: Runner) -> None:
     past = replace(live, past="step 1 of 3", tick=-7, paused=False)
     runner.show_past(past).result(5)
     seen = runner.latest
-    assert (seen.past, seen.tick, seen.paused, seen.stage) == ("step 1 of 3", -7, True, live.stage)
+    assert (seen.past, seen.tick, seen.paused, seen.static_scene) == (
+        "step 1 of 3",
+        -7,
+        True,
+        live.static_scene,
+    )
     time.sleep(0.25)
     assert runner.latest is seen  # nobody has to draw it again
     runner.show_past(None).result(5)
@@ -690,7 +695,7 @@ def test_a_world_that_stands_still_or_waits_for_a_script_is_not_stalled(
         "ai4u_edu.runtime.stall_monitor.STALL_S", -1.0
     )  # whatever is under way is one
     runner.start()
-    until(lambda: sim.held and runner.stall is None)
+    until(lambda: sim.waiting_for_brain and runner.stall is None)
     runner.pause().result(5)
     until(lambda: runner.stall is None)
     runner.stop()

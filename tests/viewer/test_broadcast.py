@@ -5,7 +5,7 @@ import inspect
 import re
 import time
 from collections.abc import Iterator
-from contextlib import ExitStack, suppress
+from contextlib import ExitStack
 from threading import Event
 from typing import Any
 
@@ -21,7 +21,6 @@ from websockets.sync.connection import Connection
 from websockets.typing import Subprotocol
 from zstandard import ZstdDecompressor
 
-from ai4u_edu.base import direct
 from ai4u_edu.viewer.backend import broadcast as fan_out
 from ai4u_edu.viewer.backend.broadcast import FanOut, Page
 from ai4u_edu.viewer.backend.local_server import LocalServer
@@ -67,6 +66,7 @@ def client(server: viser.ViserServer, door: str = "") -> ClientConnection:
         subprotocols=[Subprotocol(f"viser-v{viser.__version__}")],
         compression=None,
         max_size=None,
+        max_queue=1,
         proxy=None,
     )
 
@@ -109,15 +109,12 @@ def settled(server: LocalServer, pages: int) -> FanOut:
     out: FanOut = server._websock_server._broadcast_buffer._ai4u_edu_fan_out  # type: ignore[attr-defined]
     until(lambda: len(out._pages) == pages)
     until(lambda: all(page.is_clear() for page in out._pages.values()))
-    assert all((page.way is not None) == bool(DOORS) for page in out._pages.values())
     return out
 
 
 def waiting(page: Page) -> int:
     """Bytes that a page has not taken yet, and that wait for it."""
-    socket: Any = page.way._socket if page.way else page.connection
-    size: int = socket.transport.get_write_buffer_size()
-    return size
+    return page.connection.transport.get_write_buffer_size()
 
 
 def test_it_fits_the_viser_that_is_there(server: LocalServer) -> None:
@@ -344,32 +341,6 @@ def test_nothing_that_goes_wrong_while_sending_ends_it(
         assert not out._sending.done()
 
 
-def test_the_direct_way_is_not_taken_before_it_is_open(monkeypatch: pytest.MonkeyPatch) -> None:
-    ways: list[direct.Direct] = []
-    opened = direct.Direct.open
-    monkeypatch.setattr(direct.Direct, "open", lambda way: ways.append(way))
-    server = LocalServer("AI4U Edu")
-    server.gui.add_markdown("<there>")
-    with ExitStack() as stack:
-        stack.callback(server.stop)
-        room = stack.enter_context(served(viser_port=server.get_port()))
-        page = stack.enter_context(client(server, room.url))
-        page.send(CAMERA)
-        until(lambda: ways and server.get_clients())
-        (own,) = server.get_clients().values()
-        seen: list[str] = []
-        with suppress(TimeoutError):
-            while True:
-                before, seen = seen, seen + marks(told(page.recv(0.3)))
-                if "there" in seen and "there" not in before:
-                    server.gui.add_markdown("<new>")
-                    own.gui.add_markdown("<own>")
-        assert set(seen) == {"there"}
-        opened(ways[0])
-        while not {"new", "own"} <= set(seen):
-            seen += marks(told(page.recv(5)))
-
-
 def test_from_another_thread_nobody_is_woken_and_nothing_is_forgotten() -> None:
     async def main() -> None:
         event = fan_out.Awakener()
@@ -388,7 +359,6 @@ def test_nothing_is_left_of_pages_that_are_gone(server: LocalServer) -> None:
     with client(server), client(server):
         out = settled(server, 2)
     settled(server, 0)
-    until(lambda: not direct._left)
     until(lambda: not out._buffer.generator_cursors)
     assert out._sending is None
     with client(server) as page:

@@ -92,7 +92,7 @@ def _through(body: BodyView, ray: Ray, margin: float) -> Interval:
 
 
 def _outline(body: BodyView, start: Vec, step: Vec, margin: float) -> Interval:
-    match body.drawn.shape:
+    match body.sampled.shape:
         case CircleShape(radius=radius):
             return _disc((0.0, 0.0), radius + margin, start, step)
         case BoxShape(size=(length, width)):

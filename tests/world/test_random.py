@@ -54,7 +54,7 @@ def crowded(seed: int = 0) -> World:
 
 def state(world: World) -> list[Any]:
     """Everything that can be random, as it is, in full precision."""
-    bodies = [(body.pose, body.drawn) for body in world.bodies.values()]
+    bodies = [(body.pose, body.sampled) for body in world.bodies.values()]
     return [bodies, world.floors, [area.description for area in world.areas.values()]]
 
 
@@ -77,9 +77,9 @@ def test_each_episode_is_another_one_and_stays_in_its_ranges() -> None:
         robot, first = world["robot"], world["obstacle 0"]
         assert robot.position != world["robot"].description.position
         assert max(map(abs, robot.position)) <= 5
-        assert isinstance(first.drawn.shape, CircleShape)
-        assert 0.6 * 0.4 <= first.drawn.shape.radius <= 1.4 * 0.4
-        assert math.degrees(first.heading) == pytest.approx(first.drawn.heading_deg)
+        assert isinstance(first.sampled.shape, CircleShape)
+        assert 0.6 * 0.4 <= first.sampled.shape.radius <= 1.4 * 0.4
+        assert math.degrees(first.heading) == pytest.approx(first.sampled.heading_deg)
         assert world["pillar"].position == (0.0, 0.0)
         goal = world.areas["goal"]
         assert (goal.x, goal.y) in {(-4, -4), (4, 4)}
@@ -112,9 +112,9 @@ def test_what_is_described_is_kept_and_what_is_drawn_holds() -> None:
     box = world.add_body("box", BoxShape(size=(1, 2)), position=(0, 1), random=vary)
     assert box.description.position == (0.0, 1.0)
     assert box.description.shape == BoxShape(size=(1, 2))
-    assert box.drawn.shape == BoxShape(size=(2, 4))
-    assert box.drawn.random is None
-    assert box.position == box.drawn.position
+    assert box.sampled.shape == BoxShape(size=(2, 4))
+    assert box.sampled.random is None
+    assert box.position == box.sampled.position
     assert 2 <= box.position[0] <= 3
     fan = RayFan(world, [0.0], 20, lambda tags: 1.0, exclude_self=False)
     eye = world.add_body("eye", CircleShape(radius=0.1), position=(-5, 1), collision_layer=2)
@@ -149,14 +149,14 @@ def test_all_lengths_of_a_shape_are_scaled(shape: Any, twice: Any) -> None:
 
 def outline(body: Body) -> list[tuple[float, float]]:
     (x, y), cos, sin = body.position, math.cos(body.heading), math.sin(body.heading)
-    return [(x + cos * a - sin * b, y + sin * a + cos * b) for a, b in body.drawn.shape.outline()]
+    return [(x + cos * a - sin * b, y + sin * a + cos * b) for a, b in body.sampled.shape.outline()]
 
 
 def gap(one: Body, other: Body) -> float:
     """About how far two bodies are from each other: negative if they overlap."""
 
     def inside(points: list[tuple[float, float]], owner: Body) -> bool:
-        return any(owner.drawn.shape.contains(*owner.to_local(*point)) for point in points)
+        return any(owner.sampled.shape.contains(*owner.to_local(*point)) for point in points)
 
     first, second = outline(one), outline(other)
     if inside(first, other) or inside(second, one):
@@ -486,12 +486,12 @@ def test_a_world_without_anything_random_pays_nothing(monkeypatch: pytest.Monkey
         raise AssertionError("somebody looked for a place")
 
     world = World()
-    monkeypatch.setattr("ai4u_edu.world.world.scatter", refuse)
+    monkeypatch.setattr("ai4u_edu.world.world.randomize", refuse)
     monkeypatch.setattr("ai4u_edu.world.randomize.Places", refuse)
     world.add_floor("plate", BoxShape(size=(9, 9)))
     ball = world.add_body("ball", CircleShape())
     world.reset()
-    assert ball.drawn is ball.description
+    assert ball.sampled is ball.description
 
 
 def test_once_the_last_random_thing_is_gone_it_pays_nothing_again(
@@ -500,7 +500,7 @@ def test_once_the_last_random_thing_is_gone_it_pays_nothing_again(
     world = World()
     world.add_body("ball", CircleShape(), random={"x": (0, 1)})
     world.remove("ball")
-    monkeypatch.setattr("ai4u_edu.world.world.scatter", lambda *_args: 1 / 0)
+    monkeypatch.setattr("ai4u_edu.world.world.randomize", lambda *_args: 1 / 0)
     world.reset()
 
 

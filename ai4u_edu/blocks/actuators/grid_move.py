@@ -99,7 +99,7 @@ class GridMoveActuator(OnGrid, ChoiceActuator):
         names = [name for tag in self.blocked_by for name in self._view.named(tag)]
         walls = [self._view[name] for name in dict.fromkeys(names)]
         self._walls = [
-            (wall, wall.drawn.shape.reach) for wall in walls if wall is not self._agent.body
+            (wall, wall.sampled.shape.reach) for wall in walls if wall is not self._agent.body
         ]
 
 

@@ -298,7 +298,7 @@ class RemoteBrain(Brain):
         """Seconds to wait for an answer now."""
         if self.mode == "realtime":
             return 0.0
-        company = self._agent.companions > 0
+        company = self._agent.other_agents > 0
         return self._patience.wait_s(link, can_act=self._can_act(), has_company=company)
 
     def _without_answer(self, link: Link, *, waits: bool) -> Answer:
@@ -316,7 +316,7 @@ class RemoteBrain(Brain):
             if waits:
                 return Command.HOLD
             if self._has_time(link):
-                yields = self._agent.companions > 0 and self._patience.yields(link)
+                yields = self._agent.other_agents > 0 and self._patience.yields(link)
                 return Command.WAIT if yields else Command.HOLD
             if self.mode == "lockstep":
                 self._patience.give_up()
@@ -354,7 +354,7 @@ class RemoteBrain(Brain):
         if isinstance(answer, Reset):
             self._resetting, self._cut_short = True, False
             self._seed = answer.seed
-            alone = not agent.companions or answer.seed is not None
+            alone = not agent.other_agents or answer.seed is not None
             return Command.RESTART if alone else Command.RESPAWN
         if isinstance(answer, Command):
             self._stopped = self._stopped or answer is Command.STOP

@@ -66,5 +66,5 @@ class ParkedRewardFunc(RewardFunc):
         (x, y), cos, sin = body.position, math.cos(body.heading), math.sin(body.heading)
         return all(
             area.contains(x + cos * along - sin * left, y + sin * along + cos * left)
-            for along, left in body.drawn.shape.outline()
+            for along, left in body.sampled.shape.outline()
         )

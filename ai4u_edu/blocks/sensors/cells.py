@@ -88,7 +88,7 @@ class Grid:
 
         A body thinner than a cell counts as one cell thick, so that no wall has gaps.
         """
-        where = body.pose, body.drawn
+        where = body.pose, body.sampled
         known = self._known.get(body)
         if known is None or known[0] != where:
             known = self._known[body] = where, self._covered(body)
@@ -99,7 +99,7 @@ class Grid:
         return np.flatnonzero(region.contains_each(self._x, self._y))
 
     def _covered(self, body: BodyView) -> Cells:
-        (x, y, _, heading), shape = body.pose, body.drawn.shape
+        (x, y, _, heading), shape = body.pose, body.sampled.shape
         cos, sin = math.cos(heading), math.sin(heading)
         dx, dy = self._x - x, self._y - y
         u, v = cos * dx + sin * dy, cos * dy - sin * dx

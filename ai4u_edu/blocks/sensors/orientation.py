@@ -67,7 +67,7 @@ class OrientationSensor(Sensor):
         """The cosine stays; the distance is divided by max_distance."""
         return np.array([1.0, self._reach])[self._part]
 
-    def says_nothing(self, reading: Any) -> bool:
+    def is_sentinel(self, reading: Any) -> bool:
         """Whether it says "not to be seen"."""
         return bool(reading[-1] == (-2.0 if self.info == "angle" else -1.0))
 

@@ -129,7 +129,7 @@ class Plan:
         regions: list[RegionDescription] = list(view.floors)
         regions += [area.description for area in view.areas.values()]
         owners: list[BodyDescription | RegionDescription] = [
-            *(other.drawn for other in self._bodies),
+            *(other.sampled for other in self._bodies),
             *regions,
         ]
         floors = range(count, count + len(view.floors))

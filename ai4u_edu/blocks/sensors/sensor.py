@@ -124,7 +124,7 @@ class Sensor(Block):
         largest = np.maximum(np.abs(space.low), np.abs(space.high)).astype(np.float64)
         return np.where(np.isfinite(largest) & (largest > 0), largest, 1.0)
 
-    def says_nothing(self, reading: Any) -> bool:
+    def is_sentinel(self, reading: Any) -> bool:
         """Whether a raw reading stands for "nothing there": it is not normalised."""
         return False
 
@@ -183,7 +183,7 @@ class Sensor(Block):
         check_memory(self, low.shape)
         if self.normalized:
             low, high = (
-                each if self.says_nothing(each) else np.asarray(each / self.scale())
+                each if self.is_sentinel(each) else np.asarray(each / self.scale())
                 for each in (low, high)
             )
         if self.stacked_observations > 1:
@@ -254,7 +254,7 @@ class Sensor(Block):
             fits = False
         if not fits:
             numbers = self._checked(reading).ravel().tolist()
-        if self._divisors is not None and not self.says_nothing(numbers):
+        if self._divisors is not None and not self.is_sentinel(numbers):
             numbers = map(truediv, numbers, self._divisors)
         self._pack(self._memory, 0, *numbers)
 
@@ -273,7 +273,7 @@ class Sensor(Block):
                 self._past.clear()
             self._past.append(reading.copy())
             reading = self._past[0]
-        if self.normalized and not self.says_nothing(reading):
+        if self.normalized and not self.is_sentinel(reading):
             reading = reading / self._scale
         self._stack(reading)
         self._fresh = False

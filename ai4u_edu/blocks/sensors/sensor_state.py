@@ -10,15 +10,15 @@ from ai4u_edu.world import BodyView, WorldView
 
 
 @dataclass(frozen=True)
-class Memory:
+class SensorState:
     """A sensor's stack, what it holds back, and whether it has read anything yet."""
 
     out: Array
     state: dict[str, Any]
-    children: "tuple[Memory, ...]"
+    children: "tuple[SensorState, ...]"
 
     @classmethod
-    def of(cls, sensor: Sensor) -> "Memory":
+    def of(cls, sensor: Sensor) -> "SensorState":
         """What a sensor remembers now."""
         state = {
             "_raw": sensor._raw.copy(),
@@ -28,7 +28,7 @@ class Memory:
         }
         return cls(sensor._out.copy(), state, tuple(map(cls.of, _children(sensor))))
 
-    def give_back(self, sensor: Sensor) -> bool:
+    def restore(self, sensor: Sensor) -> bool:
         """Has a sensor that was set up anew go on from here; False if its reading looks different.
 
         Then it begins anew.
@@ -38,7 +38,7 @@ class Memory:
         if not same or len(children) != len(self.children):
             return False
         pairs = zip(self.children, children, strict=True)
-        if not all(memory.give_back(each) for memory, each in pairs):
+        if not all(memory.restore(each) for memory, each in pairs):
             return False
         sensor._out[...] = self.out
         for name, value in self.state.items():
@@ -46,7 +46,7 @@ class Memory:
         return True
 
 
-def look_again(sensor: Sensor, body: BodyView, view: WorldView) -> None:
+def read_again(sensor: Sensor, body: BodyView, view: WorldView) -> None:
     """Reads once more at the same moment: the new reading takes the place of the last one."""
     _unread(sensor)
     stack = sensor._out.copy() if sensor.stacked_observations > 1 and not sensor._fresh else None

@@ -159,11 +159,11 @@ class Seat:
                 skip_frame=agent.brain.skip_frame,
                 repeat_action=agent.brain.repeat_action,
                 max_steps=agent.max_steps_per_episode,
-                rewards=tuple(reward.name for reward in agent.fitting.rewards),
+                rewards=tuple(reward.name for reward in agent.bound_blocks.rewards),
                 success=self._runner.sim.success,
                 readings=self.session.excerpt.readings,
                 outputs=tuple(
-                    output_of(name, each) for name, each in agent.fitting.actuators.items()
+                    output_of(name, each) for name, each in agent.bound_blocks.actuators.items()
                 ),
             )
         )

@@ -26,13 +26,13 @@ class Excerpt:
     """
 
     def __init__(self, agent: BasicAgent, keys: Collection[str]) -> None:
-        layout = agent.fitting.layout
+        layout = agent.bound_blocks.layout
         known = (*layout.slots, *layout.texts)
         for key in keys:
             if key not in known:
                 raise NameNotFoundError(f"no reading is called {key!r}; {suggest(key, known)}")
         wanted = set(keys or known)
-        sensors = {sensor.perception_key: sensor for sensor in agent.fitting.sensors}
+        sensors = {sensor.perception_key: sensor for sensor in agent.bound_blocks.sensors}
         self._slots = [slot for key, slot in layout.slots.items() if key in wanted]
         self._texts = [place for place, key in enumerate(layout.texts) if key in wanted]
         self._is_all = len(wanted) == len(known)

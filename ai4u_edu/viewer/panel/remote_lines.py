@@ -43,7 +43,7 @@ def lines(address: str, agent: BasicAgent) -> str:
     """
     example = {
         name: [1] + [0] * (len(actuator.limits()[0]) - 1)
-        for name, actuator in agent.fitting.actuators.items()
+        for name, actuator in agent.bound_blocks.actuators.items()
         if actuator.is_output
     }
     if all(name.isidentifier() and not iskeyword(name) for name in example):

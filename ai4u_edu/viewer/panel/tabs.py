@@ -5,7 +5,7 @@ from typing import NamedTuple, Protocol
 
 from viser import PanelHandle
 
-from ai4u_edu.snapshot import Snapshot, Stage
+from ai4u_edu.snapshot import Snapshot, StaticScene
 from ai4u_edu.viewer.backend.log_once import Complaints
 from ai4u_edu.viewer.backend.turns import Turns
 from ai4u_edu.viewer.viewer_client import ViewerClient, ViewerClients
@@ -19,7 +19,7 @@ class Tab(Protocol):
     """
 
     def draw(self, snapshot: Snapshot) -> None:
-        """Shows a snapshot; called some times a second, and at once on a new stage."""
+        """Shows a snapshot; called some times a second, and at once on a new static_scene."""
 
 
 class TabKind(NamedTuple):
@@ -55,8 +55,8 @@ class Tabs:
         self._complaints = complaints
         self._pages: dict[int, _Page] = {}
 
-    def build(self, stage: Stage) -> None:
-        """Nothing: a tab finds the stage in the snapshot."""
+    def build(self, static_scene: StaticScene) -> None:
+        """Nothing: a tab finds the static scene in the snapshot."""
 
     def draw(self, snapshot: Snapshot) -> None:
         """Shows a snapshot in all tabs of all pages, new ones too."""

@@ -4,9 +4,9 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 from ai4u_edu.agent.agent import BasicAgent
-from ai4u_edu.agent.bound_blocks import Fitting
+from ai4u_edu.agent.bound_blocks import BoundBlocks
 from ai4u_edu.blocks import Actuator, Brain, RemoteBrain, RewardFunc, Sensor
-from ai4u_edu.blocks.sensors.sensor_state import Memory, look_again
+from ai4u_edu.blocks.sensors.sensor_state import SensorState, read_again
 from ai4u_edu.world import World
 
 FAREWELL = "the agent's blocks were changed; connect again to be told what it senses now"
@@ -35,7 +35,7 @@ class Blocks:
         agent.rewards, agent.brains = list(self.rewards), list(self.brains)
 
 
-def refit(agent: BasicAgent, world: World, blocks: Blocks, *, brain_goes_on: bool = False) -> None:
+def rebind(agent: BasicAgent, world: World, blocks: Blocks, *, brain_goes_on: bool = False) -> None:
     """Puts blocks on an agent that is under way; those that it had already go on as they were.
 
     What is new is reset, and reads at once; the brain decides next on a percept with all of it.
@@ -50,13 +50,13 @@ def refit(agent: BasicAgent, world: World, blocks: Blocks, *, brain_goes_on: boo
         SetupError: something does not fit; then the agent is as it was.
         ReadingError: a new sensor reads what it has not declared; the same then.
     """
-    had, before = Blocks.of(agent), agent.fitting
-    memories = {id(each): Memory.of(each) for each in before.number_sensors}
+    had, before = Blocks.of(agent), agent.bound_blocks
+    memories = {id(each): SensorState.of(each) for each in before.number_sensors}
 
     def fit(these: Blocks, known: Blocks, *, goes_on: bool) -> None:
         these.put_on(agent)
-        fitting = Fitting(agent, world, goes_on=before.brain if goes_on else None)
-        _begin(agent, fitting, known, memories, looks=these is blocks)
+        bound = BoundBlocks(agent, world, goes_on=before.brain if goes_on else None)
+        _begin(agent, bound, known, memories, looks=these is blocks)
 
     try:
         fit(blocks, had, goes_on=brain_goes_on)
@@ -66,9 +66,9 @@ def refit(agent: BasicAgent, world: World, blocks: Blocks, *, brain_goes_on: boo
         try:
             fit(had, had, goes_on=True)
         except BaseException:  # somebody's block that fits once only
-            before.take_up()
+            before.restore()
             for sensor in before.number_sensors:
-                memories[id(sensor)].give_back(sensor)
+                memories[id(sensor)].restore(sensor)
         raise
     gone = before.brain
     if agent.brain is gone:
@@ -79,36 +79,36 @@ def refit(agent: BasicAgent, world: World, blocks: Blocks, *, brain_goes_on: boo
         gone.close()
 
 
-def look_anew(agent: BasicAgent) -> None:
+def sense_again(agent: BasicAgent) -> None:
     """Has an agent sense the same moment once more: somebody moved the world by hand."""
-    fitting = agent.fitting
-    for sensor in fitting.number_sensors:
-        _blank_or(lambda each: look_again(each, fitting.body, fitting.view), sensor)
-    agent.see(fitting.percept())
+    bound = agent.bound_blocks
+    for sensor in bound.number_sensors:
+        _blank_or(lambda each: read_again(each, bound.body, bound.view), sensor)
+    agent.replace_percept(bound.percept())
 
 
 def _begin(
     agent: BasicAgent,
-    fitting: Fitting,
+    bound: BoundBlocks,
     known: Blocks,
-    memories: dict[int, Memory],
+    memories: dict[int, SensorState],
     *,
     looks: bool,
 ) -> None:
     """Resets what is new, and hands what is not its memory."""
     old = {id(each) for each in (*known.actuators, *known.rewards, *known.brains)}
-    for block in (*fitting.rewards, *fitting.actuators.values(), fitting.brain):
+    for block in (*bound.rewards, *bound.actuators.values(), bound.brain):
         if id(block) not in old:
-            block.on_reset(agent, fitting.view)
-    for sensor in fitting.sensors:
+            block.on_reset(agent, bound.view)
+    for sensor in bound.sensors:
         memory = memories.get(id(sensor))
-        if memory is not None and memory.give_back(sensor):
+        if memory is not None and memory.restore(sensor):
             continue
         if sensor.resetable:
-            sensor.on_reset(agent, fitting.view)
-        if looks and sensor in fitting.number_sensors:
-            _blank_or(lambda each: each.take(fitting.body, fitting.view), sensor)
-    agent.see(fitting.percept())
+            sensor.on_reset(agent, bound.view)
+        if looks and sensor in bound.number_sensors:
+            _blank_or(lambda each: each.take(bound.body, bound.view), sensor)
+    agent.replace_percept(bound.percept())
 
 
 def _blank_or(read: Callable[[Sensor], None], sensor: Sensor) -> None:

@@ -13,7 +13,7 @@ class HasId(Protocol):
     id: str
 
 
-def named(block: Block | None) -> str:
+def block_label(block: Block | None) -> str:
     """Return a block's class and its own name, as they stand in messages."""
     if isinstance(block, Brain):
         return block.title()
@@ -23,7 +23,7 @@ def named(block: Block | None) -> str:
     return f"{type(block).__name__} {name!r}" if name else type(block).__name__
 
 
-def blame(error: Exception, agent: HasId, block: Block | str | None, doing: str) -> None:
+def add_context(error: Exception, agent: HasId, block: Block | str | None, doing: str) -> None:
     """Add the agent and the block to an error that is on its way out, once.
 
     Errors of this package get it in front of their message and keep their type; all others get a
@@ -37,7 +37,7 @@ def blame(error: Exception, agent: HasId, block: Block | str | None, doing: str)
     """
     if getattr(error, "_is_blamed", False):
         return
-    name = block if isinstance(block, str) else named(block)
+    name = block if isinstance(block, str) else block_label(block)
     who = f"agent {agent.id!r}"
     if isinstance(error, AI4UError) and error.args and isinstance(error.args[0], str):
         text, *others = error.args
