@@ -68,7 +68,7 @@ class Viewer:
             warnings.warn("use Viewer(editor=...)", DeprecationWarning, stacklevel=2)
             editor = workshop
         self.runner = runner
-        self.server = server = LocalServer(title, runner.give_way)
+        self.server = server = LocalServer(title)
         self._title = title
         self._viewer_clients = viewer_clients = ViewerClients(server, first=runner.sim.agents[0].id)
         self._static_scene: StaticScene | None = None
@@ -105,8 +105,8 @@ class Viewer:
             (PageControls(viewer_clients), 8, EACH_PAGE),
         ]
         in_turn: list[tuple[Part, float]] = [
-            (SenseOverlay(viewer_clients, runner.give_way), 30),
-            (Tabs(viewer_clients, kinds, self._complaints, runner.give_way), 8),
+            (SenseOverlay(viewer_clients), 30),
+            (Tabs(viewer_clients, kinds, self._complaints), 8),
         ]
         self._parts = [Paced(part, rate, self._complaints, share) for part, rate, share in parts]
         self._parts += [
@@ -179,7 +179,6 @@ class Viewer:
                 for part in self._parts:
                     part.build(snapshot.static_scene)
             for part in self._parts:
-                self.runner.give_way()
                 part.draw(snapshot)
         for viewer_client in self._viewer_clients.values():
             with self._complaints.caught():

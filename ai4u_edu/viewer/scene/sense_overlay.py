@@ -1,7 +1,5 @@
 """What the agents that somebody looks at sense, in the scene: on each page its own agent's."""
 
-from collections.abc import Callable
-
 from ai4u_edu.snapshot import AgentState, Snapshot, StaticScene
 from ai4u_edu.snapshot.block_info import SensorInfo
 from ai4u_edu.viewer.backend.turns import Turns
@@ -27,12 +25,11 @@ class SenseOverlay:
 
     Args:
         viewer_clients: the pages.
-        give_way: called between two pages.
     """
 
-    def __init__(self, viewer_clients: ViewerClients, give_way: Callable[[], None]) -> None:
+    def __init__(self, viewer_clients: ViewerClients) -> None:
         self._viewer_clients = viewer_clients
-        self._give_way, self._turns = give_way, Turns()
+        self._turns = Turns()
         self._pages: dict[int, _Page] = {}
 
     def build(self, static_scene: StaticScene) -> None:
@@ -55,7 +52,6 @@ class SenseOverlay:
                 self._pages[number] = _Page(viewer_client, self._look)
             agent = agents.get(viewer_client.agent)
             if agent is not None:
-                self._give_way()
                 self._pages[number].draw(snapshot, agent, self._lifts[agent.body])
 
 
