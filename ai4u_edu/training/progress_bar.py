@@ -2,7 +2,7 @@
 
 import sys
 from collections.abc import Iterable, Iterator
-from typing import TextIO, TypeVar
+from typing import Any, TextIO, TypeVar
 
 from tqdm.auto import tqdm
 
@@ -35,7 +35,7 @@ class ProgressBar:
     ) -> None:
         can_remove = (file or sys.stderr).isatty() or "ipykernel" in sys.modules
         self._is_shown = not quiet and (keep or can_remove)
-        self._bar = tqdm[int](
+        self._bar: Any = tqdm(
             total=total,
             unit=unit,
             file=file,
