@@ -18,7 +18,7 @@ NOT_IMPORTED = {
     "tensorboard",  # Stable-Baselines3 imports it
 }
 """Declared packages that are needed without an import of ours."""
-FOR_TESTS = {"dev", "fuzz"}
+FOR_TESTS = {"dev", "fuzz", "test"}
 """Extras that only the tests use."""
 
 
