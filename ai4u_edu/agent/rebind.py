@@ -51,7 +51,7 @@ def rebind(agent: BasicAgent, world: World, blocks: Blocks, *, brain_goes_on: bo
         ReadingError: a new sensor reads what it has not declared; the same then.
     """
     had, before = Blocks.of(agent), agent.bound_blocks
-    memories = {id(each): SensorState.of(each) for each in before.number_sensors}
+    memories = {id(each): SensorState.capture(each) for each in before.number_sensors}
 
     def fit(these: Blocks, known: Blocks, *, goes_on: bool) -> None:
         these.put_on(agent)
