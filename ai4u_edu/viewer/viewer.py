@@ -161,7 +161,7 @@ class Viewer:
 
     def _draw(self, snapshot: Snapshot) -> None:
         for agent in self.runner.sim.agents:
-            agent.ledger.remember(REMEMBERED)
+            agent.ledger.keep_history(REMEMBERED)
         with self.server.atomic():
             if snapshot.stage is not self._stage:
                 self._stage = snapshot.stage

@@ -209,7 +209,7 @@ def test_a_sensor_may_still_define_the_old_name_of_is_sentinel() -> None:
                 return 0.5
 
             def says_nothing(self, reading: Any) -> bool:
-                return reading[0] == 0.5
+                return bool(reading[0] == 0.5)
 
     assert readings(Old(normalized=True), 1) == [[0.5], [0.5]]
     with pytest.warns(DeprecationWarning, match="Sensor.says_nothing is now Sensor.is_sentinel"):
