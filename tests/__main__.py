@@ -1,7 +1,8 @@
-"""`python3 -m tests`: every check of the project, from a fresh clone with a bare Python.
+"""``python3 -m tests``: every check of the project, from a fresh clone with a bare Python.
 
-``python3 -m tests --only mypy`` runs one of them; other arguments go to pytest, which then runs
-alone: ``python3 -m tests -k cycle``. Standard library only, in a syntax that Python 3.8 reads.
+``--fast`` takes a minute and needs neither a browser nor torch; ``--nightly`` adds repetitions and
+long runs. ``--only mypy`` runs one tool. Other arguments go to pytest, which then runs alone:
+``python3 -m tests -k cycle``. Standard library only, in a syntax that Python 3.8 reads.
 """
 
 from __future__ import annotations
@@ -11,6 +12,7 @@ import os
 import subprocess
 import sys
 import time
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 from ai4u_edu import bootstrap
@@ -20,73 +22,123 @@ from tests.remote import ai4u_venv
 ROOT = Path(__file__).resolve().parent.parent
 LINT_IMPORTS = "from importlinter.cli import lint_imports_command as run; run()"
 # Through `python -m`, since scripts in .venv/bin don't survive a move of the checkout.
-CHECKS = {
+STATIC_CHECKS = {
     "ruff format": ["-m", "ruff", "format", "--check", "."],
     "ruff check": ["-m", "ruff", "check", "."],
     "mypy": ["-m", "mypy"],
     "imports": ["-c", LINT_IMPORTS],
-    # What needs the machine to itself (see conftest.py), then all else on every core.
-    "pytest alone": ["-m", "pytest", "-m", "alone"],
-    "pytest": ["-m", "pytest", "-m", "not alone", "-n", "auto"],
 }
+PARALLEL = ["-n", "auto"]
+LONG_RUNS = {
+    "fuzz": ["-m", "tests.fuzz"],
+    "hammer": ["-m", "tests.attacks.hammer", "--seconds", "300"],
+    "soak": ["-m", "tests.soak", "--minutes", "30"],
+}
+NO_TESTS_COLLECTED = 5
 
 
 def main() -> int:
     """Run the checks, all of them even if one fails; return the exit code."""
     parser = argparse.ArgumentParser(prog="python3 -m tests", allow_abbrev=False)
-    tools = sorted({name.split()[0] for name in CHECKS})
+    tools = sorted({*(name.split()[0] for name in STATIC_CHECKS), "pytest"})
     parser.add_argument("--only", choices=tools, help="run this one alone")
+    tier = parser.add_mutually_exclusive_group()
+    tier.add_argument("--fast", action="store_true", help="no browser, no torch, nothing slow")
+    tier.add_argument("--nightly", action="store_true", help="also repetitions and long runs")
     options, for_pytest = parser.parse_known_args()
     only = options.only or ("pytest" if for_pytest else "")
     if for_pytest and only != "pytest":
         parser.error(f"{only} takes no arguments here, and got: {' '.join(for_pytest)}")
 
     try:
-        python = bootstrap.ensure(ROOT, ["dev"])
+        python = str(bootstrap.ensure(ROOT, ["test" if options.fast else "dev"]))
     except bootstrap.SetupError as error:
         sys.exit(str(error))
-    failed = []
-    for name, command in CHECKS.items():
-        if only and name.split()[0] != only:
-            continue
-        if name == "pytest alone":
-            failed += prepare(python)
-            if for_pytest:  # a few tests, chosen by hand
-                return subprocess.call([str(python), "-m", "pytest", *for_pytest], cwd=ROOT)
-            if "browser" in failed:
-                command = [*command, "-m", "alone and not browser"]
-        if not passes(name, [str(python), *command]):
-            failed.append(name)
-    if failed:
-        print(f"\nNot in order: {', '.join(failed)}", flush=True)
-    return 1 if failed else 0
+    static = {
+        name: [python, *arguments]
+        for name, arguments in STATIC_CHECKS.items()
+        if only in ("", name.split()[0]) and not (options.fast and name == "mypy" and not only)
+    }
+    failed = run_side_by_side(static)
+    if only not in ("", "pytest"):
+        return report(failed)
+    if not options.fast:
+        failed += prepare(python)
+    tier_options = ["--fast"] * options.fast + ["--nightly"] * options.nightly
+    pytest = [python, "-m", "pytest", *tier_options]
+    if for_pytest:  # a few tests, chosen by hand
+        return subprocess.call([*pytest, *for_pytest], cwd=ROOT)
+    without_browser = " and not browser" if "browser" in failed else ""
+    commands = {"pytest": [*pytest, "-m", "not alone" + without_browser, *PARALLEL]}
+    if not options.fast:
+        commands["pytest alone"] = [*pytest, "-m", "alone" + without_browser]
+    if options.nightly and not only:
+        commands.update({name: [python, *arguments] for name, arguments in LONG_RUNS.items()})
+    for name, command in commands.items():
+        failed += run_in_turn(name, command)
+    return report(failed)
 
 
-def prepare(python: Path) -> list[str]:
+def prepare(python: str) -> list[str]:
     """Get what tests need besides Python's packages; return what could not be had."""
     missing = []
     try:
-        os.environ["AI4U_CHROMIUM"] = setup_browser.ensure(python)
+        os.environ["AI4U_CHROMIUM"] = setup_browser.ensure(Path(python))
     except setup_browser.BrowserError as error:
         print(f"\n{error}\nGoing on without the tests that need a browser.", flush=True)
         missing.append("browser")
     try:
-        ai4u_venv.ensure(python)
+        ai4u_venv.ensure(Path(python))
     except ai4u_venv.VenvError as error:
         print(f"\n{error}\nGoing on without the tests that need it.", flush=True)
         missing.append("AI4U's package")
     return missing
 
 
-def passes(name: str, command: list[str]) -> bool:
-    """Run one check under a heading, and say how long it took; pytest has the last word itself."""
+def run_side_by_side(commands: dict[str, list[str]]) -> list[str]:
+    """Run checks that each keep one core busy; print each one's output at its end."""
+
+    def run(name: str) -> bool:
+        start = time.monotonic()
+        done = subprocess.run(
+            commands[name],
+            cwd=ROOT,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            text=True,
+            errors="replace",
+            check=False,
+        )
+        end = outcome(name, done.returncode, start)
+        print(f"\n--- {name}\n{done.stdout}{end}", flush=True)
+        return done.returncode == 0
+
+    with ThreadPoolExecutor(2) as pool:
+        passed = {name: pool.submit(run, name) for name in commands}
+    return [name for name in commands if not passed[name].result()]
+
+
+def run_in_turn(name: str, command: list[str]) -> list[str]:
+    """Run one check, its output as it comes; return its name if it failed."""
     print(f"\n--- {name}", flush=True)
     start = time.monotonic()
     code = subprocess.call(command, cwd=ROOT)
-    seconds = time.monotonic() - start
-    if name != "pytest":
-        print(f"--- {name}: {'FAILED' if code else 'ok'} in {seconds:.1f} s", flush=True)
-    return code == 0
+    if name == "pytest alone" and code == NO_TESTS_COLLECTED:
+        code = 0
+    print(outcome(name, code, start), flush=True)
+    return [name] if code else []
+
+
+def outcome(name: str, code: int, start: float) -> str:
+    """Return the line that ends a check."""
+    return f"--- {name}: {'FAILED' if code else 'ok'} in {time.monotonic() - start:.1f} s"
+
+
+def report(failed: list[str]) -> int:
+    """Print what failed, and return the exit code."""
+    if failed:
+        print(f"\nNot in order: {', '.join(failed)}", flush=True)
+    return 1 if failed else 0
 
 
 if __name__ == "__main__":

@@ -1,33 +1,90 @@
-"""What belongs to no test alone: who needs the machine to itself; the table at the log's end."""
+"""Tiers of the suite (``--fast``, ``--nightly``), the order of files, and the report at the end."""
 
 from pathlib import Path
 
 import pytest
 
-TESTS = Path(__file__).parent
-ALONE = {"attacks", "browser", "load"}
-"""Tests of these folders look at a page, and draw it without a graphics card; or are many."""
-REAL_TIME = ALONE | {"remote", "server", "training", "viewer", "editing", "runtime"}
-REAL_TIME_TOO = {"test_live.py"}
-"""Tests of these folders and files keep real time or listen at ports: what a machine's bad moment
-failed gets another chance, and the log names it. All others must pass at once."""
-LOG = "components"
+ROOT = Path(__file__).parent.parent
+LONG_FOLDERS = ("browser", "attacks", "training", "remote", "lessons", "load")
+"""Their files take longest and are started first, so that no core is idle at the end."""
+NOT_FAST = ("attacks", "benchmarks", "browser", "envs", "fuzz", "lessons", "load", "remote",
+            "training")  # fmt: skip
+"""Folders that ``--fast`` does not even import: they train, serve, or need Chromium or torch."""
+NOT_FAST_MARKERS = {"alone", "browser", "slow"}
+COMPONENT_TABLE = "components"
+LEFT_OUT = pytest.StashKey[int]()
 
 
-def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    for item in items:
-        inside = TESTS in item.path.parents
-        first = item.path.relative_to(TESTS).parts[0] if inside else ""
-        looks = item.get_closest_marker("browser") is not None
-        if first in ALONE or looks:
-            item.add_marker(pytest.mark.alone)
-        if first in REAL_TIME or item.path.name in REAL_TIME_TOO or looks:
-            item.add_marker(pytest.mark.flaky(reruns=2))
+def pytest_addoption(parser: pytest.Parser) -> None:
+    group = parser.getgroup("tiers of this project")
+    group.addoption("--fast", action="store_true", help="no browser, no torch, nothing slow")
+    group.addoption("--nightly", action="store_true", help="also the tests marked `nightly`")
 
 
-def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
+def pytest_configure(config: pytest.Config) -> None:
+    config.stash[LEFT_OUT] = 0
+    if config.option.fast:
+        folders = [ROOT / each / name for each in ("ai4u_edu", "tests") for name in NOT_FAST]
+        config.option.ignore = [*(config.option.ignore or ()), *map(str, folders)]
+
+
+def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
+    is_chosen_by_hand = any("::" in argument for argument in config.args)
+    left_out = [] if is_chosen_by_hand else [each for each in items if _is_left_out(each, config)]
+    if left_out:
+        config.stash[LEFT_OUT] = len(left_out)
+        config.hook.pytest_deselected(items=left_out)
+    kept = set(items).difference(left_out)
+    items[:] = sorted((each for each in items if each in kept), key=_turn)
+
+
+def _is_left_out(item: pytest.Item, config: pytest.Config) -> bool:
+    markers = {each.name for each in item.iter_markers()}
+    if config.option.fast and markers & NOT_FAST_MARKERS:
+        return True
+    return "nightly" in markers and not config.option.nightly
+
+
+def _turn(item: pytest.Item) -> int:
+    folder = _folder(item.path)
+    return LONG_FOLDERS.index(folder) if folder in LONG_FOLDERS else len(LONG_FOLDERS)
+
+
+def _folder(path: Path) -> str:
+    """Return the package of ai4u_edu that a file belongs to or tests; empty if there is none."""
+    parts = path.relative_to(ROOT).parts if ROOT in path.parents else ()
+    return parts[1] if len(parts) > 1 else ""
+
+
+# -- the report; with xdist, workers collect and the process that reports does not --------------
+
+
+def pytest_sessionfinish(session: pytest.Session) -> None:
+    output = getattr(session.config, "workeroutput", None)
+    if output is not None:
+        output["left_out"] = session.config.stash[LEFT_OUT]
+
+
+@pytest.hookimpl(optionalhook=True)
+def pytest_testnodedown(node: object) -> None:
+    config: pytest.Config = node.config  # type: ignore[attr-defined]
+    config.stash[LEFT_OUT] = getattr(node, "workeroutput", {}).get("left_out", 0)
+
+
+def pytest_terminal_summary(
+    terminalreporter: pytest.TerminalReporter, config: pytest.Config
+) -> None:
     for report in terminalreporter.stats.get("passed", ()):
-        for name, told in report.user_properties:  # they come over from another process too
-            if name == LOG:
-                terminalreporter.section("components")
-                terminalreporter.write_line(told)
+        for name, table in report.user_properties:  # they come over from another process too
+            if name == COMPONENT_TABLE:
+                terminalreporter.section(COMPONENT_TABLE)
+                terminalreporter.write_line(table)
+    rerun = sorted({each.nodeid for each in terminalreporter.stats.get("rerun", ())})
+    if rerun:
+        terminalreporter.section("defects to mend: tests that passed only when run again")
+        for nodeid in rerun:
+            terminalreporter.write_line(nodeid)
+    left_out = config.stash[LEFT_OUT]
+    if left_out:
+        tier = "--fast" if config.option.fast else "tests marked `nightly`"
+        terminalreporter.write_line(f"{left_out} tests left out ({tier}).")

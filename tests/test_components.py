@@ -10,19 +10,19 @@ import pytest
 import ai4u_edu
 from ai4u_edu import Block
 from tests.components import AI4U, MISSING, Component, components, parity_rows, table
-from tests.conftest import LOG
+from tests.conftest import COMPONENT_TABLE
 
 
 def test_the_table_is_in_the_log(record_property: Callable[[str, object], None]) -> None:
     told = table()
     assert len(told.splitlines()) > 50
-    record_property(LOG, told)
+    record_property(COMPONENT_TABLE, told)
 
 
 @pytest.mark.parametrize("component", components(), ids=lambda component: component.name)
 def test_each_has_a_test_of_its_own(component: Component) -> None:
     assert component.tests, f"no test names {component.name}; expected one that tries it"
-    assert component.contract != "NO", f"put a {component.name} into tests/check/samples.py"
+    assert component.contract != "NO", f"add a sample of {component.name} in tests/check/samples/"
 
 
 def test_none_of_ai4us_is_forgotten() -> None:

@@ -2,9 +2,8 @@
 
 Through ASGI every frame takes two more turns of the event loop than it needs, one for each
 direction. Where a script and a world wait for each other, that is a third of their time. So a
-socket may ask for its frames as they arrive, and may write its own at once; and what many pages get
-may be made a frame once for all of them. Everything else, the handshake, pings, the close, remains
-uvicorn's and ASGI's.
+socket may ask for its frames as they arrive, and may write its own at once. Everything else, the
+handshake, pings, the close, remains uvicorn's and ASGI's.
 """
 
 import asyncio
@@ -15,7 +14,6 @@ from typing import Any
 from uvicorn.protocols.websockets.websockets_sansio_impl import WebSocketsSansIOProtocol
 from websockets.exceptions import InvalidState
 from websockets.http11 import Request
-from websockets.protocol import State
 
 from ai4u_edu.server.refusal import refusal
 
@@ -81,16 +79,6 @@ class FramesProtocol(WebSocketsSansIOProtocol):
     def hold_nothing_back(self) -> None:
         """From now on it counts as not writable while anything of what was written waits."""
         self.transport.set_write_buffer_limits(high=0)
-
-    def is_clear(self) -> bool:
-        """Whether nothing waits, after :meth:`hold_nothing_back`."""
-        return self.writable.is_set()
-
-    def write_framed(self, frame: bytes) -> None:
-        """Writes a whole WebSocket frame, behind what waits; nothing if the socket is closed."""
-        is_there = self.handshake_complete and not self.close_sent
-        if is_there and self.conn.state is State.OPEN and not self.transport.is_closing():
-            self.transport.write(frame)
 
     def handle_connect(self, event: Request) -> None:
         """Lets the app find the short way; refuses what websockets can't even refuse."""

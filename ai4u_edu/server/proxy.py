@@ -17,9 +17,7 @@ from websockets.frames import DATA_OPCODES, Frame, Opcode
 from websockets.protocol import Event
 from websockets.typing import Subprotocol
 
-from ai4u_edu.base.direct import HEADER, Direct, left
 from ai4u_edu.base.log_limit import log_limited
-from ai4u_edu.base.loop_queue import Post, post_here
 from ai4u_edu.server import page_messages
 from ai4u_edu.server.frames import EXTENSION, FramesProtocol
 from ai4u_edu.server.rate import Rate
@@ -79,7 +77,7 @@ class ViserProxy:
     """Connects each page to viser; an ASGI app.
 
     Each direction waits until the other side has taken a frame: a slow page slows its own stream
-    down, and nothing piles up here. For what viser says there is a direct way besides.
+    down, and nothing piles up here.
 
     Args:
         port: where viser listens, on 127.0.0.1.
@@ -89,24 +87,14 @@ class ViserProxy:
     def __init__(self, port: int, token: str = "") -> None:
         self._url = f"ws://127.0.0.1:{port}"
         self._token = token
-        self._post: Post | None = None
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """One page's connection, until one side closes it."""
         frames: FramesProtocol | None = scope.get("extensions", {}).get(EXTENSION)
-        if frames is None:
-            await self._serve(WebSocket(scope, receive, send))
-            return
-        frames.hold_nothing_back()
-        frames.cap(MAX_UPWARD_BYTES)
-        self._post = post_here(self._post)
-        with left(frames, self._post) as way:
-            await self._serve(WebSocket(scope, receive, send), frames, way)
-
-    async def _serve(
-        self, page: WebSocket, frames: FramesProtocol | None = None, way: Direct | None = None
-    ) -> None:
-        scope = page.scope
+        page = WebSocket(scope, receive, send)
+        if frames is not None:
+            frames.hold_nothing_back()
+            frames.cap(MAX_UPWARD_BYTES)
         try:
             viser = await connect(
                 self._url,
@@ -115,11 +103,11 @@ class ViserProxy:
                     AGENT_HEADER: page_agent(scope),
                     DARK_HEADER: "1" if HTTPConnection(scope).cookies.get(DARK_COOKIE) else "",
                     KNOCK_HEADER: KNOCK,
-                    HEADER: way.ticket if way else "",
                 },
                 subprotocols=_subprotocols(scope["subprotocols"]) or None,
                 compression=None,  # viser compresses by itself
                 max_size=None,
+                max_queue=1,  # frames for a slow page wait in viser, where newer ones replace them
                 ping_interval=None,  # the page is asked for signs of life, that's enough
                 proxy=None,
                 create_connection=_Viser,
@@ -129,7 +117,7 @@ class ViserProxy:
             return
         upward = asyncio.create_task(_upward(page, viser, frames))
         try:
-            await _downward(cast(_Viser, viser), page, frames, way)
+            await _downward(cast(_Viser, viser), page, frames)
         finally:
             upward.cancel()
             viser.transport.abort()  # a farewell would have to wait behind frames nobody reads
@@ -176,20 +164,13 @@ def _subprotocols(offered: Iterable[str]) -> list[Subprotocol]:
     return found[:MAX_SUBPROTOCOLS]
 
 
-async def _downward(
-    viser: _Viser, page: WebSocket, frames: FramesProtocol | None, way: Direct | None
-) -> None:
-    ticket = way.ticket.encode() if way else None
+async def _downward(viser: _Viser, page: WebSocket, frames: FramesProtocol | None) -> None:
     with suppress(WebSocketDisconnect):
         await page.accept(viser.subprotocol)
         viser.short_way = frames.write if frames else None
         with suppress(ConnectionClosed):
             while True:
-                frame = await viser.recv(decode=False)
-                if way is not None and frame == ticket:
-                    way.open()
-                else:
-                    await page.send_bytes(frame)
+                await page.send_bytes(await viser.recv(decode=False))
                 viser.waiting -= 1
         code = viser.close_code or 1001
         await page.close(code if code in _SAYABLE else 1001, viser.close_reason)

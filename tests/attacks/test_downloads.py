@@ -14,7 +14,10 @@ COUNT = 45
 EPISODES = 4
 ENDINGS = ("gif", "mp4", "html", "csv")
 
-pytestmark = pytest.mark.skipif(os.name != "posix", reason="ends a server as POSIX does")
+pytestmark = [
+    pytest.mark.alone,
+    pytest.mark.skipif(os.name != "posix", reason="ends a server as POSIX does"),
+]
 
 
 def test_a_page_drives_on_and_the_server_ends_at_once(tmp_path: Path) -> None:

@@ -1,6 +1,10 @@
 """Pages and scripts at one world, all at once; ``python -m tests.attacks.hammer`` takes longer."""
 
+import pytest
+
 from tests.attacks.hammer import hammer
+
+pytestmark = pytest.mark.alone
 
 
 def test_pages_and_scripts_hammer_one_world_and_it_goes_on() -> None:

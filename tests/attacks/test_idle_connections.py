@@ -19,7 +19,10 @@ IDLE = (
 COUNT = 1100
 LOG_LINES = 36
 
-pytestmark = pytest.mark.skipif(os.name != "posix", reason="sets limits as POSIX has them")
+pytestmark = [
+    pytest.mark.alone,
+    pytest.mark.skipif(os.name != "posix", reason="sets limits as POSIX has them"),
+]
 
 
 def test_a_page_drives_on_and_new_ones_come_in(tmp_path: Path) -> None:

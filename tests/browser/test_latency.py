@@ -9,7 +9,7 @@ from ai4u_edu import BasicAgent
 from tests.browser.theatre import Theatre
 from tests.server.rooms import until
 
-pytestmark = pytest.mark.browser
+pytestmark = [pytest.mark.browser, pytest.mark.alone]
 
 PRESSES = 30
 

@@ -6,6 +6,7 @@ import struct
 from urllib.request import urlopen
 
 import psutil
+import pytest
 import viser
 
 from ai4u_edu.runtime.runner import Runner
@@ -16,6 +17,8 @@ from ai4u_edu.wire import native
 from tests.load.clients import CAMERA
 from tests.load.world import crowd
 from tests.server.rooms import UPGRADE, raw_request, until
+
+pytestmark = pytest.mark.alone
 
 BRAINS, VIEWERS = 20, 80
 

@@ -5,8 +5,7 @@ import inspect
 import re
 import time
 from collections.abc import Iterator
-from contextlib import ExitStack, suppress
-from threading import Event
+from contextlib import ExitStack
 from typing import Any
 
 import msgspec
@@ -21,7 +20,6 @@ from websockets.sync.connection import Connection
 from websockets.typing import Subprotocol
 from zstandard import ZstdDecompressor
 
-from ai4u_edu.base import direct
 from ai4u_edu.viewer.backend import broadcast as fan_out
 from ai4u_edu.viewer.backend.broadcast import FanOut, Page
 from ai4u_edu.viewer.backend.local_server import LocalServer
@@ -67,6 +65,7 @@ def client(server: viser.ViserServer, door: str = "") -> ClientConnection:
         subprotocols=[Subprotocol(f"viser-v{viser.__version__}")],
         compression=None,
         max_size=None,
+        max_queue=1,
         proxy=None,
     )
 
@@ -109,15 +108,12 @@ def settled(server: LocalServer, pages: int) -> FanOut:
     out: FanOut = server._websock_server._broadcast_buffer._ai4u_edu_fan_out  # type: ignore[attr-defined]
     until(lambda: len(out._pages) == pages)
     until(lambda: all(page.is_clear() for page in out._pages.values()))
-    assert all((page.way is not None) == bool(DOORS) for page in out._pages.values())
     return out
 
 
 def waiting(page: Page) -> int:
     """Bytes that a page has not taken yet, and that wait for it."""
-    socket: Any = page.way._socket if page.way else page.connection
-    size: int = socket.transport.get_write_buffer_size()
-    return size
+    return page.connection.transport.get_write_buffer_size()
 
 
 def test_it_fits_the_viser_that_is_there(server: LocalServer) -> None:
@@ -129,31 +125,6 @@ def test_it_fits_the_viser_that_is_there(server: LocalServer) -> None:
     ours, theirs = (inspect.signature(f) for f in (fan_out._produce, fan_out._viser_does))
     assert list(ours.parameters) == list(theirs.parameters)
     assert "_message_producer" in inspect.getsource(_infra.WebsockServer)
-
-
-def test_what_has_to_be_on_time_goes_before() -> None:
-    may_go = Event()
-    may_go.set()
-
-    def give_way() -> None:
-        may_go.wait(5)
-
-    server = LocalServer("AI4U Edu", give_way)
-    try:
-        with client(server) as page:
-            page.send(CAMERA)
-            until(lambda: len(server.get_clients()) == 1)
-            (mine,) = server.get_clients().values()
-            for guis, mark in ((server, "all"), (mine, "one")):
-                until(lambda: not said(page))
-                may_go.clear()
-                guis.gui.add_markdown(f"<{mark}>")
-                assert not said(page)
-                may_go.set()
-                frame_with(page, f"<{mark}>")
-    finally:
-        may_go.set()
-        server.stop()
 
 
 def test_with_another_viser_all_goes_visers_way(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -330,44 +301,14 @@ def test_nothing_that_goes_wrong_while_sending_ends_it(
     with client(server) as page, client(server) as other:
         out = settled(server, 2)
         with monkeypatch.context() as patched:
-            patched.setattr(out, "give_way", fail)
-            server.gui.add_markdown("<first>")
-            server.gui.add_markdown("<second>")
-        with monkeypatch.context() as patched:
             patched.setattr(fan_out, "_plain", fail)
-            server.gui.add_markdown("<third>")
+            server.gui.add_markdown("<first>")
             server.flush()
         server.gui.add_markdown("<last>")
         frame_with(page, "<last>")
         frame_with(other, "<last>")
         assert out._sending is not None
         assert not out._sending.done()
-
-
-def test_the_direct_way_is_not_taken_before_it_is_open(monkeypatch: pytest.MonkeyPatch) -> None:
-    ways: list[direct.Direct] = []
-    opened = direct.Direct.open
-    monkeypatch.setattr(direct.Direct, "open", lambda way: ways.append(way))
-    server = LocalServer("AI4U Edu")
-    server.gui.add_markdown("<there>")
-    with ExitStack() as stack:
-        stack.callback(server.stop)
-        room = stack.enter_context(served(viser_port=server.get_port()))
-        page = stack.enter_context(client(server, room.url))
-        page.send(CAMERA)
-        until(lambda: ways and server.get_clients())
-        (own,) = server.get_clients().values()
-        seen: list[str] = []
-        with suppress(TimeoutError):
-            while True:
-                before, seen = seen, seen + marks(told(page.recv(0.3)))
-                if "there" in seen and "there" not in before:
-                    server.gui.add_markdown("<new>")
-                    own.gui.add_markdown("<own>")
-        assert set(seen) == {"there"}
-        opened(ways[0])
-        while not {"new", "own"} <= set(seen):
-            seen += marks(told(page.recv(5)))
 
 
 def test_from_another_thread_nobody_is_woken_and_nothing_is_forgotten() -> None:
@@ -388,7 +329,6 @@ def test_nothing_is_left_of_pages_that_are_gone(server: LocalServer) -> None:
     with client(server), client(server):
         out = settled(server, 2)
     settled(server, 0)
-    until(lambda: not direct._left)
     until(lambda: not out._buffer.generator_cursors)
     assert out._sending is None
     with client(server) as page:

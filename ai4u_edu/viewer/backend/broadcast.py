@@ -3,11 +3,11 @@
 viser lets every page gather, pack and compress the same messages anew. With a class that looks on
 (measured: sixty pages) most of the processor's time goes into that. Here pages that are up to date
 share one packing; a page that can't keep up skips what is outdated by then, and gets the newest.
-Where there is a direct way to a page, everything takes it once the page has what there was before.
 """
 
 import asyncio
 import logging
+import socket
 import time
 from collections import defaultdict
 from collections.abc import Awaitable, Callable, Sequence
@@ -23,7 +23,6 @@ from viser.infra._async_message_buffer import AsyncMessageBuffer
 from viser.infra._messages import Message
 from websockets.asyncio.server import ServerConnection, broadcast
 
-from ai4u_edu.base.direct import HEADER, Direct, framed, taken
 from ai4u_edu.base.log_limit import log_limited
 
 KNOWN = "1.1.1"
@@ -36,8 +35,8 @@ MOST = 0.4
 CHUNK = 128
 """Messages in a frame for a page that has just come."""
 
-SOON = 0.01
-"""Seconds after which it is looked again whether a page has taken what it was told."""
+SEND_BUFFER_BYTES = 64 * 2**10
+"""Size of the system's buffer for what one page has not taken yet."""
 
 _NAME = "_ai4u_edu_fan_out"
 _IS_OWN = "_ai4u_edu_is_own"
@@ -66,12 +65,8 @@ class Awakener(asyncio.Event):
         super().set()
 
 
-def do_nothing() -> None:
-    """Gives way to nobody."""
-
-
 class Page:
-    """The way to one page: viser's connection, later the direct one if there is one.
+    """The way to one page.
 
     Args:
         connection: viser's.
@@ -79,34 +74,17 @@ class Page:
 
     def __init__(self, connection: ServerConnection) -> None:
         self.connection = connection
-        self.give_way: Callable[[], None] = do_nothing
-        """Waits, if something has to be done first: said before each message of the page's own."""
-        self.way: Direct | None = None
-        """The direct way, which is taken from now on."""
-        headers = connection.request.headers if connection.request else {}
-        self._left = taken(headers.get(HEADER, ""))
+        # what waits for a slow page is to wait here, where newer messages replace it
+        stream: socket.socket = connection.transport.get_extra_info("socket")
+        stream.setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, SEND_BUFFER_BYTES)
 
     def is_clear(self) -> bool:
         """Whether it has taken all that it was told."""
-        if self.way is not None:
-            return self.way.is_clear()
         return not self.connection.transport.get_write_buffer_size()
 
     async def send(self, message: bytes) -> None:
         """Tells it something after all else; viser's producers call this."""
-        self.give_way()
-        if self.way is None:
-            await self.connection.send(message)
-            return
-        while not self.way.is_clear():
-            await asyncio.sleep(SOON)
-        self.way.tell(framed(message))
-
-    async def go_direct(self) -> None:
-        """Takes the direct way from now on, as soon as it is open; if there is one."""
-        if self._left is not None:
-            self.way = self._left  # first: nothing else may come behind the ticket
-            await self.connection.send(self.way.ticket)
+        await self.connection.send(message)
 
 
 class FanOut:
@@ -114,14 +92,10 @@ class FanOut:
 
     Args:
         buffer: viser's, of the messages for all pages.
-        give_way: waits, if something has to be done before pages are told anything.
     """
 
-    def __init__(
-        self, buffer: AsyncMessageBuffer, give_way: Callable[[], None] = do_nothing
-    ) -> None:
+    def __init__(self, buffer: AsyncMessageBuffer) -> None:
         self._buffer = buffer
-        self.give_way = give_way
         self._pages: dict[int, Page] = {}
         self._sending: asyncio.Task[None] | None = None
 
@@ -144,7 +118,6 @@ class FanOut:
                 await page.send(packed(there[first : first + CHUNK]))
             if replayed is not None:
                 await page.send(packed([replayed]))
-            await page.go_direct()
             cursors[number] = backlog
             self._pages[number] = page
             if self._sending is None:
@@ -161,13 +134,8 @@ class FanOut:
     async def _send(self) -> None:
         buffer = self._buffer
         while True:
-            is_done = False
+            is_done, began = False, time.monotonic()
             try:  # all pages would be closed if this task ended
-                self.give_way()
-            except Exception as error:
-                _log_failure("waiting", "pages are told without waiting: %a", error)
-            began = time.monotonic()
-            try:
                 is_done = self._send_news()
             except Exception as error:
                 _log_failure("sending", "some pages were not told what is new: %a", error)
@@ -208,15 +176,7 @@ class FanOut:
     def _tell(self, numbers: Sequence[int], messages: Sequence[Message]) -> None:
         if not (numbers and messages):
             return
-        pages, message = [self._pages[number] for number in numbers], packed(messages)
-        broadcast([page.connection for page in pages if page.way is None], message)
-        frame = framed(message)
-        for page in pages:
-            if page.way is not None:
-                try:
-                    page.way.tell(frame)
-                except Exception as error:  # the other pages are told all the same
-                    _log_failure("page", "a page was not told what is new: %a", error)
+        broadcast([self._pages[number].connection for number in numbers], packed(messages))
 
     def _between(self, since: int, last: int, number: int = -1) -> list[Message]:
         """The messages after one and up to another that are still of use, but for one page's."""
@@ -274,17 +234,16 @@ def _log_failure(key: str, text: str, error: Exception) -> None:
     log_limited(_logger, logging.ERROR, key, text, f"{type(error).__name__}: {error!s:.200}")
 
 
-def fan_out(server: viser.ViserServer, give_way: Callable[[], None] = do_nothing) -> bool:
+def fan_out(server: viser.ViserServer) -> bool:
     """Has a server pack once what all pages get; whether it can be done with this viser.
 
     Args:
         server: viser's.
-        give_way: called in its loop, which waits meanwhile, before pages are told anything.
     """
     if viser.__version__ != KNOWN:
         return False
     buffer = server._websock_server._broadcast_buffer
-    setattr(buffer, _NAME, FanOut(buffer, give_way))
+    setattr(buffer, _NAME, FanOut(buffer))
     server._websock_server.on_client_connect(_mark_own)
     if _infra._message_producer is _viser_does:
         _infra._message_producer = _produce
@@ -338,5 +297,4 @@ async def _produce(
     elif ours is None:
         await _viser_does(page, buffer, client_id, backlog_done_message)
     else:
-        page.give_way = ours.give_way
         await ours.serve(page, client_id, backlog_done_message)
