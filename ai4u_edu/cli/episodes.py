@@ -115,7 +115,7 @@ def replay(
     if verdict.exact:
         typer.echo("it plays again exactly, bit for bit")
         return
-    seconds = verdict.until / played.episode.scene.world.ticks_per_second
+    seconds = verdict.exact_until / played.episode.scene.world.ticks_per_second
     typer.echo(f"it plays again exactly up to {seconds:.2f} s and not beyond: {verdict.why}")
     raise typer.Exit(1)
 

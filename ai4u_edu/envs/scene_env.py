@@ -11,8 +11,8 @@ from ai4u_edu.blocks import Percept
 from ai4u_edu.envs.external_brain import take_over
 from ai4u_edu.envs.spaces_of import Observer, action_space_of, outputs_of
 from ai4u_edu.scenes import Scene
-from ai4u_edu.snapshot import picture_of
-from ai4u_edu.snapshot.raster import draw
+from ai4u_edu.snapshot import capture_snapshot
+from ai4u_edu.snapshot.raster import draw_snapshot
 
 if TYPE_CHECKING:
     from ai4u_edu.envs.live_page import LivePage
@@ -131,7 +131,7 @@ class SceneEnv(gymnasium.Env[Any, Any]):
     def render(self) -> Any:
         """The world from above, (height, width, 3) uint8; None in mode ``"human"``."""
         if self.render_mode == "rgb_array":
-            return draw(picture_of(self.sim))
+            return draw_snapshot(capture_snapshot(self.sim))
         return None
 
     def close(self) -> None:

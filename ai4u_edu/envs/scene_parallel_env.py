@@ -10,8 +10,8 @@ from ai4u_edu.base.errors import ActionError, SetupError, suggest
 from ai4u_edu.envs.external_brain import take_over
 from ai4u_edu.envs.scene_env import SceneLike, load_scene
 from ai4u_edu.envs.spaces_of import Observer, action_space_of, outputs_of
-from ai4u_edu.snapshot import picture_of
-from ai4u_edu.snapshot.raster import draw
+from ai4u_edu.snapshot import capture_snapshot
+from ai4u_edu.snapshot.raster import draw_snapshot
 
 
 class SceneParallelEnv(ParallelEnv):  # type: ignore[misc]  # PettingZoo has no types
@@ -136,7 +136,9 @@ class SceneParallelEnv(ParallelEnv):  # type: ignore[misc]  # PettingZoo has no 
 
     def render(self) -> Any:
         """The world from above, (height, width, 3) uint8; None without a render mode."""
-        return draw(picture_of(self.sim)) if self.render_mode == "rgb_array" else None
+        return (
+            draw_snapshot(capture_snapshot(self.sim)) if self.render_mode == "rgb_array" else None
+        )
 
     def close(self) -> None:
         """Nothing is held open."""

@@ -25,7 +25,7 @@ from ai4u_edu.blocks.brains.address import brain_at
 from ai4u_edu.blocks.brains.network import IN_THE_ZOO
 from ai4u_edu.envs.spaces_of import Observer, outputs_of
 from ai4u_edu.scenes import Scene
-from ai4u_edu.scenes.serialization import fits_a_file
+from ai4u_edu.scenes.serialization import is_serializable
 from ai4u_edu.training.prepare import prepare
 from ai4u_edu.training.run import Config, run_of
 
@@ -94,7 +94,7 @@ def entrant(spec: str, scene: str = "") -> Entrant:
         name: cls
         for name, cls in Block.types.items()
         if issubclass(cls, Controller)
-        and fits_a_file(cls)
+        and is_serializable(cls)
         and not any(field.is_required() for field in cls.parameters().values())
     }
     if spec in controllers:

@@ -17,7 +17,7 @@ def robot_at(**changes: Any) -> tuple[Poses, Layers]:
     snapshot = picture(sim)
     first, *others = snapshot.bodies
     snapshot = replace(snapshot, bodies=(first._replace(**changes), *others))
-    layers = Layers.of(snapshot.stage)
+    layers = Layers.of(snapshot.static_scene)
     return poses(snapshot, layers), layers
 
 
@@ -71,5 +71,5 @@ def test_a_world_without_bodies_has_no_poses() -> None:
     sim = busy_sim()
     sim.reset(seed=1)
     empty: Snapshot = replace(picture(sim), bodies=())
-    where = poses(empty, Layers.of(empty.stage))
+    where = poses(empty, Layers.of(empty.static_scene))
     assert where.places.shape == (0, 3)

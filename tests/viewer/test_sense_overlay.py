@@ -18,7 +18,7 @@ from ai4u_edu import (
     World,
 )
 from ai4u_edu.runtime.runner import Runner
-from ai4u_edu.snapshot.block_info import Sense
+from ai4u_edu.snapshot.block_info import SensorInfo
 from ai4u_edu.viewer import Viewer
 from ai4u_edu.viewer.scene.pointers import RING, pointer
 from ai4u_edu.viewer.scene.sense_overlay import is_seen
@@ -51,8 +51,8 @@ def runner() -> Runner:
     return Runner(two(), seed=1)
 
 
-def senses(runner: Runner) -> dict[str, Sense]:
-    return {sense.key: sense for sense in runner.latest.agents[0].senses}
+def senses(runner: Runner) -> dict[str, SensorInfo]:
+    return {sense.key: sense for sense in runner.latest.agents[0].sensor_infos}
 
 
 def test_only_sensors_with_something_to_show_have_a_button(runner: Runner) -> None:

@@ -46,7 +46,7 @@ def watched(viewer: Viewer) -> Iterator[Watched]:
 
 
 def whole(snapshot: Snapshot, aspect: float = 1.2) -> Frame:
-    return frame(seen_bounds(snapshot.stage), aspect)
+    return frame(seen_bounds(snapshot.static_scene), aspect)
 
 
 def place(shown: Frame) -> tuple[float, float, float]:
@@ -126,8 +126,8 @@ def test_another_arena_is_shown_whole_whoever_moved_the_camera(
     watched.view.update(runner.latest, "0")
     watched.report(place(whole(runner.latest)))
     watched.report(PLACE)
-    stage = replace(runner.latest.stage, bounds=((0.0, 0.0), (40.0, 40.0)))
-    other = replace(runner.latest, stage=stage)
+    static_scene = replace(runner.latest.static_scene, bounds=((0.0, 0.0), (40.0, 40.0)))
+    other = replace(runner.latest, static_scene=static_scene)
     watched.view.update(other, "0")
     assert watched.camera.position == pytest.approx(place(whole(other)))
 

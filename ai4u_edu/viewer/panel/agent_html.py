@@ -60,7 +60,7 @@ class AgentHtml(NamedTuple):
                 lit=sense.key in lit,
                 named=not is_seen(sense, agent),
             )
-            for sense in agent.senses
+            for sense in agent.sensor_infos
             if sense.block not in SIMPLE
         }
         return cls(
@@ -70,7 +70,7 @@ class AgentHtml(NamedTuple):
             inside=needs(agent.needs),
             senses=senses,
             also=_also(agent),
-            action=action(agent.action, agent.controls),
+            action=action(agent.action, agent.actuator_infos),
             ledger=reward_table(agent),
         )
 
@@ -109,7 +109,7 @@ def _also(agent: AgentState) -> str:
     """The simplest readings, in a line."""
     told = [
         f"<span><small>{escape(sense.key)}</small> {reading(agent.percept[sense.key])}</span>"
-        for sense in agent.senses
+        for sense in agent.sensor_infos
         if sense.block in SIMPLE
     ]
     return block(*told) if told else ""
@@ -152,7 +152,7 @@ def ending(agent: AgentState) -> str:
 
 def overview(snapshot: Snapshot, chosen: str) -> str:
     """A row for each of several agents: its step, its reward, and how it ended."""
-    described = {body.name: body for body in snapshot.stage.bodies}
+    described = {body.name: body for body in snapshot.static_scene.bodies}
     alone = len({agent.episode for agent in snapshot.agents}) > 1
     head = ["", *(["episode"] if alone else []), "step", "reward", ""]
     rows = ["".join(f"<td><small>{each}</small></td>" for each in head)]

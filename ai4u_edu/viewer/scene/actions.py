@@ -6,7 +6,7 @@ from functools import lru_cache
 import numpy as np
 from viser import LineSegmentsHandle
 
-from ai4u_edu.snapshot import AgentState, BodyState, Snapshot, Stage
+from ai4u_edu.snapshot import AgentState, BodyState, Snapshot, StaticScene
 from ai4u_edu.snapshot.theme import ACTION
 from ai4u_edu.viewer.backend.local_server import LocalServer
 from ai4u_edu.viewer.scene.geometry import Array, circle, half_width, segments, turn
@@ -28,13 +28,13 @@ class Actions:
         self._scene = server.scene
         self._lines: LineSegmentsHandle | None = None
 
-    def build(self, stage: Stage) -> None:
+    def build(self, static_scene: StaticScene) -> None:
         """Learns how large the agents are."""
-        self._layers = Layers.of(stage)
+        self._layers = Layers.of(static_scene)
         self._sizes = {
             body.name: (half_width(body.shape.outline()), body.height)
-            for body in stage.bodies
-            if body.name in stage.agent_of
+            for body in static_scene.bodies
+            if body.name in static_scene.agent_of
         }
 
     def draw(self, snapshot: Snapshot) -> None:

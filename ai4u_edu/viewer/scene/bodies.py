@@ -7,8 +7,8 @@ import numpy as np
 import numpy.typing as npt
 from viser import BatchedMeshHandle, SceneNodePointerEvent
 
-from ai4u_edu.snapshot import Snapshot, Stage
-from ai4u_edu.snapshot.theme import VOID, Rgb, body_colour, mixed
+from ai4u_edu.snapshot import Snapshot, StaticScene
+from ai4u_edu.snapshot.theme import VOID, Rgb, body_colour, mix_colours
 from ai4u_edu.viewer.backend.local_server import LocalServer
 from ai4u_edu.viewer.backend.reporting import reporting
 from ai4u_edu.viewer.scene.face import face, pupils, rings
@@ -43,23 +43,28 @@ class Bodies:
         self._seen: object = None
         self._kinds: list[_Kind] = []
 
-    def build(self, stage: Stage) -> None:
+    def build(self, static_scene: StaticScene) -> None:
         """Makes a batch for each kind of body, if there are other bodies than before."""
-        self._layers = Layers.of(stage)
-        wanted = (stage.bodies, stage.agent_of, self._layers)
+        self._layers = Layers.of(static_scene)
+        wanted = (static_scene.bodies, static_scene.agent_of, self._layers)
         if wanted == self._seen:
             return
         members: defaultdict[object, list[int]] = defaultdict(list)
-        for index, body in enumerate(stage.bodies):
-            role = (body.name in stage.agent_of, "target" in body.tags)
+        for index, body in enumerate(static_scene.bodies):
+            role = (body.name in static_scene.agent_of, "target" in body.tags)
             members[body.shape, body.height, role].append(index)
         with self._subtree.rebuild() as parent:
             self._kinds = [
-                _Kind(MeshDrawer(self._scene, f"{parent}/{number}"), self._layers, stage, indices)
+                _Kind(
+                    MeshDrawer(self._scene, f"{parent}/{number}"),
+                    self._layers,
+                    static_scene,
+                    indices,
+                )
                 for number, indices in enumerate(members.values())
             ]
             for kind in self._kinds:
-                if kind.names[0] in stage.agent_of:
+                if kind.names[0] in static_scene.agent_of:
                     kind.listen(self._on_agent)
         self._seen = wanted
 
@@ -74,15 +79,15 @@ class _Kind:
     """Bodies that look alike but for their colour."""
 
     def __init__(
-        self, drawer: MeshDrawer, layers: Layers, stage: Stage, members: list[int]
+        self, drawer: MeshDrawer, layers: Layers, static_scene: StaticScene, members: list[int]
     ) -> None:
         self._members = np.array(members)
-        bodies = [stage.bodies[index] for index in members]
+        bodies = [static_scene.bodies[index] for index in members]
         self.names = [body.name for body in bodies]
-        is_agent = bodies[0].name in stage.agent_of
+        is_agent = bodies[0].name in static_scene.agent_of
         colours = [body_colour(body, is_agent) for body in bodies]
         self._own = surfaces(colours)
-        self._deep = surfaces([mixed(colour, VOID, 0.75) for colour in colours])
+        self._deep = surfaces([mix_colours(colour, VOID, 0.75) for colour in colours])
         outline, height = bodies[0].shape.outline(), bodies[0].height
         radius, top, count = half_width(outline), height + layers.unit, len(members)
         pile = joined([cap(*each) for each in soft(outline, min(BLUR, radius), 5 * layers.unit, 9)])

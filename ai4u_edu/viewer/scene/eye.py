@@ -5,7 +5,7 @@ import math
 import numpy as np
 from viser import SceneApi
 
-from ai4u_edu.snapshot import AgentState, BodyState, Stage
+from ai4u_edu.snapshot import AgentState, BodyState, StaticScene
 from ai4u_edu.viewer.scene.layers import Layers
 
 EYE_VIEW = math.radians(65)
@@ -48,19 +48,19 @@ class Daylight:
             lamp.remove()
 
 
-def eye(stage: Stage, agent: AgentState, body: BodyState) -> tuple[Place, Place]:
+def eye(static_scene: StaticScene, agent: AgentState, body: BodyState) -> tuple[Place, Place]:
     """The place of an agent's eye, and a place a metre ahead of it; world frame, metres.
 
     It is the eye of its first ray sensor; without one, it is on its brow.
     """
-    eyes = [sense.eye for sense in agent.senses if sense.eye is not None]
-    forward, left, up = eyes[0] if eyes else _brow(stage, body)
+    eyes = [sense.eye for sense in agent.sensor_infos if sense.eye is not None]
+    forward, left, up = eyes[0] if eyes else _brow(static_scene, body)
     cos, sin = math.cos(body.heading), math.sin(body.heading)
     x, y = body.x + cos * forward - sin * left, body.y + sin * forward + cos * left
-    z = body.z + Layers.of(stage).body + up  # as high as its body is drawn
+    z = body.z + Layers.of(static_scene).body + up  # as high as its body is drawn
     return (x, y, z), (x + cos, y + sin, z - LOOKS_DOWN)
 
 
-def _brow(stage: Stage, body: BodyState) -> Place:
-    (height,) = (each.height for each in stage.bodies if each.name == body.name)
+def _brow(static_scene: StaticScene, body: BodyState) -> Place:
+    (height,) = (each.height for each in static_scene.bodies if each.name == body.name)
     return 0.0, 0.0, 0.8 * height

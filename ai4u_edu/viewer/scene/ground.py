@@ -1,7 +1,7 @@
 """What does not move: the void, the floors with their edges, the areas."""
 
-from ai4u_edu.snapshot import Snapshot, Stage
-from ai4u_edu.snapshot.theme import FLOOR, GRID, VOID, Rgb, area_colour, floor_colour, mixed
+from ai4u_edu.snapshot import Snapshot, StaticScene
+from ai4u_edu.snapshot.theme import FLOOR, GRID, VOID, Rgb, area_colour, floor_colour, mix_colours
 from ai4u_edu.viewer.backend.local_server import LocalServer
 from ai4u_edu.viewer.scene.geometry import (
     Array,
@@ -43,22 +43,22 @@ class Ground:
         self._subtree = Subtree(server.scene, "ground")
         self._seen: object = None
 
-    def build(self, stage: Stage) -> None:
+    def build(self, static_scene: StaticScene) -> None:
         """Draws the ground, if it is another one than the one that is drawn."""
-        wanted = (stage.floors, stage.areas, stage.bounds)
+        wanted = (static_scene.floors, static_scene.areas, static_scene.bounds)
         if wanted == self._seen:
             return
         with self._subtree.rebuild() as parent:
-            drawer, layers = MeshDrawer(self._scene, parent), Layers.of(stage)
-            if stage.floors:
-                drawer.mesh("void", _around(stage, 200), layers.void, VOID)
+            drawer, layers = MeshDrawer(self._scene, parent), Layers.of(static_scene)
+            if static_scene.floors:
+                drawer.mesh("void", _around(static_scene, 200), layers.void, VOID)
             else:
-                _endless_floor(drawer, layers, stage)
-            for floor in stage.floors:
-                _floor(drawer, layers, floor, size(stage))
-            for area in stage.areas:
-                top = floor_under(stage, *area.position)
-                _area(drawer, layers, area, lowest_floor(stage) if top is None else top)
+                _endless_floor(drawer, layers, static_scene)
+            for floor in static_scene.floors:
+                _floor(drawer, layers, floor, size(static_scene))
+            for area in static_scene.areas:
+                top = floor_under(static_scene, *area.position)
+                _area(drawer, layers, area, lowest_floor(static_scene) if top is None else top)
             drawer.finish()
         self._seen = wanted
 
@@ -66,15 +66,15 @@ class Ground:
         """Nothing moves here."""
 
 
-def _endless_floor(drawer: MeshDrawer, layers: Layers, stage: Stage) -> None:
-    drawer.mesh("floor", _around(stage, 200), 0.0, FLOOR)
-    drawer.line(grid_in(_around(stage, 2).vertices[:, :2], None, layers.grid), GRID)
+def _endless_floor(drawer: MeshDrawer, layers: Layers, static_scene: StaticScene) -> None:
+    drawer.mesh("floor", _around(static_scene, 200), 0.0, FLOOR)
+    drawer.line(grid_in(_around(static_scene, 2).vertices[:, :2], None, layers.grid), GRID)
 
 
 def _floor(drawer: MeshDrawer, layers: Layers, floor: FloorDescription, scale: float) -> None:
     outline, hole = placed(floor)
     name, top, colour = f"floor {floor.name}", floor.top, floor_colour(floor)
-    dark = mixed(colour, VOID, 0.55)
+    dark = mix_colours(colour, VOID, 0.55)
     edge = grow(outline, RIM * scale)
     edge_hole = grow(hole, -RIM * scale) if hole is not None else _out_of_sight(outline, scale)
     cliff = sheet(edge, edge_hole).moved(0, -CLIFF * scale)
@@ -83,7 +83,7 @@ def _floor(drawer: MeshDrawer, layers: Layers, floor: FloorDescription, scale: f
     drawer.mesh(f"{name}/cliff", cliff, top + layers.cliff, dark)
     drawer.mesh(f"{name}/rim", sheet(edge, edge_hole), top + layers.rim, dark)
     drawer.mesh(f"{name}/top", sheet(outline, hole), top, colour)
-    drawer.line(grid_in(outline, hole, top + layers.grid), mixed(colour, VOID, 0.12))
+    drawer.line(grid_in(outline, hole, top + layers.grid), mix_colours(colour, VOID, 0.12))
     if floor.label:
         drawer.label(f"{name}/label", floor.label, (*floor.position, top))
 
@@ -120,9 +120,9 @@ def _area(drawer: MeshDrawer, layers: Layers, area: AreaDescription, top: float)
         drawer.label(f"{name}/label", text, (*area.position, top))
 
 
-def _around(stage: Stage, times: float) -> Mesh:
+def _around(static_scene: StaticScene, times: float) -> Mesh:
     """A rectangle that reaches ``times`` the arena's size beyond it."""
-    (left, low), (right, high) = stage.bounds
-    by = times * size(stage)
+    (left, low), (right, high) = static_scene.bounds
+    by = times * size(static_scene)
     a, b = (left - by, low - by), (right + by, high + by)
     return sheet([b, (a[0], b[1]), a, (b[0], a[1])])

@@ -16,8 +16,8 @@ from viser import (
 )
 
 from ai4u_edu.base.colors import rgb
-from ai4u_edu.editing import Outcome, Workshop
-from ai4u_edu.snapshot import BodyState, Snapshot, Stage
+from ai4u_edu.editing import ChangeResult, SceneEditor
+from ai4u_edu.snapshot import BodyState, Snapshot, StaticScene
 from ai4u_edu.snapshot.theme import Rgb
 from ai4u_edu.viewer.backend.reporting import reporting
 from ai4u_edu.viewer.scene.geometry import Array, circle, grow, prism, segments
@@ -55,14 +55,14 @@ class Grip(NamedTuple):
 class Handles:
     """An unseen box over each body to take it by, and a knob by which the chosen one is turned.
 
-    The picture follows from what the workshop does with the world. One call at a time is under way
+    The picture follows from what the editor does with the world. One call at a time is under way
     while a body is carried, so a slow world gets no more of them than it can take. Escape puts back
     what is held. A hand that is gone lets go where it was last: viser ends what a page drags when
     that page goes, or when what it drags by is taken away.
 
     Args:
         viewer_client: the page.
-        workshop: moves the bodies.
+        editor: moves the bodies.
         on_choose: called with the name of a body that was clicked on, or taken up.
         on_drop: called with what becomes of a body that was let go of.
     """
@@ -70,11 +70,11 @@ class Handles:
     def __init__(
         self,
         viewer_client: ViewerClient,
-        workshop: Workshop,
+        editor: SceneEditor,
         on_choose: Callable[[str], None],
-        on_drop: Callable[["Future[Outcome]"], None],
+        on_drop: Callable[["Future[ChangeResult]"], None],
     ) -> None:
-        self._viewer_client, self._workshop = viewer_client, workshop
+        self._viewer_client, self._editor = viewer_client, editor
         self._on_choose, self._on_drop = on_choose, on_drop
         scene = viewer_client.client.scene
         self._subtree, self._frame_subtree = Subtree(scene, "handles"), Subtree(scene, "chosen")
@@ -105,27 +105,27 @@ class Handles:
             chosen: the name of the body that was chosen, or "".
             on: whether there are to be any.
         """
-        stage = snapshot.stage
+        static_scene = snapshot.static_scene
         self._states = {state.name: state for state in snapshot.bodies}
         is_on = on and not snapshot.past and self._viewer_client.view.mode is not Mode.EYES
-        wanted = stage.bodies if is_on else ()
+        wanted = static_scene.bodies if is_on else ()
         body = next((each for each in wanted if each.name == chosen), None)
         if wanted != self._bodies or (body != self._marked and self.grip and self.grip.turns):
-            self._lose_hold(stage.bodies)
+            self._lose_hold(static_scene.bodies)
         with self._viewer_client.client.atomic():
             if wanted != self._bodies:
                 self._bodies = wanted
-                self._build(stage)
+                self._build(static_scene)
                 self._listen(is_on)
             if body != self._marked:
                 self._marked = body
-                self._build_mark(stage)
-            self._place(stage)
+                self._build_mark(static_scene)
+            self._place(static_scene)
         self._carry()
 
     # -- what is seen ----------------------------------------------------------------------------
 
-    def _build(self, stage: Stage) -> None:
+    def _build(self, static_scene: StaticScene) -> None:
         self._boxes = None
         with self._subtree.rebuild() as parent:
             if self._bodies:
@@ -135,14 +135,14 @@ class Handles:
                 boxes.on_drag(reporting(self._on_drag))
                 self._boxes = boxes
         extents = [_extent(body) for body in self._bodies]
-        room = ROOM * size(stage)
+        room = ROOM * size(static_scene)
         self._centres = np.array([each[0] for each in extents]).reshape(-1, 2)
         self._sizes = np.array([(*each[1], 0.0) for each in extents]).reshape(-1, 3) + room
-        self._lift = Layers.of(stage).body
+        self._lift = Layers.of(static_scene).body
 
-    def _build_mark(self, stage: Stage) -> None:
+    def _build_mark(self, static_scene: StaticScene) -> None:
         self._mark = self.knob = None
-        body, unit = self._marked, size(stage)
+        body, unit = self._marked, size(static_scene)
         with self._frame_subtree.rebuild() as parent:
             if body is None:
                 return
@@ -165,7 +165,7 @@ class Handles:
             knob.on_drag(reporting(self._on_turn))
             self.knob = knob
 
-    def _place(self, stage: Stage) -> None:
+    def _place(self, static_scene: StaticScene) -> None:
         if self._boxes is not None:
             states = [self._states[body.name] for body in self._bodies]
             turns = np.array([_quaternion(state.heading) for state in states])
@@ -177,7 +177,7 @@ class Handles:
         if self._mark is not None and self._marked is not None:
             state = self._states[self._marked.name]
             self._mark.visible = not state.fallen
-            top = state.z + self._marked.height + self._lift + 2 * ROOM * size(stage)
+            top = state.z + self._marked.height + self._lift + 2 * ROOM * size(static_scene)
             self._mark.position = (state.x, state.y, top)
             self._mark.wxyz = _quaternion(state.heading)
 
@@ -229,7 +229,7 @@ class Handles:
         with self._lock:
             grip, goal, self.grip = self.grip, self._goal, None
             if grip is not None and goal is not None:
-                self._workshop.put_back(grip.name)
+                self._editor.cancel_drag(grip.name)
 
     def _lose_hold(self, now: tuple[BodyDescription, ...]) -> None:
         """What a hand holds its body by is about to go; so may be the body, with its scene."""
@@ -272,14 +272,14 @@ class Handles:
         with self._lock:
             idle = self._asked is None or self._asked.done()
             if self.grip is not None and self._goal is not None and idle:
-                self._asked = self._workshop.carry(self.grip.name, *self._goal)
+                self._asked = self._editor.drag(self.grip.name, *self._goal)
 
     def _let_go(self) -> None:
         with self._lock:
             grip, goal, self.grip = self.grip, self._goal, None
             if grip is None or goal is None:
                 return
-            future = self._workshop.move_body(grip.name, *goal)
+            future = self._editor.move_body(grip.name, *goal)
         self._on_drop(future)
 
 

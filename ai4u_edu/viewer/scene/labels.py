@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 from viser import LabelHandle
 
-from ai4u_edu.snapshot import AgentState, Snapshot, Stage
+from ai4u_edu.snapshot import AgentState, Snapshot, StaticScene
 from ai4u_edu.viewer.backend.local_server import LocalServer
 from ai4u_edu.viewer.scene.geometry import Array, turn
 from ai4u_edu.viewer.scene.mesh_drawer import MeshDrawer
@@ -28,16 +28,16 @@ class Labels:
         self._seen: object = None
         self._labels: list[_Label] = []
 
-    def build(self, stage: Stage) -> None:
+    def build(self, static_scene: StaticScene) -> None:
         """Writes the labels, if there are other ones than before."""
-        wanted = (stage.bodies, stage.agent_of)
+        wanted = (static_scene.bodies, static_scene.agent_of)
         if wanted == self._seen:
             return
         labels = []
         with self._subtree.rebuild() as parent:
             drawer = MeshDrawer(self._scene, parent)
-            for index, body in enumerate(stage.bodies):
-                text = body.label or (body.name if body.name in stage.agent_of else "")
+            for index, body in enumerate(static_scene.bodies):
+                text = body.label or (body.name if body.name in static_scene.agent_of else "")
                 if text:
                     outline = np.array(body.shape.outline())
                     centre = outline.mean(axis=0)

@@ -6,7 +6,7 @@ apart, and that grows with the camera's distance, and so with the size of the ar
 
 from dataclasses import dataclass
 
-from ai4u_edu.snapshot import Stage
+from ai4u_edu.snapshot import StaticScene
 from ai4u_edu.viewer.scene.placing import lowest_floor, size
 
 
@@ -19,10 +19,10 @@ class Layers:
     """The height of the bottom of everything."""
 
     @classmethod
-    def of(cls, stage: Stage) -> "Layers":
-        """The layers of a stage."""
-        unit = size(stage) / 2500
-        deepest = min(stage.settings.fall_threshold, lowest_floor(stage))
+    def of(cls, static_scene: StaticScene) -> "Layers":
+        """The layers of a static_scene."""
+        unit = size(static_scene) / 2500
+        deepest = min(static_scene.settings.fall_threshold, lowest_floor(static_scene))
         return cls(unit, deepest - 5.0 - 20 * unit)
 
     @property

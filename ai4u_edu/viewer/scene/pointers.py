@@ -7,8 +7,8 @@ import numpy as np
 from viser import LineSegmentsHandle, SceneApi
 
 from ai4u_edu.snapshot import BodyState, Snapshot
-from ai4u_edu.snapshot.block_info import Sense, Window
-from ai4u_edu.snapshot.theme import LIT, Rgb
+from ai4u_edu.snapshot.block_info import SensorInfo, Window
+from ai4u_edu.snapshot.theme import SPOT_LIT, Rgb
 from ai4u_edu.viewer.scene.geometry import Array, circle, segments, turn
 from ai4u_edu.viewer.scene.layers import Layers
 from ai4u_edu.viewer.scene.light import strokes
@@ -18,10 +18,10 @@ RING = 1.25
 """A ring's radius, as a multiple of how far its body reaches."""
 THICKNESS = 3.0
 """Pixels."""
-INK: Rgb = LIT
+INK: Rgb = SPOT_LIT
 
 
-def has_pointer(sense: Sense) -> bool:
+def has_pointer(sense: SensorInfo) -> bool:
     """Whether a sensor is about something that can be pointed at."""
     return bool(sense.targets or sense.groups or sense.window)
 
@@ -37,7 +37,7 @@ class Pointers:
         self._scene = scene
         self._lines: LineSegmentsHandle | None = None
 
-    def draw(self, snapshot: Snapshot, body: BodyState, senses: Iterable[Sense]) -> None:
+    def draw(self, snapshot: Snapshot, body: BodyState, senses: Iterable[SensorInfo]) -> None:
         """Draws what these sensors of the agent with that body are about, and nothing else."""
         marks = [mark for sense in senses for mark in pointer(snapshot, body, sense)]
         if not marks:
@@ -52,23 +52,23 @@ class Pointers:
         self._lines.points, self._lines.visible = points, True
 
 
-def pointer(snapshot: Snapshot, body: BodyState, sense: Sense) -> list[Array]:
+def pointer(snapshot: Snapshot, body: BodyState, sense: SensorInfo) -> list[Array]:
     """The strokes for a sensor: (n, 2, 3) each, world frame, metres."""
-    stage = snapshot.stage
-    z = body.z + 2 * Layers.of(stage).body
+    static_scene = snapshot.static_scene
+    z = body.z + 2 * Layers.of(static_scene).body
     bodies = {each.name: each for each in snapshot.bodies}
     marks = []
-    for described in stage.bodies:
+    for described in static_scene.bodies:
         state = bodies[described.name]
         is_meant = described.name in sense.targets or set(described.tags) & set(sense.groups)
         if is_meant and not state.fallen and state.name != body.name:
             reach = described.shape.reach
             ring = segments(circle(RING * reach, state.x, state.y), state.z + z - body.z)
             marks += [ring, _line(body, state.x, state.y, z, short_by=RING * reach)]
-    for area in stage.areas:
+    for area in static_scene.areas:
         if area.name in sense.targets or set(area.tags) & set(sense.groups):
-            top = floor_under(stage, *area.position)
-            level = (lowest_floor(stage) if top is None else top) + z - body.z
+            top = floor_under(static_scene, *area.position)
+            level = (lowest_floor(static_scene) if top is None else top) + z - body.z
             outline, hole = placed(area)
             marks += [segments(edge, level) for edge in (outline, hole) if edge is not None]
             if area.name in sense.targets:

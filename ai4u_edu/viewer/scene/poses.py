@@ -38,11 +38,11 @@ class Poses(NamedTuple):
 
 def poses(snapshot: Snapshot, layers: Layers) -> Poses:
     """Where all bodies of a snapshot are drawn."""
-    bodies, stage = snapshot.bodies, snapshot.stage
+    bodies, static_scene = snapshot.bodies, snapshot.static_scene
     numbers = np.array([(b.x, b.y, b.z, b.heading, b.fallen) for b in bodies]).reshape(-1, 5)
     places, headings, gone = numbers[:, :3], numbers[:, 3] / 2, numbers[:, 4] > 0
-    lowest = lowest_floor(stage)
-    reach = max(lowest - stage.settings.fall_threshold, 0.1)
+    lowest = lowest_floor(static_scene)
+    reach = max(lowest - static_scene.settings.fall_threshold, 0.1)
     depths = np.clip((lowest - places[:, 2]) / reach, 0.0, 1.0)
     sizes = np.where(gone, 0.0, 1 - (1 - SMALLEST) * depths)
     grounds = np.array([_ground(snapshot, body) for body in bodies])
@@ -63,5 +63,5 @@ def _ground(snapshot: Snapshot, body: BodyState) -> float:
     """The height at which a body's shadow falls; NaN over the void."""
     if body.on_ground:
         return body.z
-    under = floor_under(snapshot.stage, body.x, body.y, body.z)
+    under = floor_under(snapshot.static_scene, body.x, body.y, body.z)
     return np.nan if under is None else under

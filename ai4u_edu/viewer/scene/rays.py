@@ -7,8 +7,8 @@ import numpy.typing as npt
 from viser import SceneApi
 
 from ai4u_edu.blocks import RayPicture
-from ai4u_edu.snapshot import Stage
-from ai4u_edu.snapshot.theme import NOTHING, UNKNOWN, group_colours
+from ai4u_edu.snapshot import StaticScene
+from ai4u_edu.snapshot.theme import RAY_MISS, UNKNOWN_GROUP, group_colours
 from ai4u_edu.viewer.scene.geometry import Array, cap, circle
 from ai4u_edu.viewer.scene.layers import Layers
 from ai4u_edu.viewer.scene.light import strokes, surfaces
@@ -22,15 +22,15 @@ DOT = 0.0055
 
 
 class StageLook:
-    """How rays are drawn on a stage: the colours of its groups, the size of the dots."""
+    """How rays are drawn on a static_scene: the colours of its groups, the size of the dots."""
 
-    def __init__(self, stage: Stage) -> None:
-        colours = {"?": UNKNOWN, "": NOTHING} | group_colours(stage)
+    def __init__(self, static_scene: StaticScene) -> None:
+        colours = {"?": UNKNOWN_GROUP, "": RAY_MISS} | group_colours(static_scene)
         self.numbers = {group: number for number, group in enumerate(colours)}
         self.strokes = strokes(list(colours.values()))
         self.fills = surfaces(list(colours.values()))
-        self.layers = Layers.of(stage)
-        self.dot = DOT * size(stage)
+        self.layers = Layers.of(static_scene)
+        self.dot = DOT * size(static_scene)
 
 
 class Rays:
@@ -38,7 +38,7 @@ class Rays:
 
     Args:
         scene: the page's.
-        look: how large things are on the stage, and which colours they have.
+        look: how large things are on the static_scene, and which colours they have.
     """
 
     def __init__(self, scene: SceneApi, look: StageLook) -> None:
@@ -47,7 +47,7 @@ class Rays:
         self._look, self._count = look, 0
 
     def build(self, look: StageLook) -> None:
-        """Draws anew from now on, on another stage."""
+        """Draws anew from now on, on another static_scene."""
         self._look, self._count = look, -1
 
     def draw(self, pictures: Sequence[RayPicture]) -> None:
@@ -75,7 +75,7 @@ class Rays:
                 drawer = MeshDrawer(self._scene, parent)
                 self._lines = drawer.moving_lines("lines", count)
                 dot = cap(circle(self._look.dot, corners=12))
-                self._dots = drawer.batch("dots", dot, count * [NOTHING])
+                self._dots = drawer.batch("dots", dot, count * [RAY_MISS])
         self._count = count
 
 

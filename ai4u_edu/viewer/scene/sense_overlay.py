@@ -1,9 +1,7 @@
 """What the agents that somebody looks at sense, in the scene: on each page its own agent's."""
 
-from collections.abc import Callable
-
-from ai4u_edu.snapshot import AgentState, Snapshot, Stage
-from ai4u_edu.snapshot.block_info import Sense
+from ai4u_edu.snapshot import AgentState, Snapshot, StaticScene
+from ai4u_edu.snapshot.block_info import SensorInfo
 from ai4u_edu.viewer.backend.turns import Turns
 from ai4u_edu.viewer.scene.layers import Layers
 from ai4u_edu.viewer.scene.pointers import Pointers, has_pointer
@@ -12,12 +10,12 @@ from ai4u_edu.viewer.scene.spots import Spots
 from ai4u_edu.viewer.viewer_client import ViewerClient, ViewerClients
 
 
-def is_seen(sense: Sense, agent: AgentState) -> bool:
+def is_seen(sense: SensorInfo, agent: AgentState) -> bool:
     """Whether a sensor has something that can be shown in the scene."""
     return shows_by_itself(sense, agent) or has_pointer(sense)
 
 
-def shows_by_itself(sense: Sense, agent: AgentState) -> bool:
+def shows_by_itself(sense: SensorInfo, agent: AgentState) -> bool:
     """Whether that is shown unless somebody switches it off: rays and spots are."""
     return sense.key in agent.rays or sense.key in agent.spots
 
@@ -27,20 +25,19 @@ class SenseOverlay:
 
     Args:
         viewer_clients: the pages.
-        give_way: called between two pages.
     """
 
-    def __init__(self, viewer_clients: ViewerClients, give_way: Callable[[], None]) -> None:
+    def __init__(self, viewer_clients: ViewerClients) -> None:
         self._viewer_clients = viewer_clients
-        self._give_way, self._turns = give_way, Turns()
+        self._turns = Turns()
         self._pages: dict[int, _Page] = {}
 
-    def build(self, stage: Stage) -> None:
+    def build(self, static_scene: StaticScene) -> None:
         """Learns how large the agents are, and the colours of what they see."""
-        layers = Layers.of(stage)
-        self._look = StageLook(stage)
+        layers = Layers.of(static_scene)
+        self._look = StageLook(static_scene)
         lift = layers.body + 3 * layers.unit
-        self._lifts = {body.name: body.height + lift for body in stage.bodies}
+        self._lifts = {body.name: body.height + lift for body in static_scene.bodies}
         for page in self._pages.values():
             page.build(self._look)
 
@@ -55,7 +52,6 @@ class SenseOverlay:
                 self._pages[number] = _Page(viewer_client, self._look)
             agent = agents.get(viewer_client.agent)
             if agent is not None:
-                self._give_way()
                 self._pages[number].draw(snapshot, agent, self._lifts[agent.body])
 
 
@@ -74,7 +70,7 @@ class _Page:
         (body,) = (each for each in snapshot.bodies if each.name == agent.body)
         lit = [
             sense
-            for sense in agent.senses
+            for sense in agent.sensor_infos
             if not body.fallen
             and self._viewer_client.lights(sense.key, by_itself=shows_by_itself(sense, agent))
         ]

@@ -6,7 +6,7 @@ import numpy as np
 from viser import SceneApi
 
 from ai4u_edu.blocks import SpotPicture
-from ai4u_edu.snapshot.theme import LIT, SPOT, UNLIT
+from ai4u_edu.snapshot.theme import SPOT_LIT, SPOT_RADIUS_M, SPOT_UNLIT
 from ai4u_edu.viewer.scene.geometry import cap, circle
 from ai4u_edu.viewer.scene.light import surfaces
 from ai4u_edu.viewer.scene.mesh_drawer import MeshDrawer
@@ -23,7 +23,7 @@ class Spots:
     def __init__(self, scene: SceneApi) -> None:
         self._scene = scene
         self._subtree = Subtree(scene, "spots")
-        self._colours = surfaces([UNLIT, LIT])
+        self._colours = surfaces([SPOT_UNLIT, SPOT_LIT])
         self._count = 0
 
     def draw(self, pictures: Sequence[SpotPicture], lift: float) -> None:
@@ -46,7 +46,9 @@ class Spots:
     def _make(self, count: int) -> None:
         with self._subtree.rebuild() as parent:
             if count:
-                dot = cap(circle(SPOT, corners=16))
-                self._dots = MeshDrawer(self._scene, parent).batch("dots", dot, count * [UNLIT])
+                dot = cap(circle(SPOT_RADIUS_M, corners=16))
+                self._dots = MeshDrawer(self._scene, parent).batch(
+                    "dots", dot, count * [SPOT_UNLIT]
+                )
                 self._dots.batched_scales = np.ones(count, np.float32)
         self._count = count

@@ -94,7 +94,7 @@ class View:
         return max(camera.image_width, 1) / max(camera.image_height, 1)
 
     def _show_all(self, snapshot: Snapshot) -> None:
-        bounds, aspect = seen_bounds(snapshot.stage), self._shape()
+        bounds, aspect = seen_bounds(snapshot.static_scene), self._shape()
         reshaped = abs(aspect - self._aspect) > 0.02 * self._aspect and not self._is_theirs
         if bounds != self._bounds or reshaped:
             self._bounds, self._aspect = bounds, aspect
@@ -102,8 +102,8 @@ class View:
 
     def _begin(self, snapshot: Snapshot, body: BodyState) -> None:
         aspect = self._shape()
-        (reach,) = (b.shape.reach for b in snapshot.stage.bodies if b.name == body.name)
-        whole = frame(seen_bounds(snapshot.stage), aspect).height
+        (reach,) = (b.shape.reach for b in snapshot.static_scene.bodies if b.name == body.name)
+        whole = frame(seen_bounds(snapshot.static_scene), aspect).height
         height = min(whole, FOLLOWED * reach)
         self._put(centred(body.x, body.y, height, aspect), self._up(body))
 
@@ -112,14 +112,14 @@ class View:
     ) -> None:
         """Through the agent's eye, ahead."""
         camera = self._client.camera
-        place, ahead = eye(snapshot.stage, agent, body)
+        place, ahead = eye(snapshot.static_scene, agent, body)
         with self._client.atomic():
             if begins:
                 self._daylight = Daylight(self._client.scene)
                 camera.min_orbit_distance, camera.max_orbit_distance = 0.01, 100.0
                 camera.up_direction = (0.0, 0.0, 1.0)
                 camera.fov = EYE_VIEW
-                camera.near, camera.far = EYE_NEAR, EYE_FAR * size(snapshot.stage)
+                camera.near, camera.far = EYE_NEAR, EYE_FAR * size(snapshot.static_scene)
             camera.position = place
             camera.look_at = ahead
 

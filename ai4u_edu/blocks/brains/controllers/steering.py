@@ -1,4 +1,4 @@
-"""Drivers that know where they want to go: towards a point, with a little whim."""
+"""DriverRegistry that know where they want to go: towards a point, with a little whim."""
 
 import math
 from collections.abc import Sequence
