@@ -171,7 +171,7 @@ class Viewer:
 
     def _draw(self, snapshot: Snapshot) -> None:
         for agent in self.runner.sim.agents:
-            agent.ledger.remember(REMEMBERED)
+            agent.ledger.keep_history(REMEMBERED)
         with self.server.atomic():
             if snapshot.static_scene is not self._static_scene:
                 self._static_scene = snapshot.static_scene
