@@ -167,7 +167,7 @@ class Live:
                 guests = self._with_guest(agent.id, state, blocks.brains)
                 blocks = Blocks(blocks.sensors, blocks.actuators, blocks.rewards, guests)
             if world_changed or blocks_changed:
-                rebind(agent, self._sim.world, blocks, brain_goes_on=not blocks_changed)
+                rebind(agent, self._sim.world, blocks, keep_brain=not blocks_changed)
             else:
                 _swap(agent, blocks.brains)
         return True
