@@ -59,7 +59,7 @@ class AgentEdits:
                     _reuse_or_make(RewardFunc, agent.rewards, old, new, "rewards"),
                     brains,
                 )
-                rebind(agent, self._world, blocks, brain_goes_on=not blocks_changed)
+                rebind(agent, self._world, blocks, keep_brain=not blocks_changed)
             else:
                 _replace_brains(agent, brains)
         return True

@@ -124,11 +124,6 @@ class Runner:
         """Lateness (s) with which ticks lately began, on average."""
         return self._schedule.lateness
 
-    def give_way(self) -> None:
-        """Waits until no tick is due or under way; not long, nor in a world without a pause."""
-        if not (self.is_unpaced() or self._monitor.is_stalled):
-            self._schedule.give_way()
-
     def is_unpaced(self) -> bool:
         """Whether the time runs as fast as it can, and not by the clock."""
         return math.isinf(self.time_scale)
@@ -423,13 +418,12 @@ class Runner:
             else:
                 self.sim.tick()
 
-        with self._schedule.is_ticking:
-            self._attempt(tick)
-            ended = self._clock()
-            if not self.sim.waiting_for_brain:  # a world that waits for a script is not slow
-                self._schedule.ticked += ticks
-                self._slow.note((ended - began) / ticks, self.sim.world.count_contacts)
-            self._show(ended, ended - began)
+        self._attempt(tick)
+        ended = self._clock()
+        if not self.sim.waiting_for_brain:  # a world that waits for a script is not slow
+            self._schedule.ticked += ticks
+            self._slow.note((ended - began) / ticks, self.sim.world.count_contacts)
+        self._show(ended, ended - began)
 
     def _show(self, now: float, took: float) -> None:
         """Publishes how it looks after a tick, if there is time for that, or something is wrong."""

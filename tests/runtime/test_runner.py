@@ -58,67 +58,6 @@ def test_it_keeps_the_wall_clock() -> None:
     assert runner.latest.real_time_factor == pytest.approx(4.0, rel=0.5)
 
 
-def test_who_draws_gives_way_to_a_tick(monkeypatch: pytest.MonkeyPatch) -> None:
-    runner = Runner(Scene.load("box_chase").build(), seed=1)
-    is_in_it, goes_on, order = threading.Event(), threading.Event(), []
-    tick = runner.sim.tick
-
-    def slow_tick() -> None:
-        is_in_it.set()
-        goes_on.wait(5)
-        tick()
-        order.append("tick")
-
-    monkeypatch.setattr(runner.sim, "tick", slow_tick)
-    monkeypatch.setattr("ai4u_edu.runtime.clock.MAX_YIELD_S", 5.0)
-    ticking = threading.Thread(target=runner._tick)
-    ticking.start()
-    assert is_in_it.wait(5)
-
-    def draw() -> None:
-        runner.give_way()
-        order.append("picture")
-
-    drawing = threading.Thread(target=draw)
-    drawing.start()
-    drawing.join(0.1)
-    assert not order
-    goes_on.set()
-    ticking.join()
-    drawing.join()
-    assert order == ["tick", "picture"]
-
-
-@pytest.mark.parametrize(("before", "waits"), [(0.002, False), (0.0002, True), (-0.002, True)])
-def test_who_draws_gives_way_to_a_runner_that_is_about_to_wake_up(
-    monkeypatch: pytest.MonkeyPatch, before: float, *, waits: bool
-) -> None:
-    monkeypatch.setattr("ai4u_edu.runtime.clock.MAX_YIELD_S", 5.0)
-    runner = Runner(Scene.load("box_chase").build(), seed=1, clock=lambda: 100.0)
-    runner._schedule.due, runner._schedule.is_asleep = 100.0 + before, True
-    drawing = threading.Thread(target=runner.give_way)
-    drawing.start()
-    drawing.join(0.1 if waits else 5)
-    assert drawing.is_alive() == waits
-    runner._schedule.is_asleep = False
-    drawing.join(5)
-    assert not drawing.is_alive()
-
-
-@pytest.mark.parametrize(("time_scale", "late"), [(1.0, 1.0), (float("inf"), 0.0)])
-def test_who_draws_does_not_wait_for_a_world_that_never_rests(
-    time_scale: float, late: float
-) -> None:
-    class Barred:
-        def acquire(self, timeout: float) -> bool:
-            raise AssertionError("it waits")
-
-    runner = Runner(Scene.load("box_chase").build(), seed=1, time_scale=time_scale)
-    runner._schedule.lateness = late
-    runner._schedule.is_ticking = Barred()  # type: ignore[assignment]
-    runner.give_way()
-
-
 def test_at_one_go_a_decision_is_what_it_is_tick_by_tick() -> None:
     seen = []
     for leaps in (False, True):
@@ -661,7 +600,6 @@ def test_a_block_that_does_not_answer_is_named(monkeypatch: pytest.MonkeyPatch) 
         assert (stall.block, stall.agent) == ("Sensor Stuck 'stuck'", "0")
         assert stall.where.startswith("test_runner.py, line ")
         assert str(stall).startswith("Sensor Stuck 'stuck' of agent '0' has not answered for ")
-        runner.give_way()  # nobody waits for a tick that does not end
         waiting = runner.pause()
         assert not waiting.done()
 
@@ -730,8 +668,7 @@ def test_a_long_pause_between_two_ticks_keeps_no_command_waiting(ask: str) -> No
     sim = ControlRequestor(small_world(), [BasicAgent(body="robot", brains=[Silent()])])
     runner = Runner(sim, time_scale=0.0001)  # a tick takes minutes
     runner.start()
-    while not runner._schedule.is_asleep:
-        time.sleep(0.001)
+    wait_for(runner, 1)
     asked = runner.scale_time(1.0) if ask == "scale" else getattr(runner, ask)()
     asked.result(5)
     if ask == "scale":

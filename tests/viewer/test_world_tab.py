@@ -178,7 +178,7 @@ def test_a_page_can_drag_what_it_likes(viewer: Viewer, shop: Shop) -> None:
         drag(here, tab, tab.handles.node, 2, (0, 0), (float("nan"), 1), (1, float("inf")))
         drag(here, tab, tab.handles.node, 2, (float("nan"), 0), (1, 1))
         drag(here, tab, tab.handles.node, 2, (0, 0), (1e12, 1), (1, -1e300))
-        until(lambda: tab.handles.grip is None)
+        until(lambda: tab.handles.drag is None)
         for handle in (tab.thing, tab.new, tab.scene, tab.changes, tab.offered):
             here.change(handle, "nonsense")
         here.change(tab.moves, False)
@@ -219,7 +219,7 @@ def test_a_page_that_vanishes_lets_go_of_what_it_holds(viewer: Viewer, shop: Sho
         drag(here, tab, tab.handles.node, index(shop, "wall"), (-4, 0), (-3, 1), lets_go=False)
         seen(viewer, lambda: shop.world["wall"].position == (-3, 1))
     until(lambda: shop.editor.undo_label == "move wall")
-    assert tab.handles.grip is None
+    assert tab.handles.drag is None
     assert not shop.editor.is_dragging
     assert shop.editor.state.description.bodies[index(shop, "wall")].position == (-3, 1)
     shop.editor.undo().result(5)
@@ -236,7 +236,7 @@ def test_what_is_held_while_the_handles_go_is_let_go_of(viewer: Viewer, shop: Sh
         here.change(tab.moves, False)
         seen(viewer, lambda: tab.handles.node == "")
         until(lambda: shop.editor.undo_label == "move wall")
-        assert tab.handles.grip is None
+        assert tab.handles.drag is None
 
 
 def test_a_hand_lets_nothing_fall_into_another_scene(viewer: Viewer, shop: Shop) -> None:
@@ -248,7 +248,7 @@ def test_a_hand_lets_nothing_fall_into_another_scene(viewer: Viewer, shop: Shop)
         seen(viewer, lambda: shop.world["wall"].position == (-3, 1))
         other = Scene.loads(TEXT.replace("position: [-4, 0]", "position: [-5, 0]"))
         shop.editor.open(other).result(5)
-        seen(viewer, lambda: tab.handles.grip is None)
+        seen(viewer, lambda: tab.handles.drag is None)
         shop.runner.submit(lambda: None).result(5)
         assert shop.world["wall"].position == (-5, 0)
         assert not shop.editor.is_dragging

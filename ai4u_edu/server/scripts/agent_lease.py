@@ -6,11 +6,11 @@ from secrets import token_hex
 
 from ai4u_edu.agent import BasicAgent
 from ai4u_edu.base.errors import AI4UError, NameNotFoundError, shorten
-from ai4u_edu.base.loop_queue import Post
 from ai4u_edu.blocks import Brain
 from ai4u_edu.blocks.brains.links.link import LinkState
 from ai4u_edu.blocks.brains.remote import RemoteBrain
 from ai4u_edu.runtime.runner import ANOTHER_WORLD, Runner
+from ai4u_edu.server.loop_queue import LoopQueue
 from ai4u_edu.server.scripts.outbox import Line
 from ai4u_edu.server.scripts.refusal import RefusalError
 from ai4u_edu.server.scripts.session import Session
@@ -41,7 +41,7 @@ class Seat:
         agent: BasicAgent,
         hello: native.Hello,
         rules: Rules,
-        post: Post,
+        post: LoopQueue,
         on_left: Callable[["Seat"], None],
     ) -> None:
         self.agent = agent

@@ -4,8 +4,8 @@ from collections.abc import Callable
 
 from ai4u_edu.agent import BasicAgent
 from ai4u_edu.base.errors import suggest
-from ai4u_edu.base.loop_queue import Post, post_here
 from ai4u_edu.runtime.runner import Runner
+from ai4u_edu.server.loop_queue import LoopQueue, queue_here
 from ai4u_edu.server.scripts.agent_lease import Seat
 from ai4u_edu.server.scripts.outbox import Line
 from ai4u_edu.server.scripts.refusal import RefusalError, wrong_version
@@ -31,7 +31,7 @@ class Seats:
         self._title = title
         self._rules = rules
         self._seats: dict[str, Seat] = {}
-        self._post: Post | None = None
+        self._post: LoopQueue | None = None
 
     async def enter(self, hello: native.Hello, line: Line) -> Seat:
         """Gives a script the agent that it wants, or the session back that it had.
@@ -56,7 +56,7 @@ class Seats:
         elif seat is not None:
             raise RefusalError("agent_taken", self._taken(agent))
         else:
-            self._post = post_here(self._post)
+            self._post = queue_here(self._post)
             seat = Seat(self._runner, agent, hello, self._rules, self._post, self._left)
             self._seats[agent.id] = seat
             await seat.claim(self._title())

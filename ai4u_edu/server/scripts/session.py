@@ -10,11 +10,10 @@ from collections.abc import Callable, Mapping
 from threading import Lock
 from typing import Any
 
-from ai4u_edu.base.loop_queue import Post
 from ai4u_edu.blocks import Answer, Command
 from ai4u_edu.blocks.brains.links.link import Answered, LinkState, Offer, Reset, Situation
 from ai4u_edu.runtime.runner import Runner
-from ai4u_edu.server.eager import look_out
+from ai4u_edu.server.loop_queue import LoopQueue
 from ai4u_edu.server.scripts.outbox import Line
 from ai4u_edu.server.scripts.welcome import Excerpt
 from ai4u_edu.wire import native
@@ -36,7 +35,7 @@ class Session:
         on_close: Callable[[str], None],
         *,
         may_seed: bool = True,
-        post: Post | None = None,
+        post: LoopQueue | None = None,
     ) -> None:
         self.state = LinkState.CONNECTED
         self.reason = ""
@@ -45,7 +44,7 @@ class Session:
         self.excerpt: Excerpt
         """The readings that the script wants; set in the runner's thread, before it is told any."""
         self._runner = runner
-        self._post = post or Post()
+        self._post = post or LoopQueue()
         self._on_close = on_close
         self._may_seed = may_seed
         self._lock = Lock()
@@ -167,8 +166,6 @@ class Session:
             self._is_resetting = isinstance(answered.answer, Reset)
             self._answers.append(answered)
         self._runner.notify_answer()
-        if self._runner.is_unpaced():
-            look_out()  # the next answer is as good as here
         return None
 
     # -- what they are made of -------------------------------------------------------------------
@@ -248,7 +245,7 @@ class Session:
 
     def _give(self, function: Callable[[Any], None], argument: object) -> None:
         try:
-            self._post.give(function, argument)
+            self._post.call(function, argument)
         except RuntimeError:  # the server has ended before the world
             self.state, self.reason = LinkState.LOST, "the server has ended"
 

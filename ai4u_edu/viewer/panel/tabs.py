@@ -39,7 +39,6 @@ class Tabs:
         viewer_clients: the pages.
         kinds: the tabs, from left to right.
         complaints: gets to know what went wrong; the other tabs are drawn all the same.
-        give_way: called between two pages.
     """
 
     def __init__(
@@ -47,9 +46,8 @@ class Tabs:
         viewer_clients: ViewerClients,
         kinds: Sequence[TabKind],
         complaints: Complaints,
-        give_way: Callable[[], None],
     ) -> None:
-        self._give_way, self._turns = give_way, Turns()
+        self._turns = Turns()
         self._viewer_clients = viewer_clients
         self._kinds = tuple(kinds)
         self._complaints = complaints
@@ -65,7 +63,6 @@ class Tabs:
         for new in self._viewer_clients.keys() - self._pages.keys():
             self._pages[new] = _Page(self._viewer_clients[new], self._kinds, self._complaints)
         for number in self._turns.next(self._pages.keys()):
-            self._give_way()
             for tab in self._pages[number].tabs:
                 with self._complaints.caught():
                     tab.draw(snapshot)
