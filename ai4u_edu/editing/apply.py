@@ -178,7 +178,7 @@ class Live:
         guest = agent.brain
         is_guest = not any(guest is brain for brain in described)
         # who drives over a connection of its own was told what it senses, and of nothing else
-        over = blocks_changed and isinstance(guest, RemoteBrain) and guest.is_given
+        over = blocks_changed and isinstance(guest, RemoteBrain) and guest.has_own_link
         if is_guest and not other and not over:
             return [*brains, guest]
         if not other and any(guest is brain for brain in brains):

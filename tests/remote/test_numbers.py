@@ -153,7 +153,7 @@ def answered_in_realtime(room: Room, script: Script) -> native.Percept:
 
 def answers(room: Room) -> int:
     """How many of the script's answers lie there."""
-    return len(room.sim.agents[0].brain._link._answers)  # type: ignore[attr-defined]
+    return len(room.sim.agents[0].brain._link.exchange)  # type: ignore[attr-defined]
 
 
 def test_in_realtime_a_percept_comes_before_the_next_tick() -> None:
