@@ -106,9 +106,6 @@ class _World:
     def notify_answer(self) -> None:
         pass
 
-    def is_unpaced(self) -> bool:
-        return False
-
 
 class _Subset:
     def extract(self, percept: Any) -> tuple[bytes, tuple[str, ...]]:

@@ -7,7 +7,6 @@ from typing import Any
 from ai4u_edu.base.loop_queue import Post
 from ai4u_edu.blocks.brains.links.link import AgentSpec, LinkState, Observation, Reply, Reset
 from ai4u_edu.runtime.runner import Runner
-from ai4u_edu.server.eager import look_out
 from ai4u_edu.server.scripts.answers import find_problem, is_request_for_time, to_brain_answer
 from ai4u_edu.server.scripts.exchange import Exchange, Turn
 from ai4u_edu.server.scripts.outbox import Outbox
@@ -158,8 +157,6 @@ class Session:
             return problem
         if self.exchange.answer(Reply(to_brain_answer(message), asked)):
             self._runner.notify_answer()
-            if self._runner.is_unpaced():
-                look_out()  # the next answer is as good as here
         return None
 
     # -- frames ------------------------------------------------------------------------------------

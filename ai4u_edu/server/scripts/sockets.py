@@ -7,7 +7,7 @@ from contextlib import suppress
 from starlette.types import Message, Receive, Scope, Send
 
 from ai4u_edu.runtime.runner import Runner
-from ai4u_edu.server.frames import CAP, EXTENSION, FramesProtocol
+from ai4u_edu.server.frames import EXTENSION, FramesProtocol
 from ai4u_edu.server.rate import Rate
 from ai4u_edu.server.scripts.agent_lease import AgentLease
 from ai4u_edu.server.scripts.answers import is_request_for_time
@@ -55,7 +55,6 @@ class RemoteSockets:
         sending = asyncio.create_task(outbox.run())
         connection = _Connection(receive, outbox, self._leases)
         if frames:
-            frames.cap(CAP)
             frames.listener = connection.hear_answer
         try:
             if is_known:
