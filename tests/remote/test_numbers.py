@@ -111,6 +111,8 @@ def test_what_was_paid_while_nobody_listened_is_told_once_and_by_name() -> None:
             beyond(agent, before.step + 2)
             script.act(before, 1)  # too late
             first = script.percept()
+            heard = (first.episode, first.step)
+            until(lambda heard=heard: heard in paid)  # the script is told first
             missed = [
                 paid[first.episode, step]["pay"] for step in range(before.step + 1, first.step + 1)
             ]
