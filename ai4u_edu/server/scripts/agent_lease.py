@@ -6,10 +6,10 @@ from secrets import token_hex
 
 from ai4u_edu.agent import BasicAgent
 from ai4u_edu.base.errors import AI4UError, NameNotFoundError, shorten
-from ai4u_edu.base.loop_queue import Post
 from ai4u_edu.blocks import Brain
 from ai4u_edu.blocks.brains.remote import RemoteBrain
 from ai4u_edu.runtime.runner import ANOTHER_WORLD, Runner
+from ai4u_edu.server.loop_queue import LoopQueue
 from ai4u_edu.server.scripts.outbox import Outbox
 from ai4u_edu.server.scripts.refusal import RefusalError
 from ai4u_edu.server.scripts.session import Session
@@ -33,7 +33,7 @@ class AgentLease:
         agent: the agent that the script drives.
         hello: the script's request.
         rules: of the room.
-        post: of the room.
+        queue: of calls for the event loop, shared by the room.
         on_released: called when the lease has ended.
     """
 
@@ -43,7 +43,7 @@ class AgentLease:
         agent: BasicAgent,
         hello: native.Hello,
         rules: Rules,
-        post: Post,
+        queue: LoopQueue,
         on_released: Callable[["AgentLease"], None],
     ) -> None:
         self.agent = agent
@@ -67,7 +67,7 @@ class AgentLease:
             runner,
             self._on_brain_closed,
             may_seed=is_only_agent or rules.seeded_resets,
-            post=post,
+            queue=queue,
         )
         self.welcome = b""
 

@@ -4,8 +4,8 @@ from collections.abc import Callable
 
 from ai4u_edu.agent import BasicAgent
 from ai4u_edu.base.errors import suggest
-from ai4u_edu.base.loop_queue import Post, post_here
 from ai4u_edu.runtime.runner import Runner
+from ai4u_edu.server.loop_queue import LoopQueue, queue_here
 from ai4u_edu.server.scripts.agent_lease import AgentLease
 from ai4u_edu.server.scripts.outbox import Outbox
 from ai4u_edu.server.scripts.refusal import RefusalError, wrong_version
@@ -30,7 +30,7 @@ class LeaseRegistry:
         self._title = title
         self._rules = rules
         self._leases: dict[str, AgentLease] = {}
-        self._post: Post | None = None
+        self._queue: LoopQueue | None = None
 
     async def acquire(self, hello: native.Hello, outbox: Outbox) -> AgentLease:
         """Lease the agent that a script asks for, or resume the session that it had.
@@ -51,8 +51,8 @@ class LeaseRegistry:
         elif lease is not None:
             raise RefusalError("agent_taken", self._taken(agent))
         else:
-            self._post = post_here(self._post)
-            lease = AgentLease(self._runner, agent, hello, self._rules, self._post, self._remove)
+            self._queue = queue_here(self._queue)
+            lease = AgentLease(self._runner, agent, hello, self._rules, self._queue, self._remove)
             self._leases[agent.id] = lease
             await lease.claim(self._title())
         lease.attach(outbox)

@@ -4,9 +4,9 @@ import time
 from collections.abc import Callable
 from typing import Any
 
-from ai4u_edu.base.loop_queue import Post
 from ai4u_edu.blocks.brains.links.link import AgentSpec, LinkState, Observation, Reply, Reset
 from ai4u_edu.runtime.runner import Runner
+from ai4u_edu.server.loop_queue import LoopQueue
 from ai4u_edu.server.scripts.answers import find_problem, is_request_for_time, to_brain_answer
 from ai4u_edu.server.scripts.exchange import Exchange, Turn
 from ai4u_edu.server.scripts.outbox import Outbox
@@ -26,7 +26,7 @@ class Session:
         runner: the room's.
         on_close: called in the event loop when the agent's brain is closed.
         may_seed: whether a reset may have a seed, which resets the whole world.
-        post: queue into the event loop, shared by all sessions of a room; left out, a new one.
+        queue: of calls for the event loop, shared by a room; left out, a new one.
     """
 
     def __init__(
@@ -35,7 +35,7 @@ class Session:
         on_close: Callable[[str], None],
         *,
         may_seed: bool = True,
-        post: Post | None = None,
+        queue: LoopQueue | None = None,
     ) -> None:
         self.state = LinkState.CONNECTED
         self.reason = ""
@@ -46,7 +46,7 @@ class Session:
         self.outbox: Outbox | None = None
         """The connection; None while it is lost. Only the event loop changes it."""
         self._runner = runner
-        self._post = post or Post()
+        self._queue = queue or LoopQueue()
         self._on_close = on_close
         self._may_seed = may_seed
         self._rewards = RewardSum()
@@ -198,7 +198,7 @@ class Session:
 
     def _call_in_loop(self, function: Callable[[Any], None], argument: object) -> None:
         try:
-            self._post.give(function, argument)
+            self._queue.call(function, argument)
         except RuntimeError:  # the server has ended before the world
             self.state, self.reason = LinkState.LOST, "the server has ended"
 
