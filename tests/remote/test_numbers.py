@@ -1,5 +1,7 @@
 """Frames that come twice, late, or not at all: everything counts once, and where it belongs."""
 
+from functools import partial
+
 import pytest
 
 from ai4u_edu import BasicAgent
@@ -111,8 +113,8 @@ def test_what_was_paid_while_nobody_listened_is_told_once_and_by_name() -> None:
             beyond(agent, before.step + 2)
             script.act(before, 1)  # too late
             first = script.percept()
-            heard = (first.episode, first.step)
-            until(lambda heard=heard: heard in paid)  # the script is told first
+            decision = (first.episode, first.step)
+            until(partial(paid.__contains__, decision))  # the script is told first
             missed = [
                 paid[first.episode, step]["pay"] for step in range(before.step + 1, first.step + 1)
             ]
