@@ -84,7 +84,7 @@ class AgentEdits:
         driving = agent.brain
         is_guest = not any(driving is brain for brain in described)
         # a script that connected by itself was told the blocks of before, so it has to reconnect
-        is_outdated = blocks_changed and isinstance(driving, RemoteBrain) and driving.is_given
+        is_outdated = blocks_changed and isinstance(driving, RemoteBrain) and driving.has_own_link
         if is_guest and not brain_changed and not is_outdated:
             return [*brains, driving]
         if not brain_changed and any(driving is brain for brain in brains):
