@@ -10,7 +10,7 @@ from ai4u_edu.base.parameters import Name, Number, Seconds
 from ai4u_edu.blocks.actuators.actuator import Actuator
 from ai4u_edu.blocks.agent_view import AgentView
 from ai4u_edu.blocks.homeostasis import HomeostaticVariable
-from ai4u_edu.blocks.rewards.homeostatic import keeper_of
+from ai4u_edu.blocks.rewards.homeostatic import find_homeostatic_reward
 from ai4u_edu.world import Body, BodyView, WorldView
 
 RETRY_S = 1.0
@@ -62,7 +62,7 @@ class CollectActuator(Actuator):
         view.check_group(self.group)
         self._variables: dict[str, HomeostaticVariable] = {}
         for name in dict.fromkeys([*self.adds, *self.needs]):
-            self._variables[name] = keeper_of(agent, self.source).variable(name)
+            self._variables[name] = find_homeostatic_reward(agent, self.source).variable(name)
 
     def on_reset(self, agent: AgentView, view: WorldView) -> None:
         """Forget the bodies that came back with the reset of the world."""
