@@ -10,7 +10,7 @@ from ai4u_edu.server.scripts.agent_lease import Seat
 from ai4u_edu.server.scripts.outbox import Line
 from ai4u_edu.server.scripts.refusal import RefusalError, wrong_version
 from ai4u_edu.server.scripts.settings import Rules
-from ai4u_edu.server.token_auth import same
+from ai4u_edu.server.token_auth import is_same_secret
 from ai4u_edu.wire import native
 
 SHORTEST_SECRET = 16
@@ -42,7 +42,7 @@ class Seats:
         self._check(hello)
         agent = self._agent(hello.agent)
         seat = self._seats.get(agent.id)
-        if seat is not None and same(seat.secret, hello.secret):
+        if seat is not None and is_same_secret(seat.secret, hello.secret):
             await seat.is_claimed.wait()
             if seat.is_left:
                 raise RefusalError("ended", f"agent {agent.id!r} could not be taken; connect anew")
@@ -66,7 +66,7 @@ class Seats:
     def _check(self, hello: native.Hello) -> None:
         if hello.version != native.VERSION:
             raise RefusalError("version", wrong_version(f"version {native.VERSION}", hello.version))
-        if self._rules.token and not same(self._rules.token, hello.token):
+        if self._rules.token and not is_same_secret(self._rules.token, hello.token):
             got = "another one" if hello.token else "none"
             raise RefusalError(
                 "bad_token",

@@ -8,7 +8,7 @@ from starlette.types import Message, Receive, Scope, Send
 
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.server.frames import EXTENSION, FramesProtocol
-from ai4u_edu.server.rate import Rate
+from ai4u_edu.server.rate_limit import RateLimit
 from ai4u_edu.server.scripts.agent_lease import Seat
 from ai4u_edu.server.scripts.lease_registry import Seats
 from ai4u_edu.server.scripts.outbox import Line
@@ -74,7 +74,7 @@ class _Connection:
         self._receive = receive
         self._line = line
         self._seats = seats
-        self._rate = Rate(PER_SECOND)
+        self._rate = RateLimit(PER_SECOND)
         self._mistakes = 0
         self._hello: native.Hello | None = None
         self.seat: Seat | None = None
