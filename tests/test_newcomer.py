@@ -120,7 +120,7 @@ def test_all_of_it_appears_in_the_viewer(sim: ai4u_edu.ControlRequestor) -> None
         texts = [
             label.handle.text
             for part in viewer._parts
-            for label in getattr(part._part, "_labels", ())
+            for label in getattr(part.part, "_labels", ())
         ]
         assert sorted(texts) == ["cheese", "mouse"]
     finally:
