@@ -203,7 +203,7 @@ class FrameCache:
             self._count = count + 1 if verdict.exact else count
         player = Player(self.episode)
         for index in range(len(player.taken)):
-            player.sim.agents[index].ledger.remember(REMEMBERED)
+            player.sim.agents[index].ledger.keep_history(REMEMBERED)
             _Results(player, index, self._results[index])
         for step in range(self._count):
             if self._stopping:

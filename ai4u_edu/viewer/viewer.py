@@ -23,12 +23,12 @@ from ai4u_edu.viewer.replay.ghosts import Ghosts
 from ai4u_edu.viewer.replay.replay_player import ReplayPlayer
 from ai4u_edu.viewer.replay.replay_tab import replay_tab
 from ai4u_edu.viewer.scene.actions import Actions
+from ai4u_edu.viewer.scene.arena import camera_bounds
 from ai4u_edu.viewer.scene.bodies import Bodies
-from ai4u_edu.viewer.scene.framing import FIELD_OF_VIEW, frame
+from ai4u_edu.viewer.scene.framing import FIELD_OF_VIEW_RAD, frame_arena
 from ai4u_edu.viewer.scene.ground import Ground
 from ai4u_edu.viewer.scene.labels import Labels
-from ai4u_edu.viewer.scene.light import light
-from ai4u_edu.viewer.scene.placing import seen_bounds
+from ai4u_edu.viewer.scene.light import set_up_lights
 from ai4u_edu.viewer.scene.sense_overlay import SenseOverlay
 from ai4u_edu.viewer.viewer_client import ViewerClients
 
@@ -77,7 +77,7 @@ class Viewer:
         server.gui.configure_theme(show_logo=False, show_share_button=False)
         server.gui.main_panel.dock_right()
         server.gui.main_panel.set_width(PANEL_WIDTH)
-        light(server.scene)
+        set_up_lights(server.scene)
         html_cache = AgentHtmlCache()
         kinds = [
             TabKind("Agent", lambda viewer_client: AgentTab(viewer_client, runner, html_cache)),
@@ -162,7 +162,7 @@ class Viewer:
 
     def _draw(self, snapshot: Snapshot) -> None:
         for agent in self.runner.sim.agents:
-            agent.ledger.remember(REMEMBERED)
+            agent.ledger.keep_history(REMEMBERED)
         with self.server.atomic():
             if snapshot.static_scene is not self._static_scene:
                 self._static_scene = snapshot.static_scene
@@ -177,9 +177,12 @@ class Viewer:
 
     def _aim(self, static_scene: StaticScene) -> None:
         """Tells pages that are about to open where to look until their shape is known."""
-        first, camera = frame(seen_bounds(static_scene), aspect=1.2), self.server.initial_camera
+        first, camera = (
+            frame_arena(camera_bounds(static_scene), aspect=1.2),
+            self.server.initial_camera,
+        )
         camera.position = (first.x, first.y, first.distance)
         camera.look_at = (first.x, first.y, 0.0)
         camera.up = (0.0, 1.0, 0.0)
-        camera.fov = FIELD_OF_VIEW
+        camera.fov = FIELD_OF_VIEW_RAD
         camera.near, camera.far = first.near, first.far

@@ -14,8 +14,8 @@ from playwright.sync_api import Browser, Locator, Page, expect
 from ai4u_edu import Scene
 from ai4u_edu.snapshot import capture_static_scene
 from ai4u_edu.snapshot.theme import SPOT_LIT, VOID, Rgb
-from ai4u_edu.viewer.scene.framing import frame
-from ai4u_edu.viewer.scene.placing import seen_bounds
+from ai4u_edu.viewer.scene.arena import camera_bounds
+from ai4u_edu.viewer.scene.framing import frame_arena
 from tests.playing import Played, played
 
 pytestmark = pytest.mark.browser
@@ -319,7 +319,7 @@ def on_screen(page: Page, server: Played, agent_id: str) -> tuple[float, float]:
     box = page.locator("canvas").first.bounding_box()
     assert box is not None
     static_scene = capture_static_scene(Scene.load("soccer").build())
-    shown = frame(seen_bounds(static_scene), box["width"] / box["height"])
+    shown = frame_arena(camera_bounds(static_scene), box["width"] / box["height"])
     scale = box["height"] / shown.height
     return (
         box["x"] + box["width"] / 2 + (x - shown.x) * scale,

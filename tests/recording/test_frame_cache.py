@@ -19,7 +19,7 @@ def lived(name: str, decisions: int) -> tuple[Episode, dict[int, Snapshot]]:
     for number, agent in enumerate(sim.agents):
         drive = RandomDrive(agent)
         drive.restart(number)
-        agent.ledger.remember(240)
+        agent.ledger.keep_history(240)
         skip = agent.brain.skip_frame + number  # each in a rhythm of its own
         agent.use_brain(LocalBrain(controller=drive, skip_frame=skip))
     recorder = Recorder(sim)

@@ -198,7 +198,7 @@ def test_another_scene_has_other_lists(viewer: Viewer, shop: Shop) -> None:
 
 def test_what_was_left_is_offered(viewer: Viewer, shop: Shop, tmp_path: Any) -> None:
     text = TEXT.replace("position: [4, 0]", "position: [3, 3]")
-    shop.editor.unsaved = Unsaved(tmp_path / "x", text, None, 0.0)
+    shop.editor.recovery.unsaved = Unsaved(tmp_path / "x", text, None, 0.0)
     with page(viewer) as here:
         tab = tab_of(viewer)
         assert tab._offer.visible

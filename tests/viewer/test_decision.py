@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import pytest
 
-from ai4u_edu.agent.cycle import Phase
+from ai4u_edu.agent.decision_cycle import Phase
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.snapshot import capture_snapshot
 from ai4u_edu.viewer.panel.decision import MOST_TICKS, decision

@@ -37,7 +37,7 @@ def test_a_ledger_remembers_only_if_it_is_told_to() -> None:
     sim.reset(1)
     sim.step()
     assert capture_snapshot(sim).agents[0].history == ()
-    agent.ledger.remember(2)
+    agent.ledger.keep_history(2)
     for _ in range(3):
         sim.step()
     assert capture_snapshot(sim).agents[0].history == (
@@ -76,12 +76,12 @@ def test_a_sum_of_nothing_looks_like_any_sum() -> None:
 
 def test_what_is_kept_may_grow() -> None:
     book = Ledger()
-    book.remember(1)
+    book.keep_history(1)
     for step in (1, 2):
         book.open()
         book.pay("a", 1.0)
         book.close(step)
-    book.remember(3)
+    book.keep_history(3)
     assert [entry.step for entry in book.history] == [2]
     assert book.history.maxlen == 3
 

@@ -7,7 +7,7 @@ from ai4u_edu import Scene
 from ai4u_edu.snapshot import Snapshot, capture_snapshot
 from ai4u_edu.snapshot.theme import SPOT_LIT, SPOT_UNLIT
 from ai4u_edu.viewer import Viewer
-from ai4u_edu.viewer.scene.light import surfaces
+from ai4u_edu.viewer.scene.light import surface_colours
 from ai4u_edu.viewer.scene.spots import Spots
 
 
@@ -31,11 +31,11 @@ def test_spots_light_up_and_go(viewer: Viewer, picture: Snapshot) -> None:
     (agent,) = picture.agents
     some = agent.spots["line"]._replace(lit=(True, False, False, True, False))
     part = Spots(viewer.server.scene)
-    part.draw([some], lift=1.5)
-    expected = surfaces([SPOT_LIT, SPOT_UNLIT, SPOT_UNLIT, SPOT_LIT, SPOT_UNLIT])
+    part.draw([some], height=1.5)
+    expected = surface_colours([SPOT_LIT, SPOT_UNLIT, SPOT_UNLIT, SPOT_LIT, SPOT_UNLIT])
     dots = part._dots
     assert (dots.batched_colors == expected).all()
     assert dots.batched_positions[:, 1] == pytest.approx(-3.5)
     assert dots.batched_positions[:, 2].min() > 1.0
-    part.draw([], lift=1.5)
+    part.draw([], height=1.5)
     assert dots._impl.removed

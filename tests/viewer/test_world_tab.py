@@ -178,7 +178,7 @@ def test_a_page_can_drag_what_it_likes(viewer: Viewer, shop: Shop) -> None:
         drag(here, tab, tab.handles.node, 2, (0, 0), (float("nan"), 1), (1, float("inf")))
         drag(here, tab, tab.handles.node, 2, (float("nan"), 0), (1, 1))
         drag(here, tab, tab.handles.node, 2, (0, 0), (1e12, 1), (1, -1e300))
-        until(lambda: tab.handles.grip is None)
+        until(lambda: tab.handles.drag is None)
         for handle in (tab.thing, tab.new, tab.scene, tab.changes, tab.offered):
             here.change(handle, "nonsense")
         here.change(tab.moves, False)
@@ -219,8 +219,8 @@ def test_a_page_that_vanishes_lets_go_of_what_it_holds(viewer: Viewer, shop: Sho
         drag(here, tab, tab.handles.node, index(shop, "wall"), (-4, 0), (-3, 1), lets_go=False)
         seen(viewer, lambda: shop.world["wall"].position == (-3, 1))
     until(lambda: shop.editor.undo_label == "move wall")
-    assert tab.handles.grip is None
-    assert not shop.editor._bench._held
+    assert tab.handles.drag is None
+    assert not shop.editor.is_dragging
     assert shop.editor.state.description.bodies[index(shop, "wall")].position == (-3, 1)
     shop.editor.undo().result(5)
     assert shop.world["wall"].position == (-4, 0)
@@ -236,7 +236,7 @@ def test_what_is_held_while_the_handles_go_is_let_go_of(viewer: Viewer, shop: Sh
         here.change(tab.moves, False)
         seen(viewer, lambda: tab.handles.node == "")
         until(lambda: shop.editor.undo_label == "move wall")
-        assert tab.handles.grip is None
+        assert tab.handles.drag is None
 
 
 def test_a_hand_lets_nothing_fall_into_another_scene(viewer: Viewer, shop: Shop) -> None:
@@ -248,10 +248,10 @@ def test_a_hand_lets_nothing_fall_into_another_scene(viewer: Viewer, shop: Shop)
         seen(viewer, lambda: shop.world["wall"].position == (-3, 1))
         other = Scene.loads(TEXT.replace("position: [-4, 0]", "position: [-5, 0]"))
         shop.editor.open(other).result(5)
-        seen(viewer, lambda: tab.handles.grip is None)
+        seen(viewer, lambda: tab.handles.drag is None)
         shop.runner.submit(lambda: None).result(5)
         assert shop.world["wall"].position == (-5, 0)
-        assert not shop.editor._bench._held
+        assert not shop.editor.is_dragging
         assert shop.editor.undo_label == "open small"
 
 
@@ -370,7 +370,7 @@ def test_a_scene_is_saved_by_name_and_chosen_again(
         assert tab_of(viewer).saving is None  # nowhere to save
     shop.editor.scene_store = SceneStore(tmp_path / "kept")
     left: Unsaved | None = Unsaved(tmp_path / "x", TEXT, None, time.time())
-    shop.editor.unsaved = left
+    shop.editor.recovery.unsaved = left
     with page(viewer) as here:
         seen(viewer, lambda: any(tab.saving for tab in tabs_of(viewer, WorldTab)))
         (tab,) = (each for each in tabs_of(viewer, WorldTab) if each.saving)
@@ -387,7 +387,7 @@ def test_a_scene_is_saved_by_name_and_chosen_again(
         here.press(window.save)
         until(lambda: not window.is_open)
         seen(viewer, lambda: "saved as &#x27;Mine&#x27;" in tab.said.content)
-        assert not shop.editor.unsaved
+        assert not shop.editor.recovery.unsaved
         assert shop.editor.scene_store.load("Mine") == shop.editor.scene
         shop.editor.remove_body("wall").result(5)
         here.change(tab.scene, "Save")
@@ -490,14 +490,14 @@ def test_what_was_left_is_offered_and_can_be_thrown_away(
     viewer: Viewer, shop: Shop, tmp_path: Path
 ) -> None:
     text = TEXT.replace("[4, 0]", "[3, 3]")
-    shop.editor.unsaved = Unsaved(tmp_path / "x", text, None, time.time())
+    shop.editor.recovery.unsaved = Unsaved(tmp_path / "x", text, None, time.time())
     with page(viewer) as here:
         tab = tab_of(viewer)
         assert tab.offered.visible
         here.change(tab.offered, "Discard")
         seen(viewer, lambda: not tab.offered.visible)
         assert shop.world["box"].position == (4, 0)
-        shop.editor.unsaved = Unsaved(tmp_path / "x", text, None, time.time())
+        shop.editor.recovery.unsaved = Unsaved(tmp_path / "x", text, None, time.time())
         seen(viewer, lambda: tab.offered.visible)
         here.change(tab.offered, "Restore")
         until(lambda: shop.world["box"].position == (3, 3))

@@ -5,7 +5,7 @@ from collections.abc import Iterable, Iterator
 from typing import Any
 
 from ai4u_edu.snapshot import Snapshot
-from ai4u_edu.viewer.scene.placing import floor_under
+from ai4u_edu.viewer.scene.arena import floor_under
 from ai4u_edu.world import BodyDescription
 
 BODY_TEMPLATES: dict[str, dict[str, Any]] = {

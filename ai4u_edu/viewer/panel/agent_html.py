@@ -12,8 +12,8 @@ from ai4u_edu.viewer.panel.needs import needs
 from ai4u_edu.viewer.panel.readings import action, block, heading, reading
 from ai4u_edu.viewer.panel.reward_table import Curves, curves, reward_table
 from ai4u_edu.viewer.panel.senses import sense_html
-from ai4u_edu.viewer.scene.labels import trouble
-from ai4u_edu.viewer.scene.sense_overlay import is_seen
+from ai4u_edu.viewer.scene.labels import script_problem
+from ai4u_edu.viewer.scene.sense_overlay import is_drawable
 
 SIMPLE = {"DoneSensor", "TruncatedSensor", "IDSensor", "StepSensor"}
 """Sensors whose reading is one word or number that needs no explanation."""
@@ -58,7 +58,7 @@ class AgentHtml(NamedTuple):
                 colours,
                 agent.rays.get(sense.key),
                 lit=sense.key in lit,
-                named=not is_seen(sense, agent),
+                named=not is_drawable(sense, agent),
             )
             for sense in agent.sensor_infos
             if sense.block not in SIMPLE
@@ -131,8 +131,8 @@ def state(agent: AgentState) -> str:
     end = ending(agent)
     if end:
         words.append(f"<br><b>{end}</b>")
-    if trouble(agent):
-        words.append(f"<br><strong>{trouble(agent)}</strong>")
+    if script_problem(agent):
+        words.append(f"<br><strong>{script_problem(agent)}</strong>")
     if agent.clipped:
         words.append(f"<br>{agent.clipped} numbers out of range, cut")
     return block(*words)

@@ -20,7 +20,7 @@ from ai4u_edu.viewer.panel.plot import RewardPlot
 from ai4u_edu.viewer.panel.readings import block, heading
 from ai4u_edu.viewer.panel.remote_lines import RemoteLines
 from ai4u_edu.viewer.panel.status import legend
-from ai4u_edu.viewer.scene.sense_overlay import is_seen, shows_by_itself
+from ai4u_edu.viewer.scene.sense_overlay import is_drawable, is_shown_by_default
 from ai4u_edu.viewer.viewer_client import ViewerClient
 
 SHOWN: IconName = Icon.EYE
@@ -118,7 +118,7 @@ class _Senses:
             for sense in agent.sensor_infos:
                 if sense.block in SIMPLE:
                     continue
-                if is_seen(sense, agent):
+                if is_drawable(sense, agent):
                     self._add_button(agent, sense)
                 self._parts[sense.key] = gui.add_html("")
                 self._inside.append(self._parts[sense.key])
@@ -128,8 +128,8 @@ class _Senses:
         found = {
             sense.key
             for sense in agent.sensor_infos
-            if is_seen(sense, agent)
-            and self._viewer_client.lights(sense.key, by_itself=shows_by_itself(sense, agent))
+            if is_drawable(sense, agent)
+            and self._viewer_client.lights(sense.key, by_itself=is_shown_by_default(sense, agent))
         }
         for key, button in self._buttons.items():
             icon = SHOWN if key in found else HIDDEN
@@ -142,7 +142,7 @@ class _Senses:
             self._parts[key].content = html
 
     def _add_button(self, agent: AgentState, sense: SensorInfo) -> None:
-        key, by_itself = sense.key, shows_by_itself(sense, agent)
+        key, by_itself = sense.key, is_shown_by_default(sense, agent)
         hint = f"Shows in the scene what {key} is about, or hides it"
         button = self._client.gui.add_button(key, icon=HIDDEN, hint=hint)
 

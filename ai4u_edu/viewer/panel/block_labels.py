@@ -4,7 +4,8 @@ from html import escape
 
 from ai4u_edu.blocks.docs import summary
 from ai4u_edu.editing import SceneEditor
-from ai4u_edu.editing.blocks import BlockPath, Plain, block_at, block_paths, is_enabled, types_of
+from ai4u_edu.editing.blocks import block_at, block_paths, is_enabled, types_of
+from ai4u_edu.editing.plain import BlockPath, Plain
 from ai4u_edu.snapshot import AgentState
 from ai4u_edu.viewer.panel.agent_html import title
 from ai4u_edu.viewer.panel.readings import block as paragraph

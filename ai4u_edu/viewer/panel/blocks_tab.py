@@ -10,9 +10,10 @@ from ai4u_edu.agent.block_errors import message_of
 from ai4u_edu.base.errors import AI4UError
 from ai4u_edu.base.parameters import Problem
 from ai4u_edu.editing import ChangeError, ChangeResult, SceneEditor
-from ai4u_edu.editing.blocks import BlockPath, block_at, is_enabled
+from ai4u_edu.editing.blocks import block_at, is_enabled
 from ai4u_edu.editing.forms import Field
 from ai4u_edu.editing.names import SceneNames
+from ai4u_edu.editing.plain import BlockPath
 from ai4u_edu.editing.settings import agent_form
 from ai4u_edu.editing.suggestion import suggest_block
 from ai4u_edu.snapshot import Snapshot
@@ -152,7 +153,7 @@ class BlocksTab:
         self._bare.visible = self.deeds.visible = path is not None and isinstance(path[-1], int)
 
     def _show_offer(self) -> None:
-        unsaved = self._editor.unsaved
+        unsaved = self._editor.recovery.unsaved
         if (unsaved is not None) != self._offer.visible:
             self._offer.visible = self._offered.visible = unsaved is not None
         if unsaved is not None:
@@ -226,9 +227,9 @@ class BlocksTab:
 
     async def _on_offer(self, event: GuiEvent[GuiButtonGroupHandle]) -> None:
         if event.target.value == BRING_BACK:
-            self._ask(self._editor.restore_unsaved())
+            self._ask(self._editor.recovery.restore())
         else:
-            self._editor.discard_unsaved()
+            self._editor.recovery.discard()
 
     def _ask(
         self,

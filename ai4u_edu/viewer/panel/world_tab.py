@@ -104,9 +104,9 @@ class WorldTab:
         """Shows what there is to change, when that is other than before."""
         editor, self._latest = self._editor, snapshot
         self.handles.draw(snapshot, self._chosen, on=self.moves.value)
-        unsaved = editor.unsaved
+        unsaved = editor.recovery.unsaved
         self.settings.draw("scene", editor.version)
-        waits, autosave = editor.waits_for_reset, editor.autosave
+        waits, autosave = editor.waits_for_reset, editor.recovery.autosave
         problem = autosave.problem if autosave is not None else ""
         seen = (editor.version, self._chosen, self._message, unsaved, waits, problem)
         if self._is_applied:
@@ -183,7 +183,7 @@ class WorldTab:
         self._ask(self._editor.open(scene))
 
     def _on_saved(self, name: str) -> None:
-        self._editor.mark_saved()
+        self._editor.recovery.mark_saved()
         self._tell(f"the scene is saved as {name!r}; it is among the scenes that you can choose")
 
     async def _on_scene(self, event: GuiEvent[GuiButtonGroupHandle]) -> None:
@@ -196,7 +196,7 @@ class WorldTab:
             self._viewer_client.client.send_file_download(
                 f"{_file_name(scene)}.yaml", scene.dumps().encode(), save_immediately=True
             )
-            self._editor.mark_saved()
+            self._editor.recovery.mark_saved()
             self._tell("the scene's file is among your downloads")
 
     async def _on_changes(self, event: GuiEvent[GuiButtonGroupHandle]) -> None:
@@ -266,9 +266,9 @@ class WorldTab:
 
     async def _on_offer(self, event: GuiEvent[GuiButtonGroupHandle]) -> None:
         if event.target.value == RESTORE:
-            self._ask(self._editor.restore_unsaved())
+            self._ask(self._editor.recovery.restore())
         elif event.target.value == DISCARD:
-            self._editor.discard_unsaved()
+            self._editor.recovery.discard()
 
     def _tell(self, message: str, *, is_wrong: bool = False) -> None:
         self._message, self._is_wrong = message, is_wrong

@@ -2,7 +2,13 @@ import numpy as np
 import pytest
 
 from ai4u_edu import BoxShape, CircleShape, World
-from ai4u_edu.viewer.scene.placing import floor_under, lowest_floor, placed, seen_bounds, size
+from ai4u_edu.viewer.scene.arena import (
+    arena_size,
+    camera_bounds,
+    floor_under,
+    lowest_floor,
+    region_outlines,
+)
 from tests.viewer.worlds import busy_world, static_scene_of
 
 
@@ -21,7 +27,7 @@ def test_the_floor_under_a_place() -> None:
 
 
 def test_a_ring_is_placed_with_its_hole() -> None:
-    outline, hole = placed(static_scene_of(busy_world()).floors[1])
+    outline, hole = region_outlines(static_scene_of(busy_world()).floors[1])
     assert hole is not None
     assert outline.mean(axis=0) == pytest.approx([7.5, 0.0])
     assert np.ptp(hole, axis=0) == pytest.approx([2.0, 2.0])
@@ -32,8 +38,8 @@ def test_endless_ground_is_everywhere_and_seen_with_space_around() -> None:
     world.add_body("robot", CircleShape(radius=0.5))
     static_scene = static_scene_of(world)
     assert floor_under(static_scene, 1e4, -1e4) == 0.0
-    assert size(static_scene) == 4.0
-    (left, low), (right, high) = seen_bounds(static_scene)
+    assert arena_size(static_scene) == 4.0
+    (left, low), (right, high) = camera_bounds(static_scene)
     assert min(right - left, high - low) >= 6.0
 
 
@@ -41,4 +47,4 @@ def test_an_arena_is_seen_as_it_is() -> None:
     world = World()
     world.add_floor("plate", BoxShape(size=(10, 6)))
     world.add_body("robot", CircleShape(radius=0.5))
-    assert seen_bounds(static_scene_of(world)) == ((-5.0, -3.0), (5.0, 3.0))
+    assert camera_bounds(static_scene_of(world)) == ((-5.0, -3.0), (5.0, 3.0))
