@@ -15,7 +15,9 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import Any
 
-from playwright.sync_api import Browser, sync_playwright
+from playwright.sync_api import Browser, Page, sync_playwright
+from websockets.sync.client import connect
+from websockets.typing import Origin
 
 FLAGS = [
     "--no-sandbox",
@@ -35,6 +37,17 @@ FLAGS = [
     "--disable-features=LocalNetworkAccessChecks,LocalNetworkAccessChecksWebSockets",
 ]
 
+DRAW_NOTHING = """
+for (const kind of [self.WebGLRenderingContext, self.WebGL2RenderingContext]) {
+    for (const name of Object.getOwnPropertyNames(kind?.prototype ?? {})) {
+        const draws = /^(draw(Arrays|Elements|Range)|clear$|blit)/.test(name);
+        if (draws) kind.prototype[name] = () => {};
+    }
+}
+"""
+"""For a page whose picture of the world nobody looks at: viser's code runs, WebGL draws nothing.
+Without a graphics card, to draw takes most of a page's time."""
+
 
 @dataclass
 class Played:
@@ -52,6 +65,18 @@ class Played:
     def health(self) -> dict[str, Any]:
         """What ``/healthz`` answers, whatever its status."""
         return self._get("healthz")
+
+    def restart(self, seed: int) -> None:
+        """Begin a new episode of the scene, and let the world run."""
+        episode = self.snapshot()["episode"]
+        url = self.url.replace("http", "ws", 1) + "ws/input"
+        with connect(url, origin=Origin(self.url.rstrip("/")), proxy=None) as page:
+            page.send(json.dumps({"type": "command", "name": "resume"}))
+            page.send(json.dumps({"type": "command", "name": "reset", "seed": seed}))
+            deadline = time.monotonic() + 20
+            while (now := self.snapshot())["episode"] == episode or now["paused"]:
+                assert time.monotonic() < deadline, f"no new episode: {now}"
+                time.sleep(0.02)
 
     def _get(self, path: str) -> dict[str, Any]:
         try:
@@ -103,3 +128,18 @@ def browser() -> Iterator[Browser]:
         chromium = playwright.chromium.launch(executable_path=path, args=FLAGS)
         yield chromium
         chromium.close()
+
+
+def new_page(
+    chromium: Browser, width: int = 1280, height: int = 800, *, draws: bool = False, **options: Any
+) -> Page:
+    """Return a page in a context of its own, which the caller closes.
+
+    Args:
+        draws: WebGL draws the world; only for tests that look at the picture.
+        options: more of ``Browser.new_context``.
+    """
+    context = chromium.new_context(viewport={"width": width, "height": height}, **options)
+    if not draws:
+        context.add_init_script(DRAW_NOTHING)
+    return context.new_page()
