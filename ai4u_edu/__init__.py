@@ -1,135 +1,20 @@
 """AI4U Edu: a top-down sandbox to learn how agents sense, decide and act.
 
-Names are loaded when they are first asked for, so that a script that only drives a remote agent
-loads no physics and no viewer.
+Names are imported at first access, so that a script that only drives a remote agent loads no
+physics and no viewer. ``__init__.pyi`` lists them; ``python -m tests.names --write`` updates
+its list of blocks.
 """
 
-from ai4u_edu.base.version import __version__
+import re
+from pathlib import Path
 
-_HOMES = {
-    "agent": ("EVENTS", "BasicAgent", "ControlRequestor", "Event"),
-    "blocks": (
-        "AStarController",
-        "Action",
-        "ActionSensor",
-        "Actuator",
-        "AgentArraySensor",
-        "AndRewardFunc",
-        "AreaOrientationSensor",
-        "ArrowController",
-        "BearingSensor",
-        "Block",
-        "BodyInAreaRewardFunc",
-        "Brain",
-        "BreadthFirstController",
-        "CBMoveActuator",
-        "CarActuator",
-        "CellSensor",
-        "CheckpointsReward",
-        "CollectActuator",
-        "CollisionWithRewardFunc",
-        "Command",
-        "ContinuousActuator",
-        "Controller",
-        "DifferentialDriveActuator",
-        "DiscreteActuator",
-        "DiscreteArrowController",
-        "DistanceToTargetRewardFunc",
-        "DoneSensor",
-        "DynamicFallReward",
-        "EvalBoolValue",
-        "EvalFloatValue",
-        "EvalIntValue",
-        "FallReward",
-        "FleeController",
-        "FloatArrayCompositeSensor",
-        "ForceMoveActuator",
-        "GoneReward",
-        "GrabActuator",
-        "GridMoveActuator",
-        "GridSensor",
-        "GroundStatusSensor",
-        "GroupTouchSensor",
-        "HeadingSensor",
-        "HomeostaticReward",
-        "HomeostaticSensor",
-        "HomeostaticVariable",
-        "IDSensor",
-        "KeeperController",
-        "Keyboard",
-        "LineSensor",
-        "LightSensor",
-        "LinearRayCastingSensor",
-        "LocalBrain",
-        "LocalGridSensor",
-        "MinDistReward",
-        "NeuralNetController",
-        "OrRewardFunc",
-        "OrientationSensor",
-        "ParkedRewardFunc",
-        "Percept",
-        "PositionSensor",
-        "PresenceSensor",
-        "ProgressReward",
-        "PushOutController",
-        "RBMoveActuator",
-        "RayCastingSensor",
-        "RemoteBrain",
-        "ReplayController",
-        "RespawnActuator",
-        "RestlessnessRewardFunc",
-        "RewardFunc",
-        "RewardSensor",
-        "ScriptController",
-        "Sensor",
-        "StepSensor",
-        "StrikerController",
-        "TargetFallReward",
-        "TouchRewardFunc",
-        "TouchSensor",
-        "TrainController",
-        "Trainer",
-        "TruncatedSensor",
-        "VelocitySensor",
-        "WASDController",
-        "WASDRBMoveController",
-        "a_star",
-        "breadth_first",
-        "trained_brain",
-    ),
-    "check": (
-        "Finding",
-        "Report",
-        "check_actuator",
-        "check_brain",
-        "check_controller",
-        "check_reward",
-        "check_scene",
-        "check_sensor",
-    ),
-    "base.errors": ("AI4UError",),
-    "recording": ("Episode", "Recorder", "Replay"),
-    "scenes": ("Scene",),
-    "world": (
-        "AreaDescription",
-        "Body",
-        "BodyDescription",
-        "BodyView",
-        "BoxShape",
-        "CapsuleShape",
-        "CircleShape",
-        "FloorDescription",
-        "PolygonShape",
-        "RingShape",
-        "SegmentShape",
-        "Variation",
-        "World",
-        "WorldView",
-    ),
-}
-_HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
+from ai4u_edu.base.version import __version__ as __version__
 
-__all__ = ["__version__", *_HOME_OF]
+# the stub is the list of names: type checkers read it, and so does the next line
+_STUB = Path(__file__).with_suffix(".pyi").read_text(encoding="utf-8")
+_HOME_OF = {name: home for home, name in re.findall(r"from (\S+) import \w+ as (\w+)", _STUB)}
+
+__all__ = [*_HOME_OF]
 
 try:
     from ai4u_edu.registration import register_envs
@@ -144,7 +29,7 @@ def __getattr__(name: str) -> object:
 
     if name not in _HOME_OF:
         raise AttributeError(f"module 'ai4u_edu' has no attribute {name!r}")
-    value = getattr(import_module(f"ai4u_edu.{_HOME_OF[name]}"), name)
+    value = getattr(import_module(_HOME_OF[name]), name)
     globals()[name] = value
     return value
 

@@ -1,7 +1,7 @@
-"""Makes `.venv` beside pyproject.toml and installs the project into it.
+"""Set-up of `.venv` beside pyproject.toml, with the project installed into it.
 
-Standard library only, in a syntax that even Python 3.8 reads: this is the file that tells the owner
-of an old Python what to do.
+Standard library only, in a syntax that even Python 3.8 reads: this file tells the owner of an old
+Python what to do.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ class SetupError(Exception):
 
 
 def is_checkout(root: Path) -> bool:
-    """Tell whether `root` is our source tree; a stray pyproject.toml in site-packages isn't."""
+    """Return True if `root` is our source tree; a stray pyproject.toml elsewhere is not."""
     try:
         return 'name = "ai4u-edu"' in (root / "pyproject.toml").read_text(encoding="utf-8")
     except OSError:
@@ -116,7 +116,7 @@ def _check_age(version: list[int]) -> None:
 
 
 def _begin(venv: Path, stamp: Path, before: dict[str, Any]) -> None:
-    """Make the folder, and a stamp that fits nothing until the work is done."""
+    """Make the folder, with a stamp that matches nothing until the work is done."""
     try:
         venv.mkdir(exist_ok=True)
         stamp.write_text(json.dumps({"extras": before.get("extras", [])}), encoding="utf-8")
@@ -128,7 +128,7 @@ def _begin(venv: Path, stamp: Path, before: dict[str, Any]) -> None:
 
 
 def _give_pip(venv: Path, python: Path, version: list[int]) -> None:
-    """Bring the environment to where pip runs; a Python that works is never replaced."""
+    """Make sure that pip runs in the environment; never replace a Python that works."""
     if version and not _run(python, "-m", "pip", "--version").returncode:
         return
     maker = python if version else Path(sys.executable)
@@ -174,7 +174,7 @@ def _bring_torch(python: Path) -> None:
 
 
 def _run(python: Path, *args: str, cwd: Path | None = None) -> subprocess.CompletedProcess[str]:
-    """Run Python with both of its outputs in one text; one that can't start has failed."""
+    """Run Python with stdout and stderr in one text; one that can't start has failed."""
     command = [str(python), *args]
     try:
         return subprocess.run(  # noqa: S603 - our own words and a path in the checkout, no shell

@@ -1,4 +1,4 @@
-"""The names under which Gymnasium finds the scenes; loads neither physics nor page.
+"""Registration of the scenes with Gymnasium; loads neither physics nor page.
 
 Gymnasium looks for no plug-ins since its version 1.0, so a name is known once this package is
 imported: ``import ai4u_edu``, or ``gymnasium.make("ai4u_edu:ai4u_edu/BoxChase-v0")``.
@@ -9,12 +9,12 @@ from pathlib import Path
 from gymnasium.envs.registration import register, registry
 
 REMOTE = "ai4u_edu/Remote-v0"
-"""An agent of a world that runs somewhere else."""
+"""Environment of an agent in a world on another machine."""
 LIBRARY = Path(__file__).parent / "scenes" / "library"
 
 
 def env_id(scene: str) -> str:
-    """The environment's name of a scene of the library.
+    """Return the Gymnasium id of a scene of the library.
 
     >>> env_id("box_chase")
     'ai4u_edu/BoxChase-v0'
@@ -23,7 +23,7 @@ def env_id(scene: str) -> str:
 
 
 def register_envs() -> None:
-    """Registers every scene of the library, and the robot elsewhere, if they aren't yet."""
+    """Register every scene of the library and the remote environment, unless they are."""
     if REMOTE not in registry:
         register(id=REMOTE, entry_point="ai4u_edu.remote.env:RemoteEnv")
     for path in sorted(LIBRARY.glob("*.yaml")):

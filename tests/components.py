@@ -12,7 +12,7 @@ from ai4u_edu import Block
 from ai4u_edu.blocks.block import is_built_in
 from ai4u_edu.blocks.docs import coming_from_ai4u
 from ai4u_edu.scenes.serialization import KINDS
-from tests.check.samples import INSIDE_OTHERS, SAMPLES
+from tests.check.samples import GIVEN, INSIDE_OTHERS
 
 TESTS = Path(__file__).parent
 
@@ -78,17 +78,24 @@ def components() -> list[Component]:
     ai4u: dict[str, list[str]] = {}
     for theirs, ours in parity_rows().items():
         ai4u.setdefault(ours, []).append(theirs)
-    sampled = {type(sample) for sample in SAMPLES}
     found = []
     for name, cls in Block.types.items():
         if not is_built_in(cls) or cls in KINDS or cls.__dict__.get("abstract"):
             continue
         kind = next((each.__name__ for each in KINDS if issubclass(cls, each)), "part")
-        contract = "yes" if cls in sampled else "in others" if cls in INSIDE_OTHERS else "NO"
+        contract = "in others" if cls in INSIDE_OTHERS else "yes" if has_sample(cls) else "NO"
         tests = {module: names[name] for module, names in named_in_tests().items() if name in names}
+        if ">>>" in (cls.__doc__ or ""):
+            tests["its own example"] = 1
         found.append(Component(name, kind, " ".join(ai4u.get(name, ())), contract, tests))
     order = [kind.__name__ for kind in KINDS] + ["part"]
     return sorted(found, key=lambda each: (order.index(each.kind), each.name))
+
+
+def has_sample(cls: type[Block]) -> bool:
+    """Return True if a block has a sample, or can be made without one."""
+    fields = cls.parameters().values()
+    return cls in GIVEN or not any(field.is_required() for field in fields)
 
 
 def parity_rows() -> dict[str, str]:

@@ -6,8 +6,8 @@ import numpy as np
 from PIL import Image, ImageDraw, ImageFont
 
 from ai4u_edu import Scene
-from ai4u_edu.snapshot import picture_of
-from ai4u_edu.snapshot.raster import draw
+from ai4u_edu.snapshot import capture_snapshot
+from ai4u_edu.snapshot.raster import draw_snapshot
 from ai4u_edu.snapshot.theme import VOID
 
 PICTURE = Path(__file__).parent / "pictures" / "scenes.png"
@@ -38,7 +38,7 @@ def tile(scene: Scene, seed: int) -> Image.Image:
     """A scene as it begins, in the middle of a square."""
     sim = scene.build()
     sim.reset(seed)
-    picture = Image.fromarray(np.asarray(draw(picture_of(sim), longest=TILE)))
+    picture = Image.fromarray(np.asarray(draw_snapshot(capture_snapshot(sim), longest=TILE)))
     square = Image.new("RGB", (TILE, TILE), VOID)
     square.paste(picture, ((TILE - picture.width) // 2, (TILE - picture.height) // 2))
     return square

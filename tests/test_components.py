@@ -22,7 +22,7 @@ def test_the_table_is_in_the_log(record_property: Callable[[str, object], None])
 @pytest.mark.parametrize("component", components(), ids=lambda component: component.name)
 def test_each_has_a_test_of_its_own(component: Component) -> None:
     assert component.tests, f"no test names {component.name}; expected one that tries it"
-    assert component.contract != "NO", f"put a {component.name} into tests/check/samples.py"
+    assert component.contract != "NO", f"add a sample of {component.name} in tests/check/samples/"
 
 
 def test_none_of_ai4us_is_forgotten() -> None:

@@ -11,13 +11,14 @@ from typing import Any
 ROOT = Path(__file__).resolve().parent.parent
 OWN = {"ai4u_edu", "tests"}
 NOT_IMPORTED = {
+    "ipywidgets",  # tqdm shows its bars with them
     "jupyterlab",  # started as a program
     "ipykernel",  # the kernel that jupyterlab starts
     "onnxscript",  # torch.onnx imports it
     "tensorboard",  # Stable-Baselines3 imports it
 }
 """Declared packages that are needed without an import of ours."""
-FOR_TESTS = {"dev", "fuzz"}
+FOR_TESTS = {"dev", "fuzz", "test"}
 """Extras that only the tests use."""
 
 

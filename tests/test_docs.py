@@ -8,15 +8,14 @@ from typing import Any
 import pytest
 
 import ai4u_edu
-from ai4u_edu.blocks.docs import coming_from_ai4u
-from tests.ai4u_table import PAGE, between_marks
 from tests.builders import small_sim
 from tests.components import AI4U, AI4U_SETTINGS
+from tests.names import AI4U_PAGE, table_in
 from tests.playing import played
 
 ROOT = Path(__file__).parents[1]
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
-FROM_AI4U = PAGE.read_text(encoding="utf-8")
+FROM_AI4U = AI4U_PAGE.read_text(encoding="utf-8")
 PROGRAMS = {
     "python.md": ["'touch': 1.0"],
     "training.md": ["(126,) {'touch': 0.0", "['blue_striker', 'blue_keeper', 'orange_striker'"],
@@ -80,12 +79,8 @@ def defines(file: Path, name: str) -> bool:
     return re.search(pattern, file.read_text(encoding="utf-8"), re.MULTILINE) is not None
 
 
-def test_the_table_for_those_who_come_from_ai4u_is_the_codes_own() -> None:
-    assert between_marks(FROM_AI4U) == coming_from_ai4u()
-
-
 def test_every_class_of_ai4u_has_a_row_that_says_something() -> None:
-    rows = [line.split(" | ") for line in between_marks(FROM_AI4U).splitlines()[2:]]
+    rows = [line.split(" | ") for line in table_in(FROM_AI4U).splitlines()[2:]]
     assert [row[0].strip("|` ") for row in rows] == sorted(AI4U.split(), key=str.lower)
     assert all(len(row[2].split()) > 2 for row in rows)
 

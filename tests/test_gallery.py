@@ -1,9 +1,9 @@
 import numpy as np
 
 from ai4u_edu import Scene
-from ai4u_edu.snapshot import picture_of
-from ai4u_edu.snapshot.raster import draw
-from ai4u_edu.snapshot.theme import LIT, UNLIT
+from ai4u_edu.snapshot import capture_snapshot
+from ai4u_edu.snapshot.raster import draw_snapshot
+from ai4u_edu.snapshot.theme import SPOT_LIT, SPOT_UNLIT
 from tests.gallery import COLUMNS, SPACE, TILE, contact_sheet
 
 
@@ -31,8 +31,8 @@ def test_paint_is_drawn_in_its_own_colour_and_eyes_light_up_on_it() -> None:
     for y in (-3.85, 0.0):  # with all eyes on the line, and with none
         robot.move_to(-1.0, y, heading=np.pi / 2)
         sim.agents[0].sense()
-        pictures.append(draw(picture_of(sim), longest=900))
+        pictures.append(draw_snapshot(capture_snapshot(sim), longest=900))
     on, off = pictures
     assert has(on, (0, 0, 0))
-    assert (has(on, LIT), has(on, UNLIT)) == (True, False)
-    assert (has(off, LIT), has(off, UNLIT)) == (False, True)
+    assert (has(on, SPOT_LIT), has(on, SPOT_UNLIT)) == (True, False)
+    assert (has(off, SPOT_LIT), has(off, SPOT_UNLIT)) == (False, True)

@@ -4,7 +4,7 @@ import pytest
 
 from tests.prose import ROOT, check_paths
 
-CHECKED: tuple[str, ...] = ("tests/prose.py",)
+CHECKED = ("tests/prose.py", "ai4u_edu/cli", "ai4u_edu/envs", "ai4u_edu/training")
 
 
 @pytest.mark.parametrize("path", CHECKED)

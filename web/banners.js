@@ -1,14 +1,11 @@
-/**
- * What has happened, in a sentence at the top of the page, with a button that mends it; and the
- * window's title.
- */
+/** Banners at the top of the page (goal, outcome, pause, errors), each with a button; and the window's title. */
 
 import { element } from "./dom.js";
 
-/** Kinds of banners that are whole sentences, and not printed bold. */
-const PLAIN = ["error", "task"];
-/** How an episode has ended, by the server's word for it: about you, and about an agent by name. */
-const OUTCOMES = {
+/** Kinds of banners whose text is a whole sentence and is not printed bold. */
+const NOT_BOLD_KINDS = ["error", "task"];
+/** Texts by the outcome that the server sends: said to the driver, and said of another agent by its name. */
+const OUTCOME_TEXTS = {
   goal: ["Reached the goal!", "reached the goal!"],
   won: ["You win!", "wins!"],
   lost: ["You lost.", "lost."],
@@ -16,90 +13,95 @@ const OUTCOMES = {
   time: ["Time is up."],
   over: ["Episode over."],
 };
-/** How long a complaint stays (ms). */
-const STAYS = 8000;
+/** How long the error of a failed request stays (ms). */
+const REQUEST_ERROR_MS = 8000;
+/** Terms smaller than this round to 0.00 and are left out of the details. */
+const MIN_TERM = 0.005;
 
 export class Banners {
-  #order;
-  #news = element("div", { className: "ai4u-banners", role: "status" });
-  #alerts = element("div", { className: "ai4u-banners", role: "alert" });
+  #sendCommand;
+  #statusRegion = element("div", { className: "ai4u-banners", role: "status" });
+  #alertRegion = element("div", { className: "ai4u-banners", role: "alert" });
+  /** The banner that is shown, as JSON: an unchanged one is not read out again. */
   #shown = "";
-  #fatal = "";
-  #complaint = "";
+  #connectionError = "";
+  #requestError = "";
   #timer = 0;
-  #drawn = [null, {}];
+  #lastDraw = [null, {}];
 
-  /** @param {(name: string) => void} order called with the name of a command */
-  constructor(order) {
-    this.#order = order;
-    document.body.append(this.#news, this.#alerts);
+  /** @param {(name: string) => void} sendCommand called with the name of a command */
+  constructor(sendCommand) {
+    this.#sendCommand = sendCommand;
+    document.body.append(this.#statusRegion, this.#alertRegion);
   }
 
-  /** The server will not have us; nothing but a new page helps. Empty takes it back. */
-  fatal(reason) {
-    this.#fatal = reason;
+  /** Set the reason why the server refuses this page, which only reloading can mend; empty clears it. */
+  setConnectionError(reason) {
+    this.#connectionError = reason;
   }
 
-  /** Something that was asked for could not be done. */
-  complain(text) {
-    this.#complaint = text;
+  /** Show for some seconds that a request failed. */
+  showRequestError(text) {
+    this.#requestError = text;
     clearTimeout(this.#timer);
     this.#timer = setTimeout(() => {
-      this.#complaint = "";
-      this.draw(...this.#drawn);
-    }, STAYS);
+      this.#requestError = "";
+      this.draw(...this.#lastDraw);
+    }, REQUEST_ERROR_MS);
   }
 
   /**
-   * @param state what the server told last; null while it is away
-   * @param about.restart what is printed on the key that begins anew
-   * @param about.name of the agent, if it is not for this page to drive
-   * @param about.isNew whether the person has done nothing yet, and may want to know the goal
+   * @param state the server's last state message; null while disconnected
+   * @param page.restart the label of the restart key
+   * @param page.name the agent's name, if this page can't drive it
+   * @param page.isNew true until the person has pressed a key: then the goal is shown
    */
-  draw(state, about) {
-    this.#drawn = [state, about];
+  draw(state, page) {
+    this.#lastDraw = [state, page];
     if (state?.title) document.title = state.title;
-    const banner = this.#banner(state, about);
+    const banner = this.#banner(state, page);
     const key = JSON.stringify(banner);
     if (key === this.#shown) return;
     this.#shown = key;
-    const [urgent, calm] = banner?.kind === "error" ? [this.#alerts, this.#news] : [this.#news, this.#alerts];
-    calm.replaceChildren();
-    urgent.replaceChildren(...(banner ? [this.#card(banner)] : []));
+    const regions = [this.#statusRegion, this.#alertRegion];
+    const [used, unused] = banner?.kind === "error" ? regions.reverse() : regions;
+    unused.replaceChildren();
+    used.replaceChildren(...(banner ? [this.#element(banner)] : []));
   }
 
-  #banner(state, about) {
-    if (this.#fatal) return { kind: "error", text: this.#fatal, button: "Reload" };
+  #banner(state, page) {
+    if (this.#connectionError) return { kind: "error", text: this.#connectionError, button: "Reload" };
     if (state?.error) return { kind: "error", text: state.error, button: "Reset" };
-    if (this.#complaint) return { kind: "error", text: this.#complaint };
+    if (this.#requestError) return { kind: "error", text: this.#requestError };
     if (state?.past) return { kind: "paused", text: `Past: ${state.past}`, button: "Back to now" };
-    if (state?.outcome) return ending(state, about);
+    if (state?.outcome) return outcomeBanner(state, page);
     if (state?.paused) return { kind: "paused", text: "Paused", button: "Resume" };
-    if (state?.goal && about.isNew && !about.name) return { kind: "task", text: state.goal };
+    if (state?.goal && page.isNew && !page.name) return { kind: "task", text: state.goal };
     return null;
   }
 
-  #card({ kind, text, amount, hint, details, button }) {
-    const words = element("p", {}, element(PLAIN.includes(kind) ? "span" : "strong", { textContent: text }));
+  #element({ kind, text, amount, hint, details, button }) {
+    const tag = NOT_BOLD_KINDS.includes(kind) ? "span" : "strong";
+    const words = element("p", {}, element(tag, { textContent: text }));
     if (amount) words.append(" ", element("span", { className: "ai4u-amount", textContent: amount }));
     if (hint) words.append(element("span", { className: "ai4u-hint", textContent: hint }));
     if (details) words.append(element("small", { textContent: details }));
-    const card = element("div", { className: "ai4u-banner" }, words);
-    card.dataset.kind = kind;
+    const made = element("div", { className: "ai4u-banner" }, words);
+    made.dataset.kind = kind;
     if (button) {
-      const resume = () => this.#order("resume");
-      const does = { Reload: () => location.reload(), Resume: resume, "Back to now": resume };
-      const press = element("button", { type: "button", className: "ai4u-button", textContent: button });
-      press.addEventListener("click", does[button] ?? (() => this.#order("reset")));
-      card.append(press);
+      const resume = () => this.#sendCommand("resume");
+      const handlers = { Reload: () => location.reload(), Resume: resume, "Back to now": resume };
+      const control = element("button", { type: "button", className: "ai4u-button", textContent: button });
+      control.addEventListener("click", handlers[button] ?? (() => this.#sendCommand("reset")));
+      made.append(control);
     }
-    return card;
+    return made;
   }
 }
 
-function ending({ outcome, reward, terms }, { restart, name }) {
-  const [mine, theirs] = OUTCOMES[outcome];
-  const parts = Object.entries(terms).filter(([, value]) => Math.abs(value) >= 0.005);
+function outcomeBanner({ outcome, reward, terms }, { restart, name }) {
+  const [mine, theirs] = OUTCOME_TEXTS[outcome];
+  const parts = Object.entries(terms).filter(([, value]) => Math.abs(value) >= MIN_TERM);
   return {
     kind: outcome === "goal" || outcome === "won" ? "goal" : "over",
     text: name && theirs ? `${name} ${theirs}` : mine,

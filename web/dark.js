@@ -1,30 +1,30 @@
 /**
- * Light or dark: what the person chose in the panel, remembered, or else what the system wishes.
+ * Color scheme: the person's stored choice from the panel, else the system's preference.
  *
- * Not a module: it has to be done before viser begins. The server hears by a cookie what to tell viser
- * as soon as the page connects; until then a page that is to be dark is not shown, so it doesn't flash.
+ * A classic script, not a module, because it must run before viser starts. A cookie tells the server which
+ * theme to give viser when the page connects. Until then a dark page stays hidden, so it doesn't flash white.
  */
 (() => {
-  const STORE = "ai4u-dark";
-  /** What the choice is called in the panel. */
-  const NAME = "Dark";
-  /** How long the page may stay hidden, whatever happens (ms). */
-  const PATIENCE = 4000;
+  const STORAGE_KEY = "ai4u-dark";
+  /** Label of the panel's check box. */
+  const CHECKBOX_LABEL = "Dark";
+  /** Longest time that the page stays hidden while viser loads (ms). */
+  const MAX_HIDDEN_MS = 4000;
   const root = document.documentElement;
-  // viser itself sees to an address that asks for it
-  const isAsked = new URLSearchParams(location.search).has("darkMode");
-  let isDark = isAsked || (remembered() ?? matchMedia("(prefers-color-scheme: dark)").matches);
+  // viser reads this query parameter itself
+  const isForced = new URLSearchParams(location.search).has("darkMode");
+  let isDark = isForced || (loadChoice() ?? matchMedia("(prefers-color-scheme: dark)").matches);
 
-  // as long as the window: another page may be shown otherwise, and viser comes back with the focus
-  const tell = () => (document.cookie = `ai4u_edu_dark=${isDark ? 1 : ""}; SameSite=Strict`);
-  tell();
-  addEventListener("focus", tell);
+  // A session cookie, set again on focus: another page may have set it otherwise, and viser reconnects on focus.
+  const setCookie = () => (document.cookie = `ai4u_edu_dark=${isDark ? 1 : ""}; SameSite=Strict`);
+  setCookie();
+  addEventListener("focus", setCookie);
   addEventListener("change", ({ target }) => {
-    const isOurs = target instanceof HTMLInputElement && target.type === "checkbox";
-    if (!isOurs || target.labels?.[0]?.textContent.trim() !== NAME) return;
+    const isCheckbox = target instanceof HTMLInputElement && target.type === "checkbox";
+    if (!isCheckbox || target.labels?.[0]?.textContent.trim() !== CHECKBOX_LABEL) return;
     isDark = target.checked;
-    tell();
-    remember(isDark);
+    setCookie();
+    storeChoice(isDark);
   });
 
   if (!isDark) return;
@@ -37,21 +37,21 @@
     if (root.dataset.mantineColorScheme === "dark") show();
   });
   observer.observe(root, { attributeFilter: ["data-mantine-color-scheme"] });
-  setTimeout(show, PATIENCE);
+  setTimeout(show, MAX_HIDDEN_MS);
 
-  function remembered() {
+  function loadChoice() {
     try {
-      return { dark: true, light: false }[localStorage.getItem(STORE)];
+      return { dark: true, light: false }[localStorage.getItem(STORAGE_KEY)];
     } catch {
-      return undefined; // forbidden here
+      return undefined; // storage is blocked here
     }
   }
 
-  function remember(dark) {
+  function storeChoice(dark) {
     try {
-      localStorage.setItem(STORE, dark ? "dark" : "light");
+      localStorage.setItem(STORAGE_KEY, dark ? "dark" : "light");
     } catch {
-      // forbidden here: it holds as long as the page
+      // storage is blocked here: the choice lasts as long as the page
     }
   }
 })();

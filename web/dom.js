@@ -1,4 +1,4 @@
-/** A new element; text only ever becomes text. */
+/** Create an element. Strings among the children become text nodes, never HTML. */
 export function element(tag, properties = {}, ...children) {
   const made = document.createElement(tag);
   for (const [name, value] of Object.entries(properties)) {

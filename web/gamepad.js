@@ -1,93 +1,101 @@
-/** Gamepads: the left stick or the cross drives, A jumps, B leaps, Start restarts. */
+/** Gamepads: the left stick or the directional pad drives, A jumps, B leaps, Start restarts. */
 
-import { cross } from "./places.js";
-import { pushed } from "./stick.js";
+import { dpadActions } from "./dpad.js";
+import { axesFrom } from "./stick.js";
 
-/** Milliseconds between two looks; a browser tells of no button by itself. */
-const LOOK = 20;
-/** Buttons as the standard mapping counts them, by what they do. */
-const BUTTONS = { jump: 0, accept: 0, jump_forward: 1, restart: 9 };
-const CROSS = { up: 12, down: 13, left: 14, right: 15 };
-/** For whatever else there is to be done. */
-const SPARE = [2, 3, 5, 4, 7, 6];
-/** From so far on a stick counts as a key, where nobody listens to halves. */
-const FAR = 0.5;
+/** Poll interval (ms): browsers send no events for gamepad buttons. */
+const POLL_MS = 20;
+/** Button indices of the standard gamepad mapping, by action and by direction. */
+const ACTION_BUTTONS = { jump: 0, accept: 0, jump_forward: 1, restart: 9 };
+const DPAD_BUTTONS = { up: 12, down: 13, left: 14, right: 15 };
+/** Button indices for an agent's other actions, in their order. */
+const SPARE_BUTTONS = [2, 3, 5, 4, 7, 6];
+/** Deflection from which the stick counts as a pressed key, for agents that take no axis values. */
+const STICK_AS_KEY_THRESHOLD = 0.5;
 
 export class Gamepads {
   #keys;
+  /** Key code by button index. */
   #codes = new Map();
-  #cross = new Map();
+  /** Key code by direction of the pad. */
+  #dpadCodes = new Map();
   #takesStick = false;
   #timer = 0;
+  /** Inputs of the last poll by source: the code of a pressed key, or the axes of a stick. */
   #before = new Map();
 
   /** @param {import("./keys.js").HeldKeys} keys */
   constructor(keys) {
     this.#keys = keys;
-    for (const change of ["gamepadconnected", "gamepaddisconnected"]) {
-      addEventListener(change, () => this.#count());
+    for (const type of ["gamepadconnected", "gamepaddisconnected"]) {
+      addEventListener(type, () => this.#startOrStop());
     }
-    this.#count();
+    this.#startOrStop();
   }
 
-  /** @param bindings for each action the codes that the agent listens to */
+  /** @param bindings key codes of the agent by action */
   bind(bindings, takesStick) {
+    const dpad = dpadActions(bindings);
     this.#takesStick = takesStick;
-    this.#cross = new Map([...cross(bindings)].map(([place, action]) => [place, bindings[action][0]]));
-    this.#codes = new Map([...this.#cross].map(([place, code]) => [CROSS[place], code]));
-    const spare = [...SPARE];
-    const placed = new Set(cross(bindings).values());
+    this.#dpadCodes = new Map([...dpad].map(([direction, action]) => [direction, bindings[action][0]]));
+    this.#codes = new Map([...this.#dpadCodes].map(([direction, code]) => [DPAD_BUTTONS[direction], code]));
+    const spare = [...SPARE_BUTTONS];
+    const onDpad = new Set(dpad.values());
     for (const [action, [code]] of Object.entries(bindings)) {
-      if (placed.has(action)) continue;
-      const button = BUTTONS[action] ?? spare.shift();
+      if (onDpad.has(action)) continue;
+      const button = ACTION_BUTTONS[action] ?? spare.shift();
       if (button !== undefined) this.#codes.set(button, code);
     }
   }
 
-  #count() {
+  #startOrStop() {
     clearInterval(this.#timer);
-    if (gamepads().length) this.#timer = setInterval(() => this.#look(), LOOK);
-    this.#look();
+    if (connectedGamepads().length) this.#timer = setInterval(() => this.#poll(), POLL_MS);
+    this.#poll();
   }
 
-  #look() {
-    // two pages may be open, and only one of them is meant
-    const here = document.hasFocus() && !document.hidden ? gamepads() : [];
-    const now = new Map();
-    const sticks = new Map();
-    for (const { index, axes, buttons } of here) {
-      for (const [button, code] of this.#codes) {
-        if (buttons[button]?.pressed) now.set(`gamepad ${index} button ${button}`, code);
-      }
-      const push = pushed(axes[0] ?? 0, axes[1] ?? 0);
-      if (this.#takesStick) sticks.set(`gamepad ${index}`, push);
-      else {
-        const code = this.#cross.get(direction(push));
-        if (code !== undefined) now.set(`gamepad ${index} stick`, code);
-      }
-    }
-    // only what changes is told: what was let go for another reason has to be pressed anew
-    for (const [source, code] of now) {
+  #poll() {
+    const { pressed, sticks } = this.#read();
+    // Only changes are passed on: a key that was released for another reason must be pressed again.
+    for (const [source, code] of pressed) {
       if (this.#before.get(source) !== code) this.#keys.press(source, code);
     }
     for (const [source, before] of this.#before) {
-      if (typeof before === "string" && !now.has(source)) this.#keys.release(source);
-      if (typeof before === "object" && !sticks.has(source)) this.#keys.push(source, pushed(0, 0));
+      if (typeof before === "string" && !pressed.has(source)) this.#keys.release(source);
+      if (typeof before === "object" && !sticks.has(source)) this.#keys.setStick(source, axesFrom(0, 0));
     }
-    for (const [source, push] of sticks) {
-      const before = this.#before.get(source) ?? pushed(0, 0);
-      if (before.forward !== push.forward || before.turn !== push.turn) this.#keys.push(source, push);
+    for (const [source, stick] of sticks) {
+      const before = this.#before.get(source) ?? axesFrom(0, 0);
+      if (before.forward !== stick.forward || before.turn !== stick.turn) this.#keys.setStick(source, stick);
     }
-    this.#before = new Map([...now, ...sticks]);
+    this.#before = new Map([...pressed, ...sticks]);
+  }
+
+  /** Return the pressed keys and the sticks of all gamepads, by source; none while another page has the focus. */
+  #read() {
+    const pressed = new Map();
+    const sticks = new Map();
+    for (const { index, axes, buttons } of document.hasFocus() && !document.hidden ? connectedGamepads() : []) {
+      for (const [button, code] of this.#codes) {
+        if (buttons[button]?.pressed) pressed.set(`gamepad ${index} button ${button}`, code);
+      }
+      const stick = axesFrom(axes[0] ?? 0, axes[1] ?? 0);
+      if (this.#takesStick) sticks.set(`gamepad ${index}`, stick);
+      else {
+        const code = this.#dpadCodes.get(mainDirection(stick));
+        if (code !== undefined) pressed.set(`gamepad ${index} stick`, code);
+      }
+    }
+    return { pressed, sticks };
   }
 }
 
-function gamepads() {
+function connectedGamepads() {
   return [...(navigator.getGamepads?.() ?? [])].filter((pad) => pad?.connected);
 }
 
-function direction({ forward, turn }) {
-  if (Math.max(Math.abs(forward), Math.abs(turn)) < FAR) return "";
+function mainDirection({ forward, turn }) {
+  if (Math.max(Math.abs(forward), Math.abs(turn)) < STICK_AS_KEY_THRESHOLD) return "";
   if (Math.abs(forward) >= Math.abs(turn)) return forward > 0 ? "up" : "down";
   return turn > 0 ? "right" : "left";
 }

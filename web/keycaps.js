@@ -1,26 +1,26 @@
-/** The keys on the screen: they light up while held, and can be pressed. */
+/** The keys on the screen: lit while held, and usable with mouse, fingers and screen readers. */
 
 import { element } from "./dom.js";
 import { label } from "./labels.js";
-import { cross } from "./places.js";
+import { dpadActions } from "./dpad.js";
 import { Stick } from "./stick.js";
 
-/** How long a tap lasts that has no length of its own (ms), as from a screen reader. */
-const TAP = 150;
-const COARSE = matchMedia("(pointer: coarse)");
+/** How long a key counts as held after a click without pointer events (ms), as from a screen reader. */
+const CLICK_HOLD_MS = 150;
+const TOUCH_SCREEN = matchMedia("(pointer: coarse)");
 
 export class Keycaps {
   #keys;
   #keymap;
-  #caps = new Map();
+  #keycaps = new Map();
   #stick;
-  #pad = element("div", { className: "ai4u-pad" });
+  #dpad = element("div", { className: "ai4u-dpad" });
   #more = element("div", { className: "ai4u-more" });
   #dock;
   #arranged = [{}, false];
 
   /**
-   * @param {HTMLElement} dock where they lie
+   * @param {HTMLElement} dock parent element
    * @param {import("./keys.js").HeldKeys} keys
    * @param {import("./keymap.js").KeyMap} keymap
    */
@@ -29,71 +29,71 @@ export class Keycaps {
     this.#keys = keys;
     this.#keymap = keymap;
     this.#stick = new Stick(keys);
-    dock.append(this.#pad, this.#more);
-    COARSE.addEventListener("change", () => this.arrange(...this.#arranged));
+    dock.append(this.#dpad, this.#more);
+    TOUCH_SCREEN.addEventListener("change", () => this.arrange(...this.#arranged));
   }
 
-  /** Makes a cap for each action; a stick in place of four of them, where a thumb would push it. */
+  /** Create a keycap for each action; on touch screens, a stick in place of the directional pad. */
   arrange(bindings, takesStick) {
     this.#arranged = [bindings, takesStick];
     const made = new Map();
-    this.#caps.clear();
+    this.#keycaps.clear();
     for (const [action, codes] of Object.entries(bindings)) {
-      const cap = this.#cap(action, codes[0]);
-      made.set(action, cap);
-      this.#caps.set(cap, codes);
+      const keycap = this.#keycap(action, codes[0]);
+      made.set(action, keycap);
+      this.#keycaps.set(keycap, codes);
     }
-    this.#pad.replaceChildren();
-    for (const [place, action] of cross(bindings)) {
-      const cap = made.get(action);
+    this.#dpad.replaceChildren();
+    for (const [direction, action] of dpadActions(bindings)) {
+      const keycap = made.get(action);
       made.delete(action);
-      cap.style.gridArea = place;
-      this.#pad.append(cap);
+      keycap.style.gridArea = direction;
+      this.#dpad.append(keycap);
     }
-    const hasStick = COARSE.matches && takesStick && this.#pad.hasChildNodes();
-    if (hasStick) this.#pad.replaceChildren(this.#stick.element);
-    this.#dock.toggleAttribute("data-touch", COARSE.matches);
-    this.#pad.toggleAttribute("data-stick", hasStick);
+    const hasStick = TOUCH_SCREEN.matches && takesStick && this.#dpad.hasChildNodes();
+    if (hasStick) this.#dpad.replaceChildren(this.#stick.element);
+    this.#dock.toggleAttribute("data-touch", TOUCH_SCREEN.matches);
+    this.#dpad.toggleAttribute("data-stick", hasStick);
     this.#more.replaceChildren(...made.values());
   }
 
-  /** @param {string[]} held codes */
+  /** @param {string[]} held key codes */
   draw(held) {
-    for (const [cap, codes] of this.#caps) {
-      cap.toggleAttribute("data-held", codes.some((code) => held.includes(code)));
+    for (const [keycap, codes] of this.#keycaps) {
+      keycap.toggleAttribute("data-held", codes.some((code) => held.includes(code)));
     }
   }
 
-  #cap(action, code) {
-    const does = this.#keymap.name(action);
+  #keycap(action, code) {
+    const name = this.#keymap.name(action);
     const [key] = this.#keymap.keys[action];
     const printed = key === undefined ? "" : label(key);
-    const cap = element(
+    const keycap = element(
       "button",
-      { type: "button", className: "ai4u-cap", ariaLabel: `${does} (${printed || "no key"})` },
+      { type: "button", className: "ai4u-keycap", ariaLabel: `${name} (${printed || "no key"})` },
       element("kbd", { textContent: printed }),
-      element("span", { textContent: does }),
+      element("span", { textContent: name }),
     );
-    cap.dataset.action = action;
+    keycap.dataset.action = action;
     const press = (event) => {
-      // without this a finger stays bound to the cap on which it came down, and can't slide on
-      cap.releasePointerCapture(event.pointerId);
+      // else the first keycap captures the finger, which then can't slide to another one
+      keycap.releasePointerCapture(event.pointerId);
       this.#keys.press(`pointer ${event.pointerId}`, code);
     };
     const release = (event) => this.#keys.release(`pointer ${event.pointerId}`);
-    cap.addEventListener("pointerdown", (event) => event.button === 0 && press(event));
-    cap.addEventListener("pointerenter", (event) => event.buttons & 1 && press(event));
-    for (const end of ["pointerup", "pointercancel", "pointerleave"]) {
-      cap.addEventListener(end, release);
+    keycap.addEventListener("pointerdown", (event) => event.button === 0 && press(event));
+    keycap.addEventListener("pointerenter", (event) => event.buttons & 1 && press(event));
+    for (const type of ["pointerup", "pointercancel", "pointerleave"]) {
+      keycap.addEventListener(type, release);
     }
-    for (const unwanted of ["mousedown", "contextmenu"]) {
-      cap.addEventListener(unwanted, (event) => event.preventDefault());
+    for (const type of ["mousedown", "contextmenu"]) {
+      keycap.addEventListener(type, (event) => event.preventDefault());
     }
-    cap.addEventListener("click", (event) => {
-      if (event.detail) return; // a pointer's, and that was told already
+    keycap.addEventListener("click", (event) => {
+      if (event.detail) return; // from a pointer, whose own events were handled above
       this.#keys.press("click", code);
-      setTimeout(() => this.#keys.release("click"), TAP);
+      setTimeout(() => this.#keys.release("click"), CLICK_HOLD_MS);
     });
-    return cap;
+    return keycap;
   }
 }

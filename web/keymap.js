@@ -1,20 +1,24 @@
-/** Which keys of this keyboard mean what: the scene's, or those that a person chose, remembered. */
+/** Key bindings: the scene's, with the person's own choices over them, kept in local storage. */
 
+import { dpadActions } from "./dpad.js";
 import { caption, label } from "./labels.js";
-import { cross } from "./places.js";
 
-const STORE = "ai4u-keys";
+const STORAGE_KEY = "ai4u-keys";
+/** A KeyboardEvent.code; stored choices are checked against it. */
 const CODE = /^[A-Za-z0-9]{1,24}$/;
-/** What the browser, the page or the keyboard itself needs. */
-const RESERVED = /^(Tab|Escape|F\d+|(Control|Alt|Meta|OS)(Left|Right)?|CapsLock|ContextMenu|Unidentified)$/;
+/** Codes of keys that the browser, the page or the keyboard itself needs. */
+const RESERVED_CODE = /^(Tab|Escape|F\d+|(Control|Alt|Meta|OS)(Left|Right)?|CapsLock|ContextMenu|Unidentified)$/;
 
 export class KeyMap {
   #bindings = {};
   #captions = {};
-  /** By place or action, so that a choice holds in all scenes. */
-  #chosen = remembered();
+  /** Chosen key codes by slot (direction of the pad, or action), so a choice applies in all scenes. */
+  #chosen = loadChoices();
 
-  /** @param bindings for each action the codes that the agent listens to; captions: their names here */
+  /**
+   * @param bindings key codes of the agent by action
+   * @param captions the scene's names of actions
+   */
   arrange(bindings, captions = {}) {
     this.#bindings = bindings;
     this.#captions = captions;
@@ -24,7 +28,7 @@ export class KeyMap {
     return Object.keys(this.#chosen).length > 0;
   }
 
-  /** For each action the keys that mean it now; none if others took them all. */
+  /** The key codes of each action now; empty if all its keys were given to other actions. */
   get keys() {
     const actions = Object.entries(this.#bindings);
     const slot = this.#slots();
@@ -37,67 +41,69 @@ export class KeyMap {
     );
   }
 
-  /** For each key the code that the agent listens to. */
-  get means() {
+  /** A map from the code of each pressed key to the code that is sent to the agent. */
+  get sentCodes() {
     const keys = this.keys;
     const pairs = Object.entries(this.#bindings).flatMap(([action, codes]) =>
-      // of codes for the same action the agent may tell its own keys apart, but not chosen ones
+      // The agent may distinguish its own keys for one action; a chosen key is sent as the first of them.
       keys[action].map((key) => [key, codes.includes(key) ? key : codes[0]]),
     );
     return new Map(pairs);
   }
 
-  /** Gives an action another key; in a sentence what came of it, empty if just that. */
+  /** Bind an action to a key; return a message if the key was refused or taken from another action. */
   change(action, code) {
-    if (RESERVED.test(code) || !CODE.test(code)) return `${label(code)} is needed elsewhere; press another key.`;
+    if (RESERVED_CODE.test(code) || !CODE.test(code)) return `${label(code)} is needed elsewhere; press another key.`;
     const { keys } = this;
     const slot = this.#slots();
     const holder = Object.keys(keys).find((each) => each !== action && keys[each].includes(code));
     const before = keys[action];
     this.#chosen[slot(action)] = [code];
-    let told = "";
+    let message = "";
     if (holder !== undefined) {
-      const left = keys[holder].filter((key) => key !== code);
-      this.#chosen[slot(holder)] = left.length ? left : before;
+      const others = keys[holder].filter((key) => key !== code);
+      this.#chosen[slot(holder)] = others.length ? others : before;
       const now = this.keys[holder].map(label).join(", ") || "no key";
-      told = `${label(code)} was “${this.name(holder)}”, which is ${now} now.`;
+      message = `${label(code)} was “${this.name(holder)}”, which is ${now} now.`;
     }
-    remember(this.#chosen);
-    return told;
+    storeChoices(this.#chosen);
+    return message;
   }
 
-  /** Back to the keys of the scene. */
+  /** Return to the scene's keys. */
   reset() {
     this.#chosen = {};
-    remember(this.#chosen);
+    storeChoices(this.#chosen);
   }
 
-  /** What an action is called here. */
+  /** Return an action's name in this scene. */
   name(action) {
     return caption(action, this.#captions);
   }
 
+  /** Return a function from an action to its slot in the stored choices. */
   #slots() {
-    const places = new Map([...cross(this.#bindings)].map(([place, action]) => [action, `at ${place}`]));
-    return (action) => places.get(action) ?? action;
+    const dpad = [...dpadActions(this.#bindings)];
+    const slots = new Map(dpad.map(([direction, action]) => [action, `at ${direction}`]));
+    return (action) => slots.get(action) ?? action;
   }
 }
 
-function remembered() {
+function loadChoices() {
   try {
-    const found = JSON.parse(localStorage.getItem(STORE) ?? "{}");
-    const isKeys = (keys) => Array.isArray(keys) && keys.every((key) => CODE.test(key));
-    return Object.fromEntries(Object.entries(found).filter(([, keys]) => isKeys(keys)));
+    const stored = JSON.parse(localStorage.getItem(STORAGE_KEY) ?? "{}");
+    const areCodes = (keys) => Array.isArray(keys) && keys.every((key) => CODE.test(key));
+    return Object.fromEntries(Object.entries(stored).filter(([, keys]) => areCodes(keys)));
   } catch {
-    return {}; // forbidden here, or written by somebody else
+    return {}; // storage is blocked here, or another program wrote the entry
   }
 }
 
-function remember(chosen) {
+function storeChoices(chosen) {
   try {
-    if (Object.keys(chosen).length) localStorage.setItem(STORE, JSON.stringify(chosen));
-    else localStorage.removeItem(STORE);
+    if (Object.keys(chosen).length) localStorage.setItem(STORAGE_KEY, JSON.stringify(chosen));
+    else localStorage.removeItem(STORAGE_KEY);
   } catch {
-    // forbidden here: it holds as long as the page
+    // storage is blocked here: the choice lasts as long as the page
   }
 }

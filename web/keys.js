@@ -1,52 +1,58 @@
 /**
- * Which keys are held and how far a stick is pushed, on the keyboard, the screen or a gamepad.
+ * Held keys and stick positions, from the keyboard, the screen and gamepads.
  *
- * Keys are places (KeyboardEvent.code), so they don't depend on the layout. viser moves its camera
- * with some of them, from a listener on `document`; this one comes first and lets nothing through.
+ * Keys are positions on the keyboard (KeyboardEvent.code), so they don't depend on its layout. viser moves
+ * its camera with some of them, from a listener on `document`; ours runs first and stops their propagation.
  */
 
-/** Milliseconds; the server lets go of keys that it hasn't heard of for three times as long. */
-const REPEAT = 100;
-/** Milliseconds between two words about a stick: the server doesn't listen to whoever says too many. */
-const PACE = 25;
-const MOST = 16;
-const CAMERA = [..."WASDQE"].map((letter) => `Key${letter}`).concat(
+/** Interval at which held keys are sent again (ms); the server releases keys after three times as long. */
+const RESEND_MS = 100;
+/** Shortest time between two messages about a stick (ms), because of the server's rate limit. */
+const MIN_STICK_MESSAGE_MS = 25;
+/** Most keys that the server accepts as held at once. */
+const MAX_HELD_KEYS = 16;
+/** Codes of the keys with which viser moves its camera. */
+const CAMERA_CODES = [..."WASDQE"].map((letter) => `Key${letter}`).concat(
   ["Up", "Down", "Left", "Right"].map((side) => `Arrow${side}`),
 );
-const WITHOUT_TEXT = "button, checkbox, color, file, image, radio, range, reset, submit".split(", ");
+const INPUT_TYPES_WITHOUT_TEXT = "button, checkbox, color, file, image, radio, range, reset, submit".split(", ");
 
 export class HeldKeys {
-  /** Called with the code of each key that is pressed anew. */
+  /** Called with the code of each newly pressed key. */
   onpress = (_code) => {};
-  /** Whether the keyboard is somebody else's now. */
-  isAsleep = () => false;
+  /** Overridden by a dialog: while it returns true, keyboard events are ignored. */
+  isSuspended = () => false;
 
-  #means = new Map();
+  /** The code to send, by the code of the pressed key. */
+  #sentCodes = new Map();
+  /** Held codes by source: a key of the keyboard, a pointer or a gamepad button. */
   #sources = new Map();
+  /** Axes by source. */
   #sticks = new Map();
   #changed;
   #timer = 0;
-  #told = 0;
+  /** When `changed` was called last (ms, performance.now). */
+  #notifiedAt = 0;
   #reachedByTab = null;
 
-  /** @param {() => void} changed called at each change, and while anything is held */
+  /** @param {() => void} changed called at each change, and repeatedly while anything is held */
   constructor(changed) {
     this.#changed = changed;
     const first = { capture: true };
     addEventListener("keydown", (event) => this.#down(event), first);
     addEventListener("keyup", (event) => this.#up(event), first);
-    addEventListener("focusin", (event) => isText(event.target) && this.releaseAll(), first);
+    addEventListener("focusin", (event) => isTextInput(event.target) && this.releaseAll(), first);
     addEventListener("pointerdown", () => (this.#reachedByTab = null), first);
-    for (const end of ["blur", "pagehide"]) addEventListener(end, () => this.releaseAll());
+    for (const type of ["blur", "pagehide"]) addEventListener(type, () => this.releaseAll());
     document.addEventListener("visibilitychange", () => document.hidden && this.releaseAll());
   }
 
-  /** The codes that are held now, as the agent knows them. */
+  /** The held keys, as codes that the agent knows. */
   get held() {
-    return [...new Set(this.#sources.values())].slice(0, MOST);
+    return [...new Set(this.#sources.values())].slice(0, MAX_HELD_KEYS);
   }
 
-  /** How far all sticks together are pushed: ahead and to the right, each from -1 to 1. */
+  /** The sum of all sticks: forward and turn (positive to the right), each from -1 to 1. */
   get stick() {
     const sum = { forward: 0, turn: 0 };
     for (const { forward, turn } of this.#sticks.values()) {
@@ -56,47 +62,47 @@ export class HeldKeys {
     return sum;
   }
 
-  /** @param {Map<string, string>} means for a key of this keyboard the code that the agent listens to */
-  bind(means) {
-    this.#means = means;
+  /** @param {Map<string, string>} sentCodes the code to send, by the code of the pressed key */
+  bind(sentCodes) {
+    this.#sentCodes = sentCodes;
   }
 
-  /** @param {string} source what holds the key: the key itself, or a finger on the screen */
+  /** @param {string} source what holds the key: a key of the keyboard, a pointer, a gamepad button */
   press(source, code) {
     if (this.#sources.get(source) === code) return;
     this.#sources.set(source, code);
     this.onpress(code);
-    this.#tell();
+    this.#notify();
   }
 
-  /** @param {{forward: number, turn: number}} how far the stick of a source is pushed */
-  push(source, { forward, turn }) {
+  /** Set the axes of one stick. */
+  setStick(source, { forward, turn }) {
     const before = this.#sticks.get(source);
     if ((before?.forward ?? 0) === forward && (before?.turn ?? 0) === turn) return;
     if (forward || turn) this.#sticks.set(source, { forward, turn });
     else this.#sticks.delete(source);
     if (!before) this.onpress("");
-    const wait = forward || turn ? this.#told + PACE - performance.now() : 0;
-    if (wait <= 0) return this.#tell();
+    const wait = forward || turn ? this.#notifiedAt + MIN_STICK_MESSAGE_MS - performance.now() : 0;
+    if (wait <= 0) return this.#notify();
     clearInterval(this.#timer);
-    this.#timer = setTimeout(() => this.#tell(), wait);
+    this.#timer = setTimeout(() => this.#notify(), wait);
   }
 
   release(source) {
-    if (this.#sources.delete(source)) this.#tell();
+    if (this.#sources.delete(source)) this.#notify();
   }
 
   releaseAll() {
     if (this.#sources.size + this.#sticks.size === 0) return;
     this.#sources.clear();
     this.#sticks.clear();
-    this.#tell();
+    this.#notify();
   }
 
-  #tell() {
+  #notify() {
     clearInterval(this.#timer);
-    this.#told = performance.now();
-    if (this.#sources.size + this.#sticks.size) this.#timer = setInterval(() => this.#changed(), REPEAT);
+    this.#notifiedAt = performance.now();
+    if (this.#sources.size + this.#sticks.size) this.#timer = setInterval(() => this.#changed(), RESEND_MS);
     this.#changed();
   }
 
@@ -106,34 +112,35 @@ export class HeldKeys {
     if (this.#isForOthers(event)) return;
     event.stopPropagation();
     if (event.ctrlKey || event.metaKey || event.altKey) {
-      this.releaseAll(); // while Meta is held, macOS tells of no key that goes up
+      this.releaseAll(); // macOS sends no keyup events while Meta is held
       return;
     }
-    const means = this.#means.get(code);
-    if (means === undefined) return;
+    const sent = this.#sentCodes.get(code);
+    if (sent === undefined) return;
     event.preventDefault();
-    if (!event.repeat) this.press(code, means);
+    if (!event.repeat) this.press(code, sent);
   }
 
   #up(event) {
     this.release(event.code);
     if (this.#isForOthers(event)) return;
     event.stopPropagation();
-    if (this.#means.has(event.code)) event.preventDefault(); // Space would press a button
+    if (this.#sentCodes.has(event.code)) event.preventDefault(); // Space would press a button
   }
 
+  /** Return true if the browser or the focused control has to handle a keyboard event. */
   #isForOthers({ code, target, isComposing }) {
-    if (this.isAsleep() || isComposing || isText(target)) return true;
-    if (!this.#means.has(code) && !CAMERA.includes(code)) return true;
-    // whoever walks through the controls by keyboard needs these keys there
-    const walks = this.#reachedByTab === target && target !== document.body;
-    return walks && (code === "Space" || code === "Enter" || code.startsWith("Arrow"));
+    if (this.isSuspended() || isComposing || isTextInput(target)) return true;
+    if (!this.#sentCodes.has(code) && !CAMERA_CODES.includes(code)) return true;
+    // a control reached by Tab needs its own keys
+    const usesControl = this.#reachedByTab === target && target !== document.body;
+    return usesControl && (code === "Space" || code === "Enter" || code.startsWith("Arrow"));
   }
 }
 
-/** Whether keys write into it. */
-export function isText(target) {
+/** Return true if typing goes into the element. */
+export function isTextInput(target) {
   if (!(target instanceof HTMLElement)) return false;
-  if (target instanceof HTMLInputElement) return !WITHOUT_TEXT.includes(target.type);
+  if (target instanceof HTMLInputElement) return !INPUT_TYPES_WITHOUT_TEXT.includes(target.type);
   return target.isContentEditable || target.matches("textarea, select, [role=textbox]");
 }

@@ -1,6 +1,6 @@
-/** What is printed on a key, and what it does. */
+/** Labels of keys, and captions of actions. */
 
-const NAMES = {
+const KEY_LABELS = {
   ArrowUp: "↑",
   ArrowDown: "↓",
   ArrowLeft: "←",
@@ -21,27 +21,27 @@ const CAPTIONS = { backward: "back", jump_forward: "leap", turn_left: "left", tu
 
 let layout = new Map();
 
-/** Asks the browser for the keyboard's layout; only some tell. */
-export async function learnLayout() {
+/** Load the keyboard's layout, where the browser supports that. */
+export async function loadLayout() {
   try {
     layout = (await navigator.keyboard?.getLayoutMap()) ?? layout;
   } catch {
-    // not allowed in this frame: the letters of an English keyboard then
+    // not allowed in this frame: labels are those of an English keyboard
   }
 }
 
-/** What is printed on the key of a code. */
+/** Return the text printed on the key with a KeyboardEvent.code. */
 export function label(code) {
   const printed = layout.get(code);
   if (printed?.trim()) return printed.toLocaleUpperCase();
-  return NAMES[code] ?? code.replace(/^(Key|Digit|Numpad)/, "");
+  return KEY_LABELS[code] ?? code.replace(/^(Key|Digit|Numpad)/, "");
 }
 
 /**
- * What an action is called under its key.
+ * Return an action's name for people.
  * @param {string} action
- * @param {Record<string, string>} told what the server calls it in this scene
+ * @param {Record<string, string>} sceneCaptions the scene's own names, by action
  */
-export function caption(action, told = {}) {
-  return told[action] ?? CAPTIONS[action] ?? action.replaceAll("_", " ");
+export function caption(action, sceneCaptions = {}) {
+  return sceneCaptions[action] ?? CAPTIONS[action] ?? action.replaceAll("_", " ");
 }

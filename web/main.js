@@ -1,32 +1,33 @@
-/** The page's own part: what is held, who drives, and what has happened. viser draws the rest. */
+/** Entry point of our part of the page: keys, driver status and banners. viser draws the rest. */
 
 import { Banners } from "./banners.js";
 import { element } from "./dom.js";
+import { dpadActions } from "./dpad.js";
+import { DriverStatus } from "./driver_status.js";
 import { Gamepads } from "./gamepad.js";
 import { Help } from "./help.js";
 import { KeyMap } from "./keymap.js";
 import { HeldKeys } from "./keys.js";
 import { Keycaps } from "./keycaps.js";
-import { label, learnLayout } from "./labels.js";
-import { Pill } from "./pill.js";
-import { cross } from "./places.js";
-import { followScene } from "./scene.js";
-import { foldSheet } from "./sheet.js";
+import { label, loadLayout } from "./labels.js";
+import { collapseMobilePanel } from "./mobile_panel.js";
+import { trackCanvasEdges } from "./scene.js";
 import { InputSocket } from "./socket.js";
 
 const query = new URLSearchParams(location.search);
 const agent = query.get("agent");
 
 let hello = { you: 0, agent, keys: {}, captions: {}, brain: "", name: "", stick: false, others: "", instead: "" };
-let seat = { driver: null, pages: 1 };
+let control = { driver: null, pages: 1 };
 let state = null;
 let connected = false;
 let hasActed = false;
 
-// viser leaves the query out of the address that it connects to, and comes back when it has the focus
-const tellAgent = () => (document.cookie = `ai4u_edu_agent=${encodeURIComponent(agent ?? "")}; SameSite=Strict`);
-tellAgent();
-addEventListener("focus", tellAgent);
+// A cookie, because viser's WebSocket address lacks the query. Set again on focus, when viser reconnects:
+// another page may have changed it.
+const setAgentCookie = () => (document.cookie = `ai4u_edu_agent=${encodeURIComponent(agent ?? "")}; SameSite=Strict`);
+setAgentCookie();
+addEventListener("focus", setAgentCookie);
 
 const socket = new InputSocket("ws/input" + (agent === null ? "" : `?agent=${encodeURIComponent(agent)}`));
 const keymap = new KeyMap();
@@ -37,9 +38,9 @@ const keys = new HeldKeys(() => {
 const row = element("div", { className: "ai4u-row" });
 const dock = element("section", { className: "ai4u-dock", ariaLabel: "Drive" });
 document.body.append(dock);
-const caps = new Keycaps(dock, keys, keymap);
+const keycaps = new Keycaps(dock, keys, keymap);
 dock.append(row);
-const pill = new Pill(
+const driverStatus = new DriverStatus(
   row,
   () => socket.send({ type: "take" }),
   () => {
@@ -53,7 +54,7 @@ const banners = new Banners((name) => socket.send({ type: "command", name }));
 
 keys.onpress = (code) => {
   hasActed = true;
-  // no decision is taken while the world stands, and whoever else drives hears no key
+  // After an error no decision reads the key, and another driver ignores it: so send a command.
   if ((state?.error || hello.others) && hello.keys.restart?.includes(code)) {
     socket.send({ type: "command", name: "reset" });
   }
@@ -67,10 +68,10 @@ socket.onclose = (reason) => {
   connected = false;
   state = null;
   keys.releaseAll();
-  banners.fatal(reason);
+  banners.setConnectionError(reason);
   draw();
 };
-socket.onanother = () => {
+socket.onworldreplaced = () => {
   hasActed = false;
   socket.path = `ws/input?after_another&agent=${encodeURIComponent(hello.agent ?? "")}`;
 };
@@ -81,36 +82,36 @@ socket.onmessage = (message) => {
       arrange();
       break;
     case "seat":
-      if (seat.driver === hello.you && message.driver !== hello.you) keys.releaseAll();
-      seat = message;
+      if (control.driver === hello.you && message.driver !== hello.you) keys.releaseAll();
+      control = message;
       break;
     case "state":
       if (message.paused && !state?.paused) keys.releaseAll();
       state = message;
       break;
     case "error":
-      banners.complain(message.text);
+      banners.showRequestError(message.text);
       break;
   }
   draw();
 };
 
-/** Who is told which key, cap or button means what. */
+/** Apply the agent's key bindings to the keyboard, the screen's keys, gamepads and the help. */
 function arrange() {
   keymap.arrange(hello.keys, hello.captions);
-  keys.bind(keymap.means);
-  caps.arrange(hello.keys, hello.stick);
+  keys.bind(keymap.sentCodes);
+  keycaps.arrange(hello.keys, hello.stick);
   gamepads.bind(hello.keys, hello.stick);
   help.refresh();
   draw();
 }
 
 function draw() {
-  const mine = seat.driver === hello.you;
+  const isMine = control.driver === hello.you;
   const { held } = keys;
-  caps.draw(mine || held.length ? held : (state?.held ?? []));
-  pill.draw({ connected, hello, seat, way: way() });
-  help.tell(state?.goal || "This scene has none: look around.");
+  keycaps.draw(isMine || held.length ? held : (state?.held ?? []));
+  driverStatus.draw({ connected, hello, control, howToDrive: howToDrive() });
+  help.setGoal(state?.goal || "This scene has none: look around.");
   const isDriven = Object.keys(hello.keys).length > 0 && !hello.others;
   banners.draw(connected ? state : null, {
     restart: label(keymap.keys.restart?.[0] ?? ""),
@@ -119,19 +120,19 @@ function draw() {
   });
 }
 
-/** How one begins to drive, in words. */
-function way() {
+/** Return what a person does to start driving, in words. */
+function howToDrive() {
   if (dock.hasAttribute("data-touch")) return hello.stick ? "push the stick" : "tap a key";
   if (!hello.others) return "press a key";
-  const first = [...cross(hello.keys).values(), ...Object.keys(hello.keys)][0];
+  const first = [...dpadActions(hello.keys).values(), ...Object.keys(hello.keys)][0];
   return `press ${label(keymap.keys[first]?.[0] ?? "")}`;
 }
 
-// a notebook shows the frame that it made for us as soon as we are there
+// a notebook keeps its frame hidden until this message
 if (window.parent !== window) window.parent.postMessage("ai4u-edu", "*");
 
 draw();
-learnLayout().then(arrange);
+loadLayout().then(arrange);
 socket.open();
-followScene();
-foldSheet();
+trackCanvasEdges();
+collapseMobilePanel();

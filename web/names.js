@@ -1,9 +1,9 @@
-/** Names for what viser leaves without one, so that a screen reader can say what it is. */
+/** Accessible names for controls that viser leaves without one, for screen readers. */
 
-/** Milliseconds between two looks; a panel changes several times a second. */
-const PACE = 400;
-/** What a button with nothing but a picture does, by a class of the picture or the button. */
-const PICTURES = {
+/** Shortest time between two passes over the page (ms): panels change several times a second. */
+const MIN_PASS_MS = 400;
+/** Names of icon-only buttons, by a selector of the icon or of the button. */
+const ICON_BUTTON_NAMES = {
   ".tabler-icon-adjustments": "Connection and diagnostics",
   ".tabler-icon-arrow-back": "Back to the panel",
   ".tabler-icon-list-search": "Commands",
@@ -12,7 +12,7 @@ const PICTURES = {
 
 let timer = 0;
 
-new MutationObserver(() => (timer ||= setTimeout(nameAll, PACE))).observe(document.body, {
+new MutationObserver(() => (timer ||= setTimeout(nameAll, MIN_PASS_MS))).observe(document.body, {
   childList: true,
   subtree: true,
 });
@@ -23,21 +23,21 @@ function nameAll() {
   for (const label of document.querySelectorAll("#root label[for], .mantine-Modal-content label[for]")) {
     const row = label.closest(".mantine-Flex-root");
     for (const box of row?.querySelectorAll("input:not([type=hidden]), textarea, [role=slider]") ?? []) {
-      if (!box.labels?.length) name(box, label.textContent);
+      if (!box.labels?.length) setName(box, label.textContent);
     }
   }
   for (const file of document.querySelectorAll("#root input[type=file]")) {
-    name(file, file.parentElement.querySelector("button")?.textContent);
+    setName(file, file.parentElement.querySelector("button")?.textContent);
   }
-  for (const [where, text] of Object.entries(PICTURES)) {
-    for (const picture of document.querySelectorAll(where)) {
-      const button = picture.closest("button");
-      if (!button?.textContent.trim()) name(button, text);
+  for (const [selector, text] of Object.entries(ICON_BUTTON_NAMES)) {
+    for (const found of document.querySelectorAll(selector)) {
+      const button = found.closest("button");
+      if (!button?.textContent.trim()) setName(button, text);
     }
   }
 }
 
-function name(part, text) {
-  // viser may use the same element for something else later
-  if (part && text && part.ariaLabel !== text) part.ariaLabel = text;
+function setName(target, text) {
+  // compared each time: viser may reuse the element for another control
+  if (target && text && target.ariaLabel !== text) target.ariaLabel = text;
 }

@@ -1,12 +1,12 @@
-/** Which part of the window the world has: viser's panels stand beside it, and can be moved. */
+/** The position of viser's canvas in the window: its panels stand beside it and can be moved. */
 
-/** How long the world may take to appear (ms). */
-const PATIENCE = 20_000;
+/** Longest wait for the canvas to appear (ms). */
+const MAX_WAIT_MS = 20_000;
 
-/** Tells the styles how far the world's edges are from the window's: --ai4u-left and --ai4u-right. */
-export function followScene() {
+/** Keep the canvas's distances from the window's sides in the CSS variables --ai4u-left and --ai4u-right. */
+export function trackCanvasEdges() {
   const style = document.documentElement.style;
-  const tell = (canvas) => {
+  const update = (canvas) => {
     const { left, right } = canvas.getBoundingClientRect();
     style.setProperty("--ai4u-left", `${Math.max(0, left)}px`);
     style.setProperty("--ai4u-right", `${Math.max(0, innerWidth - right)}px`);
@@ -16,9 +16,9 @@ export function followScene() {
     const canvas = root.querySelector("canvas");
     if (canvas === null) return;
     appeared.disconnect();
-    new ResizeObserver(() => tell(canvas)).observe(canvas);
-    addEventListener("resize", () => tell(canvas));
+    new ResizeObserver(() => update(canvas)).observe(canvas);
+    addEventListener("resize", () => update(canvas));
   });
   appeared.observe(root, { childList: true, subtree: true });
-  setTimeout(() => appeared.disconnect(), PATIENCE);
+  setTimeout(() => appeared.disconnect(), MAX_WAIT_MS);
 }

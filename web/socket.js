@@ -1,30 +1,30 @@
-/** The input socket: says what is held, hears who drives and how the world is; comes back by itself. */
+/** The input WebSocket: sends held keys, receives who drives and the world's state, reconnects with backoff. */
 
-const SOONEST = 250;
-const LATEST = 4000;
-/** The server's way of saying that it would say no again. */
-const REFUSED = 1008;
-/** The server's way of saying that another world has taken this one's place. */
-const ANOTHER = 1012;
+const MIN_RECONNECT_MS = 250;
+const MAX_RECONNECT_MS = 4000;
+/** Close code of a refusal: the server would refuse again, so the page doesn't reconnect. */
+const CLOSE_REFUSED = 1008;
+/** Close code when another world has replaced this one. */
+const CLOSE_WORLD_REPLACED = 1012;
 
 export class InputSocket {
   onopen = () => {};
   onclose = (_reason) => {};
   onmessage = (_message) => {};
-  /** Called before it comes back to another world. */
-  onanother = () => {};
+  /** Called before it reconnects to another world. */
+  onworldreplaced = () => {};
 
-  /** Relative to the page, so that it holds under any prefix. */
+  /** Relative to the page, so it works behind any path prefix. */
   path;
   #socket = null;
-  #wait = SOONEST;
+  #reconnectMs = MIN_RECONNECT_MS;
   #timer = 0;
 
   /** @param {string} path relative to the page */
   constructor(path) {
     this.path = path;
-    addEventListener("online", () => this.#again());
-    addEventListener("pageshow", (event) => event.persisted && this.#again());
+    addEventListener("online", () => this.#reconnect());
+    addEventListener("pageshow", (event) => event.persisted && this.#reconnect());
   }
 
   open() {
@@ -32,26 +32,27 @@ export class InputSocket {
     url.protocol = url.protocol === "https:" ? "wss:" : "ws:";
     const socket = (this.#socket = new WebSocket(url));
     socket.onopen = () => {
-      this.#wait = SOONEST;
+      this.#reconnectMs = MIN_RECONNECT_MS;
       this.onopen();
     };
     socket.onmessage = (event) => this.onmessage(JSON.parse(event.data));
     socket.onclose = ({ code, reason }) => {
       this.#socket = null;
-      this.onclose(code === REFUSED ? reason : "");
-      if (code === REFUSED) return;
-      if (code === ANOTHER) this.onanother();
-      this.#timer = setTimeout(() => this.#again(), this.#wait * (0.75 + Math.random() / 2));
-      this.#wait = Math.min(2 * this.#wait, LATEST);
+      this.onclose(code === CLOSE_REFUSED ? reason : "");
+      if (code === CLOSE_REFUSED) return;
+      if (code === CLOSE_WORLD_REPLACED) this.onworldreplaced();
+      const jitter = 0.75 + Math.random() / 2;
+      this.#timer = setTimeout(() => this.#reconnect(), this.#reconnectMs * jitter);
+      this.#reconnectMs = Math.min(2 * this.#reconnectMs, MAX_RECONNECT_MS);
     };
   }
 
-  /** Says something, if somebody listens; what is said to nobody is not kept. */
+  /** Send a message if connected, else drop it. */
   send(message) {
     if (this.#socket?.readyState === WebSocket.OPEN) this.#socket.send(JSON.stringify(message));
   }
 
-  #again() {
+  #reconnect() {
     clearTimeout(this.#timer);
     if (this.#socket === null) this.open();
   }

@@ -7,6 +7,7 @@ from weakref import ReferenceType, ref
 
 from pydantic import Field, field_validator
 
+from ai4u_edu.agent.as_brain import as_brain, can_drive
 from ai4u_edu.agent.bound_blocks import BoundBlocks
 from ai4u_edu.agent.events import Event
 from ai4u_edu.agent.ledger import HANDLERS, Ledger
@@ -24,7 +25,6 @@ from ai4u_edu.blocks import (
     Command,
     Controller,
     Keyboard,
-    LocalBrain,
     Percept,
     RewardFunc,
     Sensor,
@@ -46,31 +46,31 @@ class BasicAgent(Parameterized):
     """
 
     body_name: Name = Field(alias="body")
-    """The name of the agent's body in the world."""
+    """Name of the agent's body in the world."""
     id: Name = "0"
     priority: WholeNumber = 0
-    """Agents with a higher one act first."""
+    """Agents of higher priority act first."""
     max_steps_per_episode: Count = 0
-    """Decisions after which the episode is cut off (truncated); 0 for no limit."""
+    """Number of decisions after which the episode is truncated; 0 for no limit."""
     done_at_negative_reward: bool = False
-    """True ends the episode after a decision whose rewards sum up to less than 0."""
+    """True ends the episode after a decision with a reward below 0."""
     done_at_positive_reward: bool = False
-    """True ends the episode after a decision whose rewards sum up to more than 0."""
+    """True ends the episode after a decision with a reward above 0."""
     reward_scale: Number = 1.0
-    """Every reward is multiplied by this."""
+    """Factor of every reward."""
     array_input_size: Annotated[int, Field(ge=0, le=1024)] = 0
-    """Numbers that a script can set for the agent to sense (see ``array_sensor``); 0 for none."""
+    """Size of an array that a script sets for the agent to sense (``array_sensor``); 0 for none."""
     range_min: Number = 0.0
-    """The lowest of these numbers."""
+    """Lowest number of that array."""
     range_max: Number = 1.0
-    """The highest of these numbers."""
+    """Highest number of that array."""
     action_size: Annotated[int, Field(ge=0, le=1024)] = 0
-    """Numbers (or choices) of an action "defaultAction", which ``action_handler`` carries out; 0
-    for none, or for one if there is a handler."""
+    """Count of numbers (or choices) of the action "defaultAction", which ``action_handler`` carries
+    out; 0 for none, or for 1 if there is a handler."""
     action_is_continuous: bool = True
-    """True makes "defaultAction" of numbers from -1 to 1; False, of one choice."""
+    """True makes "defaultAction" numbers from -1 to 1, False one choice."""
     check_episode_truncated: bool = False
-    """True adds a TruncatedSensor: the agent senses that its episode was cut off."""
+    """True adds a TruncatedSensor: the agent senses that its episode was truncated."""
     sensors: list[Sensor] = Field(default_factory=list)
     actuators: list[Actuator] = Field(default_factory=list)
     rewards: list[RewardFunc] = Field(default_factory=list)
@@ -81,21 +81,21 @@ class BasicAgent(Parameterized):
     def _with_brains(cls, brains: Any) -> Any:
         if not isinstance(brains, list | tuple):
             return brains
-        return [as_brain(each) if _drives(each) else each for each in brains]
+        return [as_brain(each) if can_drive(each) else each for each in brains]
 
     def __post_init__(self) -> None:
         self.keyboard = Keyboard()
         self.ledger = Ledger()
         self.episode = 0
-        """How many episodes it has begun; those that it began alone count too."""
+        """Number of episodes that it has begun, restarts of this agent alone included."""
         self.other_agents = 0
-        """How many other agents are in its world."""
+        """Number of other agents in its world."""
         self.steps = 0
-        """Decisions taken in this episode."""
+        """Number of decisions taken in this episode."""
         self.terminated = False
-        """Whether the episode ended by what happened in it."""
+        """True if an event in the episode ended it."""
         self.truncated = False
-        """Whether the episode was cut off by the step limit."""
+        """True if the step limit ended the episode."""
         self.paused = False
         self.stopped = False
         self.last_action: dict[str, Numbers] = {}
@@ -121,11 +121,11 @@ class BasicAgent(Parameterized):
         see = RenamedAttribute("replace_percept")
         obey = RenamedAttribute("apply_command")
 
-    # -- what can be asked -----------------------------------------------------------------------
+    # -- state -----------------------------------------------------------------------------------
 
     @property
     def bound_blocks(self) -> BoundBlocks:
-        """How the blocks sit on the body; made by :meth:`setup`."""
+        """The blocks bound to the body; made by :meth:`setup`."""
         if self._bound_blocks is None:
             raise SetupError(
                 f"agent {self.id!r} is in no world yet; expected ControlRequestor(world, [agent])"
@@ -134,17 +134,17 @@ class BasicAgent(Parameterized):
 
     @property
     def bound_blocks_or_none(self) -> BoundBlocks | None:
-        """The blocks as they are set up; None before :meth:`setup`."""
+        """The blocks bound to the body; None before :meth:`setup`."""
         return self._bound_blocks
 
     @property
     def requestor(self) -> object | None:
-        """The ControlRequestor that the agent belongs to, as long as that exists."""
+        """The ControlRequestor that the agent belongs to; None once that was deleted."""
         return None if self._requestor is None else self._requestor()
 
     @property
     def array_sensor(self) -> AgentArraySensor | None:
-        """The sensor that ``array_input_size`` added: ``agent.array_sensor.set_value(0, 0.5)``."""
+        """The sensor that ``array_input_size`` adds: ``agent.array_sensor.set_value(0, 0.5)``."""
         found = (each for each in self.sensors if isinstance(each, AgentArraySensor))
         key = AgentArraySensor().perception_key
         return next((each for each in found if each.perception_key == key), None)
@@ -175,24 +175,24 @@ class BasicAgent(Parameterized):
 
     @property
     def view(self) -> WorldView:
-        """The world, to be asked."""
+        """Read access to the world."""
         return self.bound_blocks.view
 
     @property
     def brain(self) -> Brain:
-        """The one brain that is enabled."""
+        """The enabled brain."""
         return self.bound_blocks.brain
 
     @property
     def percept(self) -> Percept:
-        """What was sensed last: the percept that the brain gets, or got."""
+        """The last percept."""
         if self._percept is None:
             raise SetupError(f"agent {self.id!r} has sensed nothing yet; expected a reset first")
         return self._percept
 
     @property
     def done(self) -> bool:
-        """Whether the episode is over."""
+        """True if the episode is over."""
         return self.terminated or self.truncated
 
     @property
@@ -208,34 +208,54 @@ class BasicAgent(Parameterized):
     def __str__(self) -> str:
         return table(self)
 
-    # -- what can be done ------------------------------------------------------------------------
+    # -- methods for users ------------------------------------------------------------------------
 
     def set_requestor(self, requestor: object) -> None:
-        """Say which ControlRequestor has the agent from now on; it is not kept alive by that."""
+        """Set the ControlRequestor that the agent belongs to, as a weak reference."""
         self._requestor = ref(requestor)
 
     def setup(self, world: World) -> None:
-        """Put the blocks on the body, and check that all fits together.
+        """Bind the blocks to the body in a world and check that they fit together.
 
-        An agent may be set up again, in this world or in another one: it begins anew there, and a
-        ControlRequestor that had it in another world refuses to go on with it.
+        An agent may be set up again, in this world or in another one: it starts over there, and a
+        ControlRequestor of another world refuses to go on with it.
 
         Raises:
-            SetupError: something does not fit, or an agent beside this one has a block of it.
+            SetupError: something does not fit, or another agent of the world has a block of it.
         """
-        self._bound_blocks = BoundBlocks(self, world)
+        self.bind_blocks(world)
         self.agent_start.fire(self)
 
-    def add_reward(self, amount: float, request_done: bool = False, name: str = HANDLERS) -> None:
-        """Adds to the reward of the decision that is under way; from any event's handler.
+    def bind_blocks(self, world: World, *, ready_brain: Brain | None = None) -> BoundBlocks:
+        """Bind the blocks that the agent has now to its body in a world.
 
         Args:
-            amount: how much, a finite number; multiplied by reward_scale.
-            request_done: whether the episode ends with this decision.
-            name: the term under which it is booked.
+            world: the world that the body is in.
+            ready_brain: a brain that is set up already and stays as it is.
 
         Raises:
-            ReadingError: the amount is no number, or not finite.
+            SetupError: something does not fit.
+        """
+        bound = BoundBlocks(self, world)
+        self._bound_blocks = bound  # blocks ask the agent for body and view while they are set up
+        bound.set_up(ready_brain=ready_brain)
+        return bound
+
+    def restore_blocks(self, bound: BoundBlocks) -> None:
+        """Restore a binding after building a replacement failed."""
+        self._bound_blocks = bound
+        bound.attach_sensors()
+
+    def add_reward(self, amount: float, request_done: bool = False, name: str = HANDLERS) -> None:
+        """Add to the reward of the decision under way; for handlers of any event.
+
+        Args:
+            amount: a finite number; multiplied by reward_scale.
+            request_done: True ends the episode with this decision.
+            name: the reward term.
+
+        Raises:
+            ReadingError: the amount is no finite number.
         """
         try:
             paid = float(amount) * self.reward_scale
@@ -250,21 +270,21 @@ class BasicAgent(Parameterized):
         self._done_requested = self._done_requested or request_done
 
     def use_brain(self, brain: Brain | Controller | Callable[[Percept], Answer]) -> None:
-        """Gives the agent another brain; it takes the next decision. The body stays as it is.
+        """Replace the brain, from the next decision on; the body stays as it is.
 
         Args:
-            brain: a brain; or a controller or a function from percept to action, for which a
-                LocalBrain is made.
+            brain: a brain, or a controller or a function from percept to action, which gets a
+                LocalBrain.
 
         Raises:
-            SetupError: it is none of these, or it does not fit the agent.
+            SetupError: the value is none of these, or the brain does not fit the agent.
         """
         self.bound_blocks.swap_brain(as_brain(brain))
 
-    # -- the steps of a decision; ControlRequestor calls them ------------------------------------
+    # -- steps of a decision, called by ControlRequestor -----------------------------------------
 
     def begin_episode(self) -> None:
-        """Forgets the last episode and resets all blocks."""
+        """Clear the last episode's results and reset all blocks."""
         self.ledger.clear()
         self.episode += 1
         self.steps = 0
@@ -274,7 +294,7 @@ class BasicAgent(Parameterized):
         self.bound_blocks.reset()
 
     def sense(self) -> Percept:
-        """Every active sensor reads once."""
+        """Read every active sensor once and return the new percept."""
         bound = self.bound_blocks
         if self.begin_of_update_state.handlers:
             self.begin_of_update_state.fire(self)
@@ -284,11 +304,11 @@ class BasicAgent(Parameterized):
         return self._percept
 
     def replace_percept(self, percept: Percept) -> None:
-        """Puts another percept in place of the last one: what it is made from was changed."""
+        """Replace the last percept, after blocks or the world were changed by hand."""
         self._percept = percept
 
     def apply_command(self, command: Command) -> None:
-        """What a brain's command changes in the agent itself."""
+        """Apply a brain's command to the agent's own state."""
         match command:
             case Command.PAUSE:
                 self.paused = True
@@ -298,10 +318,10 @@ class BasicAgent(Parameterized):
                 self.stopped = True
 
     def accept(self, action: Action) -> list[tuple[Actuator, Numbers]]:
-        """Checks an action and finds its actuators.
+        """Check an action and return its actuators with their numbers.
 
         Raises:
-            ActionError: it names an actuator that there is not, or its numbers don't fit.
+            ActionError: it names an unknown actuator, or its numbers don't fit.
         """
         actuators = self.bound_blocks.actuators
         if type(action) is Accepted:
@@ -321,16 +341,16 @@ class BasicAgent(Parameterized):
         return accepted
 
     def begin_step(self) -> None:
-        """A decision was taken: nothing is paid for it yet."""
+        """Begin a decision, with no reward yet."""
         if self.steps:
             self.ledger.open()
         else:
-            self.ledger.clear()  # what was added before the first decision belongs to none
+            self.ledger.clear()  # rewards from before the first decision belong to none
         if self.begin_of_step.handlers:
             self.begin_of_step.fire(self)
 
     def end_step(self) -> None:
-        """The decision's last tick is over: pays, and finds out whether the episode ends."""
+        """End a decision: book its rewards and decide whether the episode is over."""
         bound = self.bound_blocks
         if bound.pay(self.ledger, self.reward_scale):
             self._done_requested = True
@@ -363,27 +383,3 @@ class BasicAgent(Parameterized):
             f"agent {self.id!r}: expected an action by actuator name, such as {example}, "
             f"got {action!r}"
         ) from None
-
-
-def as_brain(given: object) -> Brain:
-    """Return a brain as it is, and a LocalBrain for a controller or a function.
-
-    Raises:
-        SetupError: it is neither.
-    """
-    if isinstance(given, Brain):
-        return given
-    if _drives(given):
-        return LocalBrain(controller=given)  # type: ignore[arg-type]  # _drives looked at it
-    problem = f"the class {given.__name__}" if isinstance(given, type) else repr(given)
-    raise SetupError(
-        f"expected a brain, a controller or a function from percept to action, got {problem}; "
-        "a brain is made as in LocalBrain(controller=WASDRBMoveController())"
-    )
-
-
-def _drives(given: object) -> bool:
-    """Return True for a controller or a function, of which a LocalBrain can be made."""
-    if isinstance(given, Controller):
-        return True
-    return callable(given) and not isinstance(given, type | Parameterized)

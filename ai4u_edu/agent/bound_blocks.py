@@ -1,12 +1,10 @@
-"""How an agent's blocks sit on its body in one world: made once, at setup."""
+"""An agent's blocks, bound to its body in one world."""
 
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from functools import partial
 from typing import TYPE_CHECKING
-
-import numpy as np
 
 from ai4u_edu.agent.error_context import add_context, block_label
 from ai4u_edu.agent.ledger import Ledger
@@ -32,28 +30,27 @@ if TYPE_CHECKING:
 
 
 class BoundBlocks:
-    """An agent's active blocks, set up: reward functions first, then sensors, then actuators.
+    """The active blocks of an agent and the memory that its sensors write to.
 
     Args:
-        agent: whose blocks.
-        world: where its body is.
-        goes_on: a brain that is set up already and stays as it is; left out, it is set up.
+        agent: the owner of the blocks.
+        world: the world that its body is in.
 
     Raises:
         SetupError: something does not fit; the message names it.
     """
 
-    def __init__(self, agent: "BasicAgent", world: World, *, goes_on: Brain | None = None) -> None:
+    def __init__(self, agent: "BasicAgent", world: World) -> None:
         self._agent = agent
         self.world = world
         add_optional_blocks(agent)
-        with self._blamed(None):
+        with self._error_context(None):
             self.body = world[agent.body_name]
         self.view = WorldView(world)
         world.contacts.watch(self.body)
-        self.brain = self._one_brain(agent.brains)
+        self.brain = self._enabled_brain(agent.brains)
         self.rewards = [reward for reward in agent.rewards if reward.is_active]
-        self.sensors = [sensor for sensor in self._with_standard_ones() if sensor.is_active]
+        self.sensors = [sensor for sensor in self._with_standard_sensors() if sensor.is_active]
         active = [actuator for actuator in agent.actuators if actuator.is_active]
         check_each_once(agent, [*self.rewards, *self.sensors, *active, self.brain])
         self._check_unique("reward function", "name", self.rewards)
@@ -65,26 +62,39 @@ class BoundBlocks:
         ]
         self.tick_rewards = [reward for reward in self.rewards if reward.has_ticks]
         claim(agent, self.blocks)
-        agent._bound_blocks = self
+
+    def set_up(self, *, ready_brain: Brain | None = None) -> None:
+        """Set up reward functions, then sensors, actuators and the brain.
+
+        Args:
+            ready_brain: a brain that is set up already and stays as it is.
+
+        Raises:
+            SetupError: a block does not fit; the message names it.
+        """
         for reward in self.rewards:
             self._set_up(reward)
         for sensor in self.sensors:
             self._set_up(sensor)
-        self._lay_out()
-        for actuator in active:
+        self._lay_out_memory()
+        for actuator in self.actuators.values():
             self._set_up(actuator)
-            with self._blamed(actuator, "was set up"):
+            with self._error_context(actuator, "was set up"):
                 actuator.prepare()
-        if self.brain is not goes_on:
+        if self.brain is not ready_brain:
             self._set_up(self.brain)
 
     @property
     def blocks(self) -> list[Block]:
-        """All active blocks and the brain; the blocks inside of them are not listed."""
+        """All active blocks and the brain, without the blocks inside them."""
         return [*self.rewards, *self.sensors, *self.actuators.values(), self.brain]
 
     def swap_brain(self, brain: Brain) -> None:
-        """Sets another brain up and enables it in place of the one before."""
+        """Set up another brain and enable it in place of the present one.
+
+        Raises:
+            SetupError: the brain does not fit, or the agent has lost other blocks.
+        """
         if isinstance(self.brain, LostBrain) and not self.brain.is_replaceable:
             raise SetupError(self.brain.problem)
         others = [each for each in self.blocks if each is not self.brain]
@@ -102,21 +112,16 @@ class BoundBlocks:
 
     @property
     def number_sensors(self) -> tuple[Sensor, ...]:
-        """Those whose readings are made of numbers."""
+        """Sensors whose readings are numbers."""
         return tuple(self._number_sensors)
 
-    def restore(self) -> None:
-        """Is the agent's bound again, after another one could not be made."""
-        self._agent._bound_blocks = self
-        self._attach()
-
     def percept(self) -> Percept:
-        """What lies in memory now; only what is text is read."""
+        """Return the readings in memory as a percept; only text is read anew."""
         texts = (read(each, self.body, self.view) for each, read in self._text_sensors)
         return Percept(self.layout, bytes(self._memory), tuple(texts))
 
     def reset(self) -> None:
-        """Resets every block, in the order of setup."""
+        """Reset every block, in the order of setup."""
         for reward in self.rewards:
             self._reset(reward)
         for sensor in self.sensors:
@@ -128,7 +133,7 @@ class BoundBlocks:
         self._reset(self.brain)
 
     def sense(self) -> Percept:
-        """Every active sensor reads once, into one piece of memory; a copy of it is the percept."""
+        """Read every active sensor once into memory; return a copy as a percept."""
         body, view = self.body, self.view
         sensor: Sensor | None = None
         try:
@@ -141,19 +146,19 @@ class BoundBlocks:
             for sensor, read in self._text_sensors:
                 texts.append(read(sensor, body, view))
         except Exception as error:
-            self._told_as_reading(error, sensor, "was reading")
+            self._raise_as_reading(error, sensor, "was reading")
             raise
         return Percept(self.layout, bytes(self._memory), tuple(texts))
 
     def pay(self, ledger: Ledger, scale: float) -> bool:
-        """Every active reward function is asked about the decision that just ended.
+        """Book the reward of every active reward function for the decision that just ended.
 
         Args:
-            ledger: where the amounts are booked.
-            scale: what each is multiplied by.
+            ledger: books the amounts.
+            scale: factor of every amount.
 
         Returns:
-            Whether one of them ends the episode.
+            True if a reward function ends the episode.
         """
         body, view = self.body, self.view
         ends = False
@@ -171,27 +176,27 @@ class BoundBlocks:
                     if reward.cause_episode_to_end and reward.ends(amount):
                         ends = True
         except Exception as error:
-            self._told_as_reading(error, reward, "was paying")
+            self._raise_as_reading(error, reward, "was paying")
             raise
         return ends
 
-    def _told_as_reading(self, error: Exception, block: Block | None, doing: str) -> None:
-        """Names block and agent; what is one of our errors becomes a ReadingError."""
+    def _raise_as_reading(self, error: Exception, block: Block | None, doing: str) -> None:
+        """Add block and agent to an error; raise one of this package's as a ReadingError."""
         if isinstance(error, AI4UError) and not isinstance(error, ReadingError):
             told = ReadingError(str(error))
             add_context(told, self._agent, block, doing)
             raise told from error
         add_context(error, self._agent, block, doing)
 
-    def _with_standard_ones(self) -> list[Sensor]:
-        """The agent's sensors, and those that every agent has."""
+    def _with_standard_sensors(self) -> list[Sensor]:
+        """Return the agent's sensors and those that every agent has."""
         sensors = list(self._agent.sensors)
         keys = {sensor.perception_key for sensor in sensors}
         standard: tuple[Sensor, ...] = (DoneSensor(), IDSensor())
         return sensors + [each for each in standard if each.perception_key not in keys]
 
-    def _lay_out(self) -> None:
-        """Gives each reading its place in memory; what a policy gets as input comes first."""
+    def _lay_out_memory(self) -> None:
+        """Give each reading its place in memory; the inputs of a policy come first."""
         ordered = sorted(self.sensors, key=lambda sensor: not sensor.is_input)
         kinds = {id(sensor): self._kind_of(sensor) for sensor in ordered}
         self._text_sensors = [
@@ -208,30 +213,29 @@ class BoundBlocks:
             [each.perception_key for each, _ in self._text_sensors],
         )
         self._memory = bytearray(self.layout.size)
-        self._attach()
+        self.attach_sensors()
 
     def _kind_of(self, sensor: Sensor) -> str:
-        with self._blamed(sensor, "was set up"):
+        with self._error_context(sensor, "was set up"):
             return sensor.reading_kind()
 
-    def _attach(self) -> None:
+    def attach_sensors(self) -> None:
+        """Connect the sensors to their places in memory."""
         for sensor in self._number_sensors:
-            with self._blamed(sensor, "was set up"):
+            with self._error_context(sensor, "was set up"):
                 place = self.layout.view(self._memory, sensor.perception_key)
-                sensor.attach(place, self._chance_of(sensor))
-
-    def _chance_of(self, sensor: Sensor) -> Callable[[], np.random.Generator]:
-        return partial(self.view.random, f"{self._agent.id}/{sensor.perception_key}")
+                name = f"{self._agent.id}/{sensor.perception_key}"
+                sensor.attach(place, partial(self.view.random, name))
 
     def _set_up(self, block: Block) -> None:
-        with self._blamed(block, "was set up"):
+        with self._error_context(block, "was set up"):
             block.on_setup(self._agent, self.view)
 
     def _reset(self, block: Block) -> None:
-        with self._blamed(block, "was reset"):
+        with self._error_context(block, "was reset"):
             block.on_reset(self._agent, self.view)
 
-    def _one_brain(self, brains: list[Brain]) -> Brain:
+    def _enabled_brain(self, brains: list[Brain]) -> Brain:
         enabled = [brain for brain in brains if brain.enabled]
         who = f"agent {self._agent.id!r}"
         if not enabled:
@@ -266,8 +270,8 @@ class BoundBlocks:
             names.add(name)
 
     @contextmanager
-    def _blamed(self, block: Block | None, doing: str = "") -> Iterator[None]:
-        """Adds to an error which block of which agent it came from."""
+    def _error_context(self, block: Block | None, doing: str = "") -> Iterator[None]:
+        """Add agent and block to an error that is raised inside."""
         try:
             yield
         except AI4UError as error:
@@ -285,15 +289,15 @@ class BoundBlocks:
 
 
 def read_text(sensor: Sensor, body: BodyView, view: WorldView) -> Texts:
-    """Return what a sensor of the type sstring reads."""
+    """Return the reading of a sensor of type sstring."""
     return str(sensor.read(body, view)) if sensor.is_active else ""
 
 
 def read_texts(sensor: Sensor, body: BodyView, view: WorldView) -> Texts:
-    """Return what a sensor of the type sstrings reads.
+    """Return the reading of a sensor of type sstrings.
 
     Raises:
-        ReadingError: it reads something else than a list of texts.
+        ReadingError: the reading is not a list of texts.
     """
     if not sensor.is_active:
         return ()
@@ -304,15 +308,15 @@ def read_texts(sensor: Sensor, body: BodyView, view: WorldView) -> Texts:
 
 
 def refuse_amount(amount: float) -> None:
-    """Raise a ReadingError: an amount is not finite."""
+    """Raise a ReadingError for an amount that is not finite."""
     raise ReadingError(f"expected a finite number, got {amount}")
 
 
 def as_amount(value: object) -> float:
-    """Return what a reward function paid as a float.
+    """Return an amount that a reward function paid as a float.
 
     Raises:
-        ReadingError: it is no number.
+        ReadingError: the amount is no number.
     """
     try:
         return float(value)  # type: ignore[arg-type]  # anything may come; the next line says so

@@ -1,4 +1,4 @@
-"""The agent and block that an error came from, added to its message."""
+"""Agent and block that an error came from, added to its message."""
 
 from typing import Protocol
 
@@ -8,13 +8,13 @@ from ai4u_edu.blocks.block import Block
 
 
 class HasId(Protocol):
-    """An agent, as far as it is named in a message."""
+    """Protocol of an agent that a message names."""
 
     id: str
 
 
 def block_label(block: Block | None) -> str:
-    """Return a block's class and its own name, as they stand in messages."""
+    """Return a block's class and name for messages."""
     if isinstance(block, Brain):
         return block.title()
     name = ""
@@ -24,18 +24,18 @@ def block_label(block: Block | None) -> str:
 
 
 def add_context(error: Exception, agent: HasId, block: Block | str | None, doing: str) -> None:
-    """Add the agent and the block to an error that is on its way out, once.
+    """Add agent and block to an error, once.
 
-    Errors of this package get it in front of their message and keep their type; all others get a
-    note, since their arguments may mean anything.
+    Errors of this package get them in front of their message and keep their type; all others get
+    a note, since their arguments are not known to be a message.
 
     Args:
-        error: is changed in place.
-        agent: whose block it was.
-        block: the block, or a name for what is no block.
-        doing: the end of the note: "was acting".
+        error: changed in place.
+        agent: the block's agent.
+        block: the block, or the name of a handler.
+        doing: end of the note, such as "was acting".
     """
-    if getattr(error, "_is_blamed", False):
+    if getattr(error, "_has_context", False):
         return
     name = block if isinstance(block, str) else block_label(block)
     who = f"agent {agent.id!r}"
@@ -46,4 +46,4 @@ def add_context(error: Exception, agent: HasId, block: Block | str | None, doing
         error.args = (f"{who}, {between}{text}", *others)
     else:
         error.add_note(f"while {name} of {who} {doing}")
-    error._is_blamed = True  # type: ignore[attr-defined]  # an event within an event names one
+    error._has_context = True  # type: ignore[attr-defined]  # of nested events only the inner one is named

@@ -1,4 +1,4 @@
-"""The moments of an agent's life that others can listen to."""
+"""Events of an agent and the handlers connected to them."""
 
 from collections.abc import Callable
 from typing import TYPE_CHECKING
@@ -26,7 +26,7 @@ EVENTS = (
 
 
 class Event:
-    """One moment; its handlers are called with the agent, in the order in which they came.
+    """An event; it calls its handlers with the agent, in the order of connection.
 
     >>> event = Event("end_of_step")
     >>> @event.connect
@@ -40,22 +40,19 @@ class Event:
     def __init__(self, name: str) -> None:
         self.name = name
         self.handlers: list[Handler] = []
-        """Empty for most events: whoever fires looks here first, so that silence costs nothing."""
+        """Connected handlers; callers test it before :meth:`fire`, since most events have none."""
 
     def connect(self, handler: Handler) -> Handler:
-        """Calls the handler at this moment from now on; also a decorator."""
+        """Call the handler at this event from now on; also a decorator."""
         self.handlers.append(handler)
         return handler
 
     def disconnect(self, handler: Handler) -> None:
-        """Stops calling the handler."""
+        """Stop calling the handler."""
         self.handlers.remove(handler)
 
     def fire(self, agent: "BasicAgent") -> None:
-        """Calls all handlers.
-
-        What a handler raises names the handler, the event and the agent.
-        """
+        """Call all handlers; an error of a handler names the handler, the event and the agent."""
         handler: Handler | None = None
         try:
             for handler in tuple(self.handlers):

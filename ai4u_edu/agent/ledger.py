@@ -1,29 +1,31 @@
-"""Who paid what: the reward of a decision and of an episode, by named term."""
+"""Rewards of a decision and of an episode, by named term."""
 
 from collections import deque
 from collections.abc import Mapping
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
+
+from ai4u_edu.base.deprecation import RenamedAttribute
 
 HANDLERS = "handlers"
-"""The term under which ``agent.add_reward`` books what is given no other name."""
+"""Default term of ``agent.add_reward``."""
 
 NOTHING: tuple[float, Mapping[str, float]] = (0.0, {})
-"""The total and the terms before the first decision of an episode is over."""
+"""Total and terms before the first decision of an episode is over."""
 
 
 class Entry(NamedTuple):
-    """What one decision was paid."""
+    """The rewards of one decision."""
 
     step: int
-    """The number of the decision in its episode, from 1."""
+    """Number of the decision in its episode, from 1."""
     terms: Mapping[str, float]
-    """By name."""
+    """Amounts by the term's name."""
     so_far: float
-    """The episode's total, this decision's reward included."""
+    """Episode total, this decision included."""
 
     @property
     def total(self) -> float:
-        """What it was paid altogether."""
+        """Sum of the terms."""
         return sum(self.terms.values(), 0.0)
 
 
@@ -31,11 +33,11 @@ class Ledger:
     """The breakdown of rewards.
 
     Attributes:
-        terms: by name, what was paid in the last decision, or in the one that is under way.
-        episode_terms: by name, what was paid in this episode.
-        total: of the last decision, or of the one that is under way.
-        episode_total: of this episode.
-        history: the latest decisions of this episode, if :meth:`remember` was called.
+        terms: amounts by name of the last decision, or of the one under way.
+        episode_terms: amounts by name of this episode.
+        total: sum of ``terms``.
+        episode_total: sum of ``episode_terms``.
+        history: latest decisions of this episode, if :meth:`keep_history` was called.
 
     >>> ledger = Ledger()
     >>> ledger.pay("touch", 100.0); ledger.pay("step", -0.5)
@@ -45,6 +47,9 @@ class Ledger:
     >>> ledger.total, ledger.episode_total
     (0.0, 99.5)
     """
+
+    if not TYPE_CHECKING:  # a type checker is to report the old name
+        remember = RenamedAttribute("keep_history")
 
     def __init__(self) -> None:
         self.terms: dict[str, float] = {}
@@ -58,17 +63,17 @@ class Ledger:
 
     @property
     def finished(self) -> tuple[float, Mapping[str, float]]:
-        """The total and the terms of the last decision that is over; the one under way is not."""
+        """Total and terms of the last finished decision, not of the one under way."""
         return (self.total, self.terms) if self._is_closed else self._finished
 
-    def remember(self, decisions: int) -> None:
-        """Keeps the latest decisions from now on, for those who look; training needs none."""
+    def keep_history(self, decisions: int) -> None:
+        """Keep so many of the latest decisions from now on; none are kept by default."""
         if self.history.maxlen != decisions:
             self.history = deque(self.history, decisions)
             self._latest = None
 
     def open(self) -> None:
-        """A decision begins: nothing is paid for it yet."""
+        """Begin a decision, with no rewards yet."""
         if self._is_closed:
             self._finished = self.total, self.terms
             self._is_closed = False
@@ -76,7 +81,7 @@ class Ledger:
         self.total = 0.0
 
     def pay(self, name: str, amount: float) -> None:
-        """Books an amount under a name."""
+        """Book an amount under a name."""
         terms, episode_terms = self.terms, self.episode_terms
         terms[name] = terms.get(name, 0.0) + amount
         episode_terms[name] = episode_terms.get(name, 0.0) + amount
@@ -84,14 +89,14 @@ class Ledger:
         self.episode_total += amount
 
     def close(self, step: int) -> None:
-        """A decision is over: what is added until the next one begins still belongs to it."""
+        """End a decision; amounts that are added until the next one still belong to it."""
         self._is_closed = True
         if self.history.maxlen:
             self.history.append(Entry(step, self.terms, self.episode_total))
             self._latest = None
 
     def clear(self) -> None:
-        """An episode begins."""
+        """Begin an episode."""
         self.open()
         self._finished = NOTHING
         self.episode_terms = {}
@@ -100,7 +105,7 @@ class Ledger:
         self._latest = None
 
     def latest(self) -> tuple[Entry, ...]:
-        """The history as it is now: the same object until another decision is over."""
+        """Return the history as a tuple, the same object until another decision is over."""
         if self._latest is None:
             self._latest = tuple(self.history)
         return self._latest

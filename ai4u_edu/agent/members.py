@@ -1,4 +1,4 @@
-"""The world and the agents that a ControlRequestor is given, checked."""
+"""Checks of the world and the agents that a ControlRequestor is made of."""
 
 from collections.abc import Sequence
 
@@ -8,10 +8,10 @@ from ai4u_edu.world import World
 
 
 def check_members(world: object, agents: object) -> None:
-    """Check what a ControlRequestor is made of.
+    """Check the arguments of a ControlRequestor.
 
     Raises:
-        SetupError: it is no world and a list of agents, or two agents have one id or one body.
+        SetupError: no world or no list of agents, or two agents with the same id or body.
     """
     example = "as in ControlRequestor(world, [agent])"
     if not isinstance(world, World):
@@ -27,7 +27,7 @@ def check_members(world: object, agents: object) -> None:
 
 
 def _check_unique(agents: Sequence[BasicAgent]) -> None:
-    """Raises SetupError where two agents have the same id or the same body."""
+    """Raise SetupError if two agents have the same id or the same body."""
     for index, agent in enumerate(agents):
         for other in agents[:index]:
             if agent.id == other.id:

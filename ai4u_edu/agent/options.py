@@ -1,4 +1,4 @@
-"""The blocks that an agent's own options add, as AI4U's RLAgent adds them."""
+"""Blocks that an agent's options add, as in AI4U's RLAgent."""
 
 from typing import TYPE_CHECKING
 
@@ -20,9 +20,9 @@ STANDING_STILL = [(0.0, 0.0, 0.0, 0.0)]
 
 
 def add_optional_blocks(agent: "BasicAgent") -> None:
-    """Give an agent the sensors and the actuator that its options ask for, where it lacks them.
+    """Add the sensors and the actuator that an agent's options ask for.
 
-    A block of the same name that the agent has already takes the place of the optional one.
+    An option adds nothing if the agent has a block of that name.
     """
     keys = {sensor.perception_key for sensor in agent.sensors}
     agent.sensors += [each for each in _sensors(agent) if each.perception_key not in keys]
@@ -31,7 +31,7 @@ def add_optional_blocks(agent: "BasicAgent") -> None:
 
 
 def set_action_handler(agent: "BasicAgent") -> None:
-    """Give the agent's action handler to the actuator that calls it, if it is there already."""
+    """Pass the agent's action handler to the actuator that calls it, if that exists already."""
     for actuator in agent.actuators:
         if actuator.action_name == DEFAULT_ACTION and hasattr(actuator, "handler"):
             actuator.handler = agent.action_handler
@@ -59,7 +59,7 @@ def _actuators(agent: "BasicAgent") -> list[Actuator]:
         made = ContinuousActuator(action_name=DEFAULT_ACTION, size=size)
         made.handler = agent.action_handler
     else:
-        # without a handler it must not drive by the table that a DiscreteActuator has by default
+        # the default table of a DiscreteActuator would drive the body while there is no handler
         made = DiscreteActuator(action_name=DEFAULT_ACTION, size=size, table=STANDING_STILL)
         made.handler = agent.action_handler
     return [made]

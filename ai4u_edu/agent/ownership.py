@@ -1,14 +1,13 @@
-"""The agent that a block works for: one at a time.
+"""Ownership of blocks: a block belongs to one agent at a time.
 
-A block keeps what it needs for its agent: where to write a reading, the best distance so far. Two
-agents with one block would mix that up without a word. So an agent claims its blocks when they are
-set up:
+A block keeps state for its agent, such as the best distance so far. Two agents that share a block
+would silently corrupt it. So an agent claims its blocks when they are set up:
 
-- Another agent of the same ControlRequestor has the block: that is an error.
-- An agent of another ControlRequestor has it, as when a cell of a notebook runs again: the block
-  changes over, and the agent that had it can decide and be reset no more.
+- If another agent of the same ControlRequestor has the block, that is an error.
+- If an agent of another ControlRequestor has it, as when a notebook cell runs again, the block
+  changes its owner, and the agent that had it can neither decide nor be reset any more.
 
-Nothing here keeps an agent alive: a block refers to its owner weakly.
+A block refers to its owner weakly.
 """
 
 from collections.abc import Iterable, Iterator
@@ -27,26 +26,26 @@ if TYPE_CHECKING:
     from ai4u_edu.agent.agent import BasicAgent
 
 _OWNER = "_owner_ref"
-"""The attribute of a block that refers to the agent that claimed it last."""
+"""Attribute of a block that refers to the agent that claimed it last."""
 
 
 class LostBrain(Brain):
-    """Stands in for the brain of an agent whose block another agent has claimed.
+    """Placeholder for the brain of an agent whose block another agent has claimed.
 
-    It refuses to decide and to be reset, so that nothing goes on with a block that writes to
-    somewhere else; the agent can still be looked at.
+    It refuses to decide and to be reset, since the block writes to another agent's memory now.
+    The agent can still be inspected.
     """
 
     abstract = True  # nothing for a scene file
 
-    def lose(self, brain: Brain, block: Block, problem: str) -> None:
-        """Say in whose place it stands, and why."""
+    def replace_brain(self, brain: Brain, block: Block, problem: str) -> None:
+        """Set the brain that it replaces and the reason."""
         self._title = brain.title()
         self.is_replaceable = any(block is each for each in walk_blocks([brain]))
-        """True if another brain mends it: nothing but the brain was lost."""
+        """True if only the brain was lost, so that another brain can replace it."""
         self.problem = problem
 
-    def on_reset(self, agent: AgentView, view: WorldView) -> None:  # noqa: ARG002 - refuses all
+    def on_reset(self, agent: AgentView, view: WorldView) -> None:  # noqa: ARG002 - refuses any
         """Refuse.
 
         Raises:
@@ -54,7 +53,7 @@ class LostBrain(Brain):
         """
         raise SetupError(self.problem)
 
-    def decide(self, percept: Percept) -> Answer:  # noqa: ARG002 - refuses all
+    def decide(self, percept: Percept) -> Answer:  # noqa: ARG002 - refuses any
         """Refuse.
 
         Raises:
@@ -63,19 +62,19 @@ class LostBrain(Brain):
         raise SetupError(self.problem)
 
     def title(self) -> str:
-        """Return what the brain in whose place it stands is called."""
+        """Return the title of the brain that it replaces."""
         return self._title
 
 
 def walk_blocks(blocks: Iterable[Block]) -> Iterator[Block]:
-    """Return blocks, each followed by the blocks inside it."""
+    """Yield blocks, each followed by the blocks inside it."""
     for block in blocks:
         yield block
         yield from walk_blocks(block.inner_blocks())
 
 
 def check_each_once(agent: "BasicAgent", blocks: Iterable[Block]) -> None:
-    """Look whether a block, or a block inside of one, stands in an agent twice.
+    """Check that no block, nor a block inside one, occurs in an agent twice.
 
     Raises:
         SetupError: one does.
@@ -94,7 +93,7 @@ def claim(agent: "BasicAgent", blocks: Iterable[Block]) -> None:
     """Make an agent the owner of blocks and of the blocks inside them.
 
     Raises:
-        SetupError: an agent beside it has one of them.
+        SetupError: another agent of the same ControlRequestor owns one of them.
     """
     claimed = list(walk_blocks(blocks))
     for block in claimed:
@@ -112,7 +111,7 @@ def claim(agent: "BasicAgent", blocks: Iterable[Block]) -> None:
 
 
 def _owner_of(block: Block) -> "BasicAgent | None":
-    """The agent that works with a block now."""
+    """Return the agent that uses a block now."""
     reference: Any = getattr(block, _OWNER, None)
     owner: BasicAgent | None = reference() if reference is not None else None
     bound = owner.bound_blocks_or_none if owner is not None else None
@@ -130,7 +129,7 @@ def _take_away(owner: "BasicAgent", block: Block, agent: "BasicAgent") -> None:
     if isinstance(bound.brain, LostBrain) and not bound.brain.is_replaceable:
         return
     lost = LostBrain(skip_frame=bound.brain.skip_frame, repeat_action=bound.brain.repeat_action)
-    lost.lose(
+    lost.replace_brain(
         bound.brain,
         block,
         f"agent {owner.id!r} has lost its {block_label(block)} to agent {agent.id!r} of another "

@@ -1,4 +1,4 @@
-"""Other blocks on an agent in the middle of an episode: same body, same world, same steps."""
+"""Replacing the blocks of an agent during an episode: body, world and step count stay."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -10,7 +10,7 @@ from ai4u_edu.blocks.sensors.sensor_state import SensorState, read_again
 from ai4u_edu.world import World
 
 FAREWELL = "the agent's blocks were changed; connect again to be told what it senses now"
-"""What a script hears that knew the agent as it was."""
+"""Reason given to a connected script whose agent was changed."""
 
 
 @dataclass(frozen=True)
@@ -24,51 +24,52 @@ class Blocks:
 
     @classmethod
     def of(cls, agent: BasicAgent) -> "Blocks":
-        """Those that an agent has now."""
+        """Return the blocks that an agent has now."""
         return cls(
             tuple(agent.sensors), tuple(agent.actuators), tuple(agent.rewards), tuple(agent.brains)
         )
 
-    def put_on(self, agent: BasicAgent) -> None:
-        """Gives them to an agent; they sit on it once it is fitted."""
+    def assign_to(self, agent: BasicAgent) -> None:
+        """Set them as an agent's blocks; they still have to be bound."""
         agent.sensors, agent.actuators = list(self.sensors), list(self.actuators)
         agent.rewards, agent.brains = list(self.rewards), list(self.brains)
 
 
-def rebind(agent: BasicAgent, world: World, blocks: Blocks, *, brain_goes_on: bool = False) -> None:
-    """Puts blocks on an agent that is under way; those that it had already go on as they were.
+def rebind(agent: BasicAgent, world: World, blocks: Blocks, *, keep_brain: bool = False) -> None:
+    """Replace the blocks of an agent during an episode; blocks that it keeps keep their state.
 
-    What is new is reset, and reads at once; the brain decides next on a percept with all of it.
+    New blocks are reset, new sensors read immediately, and the brain's next percept has all
+    readings.
 
     Args:
-        agent: whose.
-        world: where its body is.
-        blocks: all that it is to have.
-        brain_goes_on: whether the brain stays without being set up again, if it is the same one.
+        agent: the agent to change.
+        world: the world of its body.
+        blocks: all blocks that it is to have.
+        keep_brain: True if the brain, when it is the same one, need not be set up again.
 
     Raises:
-        SetupError: something does not fit; then the agent is as it was.
-        ReadingError: a new sensor reads what it has not declared; the same then.
+        SetupError: something does not fit; then the agent is as before.
+        ReadingError: a new sensor's reading is outside its space; then the agent is as before.
     """
     had, before = Blocks.of(agent), agent.bound_blocks
-    memories = {id(each): SensorState.of(each) for each in before.number_sensors}
+    states = {id(each): SensorState.capture(each) for each in before.number_sensors}
 
-    def fit(these: Blocks, known: Blocks, *, goes_on: bool) -> None:
-        these.put_on(agent)
-        bound = BoundBlocks(agent, world, goes_on=before.brain if goes_on else None)
-        _begin(agent, bound, known, memories, looks=these is blocks)
+    def bind(these: Blocks, known: Blocks, *, keep_brain: bool) -> None:
+        these.assign_to(agent)
+        bound = agent.bind_blocks(world, ready_brain=before.brain if keep_brain else None)
+        _reset_new_blocks(agent, bound, known, states, read_new=these is blocks)
 
     try:
-        fit(blocks, had, goes_on=brain_goes_on)
+        bind(blocks, had, keep_brain=keep_brain)
     except BaseException:
         for brain in (*had.brains, *blocks.brains):
             brain.enabled = brain is before.brain
         try:
-            fit(had, had, goes_on=True)
-        except BaseException:  # somebody's block that fits once only
-            before.restore()
+            bind(had, had, keep_brain=True)
+        except BaseException:  # a block that can be set up only once
+            agent.restore_blocks(before)
             for sensor in before.number_sensors:
-                memories[id(sensor)].restore(sensor)
+                states[id(sensor)].restore(sensor)
         raise
     gone = before.brain
     if agent.brain is gone:
@@ -80,38 +81,38 @@ def rebind(agent: BasicAgent, world: World, blocks: Blocks, *, brain_goes_on: bo
 
 
 def sense_again(agent: BasicAgent) -> None:
-    """Has an agent sense the same moment once more: somebody moved the world by hand."""
+    """Read all sensors of an agent again, after the world was changed by hand."""
     bound = agent.bound_blocks
     for sensor in bound.number_sensors:
-        _blank_or(lambda each: read_again(each, bound.body, bound.view), sensor)
+        _read_or_blank(lambda each: read_again(each, bound.body, bound.view), sensor)
     agent.replace_percept(bound.percept())
 
 
-def _begin(
+def _reset_new_blocks(
     agent: BasicAgent,
     bound: BoundBlocks,
     known: Blocks,
-    memories: dict[int, SensorState],
+    states: dict[int, SensorState],
     *,
-    looks: bool,
+    read_new: bool,
 ) -> None:
-    """Resets what is new, and hands what is not its memory."""
+    """Reset new blocks, and put the state of known sensors back."""
     old = {id(each) for each in (*known.actuators, *known.rewards, *known.brains)}
     for block in (*bound.rewards, *bound.actuators.values(), bound.brain):
         if id(block) not in old:
             block.on_reset(agent, bound.view)
     for sensor in bound.sensors:
-        memory = memories.get(id(sensor))
-        if memory is not None and memory.restore(sensor):
+        state = states.get(id(sensor))
+        if state is not None and state.restore(sensor):
             continue
         if sensor.resetable:
             sensor.on_reset(agent, bound.view)
-        if looks and sensor in bound.number_sensors:
-            _blank_or(lambda each: each.take(bound.body, bound.view), sensor)
+        if read_new and sensor in bound.number_sensors:
+            _read_or_blank(lambda each: each.take(bound.body, bound.view), sensor)
     agent.replace_percept(bound.percept())
 
 
-def _blank_or(read: Callable[[Sensor], None], sensor: Sensor) -> None:
+def _read_or_blank(read: Callable[[Sensor], None], sensor: Sensor) -> None:
     if sensor.is_active:
         read(sensor)
     else:

@@ -11,7 +11,7 @@ HIDDEN = {"perception_key", "action_name", "name", "is_active", "enabled", "sens
 
 
 def table(agent: "BasicAgent") -> str:
-    """One line a block: what it is, its name, its parameters that are not as by default."""
+    """Return a line for each block: kind, class, name and parameters other than the default."""
     rows = [("", "block", "name", "parameters")]
     for kind, blocks in (
         ("sensor", agent.sensors),

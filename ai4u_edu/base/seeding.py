@@ -1,4 +1,4 @@
-"""One seed an episode; all chance in it grows from that seed."""
+"""Seeds: all random numbers of an episode follow from one seed."""
 
 from operator import index
 from typing import Any
@@ -15,10 +15,10 @@ MAX_TRAINING_SEED = 2**32 - 1
 
 
 def checked_seed(seed: Any) -> int:
-    """Return a seed as Python's own whole number.
+    """Return a seed as a Python int.
 
     Raises:
-        SeedError: it is no whole number from 0 to :data:`MAX_SEED`.
+        SeedError: the seed is no whole number from 0 to :data:`MAX_SEED`.
 
     >>> checked_seed(7)
     7
@@ -55,7 +55,7 @@ def seeds_from(first: Any, count: int) -> range:
 
 
 class Seeds:
-    """The chance of one episode: a generator for the world and one for each block by name.
+    """The random generators of one episode: one for the world and one for each block by name.
 
     An episode depends on its seed alone, not on what was drawn before it, so any episode of a
     long run can be played again from the number it began with.
@@ -64,7 +64,7 @@ class Seeds:
         seed: a whole number from 0 to :data:`MAX_SEED`.
 
     Raises:
-        SeedError: it is none.
+        SeedError: it is no such number.
 
     >>> seeds = Seeds(7)
     >>> first = seeds.child("vision").random()
@@ -84,7 +84,7 @@ class Seeds:
         return self.child("")
 
     def child(self, name: str) -> np.random.Generator:
-        """The generator that belongs to a name; the same object at every call."""
+        """Return the generator of a name, the same object at every call."""
         child = self._children.get(name)
         if child is None:
             entropy: Any = [self.seed, crc32(name.encode())]
@@ -95,5 +95,5 @@ class Seeds:
         return child
 
     def next(self) -> "Seeds":
-        """The seeds of the episode that follows when nobody gives a seed."""
+        """Return the seeds of the next episode, for a reset without a seed."""
         return Seeds(int(np.random.SeedSequence(self.seed).generate_state(1)[0]))

@@ -6,7 +6,7 @@ from typing import Any
 from ai4u_edu.base.errors import AI4UError
 from ai4u_edu.blocks import Actuator, Block, Brain, Controller, RewardFunc, Sensor
 from ai4u_edu.check.report import Outcome, Report
-from ai4u_edu.scenes.serialization import fits_a_file, from_plain, to_plain
+from ai4u_edu.scenes.serialization import from_plain, is_serializable, to_plain
 
 KINDS: tuple[type[Block], ...] = (Sensor, Actuator, RewardFunc, Brain, Controller)
 
@@ -30,7 +30,7 @@ def run_static_checks(report: Report, block: Block, says: str) -> None:
         else f"expected a docstring that says {says}, got none; write one under the class line",
     )
     plain = to_plain(block)
-    if not fits_a_file(cls) or _holds_a_function(plain):
+    if not is_serializable(cls) or _holds_a_function(plain):
         why = "it holds a Python function, which no file can say"
         report.add("scene file", why, outcome=Outcome.NOT_APPLICABLE)
         return

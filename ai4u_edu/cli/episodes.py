@@ -1,4 +1,4 @@
-"""The commands for recorded episodes; what they need is loaded when they run."""
+"""Commands for recorded episodes; heavy imports happen when a command runs."""
 
 import time
 from collections.abc import Callable
@@ -26,10 +26,10 @@ if TYPE_CHECKING:
     from ai4u_edu.recording import Episode
     from ai4u_edu.scenes import Scene
 
-LONGEST = 5000
-"""Decisions after which an episode is cut off in a scene that has no limit of its own."""
+DEFAULT_MAX_DECISIONS = 5000
+"""Decisions after which an episode is truncated in a scene without a limit of its own."""
 SCRIPT_POLL_S = 0.01
-"""Seconds between two ticks while the script that is to drive is not there."""
+"""Poll interval (s) while the agent's script is not connected."""
 
 Data = Annotated[
     list[Path], typer.Argument(help="Recorded episodes (.episode), or folders of them.")
@@ -40,7 +40,7 @@ AgentId = Annotated[
 
 
 def add_to(app: typer.Typer) -> None:
-    """Adds the commands to a command line."""
+    """Add the commands to a command line."""
     for command in (record, replay, dataset, clone):
         app.command()(command)
 
@@ -60,7 +60,7 @@ def record(
     out: Annotated[Path, typer.Option(help="A folder for the files.")] = Path("episodes"),
     own_blocks: OwnBlocks = None,
 ) -> None:
-    """Let somebody drive, and keep the episodes as files."""
+    """Record episodes into files, whoever drives."""
     from ai4u_edu.scenes import Scene
 
     load_own_blocks(own_blocks)
@@ -115,7 +115,7 @@ def replay(
     if verdict.exact:
         typer.echo("it plays again exactly, bit for bit")
         return
-    seconds = verdict.until / played.episode.scene.world.ticks_per_second
+    seconds = verdict.exact_until / played.episode.scene.world.ticks_per_second
     typer.echo(f"it plays again exactly up to {seconds:.2f} s and not beyond: {verdict.why}")
     raise typer.Exit(1)
 
@@ -130,7 +130,7 @@ def dataset(
     agent: AgentId = None,
     own_blocks: OwnBlocks = None,
 ) -> None:
-    """Make data to learn from out of recorded episodes."""
+    """Turn recorded episodes into a training dataset."""
     from ai4u_edu.training.demonstrations import demonstrations, load_episodes
 
     if out is None and not minari:
@@ -161,7 +161,7 @@ def clone(
     ] = 100,
     own_blocks: OwnBlocks = None,
 ) -> None:
-    r"""Let a network learn to do what was recorded (behaviour cloning).
+    r"""Train a network to imitate recorded episodes (behaviour cloning).
 
     Needs: pip install "ai4u-edu\[train]"
     """
@@ -187,7 +187,7 @@ def clone(
 
 
 def _driven_by(network: Path, episode: "Episode", agent_id: str | None) -> "Scene":
-    """A recorded scene with a network in the place of whoever drove: his file may not be here."""
+    """Return a recorded scene driven by a network; the recorded driver's file may be missing."""
     from ai4u_edu.recording.scene_export import without_unknown_brains
     from ai4u_edu.scenes import Scene
 
@@ -216,13 +216,13 @@ def _with_brains(scene: "Scene", specs: list[str]) -> "tuple[ControlRequestor, S
 
 
 def _drive(sim: "ControlRequestor", agent: "BasicAgent", seed: int) -> None:
-    """Let one episode pass; while the agent's script is not there, say so and wait for it."""
+    """Run one episode; while the agent's script is not connected, say so and wait for it."""
     from ai4u_edu.agent.block_errors import reason_for_no_decision
     from ai4u_edu.blocks import RemoteBrain
 
     sim.reset(seed)
     episode, in_vain = sim.episode, 0
-    while not agent.done and agent.steps < LONGEST and sim.episode == episode:
+    while not agent.done and agent.steps < DEFAULT_MAX_DECISIONS and sim.episode == episode:
         steps = agent.steps
         sim.step(agent)
         if agent.stopped or agent.paused:
@@ -235,10 +235,10 @@ def _drive(sim: "ControlRequestor", agent: "BasicAgent", seed: int) -> None:
                 reason = reason_for_no_decision(agent)
                 typer.echo(f"agent {agent.id!r} waits: {reason}  (Ctrl-C ends it)", err=True)
             time.sleep(SCRIPT_POLL_S)
-        elif in_vain == LONGEST:
+        elif in_vain == DEFAULT_MAX_DECISIONS:
             reason = reason_for_no_decision(agent)
             raise NoDecisionError(
-                f"agent {agent.id!r} took no decision in {LONGEST} ticks: {reason}"
+                f"agent {agent.id!r} took no decision in {DEFAULT_MAX_DECISIONS} ticks: {reason}"
             )
 
 

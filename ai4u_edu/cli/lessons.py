@@ -1,4 +1,4 @@
-"""The command for the course; what it needs is loaded when it runs."""
+"""Command for the course; heavy imports happen when it runs."""
 
 import os
 import subprocess
@@ -12,7 +12,7 @@ FIRST = "00_start_here.ipynb"
 
 
 def add_to(app: typer.Typer) -> None:
-    """Adds the command to a command line."""
+    """Add the command to a command line."""
     app.command()(lessons)
 
 
@@ -44,7 +44,7 @@ def lessons(
 
 
 def lab(folder: Path, port: int, *, open_page: bool) -> list[str]:
-    """The command that starts JupyterLab on the first lesson; it asks the internet for nothing."""
+    """Return the command that starts JupyterLab on the first lesson, without internet access."""
     return [
         sys.executable,
         "-m",
@@ -61,7 +61,7 @@ def lab(folder: Path, port: int, *, open_page: bool) -> list[str]:
 
 
 def _become(command: list[str], config: Path) -> None:
-    """Runs JupyterLab in the place of this process, so that every signal reaches it."""
+    """Replace this process by JupyterLab, so that every signal reaches it."""
     paths = [str(config), os.environ.get("JUPYTER_CONFIG_PATH", "")]
     env = {**os.environ, "JUPYTER_CONFIG_PATH": os.pathsep.join(filter(None, paths))}
     if os.name == "posix":

@@ -21,7 +21,6 @@ from ai4u_edu.cli.play import play
 
 app = typer.Typer(
     name="ai4u-edu",
-    help="A top-down sandbox to learn how agents sense, decide and act.",
     no_args_is_help=True,
     pretty_exceptions_enable=False,
     context_settings={"help_option_names": ["-h", "--help"]},
@@ -60,13 +59,13 @@ def _version(wanted: bool) -> None:
         raise typer.Exit
 
 
-@app.callback()
+@app.callback(help="A top-down sandbox to learn how agents sense, decide and act.")
 def options(
     version: Annotated[
         bool, typer.Option("--version", callback=_version, is_eager=True, help="Show the version.")
     ] = False,
 ) -> None:
-    """A top-down sandbox to learn how agents sense, decide and act."""
+    """Handle the options of the program itself."""
 
 
 app.command()(play)
@@ -125,7 +124,7 @@ def scenes(
     name: Annotated[str, typer.Argument(help="A scene, to see only that one.")] = "",
     own_blocks: OwnBlocks = None,
 ) -> None:
-    """List the scenes of the library: what to reach, what drives, and what is paid."""
+    """List the scenes of the library with goal, controls and rewards."""
     from ai4u_edu.scenes import Scene
 
     load_own_blocks(own_blocks)
@@ -148,7 +147,7 @@ def scenes(
 def check(
     file: Annotated[Path, typer.Argument(help="A scene file.")], own_blocks: OwnBlocks = None
 ) -> None:
-    """Say what is wrong in a scene file."""
+    """Check a scene file and name its mistakes."""
     from ai4u_edu.scenes import Scene
 
     load_own_blocks(own_blocks)

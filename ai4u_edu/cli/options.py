@@ -1,4 +1,4 @@
-"""Options that several commands of the command line have."""
+"""Options that several commands share."""
 
 import math
 from collections.abc import Iterable
@@ -16,7 +16,7 @@ MAX_TRAINING_STEPS = 10**9
 MAX_UPDATES = 10_000_000
 """Gradient steps of one network."""
 MIN_TIME_SCALE, MAX_TIME_SCALE = 0.01, 100.0
-"""As in a scene file, where 1 is real time."""
+"""Limits of the time scale, as in a scene file; 1 is real time."""
 
 OnMissing = Literal["hold", "coast", "stop"]
 """Policies for an agent whose script's action is missing."""

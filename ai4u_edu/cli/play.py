@@ -14,7 +14,7 @@ from ai4u_edu.cli.options import OwnBlocks, load_own_blocks
 
 if TYPE_CHECKING:
     from ai4u_edu.agent import ControlRequestor
-    from ai4u_edu.editing import Workshop
+    from ai4u_edu.editing import SceneEditor
     from ai4u_edu.editing.unsaved import Unsaved
     from ai4u_edu.recording import Episode
     from ai4u_edu.runtime.runner import Runner
@@ -116,7 +116,7 @@ def serve_scene(settings: PlaySettings) -> None:
         AI4UError: the scene, a file or the address can't be used; the message says why.
     """
     from ai4u_edu.editing.autosave import Autosave, unsaved_folder, unsaved_scenes
-    from ai4u_edu.editing.unsaved import chosen
+    from ai4u_edu.editing.unsaved import choose_unsaved
     from ai4u_edu.recording import Episode, recorder_into
     from ai4u_edu.runtime.process_tuning import tuned_process
     from ai4u_edu.runtime.runner import Runner
@@ -128,7 +128,7 @@ def serve_scene(settings: PlaySettings) -> None:
     is_unsaved_wanted = settings.autosave or settings.restore
     unsaved = unsaved_scenes(unsaved_folder()) if is_unsaved_wanted else []
     restored = (
-        chosen(unsaved, settings.scene if settings.is_scene_named else "")
+        choose_unsaved(unsaved, settings.scene if settings.is_scene_named else "")
         if settings.restore
         else None
     )
@@ -140,19 +140,19 @@ def serve_scene(settings: PlaySettings) -> None:
     runner = Runner(
         sim, seed=_first_seed(settings, ghost), time_scale=settings.time_scale, recorder=recorder
     )
-    workshop = _make_workshop(settings, runner, scene, restored, unsaved)
+    editor = _make_editor(settings, runner, scene, restored, unsaved)
     autosave = (
         Autosave(unsaved_folder(), scene.description.name, _warn) if settings.autosave else None
     )
-    workshop.autosave = autosave
-    viewer = Viewer(runner, title=title, workshop=workshop)
+    editor.autosave = autosave
+    viewer = Viewer(runner, title=title, editor=editor)
     if ghost is not None and settings.ghost is not None:
         viewer.ghosts.race(ghost, settings.ghost.name)
     shut_side_door(viewer.server)
     room = room_app(
         runner,
         viser_port=viewer.port,
-        title=lambda: workshop.title,
+        title=lambda: editor.title,
         allowed_hosts=hosts_for(settings.host),
         proxy_hosts=settings.allowed_hosts,
         rules=settings.rules,
@@ -165,7 +165,7 @@ def serve_scene(settings: PlaySettings) -> None:
         if autosave is not None:
             ending.callback(autosave.stop)
         ending.callback(runner.stop)
-        on_ready = _announcer(settings, title, workshop, unsaved)
+        on_ready = _announcer(settings, title, editor, unsaved)
         serve(
             room, settings.host, settings.port, on_ready=on_ready, per_address=settings.connections
         )
@@ -186,39 +186,39 @@ def _first_seed(settings: PlaySettings, ghost: "Episode | None") -> int | None:
     return settings.seed
 
 
-def _make_workshop(
+def _make_editor(
     settings: PlaySettings,
     runner: "Runner",
     scene: "Scene",
     restored: "Unsaved | None",
     unsaved: "list[Unsaved]",
-) -> "Workshop":
-    from ai4u_edu.editing import Workshop
-    from ai4u_edu.editing.scene_store import Shelf
+) -> "SceneEditor":
+    from ai4u_edu.editing import SceneEditor
+    from ai4u_edu.editing.scene_store import SceneStore
 
-    workshop = Workshop(runner, scene, offers=settings.offers)
+    editor = SceneEditor(runner, scene, offers=settings.offers)
     if restored is not None:
-        workshop.restored(restored)
+        editor.mark_restored(restored)
     elif unsaved:
-        workshop.unsaved = unsaved[0]
+        editor.unsaved = unsaved[0]
     if settings.saved_scenes is not None:
-        workshop.shelf = Shelf(settings.saved_scenes)
-    return workshop
+        editor.scene_store = SceneStore(settings.saved_scenes)
+    return editor
 
 
 def _announcer(
-    settings: PlaySettings, title: str, workshop: "Workshop", unsaved: "list[Unsaved]"
+    settings: PlaySettings, title: str, editor: "SceneEditor", unsaved: "list[Unsaved]"
 ) -> Callable[[str], None]:
-    from ai4u_edu.editing.unsaved import listed
+    from ai4u_edu.editing.unsaved import format_unsaved
     from ai4u_edu.server import announcement, open_on_desktop, with_token
 
     def announce(url: str) -> None:
         typer.echo(announcement(title, settings.host, url, settings.rules.token))
-        if workshop.unsaved is not None:
-            when = workshop.unsaved.when
+        if editor.unsaved is not None:
+            when = editor.unsaved.when
             typer.echo(f"an unsaved scene from {when} is there: ai4u-edu play --restore")
         if len(unsaved) > 1:
-            typer.echo(f"unsaved scenes: {listed(unsaved)}: ai4u-edu play SCENE --restore")
+            typer.echo(f"unsaved scenes: {format_unsaved(unsaved)}: ai4u-edu play SCENE --restore")
         if settings.open_page:
             open_on_desktop(with_token(url, settings.rules.token))
 

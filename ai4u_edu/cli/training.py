@@ -1,4 +1,4 @@
-"""The commands for learning; what they need is loaded when they run."""
+"""Commands for training; heavy imports happen when a command runs."""
 
 import json
 from pathlib import Path
@@ -22,7 +22,7 @@ Folder = Annotated[Path, typer.Option(help="The training's folder.", show_defaul
 
 
 def add_to(app: typer.Typer) -> None:
-    """Adds the commands to a command line."""
+    """Add the commands to a command line."""
     app.command()(train)
     app.command()(evaluate)
     app.command()(export)
@@ -65,7 +65,7 @@ def train(
     ] = False,
     own_blocks: OwnBlocks = None,
 ) -> None:
-    r"""Let an agent learn a scene; Ctrl-C keeps what it learned.
+    r"""Train an agent in a scene; Ctrl-C keeps what it has learned.
 
     Needs: pip install "ai4u-edu\[train]"
     """
@@ -120,9 +120,9 @@ def evaluate(
     plot: Annotated[Path | None, typer.Option(help="Draw it into a PNG file.")] = None,
     own_blocks: OwnBlocks = None,
 ) -> None:
-    """Find out how good somebody drives, on seeds that nobody learned from.
+    """Measure how well a driver does, on seeds not used for training.
 
-    A model of Stable-Baselines3 (.zip) can run any program when it is read: only name your own.
+    Reading a Stable-Baselines3 model (.zip) can run any program: use only your own.
     """
     from ai4u_edu.base.optional_deps import need
     from ai4u_edu.scenes import Scene

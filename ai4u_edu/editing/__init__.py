@@ -1,9 +1,22 @@
-"""What a person changes in a running world: blocks, brains, bodies, whole scenes; and undo."""
+"""Edits of a running world: blocks, brains, bodies, whole scenes; with undo."""
 
+import warnings
+from typing import Any
+
+from ai4u_edu.editing.change_result import ChangeResult
 from ai4u_edu.editing.drivers import Driver
-from ai4u_edu.editing.editor import Workshop
+from ai4u_edu.editing.editor import SceneEditor
 from ai4u_edu.editing.errors import ChangeError
-from ai4u_edu.editing.outcome import Outcome
-from ai4u_edu.editing.state import State
+from ai4u_edu.editing.state import EditState
 
-__all__ = ["ChangeError", "Driver", "Outcome", "State", "Workshop"]
+__all__ = ["ChangeError", "ChangeResult", "Driver", "EditState", "SceneEditor"]
+
+_RENAMED: dict[str, Any] = {"Outcome": ChangeResult, "State": EditState, "Workshop": SceneEditor}
+
+
+def __getattr__(name: str) -> Any:
+    if name in _RENAMED:
+        now = _RENAMED[name]
+        warnings.warn(f"use {__name__}.{now.__name__}", DeprecationWarning, stacklevel=2)
+        return now
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

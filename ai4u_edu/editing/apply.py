@@ -10,10 +10,10 @@ from ai4u_edu.base.errors import AI4UError
 from ai4u_edu.blocks import Actuator, Block, Brain, RemoteBrain, RewardFunc, Sensor
 from ai4u_edu.blocks.brains.network import files_in
 from ai4u_edu.editing.body_edits import Furniture
+from ai4u_edu.editing.change_result import When
 from ai4u_edu.editing.difference import OWN, Difference
-from ai4u_edu.editing.drivers import Drivers
-from ai4u_edu.editing.outcome import When
-from ai4u_edu.editing.state import State
+from ai4u_edu.editing.drivers import DriverRegistry
+from ai4u_edu.editing.state import EditState
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.scenes.serialization import from_plain
 from ai4u_edu.world import Pose
@@ -30,7 +30,7 @@ class Live:
         drivers: make the brains that are in no description.
     """
 
-    def __init__(self, runner: Runner, state: State, drivers: Drivers) -> None:
+    def __init__(self, runner: Runner, state: EditState, drivers: DriverRegistry) -> None:
         self._runner = runner
         self._drivers = drivers
         self.shown = state
@@ -49,7 +49,7 @@ class Live:
         """Whether the runner's world is still the one that is changed here."""
         return self._runner.sim is self._sim
 
-    def bring_about(self, state: State, places: Mapping[str, Pose]) -> When:
+    def bring_about(self, state: EditState, places: Mapping[str, Pose]) -> When:
         """Applies as much as can be while the world runs; the rest waits for the next reset.
 
         Args:
@@ -74,7 +74,7 @@ class Live:
             return "next reset"
         return "now" if difference.only_things else "next decision"
 
-    def build_anew(self, state: State, seed: int | None = None) -> None:
+    def build_anew(self, state: EditState, seed: int | None = None) -> None:
         """Has a world that is built from a state run in place of the one that there is."""
         sim = state.scene.build()
         for agent in sim.agents:
@@ -106,7 +106,7 @@ class Live:
 
     # -- how -------------------------------------------------------------------------------------
 
-    def _apply(self, state: State, places: Mapping[str, Pose]) -> None:
+    def _apply(self, state: EditState, places: Mapping[str, Pose]) -> None:
         sim, before = self._sim, self.shown
         furniture = Furniture(sim.world)
         fresh = self._is_fresh()
@@ -139,7 +139,9 @@ class Live:
             agent.steps or isinstance(agent.brain, RemoteBrain) for agent in agents
         )
 
-    def _fit(self, agent: BasicAgent, before: State, state: State, *, world_changed: bool) -> bool:
+    def _fit(
+        self, agent: BasicAgent, before: EditState, state: EditState, *, world_changed: bool
+    ) -> bool:
         old, new = before.agent(agent.id), state.agent(agent.id)
         _set_own(agent, new)
         blocks_changed = any(
@@ -165,7 +167,7 @@ class Live:
                 guests = self._with_guest(agent.id, state, blocks.brains)
                 blocks = Blocks(blocks.sensors, blocks.actuators, blocks.rewards, guests)
             if world_changed or blocks_changed:
-                rebind(agent, self._sim.world, blocks, brain_goes_on=not blocks_changed)
+                rebind(agent, self._sim.world, blocks, keep_brain=not blocks_changed)
             else:
                 _swap(agent, blocks.brains)
         return True
@@ -187,14 +189,14 @@ class Live:
             brain.enabled = bool(plain.get("enabled", True))
         return brains
 
-    def _with_guest(self, agent_id: str, state: State, brains: Sequence[Brain]) -> list[Brain]:
+    def _with_guest(self, agent_id: str, state: EditState, brains: Sequence[Brain]) -> list[Brain]:
         """With the driver that a state names, who drives then."""
         like = next(brain for brain in brains if brain.enabled)
         guest = self._drivers.brain(state.drivers[agent_id], agent_id, like)
         like.enabled = False
         return [*brains, guest]
 
-    def _driven(self, agent: BasicAgent, state: State) -> None:
+    def _driven(self, agent: BasicAgent, state: EditState) -> None:
         agent.use_brain(self._drivers.brain(state.drivers[agent.id], agent.id, agent.brain))
 
     def _describe(self) -> None:
@@ -273,7 +275,7 @@ def _made(
     return made
 
 
-def _without_brains(state: State) -> list[dict[str, Any]]:
+def _without_brains(state: EditState) -> list[dict[str, Any]]:
     agents = state.description.agents
     return [{name: each for name, each in agent.items() if name != "brains"} for agent in agents]
 

@@ -16,7 +16,7 @@ from secrets import token_hex
 
 from ai4u_edu.base.atomic_write import partial_file, reason, remove_leftovers
 from ai4u_edu.base.file_lock import FileLock
-from ai4u_edu.editing.state import State
+from ai4u_edu.editing.state import EditState
 from ai4u_edu.editing.unsaved import ENDING, LOCK_ENDING, Unsaved, latest, prune, unsaved_scenes
 
 __all__ = ["Autosave", "Unsaved", "latest", "unsaved_folder", "unsaved_scenes"]
@@ -48,7 +48,7 @@ class _Work:
 
     opened: object
     file: Path | None = None
-    restored: State | None = None
+    restored: EditState | None = None
     """The scene as it was opened, if that was unsaved already."""
 
 
@@ -74,7 +74,7 @@ class Autosave:
         self._lock: FileLock | None = None
         self._holding = threading.Lock()
         self._works: list[_Work] = []
-        self._due: dict[int, tuple[_Work, State | None]] = {}
+        self._due: dict[int, tuple[_Work, EditState | None]] = {}
         self._since = 0.0
         self._stopping = False
         self._changed = threading.Condition()
@@ -89,7 +89,7 @@ class Autosave:
         self._thread = threading.Thread(target=self._run, name="autosave", daemon=True)
         self._thread.start()
 
-    def note(self, state: State | None, opened: object = None) -> None:
+    def note(self, state: EditState | None, opened: object = None) -> None:
         """Have a state written soon, which costs the caller nothing.
 
         Args:
@@ -103,7 +103,7 @@ class Autosave:
             self._due[id(work)] = work, work.restored if state is None else state
             self._changed.notify()
 
-    def claim(self, unsaved: Unsaved, opened: State) -> None:
+    def claim(self, unsaved: Unsaved, opened: EditState) -> None:
         """Take over a file that a killed server left; it is kept until somebody saves the scene.
 
         Args:
@@ -169,7 +169,7 @@ class Autosave:
             if all(self._due[key] is each for key, each in before.items()):
                 break
 
-    def _keep(self, work: _Work, state: State | None) -> bool:
+    def _keep(self, work: _Work, state: EditState | None) -> bool:
         """Write a state, or delete the file of one that is no longer unsaved."""
         try:
             if state is not None:
@@ -214,7 +214,7 @@ def _home() -> Path:
         return Path(os.devnull)
 
 
-def _write(file: Path, state: State) -> None:
+def _write(file: Path, state: EditState) -> None:
     data = {
         "scene": state.description.name,
         "text": state.scene.dumps(),

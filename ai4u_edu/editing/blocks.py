@@ -28,9 +28,9 @@ from ai4u_edu.editing.typed import (
     check_typed_and,
     schema_of,
 )
-from ai4u_edu.scenes.serialization import fits_a_file, from_plain
+from ai4u_edu.scenes.serialization import from_plain, is_serializable
 
-Path = tuple[str | int, ...]
+BlockPath = tuple[str | int, ...]
 Plain = Mapping[str, Any]
 
 KINDS: dict[str, type[Block]] = {
@@ -45,7 +45,7 @@ KINDS: dict[str, type[Block]] = {
 """What kind of blocks stands in each parameter that holds some."""
 
 
-def kind_at(path: Path) -> type[Block]:
+def kind_at(path: BlockPath) -> type[Block]:
     """What kind of block stands at a path."""
     _check_path(path)
     names = [part for part in path if isinstance(part, str)]
@@ -64,11 +64,11 @@ def types_of(kind: str) -> list[type[Block]]:
     return [
         cls
         for _, cls in sorted(Block.types.items())
-        if issubclass(cls, base) and fits_a_file(cls) and not cls.__dict__.get("abstract")
+        if issubclass(cls, base) and is_serializable(cls) and not cls.__dict__.get("abstract")
     ]
 
 
-def block_at(agent: Plain, path: Path) -> Plain:
+def block_at(agent: Plain, path: BlockPath) -> Plain:
     """A block as data."""
     here: Any = agent
     _check_path(path)
@@ -82,7 +82,7 @@ def block_at(agent: Plain, path: Path) -> Plain:
     return here
 
 
-def changed(agent: Plain, path: Path, values: Plain) -> Plain:
+def changed(agent: Plain, path: BlockPath, values: Plain) -> Plain:
     """With other parameters of a block; None, or the default, leaves a parameter out.
 
     Raises:
@@ -104,7 +104,9 @@ def changed(agent: Plain, path: Path, values: Plain) -> Plain:
     return _put(agent, path, lambda _: block)
 
 
-def added(agent: Plain, where: Path, block: Plain, index: int | None = None) -> tuple[Plain, Path]:
+def added(
+    agent: Plain, where: BlockPath, block: Plain, index: int | None = None
+) -> tuple[Plain, BlockPath]:
     """With one block more, and its path.
 
     Args:
@@ -128,11 +130,11 @@ def added(agent: Plain, where: Path, block: Plain, index: int | None = None) -> 
     return _put(agent, tuple(above), lambda owner: {**owner, kind: blocks}), (*where, place)
 
 
-def listed(agent: Plain, kind: str) -> list[Path]:
+def block_paths(agent: Plain, kind: str) -> list[BlockPath]:
     """The paths of all blocks of a kind, each followed by those that are part of it."""
-    found: list[Path] = []
+    found: list[BlockPath] = []
 
-    def look(blocks: Any, where: Path) -> None:
+    def look(blocks: Any, where: BlockPath) -> None:
         for index, block in enumerate(blocks):
             found.append((*where, index))
             for name, value in block.items():
@@ -147,7 +149,7 @@ def listed(agent: Plain, kind: str) -> list[Path]:
     return found
 
 
-def removed(agent: Plain, path: Path) -> Plain:
+def removed(agent: Plain, path: BlockPath) -> Plain:
     """Without a block."""
     block_at(agent, path)
     *above, index = path
@@ -156,7 +158,7 @@ def removed(agent: Plain, path: Path) -> Plain:
     return _put(agent, tuple(above), lambda blocks: [*blocks[:index], *blocks[index + 1 :]])
 
 
-def moved(agent: Plain, path: Path, by: int) -> Plain:
+def moved(agent: Plain, path: BlockPath, by: int) -> Plain:
     """With a block so many places further down among its like; negative for up."""
     block = block_at(agent, path)
     check_number(by, "by", MAX_COUNT)
@@ -172,7 +174,7 @@ def moved(agent: Plain, path: Path, by: int) -> Plain:
     return _put(agent, tuple(above), move)
 
 
-def switched(agent: Plain, path: Path, on: bool) -> Plain:
+def switched(agent: Plain, path: BlockPath, on: bool) -> Plain:
     """With a block on or off; of brains exactly one is on."""
     block_at(agent, path)
     if not isinstance(on, bool):
@@ -192,12 +194,12 @@ def switched(agent: Plain, path: Path, on: bool) -> Plain:
     return {**agent, "brains": brains}
 
 
-def is_on(path: Path, block: Plain) -> bool:
+def is_enabled(path: BlockPath, block: Plain) -> bool:
     """Whether a block takes part."""
     return bool(block.get("enabled" if path[0] == "brains" else "is_active", True))
 
 
-def _put(here: Any, path: Path, change: Callable[[Any], Any]) -> Plain:
+def _put(here: Any, path: BlockPath, change: Callable[[Any], Any]) -> Plain:
     if not path:
         return cast(Plain, change(here))
     part, *rest = path

@@ -9,7 +9,7 @@ from pydantic import ValidationError
 from ai4u_edu.base.errors import NameNotFoundError, shown, suggest
 from ai4u_edu.base.parameters import MAX_NUMBER, Problem, explain
 from ai4u_edu.editing.errors import ChangeError
-from ai4u_edu.editing.state import State
+from ai4u_edu.editing.state import EditState
 from ai4u_edu.editing.typed import (
     check_name,
     check_number,
@@ -24,7 +24,7 @@ MAX_POSITION_M, MAX_HEADING_DEG = 1e4, 3600.0
 _SCHEMA = BodyDescription.model_json_schema()
 
 
-def body_named(state: State, name: str) -> BodyDescription:
+def body_named(state: EditState, name: str) -> BodyDescription:
     """The description of a body."""
     bodies = {body.name: body for body in state.description.bodies}
     check_name(name, "the name of a body")
@@ -50,7 +50,7 @@ def described(given: BodyDescription | Mapping[str, Any]) -> BodyDescription:
         raise ChangeError(explain(error.errors(), BodyDescription)) from None
 
 
-def with_body(state: State, body: BodyDescription) -> State:
+def with_body(state: EditState, body: BodyDescription) -> EditState:
     """With one body more, the last of them."""
     if any(thing.name == body.name for thing in state.description.things):
         text = f"something is named {body.name!r} already; expected another name, such as "
@@ -58,7 +58,7 @@ def with_body(state: State, body: BodyDescription) -> State:
     return state.describing(bodies=(*state.description.bodies, body))
 
 
-def without_body(state: State, name: str) -> State:
+def without_body(state: EditState, name: str) -> EditState:
     """Without a body."""
     body_named(state, name)
     for agent in state.description.agents:
@@ -69,7 +69,7 @@ def without_body(state: State, name: str) -> State:
     return state.describing(bodies=bodies)
 
 
-def with_other_body(state: State, name: str, values: Mapping[str, Any]) -> State:
+def with_other_body(state: EditState, name: str, values: Mapping[str, Any]) -> EditState:
     """With other parameters of a body; None leaves one out, so that it is as by default."""
     body = body_named(state, name)
     check_plain(values)
@@ -85,7 +85,7 @@ def with_other_body(state: State, name: str, values: Mapping[str, Any]) -> State
     return state.describing(bodies=tuple(other if each is body else each for each in bodies))
 
 
-def placed(state: State, name: str, x: float, y: float, heading_deg: float) -> State:
+def placed(state: EditState, name: str, x: float, y: float, heading_deg: float) -> EditState:
     """With a body somewhere else."""
     check_place(x, y, heading_deg)
     values = {"position": (round(x, 4), round(y, 4)), "heading_deg": round(heading_deg, 3)}
@@ -112,7 +112,7 @@ def check_held(x: float, y: float, heading_deg: float | None) -> None:
             check_number(value, what, bound)
 
 
-def free_name(state: State, like: str) -> str:
+def free_name(state: EditState, like: str) -> str:
     """A name that nothing has: ``box``, ``box 2``, ``box 3``."""
     taken = {thing.name for thing in state.description.things}
     stem = like.rstrip("0123456789 ") or like

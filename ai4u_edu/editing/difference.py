@@ -3,7 +3,7 @@
 from dataclasses import replace
 from functools import cached_property
 
-from ai4u_edu.editing.state import State
+from ai4u_edu.editing.state import EditState
 
 OWN = (
     "max_steps_per_episode",
@@ -24,7 +24,7 @@ class Difference:
         new: what it is to be.
     """
 
-    def __init__(self, old: State, new: State) -> None:
+    def __init__(self, old: EditState, new: EditState) -> None:
         self._old, self._new = old, new
 
     @property
@@ -39,7 +39,7 @@ class Difference:
         return same and self._old.drivers == self._new.drivers
 
     @cached_property
-    def possible_now(self) -> State:
+    def possible_now(self) -> EditState:
         """What the world may be before its next reset: the new state, or something before it."""
         new = self._new.description
         fields = {name: getattr(new, name) for name in TEXTS}
@@ -59,7 +59,7 @@ class Difference:
         return sum(old.get(name) != new.get(name) for name in names) <= 1
 
     def _same_agents(self) -> bool:
-        def fixed(state: State) -> list[dict[str, object]]:
+        def fixed(state: EditState) -> list[dict[str, object]]:
             agents = state.description.agents
             return [{k: v for k, v in agent.items() if k not in LIVE} for agent in agents]
 

@@ -9,9 +9,9 @@ from ai4u_edu.blocks import Block, Brain, LocalBrain, NeuralNetController
 from ai4u_edu.blocks.brains.address import brain_at
 from ai4u_edu.blocks.brains.network import IN_THE_ZOO, files_in
 from ai4u_edu.editing.blocks import Plain, types_of
-from ai4u_edu.editing.drivers import NETWORK, REMOTE, Driver, Drivers
+from ai4u_edu.editing.drivers import NETWORK, REMOTE, Driver, DriverRegistry
 from ai4u_edu.editing.errors import ChangeError
-from ai4u_edu.editing.state import State
+from ai4u_edu.editing.state import EditState
 from ai4u_edu.scenes.serialization import to_plain
 from ai4u_edu.zoo import names as in_the_zoo
 
@@ -32,7 +32,7 @@ TO_OFFER = (
 )
 
 
-def driven_by(state: State, agent_id: str, name: str, drivers: Drivers) -> State:
+def driven_by(state: EditState, agent_id: str, name: str, drivers: DriverRegistry) -> EditState:
     """With somebody else who drives an agent.
 
     Args:
@@ -61,7 +61,7 @@ def driven_by(state: State, agent_id: str, name: str, drivers: Drivers) -> State
     return _only(state.driven(agent_id, ""), agent_id, brains, same.index(True))
 
 
-def offered(state: State, agent_id: str) -> list[Driver]:
+def offered(state: EditState, agent_id: str) -> list[Driver]:
     """Who may drive an agent: its brains, keyboards, controllers and networks that come with us."""
     agent = state.agent(agent_id)
     brains = [
@@ -83,7 +83,7 @@ def offered(state: State, agent_id: str) -> list[Driver]:
     return [*brains, *keys, *(n for n in networks if n.title not in has), *remote]
 
 
-def _beside(state: State) -> list[str]:
+def _beside(state: EditState) -> list[str]:
     """The networks that lie beside the scene's file."""
     return [] if state.folder is None else sorted(path.name for path in state.folder.glob("*.onnx"))
 
@@ -100,7 +100,7 @@ def title_of(brain: Plain) -> str:
     return str(brain["type"])
 
 
-def _plain_brain(state: State, name: str, rhythm: dict[str, Any]) -> Plain:
+def _plain_brain(state: EditState, name: str, rhythm: dict[str, Any]) -> Plain:
     if name.startswith(REMOTE):
         return _plain(brain_at(name).changed(**rhythm))
     if name.startswith(NETWORK):
@@ -119,7 +119,7 @@ def _plain_brain(state: State, name: str, rhythm: dict[str, Any]) -> Plain:
     }
 
 
-def _only(state: State, agent_id: str, brains: list[Plain], index: int) -> State:
+def _only(state: EditState, agent_id: str, brains: list[Plain], index: int) -> EditState:
     switched = [
         {k: v for k, v in brain.items() if k != "enabled"}
         | ({} if number == index else {"enabled": False})

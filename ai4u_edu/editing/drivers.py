@@ -30,12 +30,12 @@ class Driver:
     """Somebody who may drive."""
 
     name: str
-    """By which :meth:`Workshop.drive` knows it."""
+    """By which :meth:`SceneEditor.set_driver` knows it."""
     title: str
     """What a person calls it."""
 
 
-class Drivers:
+class DriverRegistry:
     """The scripts, recordings, networks and addresses from which a page may choose.
 
     A page sends names, never code: a script is a file that whoever started the world has named, or

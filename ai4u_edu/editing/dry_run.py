@@ -8,10 +8,10 @@ from ai4u_edu.base.parameters import Problem
 from ai4u_edu.blocks import Answer, Brain, Command, Percept
 from ai4u_edu.blocks.brains.network import files_in
 from ai4u_edu.editing.errors import ChangeError
-from ai4u_edu.editing.state import State
+from ai4u_edu.editing.state import EditState
 from ai4u_edu.scenes.description import check_success, make_agents
 from ai4u_edu.scenes.scene import EPISODES
-from ai4u_edu.scenes.serialization import PlainError
+from ai4u_edu.scenes.serialization import PlainDataError
 from ai4u_edu.scenes.setup_errors import field_named_in
 from ai4u_edu.world import World
 
@@ -28,7 +28,7 @@ class _Nobody(Brain):
         return Command.WAIT
 
 
-def tried(state: State, where: Path = (), *, episodes: int = 1) -> ControlRequestor:
+def tried(state: EditState, where: Path = (), *, episodes: int = 1) -> ControlRequestor:
     """Builds a scene, with brains that do nothing, and lets its agents sense once.
 
     Args:
@@ -51,7 +51,7 @@ def tried(state: State, where: Path = (), *, episodes: int = 1) -> ControlReques
         sim = ControlRequestor(world, agents)
         for seed in range(episodes if any(each.random for each in description.things) else 1):
             sim.reset(seed)
-    except PlainError as error:
+    except PlainDataError as error:
         raise ChangeError([seen_from(where, each) for each in error.problems]) from None
     except WorldError as error:
         problem = Problem(description.where_is(error.thing), f"where all begin, {error}")

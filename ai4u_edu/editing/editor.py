@@ -11,11 +11,11 @@ from ai4u_edu.base.errors import AI4UError, SetupError, shown
 from ai4u_edu.editing import blocks, bodies, settings
 from ai4u_edu.editing import driver_options as choice
 from ai4u_edu.editing.autosave import Autosave, Unsaved
-from ai4u_edu.editing.blocks import Path, Plain
-from ai4u_edu.editing.drivers import Driver, Drivers
-from ai4u_edu.editing.outcome import Outcome, failed
-from ai4u_edu.editing.scene_store import Shelf
-from ai4u_edu.editing.state import State
+from ai4u_edu.editing.blocks import BlockPath, Plain
+from ai4u_edu.editing.change_result import ChangeResult, failed
+from ai4u_edu.editing.drivers import Driver, DriverRegistry
+from ai4u_edu.editing.scene_store import SceneStore
+from ai4u_edu.editing.state import EditState
 from ai4u_edu.editing.transactions import Bench, Made
 from ai4u_edu.editing.typed import check_name, check_plain
 from ai4u_edu.runtime.runner import Runner
@@ -25,13 +25,13 @@ from ai4u_edu.scenes.yaml.file import YamlFile, write_yaml
 from ai4u_edu.world import BodyDescription, Pose
 
 
-class Workshop:
+class SceneEditor:
     """What a person changes in a running world: its agents' blocks, brains, bodies, the scene.
 
-    Every verb is a command: it may be called from any thread, returns at once, and is carried out
-    in the runner's thread between two decisions. What comes of it is in the future: an
-    :class:`Outcome` that says when it applies, or a :class:`ChangeError` that says what is wrong,
-    field by field; then nothing was changed. Don't wait for a future in the runner's thread.
+    Every method that changes something may be called from any thread and returns a future at once.
+    The change is made in the runner's thread between two decisions. The future's result is a
+    :class:`ChangeResult` (when it takes effect), its exception a :class:`ChangeError` (what is
+    wrong, field by field; nothing was changed then). Don't wait for it in the runner's thread.
 
     Args:
         runner: whose world is changed.
@@ -41,8 +41,8 @@ class Workshop:
 
     >>> scene = Scene.load("box_chase")
     >>> runner = Runner(scene.build(), seed=1)
-    >>> workshop = Workshop(runner, scene)
-    >>> future = workshop.add_block("0", "sensors", {"type": "BearingSensor", "target": "box"})
+    >>> editor = SceneEditor(runner, scene)
+    >>> future = editor.add_block("0", "sensors", {"type": "BearingSensor", "target": "box"})
     >>> runner.advance()
     >>> str(future.result())
     'it applies at the next decision'
@@ -58,15 +58,15 @@ class Workshop:
         offers: Iterable[FilePath | str] = (),
     ) -> None:
         self._runner = runner
-        self._drivers = Drivers(offers)
-        state = State(scene.description, scene.folder, source=scene.source)
+        self._drivers = DriverRegistry(offers)
+        state = EditState(scene.description, scene.folder, source=scene.source)
         self._bench = Bench(runner, state, self._drivers)
         self._do = self._bench.do
         self.unsaved: Unsaved | None = None
         """A scene that was left by a server that was killed, to be offered."""
         self.autosave: Autosave | None = None
         """Keeps what is changed; left out in notebooks and tests."""
-        self.shelf: Shelf | None = None
+        self.scene_store: SceneStore | None = None
         """Where pages keep scenes by name; none, and they can only take them home."""
         self._brought: Unsaved | None = None
         self.listeners = self._bench.listeners
@@ -76,7 +76,7 @@ class Workshop:
     # -- what can be asked, from any thread ------------------------------------------------------
 
     @property
-    def state(self) -> State:
+    def state(self) -> EditState:
         """What is wanted; replaced with every change, never changed itself."""
         return self._bench.state
 
@@ -111,13 +111,13 @@ class Workshop:
         return self._bench.waits_for_reset
 
     @property
-    def can_undo(self) -> str:
+    def undo_label(self) -> str:
         """What would be taken back, in a few words; empty if there is nothing."""
         last = self._bench.history.last
         return last.label if last else ""
 
     @property
-    def can_redo(self) -> str:
+    def redo_label(self) -> str:
         """What would be done again, in a few words; empty if there is nothing."""
         step = self._bench.history.next
         return step.label if step else ""
@@ -143,7 +143,7 @@ class Workshop:
 
     # -- blocks ----------------------------------------------------------------------------------
 
-    def change_block(self, agent_id: str, path: Path, values: Plain) -> "Future[Outcome]":
+    def change_block(self, agent_id: str, path: BlockPath, values: Plain) -> "Future[ChangeResult]":
         """Gives a block other parameters.
 
         Args:
@@ -154,8 +154,8 @@ class Workshop:
         return self._of_agent(agent_id, path, "change", lambda a: blocks.changed(a, path, values))
 
     def add_block(
-        self, agent_id: str, kind: str | Path, block: Plain, index: int | None = None
-    ) -> "Future[Outcome]":
+        self, agent_id: str, kind: str | BlockPath, block: Plain, index: int | None = None
+    ) -> "Future[ChangeResult]":
         """Adds a block.
 
         Args:
@@ -176,20 +176,20 @@ class Workshop:
 
         return self._do(make)
 
-    def remove_block(self, agent_id: str, path: Path) -> "Future[Outcome]":
+    def remove_block(self, agent_id: str, path: BlockPath) -> "Future[ChangeResult]":
         """Takes a block away."""
         return self._of_agent(agent_id, path, "remove", lambda a: blocks.removed(a, path))
 
-    def move_block(self, agent_id: str, path: Path, by: int) -> "Future[Outcome]":
+    def move_block(self, agent_id: str, path: BlockPath, by: int) -> "Future[ChangeResult]":
         """Moves a block up (-1) or down (1) among its like."""
         return self._of_agent(agent_id, path, "move", lambda a: blocks.moved(a, path, by))
 
-    def switch_block(self, agent_id: str, path: Path, on: bool) -> "Future[Outcome]":
+    def switch_block(self, agent_id: str, path: BlockPath, on: bool) -> "Future[ChangeResult]":
         """Switches a block on or off; to switch a brain on switches the others off."""
         word = "switch on" if on else "switch off"
         return self._of_agent(agent_id, path, word, lambda a: blocks.switched(a, path, on))
 
-    def change_agent(self, agent_id: str, values: Plain) -> "Future[Outcome]":
+    def change_agent(self, agent_id: str, values: Plain) -> "Future[ChangeResult]":
         """Gives an agent other parameters of its own, such as ``max_steps_per_episode``.
 
         ``skip_frame`` and ``repeat_action`` are those of the brain that is on.
@@ -204,7 +204,7 @@ class Workshop:
 
     # -- who drives ------------------------------------------------------------------------------
 
-    def drive(self, agent_id: str, name: str) -> "Future[Outcome]":
+    def set_driver(self, agent_id: str, name: str) -> "Future[ChangeResult]":
         """Lets somebody else drive an agent: one of :meth:`drivers`, or an ``ai4u://`` address."""
 
         def make() -> Made:
@@ -216,7 +216,7 @@ class Workshop:
 
     # -- bodies ----------------------------------------------------------------------------------
 
-    def carry(
+    def drag(
         self, name: str, x: float, y: float, heading_deg: float | None = None
     ) -> "Future[None]":
         """Puts a body somewhere for as long as a hand holds it; :meth:`move_body` lets go of it.
@@ -224,15 +224,15 @@ class Workshop:
         Metres, degrees. Nothing is in its way, the scene does not know of it, and it can't be
         taken back.
         """
-        return self._runner.submit(lambda: self._bench.carry(name, x, y, heading_deg))
+        return self._runner.submit(lambda: self._bench.drag(name, x, y, heading_deg))
 
-    def put_back(self, name: str) -> "Future[None]":
+    def cancel_drag(self, name: str) -> "Future[None]":
         """A body that was carried goes back to where it was taken up."""
-        return self._runner.submit(lambda: self._bench.put_back(name))
+        return self._runner.submit(lambda: self._bench.cancel_drag(name))
 
     def move_body(
         self, name: str, x: float, y: float, heading_deg: float | None = None
-    ) -> "Future[Outcome]":
+    ) -> "Future[ChangeResult]":
         """Puts a body somewhere, at rest, now and at each reset from now on.
 
         Args:
@@ -254,7 +254,7 @@ class Workshop:
         places: dict[str, Pose] = {}
         return self._do(make, places=places)
 
-    def add_body(self, body: BodyDescription | Mapping[str, Any]) -> "Future[Outcome]":
+    def add_body(self, body: BodyDescription | Mapping[str, Any]) -> "Future[ChangeResult]":
         """Adds a body, from its description; :meth:`free_name` knows a name for it."""
 
         def make() -> Made:
@@ -265,11 +265,11 @@ class Workshop:
 
         return self._do(make)
 
-    def remove_body(self, name: str) -> "Future[Outcome]":
+    def remove_body(self, name: str) -> "Future[ChangeResult]":
         """Takes a body out of the world; one that an agent has, or that a block needs, stays."""
         return self._do(lambda: (bodies.without_body(self.state, name), f"remove {name}", ()))
 
-    def change_body(self, name: str, values: Mapping[str, Any]) -> "Future[Outcome]":
+    def change_body(self, name: str, values: Mapping[str, Any]) -> "Future[ChangeResult]":
         """Gives a body other parameters, those of :class:`BodyDescription`."""
 
         def make() -> Made:
@@ -284,7 +284,7 @@ class Workshop:
 
     # -- whole scenes ----------------------------------------------------------------------------
 
-    def change_scene(self, values: Mapping[str, Any]) -> "Future[Outcome]":
+    def change_scene(self, values: Mapping[str, Any]) -> "Future[ChangeResult]":
         """Gives the scene other words or settings: ``title``, ``goal``, ``world``, ``floors``..."""
 
         def make() -> Made:
@@ -295,7 +295,7 @@ class Workshop:
 
         return self._do(make)
 
-    def change_settings(self, values: Plain) -> "Future[Outcome]":
+    def change_settings(self, values: Plain) -> "Future[ChangeResult]":
         """Gives the scene another ``title`` or ``goal``, its world other settings: ``gravity``...
 
         Words apply at once; what holds for the whole world at the next reset.
@@ -307,16 +307,16 @@ class Workshop:
 
         return self._do(make)
 
-    def open(self, scene: Scene) -> "Future[Outcome]":
+    def open(self, scene: Scene) -> "Future[ChangeResult]":
         """Has another scene run in place of this one; undo brings this one back."""
 
         def make() -> Made:
-            state = State(scene.description, scene.folder, source=scene.source)
+            state = EditState(scene.description, scene.folder, source=scene.source)
             return state, f"open {scene.description.name}", ()
 
         return self._do(make, whole=True)
 
-    def load(self, text: object, name: str = "scene.yaml") -> "Future[Outcome]":
+    def load(self, text: object, name: str = "scene.yaml") -> "Future[ChangeResult]":
         """Run a scene that somebody wrote: YAML text, which is read and checked, never executed.
 
         It is read in the caller's thread. The file's errors come with their lines.
@@ -331,7 +331,7 @@ class Workshop:
             return failed(error)
         return self.open(scene)
 
-    def bring_back(self) -> "Future[Outcome]":
+    def restore_unsaved(self) -> "Future[ChangeResult]":
         """Has the scene run that was left unsaved."""
         unsaved, self.unsaved = self.unsaved, None
         if unsaved is None:
@@ -342,23 +342,23 @@ class Workshop:
             return failed(error)
         future = self.open(scene)
 
-        def tell(done: "Future[Outcome]") -> None:
+        def tell(done: "Future[ChangeResult]") -> None:
             if done.cancelled() or done.exception() is not None:
                 self.unsaved = self.unsaved or unsaved
             else:
-                self.restored(unsaved)
+                self.mark_restored(unsaved)
 
         future.add_done_callback(tell)
         return future
 
-    def restored(self, unsaved: Unsaved) -> None:
+    def mark_restored(self, unsaved: Unsaved) -> None:
         """The scene that was opened last is one that was left unsaved; it is kept as such."""
         if self.autosave is None:
             self._brought = unsaved
         else:
             self.autosave.claim(unsaved, self._bench.opened)
 
-    def forget(self) -> None:
+    def mark_saved(self) -> None:
         """Somebody has saved the scene as it is; what was left by others is not offered again."""
         self.unsaved = None
         if self._brought is not None:
@@ -367,7 +367,7 @@ class Workshop:
         if self.autosave is not None:
             self.autosave.forget(self._bench.opened)
 
-    def discard(self) -> None:
+    def discard_unsaved(self) -> None:
         """Delete the scene that was left unsaved; what is kept of the one that runs stays."""
         unsaved, self.unsaved = self.unsaved, None
         if unsaved is not None:
@@ -375,15 +375,15 @@ class Workshop:
 
     # -- back and forth --------------------------------------------------------------------------
 
-    def undo(self) -> "Future[Outcome]":
+    def undo(self) -> "Future[ChangeResult]":
         """Takes the last change back; the time goes on."""
         return self._runner.submit(self._bench.undo)
 
-    def redo(self) -> "Future[Outcome]":
+    def redo(self) -> "Future[ChangeResult]":
         """Makes the change again that was taken back last."""
         return self._runner.submit(self._bench.redo)
 
-    def _keep(self, state: State) -> None:
+    def _keep(self, state: EditState) -> None:
         """Has what was changed written down; of a scene that was only opened there is nothing."""
         if self.autosave is None:
             return
@@ -396,8 +396,8 @@ class Workshop:
     # -- how -------------------------------------------------------------------------------------
 
     def _of_agent(
-        self, agent_id: str, path: Path, word: str, change: Callable[[Plain], Plain]
-    ) -> "Future[Outcome]":
+        self, agent_id: str, path: BlockPath, word: str, change: Callable[[Plain], Plain]
+    ) -> "Future[ChangeResult]":
         def make() -> Made:
             agent = self.state.agent(agent_id)
             label = f"{word} {blocks.block_at(agent, path)['type']}"
@@ -406,5 +406,5 @@ class Workshop:
 
         return self._do(make)
 
-    def _where(self, agent_id: str, path: Path) -> Path:
+    def _where(self, agent_id: str, path: BlockPath) -> BlockPath:
         return ("agents", self.state.agent_index(agent_id), *path)

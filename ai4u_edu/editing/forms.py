@@ -13,14 +13,14 @@ from ai4u_edu.blocks import Actuator, Block, Brain, Controller, RewardFunc, Sens
 from ai4u_edu.blocks.docs import summary
 from ai4u_edu.editing.blocks import KINDS, Plain
 from ai4u_edu.editing.errors import ChangeError
-from ai4u_edu.editing.names import Names
+from ai4u_edu.editing.names import SceneNames
 from ai4u_edu.scenes.yaml.file import YamlFile
 
 Kind = Literal["number", "whole", "switch", "choice", "text", "data"]
 BASES = (Sensor, Actuator, RewardFunc, Brain, Controller)
 SWITCHES = {"is_active", "enabled"}
 """Not in a form: a button switches a block on and off."""
-NONE = "(none)"
+NONE_LABEL = "(none)"
 
 
 @dataclass(frozen=True)
@@ -41,12 +41,12 @@ class Field:
     def shown(self) -> str:
         """The value as it is written in a box, or named in a list."""
         if self.value is None:
-            return NONE if self.kind == "choice" else ""
+            return NONE_LABEL if self.kind == "choice" else ""
         if self.kind == "data":
             return _written(self.value)
         if isinstance(self.value, float):
             return f"{self.value:.10g}"
-        return str(self.value) if self.value != "" or self.kind != "choice" else NONE
+        return str(self.value) if self.value != "" or self.kind != "choice" else NONE_LABEL
 
     def read(self, said: Any) -> Any:
         """What a person made of it, plain; None for "as by default".
@@ -57,7 +57,7 @@ class Field:
         if self.kind == "switch":
             return bool(said)
         if self.kind == "choice":
-            return {**{str(each): each for each in self.choices}, NONE: None}.get(said, said)
+            return {**{str(each): each for each in self.choices}, NONE_LABEL: None}.get(said, said)
         if isinstance(said, str) and not said.strip():
             return None
         if self.kind in {"number", "whole"}:
@@ -65,7 +65,7 @@ class Field:
         return _data(self.name, str(said)) if self.kind == "data" else str(said)
 
 
-def form(block: Plain, names: Names) -> list[Field]:
+def block_form(block: Plain, names: SceneNames) -> list[Field]:
     """The parameters of a block, its own before those that all of its kind have.
 
     Args:
@@ -94,7 +94,7 @@ def form(block: Plain, names: Names) -> list[Field]:
     return sorted(fields, key=turn)
 
 
-def about(block: Plain) -> str:
+def block_summary(block: Plain) -> str:
     """What a block is, in a sentence."""
     return summary(Block.types[str(block["type"])])
 
@@ -145,7 +145,7 @@ def field_of(
     elif is_number:
         kind = "whole" if what["type"] == "integer" else "number"
     if kind == "choice" and (can_be_none or value is None):
-        choices = (NONE, *(each for each in choices if each != ""))
+        choices = (NONE_LABEL, *(each for each in choices if each != ""))
     return Field(name, label, kind, value, hint.removesuffix(": "), choices, is_common)
 
 

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from ai4u_edu.editing.state import State
+from ai4u_edu.editing.state import EditState
 from ai4u_edu.world import Pose
 
 DEPTH = 200
@@ -14,15 +14,15 @@ class Step:
     """One change."""
 
     label: str
-    before: State
-    after: State
+    before: EditState
+    after: EditState
     was: dict[str, Pose]
     """Where the bodies stood that it moved."""
     now: dict[str, Pose]
     """Where it put them."""
     whole: bool = False
     """Whether another scene runs since then."""
-    opened: State | None = None
+    opened: EditState | None = None
     """What had been opened last before."""
 
 

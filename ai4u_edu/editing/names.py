@@ -5,10 +5,10 @@ from functools import cached_property
 from typing import Any
 
 from ai4u_edu.blocks import Block
-from ai4u_edu.editing.state import State
+from ai4u_edu.editing.state import EditState
 
 
-class Names:
+class SceneNames:
     """The names in a scene, as one of its agents may use them.
 
     Args:
@@ -16,7 +16,7 @@ class Names:
         agent_id: the agent.
     """
 
-    def __init__(self, state: State, agent_id: str) -> None:
+    def __init__(self, state: EditState, agent_id: str) -> None:
         self._description = state.description
         self.agent = state.agent(agent_id)
 

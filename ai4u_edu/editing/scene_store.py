@@ -10,22 +10,22 @@ from ai4u_edu.base.errors import SceneError, SetupError, suggest
 from ai4u_edu.blocks.brains.network import IN_THE_ZOO
 from ai4u_edu.editing.permissions import outward
 from ai4u_edu.scenes import Scene
-from ai4u_edu.scenes.yaml.file import MAX_SIZE
+from ai4u_edu.scenes.yaml.file import MAX_SCENE_CHARS
 
 ENDING = ".yaml"
 NAME = re.compile(r"[^\W_](?:[\w -]{0,58}[\w-])?")
 """Letters of any script, digits, spaces, - and _; so no name is a path, hidden, or an option."""
 DEVICES = re.compile(r"(?i)con|prn|aux|nul|(com|lpt)[0-9]")
 """What Windows takes for something else than a file."""
-MOST = 300
-"""So many scenes lie on one shelf: a page must not fill a disk."""
+MAX_SCENES = 300
+"""So many scenes lie in one store: a page must not fill a disk."""
 
 
-class TakenError(SetupError):
+class SceneExistsError(SetupError):
     """Another scene has that name already, and nobody said that it may go."""
 
 
-class Shelf:
+class SceneStore:
     """Keeps scenes as files in one folder; whatever a page calls them, they lie in it.
 
     Args:
@@ -58,8 +58,8 @@ class Shelf:
         file = self.file(name)
         if file is None:
             raise SceneError(f"no scene is kept as {name!r}; {suggest(name, self.names())}")
-        if file.stat().st_size > 4 * MAX_SIZE:  # no character takes more bytes
-            raise SceneError(f"{file.name}: expected at most {MAX_SIZE} characters")
+        if file.stat().st_size > 4 * MAX_SCENE_CHARS:  # no character takes more bytes
+            raise SceneError(f"{file.name}: expected at most {MAX_SCENE_CHARS} characters")
         return Scene.load(file)
 
     def save(self, name: str, scene: Scene, *, over: bool = False) -> str:
@@ -74,17 +74,19 @@ class Shelf:
             The name under which it lies there.
 
         Raises:
-            SetupError: the name won't do, the shelf is full, or the disk.
-            TakenError: one of that name is there already.
+            SetupError: the name won't do, the store is full, or the disk.
+            SceneExistsError: one of that name is there already.
         """
         name = proper(name)
         self._check_files(scene)
         with self._lock:
             there = self.file(name)
             if there is not None and not over:
-                raise TakenError(f"{_name_of(there)!r} is there already")
-            if there is None and len(self._files()) >= MOST:
-                raise SetupError(f"expected at most {MOST} scenes; take some out of the folder")
+                raise SceneExistsError(f"{_name_of(there)!r} is there already")
+            if there is None and len(self._files()) >= MAX_SCENES:
+                raise SetupError(
+                    f"expected at most {MAX_SCENES} scenes; take some out of the folder"
+                )
             file = there or self.folder / f"{name}{ENDING}"
             if file.is_symlink() or (file.exists() and not file.is_file()):
                 # a link or a folder, which is nobody's to replace
@@ -93,7 +95,7 @@ class Shelf:
                 # another server may keep its scenes here too, under the same names
                 write_atomically(file, scene.dumps(), over=over)
             except FileExistsError:
-                raise TakenError(f"{name!r} is there already") from None
+                raise SceneExistsError(f"{name!r} is there already") from None
             except OSError as error:
                 raise SetupError(f"{name!r} can't be kept: {reason(error)}") from None
         return _name_of(file)

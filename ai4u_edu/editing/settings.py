@@ -11,7 +11,7 @@ from ai4u_edu.base.errors import ParameterError
 from ai4u_edu.base.parameters import Problem, explain
 from ai4u_edu.blocks import Block
 from ai4u_edu.editing import blocks
-from ai4u_edu.editing.blocks import Path, Plain
+from ai4u_edu.editing.blocks import BlockPath, Plain
 from ai4u_edu.editing.difference import OWN
 from ai4u_edu.editing.errors import ChangeError
 from ai4u_edu.editing.forms import Field, field_of
@@ -50,7 +50,7 @@ def scene_form(scene: SceneDescription) -> list[Field]:
     ]
 
 
-def brain_of(agent: Plain) -> Path:
+def brain_of(agent: Plain) -> BlockPath:
     """The path of the brain that is on."""
     brains = agent["brains"]
     return "brains", next((i for i, each in enumerate(brains) if each.get("enabled", True)), 0)

@@ -16,7 +16,7 @@ NOBODY: Mapping[str, str] = MappingProxyType({})
 
 
 @dataclass(frozen=True)
-class State:
+class EditState:
     """Everything that undo takes back; never changed, only replaced."""
 
     description: SceneDescription
@@ -49,7 +49,7 @@ class State:
         """The parameters of an agent, blocks as mappings with a ``type``."""
         return self.description.agents[self.agent_index(agent_id)]
 
-    def with_agent(self, agent_id: str, agent: Mapping[str, Any]) -> "State":
+    def with_agent(self, agent_id: str, agent: Mapping[str, Any]) -> "EditState":
         """The same with other parameters of an agent.
 
         Where the reward function that pays the scene's success gets another name, the success has
@@ -61,11 +61,11 @@ class State:
         agents[index] = agent
         return self.describing(agents=tuple(agents), success=success)
 
-    def describing(self, **fields: Any) -> "State":
+    def describing(self, **fields: Any) -> "EditState":
         """The same with other fields of the description."""
         return replace(self, description=self.description.model_copy(update=fields))
 
-    def driven(self, agent_id: str, driver: str) -> "State":
+    def driven(self, agent_id: str, driver: str) -> "EditState":
         """The same with another driver; an empty one for the agent's own brain."""
         drivers = {name: each for name, each in self.drivers.items() if name != agent_id}
         if driver:

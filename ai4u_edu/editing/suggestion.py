@@ -4,8 +4,8 @@ from typing import Any
 
 from ai4u_edu.blocks import Actuator, Block, Brain, RewardFunc, Sensor
 from ai4u_edu.editing.blocks import Plain
-from ai4u_edu.editing.names import Names, name_of
-from ai4u_edu.editing.state import State
+from ai4u_edu.editing.names import SceneNames, name_of
+from ai4u_edu.editing.state import EditState
 from ai4u_edu.zoo import names as in_the_zoo
 
 NAMED = {
@@ -15,7 +15,7 @@ NAMED = {
 }
 
 
-def suggestion(state: State, agent_id: str, type_name: str) -> Plain:
+def suggest_block(state: EditState, agent_id: str, type_name: str) -> Plain:
     """A new block as data: what has no default, or says nothing by default, is filled in.
 
     Args:
@@ -23,7 +23,7 @@ def suggestion(state: State, agent_id: str, type_name: str) -> Plain:
         agent_id: whose block it is to be.
         type_name: the block's type.
     """
-    cls, names = Block.types[type_name], Names(state, agent_id)
+    cls, names = Block.types[type_name], SceneNames(state, agent_id)
     block: dict[str, Any] = {"type": type_name}
     for name, field in cls.parameters().items():
         known, default = names.fitting(name), field.get_default(call_default_factory=True)
@@ -43,7 +43,7 @@ def suggestion(state: State, agent_id: str, type_name: str) -> Plain:
     return block
 
 
-def _value(name: str, state: State, names: Names) -> Any:
+def _value(name: str, state: EditState, names: SceneNames) -> Any:
     body = next(each for each in state.description.bodies if each.name == names.agent.get("body"))
     target = next(iter(names.things), None)
     match name:
@@ -76,7 +76,7 @@ def _value(name: str, state: State, names: Names) -> Any:
     return next(iter(names.fitting(name) or ()), None)
 
 
-def _actuators(names: Names) -> tuple[str, ...]:
+def _actuators(names: SceneNames) -> tuple[str, ...]:
     return names.of_blocks("actuators", "action_name")
 
 

@@ -8,21 +8,21 @@ from ai4u_edu.base.errors import AI4UError
 from ai4u_edu.base.parameters import Problem
 from ai4u_edu.editing import bodies
 from ai4u_edu.editing.apply import Live
-from ai4u_edu.editing.blocks import Path
-from ai4u_edu.editing.drivers import Drivers
+from ai4u_edu.editing.blocks import BlockPath
+from ai4u_edu.editing.change_result import ChangeResult, When
+from ai4u_edu.editing.drivers import DriverRegistry
 from ai4u_edu.editing.dry_run import THOROUGHLY, tried
 from ai4u_edu.editing.errors import ChangeError
 from ai4u_edu.editing.history import History, Step
 from ai4u_edu.editing.move_warnings import note_on
-from ai4u_edu.editing.outcome import Outcome, When
 from ai4u_edu.editing.permissions import Trust
-from ai4u_edu.editing.state import State
-from ai4u_edu.recording.scene_export import scene_of
+from ai4u_edu.editing.state import EditState
+from ai4u_edu.recording.scene_export import export_scene
 from ai4u_edu.runtime.runner import Runner
-from ai4u_edu.scenes.serialization import PlainError
+from ai4u_edu.scenes.serialization import PlainDataError
 from ai4u_edu.world import Pose
 
-Made = tuple[State, str, Path]
+Made = tuple[EditState, str, BlockPath]
 """What is wanted, what is done to get there, and the place in the scene that it is about."""
 
 
@@ -37,14 +37,14 @@ class Bench:
         drivers: make the brains that are in no description.
     """
 
-    def __init__(self, runner: Runner, state: State, drivers: Drivers) -> None:
+    def __init__(self, runner: Runner, state: EditState, drivers: DriverRegistry) -> None:
         self._runner = runner
         self._drivers = drivers
         self._live = Live(runner, state, drivers)
         self._held: dict[str, Pose] = {}
         self.trust = Trust(state.description.agents)
         self.history = History()
-        self.listeners: list[Callable[[State], object]] = []
+        self.listeners: list[Callable[[EditState], object]] = []
         """Called with the state after each change."""
         self.state = state
         self.opened = state
@@ -63,7 +63,7 @@ class Bench:
         places: dict[str, Pose] | None = None,
         whole: bool = False,
         drives: str = "",
-    ) -> "Future[Outcome]":
+    ) -> "Future[ChangeResult]":
         """Has a change made, between two decisions.
 
         Args:
@@ -75,7 +75,7 @@ class Bench:
         now = {} if places is None else places
         return self._runner.submit(lambda: self._do(make, now, whole, drives))
 
-    def undo(self) -> Outcome:
+    def undo(self) -> ChangeResult:
         """Takes the last change back."""
         self._adopt()
         step = self.history.last
@@ -86,9 +86,9 @@ class Bench:
             self.opened = step.opened
         self.history.back()
         self._became(step.before)
-        return Outcome(when, f"undo: {step.label}")
+        return ChangeResult(when, f"undo: {step.label}")
 
-    def redo(self) -> Outcome:
+    def redo(self) -> ChangeResult:
         """Makes it again."""
         self._adopt()
         step = self.history.next
@@ -99,9 +99,9 @@ class Bench:
             self.opened = step.after
         self.history.forth()
         self._became(step.after)
-        return Outcome(when, f"redo: {step.label}")
+        return ChangeResult(when, f"redo: {step.label}")
 
-    def carry(self, name: str, x: float, y: float, heading_deg: float | None) -> None:
+    def drag(self, name: str, x: float, y: float, heading_deg: float | None) -> None:
         """A hand holds a body there."""
         bodies.check_held(x, y, heading_deg)
         self._adopt()
@@ -112,7 +112,7 @@ class Bench:
         self._held.setdefault(name, before)
         self._live.stir()
 
-    def put_back(self, name: str) -> None:
+    def cancel_drag(self, name: str) -> None:
         """The hand puts it back where it was."""
         pose = self._held.pop(name, None)
         if pose is not None and name in self._runner.sim.world.bodies:
@@ -126,7 +126,7 @@ class Bench:
 
     def _do(
         self, make: Callable[[], Made], now: dict[str, Pose], whole: bool, drives: str
-    ) -> Outcome:
+    ) -> ChangeResult:
         self._adopt()
         before = self.state
         try:
@@ -134,9 +134,9 @@ class Bench:
             if after == before and drives:
                 self._live.hand_back(drives)
                 self._became(after)
-                return Outcome("next decision", label)
+                return ChangeResult("next decision", label)
             if after == before and not whole and not now:
-                return Outcome("now", note="nothing is other than it was")
+                return ChangeResult("now", note="nothing is other than it was")
             self.trust.check(after.description.agents)
             moves = after.description.things != before.description.things
             tried(after, where, episodes=THOROUGHLY if moves else 1)
@@ -144,8 +144,8 @@ class Bench:
             when = self._bring_about(after, now, whole)
         except BaseException as error:
             for name in now:
-                self.put_back(name)
-            if isinstance(error, PlainError):
+                self.cancel_drag(name)
+            if isinstance(error, PlainDataError):
                 raise ChangeError(error.problems) from None
             raise
         self._held = {name: pose for name, pose in self._held.items() if name not in now}
@@ -156,16 +156,16 @@ class Bench:
         notes = [note_on(after.description, now)]
         if before.description.success and not after.description.success and not whole:
             notes.append(f"nothing pays {before.description.success!r} any more: no goal is left")
-        return Outcome(when, label, "; ".join(filter(None, notes)))
+        return ChangeResult(when, label, "; ".join(filter(None, notes)))
 
-    def _bring_about(self, state: State, places: dict[str, Pose], whole: bool) -> When:
+    def _bring_about(self, state: EditState, places: dict[str, Pose], whole: bool) -> When:
         if whole:
             self._held = {}
             self._live.build_anew(state)
             return "now"
         return self._live.bring_about(state, places)
 
-    def _became(self, state: State) -> None:
+    def _became(self, state: EditState) -> None:
         self.state = state
         self.version += 1
         for listener in self.listeners:
@@ -176,8 +176,8 @@ class Bench:
         if self._live.is_ours:
             return
         before = self.state
-        description = scene_of(self._runner.sim, before.description)
-        state = State(description, before.folder, source=before.source)
+        description = export_scene(self._runner.sim, before.description)
+        state = EditState(description, before.folder, source=before.source)
         self._live = Live(self._runner, state, self._drivers)
         self._held = {}
         self.history.add(Step("go on in another world", before, state, {}, {}, whole=True))

@@ -12,7 +12,7 @@ from ai4u_edu.base.parameters import Problem
 from ai4u_edu.blocks import Block
 from ai4u_edu.blocks.parameterized import Parameterized
 from ai4u_edu.editing.errors import ChangeError
-from ai4u_edu.scenes.serialization import PlainError
+from ai4u_edu.scenes.serialization import PlainDataError
 
 T = TypeVar("T")
 Path = tuple[str | int, ...]
@@ -48,7 +48,7 @@ def check_typed_and(values: Any, schema: Mapping[str, Any], check: Callable[[], 
     Args:
         values: plain data, as an edit brings it.
         schema: its JSON Schema.
-        check: raises a ChangeError or a PlainError for what is wrong besides.
+        check: raises a ChangeError or a PlainDataError for what is wrong besides.
 
     Returns:
         What ``check`` returns.
@@ -58,7 +58,7 @@ def check_typed_and(values: Any, schema: Mapping[str, Any], check: Callable[[], 
     known = {problem.path for problem in problems}
     try:
         found = check()
-    except (ChangeError, PlainError) as error:
+    except (ChangeError, PlainDataError) as error:
         if not problems:
             raise
         problems += [problem for problem in error.problems if problem.path not in known]

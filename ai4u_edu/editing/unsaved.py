@@ -76,7 +76,7 @@ def latest(folder: Path) -> Unsaved | None:
     return next(iter(unsaved_scenes(folder)), None)
 
 
-def chosen(left: Sequence[Unsaved], wanted: str = "") -> Unsaved:
+def choose_unsaved(left: Sequence[Unsaved], wanted: str = "") -> Unsaved:
     """Return one of several unsaved scenes.
 
     Args:
@@ -95,12 +95,12 @@ def chosen(left: Sequence[Unsaved], wanted: str = "") -> Unsaved:
         if not wanted or each.name in _names(wanted):
             return each
     raise SetupError(
-        f"there is no unsaved scene {wanted!r}; there are {listed(left)}; "
+        f"there is no unsaved scene {wanted!r}; there are {format_unsaved(left)}; "
         "expected: ai4u-edu play SCENE --restore, or its number"
     )
 
 
-def listed(left: Sequence[Unsaved]) -> str:
+def format_unsaved(left: Sequence[Unsaved]) -> str:
     """Return the names and times of unsaved scenes, numbered, as a person reads them."""
     told = [f"{n} {each.name} ({each.when})" for n, each in enumerate(left[:MAX_TOLD], start=1)]
     more = [f"{len(left) - MAX_TOLD} more"] if len(left) > MAX_TOLD else []

@@ -1,4 +1,4 @@
-"""Scenes as environments of the Python learning world."""
+"""Scenes as Gymnasium, PettingZoo and Stable-Baselines3 environments."""
 
 from typing import TYPE_CHECKING, Any
 
@@ -13,7 +13,7 @@ __all__ = ["HeldBrain", "SceneEnv", "SceneVectorEnv", "parallel_env"]
 
 
 def parallel_env(scene: SceneLike, **options: Any) -> "SceneParallelEnv":
-    """A scene as a PettingZoo ParallelEnv; needs ``pip install ai4u-edu[multi]``.
+    """Return a scene as a PettingZoo ParallelEnv; needs ``pip install ai4u-edu[multi]``.
 
     Args:
         scene: a name out of the library, a YAML file, or a Scene.

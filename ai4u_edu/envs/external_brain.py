@@ -1,4 +1,4 @@
-"""A brain that does what it is told: the door through which an environment's action comes in."""
+"""A brain whose action is set from outside, by an environment's ``step``."""
 
 from typing import Any
 
@@ -6,7 +6,7 @@ from ai4u_edu.blocks import Answer, Brain, Percept
 
 
 class HeldBrain(Brain):
-    """Hands on the action that was put into it."""
+    """Brain that answers with the action that was set last."""
 
     abstract = True  # nothing for a scene file: somebody has to put actions in
 
@@ -14,16 +14,16 @@ class HeldBrain(Brain):
         self.action: dict[str, Any] = {}
 
     def decide(self, percept: Percept) -> Answer:
-        """The action that was put in last."""
+        """Return the action that was set last."""
         return self.action
 
     def title(self) -> str:
-        """What a person calls it."""
+        """Name for people."""
         return "Gymnasium"
 
 
 def take_over(agent: Any) -> HeldBrain:
-    """Gives an agent a held brain that decides as often as the one it had."""
+    """Replace an agent's brain by an external one that decides as often."""
     before: Brain = agent.brain
     brain = HeldBrain(skip_frame=before.skip_frame, repeat_action=before.repeat_action)
     agent.use_brain(brain)

@@ -1,4 +1,4 @@
-"""The page of an environment: it shows the world that a learner's steps move."""
+"""Page of an environment: shows the world while a learner steps it."""
 
 from ai4u_edu.agent import BasicAgent
 from ai4u_edu.agent.cycle import ControlRequestor
@@ -10,9 +10,9 @@ from ai4u_edu.viewer import Viewer
 
 
 class LivePage:
-    """Serves a world that somebody else steps, at the pace of the wall clock.
+    """Server of a world that an environment steps, at the pace of the wall clock.
 
-    What a person asks for in the page (pause, speed, reset) is carried out between the steps.
+    Requests from the page (pause, speed, reset) are carried out between steps.
 
     Args:
         sim: the world and its agents.
@@ -31,7 +31,7 @@ class LivePage:
         open_on_desktop(self.url)
 
     def step(self, agent: BasicAgent) -> Percept:
-        """Lets the time pass until an agent's decision is over."""
+        """Run the world in real time until an agent's decision is over."""
         runner, before = self._runner, agent.steps
         while not agent.done and agent.steps == before:
             runner.advance()
@@ -40,7 +40,7 @@ class LivePage:
         return agent.percept
 
     def close(self) -> None:
-        """Ends the page."""
+        """Stop serving the page."""
         self._server.stop()
         self._viewer.stop()
         self._runner.stop()

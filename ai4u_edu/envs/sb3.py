@@ -1,4 +1,4 @@
-"""A scene for Stable-Baselines3: many worlds, seen as its own VecEnv.
+"""A scene for Stable-Baselines3: many worlds as one VecEnv.
 
 Needs ``pip install ai4u-edu[train]``; nothing else of this package loads this module.
 """
@@ -18,9 +18,9 @@ Indices = None | int | Sequence[int]
 
 
 class SceneVecEnv(VecEnv):  # type: ignore[misc]  # seen without its types
-    """``num_envs`` worlds for ``PPO("MlpPolicy", SceneVecEnv("box_chase", 8))`` and its like.
+    """Vectorized environment for ``PPO("MlpPolicy", SceneVecEnv("box_chase", 8))`` and its like.
 
-    Nothing stands between the learner and the worlds: no DummyVecEnv, no Monitor. A world whose
+    It needs no DummyVecEnv and no Monitor. A world whose
     episode ends is reset in the same step, as Stable-Baselines3 wants it, and its info says how
     the episode was: ``terminal_observation``, ``TimeLimit.truncated``, ``is_success``, and
     ``episode`` with return ``r``, length ``l`` and seconds since the start ``t``. Every info has
@@ -28,7 +28,7 @@ class SceneVecEnv(VecEnv):  # type: ignore[misc]  # seen without its types
 
     Args:
         scene: a name out of the library, a YAML file, or a Scene.
-        num_envs: how many worlds.
+        num_envs: number of worlds.
         observation: ``"flat"`` for MlpPolicy, ``"dict"`` for MultiInputPolicy, ``"image"`` for
             CnnPolicy.
         agent: the id of the agent that learns.
@@ -54,7 +54,7 @@ class SceneVecEnv(VecEnv):  # type: ignore[misc]  # seen without its types
         self._actions: Any = None
 
     def reset(self) -> Any:
-        """Begins an episode in every world, with the seeds of :meth:`seed` if it was called."""
+        """Reset every world, with the seeds of :meth:`seed` if it was called."""
         # all of them before any world begins anew
         seeds = [None if each is None else checked_seed(each) for each in self._seeds]
         for index, seed in enumerate(seeds):
@@ -65,11 +65,11 @@ class SceneVecEnv(VecEnv):  # type: ignore[misc]  # seen without its types
         return self._worlds.told()
 
     def step_async(self, actions: Any) -> None:
-        """Takes the actions."""
+        """Store the actions for :meth:`step_wait`."""
         self._actions = actions
 
     def step_wait(self) -> tuple[Any, Any, Any, list[dict[str, Any]]]:
-        """One decision in every world."""
+        """Step every world by one decision."""
         worlds = self._worlds
         worlds.step(self._actions)
         infos: list[dict[str, Any]] = [
@@ -77,38 +77,38 @@ class SceneVecEnv(VecEnv):  # type: ignore[misc]  # seen without its types
         ]
         dones = worlds.terminated | worlds.truncated
         for index in np.flatnonzero(dones).tolist():
-            infos[index] |= self._epilogue(index)
+            infos[index] |= self._episode_info(index)
             worlds.reset(index)
         return worlds.told(), worlds.rewards.astype(np.float32), dones, infos
 
     def close(self) -> None:
-        """Nothing is held open."""
+        """Do nothing; nothing is held open."""
 
     def get_images(self) -> list[Any]:
-        """One picture a world."""
+        """Return one picture of each world."""
         return [env.render() for env in self.envs]
 
     def get_attr(self, attr_name: str, indices: Indices = None) -> list[Any]:
-        """An attribute of each world's environment."""
+        """Return an attribute of each world's environment."""
         return [getattr(env, attr_name) for env in self._chosen(indices)]
 
     def set_attr(self, attr_name: str, value: Any, indices: Indices = None) -> None:
-        """Sets an attribute of each world's environment."""
+        """Set an attribute of each world's environment."""
         for env in self._chosen(indices):
             setattr(env, attr_name, value)
 
     def env_method(
         self, method_name: str, *args: Any, indices: Indices = None, **options: Any
     ) -> list[Any]:
-        """Calls a method of each world's environment."""
+        """Call a method of each world's environment."""
         return [getattr(env, method_name)(*args, **options) for env in self._chosen(indices)]
 
     def env_is_wrapped(self, wrapper_class: type, indices: Indices = None) -> list[bool]:
-        """No world's environment is wrapped."""
+        """Return False for each world; environments are not wrapped."""
         return [False for _ in self._chosen(indices)]
 
-    def _epilogue(self, index: int) -> dict[str, Any]:
-        """What is told of an episode that is over."""
+    def _episode_info(self, index: int) -> dict[str, Any]:
+        """Return the info entries of a finished episode."""
         env = self.envs[index]
         agent = env.agent
         return {

@@ -1,4 +1,4 @@
-"""A scene as a Gymnasium environment: one agent learns, the others do as their brains say."""
+"""A scene as a Gymnasium environment: one agent learns, the others follow their brains."""
 
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -11,8 +11,8 @@ from ai4u_edu.blocks import Percept
 from ai4u_edu.envs.external_brain import take_over
 from ai4u_edu.envs.spaces_of import Observer, action_space_of, outputs_of
 from ai4u_edu.scenes import Scene
-from ai4u_edu.snapshot import picture_of
-from ai4u_edu.snapshot.raster import draw
+from ai4u_edu.snapshot import capture_snapshot
+from ai4u_edu.snapshot.raster import draw_snapshot
 
 if TYPE_CHECKING:
     from ai4u_edu.envs.live_page import LivePage
@@ -21,16 +21,16 @@ SceneLike = Scene | str | Path
 
 
 def load_scene(scene: SceneLike) -> Scene:
-    """A scene by itself, by its name in the library, or by its file."""
+    """Return a scene given as such, by its name in the library, or by its file."""
     return scene if isinstance(scene, Scene) else Scene.load(scene)
 
 
 class SceneEnv(gymnasium.Env[Any, Any]):
-    """One agent of a scene.
+    """Gymnasium environment for one agent of a scene.
 
-    A step puts its action into a brain that hands it on, and then runs the same decision cycle as
-    the page does. ``info`` has ``reward_terms`` (by name) and ``success`` (whether the scene's goal
-    was reached in this episode).
+    A step hands its action to the agent's brain and runs the same decision cycle as the page.
+    ``info`` has ``reward_terms`` (by name) and ``success`` (True once the scene's goal was reached
+    in this episode).
 
     Args:
         scene: a name out of the library, a YAML file, or a :class:`Scene`.
@@ -89,19 +89,19 @@ class SceneEnv(gymnasium.Env[Any, Any]):
 
     @property
     def page_url(self) -> str:
-        """Where the page of mode ``"human"`` is; empty in other modes."""
+        """URL of the page in mode ``"human"``; empty in other modes."""
         return self._page.url if self._page else ""
 
     @property
     def success(self) -> bool:
-        """Whether the scene's goal was reached in this episode."""
+        """True once the scene's goal was reached in this episode."""
         goal = self._goal
         return goal is not None and self._ledger.episode_terms.get(goal, 0.0) > 0
 
     def reset(
         self, *, seed: int | None = None, options: dict[str, Any] | None = None
     ) -> tuple[Any, dict[str, Any]]:
-        """Begins an episode.
+        """Begin an episode.
 
         Args:
             seed: fixes everything in it; left out, it follows from the last one's.
@@ -112,7 +112,7 @@ class SceneEnv(gymnasium.Env[Any, Any]):
         return self.observer.observe(self.agent.percept), self._info()
 
     def step(self, action: Any) -> tuple[Any, float, bool, bool, dict[str, Any]]:
-        """One decision."""
+        """Run one decision."""
         percept = self.decide(action)
         agent = self.agent
         return (
@@ -124,18 +124,18 @@ class SceneEnv(gymnasium.Env[Any, Any]):
         )
 
     def decide(self, action: Any) -> Percept:
-        """One decision, and what the agent senses after it; the rest is asked of the agent."""
+        """Run one decision and return the observation after it; the agent knows the rest."""
         self._brain.action = {self._output: action} if self._one_output else action
         return self._page.step(self.agent) if self._page else self.sim.step(self.agent)
 
     def render(self) -> Any:
-        """The world from above, (height, width, 3) uint8; None in mode ``"human"``."""
+        """Return the world from above, (height, width, 3) uint8; None in mode ``"human"``."""
         if self.render_mode == "rgb_array":
-            return draw(picture_of(self.sim))
+            return draw_snapshot(capture_snapshot(self.sim))
         return None
 
     def close(self) -> None:
-        """Ends the page, if there is one."""
+        """Stop serving the page, if there is one."""
         if self._page:
             self._page.close()
             self._page = None

@@ -10,18 +10,18 @@ from ai4u_edu.base.errors import ActionError, SetupError, suggest
 from ai4u_edu.envs.external_brain import take_over
 from ai4u_edu.envs.scene_env import SceneLike, load_scene
 from ai4u_edu.envs.spaces_of import Observer, action_space_of, outputs_of
-from ai4u_edu.snapshot import picture_of
-from ai4u_edu.snapshot.raster import draw
+from ai4u_edu.snapshot import capture_snapshot
+from ai4u_edu.snapshot.raster import draw_snapshot
 
 
 class SceneParallelEnv(ParallelEnv):  # type: ignore[misc]  # PettingZoo has no types
-    """Every agent of a scene learns.
+    """PettingZoo environment in which every agent of a scene learns.
 
     A step gives every agent its action, and is over when their decisions are; all decide as seldom
     as the one that decides most seldom. An agent whose episode ends takes part no more, and the
     others go on: ``agents`` has those that are left, and is empty when a reset is due. ``infos``
-    has for each ``reward_terms`` (by name) and ``success`` (whether it reached the scene's goal in
-    this episode).
+    has for each ``reward_terms`` (by name) and ``success`` (True once it reached the
+    scene's goal in this episode).
 
     Args:
         scene: a name out of the library, a YAML file, or a Scene.
@@ -82,17 +82,17 @@ class SceneParallelEnv(ParallelEnv):  # type: ignore[misc]  # PettingZoo has no 
         }
 
     def observation_space(self, agent: str) -> spaces.Space[Any]:
-        """An agent's space of observations."""
+        """Return an agent's observation space."""
         return self._observers[agent].space
 
     def action_space(self, agent: str) -> spaces.Space[Any]:
-        """An agent's space of actions."""
+        """Return an agent's action space."""
         return self._action_spaces[agent]
 
     def reset(
         self, seed: int | None = None, options: dict[str, Any] | None = None
     ) -> tuple[dict[str, Any], dict[str, Any]]:
-        """Begins an episode for all agents.
+        """Begin an episode for all agents.
 
         Args:
             seed: fixes everything in it; left out, it follows from the last one's.
@@ -107,7 +107,7 @@ class SceneParallelEnv(ParallelEnv):  # type: ignore[misc]  # PettingZoo has no 
     def step(
         self, actions: dict[str, Any]
     ) -> tuple[dict[str, Any], dict[str, float], dict[str, bool], dict[str, bool], dict[str, Any]]:
-        """One decision of every agent that still takes part.
+        """Run one decision of every agent that still takes part.
 
         Args:
             actions: one for each of ``agents``.
@@ -135,11 +135,13 @@ class SceneParallelEnv(ParallelEnv):  # type: ignore[misc]  # PettingZoo has no 
         )
 
     def render(self) -> Any:
-        """The world from above, (height, width, 3) uint8; None without a render mode."""
-        return draw(picture_of(self.sim)) if self.render_mode == "rgb_array" else None
+        """Return the world from above, (height, width, 3) uint8; None without a render mode."""
+        return (
+            draw_snapshot(capture_snapshot(self.sim)) if self.render_mode == "rgb_array" else None
+        )
 
     def close(self) -> None:
-        """Nothing is held open."""
+        """Do nothing; nothing is held open."""
 
     def _hand_out(self, actions: dict[str, Any]) -> None:
         if not self.agents:

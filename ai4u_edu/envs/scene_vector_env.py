@@ -1,4 +1,4 @@
-"""Many copies of a scene in one process, stepped one after another into one set of arrays."""
+"""Gymnasium vector environment: many copies of a scene in one process."""
 
 from typing import Any
 
@@ -13,18 +13,18 @@ from ai4u_edu.envs.worlds import Worlds
 
 
 class SceneVectorEnv(VectorEnv[Any, Any, Any]):
-    """``num_envs`` worlds; observations are written in place, and copied once a step.
+    """Vector environment whose observations are written in place and copied once a step.
 
     Autoreset is Gymnasium's ``NEXT_STEP``: the step after an episode's last one ignores its action,
     resets that world, and gives the first observation of the next episode with reward 0.
 
     Args:
-        num_envs: how many worlds.
+        num_envs: number of worlds.
         scene: a name out of the library, a YAML file, or a Scene.
         observation: ``"dict"`` or ``"flat"``.
         agent: the id of the agent that learns.
         render_mode: None or ``"rgb_array"``: one picture a world.
-        copy: whether each step's observations are a copy; without, the next step overwrites them.
+        copy: True returns a copy of the observations; else the next step overwrites them.
     """
 
     metadata: dict[str, Any] = {
@@ -62,7 +62,7 @@ class SceneVectorEnv(VectorEnv[Any, Any, Any]):
         seed: int | list[int | None] | None = None,
         options: dict[str, Any] | None = None,
     ) -> tuple[Any, dict[str, Any]]:
-        """Begins an episode in every world.
+        """Begin an episode in every world.
 
         Args:
             seed: one number: world i gets seed + i; or one for each world.
@@ -78,20 +78,20 @@ class SceneVectorEnv(VectorEnv[Any, Any, Any]):
     def step(
         self, actions: Any
     ) -> tuple[Any, npt.NDArray[Any], npt.NDArray[Any], npt.NDArray[Any], dict[str, Any]]:
-        """One decision in every world."""
+        """Step every world by one decision."""
         worlds = self._worlds
         worlds.step(actions, self._over)
         self._over = worlds.terminated | worlds.truncated
         return self._told(), worlds.rewards, worlds.terminated, worlds.truncated, worlds.infos()
 
     def render(self) -> tuple[Any, ...] | None:
-        """One picture a world."""
+        """Return one picture of each world."""
         if self.render_mode is None:
             return None
         return tuple(env.render() for env in self.envs)
 
     def close_extras(self, **kwargs: Any) -> None:
-        """Nothing is held open."""
+        """Do nothing; nothing is held open."""
 
     def _told(self) -> Any:
         return self._worlds.told() if self._copy else self._worlds.observations

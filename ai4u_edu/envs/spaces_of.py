@@ -1,4 +1,4 @@
-"""An agent's spaces in Gymnasium's terms, and the way of numbers through them."""
+"""Gymnasium spaces of an agent, and conversion of percepts to observations."""
 
 from collections.abc import Callable
 from typing import Any
@@ -19,10 +19,10 @@ _FLOAT = np.dtype(np.float32)
 
 
 class Observer:
-    """Makes observations of percepts.
+    """Converter from percepts to observations.
 
     Args:
-        agent: whose sensors; those with ``is_input`` are observed.
+        agent: the agent; its sensors with ``is_input`` are observed.
         form: ``"dict"`` for one entry a sensor, ``"flat"`` for one array of float32, ``"image"``
             for the picture of the only sensor, (height, width, channels) uint8.
     """
@@ -52,7 +52,7 @@ class Observer:
         self._run = (sum(slot.size for slot in floats),) if len(floats) == len(each) else None
 
     def observe(self, percept: Percept) -> Observation:
-        """A new observation; nothing in it is shared with the percept."""
+        """Return a new observation that shares no memory with the percept."""
         if self.image:
             return _own(percept[self.image])
         if not self.flat:
@@ -63,11 +63,11 @@ class Observer:
         return np.concatenate(parts)
 
     def writer(self, batch: Any, index: int) -> Callable[[Percept], None]:
-        """What writes observations into one row of a batch.
+        """Return a function that writes observations into one row of a batch.
 
         Args:
             batch: as Gymnasium's ``create_empty_array`` makes it of :attr:`space`.
-            index: which row.
+            index: the row.
         """
         if self.image:
             batch = {self.image: batch}
@@ -88,7 +88,7 @@ class Observer:
         return write if copies or not self.flat else write_all
 
     def _copies(self, batch: Any, index: int) -> dict[str, tuple[memoryview, int, int]]:
-        """The places in a row that hold bytes of a percept, and from where to where in it."""
+        """Return the slices of a row that are copied from a percept's bytes, with their source."""
         if self.flat:
             whole = batch[index].data.cast("B")
             return {"": (whole, 0, len(whole))} if self._run else {}
@@ -102,13 +102,13 @@ class Observer:
 
 
 def action_space_of(agent: BasicAgent) -> spaces.Space[Any]:
-    """The space of its one actuator that a policy drives (is_output), or a Dict of several."""
+    """Return the space of the one actuator with ``is_output``, or a Dict of several."""
     each = {name: actuator.space() for name, actuator in outputs_of(agent).items()}
     return next(iter(each.values())) if len(each) == 1 else spaces.Dict(each)
 
 
 def outputs_of(agent: BasicAgent) -> dict[str, Actuator]:
-    """The actuators that a policy drives."""
+    """Return the actuators that a policy drives."""
     found = {
         name: actuator
         for name, actuator in agent.bound_blocks.actuators.items()
@@ -120,7 +120,7 @@ def outputs_of(agent: BasicAgent) -> dict[str, Actuator]:
 
 
 def _only_picture(agent: BasicAgent, each: dict[str, spaces.Space[Any]]) -> str:
-    """The key of the one sensor that is observed, which has to be a picture."""
+    """Return the key of the one observed sensor, which has to be a picture."""
     if len(each) > 1:
         raise SetupError(
             f"observation='image': expected one sensor that is observed, a picture; agent "

@@ -1,4 +1,4 @@
-"""Many copies of a scene in one process, and one set of arrays for what they give."""
+"""Many copies of a scene in one process that share one set of arrays."""
 
 from typing import Any
 
@@ -11,10 +11,10 @@ from ai4u_edu.envs.scene_env import SceneEnv, SceneLike, load_scene
 
 
 class Worlds:
-    """``count`` worlds, stepped one after another.
+    """Batch of ``count`` worlds, stepped one after another.
 
     Args:
-        count: how many.
+        count: number of worlds.
         scene: a name out of the library, a YAML file, or a Scene.
         options: those of :class:`SceneEnv`.
 
@@ -44,13 +44,13 @@ class Worlds:
         ]
 
     def reset(self, index: int, seed: int | None = None) -> None:
-        """Begins an episode in one world."""
+        """Begin an episode in one world."""
         env = self.envs[index]
         env.reset(seed=seed)
         self._write[index](env.agent.percept)
 
     def step(self, actions: Any, resting: npt.NDArray[np.bool_] | None = None) -> None:
-        """One decision in every world.
+        """Step every world by one decision.
 
         Args:
             actions: out of ``action_space``.
@@ -70,7 +70,7 @@ class Worlds:
         self.truncated = np.array([agent.truncated for agent in agents])
 
     def told(self) -> Any:
-        """A copy of the observations."""
+        """Return a copy of the observations."""
         if isinstance(self.observations, dict):
             return {
                 key: part if isinstance(part, tuple) else part.copy()
@@ -79,10 +79,10 @@ class Worlds:
         return self.observations.copy()
 
     def infos(self, mask: npt.NDArray[np.bool_] | None = None) -> dict[str, Any]:
-        """What is known beside the observations, in the form of Gymnasium's vector environments.
+        """Return the infos in the form of Gymnasium's vector environments.
 
         Args:
-            mask: which worlds are told of; left out, all.
+            mask: the worlds to include; None for all.
         """
         terms = [ledger.terms for ledger in self._ledgers]
         success = np.array([env.success for env in self.envs])

@@ -9,7 +9,7 @@ from ai4u_edu.lessons.pictures import RATE, SECONDS, animation, moving
 from ai4u_edu.lessons.rollouts import LONGEST, Drive, drives
 from ai4u_edu.recording import Episode
 from ai4u_edu.scenes import Scene
-from ai4u_edu.snapshot import Snapshot, picture_of
+from ai4u_edu.snapshot import Snapshot, capture_snapshot
 
 
 def film(
@@ -36,7 +36,7 @@ def film(
     def watch(drive: Drive) -> None:
         nonlocal due
         if drive.sim.world.time >= due or drive.agent.done:
-            shown.append(picture_of(drive.sim))
+            shown.append(capture_snapshot(drive.sim))
             due = drive.sim.world.time + 0.99 / RATE
 
     source = (lambda: world) if isinstance(world, ControlRequestor) else world

@@ -9,7 +9,7 @@ from PIL import Image, ImageDraw
 from ai4u_edu.base.colors import rgb
 from ai4u_edu.recording import Episode, Replay
 from ai4u_edu.snapshot import Snapshot
-from ai4u_edu.snapshot.raster import MARGIN, draw
+from ai4u_edu.snapshot.raster import MARGIN_M, draw_snapshot
 
 SIDE = 320
 """Pixels of a picture's longer side."""
@@ -29,10 +29,10 @@ def picture(
         trail: a way through it, metres; its beginning is a ring.
         longest: pixels of the longer side.
     """
-    image = Image.fromarray(draw(snapshot, longest=longest))
-    (left, low), (right, high) = snapshot.stage.bounds
-    scale = longest / (max(right - left, high - low) + 2 * MARGIN)
-    way = [((x - left + MARGIN) * scale, (high + MARGIN - y) * scale) for x, y in trail]
+    image = Image.fromarray(draw_snapshot(snapshot, longest=longest))
+    (left, low), (right, high) = snapshot.static_scene.bounds
+    scale = longest / (max(right - left, high - low) + 2 * MARGIN_M)
+    way = [((x - left + MARGIN_M) * scale, (high + MARGIN_M - y) * scale) for x, y in trail]
     if way:
         pen, ink = ImageDraw.Draw(image), rgb("vermillion")
         pen.line(way, fill=ink, width=2, joint="curve")
@@ -46,7 +46,7 @@ def picture(
 def animation(episode: Episode, *, longest: int = SIDE) -> bytes:
     """The end of an episode as an animated GIF, at the pace of the world's time."""
     every = max(1, round(episode.scene.world.ticks_per_second / RATE))
-    last = deque(Replay(episode).pictures(every), maxlen=RATE * SECONDS)
+    last = deque(Replay(episode).snapshots(every), maxlen=RATE * SECONDS)
     return moving(last, longest=longest)
 
 
@@ -54,7 +54,9 @@ def moving(snapshots: Iterable[Snapshot], *, longest: int = SIDE) -> bytes:
     """Pictures one after another as an animated GIF, :data:`RATE` a second."""
     frames = [
         # the same few colours in all pictures: they pack better, and nothing flickers
-        Image.fromarray(draw(each, longest=longest)).quantize(64, Image.Quantize.FASTOCTREE)
+        Image.fromarray(draw_snapshot(each, longest=longest)).quantize(
+            64, Image.Quantize.FASTOCTREE
+        )
         for each in snapshots
     ]
     out = io.BytesIO()

@@ -11,7 +11,7 @@ from ai4u_edu.blocks import Brain, Controller, LocalBrain
 from ai4u_edu.lessons.exercise import NotYet
 from ai4u_edu.lessons.pictures import picture
 from ai4u_edu.scenes import Scene
-from ai4u_edu.snapshot import Snapshot, agent_state, picture_of
+from ai4u_edu.snapshot import Snapshot, capture_agent, capture_snapshot
 
 LONGEST = 600
 """Decisions after which a drive in a scene without a limit is cut off."""
@@ -40,7 +40,7 @@ class Drive:
     @property
     def fell(self) -> bool:
         """Whether the agent's episode ended because it fell."""
-        return agent_state(self.agent, self.sim.success).fell
+        return capture_agent(self.agent, self.sim.success).fell
 
     @property
     def moved(self) -> float:
@@ -55,7 +55,7 @@ class Drive:
 
     def picture(self) -> bytes:
         """The world as it is now, with the way that the agent took; PNG."""
-        shown: Snapshot = picture_of(self.sim)
+        shown: Snapshot = capture_snapshot(self.sim)
         return picture(shown, self.trail)
 
     def not_yet(self, text: str, hint: str = "") -> NotYet:

@@ -1,6 +1,9 @@
 """Episodes that are kept, played again exactly, and exported."""
 
-from ai4u_edu.recording.archive import Archive, Entry
+import warnings
+from typing import Any
+
+from ai4u_edu.recording.archive import Archive, ArchiveEntry
 from ai4u_edu.recording.episode import AgentRecord, Decision, Episode
 from ai4u_edu.recording.errors import RecordingError
 from ai4u_edu.recording.ghost import Ghost, ghost_of
@@ -11,8 +14,8 @@ from ai4u_edu.recording.replay import Moment, Replay, Verdict
 __all__ = [
     "AgentRecord",
     "Archive",
+    "ArchiveEntry",
     "Decision",
-    "Entry",
     "Episode",
     "Ghost",
     "Moment",
@@ -23,3 +26,10 @@ __all__ = [
     "ghost_of",
     "recorder_into",
 ]
+
+
+def __getattr__(name: str) -> Any:
+    if name == "Entry":
+        warnings.warn(f"{__name__}.Entry is now ArchiveEntry", DeprecationWarning, stacklevel=2)
+        return ArchiveEntry
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

@@ -13,7 +13,7 @@ LARGEST = 64 * 2**20
 
 
 @dataclass(frozen=True)
-class Entry:
+class ArchiveEntry:
     """A kept episode."""
 
     number: int
@@ -49,7 +49,7 @@ class Archive(Sequence[Episode]):
     """
 
     def __init__(self, keep: int = 50, largest: int = LARGEST) -> None:
-        self.entries: tuple[Entry, ...] = ()
+        self.entries: tuple[ArchiveEntry, ...] = ()
         """What is kept; replaced, never changed."""
         self._keep = keep
         self._largest = largest
@@ -61,7 +61,7 @@ class Archive(Sequence[Episode]):
         """The number that the next one will get."""
         return self._given + 1
 
-    def append(self, episode: Episode, source: str = "") -> Entry:
+    def append(self, episode: Episode, source: str = "") -> ArchiveEntry:
         """Keeps an episode.
 
         Args:
@@ -70,7 +70,7 @@ class Archive(Sequence[Episode]):
         """
         with self._lock:
             self._given += 1
-            entry = Entry(self._given, episode, source)
+            entry = ArchiveEntry(self._given, episode, source)
             kept = [*self.entries, entry][-self._keep :] if self._keep else []
             size = sum(size_of(each.episode) for each in kept)
             while len(kept) > 1 and size > self._largest:
@@ -79,7 +79,7 @@ class Archive(Sequence[Episode]):
         return entry
 
     @property
-    def best(self) -> Entry | None:
+    def best(self) -> ArchiveEntry | None:
         """The one with the highest reward among those that reached the goal, or else among all.
 
         What came from a file doesn't count.
@@ -87,7 +87,7 @@ class Archive(Sequence[Episode]):
         own = [entry for entry in self.entries if not entry.source]
         return max(own, key=lambda entry: (entry.success is True, entry.first.total), default=None)
 
-    def find(self, number: int) -> Entry | None:
+    def find(self, number: int) -> ArchiveEntry | None:
         """The entry of that number, if it is still there."""
         return next((entry for entry in self.entries if entry.number == number), None)
 

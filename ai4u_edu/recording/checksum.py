@@ -9,7 +9,7 @@ from ai4u_edu.world import Body, World
 _NUMBERS = struct.Struct("<9d").pack
 
 
-def percept_print(percept: Percept) -> int:
+def percept_checksum(percept: Percept) -> int:
     """The checksum of a percept's bytes and texts."""
     number = crc32(percept.data)
     for reading in percept.texts:
@@ -21,7 +21,7 @@ def percept_print(percept: Percept) -> int:
     return number
 
 
-def world_print(world: World) -> int:
+def world_checksum(world: World) -> int:
     """The checksum of where all bodies are, and how they move; what can't move is left out."""
     return crc32(
         b"".join(

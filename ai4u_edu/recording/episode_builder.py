@@ -8,7 +8,7 @@ from ai4u_edu.agent import BasicAgent
 from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.base.version import __version__
 from ai4u_edu.blocks import Brain
-from ai4u_edu.recording.checksum import percept_print, world_print
+from ai4u_edu.recording.checksum import percept_checksum, world_checksum
 from ai4u_edu.recording.episode import (
     ENDED,
     LONGEST_DRIVER,
@@ -72,7 +72,7 @@ class _Column:
         )
 
 
-class Tape:
+class EpisodeBuilder:
     """An episode of a world under way.
 
     Args:
@@ -119,7 +119,7 @@ class Tape:
             self._ticks = ticks
         column.under_way = -1
         column.starts.append(len(column.begin))
-        column.firsts.append(percept_print(agent.percept))
+        column.firsts.append(percept_checksum(agent.percept))
 
     def decided(self, agent: BasicAgent) -> None:
         """A decision begins."""
@@ -139,7 +139,7 @@ class Tape:
         column.terms.append({})
         column.rewards.append(0.0)
         column.percepts.append(0)
-        column.worlds.append(world_print(world))
+        column.worlds.append(world_checksum(world))
         column.under_way = agent.steps
         if brain is not column.brain:
             column.brain = brain
@@ -157,7 +157,7 @@ class Tape:
         column.flags[-1] |= ENDED | TERMINATED * agent.terminated | TRUNCATED * agent.truncated
         column.terms[-1] = dict(ledger.terms)
         column.rewards[-1] = ledger.total
-        column.percepts[-1] = percept_print(agent.percept)
+        column.percepts[-1] = percept_checksum(agent.percept)
 
     def episode(self) -> Episode:
         """What happened so far."""

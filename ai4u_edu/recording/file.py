@@ -23,11 +23,11 @@ from ai4u_edu.recording.episode import LONGEST_DRIVER, AgentRecord, Episode, Res
 from ai4u_edu.recording.episode_builder import LATEST
 from ai4u_edu.recording.errors import RecordingError
 from ai4u_edu.recording.table import MOST_FORMS, Table
-from ai4u_edu.recording.validation import check_sound
+from ai4u_edu.recording.validation import validate_episode
 from ai4u_edu.scenes import Scene, SceneDescription
 
-HEAD = b"ai4u-edu episode 1\n"
-LARGEST_FILE = 16 * 2**20
+HEADER = b"ai4u-edu episode 1\n"
+MAX_FILE_BYTES = 16 * 2**20
 """Bytes that a file may have."""
 LARGEST = 24 * 2**20
 """Bytes that may come out of it when it is unpacked."""
@@ -89,7 +89,7 @@ def load(cls: type[E], path: Path) -> E:
     """Reads a file."""
     try:
         with path.open("rb") as file:
-            data = file.read(LARGEST_FILE + 1)
+            data = file.read(MAX_FILE_BYTES + 1)
     except OSError as error:
         raise RecordingError(f"{path}: can't be read: {error.strerror}") from None
     return decode(cls, data, path.name)
@@ -129,7 +129,7 @@ def encode(episode: Episode) -> bytes:
         "order": _packed(episode.order),
         "restarts": episode.restarts,
     }
-    return HEAD + zlib.compress(msgpack.packb(plain), 9)
+    return HEADER + zlib.compress(msgpack.packb(plain), 9)
 
 
 def decode(cls: type[E], data: bytes, name: str) -> E:
@@ -150,18 +150,18 @@ def decode(cls: type[E], data: bytes, name: str) -> E:
 
 
 def _read(cls: type[E], data: bytes) -> E:
-    if not data.startswith(HEAD):
-        if data.startswith(HEAD[:16]):
+    if not data.startswith(HEADER):
+        if data.startswith(HEADER[:16]):
             raise RecordingError(
                 "an episode of another version of this package; expected "
-                f"{HEAD.decode().strip()!r}, got {data[: len(HEAD)].split()[-1]!r}"
+                f"{HEADER.decode().strip()!r}, got {data[: len(HEADER)].split()[-1]!r}"
             )
         raise RecordingError(
             "expected a recorded episode, as ai4u-edu record writes it, and this is none"
         )
-    if len(data) > LARGEST_FILE:
-        raise RecordingError(f"expected at most {LARGEST_FILE // 2**20} MB")
-    file = _checked(_unpacked(data[len(HEAD) :]))
+    if len(data) > MAX_FILE_BYTES:
+        raise RecordingError(f"expected at most {MAX_FILE_BYTES // 2**20} MB")
+    file = _checked(_unpacked(data[len(HEADER) :]))
     episode = cls(
         scene=_scene(file.scene),
         seed=file.seed,
@@ -173,7 +173,7 @@ def _read(cls: type[E], data: bytes) -> E:
         cut=file.cut,
         versions=file.versions,
     )
-    check_sound(episode)
+    validate_episode(episode)
     return episode
 
 

@@ -13,14 +13,14 @@ from ai4u_edu.snapshot import (
     AgentState,
     BodyState,
     Snapshot,
-    Stage,
-    agent_state,
-    picture_of,
-    set_stage,
+    StaticScene,
+    capture_agent,
+    capture_snapshot,
+    capture_static_scene,
 )
 
 LARGEST = 96 * 2**20
-"""Bytes, about, that a reel's pictures may take up."""
+"""Bytes, about, that cached snapshots may take up."""
 REMEMBERED = 240
 """Of so many decisions it is shown with each picture what they were paid."""
 OF_A_DECISION = (
@@ -47,7 +47,7 @@ class _Frame:
     """For each agent the decision that it takes then, or carries out; -1 for none."""
 
 
-class Reel:
+class FrameCache:
     """Plays an episode in a thread of its own, and keeps its pictures.
 
     Picture k is how everything was when the agent took decision k: where the bodies were, what the
@@ -86,7 +86,7 @@ class Reel:
         self._size = 0
         self._count: int | None = None
         self._frames: dict[int, _Frame] = {}
-        self._stage: tuple[int, Stage] | None = None
+        self._static_scene: tuple[int, StaticScene] | None = None
         self._bodies: dict[str, BodyState] = {}
         self._made: set[int] = set()
         self._results: list[dict[int, _Result]] = [{} for _ in episode.agents]
@@ -94,9 +94,9 @@ class Reel:
         self._prepared = False
         self._stopping = False
         self._changed = threading.Condition()
-        self._thread = threading.Thread(target=self._run, name="reel", daemon=True)
+        self._thread = threading.Thread(target=self._run, name="frame_cache", daemon=True)
 
-    def start(self) -> "Reel":
+    def start(self) -> "FrameCache":
         """Begins to play."""
         self._thread.start()
         return self
@@ -128,7 +128,7 @@ class Reel:
         """Whether the last picture is how it ended, after all decisions."""
         return self.last == len(self.record)
 
-    def picture(self, step: int, timeout: float | None = 0.0) -> Snapshot | None:
+    def snapshot(self, step: int, timeout: float | None = 0.0) -> Snapshot | None:
         """How everything was when the agent took a decision.
 
         Args:
@@ -197,13 +197,13 @@ class Reel:
         verdict = replay.verdict
         self.replay = replay
         begins = self.record.begin
-        count = len(begins) if verdict.exact else int((begins < verdict.until).sum())
+        count = len(begins) if verdict.exact else int((begins < verdict.exact_until).sum())
         self.problem = verdict.why
         with self._changed:
             self._count = count + 1 if verdict.exact else count
         player = Player(self.episode)
         for index in range(len(player.taken)):
-            player.sim.agents[index].ledger.remember(REMEMBERED)
+            player.sim.agents[index].ledger.keep_history(REMEMBERED)
             _Results(player, index, self._results[index])
         for step in range(self._count):
             if self._stopping:
@@ -230,14 +230,14 @@ class Reel:
         else:
             while not player.over:
                 player.go_on()
-        if self._stage is None or self._stage[0] != player.sim.world.generation:
+        if self._static_scene is None or self._static_scene[0] != player.sim.world.generation:
             # what a player draws anew for the same seed is the same, and need not be built again
-            new = set_stage(player.sim)
-            same = self._stage is not None and self._stage[1] == new
-            kept = self._stage[1] if same and self._stage is not None else new
-            self._stage = player.sim.world.generation, kept
+            new = capture_static_scene(player.sim)
+            same = self._static_scene is not None and self._static_scene[1] == new
+            kept = self._static_scene[1] if same and self._static_scene is not None else new
+            self._static_scene = player.sim.world.generation, kept
         decisions = [_decision(player, index) for index in range(len(player.taken))]
-        return _Frame(picture_of(player.sim, self._stage[1]), tuple(decisions))
+        return _Frame(capture_snapshot(player.sim, self._static_scene[1]), tuple(decisions))
 
     def _keep(self, step: int, frame: _Frame) -> None:
         bodies = self._bodies  # most of them stand still: of those one is enough
@@ -302,7 +302,7 @@ class _Results:
             return
         sim, began = self._player.sim, self._player.episode.agents[self._index].begin[decision]
         phase = sim.phase(agent)._replace(tick=sim.world.ticks - int(began))
-        state = agent_state(agent, phase=phase)
+        state = capture_agent(agent, phase=phase)
         self._into[decision] = {name: getattr(state, name) for name in OF_A_DECISION}
 
 

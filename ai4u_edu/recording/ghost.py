@@ -42,7 +42,7 @@ def ghost_of(episode: Episode | Replay, *, every: int = 2) -> Ghost:
     names = [body.name for body in replay.episode.scene.bodies]
     rank = {name: index for index, name in enumerate(names)}
     times, rows = [], []
-    for picture in replay.pictures(every):
+    for picture in replay.snapshots(every):
         row = np.full((len(names), 4), np.nan, np.float32)
         for state in picture.bodies:
             if not state.fallen and state.name in rank:

@@ -10,9 +10,9 @@ from ai4u_edu.base.errors import AI4UError
 from ai4u_edu.blocks import Answer, Brain, Command, Percept
 from ai4u_edu.recording.episode import REPEAT, Episode
 from ai4u_edu.recording.errors import RecordingError
-from ai4u_edu.recording.scene_export import scene_of, without_brains, without_unknown_brains
+from ai4u_edu.recording.scene_export import export_scene, without_brains, without_unknown_brains
 from ai4u_edu.scenes.description import make_agents
-from ai4u_edu.scenes.serialization import PlainError, from_plain
+from ai4u_edu.scenes.serialization import PlainDataError, from_plain
 from ai4u_edu.world import World
 
 
@@ -185,7 +185,7 @@ class Player:
             if data.get("enabled", True):
                 try:
                     return cast(Brain, from_plain(Brain, data, ("agents", index, "brains", path)))
-                except PlainError as error:
+                except PlainDataError as error:
                     raise RecordingError(f"the episode's scene: {error}") from None
         agent = self.episode.agents[index].id
         raise RecordingError(
@@ -218,7 +218,7 @@ def _new_world(episode: Episode, brains: list[RecordedBrain]) -> ControlRequesto
 
 
 def _same(sim: ControlRequestor, episode: Episode) -> ControlRequestor:
-    if without_brains(scene_of(sim)) != without_brains(episode.scene):
+    if without_brains(export_scene(sim)) != without_brains(episode.scene):
         raise RecordingError(
             "the episode was recorded in another world, or with other blocks; expected a sim of "
             "its own scene: Scene(episode.scene).build()"

@@ -12,9 +12,9 @@ from ai4u_edu.blocks import Block
 from ai4u_edu.recording.archive import Archive
 from ai4u_edu.recording.checksum import everything
 from ai4u_edu.recording.episode import Episode
-from ai4u_edu.recording.episode_builder import Tape
+from ai4u_edu.recording.episode_builder import EpisodeBuilder
 from ai4u_edu.recording.errors import RecordingError
-from ai4u_edu.recording.scene_export import scene_of
+from ai4u_edu.recording.scene_export import export_scene
 from ai4u_edu.scenes import SceneDescription
 
 T = TypeVar("T")
@@ -67,7 +67,7 @@ class Recorder:
         self.save_problem = ""
         """Why ``on_episode`` failed with the last episode, which is kept; empty if it did not."""
         self.on_episode = on_episode
-        self._tape: Tape | None = None
+        self._builder: EpisodeBuilder | None = None
         self._world_episode = sim.episode
         self._listening = False
         self._attend()
@@ -98,14 +98,14 @@ class Recorder:
 
     def now(self) -> Episode | None:
         """The episode that is under way, as far as it got."""
-        return None if self._tape is None else self._tape.episode()
+        return None if self._builder is None else self._builder.episode()
 
     def finish(self) -> None:
         """The episode that is under way is over: nothing more of it is recorded."""
-        tape, self._tape = self._tape, None
-        if tape is None:
+        builder, self._builder = self._builder, None
+        if builder is None:
             return
-        episode = tape.episode()
+        episode = builder.episode()
         if not any(map(len, episode.agents)):
             return
         self.episodes.append(episode)
@@ -117,16 +117,16 @@ class Recorder:
 
         An episode can be played again exactly up to such a change, and not beyond.
         """
-        tape = self._tape
-        if tape is None or tape.changed is not None:
+        builder = self._builder
+        if builder is None or builder.changed is not None:
             return command()
-        ticks, restarts, before = self.sim.world.ticks, tape.restarts, self._all()
+        ticks, restarts, before = self.sim.world.ticks, builder.restarts, self._all()
         try:
             return command()
         finally:
-            same = self._tape is tape and tape.restarts == restarts
+            same = self._builder is builder and builder.restarts == restarts
             if same and self.sim.world.ticks == ticks and self._all() != before:
-                tape.changed = ticks
+                builder.changed = ticks
 
     def _hand_on(self, episode: Episode, on_episode: Callable[[Episode], object]) -> None:
         """Call ``on_episode``; a full disk must neither refuse the reset nor stop the world."""
@@ -149,29 +149,29 @@ class Recorder:
     # -- what it hears ---------------------------------------------------------------------------
 
     def _leave(self, _agent: BasicAgent) -> None:
-        if self._tape is not None:
-            self._tape.leave()
+        if self._builder is not None:
+            self._builder.leave()
 
     def _first(self, agent: BasicAgent) -> None:
         if self.sim.episode != self._world_episode:
             self.finish()
             self._begin()
-        if self._tape is not None:
-            self._tape.first(agent)
+        if self._builder is not None:
+            self._builder.first(agent)
 
     def _decided(self, agent: BasicAgent) -> None:
-        if self._tape is not None:
-            self._tape.decided(agent)
+        if self._builder is not None:
+            self._builder.decided(agent)
 
     def _sensed(self, agent: BasicAgent) -> None:
-        if self._tape is not None:
-            self._tape.sensed(agent)
+        if self._builder is not None:
+            self._builder.sensed(agent)
 
     def _begin(self) -> None:
         self._world_episode = self.sim.episode
         self.problem = ""
         try:
-            self._tape = Tape(self.sim, scene_of(self.sim, self.scene))
+            self._builder = EpisodeBuilder(self.sim, export_scene(self.sim, self.scene))
         except RecordingError as error:  # no reason for the world to stop
             self.problem = str(error)
 

@@ -1,5 +1,6 @@
 """Goes back in time: the moments of an episode, exactly as they were."""
 
+import warnings
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
@@ -13,8 +14,8 @@ from ai4u_edu.recording.episode_builder import VERSIONS
 from ai4u_edu.recording.errors import RecordingError
 from ai4u_edu.recording.player import Player
 from ai4u_edu.recording.recorder import Recorder
-from ai4u_edu.recording.scene_export import scene_of, without_brains
-from ai4u_edu.snapshot import Snapshot, Stage, picture_of, set_stage
+from ai4u_edu.recording.scene_export import export_scene, without_brains
+from ai4u_edu.snapshot import Snapshot, StaticScene, capture_snapshot, capture_static_scene
 
 NEAR = 100
 """So many moments before one that was gone back to are kept."""
@@ -26,10 +27,16 @@ class Verdict:
 
     exact: bool
     """Whether all of it does."""
-    until: int
+    exact_until: int
     """The tick up to which it does; moments from it on can't be shown."""
     why: str
     """What is different there, in a sentence; empty if nothing is."""
+
+    @property
+    def until(self) -> int:
+        """Deprecated name of :attr:`exact_until`."""
+        warnings.warn("use Verdict.exact_until", DeprecationWarning, stacklevel=2)
+        return self.exact_until
 
 
 @dataclass(frozen=True)
@@ -72,7 +79,7 @@ class Replay:
     def __init__(self, episode: Episode, *, on_step: Callable[[], object] | None = None) -> None:
         self.episode = episode
         self._player = Player(episode, on_step=on_step)
-        self._stage: tuple[int, Stage] | None = None
+        self._static_scene: tuple[int, StaticScene] | None = None
         self._near: dict[tuple[int, int], Moment] = {}
         self._last = (0, -1)
 
@@ -120,18 +127,18 @@ class Replay:
         """All moments that can be played again exactly, in order."""
         index = self.episode.ids.index(self.episode.agent(agent).id)
         for step, begin in enumerate(self.episode.agents[index].begin.tolist()):
-            if begin >= self.verdict.until:
+            if begin >= self.verdict.exact_until:
                 return
             self._player.go_to(index, step)
             yield self._moment(index, step)
 
-    def pictures(self, every: int = 1) -> Iterator[Snapshot]:
+    def snapshots(self, every: int = 1) -> Iterator[Snapshot]:
         """Snapshots from the beginning to the end, or as far as it is exact.
 
         Args:
             every: ticks between two of them. The last one comes in any case.
         """
-        until = min(self.verdict.until, self.episode.ticks)
+        until = min(self.verdict.exact_until, self.episode.ticks)
         player = self._player
         player.rewind()
         yield self._picture()
@@ -141,6 +148,11 @@ class Replay:
             ticks = player.sim.world.ticks
             if ticks > before and (ticks % every == 0 or ticks == until):
                 yield self._picture()
+
+    def pictures(self, every: int = 1) -> Iterator[Snapshot]:
+        """Deprecated name of :meth:`snapshots`."""
+        warnings.warn("use Replay.snapshots", DeprecationWarning, stacklevel=2)
+        return self.snapshots(every)
 
     def percepts(self, agent: str | None = None) -> list[list[Percept]]:
         """All that an agent sensed, by its own episodes.
@@ -222,7 +234,7 @@ class Replay:
     def fits(self, sim: ControlRequestor) -> bool:
         """Whether a world is one in which the episode can be continued: its own, or its like."""
         try:
-            return without_brains(scene_of(sim)) == without_brains(self.episode.scene)
+            return without_brains(export_scene(sim)) == without_brains(self.episode.scene)
         except RecordingError:  # a block that no file can hold: the episode has none of those
             return False
 
@@ -237,15 +249,15 @@ class Replay:
                 f"{count - 1}, got {step}"
             )
         step %= count
-        if record.begin[step] >= self.verdict.until:
+        if record.begin[step] >= self.verdict.exact_until:
             raise RecordingError(self._inexact())
         return self.episode.ids.index(record.id), step
 
     def _inexact(self) -> str:
-        seconds = self.verdict.until / self.episode.scene.world.ticks_per_second
+        seconds = self.verdict.exact_until / self.episode.scene.world.ticks_per_second
         return (
             f"the episode can be played again exactly up to {seconds:.2f} s (tick "
-            f"{self.verdict.until}) and not beyond: {self.verdict.why}"
+            f"{self.verdict.exact_until}) and not beyond: {self.verdict.why}"
         )
 
     def _moment(self, index: int, step: int) -> Moment:
@@ -254,9 +266,9 @@ class Replay:
 
     def _picture(self) -> Snapshot:
         sim = self._player.sim
-        if self._stage is None or self._stage[0] != sim.world.generation:
-            self._stage = sim.world.generation, set_stage(sim)
-        return picture_of(sim, self._stage[1])
+        if self._static_scene is None or self._static_scene[0] != sim.world.generation:
+            self._static_scene = sim.world.generation, capture_static_scene(sim)
+        return capture_snapshot(sim, self._static_scene[1])
 
 
 def _compare(there: Episode, here: Episode, problem: str) -> Verdict:

@@ -11,11 +11,11 @@ from ai4u_edu.blocks import Block, Brain
 from ai4u_edu.blocks.block import is_built_in
 from ai4u_edu.recording.errors import RecordingError
 from ai4u_edu.scenes import SceneDescription
-from ai4u_edu.scenes.serialization import fits_a_file, to_plain
+from ai4u_edu.scenes.serialization import is_serializable, to_plain
 from ai4u_edu.world import AreaDescription, BodyDescription, FloorDescription
 
 
-def scene_of(sim: ControlRequestor, like: SceneDescription | None = None) -> SceneDescription:
+def export_scene(sim: ControlRequestor, like: SceneDescription | None = None) -> SceneDescription:
     """A world and its agents as a scene.
 
     A brain that no file can hold, such as a Python function, is left out; so is one of a student's
@@ -103,7 +103,7 @@ def _fits(brain: Brain) -> bool:
     except TypeError:
         return False
     return all(
-        fits_a_file(type(block)) and Block.types.get(type(block).__name__) is type(block)
+        is_serializable(type(block)) and Block.types.get(type(block).__name__) is type(block)
         for block in _blocks(brain)
     )
 

@@ -9,7 +9,7 @@ LONGEST_SKIP = 10_000
 """The largest skip_frame that a brain may have."""
 
 
-def check_sound(episode: Episode) -> None:
+def validate_episode(episode: Episode) -> None:
     """Checks that all parts of an episode fit together.
 
     Raises:

@@ -4,14 +4,14 @@ from collections.abc import AsyncIterator, Sequence
 from typing import Any, Self, SupportsIndex
 
 from ai4u_edu.remote.address import address_of
-from ai4u_edu.remote.async_connection import AsynchronousLine
+from ai4u_edu.remote.async_connection import AsyncConnection
 from ai4u_edu.remote.dialogue import Dialogue
 from ai4u_edu.remote.percept import RemotePercept
-from ai4u_edu.remote.robot_base import Driven
+from ai4u_edu.remote.robot_base import RobotBase
 from ai4u_edu.wire.native import Mode, OnMissing
 
 
-class AsyncRobot(Driven):
+class AsyncRobot(RobotBase):
     """The verbs of :class:`~ai4u_edu.remote.Robot`, to be awaited.
 
     ::
@@ -36,7 +36,7 @@ class AsyncRobot(Driven):
         on_missing: OnMissing = "",
     ) -> None:
         address = address_of(url)
-        self._line = AsynchronousLine(address)
+        self._connection = AsyncConnection(address)
         super().__init__(
             Dialogue(
                 agent,
@@ -51,24 +51,24 @@ class AsyncRobot(Driven):
 
     async def open(self) -> Self:
         """Gets the agent."""
-        await self._line.run(self._dialogue.begin())
+        await self._connection.run(self._dialogue.begin())
         return self
 
     async def sense(self) -> RemotePercept:
         """What the robot senses now; after an action, as soon as its decision is over."""
-        return await self._line.run(self._dialogue.sense())
+        return await self._connection.run(self._dialogue.sense())
 
     async def act(self, action: Any = None, /, **numbers: Any) -> None:
         """Decides: answers the latest percept."""
-        await self._line.run(self._dialogue.act(numbers if action is None else action))
+        await self._connection.run(self._dialogue.act(numbers if action is None else action))
 
     async def reset(self, seed: SupportsIndex | None = None) -> RemotePercept:
         """Begins an episode; what the robot senses first."""
-        return await self._line.run(self._dialogue.reset(seed))
+        return await self._connection.run(self._dialogue.reset(seed))
 
     async def close(self) -> None:
         """Leaves the robot to the brain that it had before."""
-        await self._line.run(self._dialogue.end())
+        await self._connection.run(self._dialogue.end())
 
     async def __aiter__(self) -> AsyncIterator[RemotePercept]:
         """Every percept that needs an action, until the episode is over."""

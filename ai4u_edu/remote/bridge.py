@@ -19,7 +19,7 @@ from ai4u_edu.remote.dialogue import Dialogue
 from ai4u_edu.remote.errors import RemoteError
 from ai4u_edu.remote.percept import RemotePercept
 from ai4u_edu.remote.spaces import output_space, reading_space
-from ai4u_edu.remote.sync_connection import NotWantedError, PlainLine
+from ai4u_edu.remote.sync_connection import StoppedError, SyncConnection
 from ai4u_edu.wire import ai4u_dialogue, native
 from ai4u_edu.wire.agent_codec import AgentCodec
 from ai4u_edu.wire.ai4u import Order, number
@@ -95,7 +95,7 @@ class Bridge:
         self._secret = token_urlsafe(16)
         self._is_over = threading.Event()
         self._tell = tell
-        self._line, self._robot = self._connected()
+        self._connection, self._robot = self._connect()
         welcome = self._robot.welcome
         self._title = f"agent {welcome.agent!r} of {welcome.title!r}"
         self._codec = _codec_of(welcome)
@@ -124,7 +124,7 @@ class Bridge:
                     self._let_drive()
                 except ScriptGoneError as gone:
                     self._tell(str(gone))
-                except NotWantedError:
+                except StoppedError:
                     pass  # it was stopped while it waited for the world
                 finally:
                     self._leave()
@@ -138,8 +138,8 @@ class Bridge:
 
     # -- the steps of it -------------------------------------------------------------------------
 
-    def _connected(self) -> tuple[PlainLine, Dialogue]:
-        line = PlainLine(self._address, is_over=self._is_over)
+    def _connect(self) -> tuple[SyncConnection, Dialogue]:
+        connection = SyncConnection(self._address, stop=self._is_over)
         # with the same secret, since the world may not have heard that the session before is over
         robot = Dialogue(
             self._agent,
@@ -148,11 +148,11 @@ class Bridge:
             session=f":{self._secret}",
             on_missing=self._on_missing,
         )
-        line.run(robot.begin())
-        return line, robot
+        connection.run(robot.begin())
+        return connection, robot
 
     def _leave(self) -> None:
-        self._line.run(self._robot.end("the AI4U script has ended"))
+        self._connection.run(self._robot.end("the AI4U script has ended"))
 
     def _await_script(self) -> bool:
         """Knocks until a script is there, and asks it until it begins; whether it did."""
@@ -178,10 +178,10 @@ class Bridge:
     def _let_drive(self) -> None:
         """A session: from the script's first wish until it ends."""
         script = self._script
-        self._line, self._robot = self._connected()
+        self._connection, self._robot = self._connect()
         self._tell(f"an AI4U script drives {self._title}")
         starts = script.dialogue.phase is Phase.STARTED
-        percept = self._line.run(self._robot.sense() if starts else self._robot.reset())
+        percept = self._connection.run(self._robot.sense() if starts else self._robot.reset())
         if starts:
             time.sleep(SETTLE)
         state, waits, said = self._state(percept), 0, 0.0
@@ -194,7 +194,7 @@ class Bridge:
             if word in (Word.HALT, Word.CONTROL):
                 return
             if word is Word.WAIT and time.monotonic() - said > STILL_HERE:
-                self._line.run(self._robot.wait())
+                self._connection.run(self._robot.wait())
                 said = time.monotonic()
             waits = waits + 1 if word is Word.WAIT else 0
             after = self._obeyed(word, heard.orders if heard else [], percept)
@@ -208,7 +208,7 @@ class Bridge:
         self, word: Word, orders: list[Order], percept: RemotePercept
     ) -> RemotePercept | None:
         """Has the world do what the script asks for; what the agent senses then, if it did."""
-        run, robot = self._line.run, self._robot
+        run, robot = self._connection.run, self._robot
         if word is Word.RESET:
             return run(robot.reset())
         if word in _ORDERS:

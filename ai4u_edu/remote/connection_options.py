@@ -1,4 +1,4 @@
-"""What both kinds of lines have in common."""
+"""The options and errors that the synchronous and the asynchronous connection share."""
 
 import logging
 from socket import gaierror
@@ -7,17 +7,19 @@ from typing import Any
 from websockets.exceptions import ConnectionClosed, InvalidStatus
 from websockets.typing import Subprotocol
 
-from ai4u_edu.remote.steps import LineLost
+from ai4u_edu.remote.steps import ConnectionLostError
 from ai4u_edu.wire import native
 
+_MAX_BODY_CHARS = 400
+
 _logger = logging.getLogger("ai4u_edu.remote")
-_logger.setLevel(logging.CRITICAL)  # a lost connection is an everyday thing, and dealt with
+_logger.setLevel(logging.CRITICAL)  # a lost connection is normal: the dialogue reconnects
 
 OPTIONS: dict[str, Any] = {
     "subprotocols": [Subprotocol(native.SUBPROTOCOL)],
-    "compression": None,  # frames are small, and numbers hardly shrink
+    "compression": None,  # frames are small, and numbers compress badly
     "max_size": native.LARGEST_HEARD,
-    # an end that has vanished without a word is found out so
+    # seconds; a server that vanished without closing the connection is noticed by these pings
     "ping_interval": 2,
     "ping_timeout": 4,
     "close_timeout": 0.5,
@@ -25,12 +27,14 @@ OPTIONS: dict[str, Any] = {
 }
 
 
-def lost_by(error: Exception) -> LineLost:
-    """A lost line, by what websockets or the system said."""
+def connection_lost_from(error: Exception) -> ConnectionLostError:
+    """Convert an error of websockets or of the system."""
     if isinstance(error, ConnectionClosed) and error.rcvd is not None:
-        return LineLost(error.rcvd.reason or f"closed with code {error.rcvd.code}", error.rcvd.code)
+        code = error.rcvd.code
+        return ConnectionLostError(error.rcvd.reason or f"closed with code {code}", code)
     if isinstance(error, InvalidStatus):
         body = (error.response.body or b"").decode(errors="replace").strip()
-        return LineLost(f"answer {error.response.status_code} {body[:400]}".strip(), for_good=True)
-    nobody = isinstance(error, ConnectionRefusedError | gaierror)
-    return LineLost(str(error) or type(error).__name__, for_good=nobody)
+        answer = f"answer {error.response.status_code} {body[:_MAX_BODY_CHARS]}"
+        return ConnectionLostError(answer.strip(), is_permanent=True)
+    is_nobody_there = isinstance(error, ConnectionRefusedError | gaierror)
+    return ConnectionLostError(str(error) or type(error).__name__, is_permanent=is_nobody_there)

@@ -15,7 +15,7 @@ from ai4u_edu.base.seeding import checked_seed
 from ai4u_edu.remote.errors import LostError, RefusedError, RemoteError
 from ai4u_edu.remote.outputs import numbers_of
 from ai4u_edu.remote.percept import RemotePercept
-from ai4u_edu.remote.steps import Close, Flow, LineLost, Open, Pause, Receive, Send
+from ai4u_edu.remote.steps import Close, ConnectionLostError, Flow, Open, Pause, Receive, Send
 from ai4u_edu.wire import native
 from ai4u_edu.wire.validation import WireError
 
@@ -141,7 +141,7 @@ class Dialogue:
                     yield Send(self._said)
                 else:
                     self._hear(frame)
-            except LineLost as lost:
+            except ConnectionLostError as lost:
                 yield from self._take_up_again(lost)
                 wait = FIRST_WAIT
         return percept
@@ -178,14 +178,14 @@ class Dialogue:
             return
         try:
             yield Send(native.encode(native.Order(self.percept.seq, "wait")))
-        except LineLost as lost:
+        except ConnectionLostError as lost:
             yield from self._take_up_again(lost)
 
     def end(self, reason: str = "the script has ended") -> Flow[None]:
         """Says goodbye: the seat is free."""
         if self._ended is None:
             self._ended = LostError("the robot was closed; expected connect(...) again")
-            with suppress(LineLost):
+            with suppress(ConnectionLostError):
                 yield Send(native.encode(native.Bye(reason)))
             yield Close()
 
@@ -195,7 +195,7 @@ class Dialogue:
         self._said, self._answered, self._refusable = native.encode(message), True, message.seq
         try:
             yield Send(self._said)
-        except LineLost as lost:
+        except ConnectionLostError as lost:
             yield from self._take_up_again(lost)
 
     def _greet(self, deadline: float) -> Flow[None]:
@@ -214,9 +214,9 @@ class Dialogue:
                 frame = yield Receive(left)
                 if frame is not None and self._hear_welcome(frame):
                     return
-        raise LineLost("no answer")
+        raise ConnectionLostError("no answer")
 
-    def _take_up_again(self, lost: LineLost) -> Flow[None]:
+    def _take_up_again(self, lost: ConnectionLostError) -> Flow[None]:
         self._check_open()
         self._refuse_by_close(lost)
         final = yield from self._insist(time.monotonic() + self.welcome.grace)
@@ -228,18 +228,18 @@ class Dialogue:
             yield Close()
             raise self._ended from None
 
-    def _insist(self, deadline: float, *, first: bool = False) -> Flow[LineLost | None]:
+    def _insist(self, deadline: float, *, first: bool = False) -> Flow[ConnectionLostError | None]:
         """Opens a connection and says what has to be said, again and again; what failed last."""
-        pause, lost = 0.02, LineLost("no answer")
+        pause, lost = 0.02, ConnectionLostError("no answer")
         while time.monotonic() < deadline:
             try:
                 yield from self._greet(min(deadline, time.monotonic() + ATTEMPT))
                 if self._answered and not first:
                     yield Send(self._said)
-            except LineLost as failed:
+            except ConnectionLostError as failed:
                 self._refuse_by_close(failed)
                 lost = failed
-                if first and lost.for_good:
+                if first and lost.is_permanent:
                     break
             else:
                 return None
@@ -291,7 +291,7 @@ class Dialogue:
         kind = LostError if self._welcome else RefusedError
         self._end_by(kind(problem.text, problem.code))
 
-    def _refuse_by_close(self, lost: LineLost) -> None:
+    def _refuse_by_close(self, lost: ConnectionLostError) -> None:
         """Raises if the world closed on purpose; the frame that said why may have got lost."""
         if lost.code in _CODES:
             self._refuse(native.Problem(_CODES[lost.code], str(lost), 0))

@@ -6,15 +6,15 @@ from typing import Any, Self, SupportsIndex
 from ai4u_edu.remote.address import address_of
 from ai4u_edu.remote.dialogue import Dialogue
 from ai4u_edu.remote.percept import RemotePercept
-from ai4u_edu.remote.robot_base import Driven
-from ai4u_edu.remote.sync_connection import PlainLine
+from ai4u_edu.remote.robot_base import RobotBase
+from ai4u_edu.remote.sync_connection import SyncConnection
 from ai4u_edu.wire.native import Mode, OnMissing
 
 _robots: dict[tuple[str, str], "Robot"] = {}
 """Those of this process, by the world's address and the agent that was asked for."""
 
 
-class Robot(Driven):
+class Robot(RobotBase):
     """An agent of a running world, driven from here. :func:`connect` gives one.
 
     Each decision is a percept and the action that answers it::
@@ -28,14 +28,14 @@ class Robot(Driven):
     If the connection is lost, it is taken up again; the session goes on where it was.
     """
 
-    def __init__(self, line: PlainLine, dialogue: Dialogue) -> None:
+    def __init__(self, connection: SyncConnection, dialogue: Dialogue) -> None:
         super().__init__(dialogue)
-        self._line = line
-        line.run(dialogue.begin())
+        self._connection = connection
+        connection.run(dialogue.begin())
 
     def sense(self) -> RemotePercept:
         """What the robot senses now; after an action, as soon as its decision is over."""
-        return self._line.run(self._dialogue.sense())
+        return self._connection.run(self._dialogue.sense())
 
     def act(self, action: Any = None, /, **numbers: Any) -> None:
         """Decides: answers the latest percept. Returns at once; :meth:`sense` waits.
@@ -48,7 +48,7 @@ class Robot(Driven):
             ActionError: it names an actuator that there is not, its numbers don't fit, or the
                 episode is over.
         """
-        self._line.run(self._dialogue.act(numbers if action is None else action))
+        self._connection.run(self._dialogue.act(numbers if action is None else action))
 
     def reset(self, seed: SupportsIndex | None = None) -> RemotePercept:
         """Begins an episode; what the robot senses first.
@@ -62,11 +62,11 @@ class Robot(Driven):
             RefusedError: there is a seed and there are others, and the world is not to be reset
                 from here.
         """
-        return self._line.run(self._dialogue.reset(seed))
+        return self._connection.run(self._dialogue.reset(seed))
 
     def close(self) -> None:
         """Leaves the robot to the brain that it had before. Closing twice is fine."""
-        self._line.run(self._dialogue.end())
+        self._connection.run(self._dialogue.end())
         for place in [place for place, robot in _robots.items() if robot is self]:
             del _robots[place]
 
@@ -134,5 +134,5 @@ def connect(
         patience=patience,
         on_missing=on_missing,
     )
-    robot = _robots[address.url, agent] = Robot(PlainLine(address), dialogue)
+    robot = _robots[address.url, agent] = Robot(SyncConnection(address), dialogue)
     return robot

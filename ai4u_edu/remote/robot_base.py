@@ -19,7 +19,7 @@ class Spaces(NamedTuple):
     """Of its one actuator, or a Dict of several."""
 
 
-class Driven:
+class RobotBase:
     """An agent that is driven from here, by whichever verbs.
 
     Args:

@@ -1,7 +1,8 @@
-"""What a dialogue asks of the line that carries it.
+"""The steps of a dialogue: what it asks a connection to do.
 
-A dialogue opens no connection and waits for nothing. It is a generator that yields these steps, and
-is sent what came of them; a plain line and an asynchronous one carry them out.
+A :class:`~ai4u_edu.remote.dialogue.Dialogue` does no input or output itself. Its methods are
+generators: they yield these steps, and a connection, synchronous or asynchronous, carries them out
+and sends back the result. So both kinds of connections share one dialogue.
 """
 
 from collections.abc import Generator
@@ -11,7 +12,7 @@ T = TypeVar("T")
 
 
 class Open(NamedTuple):
-    """Open a connection (anew); an error ends in :class:`LineLost`."""
+    """Open a new connection; raises :class:`ConnectionLostError` if that fails."""
 
     timeout: float
     """Seconds."""
@@ -24,35 +25,36 @@ class Send(NamedTuple):
 
 
 class Receive(NamedTuple):
-    """Wait for a frame; None if none comes in time."""
+    """Wait for a frame; the result is None on a timeout."""
 
     timeout: float
     """Seconds."""
 
 
 class Pause(NamedTuple):
-    """Do nothing for a while."""
+    """Sleep."""
 
     seconds: float
 
 
 class Close(NamedTuple):
-    """Close the connection; does not fail."""
+    """Close the connection; never fails."""
 
 
 Step = Open | Send | Receive | Pause | Close
 Flow = Generator[Step, Any, T]
 
 
-class LineLost(Exception):  # noqa: N818 - it never leaves this package
-    """There is no connection, or none any more.
+class ConnectionLostError(Exception):
+    """There is no connection, or it was lost; never raised to users of this package.
 
     Attributes:
         code: of the WebSocket's close; 0 if it had none.
-        for_good: whether nobody is there, or lets nobody in: trying again hardly helps.
+        is_permanent: True if nobody listens there, or the handshake was refused; a retry is
+            unlikely to help.
     """
 
-    def __init__(self, reason: str, code: int = 0, *, for_good: bool = False) -> None:
+    def __init__(self, reason: str, code: int = 0, *, is_permanent: bool = False) -> None:
         super().__init__(reason)
         self.code = code
-        self.for_good = for_good
+        self.is_permanent = is_permanent

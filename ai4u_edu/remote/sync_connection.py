@@ -1,59 +1,61 @@
-"""A connection for scripts that wait: the steps of a dialogue, one after another."""
+"""A WebSocket connection that blocks while it waits; carries out the steps of a dialogue."""
 
 import threading
 import time
-from typing import Any, TypeVar, cast
+from typing import Any, TypeVar
 
 from websockets.exceptions import ConnectionClosed, WebSocketException
-from websockets.sync.client import connect
+from websockets.sync.client import ClientConnection, connect
 
 from ai4u_edu.remote.address import Address
-from ai4u_edu.remote.connection_options import OPTIONS, lost_by
-from ai4u_edu.remote.direct_socket import DirectSocket
+from ai4u_edu.remote.connection_options import OPTIONS, connection_lost_from
 from ai4u_edu.remote.errors import RemoteError
-from ai4u_edu.remote.steps import Close, Flow, LineLost, Open, Pause, Receive, Send, Step
+from ai4u_edu.remote.steps import Close, ConnectionLostError, Flow, Open, Pause, Receive, Send, Step
 
 T = TypeVar("T")
-_WAITING = (Open, Receive, Pause)
+_WAITING_STEPS = (Open, Receive, Pause)
 
 
-class NotWantedError(RemoteError):
-    """Another thread wants nobody to wait for the world any more."""
+class StoppedError(RemoteError):
+    """Another thread asked to stop waiting for the world."""
 
 
-class PlainLine:
-    """One WebSocket to a world, opened anew when a dialogue wants that.
+class SyncConnection:
+    """A WebSocket to a world; reconnects when a dialogue asks for it.
+
+    While the script computes, threads of ``websockets`` answer the world's pings, and notice a lost
+    connection.
 
     Args:
         address: of the world.
-        is_over: once another thread has set it, whoever waits gets a NotWantedError; within
-            a second, since no step of a dialogue waits longer for a frame. Saying goodbye still
-            works.
+        stop: set by another thread to stop waiting. Then each step that waits raises a
+            StoppedError, at the latest after a second, since no step waits longer for a frame.
+            Sending, such as of a goodbye, still works.
     """
 
-    def __init__(self, address: Address, *, is_over: threading.Event | None = None) -> None:
+    def __init__(self, address: Address, *, stop: threading.Event | None = None) -> None:
         self._address = address
-        self._is_over = is_over
-        self._socket: DirectSocket | None = None
+        self._stop = stop
+        self._socket: ClientConnection | None = None
 
     def run(self, flow: Flow[T]) -> T:
-        """Carries out what a dialogue wants, and gives back what it comes to."""
-        came: Any = None
-        lost: LineLost | None = None
+        """Carry out a dialogue's steps one after another, and return its result."""
+        result: Any = None
+        error: ConnectionLostError | None = None
         while True:
             try:
-                step = flow.throw(lost) if lost is not None else flow.send(came)
+                step = flow.throw(error) if error is not None else flow.send(result)
             except StopIteration as end:
                 return end.value  # type: ignore[no-any-return]
-            came = lost = None
+            result = error = None
             try:
-                came = self._carry_out(step)
-            except LineLost as error:
-                lost = error
+                result = self._carry_out(step)
+            except ConnectionLostError as lost:
+                error = lost
 
     def _carry_out(self, step: Step) -> Any:
-        if isinstance(step, _WAITING) and self._is_over is not None and self._is_over.is_set():
-            raise NotWantedError("the bridge was stopped")
+        if isinstance(step, _WAITING_STEPS) and self._stop is not None and self._stop.is_set():
+            raise StoppedError("the bridge was stopped")
         match step:
             case Receive(timeout):
                 return self._receive(timeout)
@@ -69,34 +71,29 @@ class PlainLine:
         return None
 
     def _open(self, timeout: float) -> None:
-        ours: Any = DirectSocket  # has what connect() calls, and no more of websockets' own
         try:
-            self._socket = cast(
-                "DirectSocket",
-                connect(
-                    self._address.url,
-                    open_timeout=timeout,
-                    proxy=None if self._address.is_loopback else True,
-                    create_connection=ours,
-                    **OPTIONS,
-                ),
+            self._socket = connect(
+                self._address.url,
+                open_timeout=timeout,
+                proxy=None if self._address.is_loopback else True,
+                **OPTIONS,
             )
         except (OSError, WebSocketException) as error:
-            raise lost_by(error) from None
+            raise connection_lost_from(error) from None
 
     def _send(self, frame: bytes) -> None:
         try:
-            self._there.send(frame)
+            self._connected.send(frame)
         except ConnectionClosed as closed:
-            raise lost_by(closed) from None
+            raise connection_lost_from(closed) from None
 
     def _receive(self, timeout: float) -> bytes | None:
         try:
-            return self._there.recv(timeout)
+            return self._connected.recv(timeout, decode=False)
         except TimeoutError:
             return None
         except ConnectionClosed as closed:
-            raise lost_by(closed) from None
+            raise connection_lost_from(closed) from None
 
     def _close(self) -> None:
         if self._socket is not None:
@@ -104,7 +101,7 @@ class PlainLine:
             self._socket = None
 
     @property
-    def _there(self) -> DirectSocket:
+    def _connected(self) -> ClientConnection:
         if self._socket is None:
-            raise LineLost("there is no connection")
+            raise ConnectionLostError("there is no connection")
         return self._socket

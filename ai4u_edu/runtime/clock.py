@@ -14,21 +14,13 @@ PROMPT_SLEEP_S = 0.05
 """A pause that is shorter is slept without listening for commands, which is more exact."""
 COMMAND_POLL_S = 0.05
 """Seconds between two looks whether commands that wait may be carried out, in a longer pause."""
-YIELD_S = 0.0002
-"""Seconds for which a thread that gives way to a tick sleeps at a time."""
-MAX_YIELD_S = 0.01
-"""Seconds for which a thread that draws waits for the end of a tick."""
-SOON_S = 0.0003
-"""Drawing also yields if the next tick is due within this time."""
-HOPELESS_LAG_S = 0.02
-"""A world whose ticks are late by so much, on average, is not helped by yielding."""
 
 
 class TickSchedule:
-    """Paces the thread that runs a world, and lets threads that draw keep out of its way.
+    """The times at which ticks are due, and how well they are kept.
 
-    The runner's thread holds :attr:`is_ticking` during a tick and calls :meth:`tick_ended` and
-    :meth:`sleep` after it. Any thread may call :meth:`give_way` and read the numbers.
+    The runner's thread calls :meth:`tick_ended` and :meth:`sleep` after each tick. Any thread may
+    read the numbers.
 
     Args:
         clock: seconds.
@@ -42,24 +34,7 @@ class TickSchedule:
         """Lateness (s) with which ticks lately began, on average."""
         self.ticked = 0
         """Count of ticks so far."""
-        self.is_ticking = threading.Lock()
-        self.is_asleep = False
-        """True until the next tick is due."""
         self._window: deque[tuple[float, int]] = deque(maxlen=60)
-
-    def give_way(self) -> None:
-        """Wait until no tick is due or under way, but not for long.
-
-        One thread computes at a time. A tick between others that compute takes as many times as
-        long; so who only draws says this between one thing and the next.
-        """
-        if self.lateness > HOPELESS_LAG_S:
-            return
-        enough = self._clock() + MAX_YIELD_S
-        while self.is_asleep and self.due - SOON_S < self._clock() < enough:
-            time.sleep(YIELD_S)  # it would not get the processor when it wakes up
-        if self.is_ticking.acquire(timeout=MAX_YIELD_S):
-            self.is_ticking.release()
 
     def tick_ended(self, period: float, *, held: bool) -> None:
         """Find out when the next tick is due.
@@ -84,18 +59,14 @@ class TickSchedule:
             wake: set when somebody wants something.
             listen: looks what is wanted; false ends the sleep.
         """
-        self.is_asleep = True
-        try:
-            while (left := self.due - self._clock()) > 0:
-                if left <= PROMPT_SLEEP_S:
-                    time.sleep(left)
-                    return
-                if wake.wait(min(left - PROMPT_SLEEP_S / 2, COMMAND_POLL_S)):
-                    wake.clear()
-                if not listen():
-                    return
-        finally:
-            self.is_asleep = False
+        while (left := self.due - self._clock()) > 0:
+            if left <= PROMPT_SLEEP_S:
+                time.sleep(left)
+                return
+            if wake.wait(min(left - PROMPT_SLEEP_S / 2, COMMAND_POLL_S)):
+                wake.clear()
+            if not listen():
+                return
 
     def rest(self) -> None:
         """Forget how well it went: the time stands still."""

@@ -26,7 +26,7 @@ from ai4u_edu.runtime.slow_ticks import SlowTicks
 from ai4u_edu.runtime.snapshot_publisher import Publisher
 from ai4u_edu.runtime.stall_monitor import Stall, StallMonitor
 from ai4u_edu.scenes import Scene
-from ai4u_edu.snapshot import Snapshot, Stage, picture_of, set_stage
+from ai4u_edu.snapshot import Snapshot, StaticScene, capture_snapshot, capture_static_scene
 
 T = TypeVar("T")
 
@@ -100,7 +100,7 @@ class Runner:
         sim.reset(seed)
         self._past: Snapshot | None = None
         self._generation = -1
-        self._stage: Stage
+        self._static_scene: StaticScene
         self._publisher = Publisher(self._picture(), clock)
 
     # -- for those who look ----------------------------------------------------------------------
@@ -123,11 +123,6 @@ class Runner:
     def lateness(self) -> float:
         """Lateness (s) with which ticks lately began, on average."""
         return self._schedule.lateness
-
-    def give_way(self) -> None:
-        """Waits until no tick is due or under way; not long, nor in a world without a pause."""
-        if not (self.is_unpaced() or self._monitor.is_stalled):
-            self._schedule.give_way()
 
     def is_unpaced(self) -> bool:
         """Whether the time runs as fast as it can, and not by the clock."""
@@ -423,13 +418,12 @@ class Runner:
             else:
                 self.sim.tick()
 
-        with self._schedule.is_ticking:
-            self._attempt(tick)
-            ended = self._clock()
-            if not self.sim.waiting_for_brain:  # a world that waits for a script is not slow
-                self._schedule.ticked += ticks
-                self._slow.note((ended - began) / ticks, self.sim.world.count_contacts)
-            self._show(ended, ended - began)
+        self._attempt(tick)
+        ended = self._clock()
+        if not self.sim.waiting_for_brain:  # a world that waits for a script is not slow
+            self._schedule.ticked += ticks
+            self._slow.note((ended - began) / ticks, self.sim.world.count_contacts)
+        self._show(ended, ended - began)
 
     def _show(self, now: float, took: float) -> None:
         """Publishes how it looks after a tick, if there is time for that, or something is wrong."""
@@ -547,11 +541,11 @@ class Runner:
             self._publisher.publish(lambda: replace(self.latest, error=self.error))
 
     def _as_past(self, past: Snapshot) -> Snapshot:
-        """A moment of the past, as it is shown; where it can be, on the stage that is there now."""
-        same = past.stage is self._stage or past.stage == self._stage
+        """Return a past snapshot as it is shown; it shares the current static scene if equal."""
+        same = past.static_scene is self._static_scene or past.static_scene == self._static_scene
         return replace(
             past,
-            stage=self._stage if same else past.stage,
+            static_scene=self._static_scene if same else past.static_scene,
             paused=True,
             time_scale=self.time_scale,
         )
@@ -560,12 +554,12 @@ class Runner:
         sim = self.sim
         if sim.world.generation != self._generation:
             self._generation = sim.world.generation
-            stage = set_stage(sim)
-            if getattr(self, "_stage", None) != stage:
-                self._stage = stage
-        return picture_of(
+            static_scene = capture_static_scene(sim)
+            if getattr(self, "_static_scene", None) != static_scene:
+                self._static_scene = static_scene
+        return capture_snapshot(
             sim,
-            self._stage,
+            self._static_scene,
             paused=self.paused,
             time_scale=self.time_scale,
             real_time_factor=self._real_time_factor(),

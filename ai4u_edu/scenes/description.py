@@ -10,7 +10,7 @@ from ai4u_edu.agent.ledger import HANDLERS
 from ai4u_edu.base.errors import suggest
 from ai4u_edu.base.parameters import Name, Problem, quantity
 from ai4u_edu.blocks.rewards.combined import CombinedRewardFunc
-from ai4u_edu.scenes.serialization import Path, PlainError, make
+from ai4u_edu.scenes.serialization import Path, PlainDataError, make
 from ai4u_edu.world import AreaDescription, BodyDescription, FloorDescription, WorldSettings
 from ai4u_edu.world.shapes import Description
 
@@ -57,17 +57,17 @@ def make_agents(scene: SceneDescription) -> list[BasicAgent]:
     """New agents with new blocks, as a scene says.
 
     Raises:
-        PlainError: some parameters are wrong; all of them are told.
+        PlainDataError: some parameters are wrong; all of them are told.
     """
     problems: list[Problem] = []
     agents = []
     for index, given in enumerate(scene.agents):
         try:
             agents.append(make(BasicAgent, given, ("agents", index)))
-        except PlainError as error:
+        except PlainDataError as error:
             problems += error.problems
     if problems:
-        raise PlainError(problems)
+        raise PlainDataError(problems)
     return [agent for agent in agents if isinstance(agent, BasicAgent)]
 
 
@@ -78,7 +78,7 @@ def check_success(success: str | None, agents: Sequence[BasicAgent]) -> None:
     handlers pay with ``add_reward`` under :data:`HANDLERS`, or the name of a reward function.
 
     Raises:
-        PlainError: none does: no episode could ever succeed.
+        PlainDataError: none does: no episode could ever succeed.
     """
     terms = {reward.name for agent in agents for reward in agent.rewards}
     if success is None or success in terms or success == HANDLERS:
@@ -91,7 +91,7 @@ def check_success(success: str | None, agents: Sequence[BasicAgent]) -> None:
     ]
     hint = f"it is paid under the name {parents[0]!r}" if parents else suggest(success, terms)
     text = f"no reward function has the name {success!r}, so no episode could succeed; {hint}"
-    raise PlainError([Problem(("success",), text)])
+    raise PlainDataError([Problem(("success",), text)])
 
 
 def _names_below(reward: CombinedRewardFunc) -> set[str]:

@@ -12,7 +12,7 @@ from ai4u_edu.base.errors import AI4UError, SceneError, WorldError, suggest
 from ai4u_edu.base.parameters import Problem, explain
 from ai4u_edu.blocks.brains.network import files_in
 from ai4u_edu.scenes.description import SceneDescription, check_success, make_agents
-from ai4u_edu.scenes.serialization import PlainError
+from ai4u_edu.scenes.serialization import PlainDataError
 from ai4u_edu.scenes.setup_errors import path_of
 from ai4u_edu.scenes.yaml.edit import edited
 from ai4u_edu.scenes.yaml.file import YamlFile, write_yaml
@@ -87,7 +87,7 @@ class Scene:
         except ValidationError as error:
             problems = explain(error.errors(), SceneDescription)
             raise _told(file, problems) from None
-        except PlainError as error:
+        except PlainDataError as error:
             raise _told(file, error.problems) from None
         except WorldError as error:
             raise _told(file, [Problem(description.where_is(error.thing), str(error))]) from None
@@ -107,7 +107,7 @@ class Scene:
         """Makes the world and the agents, each time new ones.
 
         Raises:
-            AI4UError: something in the description is wrong; of its data, a PlainError.
+            AI4UError: something in the description is wrong; of its data, a PlainDataError.
         """
         description = self.description
         world = World(seed=seed, **dict(description.world))

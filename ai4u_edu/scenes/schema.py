@@ -6,7 +6,7 @@ from ai4u_edu.agent import BasicAgent
 from ai4u_edu.blocks import Block
 from ai4u_edu.blocks.block import is_built_in
 from ai4u_edu.scenes.description import SceneDescription
-from ai4u_edu.scenes.serialization import KINDS, fits_a_file
+from ai4u_edu.scenes.serialization import KINDS, is_serializable
 
 
 def scene_schema() -> dict[str, Any]:
@@ -15,7 +15,7 @@ def scene_schema() -> dict[str, Any]:
     agent = BasicAgent.json_schema()
     definitions: dict[str, Any] = {**schema.pop("$defs", {}), **agent.pop("$defs", {})}
     blocks = {
-        name: cls for name, cls in Block.types.items() if is_built_in(cls) and fits_a_file(cls)
+        name: cls for name, cls in Block.types.items() if is_built_in(cls) and is_serializable(cls)
     }
     for name, cls in blocks.items():
         definitions[name] = _block_schema(cls)

@@ -19,13 +19,13 @@ OWN = "a block of your own is known once its file is imported, or named with --b
 """What to do about a type that is not built in."""
 
 
-def fits_a_file(cls: type[Block]) -> bool:
+def is_serializable(cls: type[Block]) -> bool:
     """Whether a scene file can name a class: not one that is only the base of others."""
     # what holds a Python function can't be written down
     return cls not in (*KINDS, ScriptController) and not cls.__dict__.get("abstract")
 
 
-class PlainError(AI4UError):
+class PlainDataError(AI4UError):
     """What is wrong with plain data: every problem, with its path."""
 
     def __init__(self, problems: Sequence[Problem]) -> None:
@@ -53,20 +53,24 @@ def from_plain(kind: type[Block], data: Any, path: Path = ()) -> Block:
         path: where the data stands, for messages.
 
     Raises:
-        PlainError: it is no block, of no such type, or its parameters are wrong.
+        PlainDataError: it is no block, of no such type, or its parameters are wrong.
     """
     if not isinstance(data, Mapping):
-        raise PlainError([Problem(path, f"expected a mapping with a 'type', got {shown(data)}")])
+        raise PlainDataError(
+            [Problem(path, f"expected a mapping with a 'type', got {shown(data)}")]
+        )
     known = {
-        name: cls for name, cls in Block.types.items() if issubclass(cls, kind) and fits_a_file(cls)
+        name: cls
+        for name, cls in Block.types.items()
+        if issubclass(cls, kind) and is_serializable(cls)
     }
     name = data.get("type")
     if name is None:
-        raise PlainError([Problem(path, f"needs a 'type'; {suggest('', known)}")])
+        raise PlainDataError([Problem(path, f"needs a 'type'; {suggest('', known)}")])
     if not isinstance(name, str) or name not in known:
         hint = suggest(name if isinstance(name, str) else "", known)
         text = f"unknown type of {kind.__name__.lower()} {shown(name)}; {hint}"
-        raise PlainError([Problem((*path, "type"), f"{text}; {OWN}")])
+        raise PlainDataError([Problem((*path, "type"), f"{text}; {OWN}")])
     given = {str(key): value for key, value in data.items() if key != "type"}
     made = make(known[name], given, path)
     if not isinstance(made, Block):  # pragma: no cover - known holds blocks only
@@ -83,20 +87,20 @@ def make(cls: type[Parameterized], given: Mapping[str, Any], path: Path) -> Para
         kind = _block_kind(fields[name].annotation) if name in fields else None
         try:
             values[name] = _convert(kind, value, (*path, name)) if kind else value
-        except PlainError as error:
+        except PlainDataError as error:
             problems += error.problems
     if problems:
-        raise PlainError(problems)
+        raise PlainDataError(problems)
     try:
         return cls(**values)
     except ParameterError as error:
         cause = error.details
         if not isinstance(cause, ValidationError):
-            raise PlainError([Problem(path, str(error))]) from None
+            raise PlainDataError([Problem(path, str(error))]) from None
         found = explain(cause.errors(), fields)
-        raise PlainError([Problem((*path, *each.path), each.text) for each in found]) from None
+        raise PlainDataError([Problem((*path, *each.path), each.text) for each in found]) from None
     except AI4UError as error:
-        raise PlainError([Problem(path, str(error))]) from None
+        raise PlainDataError([Problem(path, str(error))]) from None
 
 
 def _convert(kind: type[Block], value: Any, path: Path) -> Any:
@@ -107,12 +111,12 @@ def _convert(kind: type[Block], value: Any, path: Path) -> Any:
     for index, each in enumerate(value):
         try:
             blocks.append(from_plain(kind, each, (*path, index)))
-        except PlainError as error:
+        except PlainDataError as error:
             problems += error.problems
             if len(problems) >= MAX_HINTS:  # as many as anybody reads; each costs time
                 break
     if problems:
-        raise PlainError(problems)
+        raise PlainDataError(problems)
     return blocks
 
 

@@ -17,8 +17,6 @@ from websockets.http11 import Request
 
 from ai4u_edu.server.refusal import refusal
 
-CAP = 2**20
-"""Bytes that no message needs, other than those to viser."""
 EXTENSION = "ai4u_edu.frames"
 """Where an ASGI app finds it, in ``scope["extensions"]``."""
 
@@ -67,18 +65,6 @@ class FramesProtocol(WebSocketsSansIOProtocol):
         """End the connection after its app, also if the other side does not read the rest."""
         super().on_task_complete(task)
         self.loop.call_later(2 * CLOSE_TIMEOUT_S, self.transport.abort)
-
-    def cap(self, size: int) -> None:
-        """From now on a message has at most so many bytes; a larger one is not even read.
-
-        It ends the connection with 1009, without a word: so this is for what nobody means.
-        """
-        for name in ("max_message_size", "max_size"):  # the newer and the older websockets'
-            setattr(self.conn, name, size)
-
-    def hold_nothing_back(self) -> None:
-        """From now on it counts as not writable while anything of what was written waits."""
-        self.transport.set_write_buffer_limits(high=0)
 
     def handle_connect(self, event: Request) -> None:
         """Lets the app find the short way; refuses what websockets can't even refuse."""

@@ -20,7 +20,6 @@ from ai4u_edu.server import messages
 from ai4u_edu.server import page_events as news
 from ai4u_edu.server.bindings import choose
 from ai4u_edu.server.control_lock import Seat
-from ai4u_edu.server.frames import CAP, EXTENSION, FramesProtocol
 from ai4u_edu.server.human_override import Hands
 from ai4u_edu.server.rate import Rate
 
@@ -61,9 +60,6 @@ class Inputs:
         """One page's socket, from its beginning to its end."""
         socket = WebSocket(scope, receive, send)
         await socket.accept()
-        frames: FramesProtocol | None = scope.get("extensions", {}).get(EXTENSION)
-        if frames:
-            frames.cap(CAP)
         with suppress(WebSocketDisconnect):
             sim, wanted = self._runner.sim, socket.query_params.get("agent")
             try:

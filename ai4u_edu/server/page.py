@@ -16,6 +16,9 @@ _PLACE = "<title>Viser</title>"
 _OURS = """<title>{title}</title>
     <script src="./web/dark.js"></script>
     <link rel="stylesheet" href="./web/page.css" />
+    <link rel="stylesheet" href="./web/dock.css" />
+    <link rel="stylesheet" href="./web/banners.css" />
+    <link rel="stylesheet" href="./web/help.css" />
     <script type="module" src="./web/main.js"></script>
     <script type="module" src="./web/names.js"></script>"""
 # what a system says about endings can't be relied on: some call a .js plain text

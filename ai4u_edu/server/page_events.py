@@ -51,7 +51,7 @@ def state(picture: Snapshot, agent_id: str, title: str = "") -> Frame | None:
         "truncated": agent.truncated,
         "fallen": body.fallen,
         "title": title,
-        "goal": picture.stage.goal,
+        "goal": picture.static_scene.goal,
         "outcome": outcome(picture, agent),
         "reward": finite(agent.episode_reward),
         "terms": {name: finite(value) for name, value in agent.episode_terms.items()},
@@ -74,7 +74,7 @@ def outcome(picture: Snapshot, agent: AgentState) -> str:
     if agent.fell:
         return "fell"
     # a scene that names no success has one all the same
-    return "goal" if agent.episode_reward > 0 and not picture.stage.success else "over"
+    return "goal" if agent.episode_reward > 0 and not picture.static_scene.success else "over"
 
 
 def error(text: str) -> Frame:

@@ -11,7 +11,7 @@ from starlette.requests import Request
 from starlette.responses import PlainTextResponse, Response, StreamingResponse
 
 from ai4u_edu.base.errors import AI4UError
-from ai4u_edu.recording import Entry, Episode, Replay
+from ai4u_edu.recording import ArchiveEntry, Episode, Replay
 from ai4u_edu.recording.exports.csv_file import write_csv
 from ai4u_edu.recording.exports.html_page import write_html
 from ai4u_edu.recording.exports.movie import write_gif, write_mp4
@@ -54,7 +54,7 @@ class EpisodeView(BaseModel):
     source: str = Field(description="the file that it came from; empty if it happened here")
 
     @classmethod
-    def of(cls, entry: Entry) -> "EpisodeView":
+    def of(cls, entry: ArchiveEntry) -> "EpisodeView":
         """The view of an entry."""
         episode = entry.episode
         return cls(
@@ -89,7 +89,7 @@ class Past:
         self._runner = runner
         # to play and to draw takes a processor: one after the other. Recordings need not wait
         self._recordings, self._files = Exports(_recording), Exports(_file)
-        self._listed: tuple[tuple[Entry, ...], str] = ((), "")
+        self._listed: tuple[tuple[ArchiveEntry, ...], str] = ((), "")
 
     def list(self, _: Request) -> Response:
         """All of them, as JSON."""
@@ -137,12 +137,12 @@ class Past:
             making.cancel()
             leaving.cancel()
 
-    def _entries(self) -> tuple[Entry, ...]:
+    def _entries(self) -> tuple[ArchiveEntry, ...]:
         recorder = self._runner.recorder
         return _NONE if recorder is None else recorder.episodes.entries
 
 
-_NONE: tuple[Entry, ...] = ()
+_NONE: tuple[ArchiveEntry, ...] = ()
 
 
 async def _has_left(request: Request) -> None:
@@ -167,7 +167,7 @@ def _file(episode: Episode, ending: str, check: Callable[[], None]) -> bytes:
         return write(replay, Path(folder) / f"episode.{ending}").read_bytes()
 
 
-def _plain(entry: Entry) -> str:
+def _plain(entry: ArchiveEntry) -> str:
     """A file's name out of a scene's, which may be anything."""
     name = "".join(each if each.isascii() and each.isalnum() else "_" for each in entry.name)
     return name.strip("_")[:60] or "episode"

@@ -3,9 +3,8 @@
 import asyncio
 import logging
 import re
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from contextlib import suppress
-from typing import cast
 
 from starlette.datastructures import Headers
 from starlette.requests import HTTPConnection
@@ -13,13 +12,10 @@ from starlette.types import Receive, Scope, Send
 from starlette.websockets import WebSocket, WebSocketDisconnect
 from websockets.asyncio.client import ClientConnection, connect
 from websockets.exceptions import ConnectionClosed, InvalidHandshake
-from websockets.frames import DATA_OPCODES, Frame, Opcode
-from websockets.protocol import Event
 from websockets.typing import Subprotocol
 
 from ai4u_edu.base.log_limit import log_limited
 from ai4u_edu.server import page_messages
-from ai4u_edu.server.frames import EXTENSION, FramesProtocol
 from ai4u_edu.server.rate import Rate
 from ai4u_edu.server.token_auth import with_token
 from ai4u_edu.server.viser_lockdown import KNOCK, KNOCK_HEADER
@@ -52,24 +48,6 @@ _SUBPROTOCOL = re.compile(r"[A-Za-z0-9._+-]{1,64}")
 _logger = logging.getLogger(__name__)
 
 
-class _Viser(ClientConnection):
-    """A connection to viser that hands each frame to the page as it arrives, where it can."""
-
-    short_way: Callable[[bytes], bool] | None = None
-    waiting = 0
-    """Frames that the page could not take at once; those that follow wait behind them."""
-
-    def process_event(self, event: Event) -> None:
-        """Hands a frame on by the short way, or leaves it to whoever receives."""
-        if isinstance(event, Frame) and event.opcode in DATA_OPCODES:
-            whole = event.opcode is Opcode.BINARY and event.fin
-            short_way = self.short_way if whole and not self.waiting else None
-            if short_way is not None and short_way(bytes(event.data)):
-                return
-            self.waiting += event.fin
-        super().process_event(event)
-
-
 _SAYABLE = (1000, 1001, 1002, 1003, 1009)  # other codes of a close can't be passed on
 
 
@@ -90,11 +68,7 @@ class ViserProxy:
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """One page's connection, until one side closes it."""
-        frames: FramesProtocol | None = scope.get("extensions", {}).get(EXTENSION)
         page = WebSocket(scope, receive, send)
-        if frames is not None:
-            frames.hold_nothing_back()
-            frames.cap(MAX_UPWARD_BYTES)
         try:
             viser = await connect(
                 self._url,
@@ -110,14 +84,13 @@ class ViserProxy:
                 max_queue=1,  # frames for a slow page wait in viser, where newer ones replace them
                 ping_interval=None,  # the page is asked for signs of life, that's enough
                 proxy=None,
-                create_connection=_Viser,
             )
         except (OSError, InvalidHandshake):
             await page.close(1013, "the viewer does not answer; reload the page in a moment")
             return
-        upward = asyncio.create_task(_upward(page, viser, frames))
+        upward = asyncio.create_task(_upward(page, viser))
         try:
-            await _downward(cast(_Viser, viser), page, frames)
+            await _downward(viser, page)
         finally:
             upward.cancel()
             viser.transport.abort()  # a farewell would have to wait behind frames nobody reads
@@ -164,19 +137,17 @@ def _subprotocols(offered: Iterable[str]) -> list[Subprotocol]:
     return found[:MAX_SUBPROTOCOLS]
 
 
-async def _downward(viser: _Viser, page: WebSocket, frames: FramesProtocol | None) -> None:
+async def _downward(viser: ClientConnection, page: WebSocket) -> None:
     with suppress(WebSocketDisconnect):
         await page.accept(viser.subprotocol)
-        viser.short_way = frames.write if frames else None
         with suppress(ConnectionClosed):
             while True:
                 await page.send_bytes(await viser.recv(decode=False))
-                viser.waiting -= 1
         code = viser.close_code or 1001
         await page.close(code if code in _SAYABLE else 1001, viser.close_reason)
 
 
-async def _upward(page: WebSocket, viser: ClientConnection, frames: FramesProtocol | None) -> None:
+async def _upward(page: WebSocket, viser: ClientConnection) -> None:
     """Hand the messages of a page on to viser, as far as a page may send them."""
     rate, code, reason = Rate(UPWARD), 1000, ""
     with suppress(ConnectionClosed):
@@ -198,8 +169,6 @@ async def _upward(page: WebSocket, viser: ClientConnection, frames: FramesProtoc
                 _log_refusal("refused", error)
             if wait := rate.take():
                 await asyncio.sleep(wait)
-            if frames is not None and frames.disconnected:
-                break  # who sent too much may be gone before all of that has been read
     await viser.close(code, reason)
 
 

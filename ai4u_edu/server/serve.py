@@ -18,7 +18,11 @@ from ai4u_edu.server.frames import FramesProtocol
 from ai4u_edu.server.listener import Listener
 from ai4u_edu.server.requests import RequestProtocol, ServerConfig
 
-_LARGEST = 64 * 2**20  # bytes of a WebSocket message; viser itself takes 50 MB
+MAX_MESSAGE_BYTES = 2**20
+"""Size of a WebSocket message to the server; a larger one is not read and ends the connection.
+
+The largest one is a part of a file for viser, of 512 KiB.
+"""
 _GRACE = 1  # seconds that open connections have when the server ends
 _UNFINISHED = 0.3  # seconds after which those that still wait for an answer are cut off
 
@@ -101,10 +105,10 @@ class _Server(uvicorn.Server):
     ) -> None:
         config = ServerConfig(
             app,
-            loop="ai4u_edu.server.eager:new_loop",
+            loop="asyncio",
             http=RequestProtocol,
             ws=FramesProtocol,
-            ws_max_size=_LARGEST,
+            ws_max_size=MAX_MESSAGE_BYTES,
             ws_per_message_deflate=False,
             lifespan="off",
             log_config=None,

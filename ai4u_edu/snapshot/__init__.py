@@ -1,7 +1,12 @@
 """Immutable snapshots of a world, for the page, the API and the recorder."""
 
-from ai4u_edu.snapshot.capture import agent_state, body_states, picture_of, set_stage
-from ai4u_edu.snapshot.types import AgentState, BodyState, Need, SlowTick, Snapshot, Stage
+from ai4u_edu.snapshot.capture import (
+    capture_agent,
+    capture_bodies,
+    capture_snapshot,
+    capture_static_scene,
+)
+from ai4u_edu.snapshot.types import AgentState, BodyState, Need, SlowTick, Snapshot, StaticScene
 
 __all__ = [
     "AgentState",
@@ -9,9 +14,9 @@ __all__ = [
     "Need",
     "SlowTick",
     "Snapshot",
-    "Stage",
-    "agent_state",
-    "body_states",
-    "picture_of",
-    "set_stage",
+    "StaticScene",
+    "capture_agent",
+    "capture_bodies",
+    "capture_snapshot",
+    "capture_static_scene",
 ]

@@ -40,7 +40,7 @@ class Window(NamedTuple):
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Sense:
+class SensorInfo:
     """One sensor's part of the percept."""
 
     key: str
@@ -79,7 +79,7 @@ class Component(NamedTuple):
 
 
 @dataclass(frozen=True, slots=True)
-class Control:
+class ActuatorInfo:
     """One actuator's part of the action."""
 
     name: str
@@ -90,11 +90,11 @@ class Control:
     """Whether the number is one of several choices."""
 
 
-class Facts(NamedTuple):
+class BlockInfo(NamedTuple):
     """What is known of an agent as long as it has these blocks."""
 
-    senses: tuple[Sense, ...]
-    controls: tuple[Control, ...]
+    sensor_infos: tuple[SensorInfo, ...]
+    actuator_infos: tuple[ActuatorInfo, ...]
     legends: Mapping[str, Legend]
     """How readings are seen as pictures, by perception key."""
 
@@ -126,24 +126,26 @@ class RayPictures(Mapping[str, RayPicture]):
         return len(self._makers)
 
 
-class Pictures(NamedTuple):
+class SensorPictures(NamedTuple):
     """What sensors looked at for one percept, by perception key."""
 
     rays: Mapping[str, RayPicture]
     spots: dict[str, SpotPicture]
 
 
-_facts: "WeakKeyDictionary[BoundBlocks, Facts]" = WeakKeyDictionary()
-_pictures: "WeakKeyDictionary[BoundBlocks, tuple[Percept, Pictures]]" = WeakKeyDictionary()
+_info_cache: "WeakKeyDictionary[BoundBlocks, BlockInfo]" = WeakKeyDictionary()
+_picture_cache: "WeakKeyDictionary[BoundBlocks, tuple[Percept, SensorPictures]]" = (
+    WeakKeyDictionary()
+)
 
 
-def facts_of(agent: BasicAgent) -> Facts:
+def block_info_of(agent: BasicAgent) -> BlockInfo:
     """What is known of an agent's readings and actions; worked out once for its blocks."""
     bound = agent.bound_blocks
-    known = _facts.get(bound)
+    known = _info_cache.get(bound)
     if known is None:
         senses = tuple(_sense(sensor) for sensor in bound.sensors)
-        known = _facts[bound] = Facts(
+        known = _info_cache[bound] = BlockInfo(
             senses,
             tuple(_control(actuator) for actuator in bound.actuators.values()),
             {sense.key: sense.legend for sense in senses if sense.legend is not None},
@@ -151,10 +153,10 @@ def facts_of(agent: BasicAgent) -> Facts:
     return known
 
 
-def pictures_of(agent: BasicAgent) -> Pictures:
+def sensor_pictures_of(agent: BasicAgent) -> SensorPictures:
     """What an agent's sensors looked at; worked out once for each percept."""
     bound, percept = agent.bound_blocks, agent.percept
-    known = _pictures.get(bound)
+    known = _picture_cache.get(bound)
     if known is None or known[0] is not percept:
         active = [sensor for sensor in bound.sensors if sensor.is_active]
         spots = {sensor.perception_key: sensor.spots() for sensor in active}
@@ -165,15 +167,15 @@ def pictures_of(agent: BasicAgent) -> Pictures:
                 if isinstance(sensor, RaySensor)
             }
         )
-        seen = Pictures(rays, {key: each for key, each in spots.items() if each is not None})
-        known = _pictures[bound] = percept, seen
+        seen = SensorPictures(rays, {key: each for key, each in spots.items() if each is not None})
+        known = _picture_cache[bound] = percept, seen
     return known[1]
 
 
-def _sense(sensor: Sensor) -> Sense:
+def _sense(sensor: Sensor) -> SensorInfo:
     low, high = _range(sensor)
     slots = sensor.slots()
-    return Sense(
+    return SensorInfo(
         key=sensor.perception_key,
         block=type(sensor).__name__,
         unit="" if sensor.normalized else sensor.unit,
@@ -219,11 +221,11 @@ def _named(block: object, *fields: str) -> tuple[str, ...]:
     return tuple(name for name in found if isinstance(name, str) and name)
 
 
-def _control(actuator: Actuator) -> Control:
+def _control(actuator: Actuator) -> ActuatorInfo:
     low, high = actuator.limits()
     slots = actuator.slots()
     names = slots if len(slots) == len(low) else ("",) * len(low)
-    return Control(
+    return ActuatorInfo(
         name=actuator.action_name,
         block=type(actuator).__name__,
         components=tuple(map(Component, names, low, high)),

@@ -3,21 +3,30 @@
 from collections.abc import Iterator, Sequence
 
 from ai4u_edu.agent import BasicAgent
-from ai4u_edu.agent.cycle import ControlRequestor, Phase
+from ai4u_edu.agent.cycle import ControlRequestor
+from ai4u_edu.agent.decision_cycle import Phase
 from ai4u_edu.blocks import (
     FallReward,
     HomeostaticReward,
     RemoteBrain,
     RewardFunc,
 )
-from ai4u_edu.snapshot.block_info import facts_of, pictures_of
-from ai4u_edu.snapshot.types import NOWHERE, AgentState, BodyState, Need, SlowTick, Snapshot, Stage
+from ai4u_edu.snapshot.block_info import block_info_of, sensor_pictures_of
+from ai4u_edu.snapshot.types import (
+    NOWHERE,
+    AgentState,
+    BodyState,
+    Need,
+    SlowTick,
+    Snapshot,
+    StaticScene,
+)
 from ai4u_edu.world import AreaDescription
 
 
-def picture_of(
+def capture_snapshot(
     sim: ControlRequestor,
-    stage: Stage | None = None,
+    static_scene: StaticScene | None = None,
     *,
     paused: bool = False,
     time_scale: float = 1.0,
@@ -29,7 +38,7 @@ def picture_of(
 
     Args:
         sim: the world and its agents.
-        stage: what :func:`set_stage` gave, if nothing was built since.
+        static_scene: what :func:`capture_static_scene` gave, if nothing was built since.
         paused: whether the time stands still.
         time_scale: how fast it should run.
         real_time_factor: how fast it ran lately.
@@ -38,7 +47,7 @@ def picture_of(
     """
     world = sim.world
     return Snapshot(
-        stage=stage or set_stage(sim),
+        static_scene=static_scene or capture_static_scene(sim),
         tick=world.ticks,
         time=world.time,
         seed=world.seeds.seed,
@@ -47,16 +56,16 @@ def picture_of(
         time_scale=time_scale,
         real_time_factor=real_time_factor,
         error=error,
-        bodies=body_states(sim),
-        agents=tuple(agent_state(agent, sim.success, sim.phase(agent)) for agent in sim.agents),
+        bodies=capture_bodies(sim),
+        agents=tuple(capture_agent(agent, sim.success, sim.phase(agent)) for agent in sim.agents),
         slow_tick=slow_tick,
     )
 
 
-def set_stage(sim: ControlRequestor) -> Stage:
+def capture_static_scene(sim: ControlRequestor) -> StaticScene:
     """What does not move in a world."""
     world = sim.world
-    return Stage(
+    return StaticScene(
         settings=world.settings,
         floors=world.floors,
         areas=tuple(
@@ -72,7 +81,7 @@ def set_stage(sim: ControlRequestor) -> Stage:
     )
 
 
-def body_states(sim: ControlRequestor) -> tuple[BodyState, ...]:
+def capture_bodies(sim: ControlRequestor) -> tuple[BodyState, ...]:
     """Where all bodies are now."""
     states = []
     for body in sim.world.bodies.values():
@@ -96,7 +105,7 @@ def body_states(sim: ControlRequestor) -> tuple[BodyState, ...]:
     return tuple(states)
 
 
-def agent_state(agent: BasicAgent, success: str = "", phase: Phase = NOWHERE) -> AgentState:
+def capture_agent(agent: BasicAgent, success: str = "", phase: Phase = NOWHERE) -> AgentState:
     """What an agent sensed, did and got in its last decision.
 
     Args:
@@ -104,7 +113,7 @@ def agent_state(agent: BasicAgent, success: str = "", phase: Phase = NOWHERE) ->
         success: the reward term that is paid when the goal is reached.
         phase: how far it is in its decision.
     """
-    ledger, facts, pictures = agent.ledger, facts_of(agent), pictures_of(agent)
+    ledger, info, pictures = agent.ledger, block_info_of(agent), sensor_pictures_of(agent)
     reward, terms = ledger.finished
     return AgentState(
         id=agent.id,
@@ -129,11 +138,11 @@ def agent_state(agent: BasicAgent, success: str = "", phase: Phase = NOWHERE) ->
         fell=_fell(agent),
         needs=tuple(_needs(agent)),
         spots=pictures.spots,
-        legends=facts.legends,
+        legends=info.legends,
         phase=phase,
         history=ledger.latest(),
-        senses=facts.senses,
-        controls=facts.controls,
+        sensor_infos=info.sensor_infos,
+        actuator_infos=info.actuator_infos,
     )
 
 

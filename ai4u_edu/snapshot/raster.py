@@ -8,21 +8,20 @@ import numpy.typing as npt
 from PIL import Image, ImageDraw
 
 from ai4u_edu.blocks import RayPicture, SpotPicture
-from ai4u_edu.snapshot import BodyState, Snapshot, Stage
-from ai4u_edu.snapshot import theme as look
+from ai4u_edu.snapshot import BodyState, Snapshot, StaticScene, theme
 from ai4u_edu.world import BodyDescription, CircleShape, RegionDescription, RingShape
 
 Points = npt.NDArray[np.float64]
 
 FINER = 2
 """Everything is drawn this many times larger and then made smaller: that smooths the edges."""
-MARGIN = 0.75
+MARGIN_M = 0.75
 """Void shown around the arena, metres."""
 SHADOW = (0.12, -0.12)
 """Where a body's shadow falls for each metre of height, metres."""
 
 
-def draw(snapshot: Snapshot, *, longest: int = 480) -> npt.NDArray[np.uint8]:
+def draw_snapshot(snapshot: Snapshot, *, longest: int = 480) -> npt.NDArray[np.uint8]:
     """The world from above; +x to the right, +y up.
 
     Args:
@@ -32,33 +31,33 @@ def draw(snapshot: Snapshot, *, longest: int = 480) -> npt.NDArray[np.uint8]:
     Returns:
         (height, width, 3) uint8.
     """
-    return _Canvas(snapshot.stage, longest).paint(snapshot)
+    return _Canvas(snapshot.static_scene, longest).paint(snapshot)
 
 
 class _Canvas:
-    """A picture of one stage under way; lengths in metres come in, pixels go out."""
+    """A picture of one static scene under way; lengths in metres come in, pixels go out."""
 
-    def __init__(self, stage: Stage, longest: int) -> None:
-        self.stage = stage
-        (left, low), (right, high) = stage.bounds
-        wide, tall = right - left + 2 * MARGIN, high - low + 2 * MARGIN
+    def __init__(self, static_scene: StaticScene, longest: int) -> None:
+        self.static_scene = static_scene
+        (left, low), (right, high) = static_scene.bounds
+        wide, tall = right - left + 2 * MARGIN_M, high - low + 2 * MARGIN_M
         scale = longest / max(wide, tall)
         self.size = round(wide * scale), round(tall * scale)
         self.scale = scale * FINER
-        self.origin = left - MARGIN, high + MARGIN
-        self.image = Image.new("RGB", (self.size[0] * FINER, self.size[1] * FINER), look.VOID)
+        self.origin = left - MARGIN_M, high + MARGIN_M
+        self.image = Image.new("RGB", (self.size[0] * FINER, self.size[1] * FINER), theme.VOID)
         self.pen = ImageDraw.Draw(self.image)
 
     def paint(self, snapshot: Snapshot) -> npt.NDArray[np.uint8]:
-        for floor in sorted(self.stage.floors, key=lambda floor: floor.top):
-            self._region(floor, look.floor_colour(floor), look.CLIFF)
-        if not self.stage.floors:
-            self.pen.rectangle((0, 0, *self.image.size), fill=look.FLOOR)
-        for area in self.stage.areas:
-            self._region(area, look.area_fill(area), look.area_colour(area))
+        for floor in sorted(self.static_scene.floors, key=lambda floor: floor.top):
+            self._region(floor, theme.floor_colour(floor), theme.FLOOR_EDGE)
+        if not self.static_scene.floors:
+            self.pen.rectangle((0, 0, *self.image.size), fill=theme.FLOOR)
+        for area in self.static_scene.areas:
+            self._region(area, theme.area_fill(area), theme.area_colour(area))
         for agent in snapshot.agents:
             self._rays(agent.rays.values())
-        described = {body.name: body for body in self.stage.bodies}
+        described = {body.name: body for body in self.static_scene.bodies}
         for state in sorted(snapshot.bodies, key=lambda state: state.z):
             if not state.fallen and state.name in described:
                 self._body(described[state.name], state)
@@ -67,25 +66,25 @@ class _Canvas:
         smooth = self.image.reduce(FINER)
         return np.asarray(smooth, np.uint8)
 
-    def _region(self, region: RegionDescription, fill: look.Rgb, edge: look.Rgb) -> None:
+    def _region(self, region: RegionDescription, fill: theme.Rgb, edge: theme.Rgb) -> None:
         heading = math.radians(region.heading_deg)
         outline = _placed(region.shape.outline(), *region.position, heading)
         self._polygon(outline, fill, edge)
         if isinstance(region.shape, RingShape):
             hole = _placed(region.shape.hole(), *region.position, heading)
-            self._polygon(hole, look.VOID, edge)
+            self._polygon(hole, theme.VOID, edge)
 
     def _body(self, body: BodyDescription, state: BodyState) -> None:
-        colour = look.body_colour(body, body.name in self.stage.agent_of)
+        colour = theme.body_colour(body, body.name in self.static_scene.agent_of)
         if state.z < 0:  # it falls: the deeper, the darker
-            colour = look.mixed(colour, look.VOID, min(1.0, -state.z / 2))
+            colour = theme.mix_colours(colour, theme.VOID, min(1.0, -state.z / 2))
         outline = _placed(body.shape.outline(), state.x, state.y, state.heading)
         lift = max(0.0, state.z) + 0.4
         if state.z >= 0:
-            shade = look.mixed(look.FLOOR, look.VOID, 0.35)
+            shade = theme.mix_colours(theme.FLOOR, theme.VOID, 0.35)
             self._polygon(outline + np.multiply(SHADOW, lift), shade, None)
-        self._polygon(outline, colour, look.mixed(colour, (0, 0, 0), 0.45))
-        if body.name in self.stage.agent_of:
+        self._polygon(outline, colour, theme.mix_colours(colour, (0, 0, 0), 0.45))
+        if body.name in self.static_scene.agent_of:
             self._front(body, state)
 
     def _front(self, body: BodyDescription, state: BodyState) -> None:
@@ -95,22 +94,22 @@ class _Canvas:
         self._polygon(_placed(wedge, state.x, state.y, state.heading), (255, 255, 255), None)
 
     def _rays(self, pictures: Iterable[RayPicture]) -> None:
-        groups = look.group_colours(self.stage)
+        groups = theme.group_colours(self.static_scene)
         for rays in pictures:
             start = self._pixels(np.array([rays.origin[:2]]))[0]
             ends = self._pixels(rays.ends[:, :2])
             for end, group in zip(ends, rays.groups, strict=True):
-                colour = groups.get(group, look.UNKNOWN) if group else look.NOTHING
+                colour = groups.get(group, theme.UNKNOWN_GROUP) if group else theme.RAY_MISS
                 self.pen.line([start, end], fill=colour, width=1)
 
     def _spots(self, pictures: Iterable[SpotPicture]) -> None:
-        radius = look.SPOT * self.scale
+        radius = theme.SPOT_RADIUS_M * self.scale
         for spots in pictures:
             for (x, y), lit in zip(self._pixels(spots.places[:, :2]), spots.lit, strict=True):
                 disc = (x - radius, y - radius, x + radius, y + radius)
-                self.pen.ellipse(disc, fill=look.LIT if lit else look.UNLIT)
+                self.pen.ellipse(disc, fill=theme.SPOT_LIT if lit else theme.SPOT_UNLIT)
 
-    def _polygon(self, points: Points, fill: look.Rgb, edge: look.Rgb | None) -> None:
+    def _polygon(self, points: Points, fill: theme.Rgb, edge: theme.Rgb | None) -> None:
         self.pen.polygon(self._pixels(points), fill=fill, outline=edge, width=FINER)
 
     def _pixels(self, points: Points) -> list[tuple[float, float]]:

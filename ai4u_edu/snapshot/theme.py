@@ -3,33 +3,33 @@
 from collections.abc import Iterable
 
 from ai4u_edu.base.colors import rgb
-from ai4u_edu.snapshot import Stage
+from ai4u_edu.snapshot import StaticScene
 from ai4u_edu.world import AreaDescription, BodyDescription, FloorDescription
 
 Rgb = tuple[int, int, int]
 
 VOID: Rgb = (50, 58, 69)
 FLOOR: Rgb = (228, 232, 236)
-CLIFF: Rgb = (128, 139, 150)
+FLOOR_EDGE: Rgb = (128, 139, 150)
 GRID: Rgb = (204, 210, 216)
 WALL: Rgb = (84, 93, 104)
-NOTHING: Rgb = (152, 161, 170)
+RAY_MISS: Rgb = (152, 161, 170)
 """A ray that met nothing."""
-UNKNOWN: Rgb = rgb("purple")
+UNKNOWN_GROUP: Rgb = rgb("purple")
 """A ray that met something without a code."""
 ACTION: Rgb = (52, 60, 70)
-LIT: Rgb = rgb("yellow")
+SPOT_LIT: Rgb = rgb("yellow")
 """A spot at which a sensor sees something."""
-UNLIT: Rgb = (120, 129, 138)
+SPOT_UNLIT: Rgb = (120, 129, 138)
 """One at which it sees nothing."""
-SPOT = 0.06
+SPOT_RADIUS_M = 0.06
 """A spot's radius, metres."""
 
 
-def mixed(a: Rgb, b: Rgb, share: float) -> Rgb:
+def mix_colours(a: Rgb, b: Rgb, share: float) -> Rgb:
     """A colour between two: ``share`` 0 is all ``a``, 1 is all ``b``.
 
-    >>> mixed((0, 0, 0), (100, 200, 50), 0.5)
+    >>> mix_colours((0, 0, 0), (100, 200, 50), 0.5)
     (50, 100, 25)
     """
     red, green, blue = (round(x + (y - x) * share) for x, y in zip(a, b, strict=True))
@@ -62,10 +62,10 @@ def area_colour(area: AreaDescription) -> Rgb:
 def area_fill(area: AreaDescription) -> Rgb:
     """The colour inside an area where nothing shines through: pale, unless it is paint."""
     colour = area_colour(area)
-    return colour if area.paint else mixed(colour, FLOOR, 0.65)
+    return colour if area.paint else mix_colours(colour, FLOOR, 0.65)
 
 
-def group_colours(stage: Stage) -> dict[str, Rgb]:
+def group_colours(static_scene: StaticScene) -> dict[str, Rgb]:
     """The colour of each group, from the first thing that belongs to it; for rays."""
     colours: dict[str, Rgb] = {}
 
@@ -73,10 +73,10 @@ def group_colours(stage: Stage) -> dict[str, Rgb]:
         for tag in tags:
             colours.setdefault(tag, colour)
 
-    for body in stage.bodies:
-        note(body.tags, body_colour(body, body.name in stage.agent_of))
-    for area in stage.areas:
+    for body in static_scene.bodies:
+        note(body.tags, body_colour(body, body.name in static_scene.agent_of))
+    for area in static_scene.areas:
         note(area.tags, area_colour(area))
-    for floor in stage.floors:  # darker: a ray that ends on a floor lies on that floor
-        note(floor.tags, mixed(floor_colour(floor), (0, 0, 0), 0.42))
+    for floor in static_scene.floors:  # darker: a ray that ends on a floor lies on that floor
+        note(floor.tags, mix_colours(floor_colour(floor), (0, 0, 0), 0.42))
     return colours

@@ -6,7 +6,7 @@ from types import MappingProxyType
 from typing import Any, NamedTuple
 
 from ai4u_edu.agent import Entry
-from ai4u_edu.agent.cycle import Phase
+from ai4u_edu.agent.decision_cycle import Phase
 from ai4u_edu.blocks import (
     Legend,
     Percept,
@@ -14,7 +14,7 @@ from ai4u_edu.blocks import (
     RemoteStatus,
     SpotPicture,
 )
-from ai4u_edu.snapshot.block_info import Control, Sense
+from ai4u_edu.snapshot.block_info import ActuatorInfo, SensorInfo
 from ai4u_edu.world import AreaDescription, BodyDescription, FloorDescription, WorldSettings
 
 NOWHERE = Phase()
@@ -23,7 +23,7 @@ EMPTY: Mapping[str, Any] = MappingProxyType({})
 
 
 @dataclass(frozen=True, slots=True)
-class Stage:
+class StaticScene:
     """What does not move in an episode; the same object until something is built anew.
 
     What a scene leaves to chance stands here as it was drawn.
@@ -113,9 +113,9 @@ class AgentState(NamedTuple):
     """How far it is in its decision."""
     history: tuple[Entry, ...] = ()
     """What its latest decisions were paid, if somebody wants to know."""
-    senses: tuple[Sense, ...] = ()
+    sensor_infos: tuple[SensorInfo, ...] = ()
     """What is known of its readings: the same object as long as it has these blocks."""
-    controls: tuple[Control, ...] = ()
+    actuator_infos: tuple[ActuatorInfo, ...] = ()
     """What is known of its actions, likewise."""
 
 
@@ -132,7 +132,7 @@ class SlowTick:
 class Snapshot:
     """Everything at one tick."""
 
-    stage: Stage
+    static_scene: StaticScene
     tick: int
     time: float
     """Seconds of the world's time since the reset."""

@@ -1,6 +1,6 @@
-"""Agents that learn: train, evaluate, export, clone.
+"""Training of agents: train, evaluate, export, clone.
 
-In a notebook or a script of one's own::
+In a notebook or a script::
 
     from ai4u_edu.training import clone, demonstrate, evaluate, export, train
 
@@ -10,16 +10,16 @@ In a notebook or a script of one's own::
 
 :func:`q_learning` learns with a table, and needs nothing else.
 
-To train, to evaluate a model and to export it needs ``pip install "ai4u-edu[train]"``
-(Stable-Baselines3 and torch); to drive with an exported network, ``"ai4u-edu[onnx]"`` is enough.
-Nothing is loaded before it is needed. On Linux, pip takes a torch for graphics cards, which is
-gigabytes; to get the one without, install that first::
+Training, evaluating a model and exporting it need ``pip install "ai4u-edu[train]"``
+(Stable-Baselines3 and torch); driving with an exported network needs only ``"ai4u-edu[onnx]"``.
+Imports are lazy. On Linux, pip installs gigabytes of torch for graphics cards; for the CPU build,
+install this first::
 
     pip install torch --index-url https://download.pytorch.org/whl/cpu
     pip install "ai4u-edu[train]"
 
-A model of Stable-Baselines3 (a .zip) has Python objects in it, and reading one can run any program:
-load your own, and share ONNX files.
+A Stable-Baselines3 model (.zip) contains pickled objects, and reading one can run any program: load
+only your own, and share ONNX files.
 """
 
 from typing import TYPE_CHECKING

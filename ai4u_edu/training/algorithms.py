@@ -17,25 +17,27 @@ from ai4u_edu.training.settings import Algorithm, AlgorithmSettings
 
 CLASSES: dict[Algorithm, type[BaseAlgorithm]] = {"sac": SAC, "ppo": PPO, "dqn": DQN}
 
-OURS = {"self", "policy", "env", "seed", "policy_kwargs", "tensorboard_log", "verbose", "device"}
-"""What we decide, and no settings file does."""
+RESERVED_SETTINGS = frozenset(
+    ["self", "policy", "env", "seed", "policy_kwargs", "tensorboard_log", "verbose", "device"]
+)
+"""Arguments that a settings file can't set."""
 
-SMALLEST = 36
-"""Cells across a picture that is large enough for the layers of Stable-Baselines3's CnnPolicy."""
+MIN_PICTURE_CELLS = 36
+"""Smallest width of a picture for the layers of Stable-Baselines3's CnnPolicy."""
 
-THREADS = 1
-"""Torch's threads: for layers as small as these a second one only waits for the first."""
+TORCH_THREADS = 1
+"""Torch's threads; with layers this small a second one only waits for the first."""
 
 
 def new_model(
     algorithm: Algorithm, settings: AlgorithmSettings, worlds: VecEnv, seed: int
 ) -> BaseAlgorithm:
-    """A model that has learned nothing yet.
+    """Return an untrained model.
 
     Raises:
         SetupError: the algorithm can't choose such actions, or doesn't know one of its settings.
     """
-    torch.set_num_threads(THREADS)
+    torch.set_num_threads(TORCH_THREADS)
     options = _checked(algorithm, settings)
     rate = options.pop("learning_rate", 1e-3)
     layers: Any = list(settings.layers)
@@ -56,12 +58,12 @@ def new_model(
 
 
 def load_model(algorithm: Algorithm, path: Path, worlds: VecEnv | None = None) -> BaseAlgorithm:
-    """A model that was saved.
+    """Load a saved model.
 
-    The file has Python objects in it, and reading one can run any program: only for files of the
-    user's own, which he named himself.
+    The file contains pickled objects, and reading one can run any program: only for the user's own
+    files, named by the user.
     """
-    torch.set_num_threads(THREADS)
+    torch.set_num_threads(TORCH_THREADS)
     try:
         # with n_steps it stores the buffer's class as well, and on loading warns of having both
         custom = {} if algorithm == "ppo" else {"replay_buffer_class": None}
@@ -71,7 +73,7 @@ def load_model(algorithm: Algorithm, path: Path, worlds: VecEnv | None = None) -
 
 
 def check_actions(algorithm: Algorithm, space: spaces.Space[Any]) -> None:
-    """Whether an algorithm can choose such actions.
+    """Check that an algorithm can choose actions of a space.
 
     Raises:
         SetupError: it can't; says which can.
@@ -86,7 +88,7 @@ def check_actions(algorithm: Algorithm, space: spaces.Space[Any]) -> None:
 
 
 def falling(rate: float) -> Callable[[float], float]:
-    """A learning rate that falls from ``rate`` to 0."""
+    """Return a schedule in which the learning rate falls linearly from ``rate`` to 0."""
     return lambda left: rate * left
 
 
@@ -96,16 +98,19 @@ def _policy_for(space: spaces.Space[Any]) -> str:
     if not is_image_space(space):
         return "MlpPolicy"
     height, width, *_ = space.shape or ()
-    if min(height, width) < SMALLEST:
+    if min(height, width) < MIN_PICTURE_CELLS:
         raise SetupError(
-            f"CnnPolicy: expected a picture of at least {SMALLEST} x {SMALLEST} cells, got "
-            f"{height} x {width}; make the sensor's width and height larger"
+            f"CnnPolicy: expected a picture of at least {MIN_PICTURE_CELLS} x "
+            f"{MIN_PICTURE_CELLS} cells, got {height} x {width}; "
+            "make the sensor's width and height larger"
         )
     return "CnnPolicy"
 
 
 def _checked(algorithm: Algorithm, settings: AlgorithmSettings) -> dict[str, Any]:
-    known = set(inspect.signature(CLASSES[algorithm]).parameters) - OURS | {"log_std_init"}
+    known = set(inspect.signature(CLASSES[algorithm]).parameters) - RESERVED_SETTINGS | {
+        "log_std_init"
+    }
     for name in settings.others:
         if name not in known:
             raise SetupError(

@@ -1,4 +1,4 @@
-"""A scene with the drivers that a command line names (``--brain``)."""
+"""Assignment of the command line's drivers (``--brain``) to a scene's agents."""
 
 import re
 from collections.abc import Sequence

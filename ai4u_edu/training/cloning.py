@@ -1,4 +1,4 @@
-"""Behaviour cloning: a network that does what somebody showed it. Loads torch."""
+"""Behaviour cloning: a network learns to imitate recorded episodes. Loads torch."""
 
 import hashlib
 import json
@@ -11,7 +11,6 @@ import numpy as np
 import numpy.typing as npt
 import torch
 from gymnasium import spaces
-from rich.console import Console
 from torch import Tensor, nn
 
 from ai4u_edu.agent import BasicAgent
@@ -24,49 +23,49 @@ from ai4u_edu.envs.spaces_of import outputs_of
 from ai4u_edu.recording import Episode
 from ai4u_edu.recording.player import Player
 from ai4u_edu.scenes.serialization import to_plain
-from ai4u_edu.training.algorithms import THREADS
+from ai4u_edu.training.algorithms import TORCH_THREADS
 from ai4u_edu.training.demonstrations import demonstrations
 from ai4u_edu.training.exporting import graph_of, inputs_of
-from ai4u_edu.training.progress_bar import meter
+from ai4u_edu.training.progress_bar import ProgressBar
 from ai4u_edu.training.rays import Rays
 
 LAYERS = (128, 128)
 RATE = 1e-3
 BATCH = 128
-UPDATES = 2000
+DEFAULT_UPDATES = 2000
 """Gradient steps; a handful of episodes is learned by then."""
-HELD_BACK = 0.1
-"""The share of the decisions that is not learned from, but shows when to stop."""
-MOST_LEVELS = 64
-"""Whole numbers from a larger range are taken for amounts."""
-LOOK = 100
-"""Updates between two looks at those."""
+VALIDATION_SHARE = 0.1
+"""Share of the decisions kept for validation (early stopping)."""
+MAX_LEVELS = 64
+"""Largest count of values that a whole number is one-hot encoded for; larger ones are amounts."""
+VALIDATE_EVERY = 100
+"""Gradient steps between two validations."""
 
 Floats = npt.NDArray[np.float32]
 
 
 @dataclass(frozen=True)
 class Cloned:
-    """What came out of it."""
+    """Result of a cloning."""
 
     path: Path
     decisions: int
-    """So many were shown."""
+    """Count of the recorded decisions."""
     loss: float
-    """On those that it did not learn from: mean error of an action whose numbers reach from -1 to
+    """Validation loss: mean error of an action whose numbers reach from -1 to
     1, or the cross-entropy of a choice."""
 
 
 class Clone(nn.Module):  # type: ignore[misc]  # seen without its types
-    """Readings in, an action out; scaling happens inside.
+    """Network from readings to an action, with the scaling inside.
 
     Args:
-        seen: (n, r) all readings that were shown, one row each; their mean and spread are kept.
-        space: of the actions.
+        seen: (n, r) all recorded readings, one row each; their mean and spread are kept.
+        space: the action space.
         layers: the hidden layers' sizes.
-        levels: (r,) of a reading that is a whole number from 0 on, how many there are: each gets
-            an input of its own, as the next row of a grid may be quite another place. Else 0.
-        rays: what is seen through them, in place of their bare readings.
+        levels: (r,) count of values of a reading that is a whole number from 0 on: it is one-hot
+            encoded, as the next row of a grid may be quite another place. Else 0.
+        rays: encoders that replace the bare readings of ray sensors.
     """
 
     def __init__(
@@ -122,7 +121,7 @@ class Clone(nn.Module):  # type: ignore[misc]  # seen without its types
         self.register_buffer("ladder", torch.arange(int(whole.max()), dtype=torch.float32))
 
     def forward(self, *readings: Tensor) -> Tensor:
-        """An action for each row of the readings."""
+        """Return an action for each row of the readings."""
         numbers = self.numbers(
             torch.cat([each.to(torch.float32).flatten(1) for each in readings], 1)
         )
@@ -132,7 +131,7 @@ class Clone(nn.Module):  # type: ignore[misc]  # seen without its types
         return self.low + 0.5 * (torch.clamp(numbers, -1.0, 1.0) + 1.0) * (self.high - self.low)
 
     def numbers(self, seen: Tensor) -> Tensor:
-        """What the last layer says."""
+        """Return the last layer's output."""
         # cut: what lies far outside of all that was shown should not count for more than that
         scaled = torch.clamp((seen[:, self.places] - self.middle) / self.spread, -10.0, 10.0)
         if len(self.wholes):
@@ -144,7 +143,7 @@ class Clone(nn.Module):  # type: ignore[misc]  # seen without its types
         return found
 
     def loss(self, seen: Tensor, done: Tensor) -> Tensor:
-        """How far it is from what was done."""
+        """Return the loss between the network's actions and the recorded ones."""
         numbers = self.numbers(seen)
         if self.chooses:
             return nn.functional.cross_entropy(numbers, done.long().ravel() - self.first)
@@ -164,24 +163,22 @@ def clone(
     *,
     agent: str | None = None,
     seed: int = 0,
-    updates: int = UPDATES,
-    console: Console | None = None,
+    updates: int = DEFAULT_UPDATES,
     quiet: bool = False,
 ) -> Cloned:
-    """Learns to do what was recorded, and writes the network as ONNX.
+    """Train a network to imitate recorded episodes, and write it as ONNX.
 
-    It learns what to do where somebody has been, and only guesses elsewhere: a few episodes that
+    It learns what to do in recorded situations and only guesses elsewhere, so a few episodes that
     begin in different places teach more than many that begin in the same one. The same episodes and
     the same seed give the same network.
 
     Args:
         episodes: of one scene, driven well.
-        path: of the network's file.
-        agent: the id of the one who shows it; left out, the one that acts first.
-        seed: of the network and the order in which it learns.
+        path: the network's file.
+        agent: the id of the agent to imitate; left out, the one that acts first.
+        seed: seed of the network and of the order of the data.
         updates: gradient steps.
-        console: where to show how it goes.
-        quiet: whether to show nothing.
+        quiet: True shows nothing.
 
     Raises:
         RecordingError: the episodes can't be played again exactly.
@@ -199,11 +196,11 @@ def clone(
         [np.reshape(each.actions, (len(each), -1)) for each in shown.episodes]
     ).astype(np.float32)
     driver = Player(episodes[0]).sim.agent(shown.agent)
-    torch.set_num_threads(THREADS)
+    torch.set_num_threads(TORCH_THREADS)
     with torch.random.fork_rng(devices=[]):
         torch.manual_seed(seed)
         network = Clone(seen, shown.action_space, levels=levels_of(driver))
-        loss = _learn(network, seen, done, seed, updates, console, quiet)
+        loss = _learn(network, seen, done, seed, updates, quiet)
     about = {
         "scene": shown.scene.name,
         "algorithm": "clone",
@@ -224,17 +221,16 @@ def _learn(
     done: Floats,
     seed: int,
     updates: int,
-    console: Console | None,
     quiet: bool,
 ) -> float:
     chance = np.random.default_rng(seed)
     order = chance.permutation(len(seen))
-    held = max(1, round(HELD_BACK * len(order)))
+    held = max(1, round(VALIDATION_SHARE * len(order)))
     kept, rest = order[:held], order[held:] if len(order) > held else order
     readings, wanted = torch.from_numpy(seen), torch.from_numpy(done)
     optimizer = torch.optim.AdamW(network.parameters(), lr=RATE, weight_decay=1e-2)
     best, state = float("inf"), network.state_dict()
-    shown = meter(updates, "updates", console=console, quiet=quiet)
+    bar = ProgressBar(updates, "updates", quiet=quiet)
     try:
         for update in range(1, updates + 1):
             batch = chance.choice(rest, min(BATCH, len(rest)), replace=False)
@@ -242,21 +238,21 @@ def _learn(
             optimizer.zero_grad()
             loss.backward()
             optimizer.step()
-            if update % LOOK == 0 or update == updates:
+            if update % VALIDATE_EVERY == 0 or update == updates:
                 with torch.no_grad():
                     error = float(network.loss(readings[kept], wanted[kept]))
                 if error < best:
                     best = error
                     state = {name: each.clone() for name, each in network.state_dict().items()}
-                shown.show(update, f"error {error:.4f}")
+                bar.show(update, f"error {error:.4f}")
     finally:
-        shown.close()
+        bar.close()
     network.load_state_dict(state)
     return best
 
 
 def levels_of(agent: BasicAgent) -> list[int]:
-    """Of each number in a flat observation: how many whole numbers it can be, from 0 on, if few."""
+    """Return for each number of a flat observation how many whole values it has, or 0."""
     levels: list[int] = []
     for sensor in agent.bound_blocks.sensors:
         if sensor.is_input:
@@ -264,12 +260,12 @@ def levels_of(agent: BasicAgent) -> list[int]:
             size = int(np.prod(space.shape or (1,)))
             few = isinstance(space, spaces.Box) and np.issubdtype(space.dtype, np.signedinteger)
             most = int(space.high.max()) + 1 if isinstance(space, spaces.Box) and few else 0
-            levels += [most if 2 < most <= MOST_LEVELS else 0] * size
+            levels += [most if 2 < most <= MAX_LEVELS else 0] * size
     return levels
 
 
 def write_network(network: Clone, agent: BasicAgent, about: dict[str, Any], path: Path) -> None:
-    """Writes a network as ONNX, with what is to be known of it and of who it drives."""
+    """Write a network as ONNX, with metadata on its origin and its agent."""
     inputs = inputs_of(agent)
     ((output, actuator),) = outputs_of(agent).items()
     graph = graph_of(cast(Any, network.eval()), inputs, output)

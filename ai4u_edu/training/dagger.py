@@ -1,8 +1,8 @@
-"""Learning from a teacher who sits beside the pupil, and says what she would do. Loads torch.
+"""Imitation learning with an interactive teacher (DAgger). Loads torch.
 
-A clone knows only the places where its teacher went; a small error takes it to one that nobody
-showed, and there it is lost. Here the pupil drives too, and the teacher says at each decision what
-she would have done: so the pupil is told what to do in the very places where its errors take it.
+A cloned network knows only the states that its teacher visited; a small error leads to a state that
+was never shown. In DAgger the learner drives too, and the teacher labels each of its decisions with
+the action that she would have taken: the data covers the states that the learner's errors lead to.
 
 Source: DAgger, of S. Ross, G. Gordon and D. Bagnell, "A reduction of imitation learning and
 structured prediction to no-regret online learning", 2011.
@@ -20,30 +20,30 @@ from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.blocks import LocalBrain, Percept
 from ai4u_edu.envs.spaces_of import Observer, action_space_of, outputs_of
 from ai4u_edu.scenes import Scene
-from ai4u_edu.training.algorithms import THREADS
+from ai4u_edu.training.algorithms import TORCH_THREADS
 from ai4u_edu.training.cloning import BATCH, RATE, Clone, Floats, levels_of, write_network
-from ai4u_edu.training.evaluating import LONGEST
-from ai4u_edu.training.progress_bar import meter
+from ai4u_edu.training.evaluating import DEFAULT_MAX_DECISIONS
+from ai4u_edu.training.progress_bar import ProgressBar
 from ai4u_edu.training.rays import rays_of
 from ai4u_edu.training.settings import DaggerSettings
 
 Drive = Callable[[Percept], Mapping[str, Any]]
 
-SEEDS = 2**42
-"""The lessons' seeds begin here: neither a training's nor an evaluation's."""
-TURN = 50
-"""After about so many decisions, the one who drives may change."""
-TEACHER = 0.3
-"""The share of the decisions in which the teacher drives, after the first round."""
+FIRST_SEED = 2**42
+"""First seed of DAgger's episodes; neither trainings nor evaluations use them."""
+DECISIONS_PER_TURN = 50
+"""Mean number of decisions after which the driver may change."""
+TEACHER_SHARE = 0.3
+"""Share of the decisions in which the teacher drives, after the first round."""
 
 
-class Lessons:
-    """What the teacher said so far, and the world in which she says it.
+class TeacherData:
+    """Data labelled by the teacher so far, and the world in which she drives.
 
     Args:
         teacher: makes a driver for one episode; it sees only the percept.
-        scene: where.
-        seed: of all chance.
+        scene: the scene.
+        seed: seed of all random choices.
     """
 
     def __init__(self, teacher: Callable[[], Drive], scene: Scene, seed: int) -> None:
@@ -63,18 +63,18 @@ class Lessons:
         self._teacher = teacher
         self._observer = Observer(self.agent, "flat")
         self._chance = np.random.default_rng(seed)
-        self._first = SEEDS + 1_000_000 * seed
+        self._first = FIRST_SEED + 1_000_000 * seed
 
     def episode(self, pupil: Clone | None) -> None:
-        """One more; the pupil drives most of the time, if there is one."""
+        """Record one more episode; the learner drives most of the time, if there is one."""
         teacher = self._teacher()
         drives = pupil is not None
         low, high = self._actuator.limits()
 
         def drive(percept: Percept) -> dict[str, Any]:
             nonlocal drives
-            if pupil is not None and self._chance.random() < 1 / TURN:
-                drives = bool(self._chance.random() > TEACHER)
+            if pupil is not None and self._chance.random() < 1 / DECISIONS_PER_TURN:
+                drives = bool(self._chance.random() > TEACHER_SHARE)
             said = np.atleast_1d(np.asarray(teacher(percept)[self.output], np.float32))
             seen = self._observer.observe(percept)
             self.seen.append(seen)
@@ -88,7 +88,7 @@ class Lessons:
         self.agent.use_brain(LocalBrain(controller=drive, **self.rhythm))
         self.sim.reset(self._first + self.episodes)
         self.episodes += 1
-        while not self.agent.done and self.agent.steps < LONGEST:
+        while not self.agent.done and self.agent.steps < DEFAULT_MAX_DECISIONS:
             self.sim.step(self.agent)
 
 
@@ -101,21 +101,21 @@ def imitate(
     seed: int = 0,
     quiet: bool = False,
 ) -> Path:
-    """Learns from a teacher, and writes the network as ONNX.
+    """Train a network from a teacher, and write it as ONNX.
 
     Args:
         teacher: makes a driver for one episode; it sees only the percept.
-        scene: where.
-        path: of the network's file.
-        settings: how long, and how large a network.
+        scene: the scene.
+        path: the network's file.
+        settings: number of rounds, and size of the network.
         seed: the same seed gives the same network.
-        quiet: whether to show nothing.
+        quiet: True shows nothing.
     """
     how = settings or DaggerSettings()
     rounds, updates = how.rounds, how.updates
-    lessons = Lessons(teacher, scene, seed)
-    shown = meter(rounds, "rounds", quiet=quiet)
-    torch.set_num_threads(THREADS)
+    lessons = TeacherData(teacher, scene, seed)
+    bar = ProgressBar(rounds, "rounds", quiet=quiet)
+    torch.set_num_threads(TORCH_THREADS)
     with torch.random.fork_rng(devices=[]):
         torch.manual_seed(seed)
         chance = np.random.default_rng(seed)
@@ -130,9 +130,9 @@ def imitate(
                 pupil = _as_scaled(new, pupil)
                 last = each == rounds
                 error = _study(pupil, seen, said, updates * (3 if last else 1), chance)
-                shown.show(each, f"{len(seen)} decisions  error {error:.4f}")
+                bar.show(each, f"{len(seen)} decisions  error {error:.4f}")
         finally:
-            shown.close()
+            bar.close()
     about = {
         "scene": scene.description.name,
         "algorithm": "dagger",
@@ -146,7 +146,7 @@ def imitate(
 
 
 def _as_scaled(new: Clone, old: Clone | None) -> Clone:
-    """A network with the new scales of what is seen, and all that the old one has learned."""
+    """Return a network with the new input scales and the old one's weights."""
     if old is not None and torch.equal(old.places, new.places):
         new.layers.load_state_dict(old.layers.state_dict())
     return new

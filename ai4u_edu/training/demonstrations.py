@@ -1,4 +1,4 @@
-"""Recorded episodes as data to learn from: what was sensed, what was done, what came of it."""
+"""Recorded episodes as training data: observations, actions, rewards."""
 
 import json
 import warnings
@@ -47,7 +47,7 @@ class Demonstration:
 
 @dataclass(frozen=True)
 class Demonstrations:
-    """What somebody showed in a scene."""
+    """Demonstrations by one driver in one scene."""
 
     scene: SceneDescription
     agent: str
@@ -55,18 +55,18 @@ class Demonstrations:
     skip_frame: int
     """Ticks that it skipped between two decisions."""
     repeat_action: bool
-    """Whether an action was applied on every tick until the next decision."""
+    """True if an action was applied on every tick until the next decision."""
     observation_space: spaces.Space[Any]
     action_space: spaces.Space[Any]
     episodes: tuple[Demonstration, ...]
 
     @property
     def decisions(self) -> int:
-        """All of them."""
+        """Count of all decisions."""
         return sum(map(len, self.episodes))
 
     def save(self, path: Path) -> Path:
-        """Writes all as NumPy arrays (.npz), which ``numpy.load`` reads.
+        """Write all as NumPy arrays (.npz), which ``numpy.load`` reads.
 
         ``0/observations`` (or ``0/observations/KEY``), ``0/actions``, ``0/rewards``,
         ``0/terminations``, ``0/truncations``, ``0/seed``, then ``1/...``; ``about`` is JSON text.
@@ -91,11 +91,11 @@ class Demonstrations:
         return path
 
     def to_minari(self, dataset_id: str, **about: Any) -> Any:
-        """Makes a Minari dataset on this machine; needs ``pip install "ai4u-edu[data]"``.
+        """Create a Minari dataset on this machine; needs ``pip install "ai4u-edu[data]"``.
 
         Args:
             dataset_id: such as ``box_chase/people-v0``.
-            about: what else ``minari.create_dataset_from_buffers`` takes, such as ``author``.
+            about: other arguments of ``minari.create_dataset_from_buffers``, such as ``author``.
 
         Returns:
             The ``minari.MinariDataset``.
@@ -141,10 +141,10 @@ class Demonstrations:
 def demonstrations(
     episodes: Iterable[Episode], *, agent: str | None = None, observation: str = "flat"
 ) -> Demonstrations:
-    """Plays episodes again, and writes down what one agent sensed and did.
+    """Replay episodes, and return what one agent sensed and did.
 
     Args:
-        episodes: of the same scene. An agent that began anew within one gives several.
+        episodes: episodes of the same scene. An agent that restarted within one gives several.
         agent: its id; left out, the one that acts first.
         observation: ``"flat"`` or ``"dict"``, as :class:`~ai4u_edu.envs.SceneEnv` has it.
 
@@ -180,7 +180,7 @@ def demonstrations(
 
 
 def load_episodes(paths: Sequence[Path]) -> list[Episode]:
-    """Episodes out of files, and out of folders of such files.
+    """Load episodes from files and from folders of such files.
 
     Raises:
         RecordingError: there are none, or one can't be read.
@@ -232,7 +232,7 @@ def _own_episodes(
 
 
 def _as_taken(action: dict[str, tuple[float, ...]], outputs: dict[str, Actuator]) -> Any:
-    """An action as the environment takes it; an actuator that got none stays at rest."""
+    """Return an action as the environment takes it; an actuator without one stays at rest."""
     taken: dict[str, Any] = {}
     for name, actuator in outputs.items():
         low, high = actuator.limits()

@@ -1,32 +1,32 @@
-"""How an episode went, and how sure a share of episodes is."""
+"""Result of an episode, and the confidence interval of a share of episodes."""
 
 import math
 from typing import NamedTuple
 
 
 class Episode(NamedTuple):
-    """How one episode went."""
+    """Result of one episode."""
 
     seed: int
     success: bool
     reward: float
-    """Of all its decisions together."""
+    """Sum over all decisions (the return)."""
     length: int
     """Decisions."""
     terminated: bool
-    """Whether it ended by what happened; else it was cut off."""
+    """True if it ended by what happened, False if it was truncated."""
 
 
 def wilson(successes: int, trials: int, z: float = 1.959964) -> tuple[float, float]:
-    """Between which shares the true one lies, 19 times out of 20.
+    """Return the 95% confidence interval of a share.
 
     Wilson's interval: unlike the plain one (share plus or minus its error) it stays within 0..1 and
     says something sensible when all trials succeeded, or none.
 
     Args:
-        successes: how many.
-        trials: of how many, at least 1.
-        z: how many standard deviations to each side; 1.96 for 95%.
+        successes: number of successes.
+        trials: number of trials, at least 1.
+        z: standard deviations to each side; 1.96 for 95%.
 
     Source: E. B. Wilson, Journal of the American Statistical Association 22 (1927) 209-212.
 

@@ -1,4 +1,4 @@
-"""Looks at the policy now and then, keeps the best one, and says when it is good enough."""
+"""Stable-Baselines3 callback: evaluates the policy, keeps the best, stops when good enough."""
 
 import time
 from collections.abc import Callable
@@ -13,20 +13,20 @@ from ai4u_edu.training.settings import Settings
 from ai4u_edu.training.vec_evaluation import trials
 from ai4u_edu.training.worlds import ABOVE
 
-SEEDS = 2 * ABOVE
-"""The checks' seeds begin here: they are neither the training's nor an evaluation's."""
+FIRST_SEED = 2 * ABOVE
+"""First seed of the checks' episodes; neither trainings nor evaluations use them."""
 
 
 class Keeper(BaseCallback):  # type: ignore[misc]  # seen without its types
-    """Checks the policy every so many decisions.
+    """Callback that checks the policy at regular intervals.
 
     Args:
-        run: where the best model is kept.
+        run: the folder that keeps the best model.
         scene_env: makes a world to check in.
-        settings: on how many episodes, and when it is enough.
+        settings: number of episodes, and when to stop.
         table: the actions, where the model chooses them by number.
         every: decisions between two checks.
-        has_goal: whether the scene has a success.
+        has_goal: True if the scene defines a success.
     """
 
     def __init__(
@@ -67,9 +67,9 @@ class Keeper(BaseCallback):  # type: ignore[misc]  # seen without its types
         return not self.enough
 
     def check(self) -> Check:
-        """Looks at the policy now."""
+        """Check the policy now."""
         best = self.best
-        seeds = range(SEEDS, SEEDS + len(self._envs))
+        seeds = range(FIRST_SEED, FIRST_SEED + len(self._envs))
         episodes = trials(self.model, self._envs, seeds, self._table)
         check = Check(
             steps=self.num_timesteps,

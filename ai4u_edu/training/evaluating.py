@@ -1,4 +1,4 @@
-"""How good somebody drives: episodes on seeds that nobody learned from."""
+"""Evaluation of a driver on seeds not used for training."""
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
@@ -13,18 +13,18 @@ from ai4u_edu.scenes import Scene
 from ai4u_edu.training.episode import Episode, wilson
 from ai4u_edu.training.policies import Entrant, expect_here
 
-LONGEST = 10_000
-"""Decisions after which an episode is cut off in a scene that has no limit of its own."""
+DEFAULT_MAX_DECISIONS = 10_000
+"""Decisions after which an episode is truncated in a scene without a limit of its own."""
 
 
 @dataclass(frozen=True, repr=False)
 class Evaluation:
-    """How somebody drove."""
+    """Evaluation of one driver."""
 
     name: str
     scene: str
     has_goal: bool
-    """Whether the scene says what a success is."""
+    """True if the scene defines a success."""
     episodes: tuple[Episode, ...]
 
     @property
@@ -41,7 +41,7 @@ class Evaluation:
 
     @property
     def interval(self) -> tuple[float, float] | None:
-        """Where the true share lies, 19 times out of 20."""
+        """95% confidence interval of the success rate."""
         return wilson(self.successes, len(self.episodes)) if self.has_goal else None
 
     @property
@@ -56,7 +56,7 @@ class Evaluation:
 
     @property
     def cells(self) -> dict[str, str]:
-        """What a table says of it, by heading."""
+        """Return a table's cells by heading."""
         interval = self.interval
         return {
             "who": self.name,
@@ -69,7 +69,7 @@ class Evaluation:
         }
 
     def __repr__(self) -> str:
-        """A table of one row."""
+        """Return a table of one row."""
         columns = [
             (heading.ljust(width), cell.ljust(width))
             for heading, cell in self.cells.items()
@@ -91,7 +91,7 @@ class Evaluation:
         return f"{self.scene}, {len(self.episodes)} episodes"
 
     def plain(self) -> dict[str, Any]:
-        """All of it as plain data, for a file."""
+        """Return all of it as plain data, for a file."""
         return {
             "name": self.name,
             "scene": self.scene,
@@ -111,12 +111,12 @@ def evaluate(
     *,
     tell: Callable[[], None] = lambda: None,
 ) -> Evaluation:
-    """Lets somebody drive one episode for each seed.
+    """Run one episode for each seed.
 
     Args:
-        who: drives the agent; the others do as their brains say.
-        scene: where; with its own limit of steps.
-        seeds: of the episodes; trainings use none below 2**32 on purpose.
+        who: drives the agent; the others follow their brains.
+        scene: the scene, with its own limit of steps.
+        seeds: seeds of the episodes; trainings use none below 2**32 on purpose.
         tell: called after each episode.
     """
     sim = expect_here(who).fitted(scene).build()
@@ -133,7 +133,7 @@ def evaluate(
 def _drive(sim: ControlRequestor, agent: BasicAgent, seed: int, goal: str | None) -> Episode:
     sim.reset(seed)
     reward, length, episode = 0.0, 0, sim.episode
-    while not agent.done and length < LONGEST:
+    while not agent.done and length < DEFAULT_MAX_DECISIONS:
         sim.step(agent)
         if sim.episode != episode or agent.stopped or agent.paused:
             return Episode(seed, False, reward, length, False)  # it gave up

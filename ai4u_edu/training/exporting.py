@@ -1,4 +1,4 @@
-"""Writes a model as an ONNX file: numbers and operations from a fixed list, and no program."""
+"""Export of a model as an ONNX file: numbers and operations from a fixed list, no program."""
 
 import hashlib
 import json
@@ -33,7 +33,7 @@ OPSET = 18
 
 
 class Exported:
-    """A model's network as ONNX, with all that it takes to drive an agent.
+    """A model's network as ONNX, with the metadata to drive an agent.
 
     It has one input for each sensor, by its perception key, of the shape of its reading with a
     first axis of any length; and one output by the actuator's name. Its metadata (entry
@@ -41,8 +41,8 @@ class Exported:
 
     Args:
         model: trained by :func:`~ai4u_edu.training.learning.train`.
-        scene: where.
-        config: how.
+        scene: the scene it was trained in.
+        config: the training's set-up.
     """
 
     def __init__(self, model: BaseAlgorithm, scene: Scene, config: Config) -> None:
@@ -76,7 +76,7 @@ class Exported:
         }
 
     def write(self, path: Path) -> Path:
-        """Writes it to a file; what was there is replaced whole, or not at all."""
+        """Write it to a file atomically."""
         network = onnx.ModelProto()
         network.CopyFrom(self._network)
         network.producer_name, network.producer_version = "ai4u-edu", __version__
@@ -89,12 +89,12 @@ class Exported:
 
 
 def export(model: BaseAlgorithm, scene: Scene, config: Config, path: Path) -> Path:
-    """Writes a model as an ONNX file; see :class:`Exported`."""
+    """Write a model as an ONNX file; see :class:`Exported`."""
     return Exported(model, scene, config).write(path)
 
 
 def inputs_of(agent: BasicAgent) -> dict[str, tuple[tuple[int, ...], np.dtype[Any]]]:
-    """Shape and type of each reading that a policy gets, in the order of the observation."""
+    """Return shape and type of each reading of a policy, in the order of the observation."""
     slots = agent.bound_blocks.layout.slots
     return {
         sensor.perception_key: (
@@ -109,12 +109,12 @@ def inputs_of(agent: BasicAgent) -> dict[str, tuple[tuple[int, ...], np.dtype[An
 def graph_of(
     drive: Drive, inputs: dict[str, tuple[tuple[int, ...], np.dtype[Any]]], output: str
 ) -> onnx.ModelProto:
-    """The ONNX graph of a module that turns readings into an action.
+    """Return the ONNX graph of a module that turns readings into an action.
 
     Args:
         drive: takes one array for each input, the first axis being the batch.
-        inputs: the shape and type of each, by perception key.
-        output: the name of what comes out.
+        inputs: shape and type of each input, by perception key.
+        output: the output's name.
     """
     batch = torch.export.Dim("batch")
     with tempfile.TemporaryDirectory() as folder, _silence():
@@ -148,7 +148,7 @@ def graph_of(
 
 @contextmanager
 def _silence() -> Iterator[None]:
-    """The exporter talks to its own developers."""
+    """Suppress the exporter's output, which is for its own developers."""
     exporter = logging.getLogger("torch.onnx")
     level = exporter.level
     exporter.setLevel(logging.ERROR)

@@ -1,4 +1,4 @@
-"""Ctrl-C once: finish the step under way and keep what was learned. Twice: at once."""
+"""Ctrl-C during a training: the first one ends it after a step, the second one at once."""
 
 import signal
 import threading
@@ -10,7 +10,7 @@ from stable_baselines3.common.callbacks import BaseCallback
 
 
 class Interrupt(BaseCallback):  # type: ignore[misc]  # seen without its types
-    """Ends a training after the step in which it was asked to."""
+    """Callback that ends a training after the step in which Ctrl-C was pressed."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -21,7 +21,7 @@ class Interrupt(BaseCallback):  # type: ignore[misc]  # seen without its types
 
     @contextmanager
     def listening(self) -> Iterator[None]:
-        """Ctrl-C asks, for as long as this lasts."""
+        """Turn Ctrl-C into a request to end, within this context."""
         if threading.current_thread() is not threading.main_thread():
             yield  # signals come to the main thread only
             return

@@ -1,4 +1,4 @@
-"""Lets an agent learn a scene."""
+"""Training of an agent in a scene with Stable-Baselines3."""
 
 from dataclasses import dataclass
 from importlib.metadata import version
@@ -6,7 +6,6 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from rich.console import Console
 from stable_baselines3.common.base_class import BaseAlgorithm
 from stable_baselines3.common.callbacks import BaseCallback, CallbackList
 from stable_baselines3.common.logger import configure
@@ -21,7 +20,7 @@ from ai4u_edu.training.algorithms import check_actions, load_model, new_model
 from ai4u_edu.training.eval_callback import Keeper
 from ai4u_edu.training.interrupt import Interrupt
 from ai4u_edu.training.prepare import prepare
-from ai4u_edu.training.progress import Bar
+from ai4u_edu.training.progress import ProgressCallback
 from ai4u_edu.training.run import Check, Config, Run
 from ai4u_edu.training.settings import Algorithm, Settings
 from ai4u_edu.training.worlds import ABOVE, Choices, make_worlds
@@ -34,29 +33,29 @@ PACKAGES = ("ai4u-edu", "stable-baselines3", "torch", "numpy", "pymunk", "gymnas
 
 @dataclass(frozen=True)
 class Trained:
-    """What came out of a training."""
+    """Result of a training."""
 
     run: Run
     steps: int
-    """Decisions learned from, also before a resume."""
+    """Decisions learned from, including those before a resume."""
     interrupted: bool
-    """Whether Ctrl-C ended it."""
+    """True if Ctrl-C ended it."""
     enough: bool
-    """Whether it ended sooner because the policy was good enough."""
+    """True if it ended early because the policy was good enough."""
     checks: list[Check]
 
     @property
     def best(self) -> Check:
-        """The check of the model that was kept."""
+        """Check of the model that was kept."""
         return max(self.checks, key=lambda check: check.rank)
 
     @property
     def folder(self) -> Path:
-        """Where everything is that came out."""
+        """Folder with everything that the training wrote."""
         return self.run.folder
 
     def __repr__(self) -> str:
-        """A line.
+        """Return one line.
 
         The dataclass's own would list every check.
         """
@@ -79,25 +78,23 @@ def train(
     steps: int | None = None,
     seed: int = 0,
     overwrite: bool = False,
-    console: Console | None = None,
     quiet: bool = False,
     watch: bool = False,
 ) -> Trained:
-    """Begins a training.
+    """Start a training.
 
     The same seed on the same machine gives the same model.
 
     Args:
-        scene: where.
-        algorithm: how.
-        settings: of all algorithms, for this scene.
-        folder: for everything that comes out; see :class:`~ai4u_edu.training.run.Run`.
+        scene: the scene.
+        algorithm: the algorithm's name.
+        settings: settings of all algorithms for this scene.
+        folder: the folder for all results; see :class:`~ai4u_edu.training.run.Run`.
         steps: decisions to learn from; left out, as the settings say.
-        seed: of the network, the worlds and all chance.
-        overwrite: whether a training that is in the folder already may be lost.
-        console: where to show how it goes.
-        quiet: whether to show nothing.
-        watch: whether to show the policy driving in the browser as it learns.
+        seed: seed of the network, the worlds and all random choices.
+        overwrite: True replaces a training that is in the folder.
+        quiet: True shows nothing.
+        watch: True shows the policy driving in the browser as it learns.
 
     Raises:
         SetupError: the settings don't fit the scene, or the folder holds a training already.
@@ -126,27 +123,25 @@ def train(
     if overwrite:
         run.clear()
     run.begin(config, scene)
-    return _learn(run, config, prepared, model, worlds, console, quiet, watch)
+    return _learn(run, config, prepared, model, worlds, quiet, watch)
 
 
 def resume(
     folder: Path,
     *,
     steps: int | None = None,
-    console: Console | None = None,
     quiet: bool = False,
     watch: bool = False,
 ) -> Trained:
-    """Goes on with a training that was interrupted, or is to last longer.
+    """Resume a training that was interrupted, or extend one.
 
     The worlds begin new episodes, so it is not bit for bit what it would have been without a break.
 
     Args:
-        folder: of the training.
+        folder: the training's folder.
         steps: decisions to learn from, the ones before counted too; left out, as it was begun.
-        console: where to show how it goes.
-        quiet: whether to show nothing.
-        watch: whether to show the policy driving in the browser as it learns.
+        quiet: True shows nothing.
+        watch: True shows the policy driving in the browser as it learns.
 
     Raises:
         SetupError: there is no training in the folder.
@@ -167,7 +162,7 @@ def resume(
             f"{folder} has learned from {model.num_timesteps} steps already; "
             f"expected --steps larger than that, got {config.steps}"
         )
-    return _learn(run, config, prepared, model, worlds, console, quiet, watch)
+    return _learn(run, config, prepared, model, worlds, quiet, watch)
 
 
 def _learn(
@@ -176,7 +171,6 @@ def _learn(
     prepared: Scene,
     model: BaseAlgorithm,
     worlds: VecEnv,
-    console: Console | None,
     quiet: bool,
     watch: bool,
 ) -> Trained:
@@ -190,7 +184,7 @@ def _learn(
         has_goal=prepared.description.success is not None,
     )
     interrupt = Interrupt()
-    bar = Bar(keeper, config.steps, console, quiet=quiet)
+    bar = ProgressCallback(keeper, config.steps, quiet=quiet)
     formats = ["tensorboard"] if find_spec("tensorboard") else []
     model.set_logger(configure(str(run.tensorboard), formats))
     left = config.steps - model.num_timesteps

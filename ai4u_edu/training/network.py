@@ -1,4 +1,4 @@
-"""A model's way from readings to an action, as one torch module. Loads torch."""
+"""A Stable-Baselines3 model as one torch module from readings to an action. Loads torch."""
 
 from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
@@ -16,12 +16,12 @@ from ai4u_edu.training.algorithms import CLASSES
 
 
 class Drive(nn.Module):  # type: ignore[misc]  # seen without its types
-    """What a model does when it does what it thinks best; readings in, an action out.
+    """Torch module of a model's deterministic policy: readings in, an action out.
 
     Scaling of the readings, the choice and the scaling to the actuator's range all happen inside.
 
     Args:
-        model: of Stable-Baselines3: SAC, PPO or DQN.
+        model: a Stable-Baselines3 model: SAC, PPO or DQN.
         keys: the perception keys, in the order in which the readings come.
         table: (choices, numbers) the actions, where the model chooses them by number.
     """
@@ -50,7 +50,7 @@ class Drive(nn.Module):  # type: ignore[misc]  # seen without its types
         self.register_buffer("table", None if table is None else torch.as_tensor(table))
 
     def forward(self, *readings: Tensor) -> Tensor:
-        """An action for each row of the readings."""
+        """Return an action for each row of the readings."""
         seen = self._observation(readings)
         if self._kind == "sac":
             actor = self.policy.actor
@@ -94,16 +94,16 @@ class Drive(nn.Module):  # type: ignore[misc]  # seen without its types
 
 
 class _Seen(NamedTuple):
-    """How a reading comes to a network that takes each one by itself."""
+    """Form of one reading as a network's input."""
 
     choices: int
-    """Of a whole number, which becomes as many zeros and a one; 0 for anything else."""
+    """Count of values of a whole number, which is one-hot encoded; 0 for anything else."""
     is_picture: bool
     shape: tuple[int, ...]
 
 
 def _spaces_of(space: spaces.Space[Any]) -> dict[str, _Seen]:
-    """Of each reading; empty where they all come in one array."""
+    """Return the space of each reading; empty where they all come in one array."""
     if not isinstance(space, spaces.Dict):
         return {}
     return {key: _seen_of(each) for key, each in space.spaces.items()}
@@ -115,7 +115,7 @@ def _seen_of(space: spaces.Space[Any]) -> _Seen:
 
 
 def _as_seen(reading: Tensor, seen: _Seen) -> Tensor:
-    """What Stable-Baselines3 does with a reading before its network gets it."""
+    """Preprocess a reading as Stable-Baselines3 does."""
     if seen.choices:
         return nn.functional.one_hot(reading.to(torch.int64), seen.choices).to(torch.float32)
     if not seen.is_picture:
@@ -133,5 +133,5 @@ def _kind_of(model: BaseAlgorithm) -> str:
 
 
 def example(inputs: Mapping[str, tuple[tuple[int, ...], np.dtype[Any]]]) -> tuple[Tensor, ...]:
-    """Two rows of zeros for each input, by shape and type."""
+    """Return two rows of zeros for each input, by shape and type."""
     return tuple(torch.from_numpy(np.zeros((2, *shape), dtype)) for shape, dtype in inputs.values())

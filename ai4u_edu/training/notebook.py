@@ -1,6 +1,6 @@
-"""Learning in a few lines: what the commands of ``ai4u-edu`` do, for notebooks and scripts.
+"""The training commands of ``ai4u-edu`` as functions for notebooks and scripts.
 
-What they need (torch, Stable-Baselines3) is loaded when they are called.
+torch and Stable-Baselines3 are imported when a function needs them.
 """
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
@@ -38,7 +38,7 @@ def train(
     watch: bool = False,
     quiet: bool = False,
 ) -> "Trained":
-    """Lets an agent learn a scene; Ctrl-C (a notebook's stop button) keeps what it learned so far.
+    """Train an agent in a scene; Ctrl-C (a notebook's stop button) keeps what it learned so far.
 
     The same seed on the same machine gives the same model. It may end before the last step, when
     the policy is good enough (``settings={"enough": 0}``: never).
@@ -47,25 +47,25 @@ def train(
         scene: a scene of the library, a YAML file, or a Scene.
         algo: ``"sac"``, ``"ppo"`` or ``"dqn"``; left out, as the scene's settings say.
         steps: decisions to learn from; left out, as the settings say.
-        seed: of the network, the worlds and all chance.
+        seed: seed of the network, the worlds and all random choices.
         out: the training's folder; left out, ``runs/SCENE-ALGO-SEED``.
-        settings: what is different from the scene's own settings, such as
+        settings: changes to the scene's own settings, such as
             ``{"ppo": {"learning_rate": 1e-4}}``; or a YAML file in place of them.
         policy: Stable-Baselines3's name of the network's kind: ``"MlpPolicy"``, ``"CnnPolicy"`` for
             an agent whose only input is a picture, ``"MultiInputPolicy"`` for pictures and others.
         observe: the perception keys that the policy gets; left out, as the settings say.
-        resume: whether to go on with the training in ``out``, up to ``steps`` in all.
-        overwrite: whether a training that is in ``out`` already may be lost, as when a notebook's
-            cell runs for the second time.
-        watch: whether to show the policy driving in the browser as it learns.
-        quiet: whether to show nothing.
+        resume: True goes on with the training in ``out``, up to ``steps`` in all.
+        overwrite: True replaces a training that is in ``out`` already, as when a notebook's cell
+            runs for the second time.
+        watch: True shows the policy driving in the browser as it learns.
+        quiet: True shows nothing.
 
     Returns:
-        What came of it: ``best`` (a check with ``success``, ``reward``, ``length``), ``checks``,
+        The result: ``best`` (a check with ``success``, ``reward``, ``length``), ``checks``,
         ``steps``, ``folder``. It can be evaluated and exported.
 
     Raises:
-        SetupError: something is not as it has to be, or not installed; says what.
+        SetupError: a setting is wrong or something is not installed; says what.
     """
     need("train", "torch", "stable_baselines3")
     from ai4u_edu.training import learning
@@ -109,16 +109,16 @@ def evaluate(
     seed: int = 0,
     quiet: bool = False,
 ) -> "Evaluation":
-    """Finds out how good somebody drives, on seeds that no training uses.
+    """Measure how well a driver does, on seeds not used for training.
 
     Args:
         who: what :func:`train` or :func:`clone` gave; a function from percept to action, or a
             Controller; a training's folder, a model (.zip), a network (.onnx, ``"zoo:SCENE"``), a
             controller's name, ``"random"``, or ``"scene"`` for the scene's own controller.
-        scene: where; left out, where it was trained.
-        episodes: how many.
-        seed: of the first episode; then one by one.
-        quiet: whether to show nothing on the way.
+        scene: the scene; left out, the one it was trained in.
+        episodes: number of episodes.
+        seed: seed of the first episode; the next ones follow.
+        quiet: True shows no progress.
 
     Returns:
         ``success_rate`` (0..1), ``interval``, ``rewards``, ``lengths``, ``episodes``; as text or in
@@ -142,10 +142,10 @@ def evaluate(
 
 
 def export(model: "str | Path | Trained", out: str | Path = "policy.onnx") -> Path:
-    """Writes a model as a network (.onnx) that drives without torch, and can be shared.
+    """Write a model as a network (.onnx) that drives without torch and can be shared.
 
     Args:
-        model: what :func:`train` gave, its folder, or a model (.zip) in it.
+        model: the result of :func:`train`, its folder, or a model (.zip) in it.
         out: the network's file.
 
     Returns:
@@ -171,14 +171,14 @@ def demonstrate(
     seed: int = 1000,
     quiet: bool = False,
 ) -> "list[Episode]":
-    """Lets somebody drive, and keeps the episodes to learn from with :func:`clone`.
+    """Record episodes of a driver, for :func:`clone`.
 
     Args:
         who: as in :func:`evaluate`.
-        scene: where; left out, where it was trained.
-        episodes: how many.
-        seed: of the first episode; then one by one.
-        quiet: whether to show nothing on the way.
+        scene: the scene; left out, the one it was trained in.
+        episodes: number of episodes.
+        seed: seed of the first episode; the next ones follow.
+        quiet: True shows no progress.
 
     >>> from ai4u_edu.training import demonstrate
     >>> episodes = demonstrate("random", "box_chase", episodes=2, quiet=True)
@@ -207,15 +207,15 @@ def clone(
     updates: int = 2000,
     quiet: bool = False,
 ) -> "Cloned":
-    """Lets a network learn to do what somebody showed (behaviour cloning).
+    """Train a network to imitate recorded episodes (behaviour cloning).
 
     Args:
-        data: recorded episodes (what :func:`demonstrate` gave, .episode files, folders of them).
+        data: recorded episodes (the result of :func:`demonstrate`, .episode files, folders).
         out: the network's file.
-        agent: the id of the agent that showed it; left out, the one that acts first.
+        agent: the id of the agent to imitate; left out, the one that acts first.
         seed: the same seed gives the same network.
         updates: gradient steps.
-        quiet: whether to show nothing.
+        quiet: True shows nothing.
 
     Returns:
         ``path`` of the network, ``loss``, ``decisions`` learned from; it can be evaluated.

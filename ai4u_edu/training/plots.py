@@ -1,4 +1,4 @@
-"""Pictures of evaluations and trainings, as PNG. Loads matplotlib."""
+"""Plots of evaluations and trainings as picture files. Loads matplotlib."""
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -15,11 +15,11 @@ from ai4u_edu.training.run import Check
 
 COLOURS = ("blue", "orange", "green", "vermillion", "purple", "sky blue", "black")
 MARKERS = "osD^v<>"
-"""Besides its colour each line has a marker of its own."""
+"""Markers that tell lines apart besides their colours."""
 
 
 def plot_evaluations(evaluations: Sequence[Evaluation], path: Path) -> None:
-    """Success with its interval, and the returns and lengths of all episodes.
+    """Plot success with its interval, and the returns and lengths of all episodes.
 
     Raises:
         SetupError: there are no evaluations, or the file's name ends in no picture's format.
@@ -57,7 +57,7 @@ def plot_evaluations(evaluations: Sequence[Evaluation], path: Path) -> None:
 
 
 def plot_curves(curves: Mapping[str, Mapping[str, Sequence[Check]]], path: Path) -> None:
-    """Success by steps: a panel a title, a line a training.
+    """Plot success by steps: a panel for each title, a line for each training.
 
     Raises:
         SetupError: there are no panels, or the file's name ends in no picture's format.
@@ -106,7 +106,7 @@ def check_picture(path: Path) -> None:
 
 
 def _plain(text: str) -> str:
-    """Return a text in which no formulas are looked for: a file's name may hold dollar signs."""
+    """Escape dollar signs, which matplotlib reads as formulas."""
     return text.replace("$", r"\$")
 
 

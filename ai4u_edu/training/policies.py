@@ -1,4 +1,4 @@
-"""Who drives in an evaluation: a model, a network, a controller, chance."""
+"""Drivers for evaluations and ``--brain``: models, networks, controllers, random actions."""
 
 import importlib.util
 import sys
@@ -25,18 +25,18 @@ from ai4u_edu.blocks.brains.address import brain_at
 from ai4u_edu.blocks.brains.network import IN_THE_ZOO
 from ai4u_edu.envs.spaces_of import Observer, outputs_of
 from ai4u_edu.scenes import Scene
-from ai4u_edu.scenes.serialization import fits_a_file
+from ai4u_edu.scenes.serialization import is_serializable
 from ai4u_edu.training.prepare import prepare
 from ai4u_edu.training.run import Config, run_of
 
 ZOO = "zoo"
-"""The scene's own network of the package."""
+"""Name of the scene's own network in the package."""
 SCHEME = "ai4u://"
 FORMS = (
     "a training's folder, a model (.zip), a network (.onnx, zoo:SCENE, or zoo for the scene's "
     "own), FILE.py:NAME, an AI4U script (ai4u://127.0.0.1:8080), random, scene, or a controller"
 )
-"""All forms in which a command line names a driver."""
+"""Forms in which a command line names a driver."""
 
 
 def _as_it_is(scene: Scene) -> Scene:
@@ -45,23 +45,23 @@ def _as_it_is(scene: Scene) -> Scene:
 
 @dataclass(frozen=True)
 class Entrant:
-    """Somebody who can drive."""
+    """Description of a driver, and how to make its brain."""
 
     name: str
     brain: Callable[[BasicAgent], Brain]
-    """A new brain for an agent; it drives by what it thinks best."""
+    """Make a brain for an agent; a trained policy acts deterministically."""
     scene: str = ""
-    """The scene that it was made for, a name or a file; empty for any."""
+    """Scene that it was made for, a name or a file; empty for any."""
     fitted: Callable[[Scene], Scene] = _as_it_is
-    """A scene whose agent observes as it is used to."""
+    """Adapt a scene so that its agent observes as in the training."""
     agent: str = ""
-    """The id of the agent that it drives; empty for the one that acts first."""
+    """Id of the agent that it drives; empty for the one that acts first."""
     is_remote: bool = False
     """True for a script on the other side of a connection, which needs a served world."""
 
 
 def entrant(spec: str, scene: str = "") -> Entrant:
-    """Finds out who drives; the one place in which drivers are parsed.
+    """Parse the name of a driver; the one place that does.
 
     Args:
         spec: a training's folder or a model in it (.zip); a network (.onnx,
@@ -94,7 +94,7 @@ def entrant(spec: str, scene: str = "") -> Entrant:
         name: cls
         for name, cls in Block.types.items()
         if issubclass(cls, Controller)
-        and fits_a_file(cls)
+        and is_serializable(cls)
         and not any(field.is_required() for field in cls.parameters().values())
     }
     if spec in controllers:
@@ -117,11 +117,11 @@ def expect_here(who: Entrant) -> Entrant:
 
 
 def entrant_of(who: Any) -> Entrant:
-    """Who drives, whatever it is that drives.
+    """Return the driver for anything that can drive.
 
     Args:
-        who: a function from percept to action, a Controller (or its class), what a training or
-            cloning gave, or as for :func:`entrant`.
+        who: a function from percept to action, a Controller (or its class), the result of a
+            training or a cloning, or as for :func:`entrant`.
     """
     if isinstance(who, Entrant):
         return who
@@ -174,11 +174,11 @@ def _model(path: Path) -> Entrant:
 def driver_of(
     config: Config, agent: BasicAgent, latest: Callable[[], Any]
 ) -> Callable[[Percept], dict[str, Any]]:
-    """What lets a model of Stable-Baselines3 drive, by what it thinks best.
+    """Return a controller that asks a Stable-Baselines3 model for deterministic actions.
 
     Args:
-        config: of its training.
-        agent: whom it drives.
+        config: its training's set-up.
+        agent: the agent it drives.
         latest: the model; asked at each decision.
     """
     from ai4u_edu.training.worlds import table_for
@@ -215,7 +215,7 @@ def _drawn(space: Any, chance: np.random.Generator) -> Any:
 
 
 def _in_rhythm(make: Callable[[], Any]) -> Callable[[BasicAgent], Brain]:
-    """A LocalBrain that decides as often as the agent's own."""
+    """Return a LocalBrain that decides as often as the agent's own brain."""
     return lambda agent: LocalBrain(
         controller=make(),
         skip_frame=agent.brain.skip_frame,
@@ -224,14 +224,14 @@ def _in_rhythm(make: Callable[[], Any]) -> Callable[[BasicAgent], Brain]:
 
 
 def _in_rhythm_of(brain: Brain) -> Callable[[BasicAgent], Brain]:
-    """A brain that decides as often as the agent's own."""
+    """Return a brain that decides as often as the agent's own."""
     return lambda agent: brain.changed(
         skip_frame=agent.brain.skip_frame, repeat_action=agent.brain.repeat_action
     )
 
 
 def _from_file(path: Path, name: str) -> Callable[[], Any]:
-    """Runs a Python file, which the user named, and takes a function or a controller out of it."""
+    """Run a Python file that the user named, and return a function or a controller from it."""
     called = f"own_controllers_{path.stem}"
     found = importlib.util.spec_from_file_location(called, path)
     if found is None or found.loader is None or not path.is_file():

@@ -1,4 +1,4 @@
-"""The scene in which an agent learns: the one of the file, and what the settings say of it."""
+"""The scene of a training: the file's scene, changed as the settings say."""
 
 from copy import deepcopy
 from typing import Any
@@ -9,12 +9,12 @@ from ai4u_edu.training.settings import Settings
 
 
 def prepare(scene: Scene, settings: Settings, *, learning: bool = True) -> Scene:
-    """A scene whose agent observes, and decides as often, as the settings say.
+    """Return a scene whose agent observes and decides as the settings say.
 
     Args:
         scene: stays as it is.
-        settings: how it is learned.
-        learning: whether episodes are cut off as in a training, or as the scene says.
+        settings: the training's settings.
+        learning: True truncates episodes as in a training, False as the scene says.
 
     Raises:
         SetupError: the settings name an agent or a sensor that the scene doesn't have.
@@ -33,7 +33,7 @@ def prepare(scene: Scene, settings: Settings, *, learning: bool = True) -> Scene
 
 
 def index_of_learner(scene: Scene, settings: Settings) -> int:
-    """Which of a scene's agents learns, counted as in the file."""
+    """Return the learning agent's index, as in the file."""
     ids = [str(agent.get("id", "0")) for agent in scene.description.agents]
     name = settings.agent or scene.build().agents[0].id
     if name not in ids:
@@ -42,12 +42,12 @@ def index_of_learner(scene: Scene, settings: Settings) -> int:
 
 
 def _plain(agent: Any) -> dict[str, Any]:
-    """A copy of an agent as data, to be changed."""
+    """Return a copy of an agent as data, to be changed."""
     return deepcopy(dict(agent))
 
 
 def _observe(agent: dict[str, Any], settings: Settings, scene: Scene) -> None:
-    """Makes the sensors that are asked for inputs, and the others none."""
+    """Make the requested sensors inputs, and no others."""
     built = scene.build().agent(str(agent.get("id", "0")))
     keys = [sensor.perception_key for sensor in built.sensors]
     for key in settings.observe:

@@ -1,46 +1,42 @@
-"""What a person sees while an agent learns."""
+"""Progress bar of a training."""
 
 import time
 from collections import deque
 from typing import Any
 
 import numpy as np
-from rich.console import Console
 from stable_baselines3.common.callbacks import BaseCallback
 
 from ai4u_edu.training.eval_callback import Keeper
-from ai4u_edu.training.progress_bar import OFTEN, Meter, Silence, meter
+from ai4u_edu.training.progress_bar import REFRESH_S, ProgressBar
 
 WINDOW = 100
 """Episodes over which rewards and successes are averaged."""
 
 
-class Bar(BaseCallback):  # type: ignore[misc]  # seen without its types
-    """A bar with steps a second, mean reward, success rate and the time that is left.
+class ProgressCallback(BaseCallback):  # type: ignore[misc]  # seen without its types
+    """Callback that shows steps a second, mean reward, success rate and remaining time.
 
     Args:
-        keeper: whose checks are told.
+        keeper: the evaluation callback whose checks are shown.
         until: the step at which the training ends at the latest.
-        console: a terminal to show it in; left out, where this runs.
-        quiet: whether to show nothing.
+        quiet: True shows nothing.
     """
 
-    def __init__(
-        self, keeper: Keeper, until: int, console: Console | None, *, quiet: bool = False
-    ) -> None:
+    def __init__(self, keeper: Keeper, until: int, *, quiet: bool = False) -> None:
         super().__init__()
         self._keeper = keeper
         self._until = until
         self._rewards: deque[float] = deque(maxlen=WINDOW)
         self._won: deque[bool] = deque(maxlen=WINDOW)
         self._told = len(keeper.checks)
-        self._console, self._quiet = console, quiet
-        self._meter: Meter = Silence()
+        self._quiet = quiet
+        self._bar: ProgressBar | None = None
 
     def _on_training_start(self) -> None:
         self._first = self.num_timesteps
         self._began = self._shown = time.perf_counter()
-        self._meter = meter(self._until, "steps", console=self._console, quiet=self._quiet)
+        self._bar = ProgressBar(self._until, "steps", quiet=self._quiet)
 
     def _on_step(self) -> bool:
         infos: list[dict[str, Any]] = self.locals["infos"]
@@ -49,7 +45,7 @@ class Bar(BaseCallback):  # type: ignore[misc]  # seen without its types
             if episode:
                 self._rewards.append(episode["r"])
                 self._won.append(info["is_success"])
-        if time.perf_counter() - self._shown > OFTEN or len(self._keeper.checks) > self._told:
+        if time.perf_counter() - self._shown > REFRESH_S or len(self._keeper.checks) > self._told:
             self._show()
         return True
 
@@ -62,14 +58,17 @@ class Bar(BaseCallback):  # type: ignore[misc]  # seen without its types
         self.close()
 
     def close(self) -> None:
-        """Lets go of the terminal."""
-        self._meter.close()
+        """Remove the bar."""
+        if self._bar is not None:
+            self._bar.close()
 
     def _show(self) -> None:
+        if self._bar is None:
+            return
         self._shown = time.perf_counter()
         for check in self._keeper.checks[self._told :]:
             success = "" if check.success is None else f"success {check.success:.0%}, "
-            self._meter.note(
+            self._bar.note(
                 f"after {check.steps} steps, {check.seconds:.0f} s: {success}"
                 f"reward {check.reward:.2f} in {check.length:.0f} decisions"
             )
@@ -77,7 +76,7 @@ class Bar(BaseCallback):  # type: ignore[misc]  # seen without its types
         speed = (self.num_timesteps - self._first) / max(self._shown - self._began, 1e-9)
         reward = f"{np.mean(self._rewards):.2f}" if self._rewards else "-"
         success = f"{np.mean(self._won):.0%}" if self._won else "-"
-        self._meter.show(
+        self._bar.show(
             min(self.num_timesteps, self._until),
             f"{speed:.0f}/s  reward {reward}  success {success}",
         )

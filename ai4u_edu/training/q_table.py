@@ -1,7 +1,7 @@
 """Q-learning with a table: the oldest and smallest way to learn from reward alone.
 
-The table says of each action in each state how much reward will come, from there to the end. It
-begins with zeros, and each step corrects one number a little.
+The table estimates for each action in each state the discounted reward that will follow. It begins
+with zeros, and each step corrects one number a little.
 """
 
 from collections.abc import Callable, Hashable
@@ -16,30 +16,30 @@ from ai4u_edu.base.errors import SetupError, suggest
 from ai4u_edu.scenes import Scene
 from ai4u_edu.training.progress_bar import counted
 
-DIRTY = 200
-"""The code of a dirty place in the map of the grid world."""
+DIRTY_CODE = 200
+"""Code of a dirty place in the grid world's map."""
 
 
 def grid_state(seen: Any) -> Hashable:
-    """The state of the grid world: in which cell the robot is, and which places are still dirty.
+    """Return the state of the grid world: the robot's cell, and which places are still dirty.
 
-    The cell alone would not do: where to go next depends on where one has cleaned already.
+    The cell alone is not enough: where to go next depends on what has been cleaned already.
 
     Args:
         seen: an observation or a percept with a ``grid`` and a ``cell``.
     """
     row, column = seen["cell"]
-    return int(row), int(column), *np.flatnonzero(seen["grid"] == DIRTY).tolist()
+    return int(row), int(column), *np.flatnonzero(seen["grid"] == DIRTY_CODE).tolist()
 
 
 def still(scene: Scene, *but: str) -> Scene:
-    """A scene in which everything is in the same place in each episode.
+    """Return a scene in which everything is in the same place in each episode.
 
-    Where enemies and persons stand is not in :func:`grid_state`, so a table learns one such world.
+    The places of enemies and persons are not in :func:`grid_state`, so a table learns one world.
 
     Args:
         scene: stays as it is.
-        but: the names of bodies that may begin elsewhere all the same, such as the robot.
+        but: names of bodies that stay random, such as the robot.
 
     >>> scene = still(Scene.load("grid_world"), "robot")
     >>> [thing.name for thing in scene.description.things if thing.random]
@@ -60,11 +60,11 @@ def still(scene: Scene, *but: str) -> Scene:
 
 
 class QTable:
-    """What each action is worth in each state, as far as is known.
+    """Estimated value of each action in each state.
 
     Args:
-        actions: how many there are to choose from.
-        state: makes a state of an observation.
+        actions: number of actions to choose from.
+        state: makes a state from an observation.
         output: the actuator's name.
     """
 
@@ -77,15 +77,15 @@ class QTable:
         """The reward of each episode that it learned from."""
 
     def of(self, state: Hashable) -> npt.NDArray[np.float64]:
-        """(actions,) what each one is worth in a state."""
+        """Return the values of all actions in a state, (actions,)."""
         return self.values.setdefault(state, np.zeros(self.actions))
 
     def best(self, state: Hashable) -> int:
-        """The action that is worth most; the first of several."""
+        """Return the action with the largest value; the first of several."""
         return int(self.of(state).argmax())
 
     def drive(self, percept: Any) -> dict[str, int]:
-        """A controller: ``LocalBrain(controller=table.drive)``."""
+        """Act greedily, as a controller: ``LocalBrain(controller=table.drive)``."""
         return {self.output: self.best(self.state(percept))}
 
 
@@ -100,20 +100,20 @@ def q_learning(
     seed: int = 0,
     quiet: bool = False,
 ) -> QTable:
-    """Learns a table by trying. Source: C. Watkins, 1989.
+    """Learn a table by trial and error. Source: C. Watkins, 1989.
 
     The grid world, with its things in one place: 500 episodes (about 15 seconds) are enough; and
     then ``evaluate(table.drive, scene)``.
 
     Args:
         env: with a few actions (Discrete).
-        state: makes a state of an observation: all that the best action depends on.
-        episodes: how many.
-        rate: how far a step corrects the table; 1: it believes only what it saw last.
-        discount: what reward is worth that comes a step later.
-        curiosity: how often it tries any action instead of the best one.
-        seed: of the worlds and of all chance.
-        quiet: whether to show nothing.
+        state: makes a state from an observation: all that the best action depends on.
+        episodes: number of episodes.
+        rate: learning rate; 1 keeps only the last experience.
+        discount: value of a reward that comes one step later.
+        curiosity: probability of a random action instead of the best one (epsilon).
+        seed: seed of the worlds and of all random choices.
+        quiet: True shows nothing.
 
     >>> import gymnasium, ai4u_edu
     >>> scene = still(Scene.load("grid_world"), "robot")

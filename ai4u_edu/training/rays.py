@@ -1,4 +1,4 @@
-"""What rays met, in numbers that a network understands at once. Loads torch."""
+"""Encoding of ray readings as nearness by kind, for networks. Loads torch."""
 
 from typing import TypeGuard
 
@@ -12,18 +12,18 @@ from ai4u_edu.blocks.sensors.ray_sensor import RaySensor
 from ai4u_edu.blocks.sensors.sensor import Sensor
 
 CLOSE = 0.5
-"""What is at arm's length counts for 1, what is as far as a ray reaches for 1 - CLOSE."""
+"""Range of the nearness: 1 at distance 0, 1 - CLOSE at the end of a ray."""
 
 
 class Rays(nn.Module):  # type: ignore[misc]  # seen without its types
-    """How close each ray saw each kind of thing; 0 where it saw none.
+    """Nearness of each kind of thing on each ray; 0 where there is none.
 
-    A code is a name: that water has a larger one than food says nothing, and a network would spend
-    most of its neurons on telling one from the other. What has no code of its own stays unseen.
+    A code is only a name: water's being larger than food's means nothing, and a network would spend
+    most of its neurons on telling them apart. Things without a code stay unseen.
 
     Args:
         sensor: with codes and distances.
-        first: where its readings begin in an observation.
+        first: index of its first reading in an observation.
     """
 
     def __init__(self, sensor: RaySensor, first: int) -> None:
@@ -43,7 +43,7 @@ class Rays(nn.Module):  # type: ignore[misc]  # seen without its types
         self.width = len(codes) * len(kinds)
 
     def forward(self, seen: Tensor) -> Tensor:
-        """(n, rays * kinds) of (n, r) readings."""
+        """Return (n, rays * kinds) from (n, r) readings."""
         codes = torch.round(seen[:, self.codes] * self.largest)
         close = 1.0 - CLOSE / self.farthest * seen[:, self.distances]
         met = codes.unsqueeze(2) == self.kinds
@@ -51,7 +51,7 @@ class Rays(nn.Module):  # type: ignore[misc]  # seen without its types
 
 
 def rays_of(agent: BasicAgent) -> list[Rays]:
-    """Those of an agent's sensors that tell both what their rays met and how far it is."""
+    """Return encoders for an agent's sensors that give both codes and distances."""
     found: list[Rays] = []
     first = 0
     for sensor in agent.bound_blocks.sensors:

@@ -8,7 +8,7 @@ from ai4u_edu.training.evaluating import Evaluation
 
 
 def table(evaluations: Sequence[Evaluation]) -> Table:
-    """A row for each evaluation, at least one."""
+    """Return a table with a row for each evaluation, at least one."""
     told = Table(box=None, pad_edge=False)
     who, *others = evaluations[0].cells
     told.add_column(who, overflow="fold")

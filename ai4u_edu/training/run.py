@@ -1,4 +1,4 @@
-"""A training's folder: the model, how it came about, and how good it was on the way.
+"""Folder of a training: models, set-up, and the checks on the way.
 
 ::
 
@@ -25,7 +25,7 @@ from ai4u_edu.training.settings import Algorithm, Settings
 
 
 class Config(BaseModel):
-    """How a training was set up."""
+    """Set-up of a training."""
 
     model_config = ConfigDict(frozen=True, extra="forbid")
 
@@ -35,33 +35,33 @@ class Config(BaseModel):
     steps: int
     settings: Settings
     versions: dict[str, str]
-    """Of the packages that ran, by name."""
+    """Versions of the packages that ran, by name."""
 
 
 class Check(BaseModel):
-    """How good a policy was, somewhere on the way."""
+    """Evaluation of a policy during a training."""
 
     model_config = ConfigDict(frozen=True, extra="forbid")
 
     steps: int
     """Decisions learned from so far."""
     seconds: float
-    """Since the training began, checks included."""
+    """Seconds since the training began, checks included."""
     success: float | None
     """Share of the episodes that reached the goal; None in a scene without one."""
     reward: float
-    """Of an episode, on average."""
+    """Mean reward of an episode."""
     length: float
-    """Decisions in an episode, on average."""
+    """Mean number of decisions in an episode."""
 
     @property
     def rank(self) -> tuple[float, float]:
-        """Larger is better: more success; where all succeeded, sooner; else more reward."""
+        """Sort key; larger is better: more success; if all succeeded, faster; else more reward."""
         return (self.success or 0.0, -self.length if self.success == 1.0 else self.reward)
 
 
 def run_of(path: Path) -> "Run":
-    """Return the training that somebody names by its folder, or by a model in it.
+    """Return the training in a folder, or of a model in it.
 
     Raises:
         SetupError: there is no such folder or model.
@@ -80,10 +80,10 @@ def run_of(path: Path) -> "Run":
 
 
 class Run:
-    """A training's folder.
+    """Folder of a training.
 
     Args:
-        folder: where it is, or is to be.
+        folder: its path; it may not exist yet.
     """
 
     def __init__(self, folder: Path) -> None:
@@ -94,14 +94,14 @@ class Run:
         self.tensorboard = folder / "tensorboard"
 
     def clear(self) -> None:
-        """Takes away what a training wrote, and nothing else that lies in the folder."""
+        """Delete what a training wrote, and nothing else in the folder."""
         for name in ("config.json", "scene.yaml", "checks.json", "watched.zip", "watched.pt"):
             (self.folder / name).unlink(missing_ok=True)
         for path in (self.best, self.last, self.replay, *self.tensorboard.glob("events.*")):
             path.unlink(missing_ok=True)
 
     def begin(self, config: Config, scene: Scene) -> None:
-        """Makes the folder.
+        """Create the folder.
 
         Raises:
             SetupError: there is a training in it already.
@@ -116,7 +116,7 @@ class Run:
         self._write("config.json", config.model_dump(mode="json"))
 
     def config(self) -> Config:
-        """How it was set up.
+        """Return its set-up.
 
         Raises:
             SetupError: there is no training in the folder.
@@ -133,22 +133,22 @@ class Run:
             raise SetupError(f"{path}: not as a training writes it: {error}") from None
 
     def scene(self) -> Scene:
-        """The scene, as it was."""
+        """Return the scene as it was."""
         return Scene.load(self.folder / "scene.yaml")
 
     def checks(self) -> list[Check]:
-        """Every check so far."""
+        """Return all checks so far."""
         path = self.folder / "checks.json"
         if not path.is_file():
             return []
         return [Check.model_validate(each) for each in json.loads(path.read_bytes())]
 
     def note(self, checks: list[Check]) -> None:
-        """Writes all checks down."""
+        """Save all checks."""
         self._write("checks.json", [check.model_dump(mode="json") for check in checks])
 
     def put(self, path: Path, write: Callable[[Path], object]) -> None:
-        """Write a file, whole or not at all, with a function that is given a path."""
+        """Write a file atomically, with a function that takes a path."""
         with partial_file(path) as beside:
             write(beside)
 

@@ -1,6 +1,6 @@
-"""How a scene is learned: what a student can read and change, out of YAML files.
+"""Settings of trainings, from YAML files that a student can read and change.
 
-``settings/defaults.yaml`` holds for all scenes; a file by the scene's name says what is different.
+``settings/defaults.yaml`` holds for all scenes; a file with the scene's name has what differs.
 """
 
 from collections.abc import Mapping
@@ -22,15 +22,15 @@ ALGORITHMS: tuple[Algorithm, ...] = ("sac", "ppo", "dqn")
 
 Policy = Literal["MlpPolicy", "MultiInputPolicy", "CnnPolicy"]
 FORMS = {"MlpPolicy": "flat", "MultiInputPolicy": "dict", "CnnPolicy": "image"}
-"""What each kind of network observes."""
+"""Form of observation for each kind of network."""
 
 Positive = Annotated[int, Field(ge=1)]
 
 
 class AlgorithmSettings(BaseModel):
-    """How one algorithm learns a scene.
+    """Settings of one algorithm.
 
-    What is not named here goes to Stable-Baselines3 under its own name (``learning_rate``,
+    Other names go to Stable-Baselines3 as they are (``learning_rate``,
     ``gamma``, ``batch_size``, ...).
     """
 
@@ -39,41 +39,41 @@ class AlgorithmSettings(BaseModel):
     steps: Positive
     """Decisions, over all worlds; it may be done sooner."""
     worlds: Positive = 1
-    """How many copies of the scene are learned in at a time."""
+    """Number of copies of the scene to learn in at a time."""
     layers: tuple[Positive, ...] = (64, 64)
     """The hidden layers' sizes, for the policy and the critic."""
     activation: Literal["relu", "tanh"] = "relu"
     falling_rate: bool = False
-    """Whether the learning rate falls to 0 until the last step."""
+    """True lets the learning rate fall linearly to 0 until the last step."""
     check_every: Positive = 1000
     """Decisions between two checks of how good the policy is."""
 
     @property
     def others(self) -> dict[str, Any]:
-        """What goes to Stable-Baselines3."""
+        """Settings that go to Stable-Baselines3."""
         return dict(self.model_extra or {})
 
 
 class DaggerSettings(BaseModel):
-    """How a scene is learned from a teacher; see :mod:`ai4u_edu.training.dagger`."""
+    """Settings for learning from a teacher; see :mod:`ai4u_edu.training.dagger`."""
 
     model_config = ConfigDict(extra="forbid", frozen=True)
 
     rounds: Positive = 10
-    """In the first one the teacher drives; then the pupil does, with her help."""
+    """Number of rounds; the teacher drives in the first one, then mostly the learner."""
     episodes: Positive = 25
-    """Of each round."""
+    """Episodes in each round."""
     updates: Positive = 3000
     """Gradient steps after each round."""
     layers: tuple[Positive, ...] = (128, 128)
     """The hidden layers' sizes."""
     kinds: bool = False
-    """Whether a network is told how close each ray saw each kind of thing, in place of its code and
-    its distance; see :class:`~ai4u_edu.training.rays.Rays`."""
+    """True encodes rays as the nearness of each kind of thing, in place of code and distance;
+     see :class:`~ai4u_edu.training.rays.Rays`."""
 
 
 class Settings(BaseModel):
-    """How a scene is learned."""
+    """Settings of a scene's training."""
 
     model_config = ConfigDict(extra="forbid", frozen=True)
 
@@ -84,12 +84,12 @@ class Settings(BaseModel):
         return given | {"observation": form} if form else given
 
     algorithm: Algorithm = "ppo"
-    """What learns it, unless another is asked for."""
+    """Default algorithm."""
     agent: str = ""
     """The id of the agent that learns; left out, the one that acts first."""
     policy: Policy | None = None
-    """Stable-Baselines3's name of the network's kind; left out, as ``observation`` says. CnnPolicy
-    looks at one picture, which has to be the only input (``observe``); MultiInputPolicy takes
+    """Stable-Baselines3's name of the network's kind; left out, ``observation`` decides. CnnPolicy
+    takes one picture, which has to be the only input (``observe``); MultiInputPolicy takes
     pictures and other readings together."""
     observation: Literal["flat", "dict", "image"] = "flat"
     """One array of all readings, one entry a sensor, or the one sensor's picture."""
@@ -98,11 +98,11 @@ class Settings(BaseModel):
     skip_frame: Annotated[int, Field(ge=0)] | None = None
     """Ticks between two decisions; left out: as the agent's brain has it."""
     max_steps: Positive | None = None
-    """Decisions after which an episode of the training is cut off; left out: as the agent has it.
+    """Decisions after which an episode of the training is truncated; left out: as the agent has it.
     An evaluation always takes the agent's own."""
     actions: tuple[tuple[float, ...], ...] = ()
-    """For DQN, which chooses among a few: the actions to choose from. Left out: none at all, and
-    each number of the action alone at either end of its range."""
+    """Actions to choose from, for DQN. Left out: all zeros, and each number of the action alone at
+    either end of its range."""
     check_episodes: Positive = 30
     enough: Annotated[int, Field(ge=0)] = 2
     """The training ends when so many checks in a row had success in every episode; 0: never."""
@@ -112,7 +112,7 @@ class Settings(BaseModel):
     dagger: DaggerSettings = DaggerSettings()
 
     def of(self, algorithm: Algorithm) -> AlgorithmSettings:
-        """Those of one algorithm."""
+        """Return the settings of one algorithm."""
         found: AlgorithmSettings = getattr(self, algorithm)
         return found
 
@@ -120,12 +120,12 @@ class Settings(BaseModel):
 def settings_for(
     scene: str, file: Path | None = None, changes: Mapping[str, Any] | None = None
 ) -> Settings:
-    """How a scene is learned.
+    """Return the settings of a scene's training.
 
     Args:
-        scene: its name.
+        scene: the scene's name.
         file: a YAML file in place of the scene's own.
-        changes: what is different from that.
+        changes: changes to these settings.
 
     Raises:
         SetupError: something in it is wrong; says what.

@@ -1,4 +1,4 @@
-"""Lets a model drive some episodes, many worlds at a time: how good is it by now?"""
+"""Evaluation of a model in many worlds at a time."""
 
 from collections.abc import Iterable, Sequence
 from typing import Any
@@ -17,12 +17,12 @@ def trials(
     seeds: Iterable[int],
     table: npt.NDArray[np.float32] | None = None,
 ) -> list[Episode]:
-    """One episode in each world, all at the same time; the model does what it thinks best.
+    """Run one episode in each world at the same time, with deterministic actions.
 
     Args:
-        model: drives.
+        model: the driver.
         envs: a world for each seed.
-        seeds: of the episodes.
+        seeds: seeds of the episodes.
         table: the actions, where the model chooses them by number.
     """
     seeds = list(seeds)

@@ -1,8 +1,8 @@
-"""Shows the policy driving in the browser while it learns: in a process of its own.
+"""Page that shows the policy driving while it learns, in a process of its own.
 
-The training writes its model into a file, and its weights into another one now and then, which
-takes a millisecond; the other process drives with them in a world of its own, and takes the next
-ones when they are there. It waits where the training wants the processor.
+The training writes its model into a file once, and its weights into another one at intervals, which
+takes a millisecond. The page's process has a world of its own, drives in it with the latest
+weights, and runs at low priority.
 """
 
 import os
@@ -19,23 +19,23 @@ from stable_baselines3.common.callbacks import BaseCallback
 from ai4u_edu.blocks.loading import load_blocks, own_files
 from ai4u_edu.training.run import Run
 
-OFTEN = 3.0
-"""Seconds between two files of weights, or more: ..."""
-SHARE = 0.01
-"""... to write them may take this share of the time."""
+MIN_INTERVAL_S = 3.0
+"""Shortest time between two files of weights."""
+MAX_TIME_SHARE = 0.01
+"""Largest share of the training's time that writing weights may take."""
 MODEL = "watched.zip"
-"""The model's file in the training's folder, as it was at first."""
+"""File of the untrained model in the training's folder."""
 WEIGHTS = "watched.pt"
-"""The policy's weights, as they are now."""
+"""File of the policy's latest weights."""
 
 
 class Watch(BaseCallback):  # type: ignore[misc]  # seen without its types
-    """Hands the policy to a page.
+    """Callback that hands the policy to a page.
 
     Args:
-        run: of the training.
-        port: of the page; 0 for any free one.
-        open_page: whether to open it in the browser.
+        run: the training's folder.
+        port: the page's port; 0 for any free one.
+        open_page: True opens it in the browser.
     """
 
     def __init__(self, run: Run, *, port: int = 8080, open_page: bool = True) -> None:
@@ -46,7 +46,7 @@ class Watch(BaseCallback):  # type: ignore[misc]  # seen without its types
 
     def _on_training_start(self) -> None:
         self._run.put(self._run.folder / MODEL, self.model.save)
-        self.hand_on()
+        self.write_weights()
         # Ctrl-C is for the training; the page ends with it
         self._page = subprocess.Popen(  # noqa: S603 - our own module
             self.command(), start_new_session=True
@@ -54,24 +54,24 @@ class Watch(BaseCallback):  # type: ignore[misc]  # seen without its types
 
     def _on_step(self) -> bool:
         if time.perf_counter() > self._next:
-            self.hand_on()
+            self.write_weights()
         return True
 
-    def hand_on(self) -> None:
-        """Writes the policy as it is now to where the page looks for it."""
+    def write_weights(self) -> None:
+        """Write the current policy's weights for the page."""
         began = time.perf_counter()
         weights = self.model.policy.state_dict()
         self._run.put(self._run.folder / WEIGHTS, lambda path: torch.save(weights, path))
         ended = time.perf_counter()
-        self._next = ended + max(OFTEN, (ended - began) / SHARE)
+        self._next = ended + max(MIN_INTERVAL_S, (ended - began) / MAX_TIME_SHARE)
 
     def command(self) -> list[str]:
-        """What runs the page."""
+        """Return the command that runs the page."""
         blocks = [str(file.absolute()) for file in own_files()]
         return [sys.executable, "-m", "ai4u_edu.training.watch", *self._arguments, *blocks]
 
     def close(self) -> None:
-        """Ends the page."""
+        """End the page's process."""
         if self._page is not None:
             self._page.terminate()
             self._page.wait()
@@ -79,7 +79,7 @@ class Watch(BaseCallback):  # type: ignore[misc]  # seen without its types
 
 
 def show(folder: Path, port: int, *, open_page: bool) -> None:
-    """Serves the page until somebody ends it; at another port if that one is taken."""
+    """Serve the page until somebody ends it; use another port if that one is taken."""
     from ai4u_edu.blocks import LocalBrain
     from ai4u_edu.runtime.runner import Runner
     from ai4u_edu.server import (

@@ -1,4 +1,4 @@
-"""Copies of a scene to learn in, as Stable-Baselines3 wants them."""
+"""Vectorized copies of a scene for a training with Stable-Baselines3."""
 
 from collections.abc import Sequence
 from itertools import product
@@ -15,16 +15,16 @@ from ai4u_edu.scenes import Scene
 from ai4u_edu.training.settings import Algorithm, Settings
 
 ABOVE = 2**40
-"""Seeds of a training's first episodes are larger than this, and those that follow are of 32 bits
-and drawn at random: small numbers are left for evaluations, on what the agent never saw."""
+"""Lower bound of the seeds of a training's first episodes; later seeds are random 32-bit numbers.
+Small numbers are left for evaluations, on worlds that the agent never saw."""
 
 
 def make_worlds(scene: Scene, settings: Settings, algorithm: Algorithm) -> VecEnv:
-    """Worlds to learn in.
+    """Return the worlds to learn in.
 
     Args:
         scene: as :func:`~ai4u_edu.training.prepare.prepare` made it.
-        settings: how it is learned.
+        settings: the training's settings.
         algorithm: DQN gets a table of actions to choose from.
     """
     worlds: VecEnv = SceneVecEnv(
@@ -39,7 +39,7 @@ def make_worlds(scene: Scene, settings: Settings, algorithm: Algorithm) -> VecEn
 
 
 class Choices(VecEnvWrapper):  # type: ignore[misc]  # seen without its types
-    """Worlds whose actions are chosen by number from a table.
+    """VecEnv wrapper: actions are chosen by number from a table.
 
     Args:
         worlds: with actions of real numbers.
@@ -51,20 +51,20 @@ class Choices(VecEnvWrapper):  # type: ignore[misc]  # seen without its types
         self.table = table
 
     def reset(self) -> Any:
-        """Begins an episode in every world."""
+        """Reset every world."""
         return self.venv.reset()
 
     def step_async(self, actions: npt.NDArray[Any]) -> None:
-        """Looks the actions up."""
+        """Look the actions up in the table."""
         self.venv.step_async(self.table[actions])
 
     def step_wait(self) -> Any:
-        """What became of them."""
+        """Return the results of the step."""
         return self.venv.step_wait()
 
 
 def table_for(space: spaces.Box, given: Sequence[Sequence[float]] = ()) -> npt.NDArray[np.float32]:
-    """The actions that DQN chooses from.
+    """Return the actions that DQN chooses from.
 
     >>> low, high = np.array([-1, 0], np.float32), np.array([1, 1], np.float32)
     >>> table_for(spaces.Box(low, high)).tolist()

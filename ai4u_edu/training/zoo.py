@@ -1,8 +1,8 @@
-"""Makes the networks that come with the package: ``python -m ai4u_edu.training.zoo SCENE ...``.
+"""Training of the package's networks: ``python -m ai4u_edu.training.zoo SCENE ...``.
 
-Each scene is learned as its settings say, to the last step; the best network is exported, and
-evaluated on 100 seeds that no training uses. What falls short is learned once more from another
-seed, and in the end not taken. The folder's README.md tells how good each one is.
+Each scene is trained as its settings say, to the last step; the best network is exported and
+evaluated on 100 seeds that no training uses. A network that falls short is trained once more from
+another seed, and rejected in the end. The folder's README.md lists all results.
 """
 
 import json
@@ -22,10 +22,10 @@ from ai4u_edu.training.policies import entrant
 from ai4u_edu.training.settings import settings_for
 
 EPISODES = 100
-WANTED = 0.95
-"""Share of the episodes that has to succeed, in a scene that has a success."""
-LARGEST = 200_000
-"""Bytes of a network."""
+MIN_SUCCESS_SHARE = 0.95
+"""Share of the episodes that has to succeed, in a scene that defines a success."""
+MAX_NETWORK_BYTES = 200_000
+"""Limit of a network's size."""
 TRIES = 3
 
 HEAD = """\
@@ -42,7 +42,7 @@ Evaluated on seeds 0..99, which no training uses; a scene's own limit of steps h
 
 
 def make(scene: str, folder: Path) -> Evaluation | None:
-    """Trains, exports and evaluates one network; None if none was good enough."""
+    """Train, export and evaluate one network; return None if none was good enough."""
     loaded = Scene.load(scene)
     settings = settings_for(scene).model_copy(update={"enough": 0})
     algorithm = settings.algorithm
@@ -59,21 +59,21 @@ def make(scene: str, folder: Path) -> Evaluation | None:
 
 
 def take(scene: str, file: Path, told: Evaluation) -> bool:
-    """Takes a network in, if it is good and small enough; whether it was."""
-    good = told.success is None or told.success >= WANTED
-    if good and file.stat().st_size <= LARGEST:
+    """Accept a network if it is good and small enough; return True if so."""
+    good = told.success is None or told.success >= MIN_SUCCESS_SHARE
+    if good and file.stat().st_size <= MAX_NETWORK_BYTES:
         write_atomically(zoo.network_of(scene), file.read_bytes())
         return True
     return False
 
 
 def tell() -> str:
-    """The folder's README.md: evaluates every network anew."""
+    """Return the text of the folder's README.md, with every network evaluated anew."""
     return HEAD + "".join(f"{_line(name)}\n" for name in zoo.names()) + missing()
 
 
 def missing() -> str:
-    """A sentence on the scenes of one agent that have no network; empty if all have one."""
+    """Return a sentence on single-agent scenes without a network; empty if all have one."""
     alone = [name for name in Scene.names() if len(Scene.load(name).description.agents) == 1]
     without = [name for name in alone if name not in zoo.names()]
     return f"\nNone was good enough so far for {', '.join(without)}.\n" if without else ""
@@ -91,7 +91,7 @@ def _line(name: str) -> str:
 
 
 def main() -> int:
-    """Makes those that are named; ``--tell`` only evaluates what is there."""
+    """Train the named networks; ``--tell`` only evaluates those that exist."""
     names = [each for each in sys.argv[1:] if not each.startswith("-")]
     failed = []
     if "--tell" not in sys.argv:

@@ -2,10 +2,11 @@
 
 import threading
 import time
+import warnings
 
-from ai4u_edu.editing import State, Workshop
+from ai4u_edu.editing import EditState, SceneEditor
 from ai4u_edu.runtime.runner import Runner
-from ai4u_edu.snapshot import Snapshot, Stage
+from ai4u_edu.snapshot import Snapshot, StaticScene
 from ai4u_edu.viewer.backend.local_server import LocalServer
 from ai4u_edu.viewer.backend.log_once import Complaints
 from ai4u_edu.viewer.backend.pace import Pace
@@ -23,12 +24,12 @@ from ai4u_edu.viewer.replay.ghosts import Ghosts
 from ai4u_edu.viewer.replay.replay_player import ReplayPlayer
 from ai4u_edu.viewer.replay.replay_tab import replay_tab
 from ai4u_edu.viewer.scene.actions import Actions
+from ai4u_edu.viewer.scene.arena import camera_bounds
 from ai4u_edu.viewer.scene.bodies import Bodies
-from ai4u_edu.viewer.scene.framing import FIELD_OF_VIEW, frame
+from ai4u_edu.viewer.scene.framing import FIELD_OF_VIEW_RAD, frame_arena
 from ai4u_edu.viewer.scene.ground import Ground
 from ai4u_edu.viewer.scene.labels import Labels
-from ai4u_edu.viewer.scene.light import light
-from ai4u_edu.viewer.scene.placing import seen_bounds
+from ai4u_edu.viewer.scene.light import set_up_lights
 from ai4u_edu.viewer.scene.sense_overlay import SenseOverlay
 from ai4u_edu.viewer.viewer_client import ViewerClients
 
@@ -46,22 +47,31 @@ class Viewer:
     """The page on which a runner's world can be watched, and asked for things.
 
     It holds no state of the world: it draws the latest snapshot, and hands on to the runner what
-    people ask for. While nobody watches, it draws new stages only.
+    people ask for. While nobody watches, it draws new static scenes only.
 
     Args:
         runner: whose world is drawn.
         title: what the panel is called.
-        workshop: has the world changed; left out, it can be watched only.
+        editor: has the world changed; left out, it can be watched only.
+        workshop: deprecated name of ``editor``.
     """
 
     def __init__(
-        self, runner: Runner, *, title: str = "AI4U Edu", workshop: Workshop | None = None
+        self,
+        runner: Runner,
+        *,
+        title: str = "AI4U Edu",
+        editor: SceneEditor | None = None,
+        workshop: SceneEditor | None = None,
     ) -> None:
+        if workshop is not None:
+            warnings.warn("use Viewer(editor=...)", DeprecationWarning, stacklevel=2)
+            editor = workshop
         self.runner = runner
-        self.server = server = LocalServer(title, runner.give_way)
+        self.server = server = LocalServer(title)
         self._title = title
         self._viewer_clients = viewer_clients = ViewerClients(server, first=runner.sim.agents[0].id)
-        self._stage: Stage | None = None
+        self._static_scene: StaticScene | None = None
         self._complaints = Complaints()
         self._stopping = threading.Event()
         self._pace = Pace()
@@ -69,14 +79,14 @@ class Viewer:
         server.gui.configure_theme(show_logo=False, show_share_button=False)
         server.gui.main_panel.dock_right()
         server.gui.main_panel.set_width(PANEL_WIDTH)
-        light(server.scene)
+        set_up_lights(server.scene)
         html_cache = AgentHtmlCache()
         kinds = [
             TabKind("Agent", lambda viewer_client: AgentTab(viewer_client, runner, html_cache)),
         ]
-        if workshop is not None:
-            kinds += [blocks_tab(workshop), world_tab(workshop)]
-            workshop.listeners.append(self._rename)
+        if editor is not None:
+            kinds += [blocks_tab(editor), world_tab(editor)]
+            editor.listeners.append(self._rename)
         self._player, self.ghosts = ReplayPlayer(runner), Ghosts(server)
         if runner.recorder is not None:
             kinds.append(replay_tab(runner, self._player, self.ghosts))
@@ -95,8 +105,8 @@ class Viewer:
             (PageControls(viewer_clients), 8, EACH_PAGE),
         ]
         in_turn: list[tuple[Part, float]] = [
-            (SenseOverlay(viewer_clients, runner.give_way), 30),
-            (Tabs(viewer_clients, kinds, self._complaints, runner.give_way), 8),
+            (SenseOverlay(viewer_clients), 30),
+            (Tabs(viewer_clients, kinds, self._complaints), 8),
         ]
         self._parts = [Paced(part, rate, self._complaints, share) for part, rate, share in parts]
         self._parts += [
@@ -130,7 +140,7 @@ class Viewer:
         self._player.stop()
         self.server.stop()
 
-    def _rename(self, state: State) -> None:
+    def _rename(self, state: EditState) -> None:
         """Another scene has another title."""
         if state.title != self._title:
             self._title = state.title
@@ -143,7 +153,7 @@ class Viewer:
             began, worked = time.monotonic(), time.thread_time()
             with self._complaints.caught():
                 self._viewer_clients.meet()
-                if self._viewer_clients or seen.stage is not self._stage:
+                if self._viewer_clients or seen.static_scene is not self._static_scene:
                     self._draw(seen)
             spent = time.monotonic() - began
             period = self._pace.period(
@@ -155,31 +165,33 @@ class Viewer:
 
     def _choose(self, client_id: int, body: str) -> None:
         """On one page, looks at the agent with that body."""
-        viewer_client, stage = self._viewer_clients.get(client_id), self._stage
-        if viewer_client is not None and stage is not None and body in stage.agent_of:
-            viewer_client.agent = stage.agent_of[body]
+        viewer_client, static_scene = self._viewer_clients.get(client_id), self._static_scene
+        if viewer_client is not None and static_scene is not None and body in static_scene.agent_of:
+            viewer_client.agent = static_scene.agent_of[body]
 
     def _draw(self, snapshot: Snapshot) -> None:
         for agent in self.runner.sim.agents:
-            agent.ledger.remember(REMEMBERED)
+            agent.ledger.keep_history(REMEMBERED)
         with self.server.atomic():
-            if snapshot.stage is not self._stage:
-                self._stage = snapshot.stage
-                self._aim(snapshot.stage)
+            if snapshot.static_scene is not self._static_scene:
+                self._static_scene = snapshot.static_scene
+                self._aim(snapshot.static_scene)
                 for part in self._parts:
-                    part.build(snapshot.stage)
+                    part.build(snapshot.static_scene)
             for part in self._parts:
-                self.runner.give_way()
                 part.draw(snapshot)
         for viewer_client in self._viewer_clients.values():
             with self._complaints.caught():
                 viewer_client.view.update(snapshot, viewer_client.agent)
 
-    def _aim(self, stage: Stage) -> None:
+    def _aim(self, static_scene: StaticScene) -> None:
         """Tells pages that are about to open where to look until their shape is known."""
-        first, camera = frame(seen_bounds(stage), aspect=1.2), self.server.initial_camera
+        first, camera = (
+            frame_arena(camera_bounds(static_scene), aspect=1.2),
+            self.server.initial_camera,
+        )
         camera.position = (first.x, first.y, first.distance)
         camera.look_at = (first.x, first.y, 0.0)
         camera.up = (0.0, 1.0, 0.0)
-        camera.fov = FIELD_OF_VIEW
+        camera.fov = FIELD_OF_VIEW_RAD
         camera.near, camera.far = first.near, first.far

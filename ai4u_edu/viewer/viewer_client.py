@@ -5,7 +5,7 @@ from urllib.parse import unquote
 
 from viser import ClientHandle
 
-from ai4u_edu.snapshot import Snapshot, Stage
+from ai4u_edu.snapshot import Snapshot, StaticScene
 from ai4u_edu.viewer.backend.local_server import LocalServer
 from ai4u_edu.viewer.scene.view import View
 
@@ -81,9 +81,9 @@ class ViewerClients(Mapping[int, ViewerClient]):
     def __len__(self) -> int:
         return len(self._all)
 
-    def build(self, stage: Stage) -> None:
+    def build(self, static_scene: StaticScene) -> None:
         """Learns which agents there are."""
-        ids = list(stage.agent_of.values())
+        ids = list(static_scene.agent_of.values())
         self._ids = tuple(sorted(ids, key=lambda each: each != self._first))
         for viewer_client in self._all.values():
             viewer_client.settle(self._ids)

@@ -16,7 +16,7 @@ from ai4u_edu import (
     WASDRBMoveController,
 )
 from ai4u_edu.base.errors import AI4UError, BlockError, ParameterError, ReadingError, SetupError
-from ai4u_edu.recording.scene_export import scene_of
+from ai4u_edu.recording.scene_export import export_scene
 from ai4u_edu.scenes.schema import scene_schema
 from tests.builders import small_sim, small_world
 
@@ -113,7 +113,7 @@ agents:
     (agent,) = scene.build().agents
     assert list(agent.bound_blocks.actuators) == ["defaultAction"]
     assert set(agent.bound_blocks.layout.slots) == {"__initial_input__", "truncated", "done"}
-    again = Scene(scene_of(scene.build()))  # as it is recorded
+    again = Scene(export_scene(scene.build()))  # as it is recorded
     assert list(again.build().agents[0].bound_blocks.actuators) == ["defaultAction"]
     fields = scene_schema()["$defs"]["BasicAgent"]["properties"]
     assert {"array_input_size", "action_size", "action_is_continuous"} <= set(fields)

@@ -48,7 +48,7 @@ def room(monkeypatch: pytest.MonkeyPatch) -> Iterator[Room]:
     shop = Shop(record=True)
     shop.runner.pause()
     shop.runner.start()
-    viewer = Viewer(shop.runner, workshop=shop.workshop)
+    viewer = Viewer(shop.runner, editor=shop.editor)
     shut_side_door(viewer.server)
     try:
         with ServerThread(room_app(shop.runner, viser_port=viewer.port, title="A room")) as server:

@@ -1,6 +1,6 @@
 """Edits with odd values: each is refused in a sentence, or carried out; nothing breaks by either.
 
-Of every form that a page has and every public method of the workshop. After an edit that was
+Of every form that a page has and every public method of the editor. After an edit that was
 refused the scene, the steps that can be undone and the autosave are what they were; after one that
 was carried out, the world goes on, and undo brings the scene back.
 """
@@ -15,12 +15,12 @@ import pytest
 from ai4u_edu.base.errors import AI4UError
 from ai4u_edu.blocks import Actuator, Block, Brain, Controller, RewardFunc, Sensor
 from ai4u_edu.blocks.block import is_built_in
-from ai4u_edu.editing import Outcome
-from ai4u_edu.editing.forms import form
-from ai4u_edu.editing.names import Names
+from ai4u_edu.editing import ChangeResult
+from ai4u_edu.editing.forms import block_form
+from ai4u_edu.editing.names import SceneNames
 from ai4u_edu.editing.settings import agent_form, scene_form
-from ai4u_edu.editing.suggestion import suggestion
-from ai4u_edu.scenes.serialization import fits_a_file
+from ai4u_edu.editing.suggestion import suggest_block
+from ai4u_edu.scenes.serialization import is_serializable
 from ai4u_edu.world import BodyDescription
 from tests.editing.shops import TEXT, Shop
 
@@ -51,22 +51,22 @@ MAX_SENTENCE_CHARS = 2000
 
 
 class Attacked(Shop):
-    """A workshop, and what it keeps."""
+    """A editor, and what it keeps."""
 
     def __init__(self) -> None:
         super().__init__(TEXT)
         self.kept: list[Any] = []
         self.accepted = 0
-        self.workshop.listeners.append(self.kept.append)
+        self.editor.listeners.append(self.kept.append)
 
     def all(self) -> tuple[Any, ...]:
-        workshop = self.workshop
-        step = workshop.can_undo, workshop.can_redo, workshop.version
-        return id(workshop.state), step, len(self.kept)
+        editor = self.editor
+        step = editor.undo_label, editor.redo_label, editor.version
+        return id(editor.state), step, len(self.kept)
 
     def attempt(self, edit: Callable[[], "Future[Any]"], what: str) -> bool:
         """Returns whether it was carried out."""
-        before, state = self.all(), self.workshop.state
+        before, state = self.all(), self.editor.state
         try:
             outcome = self.done(edit())
         except AI4UError as error:
@@ -75,10 +75,10 @@ class Attacked(Shop):
             assert self.all() == before, what
             return False
         self.accepted += 1
-        if isinstance(outcome, Outcome) and self.workshop.version != before[1][2]:
+        if isinstance(outcome, ChangeResult) and self.editor.version != before[1][2]:
             self.go_on(what)
-            self.done(self.workshop.undo())
-            assert self.workshop.state == state, what
+            self.done(self.editor.undo())
+            assert self.editor.state == state, what
         return True
 
     def go_on(self, what: str) -> None:
@@ -91,10 +91,10 @@ class Attacked(Shop):
 def shop() -> Iterator[Attacked]:
     shop = Attacked()
     shop.tick(5)
-    text = shop.workshop.text()
+    text = shop.editor.text()
     yield shop
     shop.go_on("at the end")
-    assert shop.workshop.text() == text
+    assert shop.editor.text() == text
 
 
 KINDS: dict[str, type[Block]] = {
@@ -107,17 +107,17 @@ BLOCKS = [
     pytest.param(kind, name, id=name)
     for kind, base in KINDS.items()
     for name, cls in sorted(Block.types.items())
-    if issubclass(cls, base) and fits_a_file(cls) and is_built_in(cls)
+    if issubclass(cls, base) and is_serializable(cls) and is_built_in(cls)
 ]
 
 
 @pytest.mark.parametrize(("kind", "name"), BLOCKS)
 def test_every_field_of_every_block(shop: Attacked, kind: str, name: str) -> None:
-    block = dict(suggestion(shop.workshop.state, "0", name)) | {"enabled": False}
+    block = dict(suggest_block(shop.editor.state, "0", name)) | {"enabled": False}
     if kind != "brains":
         del block["enabled"]
-    fields = form(block, Names(shop.workshop.state, "0"))
-    as_suggested = shop.attempt(lambda: shop.workshop.add_block("0", kind, block), name)
+    fields = block_form(block, SceneNames(shop.editor.state, "0"))
+    as_suggested = shop.attempt(lambda: shop.editor.add_block("0", kind, block), name)
     is_first = name in {"BearingSensor", "ForceMoveActuator", "TouchRewardFunc"}
     for index, field in enumerate(fields):
         if field.is_common and not is_first and kind != "brains":
@@ -125,7 +125,7 @@ def test_every_field_of_every_block(shop: Attacked, kind: str, name: str) -> Non
         for value in ODD if is_first else ODD[index % 2 :: 2]:
             given = {**block, field.name: value}
             shop.attempt(
-                lambda given=given: shop.workshop.add_block("0", kind, given),  # type: ignore[misc]
+                lambda given=given: shop.editor.add_block("0", kind, given),  # type: ignore[misc]
                 f"{name}.{field.name} = {str(value)[:40]}",
             )
     assert as_suggested or name in UNFIT, "all was refused for another reason"
@@ -136,36 +136,36 @@ UNFIT = {"HomeostaticSensor", "LineSensor", "BodyInAreaRewardFunc", "ParkedRewar
 CONTROLLERS = [
     name
     for name, cls in sorted(Block.types.items())
-    if issubclass(cls, Controller) and fits_a_file(cls) and is_built_in(cls)
+    if issubclass(cls, Controller) and is_serializable(cls) and is_built_in(cls)
 ]
 
 
 @pytest.mark.parametrize("name", CONTROLLERS)
 def test_every_field_of_every_controller(shop: Attacked, name: str) -> None:
-    block = suggestion(shop.workshop.state, "0", name)
-    for index, field in enumerate(form(block, Names(shop.workshop.state, "0"))):
+    block = suggest_block(shop.editor.state, "0", name)
+    for index, field in enumerate(block_form(block, SceneNames(shop.editor.state, "0"))):
         for value in ODD[index % 2 :: 2]:
             controller = {**block, field.name: value}
             brain = {"type": "LocalBrain", "enabled": False, "controller": controller}
             shop.attempt(
-                lambda brain=brain: shop.workshop.add_block("0", "brains", brain),  # type: ignore[misc]
+                lambda brain=brain: shop.editor.add_block("0", "brains", brain),  # type: ignore[misc]
                 f"{name}.{field.name} = {str(value)[:40]}",
             )
 
 
 def test_every_field_of_a_block_that_is_there(shop: Attacked) -> None:
-    agent = shop.workshop.state.agent("0")
+    agent = shop.editor.state.agent("0")
     paths = [("sensors", 0), ("actuators", 0), ("rewards", 0), ("brains", 0, "controller")]
     for path in paths:
         block: Any = agent
         for part in path:
             block = block[part]
-        for field in form(block, Names(shop.workshop.state, "0")):
+        for field in block_form(block, SceneNames(shop.editor.state, "0")):
             if field.name == "action_name":
                 continue  # under another name the brain that drives does not find it
             for value in ODD:
                 shop.attempt(
-                    lambda p=path, f=field.name, v=value: shop.workshop.change_block(  # type: ignore[misc]
+                    lambda p=path, f=field.name, v=value: shop.editor.change_block(  # type: ignore[misc]
                         "0", p, {f: v}
                     ),
                     f"{path} {field.name} = {str(value)[:40]}",
@@ -173,82 +173,82 @@ def test_every_field_of_a_block_that_is_there(shop: Attacked) -> None:
 
 
 def test_every_setting_of_agent_and_scene(shop: Attacked) -> None:
-    workshop = shop.workshop
-    for field in agent_form(workshop.state.agent("0")):
+    editor = shop.editor
+    for field in agent_form(editor.state.agent("0")):
         for value in ODD:
             given = {field.name: value}
             what = f"{field.name} = {str(value)[:40]}"
-            shop.attempt(lambda given=given: workshop.change_agent("0", given), what)  # type: ignore[misc]
-    for field in scene_form(workshop.state.description):
+            shop.attempt(lambda given=given: editor.change_agent("0", given), what)  # type: ignore[misc]
+    for field in scene_form(editor.state.description):
         for value in ODD:
             given = {field.name: value}
             what = f"{field.name} = {str(value)[:40]}"
-            shop.attempt(lambda given=given: workshop.change_settings(given), what)  # type: ignore[misc]
-    assert shop.attempt(lambda: workshop.change_agent("0", {"reward_scale": 2}), "2")
-    assert shop.attempt(lambda: workshop.change_settings({"gravity": 2}), "2")
+            shop.attempt(lambda given=given: editor.change_settings(given), what)  # type: ignore[misc]
+    assert shop.attempt(lambda: editor.change_agent("0", {"reward_scale": 2}), "2")
+    assert shop.attempt(lambda: editor.change_settings({"gravity": 2}), "2")
 
 
 @pytest.mark.parametrize("field", BodyDescription.model_fields)
 def test_every_field_of_a_body(shop: Attacked, field: str) -> None:
-    workshop = shop.workshop
+    editor = shop.editor
     for value in ODD:
         what = f"{field} = {str(value)[:40]}"
         for name in ("box", "robot"):
-            shop.attempt(lambda n=name, v=value: workshop.change_body(n, {field: v}), what)  # type: ignore[misc]
+            shop.attempt(lambda n=name, v=value: editor.change_body(n, {field: v}), what)  # type: ignore[misc]
         body = {"name": "new", "position": [0, 4], field: value}
-        shop.attempt(lambda body=body: workshop.add_body(body), what)  # type: ignore[misc]
-    assert shop.attempt(lambda: workshop.change_body("box", {"mass": 2.0, "z": None}), "mass")
-    assert shop.attempt(lambda: workshop.add_body({"name": "new", "position": [0, 4]}), "new")
+        shop.attempt(lambda body=body: editor.add_body(body), what)  # type: ignore[misc]
+    assert shop.attempt(lambda: editor.change_body("box", {"mass": 2.0, "z": None}), "mass")
+    assert shop.attempt(lambda: editor.add_body({"name": "new", "position": [0, 4]}), "new")
 
 
 def test_every_method_with_what_is_no_number(shop: Attacked) -> None:
-    workshop = shop.workshop
+    editor = shop.editor
     for odd in NOT_NUMBERS:
         what = str(odd)[:40]
         calls: list[Callable[[Any], Future[Any]]] = [
-            lambda v: workshop.carry("box", v, 0),
-            lambda v: workshop.carry("box", 0, v),
-            lambda v: workshop.carry("box", 0, 0, v),
-            lambda v: workshop.move_body("box", v, 0),
-            lambda v: workshop.move_body("box", 0, v),
-            lambda v: workshop.move_body("box", 3, 3, v),
-            lambda v: workshop.move_block("0", ("sensors", 0), v),
-            lambda v: workshop.add_block("0", "sensors", {"type": "HeadingSensor"}, v),
+            lambda v: editor.drag("box", v, 0),
+            lambda v: editor.drag("box", 0, v),
+            lambda v: editor.drag("box", 0, 0, v),
+            lambda v: editor.move_body("box", v, 0),
+            lambda v: editor.move_body("box", 0, v),
+            lambda v: editor.move_body("box", 3, 3, v),
+            lambda v: editor.move_block("0", ("sensors", 0), v),
+            lambda v: editor.add_block("0", "sensors", {"type": "HeadingSensor"}, v),
         ]
         for call in calls:
             assert not shop.attempt(lambda call=call, v=odd: call(v), what)  # type: ignore[misc]
 
 
 def test_every_method_with_anything(shop: Attacked) -> None:
-    workshop = shop.workshop
+    editor = shop.editor
     for odd in [*ODD, *NOT_NUMBERS, ("sensors", 9), ("sensors",), ("x", 0), -1, 5, "box"]:
         what = str(odd)[:40]
         calls: list[Callable[[Any], Future[Any]]] = [
-            lambda v: workshop.carry(v, 1e20, 0),
-            lambda v: workshop.move_body(v, 0, 3),
-            lambda v: workshop.change_block("0", v, {"is_active": False}),
-            lambda v: workshop.change_block(v, ("sensors", 0), {"is_active": False}),
-            lambda v: workshop.change_block("0", ("sensors", 0), v),
-            lambda v: workshop.add_block("0", v, {"type": "HeadingSensor"}),
-            lambda v: workshop.add_block("0", "sensors", v),
-            lambda v: workshop.add_block(v, "sensors", {"type": "HeadingSensor"}),
-            lambda v: workshop.remove_block("0", v),
-            lambda v: workshop.move_block("0", v, 1),
-            lambda v: workshop.switch_block("0", v, False),
-            lambda v: workshop.switch_block("0", ("sensors", 0), v),
-            lambda v: workshop.change_agent("0", v),
-            lambda v: workshop.change_agent(v, {"reward_scale": 2.0}),
-            lambda v: workshop.drive("0", v),
-            lambda v: workshop.drive(v, "brain:0"),
-            lambda v: workshop.add_body(v),
-            lambda v: workshop.remove_body(v),
-            lambda v: workshop.change_body("box", v),
-            lambda v: workshop.change_body(v, {"mass": 2.0}),
-            lambda v: workshop.change_scene(v),
-            lambda v: workshop.change_scene({"time_scale": v}),
-            lambda v: workshop.change_scene({"world": v}),
-            lambda v: workshop.change_settings(v),
-            lambda v: workshop.load(v),
+            lambda v: editor.drag(v, 1e20, 0),
+            lambda v: editor.move_body(v, 0, 3),
+            lambda v: editor.change_block("0", v, {"is_active": False}),
+            lambda v: editor.change_block(v, ("sensors", 0), {"is_active": False}),
+            lambda v: editor.change_block("0", ("sensors", 0), v),
+            lambda v: editor.add_block("0", v, {"type": "HeadingSensor"}),
+            lambda v: editor.add_block("0", "sensors", v),
+            lambda v: editor.add_block(v, "sensors", {"type": "HeadingSensor"}),
+            lambda v: editor.remove_block("0", v),
+            lambda v: editor.move_block("0", v, 1),
+            lambda v: editor.switch_block("0", v, False),
+            lambda v: editor.switch_block("0", ("sensors", 0), v),
+            lambda v: editor.change_agent("0", v),
+            lambda v: editor.change_agent(v, {"reward_scale": 2.0}),
+            lambda v: editor.set_driver("0", v),
+            lambda v: editor.set_driver(v, "brain:0"),
+            lambda v: editor.add_body(v),
+            lambda v: editor.remove_body(v),
+            lambda v: editor.change_body("box", v),
+            lambda v: editor.change_body(v, {"mass": 2.0}),
+            lambda v: editor.change_scene(v),
+            lambda v: editor.change_scene({"time_scale": v}),
+            lambda v: editor.change_scene({"world": v}),
+            lambda v: editor.change_settings(v),
+            lambda v: editor.load(v),
         ]
         for number, call in enumerate(calls):
             shop.attempt(lambda call=call, v=odd: call(v), f"{number}: {what}")  # type: ignore[misc]

@@ -60,8 +60,8 @@ def test_orientation_and_position_say_in_which_unit_they_read() -> None:
 
 def test_exactly() -> None:
     lines = [" ".join(line.split()) for line in lesson_page("VelocitySensor").splitlines()]
-    assert "max_speed 20.0 0..10000 m/s Largest speed that is told, forward and sideways." in lines
-    assert lines.count("max_turn 20.0 0..10000 rad/s Largest turning speed that is told.") == 1
+    assert "max_speed 20.0 0..10000 m/s Largest speed that is read, forward and sideways." in lines
+    assert lines.count("max_turn 20.0 0..10000 rad/s Largest turning speed that is read.") == 1
     needed = lesson_page("BearingSensor")
     assert "target                (needed)  text" in needed
 

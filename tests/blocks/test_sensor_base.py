@@ -8,7 +8,8 @@ from gymnasium.spaces import Box, Discrete, Text
 from hypothesis import given
 from hypothesis import strategies as st
 
-from ai4u_edu import Sensor
+from ai4u_edu import LocalBrain, Scene, Sensor
+from ai4u_edu.check.drive import RandomDrive
 from tests.builders import small_sim
 
 
@@ -178,3 +179,48 @@ def test_every_combination_stays_in_its_space_and_is_in_order(
     found = np.round(found * (100 if normalized else 1))
     expected = [max(1, steps + 1 - delay - age) for age in reversed(range(stack))]
     assert found.tolist() == expected
+
+
+def percepts(name: str) -> list[bytes]:
+    sim = Scene.load(name).build(seed=3)
+    drives = [RandomDrive(agent) for agent in sim.agents]
+    for agent, drive in zip(sim.agents, drives, strict=True):
+        agent.use_brain(LocalBrain(controller=drive, skip_frame=agent.brain.skip_frame))
+    sim.reset(seed=3)
+    return [sim.step().data for _ in range(60)]
+
+
+@pytest.mark.parametrize("name", Scene.names())
+def test_both_paths_into_memory_give_the_same_bits(
+    name: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    direct = percepts(name)
+    monkeypatch.setattr(Sensor, "_read_direct", Sensor._read_filtered)
+    assert percepts(name) == direct
+
+
+def test_a_sensor_may_still_define_the_old_name_of_is_sentinel() -> None:
+    with pytest.warns(DeprecationWarning, match=r"Old.says_nothing is now Old.is_sentinel"):
+
+        class Old(Constant):
+            """Reads a sentinel."""
+
+            def read(self, body: Any, view: Any) -> float:
+                return 0.5
+
+            def says_nothing(self, reading: Any) -> bool:
+                return bool(reading[0] == 0.5)
+
+    assert readings(Old(normalized=True), 1) == [[0.5], [0.5]]
+    with pytest.warns(DeprecationWarning, match="Sensor.says_nothing is now Sensor.is_sentinel"):
+        assert not Constant().says_nothing([5.0])
+
+    with pytest.warns(DeprecationWarning, match="is_sentinel"):
+
+        class Older(Old):
+            """Asks its base by the old name."""
+
+            def says_nothing(self, reading: Any) -> bool:
+                return super().says_nothing(reading)
+
+    assert Older().is_sentinel([0.5])

@@ -12,11 +12,11 @@ from ai4u_edu.base.errors import BlockError, ReadingError
 from ai4u_edu.blocks import Layout, Percept
 from ai4u_edu.blocks.brains.links.link import Reading
 from ai4u_edu.envs.spaces_of import Observer
-from ai4u_edu.recording.checksum import percept_print
+from ai4u_edu.recording.checksum import percept_checksum
 from ai4u_edu.remote import connect
 from ai4u_edu.remote.spaces import reading_space
 from ai4u_edu.server.scripts.welcome import Excerpt
-from ai4u_edu.snapshot import picture_of
+from ai4u_edu.snapshot import capture_snapshot
 from ai4u_edu.viewer.panel.readings import reading
 from ai4u_edu.wire import native
 from ai4u_edu.wire.agent_codec import AgentCodec
@@ -115,7 +115,7 @@ def test_ai4us_protocol_carries_them_as_type_7() -> None:
 def test_a_recording_tells_them_apart() -> None:
     def print_of(*texts: Any) -> int:
         layout = Layout([("x", "sfloat", ())], [f"text{index}" for index in range(len(texts))])
-        return percept_print(Percept(layout, np.zeros(1, np.float32).tobytes(), texts))
+        return percept_checksum(Percept(layout, np.zeros(1, np.float32).tobytes(), texts))
 
     lists = [("a", "b"), ("a", "c"), ("ab",), ("a",), (), ("a", "b", "")]
     assert len({print_of(each) for each in lists}) == len(lists)
@@ -128,7 +128,7 @@ def test_the_page_and_the_api_show_them() -> None:
 
     sim = small_sim([Signs(words=["a<b", "stop"])])
     assert reading(sim.agents[0].percept["signs"]) == "a&lt;b, stop"
-    view = SnapshotView.of(picture_of(sim))
+    view = SnapshotView.of(capture_snapshot(sim))
     assert view.agents[0].percept["signs"] == ["a<b", "stop"]
 
 

@@ -4,7 +4,7 @@ from typing import Any
 
 from playwright.sync_api import Page
 
-from ai4u_edu.viewer.scene.framing import frame
+from ai4u_edu.viewer.scene.framing import frame_arena
 from tests.playing import Played
 
 Place = tuple[float, float]
@@ -20,7 +20,7 @@ def spot(page: Page, place: Place, half: float) -> Place:
     """Where a place (metres) is on the screen, if the arena reaches from -half to half."""
     box = page.locator("canvas[data-engine]").bounding_box()
     assert box is not None
-    seen = frame(((-half, -half), (half, half)), box["width"] / box["height"])
+    seen = frame_arena(((-half, -half), (half, half)), box["width"] / box["height"])
     scale = box["height"] / seen.height
     x = box["x"] + box["width"] / 2 + scale * (place[0] - seen.x)
     return x, box["y"] + box["height"] / 2 - scale * (place[1] - seen.y)

@@ -19,7 +19,7 @@ def server() -> Iterator[Played]:
 def opened(chromium: Browser, server: Played, query: str = "") -> Page:
     page = new_page(chromium)
     page.goto(server.url + query)
-    page.locator(".ai4u-seat", has_not_text="Connecting").wait_for()
+    page.locator(".ai4u-driver", has_not_text="Connecting").wait_for()
     page.get_by_text("Senses", exact=True).wait_for()
     return page
 

@@ -62,7 +62,7 @@ def opened(chromium: Browser, server: Played) -> Iterator[Callable[[], Page]]:
         pages.append(page)
         page.set_default_timeout(60_000)
         page.goto(server.url)
-        page.locator(".ai4u-seat", has_not_text="Connecting").wait_for()
+        page.locator(".ai4u-driver", has_not_text="Connecting").wait_for()
         page.get_by_role("tab", name="Blocks").click()
         return page
 

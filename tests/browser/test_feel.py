@@ -38,7 +38,7 @@ def agent_of(theatre: Theatre) -> BasicAgent:
 
 
 def cap(page: Page, action: str) -> Locator:
-    return page.locator(f".ai4u-cap[data-action={action}]")
+    return page.locator(f".ai4u-keycap[data-action={action}]")
 
 
 def binding(page: Page, action: str) -> Locator:
@@ -155,7 +155,7 @@ def test_a_key_of_ones_own_drives_and_is_remembered(theatre: Theatre) -> None:
 def test_a_key_that_another_action_has_is_said_and_both_have_one(theatre: Theatre) -> None:
     page = theatre.page()
     give(page, "forward", "KeyR")
-    told = page.locator(".ai4u-told")
+    told = page.locator(".ai4u-status")
     expect(told).to_have_text("R was “restart”, which is W, ↑ now.")
     expect(binding(page, "restart")).to_have_text("W or ↑")
     give(page, "jump", "KeyA")  # of two keys one is left
@@ -348,11 +348,11 @@ def test_it_is_dark_where_the_system_is_until_somebody_says_otherwise(
     expect(panel(page)).to_be_checked(timeout=40_000)
     expect(page.locator("html")).to_have_attribute(SCHEME, "dark", timeout=40_000)
     expect(page.locator("body")).to_be_visible()
-    for part in (".ai4u-cap", ".ai4u-seat", "#root .mantine-Paper-root, #root input"):
+    for part in (".ai4u-keycap", ".ai4u-driver", "#root .mantine-Paper-root, #root input"):
         until(lambda: max(page.evaluate(LIGHTNESS, part)) < 80, timeout=40)  # noqa: B023
     panel(page).click()
     expect(page.locator("html")).to_have_attribute(SCHEME, "light", timeout=40_000)
-    until(lambda: min(page.evaluate(LIGHTNESS, ".ai4u-cap")) > 180, timeout=40)
+    until(lambda: min(page.evaluate(LIGHTNESS, ".ai4u-keycap")) > 180, timeout=40)
     page.reload()  # it is remembered, against the system's wish
     expect(panel(page)).not_to_be_checked(timeout=40_000)
     expect(page.locator("html")).to_have_attribute(SCHEME, "light", timeout=40_000)
@@ -405,7 +405,7 @@ def test_an_address_may_ask_for_the_dark(theatre: Theatre) -> None:
     page = theatre.page("?darkMode", has_viser=True, wait=False)
     connected(page)
     expect(page.locator("html")).to_have_attribute(SCHEME, "dark")
-    assert max(page.evaluate(LIGHTNESS, ".ai4u-cap")) < 80
+    assert max(page.evaluate(LIGHTNESS, ".ai4u-keycap")) < 80
 
 
 def test_who_wants_no_motion_has_none(theatre: Theatre) -> None:
@@ -441,7 +441,7 @@ def test_everything_is_reached_by_tab_has_a_name_and_shows_the_focus(theatre: Th
         name, ring = ours[what]
         assert re.fullmatch(r"[a-z]+ \(.+\)", name)
         assert ring == "solid"
-    assert ours["ai4u-ask"] == ("Help", "solid")
+    assert ours["ai4u-round-button"] == ("Help", "solid")
 
 
 # -- taking over ---------------------------------------------------------------------------------

@@ -91,10 +91,10 @@ def test_another_brain_can_be_taken_over_and_one_elsewhere_too(theatre: Theatre)
     agent = theatre.room.sim.agents[0]
     theatre.room.runner.submit(lambda: agent.use_brain(LocalBrain(controller=still)))
     expect(seat(page)).to_have_text("A script drives \u2013 press W to take over")
-    expect(page.locator(".ai4u-cap")).to_have_count(7)
+    expect(page.locator(".ai4u-keycap")).to_have_count(7)
     theatre.room.runner.submit(lambda: agent.use_brain(RemoteBrain(port=free_port())))
     expect(seat(page)).to_have_text("A script elsewhere drives \u2013 press W to take over")
-    expect(page.locator(".ai4u-cap")).to_have_count(7)
+    expect(page.locator(".ai4u-keycap")).to_have_count(7)
     expect(page.get_by_role("button", name="Take over")).to_be_visible()
 
 
@@ -163,7 +163,7 @@ def test_an_agent_that_is_not_there_is_told(theatre: Theatre) -> None:
 def test_the_caps_are_free_and_the_middle_is_too(theatre: Theatre, width: int, height: int) -> None:
     page = theatre.page(has_viser=True, width=width, height=height)
     page.wait_for_timeout(600)
-    inside = "([x, y]) => document.elementFromPoint(x, y)?.closest('.ai4u-cap')?.dataset.action"
+    inside = "([x, y]) => document.elementFromPoint(x, y)?.closest('.ai4u-keycap')?.dataset.action"
     for name, action in (("forward", "forward"), ("back", "backward"), ("restart", "restart")):
         assert page.evaluate(inside, centre(page, name)) == action
     tag = page.evaluate(

@@ -99,8 +99,8 @@ def test_the_goal_is_told_until_somebody_drives(page: Page) -> None:
 
 
 def test_there_are_no_keys_for_what_the_robot_can_not_do(page: Page) -> None:
-    expect(page.locator(".ai4u-cap")).to_have_count(5)
-    expect(page.locator(".ai4u-cap[data-action=jump]")).to_have_count(0)
+    expect(page.locator(".ai4u-keycap")).to_have_count(5)
+    expect(page.locator(".ai4u-keycap[data-action=jump]")).to_have_count(0)
 
 
 def test_ctrl_c_ends_it_cleanly(chromium: Browser) -> None:

@@ -12,10 +12,10 @@ from PIL import Image
 from playwright.sync_api import Browser, Locator, Page, expect
 
 from ai4u_edu import Scene
-from ai4u_edu.snapshot import set_stage
-from ai4u_edu.snapshot.theme import LIT, VOID, Rgb
-from ai4u_edu.viewer.scene.framing import frame
-from ai4u_edu.viewer.scene.placing import seen_bounds
+from ai4u_edu.snapshot import capture_static_scene
+from ai4u_edu.snapshot.theme import SPOT_LIT, VOID, Rgb
+from ai4u_edu.viewer.scene.arena import camera_bounds
+from ai4u_edu.viewer.scene.framing import frame_arena
 from tests.playing import Played, new_page, played
 
 pytestmark = pytest.mark.browser
@@ -38,7 +38,7 @@ def opened(chromium: Browser, server: Played, *size: int, draws: bool = False) -
     page = new_page(chromium, *size, draws=draws)
     page.set_default_timeout(PATIENCE)
     page.goto(server.url)
-    page.locator(".ai4u-cap").first.wait_for()
+    page.locator(".ai4u-keycap").first.wait_for()
     return page
 
 
@@ -131,12 +131,12 @@ def test_what_the_brain_sees_stands_there_by_name_and_moves(page: Page) -> None:
 
 @drawn
 def test_a_click_on_a_sensor_lights_it_up_in_the_scene(page: Page) -> None:
-    until_seen(page, LIT, least=0.0, most=0.001, slack=60)
+    until_seen(page, SPOT_LIT, least=0.0, most=0.001, slack=60)
     press(page, "orientation")
-    until_seen(page, LIT, least=0.002, slack=60)
+    until_seen(page, SPOT_LIT, least=0.002, slack=60)
     expect(page.locator(".ai4u.sense.lit")).to_have_count(2)
     press(page, "orientation")
-    until_seen(page, LIT, least=0.0, most=0.001, slack=60)
+    until_seen(page, SPOT_LIT, least=0.0, most=0.001, slack=60)
 
 
 def test_the_ledger_tells_which_term_paid_what_and_when(server: Played, page: Page) -> None:
@@ -336,8 +336,8 @@ def on_screen(page: Page, server: Played, agent_id: str) -> tuple[float, float]:
     ]
     box = page.locator("canvas").first.bounding_box()
     assert box is not None
-    stage = set_stage(Scene.load("soccer").build())
-    shown = frame(seen_bounds(stage), box["width"] / box["height"])
+    static_scene = capture_static_scene(Scene.load("soccer").build())
+    shown = frame_arena(camera_bounds(static_scene), box["width"] / box["height"])
     scale = box["height"] / shown.height
     return (
         box["x"] + box["width"] / 2 + (x - shown.x) * scale,

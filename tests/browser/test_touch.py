@@ -39,7 +39,7 @@ def pushed(theatre: Theatre) -> Stick:
 
 
 def button(page: Page, name: str) -> Locator:
-    return page.locator(f".ai4u-cap[data-action={name}]")
+    return page.locator(f".ai4u-keycap[data-action={name}]")
 
 
 @pytest.fixture
@@ -112,7 +112,7 @@ def test_all_is_in_reach_and_nothing_in_the_way(theatre: Theatre, size: str) -> 
     page.wait_for_timeout(1500)  # the sheet folds
     things = [
         stick_of(page),
-        *page.locator(".ai4u-cap").all(),
+        *page.locator(".ai4u-keycap").all(),
         page.get_by_role("button", name="Help"),
     ]
     boxes = []

@@ -108,8 +108,8 @@ CALM = """() => new Promise((done) => {
 
 def connected(page: Page) -> None:
     """Waits until a page is connected and shows its keys."""
-    page.locator(".ai4u-seat", has_not_text="Connecting").wait_for()
-    page.locator(".ai4u-cap").first.wait_for()
+    page.locator(".ai4u-driver", has_not_text="Connecting").wait_for()
+    page.locator(".ai4u-keycap").first.wait_for()
 
 
 def ready(page: Page) -> None:
@@ -120,7 +120,7 @@ def ready(page: Page) -> None:
 
 def seat(page: Page) -> Locator:
     """Where a page says who drives."""
-    return page.locator(".ai4u-seat [role=status]")
+    return page.locator(".ai4u-driver [role=status]")
 
 
 def centre(thing: Locator) -> tuple[float, float]:

@@ -1,7 +1,5 @@
 """Every block of the package, and every scene of its library, passes its check."""
 
-from typing import Any
-
 import pytest
 
 from ai4u_edu import (
@@ -21,48 +19,34 @@ from ai4u_edu import (
     check_sensor,
 )
 from ai4u_edu.check import Outcome
-from tests.check.samples import ACTUATORS, SAMPLES, SCENES, built_in_kinds, tell
-
-BY_KIND = {type(block): block for block in SAMPLES}
-
-ALWAYS_THE_SAME = {
-    "IDSensor": "changes",  # an id is an id
-    "EvalBoolValue": "changes",  # conditions pay nothing on their own
-    "EvalFloatValue": "changes",
-    "EvalIntValue": "changes",
-    "GoneReward": "changes",  # nothing goes there
-    "ParkedRewardFunc": "changes",  # who drives at random does not park
-    "RemoteBrain": "changes",  # it waits for a script
-    "ScriptController": "changes",  # the sample drives in circles
-}
+from tests.check.samples import built_in_kinds, sample_of
+from tests.check.samples.sample import Sample
 
 
-def checked(block: Block) -> Report:
-    name = type(block).__name__
-    scene = SCENES.get(name)
-    match block:
-        case Sensor():
-            return check_sensor(block, script=tell, scene=scene)
-        case Actuator():
-            return check_actuator(block)
-        case RewardFunc():
-            return check_reward(block)
-        case Controller():
-            return check_controller(block, actuators=ACTUATORS.get(name, ()), scene=scene)
-        case Brain():
-            return check_brain(block)
-        case _:
+def checked(sample: Sample) -> Report:
+    scene, script, extra = sample.scene, sample.script, sample.actuators
+    match sample.block:
+        case Sensor() as sensor:
+            return check_sensor(sensor, script=script, scene=scene)
+        case Actuator() as actuator:
+            return check_actuator(actuator, script=script, scene=scene)
+        case RewardFunc() as reward:
+            return check_reward(reward, script=script, scene=scene)
+        case Controller() as controller:
+            return check_controller(controller, actuators=extra, script=script, scene=scene)
+        case Brain() as brain:
+            return check_brain(brain, actuators=extra, script=script, scene=scene)
+        case block:
             raise TypeError(block)
 
 
 @pytest.mark.parametrize("kind", built_in_kinds(), ids=lambda kind: kind.__name__)
-def test_every_built_in_block_passes(kind: Any) -> None:
-    assert kind in BY_KIND, f"put a {kind.__name__} into tests/check/samples.py"
-    report = checked(BY_KIND[kind])
+def test_every_built_in_block_passes(kind: type[Block]) -> None:
+    sample = sample_of(kind)
+    report = checked(sample)
     assert report.ok, str(report)
     warnings = {each.check for each in report.findings if each.outcome is Outcome.WARNING}
-    expected = ALWAYS_THE_SAME.get(kind.__name__)
-    assert warnings == ({expected} if expected else set()), str(report)
+    assert warnings == ({"changes"} if sample.always_same else set()), str(report)
 
 
 @pytest.mark.parametrize("name", Scene.names())

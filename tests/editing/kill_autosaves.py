@@ -19,7 +19,7 @@ import sys
 import time
 from pathlib import Path
 from ai4u_edu import Scene
-from ai4u_edu.editing import State, autosave
+from ai4u_edu.editing import EditState, autosave
 autosave.DELAY = autosave.LONGEST = 0.0
 scene = Scene.load("soccer")
 saver = autosave.Autosave(Path(sys.argv[1]), "soccer")
@@ -28,7 +28,7 @@ number = 0
 while True:
     number += 1
     fields = {"goal": f"{number} " * 100, "title": str(number)}
-    saver.note(State(scene.description.model_copy(update=fields)))
+    saver.note(EditState(scene.description.model_copy(update=fields)))
     time.sleep(0.0005)
 """
 

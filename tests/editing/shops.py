@@ -1,11 +1,11 @@
-"""A world that stands still until a test moves it, and a workshop on it."""
+"""A world that stands still until a test moves it, and a editor on it."""
 
 from concurrent.futures import Future
 from pathlib import Path
 from typing import Any, TypeVar
 
 from ai4u_edu import Scene
-from ai4u_edu.editing import Workshop
+from ai4u_edu.editing import SceneEditor
 from ai4u_edu.recording import Recorder
 from ai4u_edu.runtime.runner import Runner
 
@@ -47,7 +47,7 @@ agents:
 
 
 class Shop:
-    """A runner without a thread, its workshop and its recorder."""
+    """A runner without a thread, its editor and its recorder."""
 
     def __init__(
         self,
@@ -60,7 +60,7 @@ class Shop:
         sim = self.scene.build()
         recorder = Recorder(sim, scene=self.scene.description) if record else None
         self.runner = Runner(sim, seed=1, recorder=recorder)
-        self.workshop = Workshop(self.runner, self.scene, offers=offers)
+        self.editor = SceneEditor(self.runner, self.scene, offers=offers)
 
     def done(self, future: "Future[T]") -> T:
         """Carries out what was asked; ticks pass only until all decisions are over."""

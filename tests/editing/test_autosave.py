@@ -14,9 +14,9 @@ import pytest
 
 from ai4u_edu import Scene
 from ai4u_edu.base.errors import SetupError
-from ai4u_edu.editing import State, Workshop, autosave, unsaved
+from ai4u_edu.editing import EditState, SceneEditor, autosave, unsaved
 from ai4u_edu.editing.autosave import Autosave, latest, unsaved_scenes
-from ai4u_edu.editing.unsaved import chosen
+from ai4u_edu.editing.unsaved import choose_unsaved
 from tests.editing.kill_autosaves import run
 from tests.editing.shops import TEXT, Shop
 from tests.playing import played
@@ -32,7 +32,7 @@ def written(monkeypatch: pytest.MonkeyPatch) -> Semaphore:
     """Released after each write; without the usual delay before it."""
     done, write = Semaphore(0), autosave._write
 
-    def tell(file: Path, state: State) -> None:
+    def tell(file: Path, state: EditState) -> None:
         write(file, state)
         done.release()
 
@@ -43,25 +43,25 @@ def written(monkeypatch: pytest.MonkeyPatch) -> Semaphore:
 
 def test_a_changed_scene_is_written_and_read(saver: Autosave, tmp_path: Path) -> None:
     shop = Shop()
-    shop.workshop.listeners.append(saver.note)
-    shop.done(shop.workshop.add_body({"name": "ball", "position": [0, 3]}))
-    shop.done(shop.workshop.move_body("ball", 1, 3))
+    shop.editor.listeners.append(saver.note)
+    shop.done(shop.editor.add_body({"name": "ball", "position": [0, 3]}))
+    shop.done(shop.editor.move_body("ball", 1, 3))
     saver.stop()
-    assert shop.workshop.is_as_opened is False
+    assert shop.editor.is_as_opened is False
     (file,) = (tmp_path / "deep" / "unsaved").iterdir()
     assert re.fullmatch(r"small-[0-9a-f]{12}-1\.unsaved", file.name)
     left = latest(file.parent)
     assert left is not None
-    assert left.scene() == shop.workshop.scene
+    assert left.scene() == shop.editor.scene
     assert left.name == "small"
     assert len(left.when) == 5
 
 
 def test_what_was_taken_back_is_not_offered(tmp_path: Path) -> None:
     shop, saver = Shop(), Autosave(tmp_path, "small")
-    shop.workshop.autosave = saver
-    shop.done(shop.workshop.add_body({"name": "ball", "position": [0, 3]}))
-    shop.done(shop.workshop.open(Scene.load("sumo")))
+    shop.editor.autosave = saver
+    shop.done(shop.editor.add_body({"name": "ball", "position": [0, 3]}))
+    shop.done(shop.editor.open(Scene.load("sumo")))
     saver.stop()
     left = latest(tmp_path)  # of a scene that is only looked at nothing is lost
     assert left is not None
@@ -70,29 +70,29 @@ def test_what_was_taken_back_is_not_offered(tmp_path: Path) -> None:
 
 def test_what_was_written_goes_when_it_is_taken_back(tmp_path: Path, written: Semaphore) -> None:
     shop, saver = Shop(), Autosave(tmp_path, "small")
-    shop.workshop.autosave = saver
-    shop.done(shop.workshop.add_body({"name": "ball", "position": [0, 3]}))
+    shop.editor.autosave = saver
+    shop.done(shop.editor.add_body({"name": "ball", "position": [0, 3]}))
     assert written.acquire(timeout=30)
-    shop.done(shop.workshop.open(Scene.load("sumo")))
-    shop.done(shop.workshop.undo())
-    shop.done(shop.workshop.undo())
+    shop.done(shop.editor.open(Scene.load("sumo")))
+    shop.done(shop.editor.undo())
+    shop.done(shop.editor.undo())
     saver.stop()
     assert list(tmp_path.iterdir()) == []
 
 
 def test_each_scene_that_was_changed_is_kept(tmp_path: Path) -> None:
     shop, saver = Shop(), Autosave(tmp_path, "small")
-    shop.workshop.autosave = saver
-    shop.done(shop.workshop.add_body({"name": "ball", "position": [0, 3]}))
-    shop.done(shop.workshop.open(Scene.load("sumo")))
-    shop.done(shop.workshop.add_body({"name": "pole", "position": [0, 3]}))
+    shop.editor.autosave = saver
+    shop.done(shop.editor.add_body({"name": "ball", "position": [0, 3]}))
+    shop.done(shop.editor.open(Scene.load("sumo")))
+    shop.done(shop.editor.add_body({"name": "pole", "position": [0, 3]}))
     saver.stop()
     assert {each.name: "ball" in each.text for each in unsaved_scenes(tmp_path)} == {
         "small": True,
         "sumo": False,
     }
-    shop.workshop.autosave = saver = Autosave(tmp_path, "small")
-    shop.workshop.forget()  # the one that runs was saved
+    shop.editor.autosave = saver = Autosave(tmp_path, "small")
+    shop.editor.mark_saved()  # the one that runs was saved
     saver.stop()
     assert {each.name for each in unsaved_scenes(tmp_path)} == {"small", "sumo"}
 
@@ -103,12 +103,12 @@ def test_two_servers_on_one_scene_leave_each_other_s_work_alone(
     shops = [Shop(), Shop()]
     savers = [Autosave(tmp_path, "small") for _ in shops]
     for number, (shop, saver) in enumerate(zip(shops, savers, strict=True)):
-        shop.workshop.autosave = saver
-        shop.done(shop.workshop.add_body({"name": f"ball {number}", "position": [0, 3]}))
+        shop.editor.autosave = saver
+        shop.done(shop.editor.add_body({"name": f"ball {number}", "position": [0, 3]}))
         assert written.acquire(timeout=30)
     assert len(list(tmp_path.glob("*.unsaved"))) == 2
     assert latest(tmp_path) is None, "the work of a server that lives is not offered"
-    shops[1].done(shops[1].workshop.undo())
+    shops[1].done(shops[1].editor.undo())
     savers[1].stop()
     assert latest(tmp_path) is None
     savers[0].stop()
@@ -118,25 +118,25 @@ def test_two_servers_on_one_scene_leave_each_other_s_work_alone(
 
 def test_a_restored_scene_is_kept_until_it_is_saved(tmp_path: Path) -> None:
     shop, saver = Shop(), Autosave(tmp_path, "small")
-    shop.workshop.autosave = saver
-    shop.done(shop.workshop.add_body({"name": "ball", "position": [0, 3]}))
+    shop.editor.autosave = saver
+    shop.done(shop.editor.add_body({"name": "ball", "position": [0, 3]}))
     saver.stop()
     left = latest(tmp_path)
     assert left is not None
     # as play --restore does; then it is changed, and the change is taken back
     again, saver = Shop(left.scene()), Autosave(tmp_path, "small")
-    again.workshop.autosave = saver
-    again.workshop.restored(left)
+    again.editor.autosave = saver
+    again.editor.mark_restored(left)
     assert latest(tmp_path) is None, "it has an owner again"
-    again.done(again.workshop.remove_body("wall"))
-    again.done(again.workshop.undo())
+    again.done(again.editor.remove_body("wall"))
+    again.done(again.editor.undo())
     saver.stop()
     (kept,) = unsaved_scenes(tmp_path)
     assert kept.scene() == left.scene()
     third, saver = Shop(), Autosave(tmp_path, "small")
-    third.workshop.autosave, third.workshop.unsaved = saver, kept
-    third.done(third.workshop.bring_back())
-    third.workshop.forget()
+    third.editor.autosave, third.editor.unsaved = saver, kept
+    third.done(third.editor.restore_unsaved())
+    third.editor.mark_saved()
     saver.stop()
     assert list(tmp_path.iterdir()) == []
 
@@ -148,11 +148,11 @@ def test_of_two_servers_that_restore_one_scene_both_keep_it(tmp_path: Path) -> N
     savers = [Autosave(tmp_path, "small") for _ in range(2)]
     for saver in savers:
         shop = Shop(left.scene())
-        shop.workshop.autosave = saver
-        shop.workshop.restored(left)
+        shop.editor.autosave = saver
+        shop.editor.mark_restored(left)
     for saver in savers:
         saver.stop()
-    assert [each.text for each in unsaved_scenes(tmp_path)] == [Shop().workshop.text(), TEXT]
+    assert [each.text for each in unsaved_scenes(tmp_path)] == [Shop().editor.text(), TEXT]
 
 
 def left_by_an_earlier_version(folder: Path, name: str, text: str, ago_s: float = 0.0) -> None:
@@ -165,13 +165,13 @@ def test_one_is_chosen_by_scene_or_number(tmp_path: Path) -> None:
         left_by_an_earlier_version(tmp_path, name, TEXT, ago_s=60.0 * number)
     left = unsaved_scenes(tmp_path)
     assert [each.name for each in left] == ["small", "sumo", "box_chase", "box_chase 2"]
-    assert chosen(left) is left[0]
-    assert chosen(left, "sumo") is left[1]
-    assert chosen(left, "3") is left[2]
-    assert chosen(left, str(tmp_path / "sumo.yaml")) is left[1]
+    assert choose_unsaved(left) is left[0]
+    assert choose_unsaved(left, "sumo") is left[1]
+    assert choose_unsaved(left, "3") is left[2]
+    assert choose_unsaved(left, str(tmp_path / "sumo.yaml")) is left[1]
     for wrong in ("maze", "0", "5", "99999999999", "\u00b2", "a\0b"):
         with pytest.raises(SetupError, match=r"there are 1 small \(.*\), 2 sumo \("):
-            chosen(left, wrong)
+            choose_unsaved(left, wrong)
 
 
 def test_old_ones_go_but_never_the_latest_of_a_scene(
@@ -194,28 +194,28 @@ def test_old_ones_go_but_never_the_latest_of_a_scene(
 
 def test_it_is_brought_back_or_forgotten(tmp_path: Path) -> None:
     left, saver = Shop(), Autosave(tmp_path, "small")
-    left.workshop.autosave = saver
-    left.done(left.workshop.add_body({"name": "ball", "position": [0, 3]}))
+    left.editor.autosave = saver
+    left.done(left.editor.add_body({"name": "ball", "position": [0, 3]}))
     saver.stop()
     shop = Shop()
-    shop.workshop.unsaved = latest(tmp_path)
-    shop.done(shop.workshop.bring_back())
-    assert shop.workshop.scene == left.workshop.scene
-    assert shop.workshop.unsaved is None
-    shop.done(shop.workshop.undo())
+    shop.editor.unsaved = latest(tmp_path)
+    shop.done(shop.editor.restore_unsaved())
+    assert shop.editor.scene == left.editor.scene
+    assert shop.editor.unsaved is None
+    shop.done(shop.editor.undo())
     assert "ball" not in shop.world.bodies
-    shop.workshop.autosave = saver = Autosave(tmp_path, "small")
-    shop.workshop.forget()
+    shop.editor.autosave = saver = Autosave(tmp_path, "small")
+    shop.editor.mark_saved()
     saver.stop()
     assert latest(tmp_path) is None
     with pytest.raises(SetupError, match="there is no unsaved scene"):
-        shop.done(shop.workshop.bring_back())
+        shop.done(shop.editor.restore_unsaved())
 
 
 def test_many_changes_are_written_once(saver: Autosave, monkeypatch: pytest.MonkeyPatch) -> None:
     written = []
     monkeypatch.setattr(autosave, "_write", lambda _file, state: written.append(state))
-    state = Shop().workshop.state
+    state = Shop().editor.state
     for number in range(100):
         state = state.describing(title=str(number))
         saver.note(state)
@@ -239,8 +239,8 @@ def test_a_folder_that_can_t_be_made_is_told_of_once(tmp_path: Path, where: str)
     assert told == [saver.problem]
     assert told[0].startswith("changes can't be kept in ")
     shop = Shop()
-    shop.workshop.autosave = saver
-    shop.done(shop.workshop.add_body({"name": "ball", "position": [0, 3]}))
+    shop.editor.autosave = saver
+    shop.done(shop.editor.add_body({"name": "ball", "position": [0, 3]}))
     saver.stop()
     assert told == [saver.problem]
     assert unsaved_scenes(tmp_path / where / "unsaved") == []
@@ -254,7 +254,7 @@ def test_a_full_disk_is_told_of_once_and_tried_again(
     tries, is_written, write = Semaphore(0), Event(), autosave._write
     is_full = [True]
 
-    def written(file: Path, state: State) -> None:
+    def written(file: Path, state: EditState) -> None:
         tries.release()
         if is_full[0]:
             raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
@@ -264,8 +264,8 @@ def test_a_full_disk_is_told_of_once_and_tried_again(
     monkeypatch.setattr(autosave, "_write", written)
     told: list[str] = []
     shop, saver = Shop(), Autosave(tmp_path, "small", told.append)
-    shop.workshop.autosave = saver
-    shop.done(shop.workshop.add_body({"name": "ball", "position": [0, 3]}))
+    shop.editor.autosave = saver
+    shop.done(shop.editor.add_body({"name": "ball", "position": [0, 3]}))
     for _ in range(3):
         assert tries.acquire(timeout=30)
     assert told == [f"changes can't be kept in {tmp_path}: the disk is full"]
@@ -280,7 +280,7 @@ def test_a_full_disk_is_told_of_once_and_tried_again(
 
 def test_a_name_that_is_too_long_for_a_file_is_cut(tmp_path: Path) -> None:
     shop, saver = Shop(), Autosave(tmp_path, "\u4e00" * 80)
-    saver.note(shop.workshop.state.describing(name="\u4e00" * 80))
+    saver.note(shop.editor.state.describing(name="\u4e00" * 80))
     saver.stop()
     assert len(unsaved_scenes(tmp_path)) == 1
 
@@ -343,6 +343,6 @@ def test_a_folder_that_was_asked_for_has_to_be_one(tmp_path: Path, option: str) 
 def test_nothing_is_kept_unless_asked_for(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path))
     shop = Shop(Scene.load("box_chase"))
-    assert isinstance(shop.workshop, Workshop)
-    shop.done(shop.workshop.add_body({"name": "ball", "position": [0, 3]}))
+    assert isinstance(shop.editor, SceneEditor)
+    shop.done(shop.editor.add_body({"name": "ball", "position": [0, 3]}))
     assert list(tmp_path.iterdir()) == []

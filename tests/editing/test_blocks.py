@@ -28,7 +28,7 @@ def shop() -> Shop:
 def test_a_sensor_is_added_without_a_reset(shop: Shop) -> None:
     shop.tick(7)
     before = shop.agent.percept["bearing"].copy()
-    outcome = shop.done(shop.workshop.add_block("0", "sensors", RAYS))
+    outcome = shop.done(shop.editor.add_block("0", "sensors", RAYS))
     assert (outcome.when, outcome.label) == ("next decision", "add LinearRayCastingSensor")
     assert shop.agent.percept["eyes"].size == 9
     assert np.count_nonzero(shop.agent.percept["eyes"]) > 0
@@ -40,34 +40,34 @@ def test_a_sensor_is_added_without_a_reset(shop: Shop) -> None:
 
 def test_bad_values_are_told_field_by_field_and_nothing_changes(shop: Shop) -> None:
     shop.tick(4)
-    fitting, text, version = shop.agent.bound_blocks, shop.workshop.text(), shop.workshop.version
+    fitting, text, version = shop.agent.bound_blocks, shop.editor.text(), shop.editor.version
     values = {"number_of_rays": 0, "vision_max_distance": -1}
     with pytest.raises(ChangeError) as told:
-        shop.done(shop.workshop.add_block("0", "sensors", RAYS | values))
+        shop.done(shop.editor.add_block("0", "sensors", RAYS | values))
     assert {str(each) for each in told.value.problems} == {
         "number_of_rays: expected at least 1, got 0",
         "vision_max_distance: expected more than 0, got -1",
     }
     both = {"stacked_observations": 0, "noise": "wide"}  # out of range, and of the wrong type
     with pytest.raises(ChangeError) as told:
-        shop.done(shop.workshop.change_block("0", ("sensors", 0), both))
+        shop.done(shop.editor.change_block("0", ("sensors", 0), both))
     assert {str(each) for each in told.value.problems} == {
         "stacked_observations: expected at least 1, got 0",
         "noise: expected a number, got 'wide'",
     }
     with pytest.raises(ChangeError) as told:
-        shop.done(shop.workshop.change_block("0", ("sensors", 0), {"target": "bxo"}))
+        shop.done(shop.editor.change_block("0", ("sensors", 0), {"target": "bxo"}))
     (problem,) = told.value.problems
     assert problem.path == ("target",)
     assert problem.text.endswith("no body is named 'bxo'; did you mean 'box'?")
-    assert (shop.agent.bound_blocks, shop.workshop.text()) == (fitting, text)
-    assert (shop.workshop.version, shop.workshop.can_undo) == (version, "")
+    assert (shop.agent.bound_blocks, shop.editor.text()) == (fitting, text)
+    assert (shop.editor.version, shop.editor.undo_label) == (version, "")
 
 
 def test_a_changed_block_is_new_and_the_others_stay(shop: Shop) -> None:
     shop.tick(5)
     touch, progress = shop.agent.rewards
-    outcome = shop.done(shop.workshop.change_block("0", ("rewards", 0), {"reward": 7}))
+    outcome = shop.done(shop.editor.change_block("0", ("rewards", 0), {"reward": 7}))
     assert str(outcome) == "it applies at the next decision"
     assert shop.agent.rewards[0] is not touch
     assert shop.agent.rewards[1] is progress
@@ -77,77 +77,77 @@ def test_a_changed_block_is_new_and_the_others_stay(shop: Shop) -> None:
 
 
 def test_a_default_is_left_out_of_the_file(shop: Shop) -> None:
-    shop.done(shop.workshop.change_block("0", ("sensors", 0), {"noise": 0.5}))
-    assert "noise: 0.5" in shop.workshop.text()
-    shop.done(shop.workshop.change_block("0", ("sensors", 0), {"noise": 0.0}))
-    assert "noise" not in shop.workshop.text()
+    shop.done(shop.editor.change_block("0", ("sensors", 0), {"noise": 0.5}))
+    assert "noise: 0.5" in shop.editor.text()
+    shop.done(shop.editor.change_block("0", ("sensors", 0), {"noise": 0.0}))
+    assert "noise" not in shop.editor.text()
 
 
 def test_off_and_on(shop: Shop) -> None:
-    shop.done(shop.workshop.switch_block("0", ("sensors", 0), False))
+    shop.done(shop.editor.switch_block("0", ("sensors", 0), False))
     assert "bearing" not in shop.agent.percept
-    shop.done(shop.workshop.switch_block("0", ("sensors", 0), True))
+    shop.done(shop.editor.switch_block("0", ("sensors", 0), True))
     assert "bearing" in shop.agent.percept
     with pytest.raises(ChangeError, match="exactly one brain that is on"):
-        shop.done(shop.workshop.switch_block("0", ("brains", 0), False))
+        shop.done(shop.editor.switch_block("0", ("brains", 0), False))
 
 
 def test_order(shop: Shop) -> None:
-    shop.done(shop.workshop.move_block("0", ("rewards", 0), 1))
+    shop.done(shop.editor.move_block("0", ("rewards", 0), 1))
     assert [each.name for each in shop.agent.rewards] == ["progress", "touch"]
-    shop.done(shop.workshop.move_block("0", ("rewards", 0), -1))
+    shop.done(shop.editor.move_block("0", ("rewards", 0), -1))
     assert [each.name for each in shop.agent.rewards] == ["progress", "touch"]
 
 
 def test_undo_and_redo(shop: Shop) -> None:
-    texts = [shop.workshop.text()]
-    workshop = shop.workshop
+    texts = [shop.editor.text()]
+    editor = shop.editor
     for change in (
-        partial(workshop.add_block, "0", "sensors", RAYS),
-        partial(workshop.change_block, "0", ("sensors", 1), {"number_of_rays": 5}),
-        partial(workshop.remove_block, "0", ("sensors", 0)),
+        partial(editor.add_block, "0", "sensors", RAYS),
+        partial(editor.change_block, "0", ("sensors", 1), {"number_of_rays": 5}),
+        partial(editor.remove_block, "0", ("sensors", 0)),
     ):
         shop.done(change())
         shop.tick(2)
-        texts.append(shop.workshop.text())
-    assert shop.workshop.can_undo == "remove BearingSensor"
+        texts.append(shop.editor.text())
+    assert shop.editor.undo_label == "remove BearingSensor"
     for text in texts[-2::-1]:
-        shop.done(shop.workshop.undo())
-        assert shop.workshop.text() == text
+        shop.done(shop.editor.undo())
+        assert shop.editor.text() == text
         shop.tick()
     with pytest.raises(ChangeError, match="nothing to undo"):
-        shop.done(shop.workshop.undo())
+        shop.done(shop.editor.undo())
     for text in texts[1:]:
-        shop.done(shop.workshop.redo())
-        assert shop.workshop.text() == text
+        shop.done(shop.editor.redo())
+        assert shop.editor.text() == text
     assert list(shop.agent.percept) == ["eyes", "done", "id"]
-    shop.done(shop.workshop.undo())
-    shop.done(shop.workshop.change_block("0", ("sensors", 1), {"noise": 0.5}))
-    assert shop.workshop.can_redo == ""
+    shop.done(shop.editor.undo())
+    shop.done(shop.editor.change_block("0", ("sensors", 1), {"noise": 0.5}))
+    assert shop.editor.redo_label == ""
 
 
 def test_two_of_one_name_are_refused(shop: Shop) -> None:
-    shop.done(shop.workshop.add_block("0", "sensors", RAYS))
+    shop.done(shop.editor.add_block("0", "sensors", RAYS))
     with pytest.raises(ChangeError, match="two sensors have the perception_key 'eyes'"):
-        shop.done(shop.workshop.add_block("0", "sensors", RAYS))
+        shop.done(shop.editor.add_block("0", "sensors", RAYS))
 
 
 def test_what_was_changed_is_what_a_new_world_would_be(shop: Shop) -> None:
     shop.tick(5)
     for change in (
-        shop.workshop.add_block("0", "sensors", RAYS | {"noise": 0.1, "stacked_observations": 2}),
-        shop.workshop.change_block("0", ("actuators", 0), {"move_amount": 3}),
-        shop.workshop.add_body({"name": "ball", "position": [2, 2], "shape": {"type": "circle"}}),
-        shop.workshop.remove_block("0", ("rewards", 1)),
-        shop.workshop.move_body("box", 3, 1),
-        shop.workshop.undo(),
-        shop.workshop.change_body("box", {"mass": 4}),
-        shop.workshop.remove_body("wall"),
-        shop.workshop.undo(),
+        shop.editor.add_block("0", "sensors", RAYS | {"noise": 0.1, "stacked_observations": 2}),
+        shop.editor.change_block("0", ("actuators", 0), {"move_amount": 3}),
+        shop.editor.add_body({"name": "ball", "position": [2, 2], "shape": {"type": "circle"}}),
+        shop.editor.remove_block("0", ("rewards", 1)),
+        shop.editor.move_body("box", 3, 1),
+        shop.editor.undo(),
+        shop.editor.change_body("box", {"mass": 4}),
+        shop.editor.remove_body("wall"),
+        shop.editor.undo(),
     ):
         shop.done(change)
         shop.tick(2)
-    fresh = shop.workshop.scene.build()
+    fresh = shop.editor.scene.build()
     for seed in (3, 4):
         assert trace(shop.runner.sim, seed) == trace(fresh, seed)
 
@@ -156,19 +156,19 @@ def test_what_was_changed_is_what_a_new_world_would_be(shop: Shop) -> None:
 def test_so_it_is_in_scenes_of_the_library(name: str) -> None:
     shop = Shop(Scene.load(name))
     shop.tick(9)
-    agent = shop.workshop.state.description.agents[0]["id"]
+    agent = shop.editor.state.description.agents[0]["id"]
     body = shop.scene.description.bodies[-1].name
     for change in (
-        shop.workshop.add_block(agent, "sensors", {"type": "StepSensor", "perception_key": "x"}),
-        shop.workshop.add_body({"name": "extra", "position": [0, 0], "kind": "static", "z": 50}),
-        shop.workshop.change_body(body, {"mass": 0.5}),
-        shop.workshop.remove_body("extra"),
-        shop.workshop.undo(),
-        shop.workshop.change_block(agent, ("actuators", 0), {"is_output": True}),
+        shop.editor.add_block(agent, "sensors", {"type": "StepSensor", "perception_key": "x"}),
+        shop.editor.add_body({"name": "extra", "position": [0, 0], "kind": "static", "z": 50}),
+        shop.editor.change_body(body, {"mass": 0.5}),
+        shop.editor.remove_body("extra"),
+        shop.editor.undo(),
+        shop.editor.change_block(agent, ("actuators", 0), {"is_output": True}),
     ):
         shop.done(change)
         shop.tick(3)
-    fresh = shop.workshop.scene.build()
+    fresh = shop.editor.scene.build()
     for seed in (3, 4):
         assert trace(shop.runner.sim, seed, 20) == trace(fresh, seed, 20)
 
@@ -177,7 +177,7 @@ def test_before_the_first_decision_the_episode_begins_again() -> None:
     shop = Shop(record=True)
     recorder = shop.runner.recorder
     assert recorder is not None
-    shop.done(shop.workshop.add_block("0", "sensors", RAYS))
+    shop.done(shop.editor.add_block("0", "sensors", RAYS))
     seed = shop.world.seeds.seed
     shop.tick(3)
     recorder.finish()
@@ -191,7 +191,7 @@ def test_what_is_recorded_ends_with_a_change_and_begins_anew_at_the_reset() -> N
     recorder = shop.runner.recorder
     assert recorder is not None
     shop.tick(6)
-    shop.done(shop.workshop.add_block("0", "sensors", RAYS))
+    shop.done(shop.editor.add_block("0", "sensors", RAYS))
     shop.tick(4)
     shop.done(shop.runner.reset(seed=8))
     shop.tick(2)
@@ -203,29 +203,29 @@ def test_what_is_recorded_ends_with_a_change_and_begins_anew_at_the_reset() -> N
 
 
 def test_an_agents_own_parameters(shop: Shop) -> None:
-    outcome = shop.done(shop.workshop.change_agent("0", {"max_steps_per_episode": 3}))
+    outcome = shop.done(shop.editor.change_agent("0", {"max_steps_per_episode": 3}))
     assert outcome.when == "next decision"
     shop.tick(3)
     assert shop.agent.truncated
-    outcome = shop.done(shop.workshop.change_agent("0", {"priority": 3}))
+    outcome = shop.done(shop.editor.change_agent("0", {"priority": 3}))
     assert outcome.when == "next reset"
     with pytest.raises(ChangeError, match="reward_scale: expected a number, got 'x'"):
-        shop.done(shop.workshop.change_agent("0", {"reward_scale": "x"}))
+        shop.done(shop.editor.change_agent("0", {"reward_scale": "x"}))
 
 
 def test_the_success_goes_with_the_reward_function_that_pays_it() -> None:
     shop = Shop(TEXT.replace("name: small", "name: small\nsuccess: touch"))
 
     def successes() -> tuple[str | None, str]:
-        return shop.workshop.scene.description.success, shop.runner.sim.success
+        return shop.editor.scene.description.success, shop.runner.sim.success
 
-    shop.done(shop.workshop.change_block("0", ("rewards", 0), {"name": "arrived"}))
+    shop.done(shop.editor.change_block("0", ("rewards", 0), {"name": "arrived"}))
     assert successes() == ("arrived", "arrived")
-    shop.done(shop.workshop.remove_block("0", ("rewards", 1)))
+    shop.done(shop.editor.remove_block("0", ("rewards", 1)))
     assert successes() == ("arrived", "arrived")
-    outcome = shop.done(shop.workshop.remove_block("0", ("rewards", 0)))
+    outcome = shop.done(shop.editor.remove_block("0", ("rewards", 0)))
     assert "nothing pays 'arrived' any more" in str(outcome.note)
     assert successes() == (None, "")
-    Scene.loads(shop.workshop.text())
-    shop.done(shop.workshop.undo())
+    Scene.loads(shop.editor.text())
+    shop.done(shop.editor.undo())
     assert successes() == ("arrived", "arrived")

@@ -22,7 +22,7 @@ def shop() -> Shop:
 
 def test_a_body_is_put_somewhere_now_and_for_later(shop: Shop) -> None:
     robot = shop.world["robot"].pose
-    outcome = shop.done(shop.workshop.move_body("wall", -2, 3, 90))
+    outcome = shop.done(shop.editor.move_body("wall", -2, 3, 90))
     assert (outcome.when, outcome.label, outcome.note) == ("now", "move wall", "")
     x, y, z, heading = shop.world["wall"].pose
     assert (x, y, z, heading) == pytest.approx((-2, 3, 0, math.pi / 2))
@@ -34,7 +34,7 @@ def test_a_body_is_put_somewhere_now_and_for_later(shop: Shop) -> None:
 
 def test_what_is_seen_then_is_sensed_at_once(shop: Shop) -> None:
     before = shop.agent.percept["bearing"][-1].tolist(), shop.agent.percept["bearing"][:-1].tolist()
-    shop.done(shop.workshop.move_body("box", -3, 4))
+    shop.done(shop.editor.move_body("box", -3, 4))
     after = shop.agent.percept["bearing"]
     assert after[-1].tolist() != before[0]
     assert after[:-1].tolist() == before[1]
@@ -42,56 +42,56 @@ def test_what_is_seen_then_is_sensed_at_once(shop: Shop) -> None:
 
 def test_undo_puts_it_back_where_it_was_taken_up(shop: Shop) -> None:
     shop.world["box"].move_to(3, 3)  # it has rolled there
-    shop.done(shop.workshop.carry("box", 0, 4))
-    shop.done(shop.workshop.carry("box", 1, 4))
+    shop.done(shop.editor.drag("box", 0, 4))
+    shop.done(shop.editor.drag("box", 1, 4))
     assert shop.world["box"].position == (1, 4)
-    shop.done(shop.workshop.move_body("box", 2, 4))
-    shop.done(shop.workshop.undo())
+    shop.done(shop.editor.move_body("box", 2, 4))
+    shop.done(shop.editor.undo())
     assert shop.world["box"].position == (3, 3)
-    shop.done(shop.workshop.redo())
+    shop.done(shop.editor.redo())
     assert shop.world["box"].position == (2, 4)
 
 
 def test_one_that_overlaps_goes_back(shop: Shop) -> None:
     x, y = -3, 4
     shop.world["robot"].move_to(x, y)
-    shop.done(shop.workshop.carry("box", x, y))
+    shop.done(shop.editor.drag("box", x, y))
     with pytest.raises(WorldError, match="it would overlap body 'robot'; choose another place"):
-        shop.done(shop.workshop.move_body("box", x, y))
+        shop.done(shop.editor.move_body("box", x, y))
     assert shop.world["box"].position == (4, 0)
-    assert shop.workshop.can_undo == ""
-    assert shop.workshop.scene == shop.scene
+    assert shop.editor.undo_label == ""
+    assert shop.editor.scene == shop.scene
     shop.tick(3)
 
 
 def test_a_move_that_the_next_episode_could_not_begin_with_is_refused(shop: Shop) -> None:
     shop.world["robot"].move_to(0, -4)
     with pytest.raises(ChangeError, match=r"where all begin, .* overlaps body 'robot'"):
-        shop.done(shop.workshop.move_body("box", 0, 0.3))
+        shop.done(shop.editor.move_body("box", 0, 0.3))
     assert shop.world["box"].position == (4, 0)
 
 
 def test_one_that_was_pushed_about_stays_when_it_is_changed(shop: Shop) -> None:
     shop.world["box"].move_to(3, 3)
     shop.world["box"].set_velocity(1, 0)
-    shop.done(shop.workshop.change_body("box", {"mass": 3, "colour": "purple"}))
+    shop.done(shop.editor.change_body("box", {"mass": 3, "colour": "purple"}))
     box = shop.world["box"]
     assert (box.position, box.velocity, box.description.mass) == ((3, 3), (1, 0), 3)
-    stage = shop.runner.latest.stage
-    assert [body.colour for body in stage.bodies if body.name == "box"] == ["purple"]
+    static_scene = shop.runner.latest.static_scene
+    assert [body.colour for body in static_scene.bodies if body.name == "box"] == ["purple"]
     shop.done(shop.runner.reset())
     assert shop.world["box"].position == (4, 0)
 
 
 def test_add_and_remove(shop: Shop) -> None:
-    name = shop.workshop.free_name("box")
+    name = shop.editor.free_name("box")
     assert name == "box 2"
-    shop.done(shop.workshop.add_body({"name": name, "position": [0, 4], "kind": "static"}))
+    shop.done(shop.editor.add_body({"name": name, "position": [0, 4], "kind": "static"}))
     assert shop.world["box 2"].position == (0, 4)
-    assert "box 2" in [body.name for body in shop.runner.latest.stage.bodies]
-    assert shop.done(shop.workshop.remove_body("box 2")).when == "now"
+    assert "box 2" in [body.name for body in shop.runner.latest.static_scene.bodies]
+    assert shop.done(shop.editor.remove_body("box 2")).when == "now"
     assert "box 2" not in shop.world.bodies
-    shop.done(shop.workshop.undo())
+    shop.done(shop.editor.undo())
     assert shop.world["box 2"].position == (0, 4)
     shop.tick(5)
 
@@ -108,7 +108,7 @@ def test_add_and_remove(shop: Shop) -> None:
 )
 def test_bad_bodies(shop: Shop, body: dict[str, object], told: str) -> None:
     with pytest.raises(ChangeError) as error:
-        shop.done(shop.workshop.add_body(body))
+        shop.done(shop.editor.add_body(body))
     assert told in str(error.value)
     assert list(shop.world.bodies) == ["robot", "box", "wall"]
 
@@ -122,18 +122,18 @@ def test_the_world_is_full() -> None:
         for n in range(497)
     ]
     full = description.model_copy(update={"bodies": (*description.bodies, *poles)})
-    shop.done(shop.workshop.open(Scene(full)))
+    shop.done(shop.editor.open(Scene(full)))
     with pytest.raises(ChangeError, match="the world is full; expected at most 500 bodies"):
-        shop.done(shop.workshop.add_body({"name": "one too many", "position": [0, -4]}))
+        shop.done(shop.editor.add_body({"name": "one too many", "position": [0, -4]}))
 
 
 def test_what_is_needed_stays(shop: Shop) -> None:
     with pytest.raises(ChangeError, match="it is the body of agent '0'; an agent needs its body"):
-        shop.done(shop.workshop.remove_body("robot"))
+        shop.done(shop.editor.remove_body("robot"))
     with pytest.raises(
         ChangeError, match="TouchRewardFunc 'touch': no body or area is named 'box'"
     ):
-        shop.done(shop.workshop.remove_body("box"))
+        shop.done(shop.editor.remove_body("box"))
     assert "box" in shop.world.bodies
     shop.tick(3)
 
@@ -159,45 +159,45 @@ class Moody(Sensor):
 def test_what_fails_in_the_running_world_is_taken_back(
     verb: str, shop: Shop, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    shop.done(shop.workshop.add_block("0", "sensors", {"type": "Moody"}))
+    shop.done(shop.editor.add_block("0", "sensors", {"type": "Moody"}))
     before = {name: body.pose for name, body in shop.world.bodies.items()}
     monkeypatch.setattr(Moody, "in_a_good_mood", False)
-    workshop = shop.workshop
+    editor = shop.editor
     asked = {
-        "remove": partial(workshop.remove_body, "wall"),
-        "change": partial(workshop.change_body, "wall", {"position": [0, 4]}),
-        "add": partial(workshop.add_body, {"name": "ball", "position": [0, 4]}),
+        "remove": partial(editor.remove_body, "wall"),
+        "change": partial(editor.change_body, "wall", {"position": [0, 4]}),
+        "add": partial(editor.add_body, {"name": "ball", "position": [0, 4]}),
     }[verb]()
     with pytest.raises(BlockError, match="not now"):
         shop.done(asked)
     monkeypatch.setattr(Moody, "in_a_good_mood", True)
     assert {name: body.pose for name, body in shop.world.bodies.items()} == before
-    assert shop.workshop.can_undo == "add Moody"
+    assert shop.editor.undo_label == "add Moody"
     shop.tick(2)
 
 
 def test_where_chance_or_an_actuator_has_a_say_it_is_told() -> None:
     shop = Shop(Scene.load("box_chase"))
     shop.tick(3)
-    outcome = shop.done(shop.workshop.move_body("robot", 1, 1))
+    outcome = shop.done(shop.editor.move_body("robot", 1, 1))
     assert outcome.note == "its RespawnActuator puts 'robot' elsewhere at each reset"
     assert shop.world["robot"].position == (1, 1)
 
 
 def test_one_that_is_moved_before_the_first_tick_stands_there() -> None:
     shop = Shop(Scene.load("box_chase"))
-    shop.done(shop.workshop.move_body("robot", 1, 1))
+    shop.done(shop.editor.move_body("robot", 1, 1))
     assert shop.world["robot"].position == (1, 1)
-    shop.done(shop.workshop.move_body("box", 3, -3))
+    shop.done(shop.editor.move_body("box", 3, -3))
     assert shop.world["box"].position == (3, -3)
 
 
 def test_contacts_are_forgotten(shop: Shop) -> None:
-    shop.done(shop.workshop.move_body("box", 1.2, shop.world["robot"].position[1]))
+    shop.done(shop.editor.move_body("box", 1.2, shop.world["robot"].position[1]))
     shop.tick(60)
     view = shop.agent.view
     assert view.contacts(shop.world["robot"]) == ("box",)
-    shop.done(shop.workshop.move_body("box", -3, 4))
+    shop.done(shop.editor.move_body("box", -3, 4))
     assert view.contacts(shop.world["robot"]) == ()
     shop.tick(2)
     assert view.contacts(shop.world["robot"]) == ()
@@ -222,19 +222,19 @@ agents:
         )
     )
     shop.tick(3)
-    shop.done(shop.workshop.move_body("box", 8, 8))
+    shop.done(shop.editor.move_body("box", 8, 8))
     box = shop.world["box"]
     assert (box.z, box.on_ground) == (1, True)
-    shop.done(shop.workshop.move_body("box", 3, 3))
+    shop.done(shop.editor.move_body("box", 3, 3))
     assert (box.z, box.on_ground) == (0, True)
-    assert trace(shop.runner.sim, 1, 5) == trace(shop.workshop.scene.build(), 1, 5)
+    assert trace(shop.runner.sim, 1, 5) == trace(shop.editor.scene.build(), 1, 5)
 
 
 def test_hands_may_not_be_mad(shop: Shop) -> None:
     with pytest.raises(WorldError, match="expected finite numbers"):
-        shop.done(shop.workshop.carry("box", math.nan, 0))
+        shop.done(shop.editor.drag("box", math.nan, 0))
     with pytest.raises(ChangeError, match="expected finite numbers"):
-        shop.done(shop.workshop.move_body("box", math.inf, 0))
+        shop.done(shop.editor.move_body("box", math.inf, 0))
     with pytest.raises(ChangeError, match=r"position\[0\]: expected at most 10000"):
-        shop.done(shop.workshop.move_body("box", 1e6, 0))
+        shop.done(shop.editor.move_body("box", 1e6, 0))
     assert shop.world["box"].position == (4, 0)

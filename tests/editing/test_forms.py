@@ -6,10 +6,10 @@ import pytest
 
 from ai4u_edu import Scene
 from ai4u_edu.editing import ChangeError
-from ai4u_edu.editing.blocks import listed, types_of
-from ai4u_edu.editing.forms import NONE, Field, form
-from ai4u_edu.editing.names import Names
-from ai4u_edu.editing.suggestion import suggestion
+from ai4u_edu.editing.blocks import block_paths, types_of
+from ai4u_edu.editing.forms import NONE_LABEL, Field, block_form
+from ai4u_edu.editing.names import SceneNames
+from ai4u_edu.editing.suggestion import suggest_block
 from tests.editing.shops import TEXT, Shop
 
 RICH = TEXT.replace(
@@ -31,16 +31,16 @@ ALL = [
 
 
 def fields(shop: Shop, block: dict[str, Any]) -> dict[str, Field]:
-    return {each.name: each for each in form(block, Names(shop.workshop.state, "0"))}
+    return {each.name: each for each in block_form(block, SceneNames(shop.editor.state, "0"))}
 
 
 @pytest.mark.parametrize(("kind", "name"), ALL)
 def test_a_new_block_fits_and_its_form_says_what_it_is(kind: str, name: str) -> None:
     shop = Shop(RICH)
-    block = suggestion(shop.workshop.state, "0", name)
+    block = suggest_block(shop.editor.state, "0", name)
     if name == "NeuralNetController":
         return
-    shop.done(shop.workshop.add_block("0", kind, block))
+    shop.done(shop.editor.add_block("0", kind, block))
     if name != "RemoteBrain":
         shop.tick(3)
     for field in fields(shop, dict(block)).values():
@@ -83,7 +83,7 @@ def test_a_field_has_what_a_person_needs() -> None:
         ("data", "{floor: 1, target: 2}", {"floor": 1, "target": 2}),
         ("data", "[[0, 0, 90]]", [[0, 0, 90]]),
         ("data", "", None),
-        ("choice", NONE, None),
+        ("choice", NONE_LABEL, None),
         ("choice", "x", "x"),
         ("switch", True, True),
         ("text", "eyes", "eyes"),
@@ -106,10 +106,10 @@ def test_what_can_not_be_read_is_explained(said: str) -> None:
 
 def test_blocks_in_blocks() -> None:
     shop = Shop(RICH)
-    block = suggestion(shop.workshop.state, "0", "AndRewardFunc")
-    shop.done(shop.workshop.add_block("0", "rewards", block))
-    agent = shop.workshop.state.agent("0")
-    assert listed(agent, "rewards") == [
+    block = suggest_block(shop.editor.state, "0", "AndRewardFunc")
+    shop.done(shop.editor.add_block("0", "rewards", block))
+    agent = shop.editor.state.agent("0")
+    assert block_paths(agent, "rewards") == [
         ("rewards", 0),
         ("rewards", 1),
         ("rewards", 2),
@@ -117,28 +117,28 @@ def test_blocks_in_blocks() -> None:
         ("rewards", 3),
         ("rewards", 3, "children", 0),
     ]
-    assert listed(agent, "brains") == [("brains", 0), ("brains", 0, "controller")]
+    assert block_paths(agent, "brains") == [("brains", 0), ("brains", 0, "controller")]
     child = ("rewards", 3, "children", 0)
-    shop.done(shop.workshop.change_block("0", child, {"reward": 3.0}))
+    shop.done(shop.editor.change_block("0", child, {"reward": 3.0}))
     assert shop.agent.rewards[3].children[0].reward == 3
     new = {"type": "FallReward"}
-    shop.done(shop.workshop.add_block("0", ("rewards", 3, "children"), new))
+    shop.done(shop.editor.add_block("0", ("rewards", 3, "children"), new))
     assert [type(each).__name__ for each in shop.agent.rewards[3].children] == [
         "TouchRewardFunc",
         "FallReward",
     ]
     with pytest.raises(ChangeError) as error:
-        shop.done(shop.workshop.change_block("0", child, {"reward": "much"}))
+        shop.done(shop.editor.change_block("0", child, {"reward": "much"}))
     assert [str(each) for each in error.value.problems] == ["reward: expected a number, got 'much'"]
-    shop.done(shop.workshop.remove_block("0", child))
-    shop.done(shop.workshop.undo())
+    shop.done(shop.editor.remove_block("0", child))
+    shop.done(shop.editor.undo())
     shop.tick(3)
 
 
 def test_names_that_are_taken_get_a_number() -> None:
     shop = Shop(Scene.load("box_chase"))
     for expected in ("ray_casting", "ray_casting_2", "ray_casting_3"):
-        block = suggestion(shop.workshop.state, "0", "RayCastingSensor")
+        block = suggest_block(shop.editor.state, "0", "RayCastingSensor")
         assert block.get("perception_key", "ray_casting") == expected
-        shop.done(shop.workshop.add_block("0", "sensors", block))
+        shop.done(shop.editor.add_block("0", "sensors", block))
         assert expected in shop.agent.percept

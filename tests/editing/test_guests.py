@@ -1,4 +1,4 @@
-"""Drivers that stand in no scene file, and what becomes of them when blocks are changed."""
+"""DriverRegistry that stand in no scene file, and what becomes of them when blocks are changed."""
 
 from typing import Any
 
@@ -63,34 +63,34 @@ def shop() -> Shop:
 def test_a_function_drives_on_whatever_is_changed(shop: Shop) -> None:
     brain = LocalBrain(controller=lambda percept: {"move": [0, 0.5, 0, 0]}, skip_frame=0)
     shop.agent.use_brain(brain)
-    shop.done(shop.workshop.add_block("0", "sensors", {"type": "HeadingSensor"}))
-    shop.done(shop.workshop.move_body("wall", -4, 1))
+    shop.done(shop.editor.add_block("0", "sensors", {"type": "HeadingSensor"}))
+    shop.done(shop.editor.move_body("wall", -4, 1))
     shop.tick(2)
     assert shop.agent.brain is brain
     assert shop.agent.last_action == {"move": (0, 0.5, 0, 0)}
-    assert shop.workshop.driver_of("0") == ""
-    shop.done(shop.workshop.drive("0", "brain:0"))
+    assert shop.editor.driver_of("0") == ""
+    shop.done(shop.editor.set_driver("0", "brain:0"))
     assert shop.agent.brain is not brain
-    assert shop.workshop.driver_of("0") == "brain:0"
+    assert shop.editor.driver_of("0") == "brain:0"
 
 
 def test_a_body_that_does_not_fit_the_brain_is_not_given_to_it(shop: Shop) -> None:
     """What is wrong comes out last, when the brain is set up: all is put back, flags too."""
-    shop.done(shop.workshop.drive("0", "keys:Picky"))
+    shop.done(shop.editor.set_driver("0", "keys:Picky"))
     with pytest.raises(AI4UError, match="where is my move"):
-        shop.done(shop.workshop.change_block("0", ("actuators", 0), {"action_name": "go"}))
+        shop.done(shop.editor.change_block("0", ("actuators", 0), {"action_name": "go"}))
     assert [brain.enabled for brain in shop.agent.brains] == [False, True]
     assert list(shop.agent.bound_blocks.actuators) == ["move"]
     shop.tick(2)
-    shop.done(shop.workshop.undo())
+    shop.done(shop.editor.undo())
     shop.tick(2)
 
 
 def test_one_who_took_over_stays(shop: Shop) -> None:
-    shop.done(shop.workshop.drive("0", "keys:WASDRBMoveController"))
+    shop.done(shop.editor.set_driver("0", "keys:WASDRBMoveController"))
     first = shop.agent.brains[0]
     shop.agent.use_brain(first)  # as a page does when somebody lets go
-    shop.done(shop.workshop.add_block("0", "sensors", {"type": "HeadingSensor"}))
+    shop.done(shop.editor.add_block("0", "sensors", {"type": "HeadingSensor"}))
     assert shop.agent.brain is first
     assert [brain.enabled for brain in shop.agent.brains] == [True, False]
 
@@ -100,10 +100,10 @@ def test_a_script_that_was_told_what_it_senses_has_to_come_again(shop: Shop) -> 
     brain = RemoteBrain.over(line, mode="realtime")
     shop.agent.use_brain(brain)
     shop.tick(2)
-    shop.done(shop.workshop.move_body("wall", -4, 1))  # that changes nothing for it
+    shop.done(shop.editor.move_body("wall", -4, 1))  # that changes nothing for it
     assert shop.agent.brain is brain
     assert line.closed == ["the agent is set up anew"] * 0
-    shop.done(shop.workshop.add_block("0", "sensors", {"type": "HeadingSensor"}))
+    shop.done(shop.editor.add_block("0", "sensors", {"type": "HeadingSensor"}))
     assert shop.agent.brain is shop.agent.brains[0]
     assert all(each is not brain for each in shop.agent.brains)
     (told,) = line.closed
@@ -118,7 +118,7 @@ def test_a_change_that_fails_leaves_the_driver_in_its_place(shop: Shop) -> None:
     fitting = shop.agent.bound_blocks
     with pytest.raises(Exception, match="perception_key"):
         shop.done(
-            shop.workshop.add_block("0", "sensors", {"type": "BearingSensor", "target": "wall"})
+            shop.editor.add_block("0", "sensors", {"type": "BearingSensor", "target": "wall"})
         )
     assert (shop.agent.brain, shop.agent.bound_blocks, line.closed) == (brain, fitting, [])
     shop.tick(2)

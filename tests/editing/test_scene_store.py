@@ -11,13 +11,13 @@ from hypothesis import strategies as st
 from ai4u_edu import Scene
 from ai4u_edu.base.errors import SceneError, SetupError
 from ai4u_edu.editing import scene_store as shelves
-from ai4u_edu.editing.scene_store import Shelf, TakenError, proper
+from ai4u_edu.editing.scene_store import SceneExistsError, SceneStore, proper
 from tests.editing.shops import TEXT
 
 
 @pytest.fixture
-def shelf(tmp_path: Path) -> Shelf:
-    return Shelf(tmp_path / "kept")
+def store(tmp_path: Path) -> SceneStore:
+    return SceneStore(tmp_path / "kept")
 
 
 PLAIN = Scene.loads(TEXT)
@@ -27,23 +27,23 @@ def scene(goal: str = "") -> Scene:
     return Scene(PLAIN.description.model_copy(update={"goal": goal}))
 
 
-def test_a_scene_is_kept_and_found_again(shelf: Shelf) -> None:
-    assert shelf.names() == []
-    assert shelf.save(" My maze ", scene("Touch it.")) == "My maze"
-    assert shelf.names() == ["My maze"]
-    assert shelf.load("my MAZE") == scene("Touch it.")
-    assert [path.name for path in shelf.folder.iterdir()] == ["My maze.yaml"]
+def test_a_scene_is_kept_and_found_again(store: SceneStore) -> None:
+    assert store.names() == []
+    assert store.save(" My maze ", scene("Touch it.")) == "My maze"
+    assert store.names() == ["My maze"]
+    assert store.load("my MAZE") == scene("Touch it.")
+    assert [path.name for path in store.folder.iterdir()] == ["My maze.yaml"]
 
 
 def test_two_servers_that_save_one_name_don_t_replace_each_other_s(tmp_path: Path) -> None:
-    shelves_of_servers = [Shelf(tmp_path) for _ in range(4)]  # each with a lock of its own
+    shelves_of_servers = [SceneStore(tmp_path) for _ in range(4)]  # each with a lock of its own
     started = threading.Barrier(len(shelves_of_servers))
 
     def save(number: int) -> str:
         started.wait()
         try:
             return shelves_of_servers[number].save("Maze", scene(str(number)))
-        except TakenError as error:
+        except SceneExistsError as error:
             return str(error)
 
     with ThreadPoolExecutor(len(shelves_of_servers)) as pool:
@@ -52,14 +52,14 @@ def test_two_servers_that_save_one_name_don_t_replace_each_other_s(tmp_path: Pat
     assert [path.name for path in tmp_path.iterdir()] == ["Maze.yaml"]
 
 
-def test_nothing_is_replaced_without_a_word(shelf: Shelf) -> None:
-    shelf.save("Maze", scene("one"))
-    with pytest.raises(TakenError, match="'Maze' is there already"):
-        shelf.save("maze", scene("two"))
-    assert shelf.load("Maze").description.goal == "one"
-    assert shelf.save("maze", scene("two"), over=True) == "Maze"
-    assert shelf.load("Maze").description.goal == "two"
-    assert shelf.names() == ["Maze"]
+def test_nothing_is_replaced_without_a_word(store: SceneStore) -> None:
+    store.save("Maze", scene("one"))
+    with pytest.raises(SceneExistsError, match="'Maze' is there already"):
+        store.save("maze", scene("two"))
+    assert store.load("Maze").description.goal == "one"
+    assert store.save("maze", scene("two"), over=True) == "Maze"
+    assert store.load("Maze").description.goal == "two"
+    assert store.names() == ["Maze"]
 
 
 NO_NAMES = (
@@ -83,13 +83,13 @@ NO_NAMES = (
 
 
 @pytest.mark.parametrize("name", NO_NAMES)
-def test_names_are_no_paths(shelf: Shelf, name: str) -> None:
+def test_names_are_no_paths(store: SceneStore, name: str) -> None:
     with pytest.raises(SetupError):
-        shelf.save(name, scene())
+        store.save(name, scene())
     with pytest.raises(SetupError):
-        shelf.load(name)
-    assert list(shelf.folder.iterdir()) == []
-    assert [path.name for path in shelf.folder.parent.iterdir()] == ["kept"]
+        store.load(name)
+    assert list(store.folder.iterdir()) == []
+    assert [path.name for path in store.folder.parent.iterdir()] == ["kept"]
 
 
 @given(st.text(max_size=70))
@@ -105,39 +105,39 @@ def test_whatever_is_a_name_names_one_file_in_the_folder(name: str) -> None:
     assert proper(kept) == kept
 
 
-def test_links_lead_nowhere(shelf: Shelf, tmp_path: Path) -> None:
+def test_links_lead_nowhere(store: SceneStore, tmp_path: Path) -> None:
     outside = tmp_path / "outside.yaml"
     scene("secret").save(outside)
-    (shelf.folder / "link.yaml").symlink_to(outside)
-    (shelf.folder / "dangling.yaml").symlink_to(tmp_path / "new.yaml")
-    (shelf.folder / "folder.yaml").mkdir()
-    assert shelf.names() == []
+    (store.folder / "link.yaml").symlink_to(outside)
+    (store.folder / "dangling.yaml").symlink_to(tmp_path / "new.yaml")
+    (store.folder / "folder.yaml").mkdir()
+    assert store.names() == []
     with pytest.raises(SceneError, match="no scene is kept as 'link'"):
-        shelf.load("link")
+        store.load("link")
     for name in ("link", "dangling", "folder"):
         with pytest.raises(SetupError):
-            shelf.save(name, scene(), over=True)
+            store.save(name, scene(), over=True)
     assert Scene.load(outside).description.goal == "secret"
     assert not (tmp_path / "new.yaml").exists()
 
 
-def test_a_page_can_not_fill_the_disk(shelf: Shelf, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(shelves, "MOST", 2)
+def test_a_page_can_not_fill_the_disk(store: SceneStore, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(shelves, "MAX_SCENES", 2)
     for name in ("a", "b"):
-        shelf.save(name, scene())
+        store.save(name, scene())
     with pytest.raises(SetupError, match="at most 2 scenes"):
-        shelf.save("c", scene())
-    shelf.save("a", scene("again"), over=True)
-    (shelf.folder / "b.yaml").write_text("x" * 2_000_000)
+        store.save("c", scene())
+    store.save("a", scene("again"), over=True)
+    (store.folder / "b.yaml").write_text("x" * 2_000_000)
     with pytest.raises(SceneError, match="expected at most"):
-        shelf.load("b")
+        store.load("b")
 
 
-def test_of_two_who_take_a_name_at_once_one_is_told(shelf: Shelf) -> None:
+def test_of_two_who_take_a_name_at_once_one_is_told(store: SceneStore) -> None:
     def save(number: int) -> bool:
         try:
-            shelf.save("mine", scene(str(number)))
-        except TakenError:
+            store.save("mine", scene(str(number)))
+        except SceneExistsError:
             return False
         return True
 
@@ -145,7 +145,7 @@ def test_of_two_who_take_a_name_at_once_one_is_told(shelf: Shelf) -> None:
         assert sum(pool.map(save, range(8))) == 1
 
 
-def test_a_network_that_lies_beside_has_to_lie_here_too(shelf: Shelf) -> None:
+def test_a_network_that_lies_beside_has_to_lie_here_too(store: SceneStore) -> None:
     network = {"type": "NeuralNetController", "model_path": "mine.onnx"}
     agent = {
         **PLAIN.description.agents[0],
@@ -153,12 +153,12 @@ def test_a_network_that_lies_beside_has_to_lie_here_too(shelf: Shelf) -> None:
     }
     driven = Scene(PLAIN.description.model_copy(update={"agents": (agent,)}))
     with pytest.raises(SetupError, match="lies beside the scene"):
-        shelf.save("mine", driven)
-    (shelf.folder / "mine.onnx").write_bytes(b"")
-    shelf.save("mine", driven)
+        store.save("mine", driven)
+    (store.folder / "mine.onnx").write_bytes(b"")
+    store.save("mine", driven)
 
 
 def test_a_file_is_no_folder(tmp_path: Path) -> None:
     (tmp_path / "file").write_text("")
     with pytest.raises(SetupError, match="expected a folder for scenes"):
-        Shelf(tmp_path / "file")
+        SceneStore(tmp_path / "file")

@@ -3,7 +3,7 @@
 import pytest
 
 from ai4u_edu import Scene
-from ai4u_edu.editing import Workshop
+from ai4u_edu.editing import SceneEditor
 from ai4u_edu.remote import RemoteError, Robot, connect
 from tests.editing.shops import TEXT
 from tests.server.rooms import served, until
@@ -17,30 +17,30 @@ def drive_on(robot: Robot) -> None:
 def test_a_script_hears_that_the_agent_is_another_one_and_can_come_back() -> None:
     scene = Scene.loads(TEXT)
     with served(scene.build()) as room:
-        workshop = Workshop(room.runner, scene)
+        editor = SceneEditor(room.runner, scene)
         with connect(room.url) as robot:
             robot.act(move=[1, 0, 0, 0])
-            workshop.move_body("wall", -4, 1).result(5)
+            editor.move_body("wall", -4, 1).result(5)
             robot.act(move=[1, 0, 0, 0])  # that was none of its business
-            workshop.add_block("0", "sensors", {"type": "HeadingSensor"}).result(5)
+            editor.add_block("0", "sensors", {"type": "HeadingSensor"}).result(5)
             with pytest.raises(RemoteError, match="the agent's blocks were changed; connect again"):
                 drive_on(robot)
         with connect(room.url) as robot:
             assert "heading" in robot.sense()
             agent = room.runner.sim.agents[0]
             until(lambda: "script" in agent.brain.title())
-            assert workshop.driver_of("0") == ""
-        until(lambda: workshop.driver_of("0") == "brain:0")
+            assert editor.driver_of("0") == ""
+        until(lambda: editor.driver_of("0") == "brain:0")
 
 
 def test_another_scene_ends_a_scripts_turn_and_leaves_nothing_behind() -> None:
     scene = Scene.loads(TEXT)
     with served(scene.build()) as room:
-        workshop = Workshop(room.runner, scene)
+        editor = SceneEditor(room.runner, scene)
         with connect(room.url) as robot:
             robot.act(move=[1, 0, 0, 0])
             old = room.runner.sim.agents[0]
-            workshop.open(Scene.load("sumo")).result(5)
+            editor.open(Scene.load("sumo")).result(5)
             with pytest.raises(RemoteError):
                 drive_on(robot)
         assert old.brain.status().state == "waiting"  # type: ignore[attr-defined]  # it is remote

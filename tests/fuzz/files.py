@@ -12,7 +12,7 @@ from ruamel.yaml import YAML
 from ai4u_edu.base.errors import AI4UError
 from ai4u_edu.blocks import Block
 from ai4u_edu.recording import Episode, Recorder, RecordingError
-from ai4u_edu.recording.file import HEAD, LARGEST_FILE, decode, encode
+from ai4u_edu.recording.file import HEADER, MAX_FILE_BYTES, decode, encode
 from ai4u_edu.scenes import Scene
 from ai4u_edu.scenes.scene import LIBRARY
 from tests.fuzz.mutate import ODD, bent, bent_and_packed, mangled
@@ -132,7 +132,7 @@ def _episodes() -> tuple[tuple[bytes, Any], ...]:
         sim.step()
         recorder.finish()
         whole = encode(recorder.episodes[-1])
-        found.append((whole, msgpack.unpackb(zlib.decompress(whole[len(HEAD) :]))))
+        found.append((whole, msgpack.unpackb(zlib.decompress(whole[len(HEADER) :]))))
     return tuple(found)
 
 
@@ -141,9 +141,9 @@ def make_recording(chance: random.Random) -> bytes:
     whole, tree = chance.choice(_episodes())
     match chance.randrange(5):
         case 0:
-            return mangled(whole, chance, (HEAD, b"\x78\xda", b"ai4u-edu episode 2\n"))
+            return mangled(whole, chance, (HEADER, b"\x78\xda", b"ai4u-edu episode 2\n"))
         case 1:
-            plain = mangled(zlib.decompress(whole[len(HEAD) :]), chance)
+            plain = mangled(zlib.decompress(whole[len(HEADER) :]), chance)
         case 2:
             deep = chance.choice((b"\x91", b"\x81\xa1x")) * chance.choice((30, 400, 1018))
             odd = chance.choice(list(tree))
@@ -153,7 +153,7 @@ def make_recording(chance: random.Random) -> bytes:
                 plain += msgpack.packb(key) + value
         case _:
             plain = bent_and_packed(tree, chance)
-    return HEAD + zlib.compress(plain, 1)
+    return HEADER + zlib.compress(plain, 1)
 
 
 def read_recording(data: bytes) -> None:
@@ -169,7 +169,7 @@ def read_recording(data: bytes) -> None:
 
 def read_packed(data: bytes) -> None:
     """The same for what is packed in a file: a fuzzer that knows no zlib gets no further."""
-    read_recording(HEAD + zlib.compress(data[:LARGEST_FILE], 1))
+    read_recording(HEADER + zlib.compress(data[:MAX_FILE_BYTES], 1))
 
 
 SCENE = Target(

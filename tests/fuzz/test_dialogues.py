@@ -99,9 +99,6 @@ class _World:
     def notify_answer(self) -> None:
         pass
 
-    def is_unpaced(self) -> bool:
-        return False
-
 
 class _Excerpt:
     def of(self, percept: Any) -> tuple[bytes, tuple[str, ...]]:

@@ -53,8 +53,8 @@ def notebook(page: Page, url: str, live: Live, base: str = BASE) -> FrameLocator
 
 def drives(page: Page, frame: FrameLocator, runner: Runner) -> None:
     """Clicks into the world, holds a key, and sees the robot move and nothing else scroll."""
-    frame.locator(".ai4u-cap").first.wait_for(timeout=60_000)
-    frame.locator(".ai4u-seat, .ai4u-row").first.wait_for()
+    frame.locator(".ai4u-keycap").first.wait_for(timeout=60_000)
+    frame.locator(".ai4u-driver, .ai4u-row").first.wait_for()
     before = runner.latest.bodies[0]
     page.locator("iframe").click(position={"x": 250, "y": 150})
     page.keyboard.down("KeyW")
@@ -139,7 +139,7 @@ def test_from_the_wheel_lesson_01_is_driven_in_jupyterlab(
         page.goto(f"http://localhost:{port}/lab/tree/01_drive.ipynb?token={token}")
         src = _shown(page)
         frame = page.frame_locator("iframe[src*=token]")
-        frame.locator(".ai4u-cap").first.wait_for(timeout=60_000)
+        frame.locator(".ai4u-keycap").first.wait_for(timeout=60_000)
         where, _, query = src.partition("?")
         before = _pose(where, query)
         page.locator("iframe[src*=token]").click(position={"x": 250, "y": 150})

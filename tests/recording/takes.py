@@ -18,7 +18,7 @@ from ai4u_edu import (
 )
 from ai4u_edu.check.drive import RandomDrive
 from ai4u_edu.recording import Episode, Recorder
-from ai4u_edu.snapshot import body_states
+from ai4u_edu.snapshot import capture_bodies
 
 
 @dataclass
@@ -46,7 +46,7 @@ class Notes:
 
     def _begin(self, agent: BasicAgent) -> None:
         percept = agent.percept
-        note = Note(percept.data, percept.texts, body_states(self.sim), dict(agent.last_action))
+        note = Note(percept.data, percept.texts, capture_bodies(self.sim), dict(agent.last_action))
         note.tick = self.sim.world.ticks
         self.of[agent.id].append(note)
 

@@ -18,7 +18,7 @@ from ai4u_edu.recording import Recorder, RecordingError, Replay
 from ai4u_edu.recording.exports.csv_file import write_csv
 from ai4u_edu.recording.exports.html_page import write_html
 from ai4u_edu.recording.exports.movie import write_gif, write_mp4
-from ai4u_edu.snapshot.raster import draw
+from ai4u_edu.snapshot.raster import draw_snapshot
 from tests.playing import browser
 from tests.recording.takes import Take, take
 from tests.server.rooms import until
@@ -67,11 +67,11 @@ def test_a_name_is_no_formula(tmp_path: Path) -> None:
 
 def test_a_gif_at_the_worlds_pace(replay: Replay, tmp_path: Path) -> None:
     with Image.open(write_gif(replay, tmp_path / "one.gif", longest=120)) as gif:
-        pictures = {each.tick: each for each in replay.pictures()}
+        pictures = {each.tick: each for each in replay.snapshots()}
         time = 0
         for _ in ImageSequence.Iterator(gif):  # those that are like the one before are left out
             shown = np.asarray(gif.convert("RGB"), np.int16)
-            drawn = draw(pictures[time * 60 // 1000], longest=120)
+            drawn = draw_snapshot(pictures[time * 60 // 1000], longest=120)
             assert np.abs(shown - drawn).mean() < 6  # but for the few colours
             time += gif.info["duration"]
         assert time == (125 // 3 + 1) * 50

@@ -14,16 +14,16 @@ from hypothesis import strategies as st
 from ai4u_edu import LocalBrain, Scene
 from ai4u_edu.base.errors import AI4UError
 from ai4u_edu.recording import Episode, Recorder, RecordingError, Replay, file
-from ai4u_edu.recording.file import HEAD, decode, encode
+from ai4u_edu.recording.file import HEADER, decode, encode
 from tests.recording.takes import take
 
 EPISODE = take("tag", decisions=20).episode
 BYTES = encode(EPISODE)
-PLAIN: dict[str, Any] = msgpack.unpackb(zlib.decompress(BYTES[len(HEAD) :]))
+PLAIN: dict[str, Any] = msgpack.unpackb(zlib.decompress(BYTES[len(HEADER) :]))
 
 
 def packed(plain: Any) -> bytes:
-    return HEAD + zlib.compress(msgpack.packb(plain))
+    return HEADER + zlib.compress(msgpack.packb(plain))
 
 
 def error(data: bytes) -> str:
@@ -80,23 +80,23 @@ def test_something_else() -> None:
 
 
 def test_truncated() -> None:
-    for size in range(len(HEAD), len(BYTES), 97):
+    for size in range(len(HEADER), len(BYTES), 97):
         assert error(BYTES[:size]) == "mine.episode: damaged: its end is missing"
     assert error(BYTES + b"x") == "mine.episode: damaged: something follows after its end"
 
 
 def test_one_wrong_byte_anywhere_is_an_error() -> None:
-    for place in range(len(HEAD), len(BYTES), 53):
+    for place in range(len(HEADER), len(BYTES), 53):
         wrong = bytearray(BYTES)
         wrong[place] ^= 0x55
         assert error(bytes(wrong)).startswith("mine.episode: ")
 
 
 def test_too_large(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
-    bomb = HEAD + zlib.compress(bytes(file.LARGEST + 1), 9)
+    bomb = HEADER + zlib.compress(bytes(file.LARGEST + 1), 9)
     assert len(bomb) < 30_000
     assert error(bomb) == "mine.episode: expected at most 24 MB when it is unpacked"
-    monkeypatch.setattr(file, "LARGEST_FILE", 1000)
+    monkeypatch.setattr(file, "MAX_FILE_BYTES", 1000)
     path = tmp_path / "big.episode"
     path.write_bytes(BYTES)
     with pytest.raises(RecordingError, match=r"big\.episode: expected at most 0 MB"):
@@ -106,7 +106,7 @@ def test_too_large(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
 def test_what_is_unpacked_is_capped_while_it_is_unpacked() -> None:
     packer = zlib.compressobj(9)
     nothing = bytes(2**20)
-    bomb = HEAD + b"".join(packer.compress(nothing) for _ in range(300)) + packer.flush()
+    bomb = HEADER + b"".join(packer.compress(nothing) for _ in range(300)) + packer.flush()
     tracemalloc.start()
     text = error(bomb)
     _, peak = tracemalloc.get_traced_memory()
@@ -116,11 +116,13 @@ def test_what_is_unpacked_is_capped_while_it_is_unpacked() -> None:
 
 
 def test_a_deep_nest() -> None:
-    assert "can't be read" in error(HEAD + zlib.compress(b"\x91" * 1_000_000))
+    assert "can't be read" in error(HEADER + zlib.compress(b"\x91" * 1_000_000))
 
 
 def test_a_long_list() -> None:
-    assert "can't be read" in error(HEAD + zlib.compress(b"\xdd\x00\x20\x00\x00" + b"\xc0" * 2**21))
+    assert "can't be read" in error(
+        HEADER + zlib.compress(b"\xdd\x00\x20\x00\x00" + b"\xc0" * 2**21)
+    )
 
 
 def test_what_is_told_of_wrong_contents() -> None:
@@ -207,14 +209,14 @@ def test_a_scene_that_can_not_be_made(changes: dict[str, Any], text: str) -> Non
 def test_other_actions_do_not_play_exactly() -> None:
     nothing = bytes(len(PLAIN["agents"][0]["action_numbers"]))
     verdict = Replay(decode(Episode, packed(agent(action_numbers=nothing)), "x")).verdict
-    assert (verdict.exact, verdict.until) == (False, 1)
+    assert (verdict.exact, verdict.exact_until) == (False, 1)
     assert verdict.why == "agent 'chaser', decision 0: what it sensed after it was something else"
 
 
 def test_another_version_is_told() -> None:
     changed = agent(percepts=bytes(80)) | {"versions": PLAIN["versions"] | {"pymunk": "1.0"}}
     verdict = Replay(decode(Episode, packed(changed), "x")).verdict
-    assert (verdict.exact, verdict.until) == (False, 1)
+    assert (verdict.exact, verdict.exact_until) == (False, 1)
     assert "it was recorded with pymunk 1.0 (here " in verdict.why
 
 
@@ -244,7 +246,7 @@ def reads_or_refuses(data: bytes) -> None:
         return
     try:
         replay = Replay(episode)
-        assert replay.verdict.until >= 0
+        assert replay.verdict.exact_until >= 0
         list(replay.moments())
     except AI4UError:
         pass
@@ -253,8 +255,8 @@ def reads_or_refuses(data: bytes) -> None:
 @given(st.binary(max_size=200))
 def test_any_bytes(data: bytes) -> None:
     reads_or_refuses(data)
-    reads_or_refuses(HEAD + data)
-    reads_or_refuses(HEAD + zlib.compress(data))
+    reads_or_refuses(HEADER + data)
+    reads_or_refuses(HEADER + zlib.compress(data))
 
 
 @given(ANYTHING)

@@ -1,4 +1,4 @@
-"""What a reel shows of the past is what was seen then, bit for bit."""
+"""What a frame_cache shows of the past is what was seen then, bit for bit."""
 
 from dataclasses import replace
 
@@ -8,8 +8,8 @@ import pytest
 from ai4u_edu import LocalBrain, Scene
 from ai4u_edu.check.drive import RandomDrive
 from ai4u_edu.recording import Episode, Recorder
-from ai4u_edu.recording.frame_cache import Reel
-from ai4u_edu.snapshot import AgentState, Snapshot, picture_of, set_stage
+from ai4u_edu.recording.frame_cache import FrameCache
+from ai4u_edu.snapshot import AgentState, Snapshot, capture_snapshot, capture_static_scene
 from tests.recording.takes import GO, HOLD, LEFT, RESPAWN, WAIT, driver, field_of, take
 
 
@@ -19,16 +19,16 @@ def lived(name: str, decisions: int) -> tuple[Episode, dict[int, Snapshot]]:
     for number, agent in enumerate(sim.agents):
         drive = RandomDrive(agent)
         drive.restart(number)
-        agent.ledger.remember(240)
+        agent.ledger.keep_history(240)
         skip = agent.brain.skip_frame + number  # each in a rhythm of its own
         agent.use_brain(LocalBrain(controller=drive, skip_frame=skip))
     recorder = Recorder(sim)
     sim.reset(4)
-    stage = set_stage(sim)
-    seen = {0: picture_of(sim, stage)}
+    static_scene = capture_static_scene(sim)
+    seen = {0: capture_snapshot(sim, static_scene)}
     while sim.agents[0].steps < decisions and not sim.agents[0].done:
         sim.tick()
-        seen[sim.world.ticks] = picture_of(sim, stage)
+        seen[sim.world.ticks] = capture_snapshot(sim, static_scene)
     recorder.finish()
     return recorder.episodes[-1], seen
 
@@ -56,19 +56,19 @@ def paid(state: AgentState) -> tuple[object, ...]:
 @pytest.mark.parametrize(("name", "decisions"), [("box_chase", 60), ("tag", 40), ("soccer", 30)])
 def test_every_step_is_as_it_was_seen_live(name: str, decisions: int) -> None:
     episode, seen = lived(name, decisions)
-    reel = Reel(episode, number=3).start()
+    frame_cache = FrameCache(episode, number=3).start()
     record = episode.agents[0]
-    assert reel.picture(len(record), timeout=None) is not None
-    assert (reel.last, reel.ended, reel.problem) == (len(record), True, "")
+    assert frame_cache.snapshot(len(record), timeout=None) is not None
+    assert (frame_cache.last, frame_cache.ended, frame_cache.problem) == (len(record), True, "")
     for step, decision in enumerate(record):
-        past = reel.picture(step)
+        past = frame_cache.snapshot(step)
         assert past is not None
         then, after = seen[decision.begin], seen[decision.end]
         who = "" if len(episode.agents) == 1 else f" of agent {record.id}"
         assert past.past == f"episode 3, step {step + 1} of {len(record)}{who}"
         assert (past.tick, past.time, past.seed) == (then.tick, then.time, then.seed)
         assert past.bodies == then.bodies
-        assert past.stage == then.stage
+        assert past.static_scene == then.static_scene
         assert past.agents[0].brain == then.agents[0].brain
         assert sensed(past.agents[0]) == sensed(then.agents[0])
         assert paid(past.agents[0]) == paid(after.agents[0])
@@ -79,14 +79,14 @@ def test_every_step_is_as_it_was_seen_live(name: str, decisions: int) -> None:
             ended = seen.get(int(theirs.end[now]))
             if ended is not None and theirs.end[now] > theirs.begin[now]:
                 assert paid(past.agents[other]) == paid(ended.agents[other])
-    end, last = reel.picture(len(record)), seen[episode.ticks]
+    end, last = frame_cache.snapshot(len(record)), seen[episode.ticks]
     assert end is not None
     assert end.past == f"episode 3, the end{who}"
     assert end.bodies == last.bodies
     assert sensed(end.agents[0]) == sensed(last.agents[0])
     assert paid(end.agents[0]) == paid(last.agents[0])
     assert end.agents[0].terminated == last.agents[0].terminated
-    reel.stop()
+    frame_cache.stop()
 
 
 def test_who_begins_anew_has_done_nothing_yet() -> None:
@@ -100,14 +100,14 @@ def test_who_begins_anew_has_done_nothing_yet() -> None:
         sim.tick()
     recorder.finish()
     episode = recorder.episodes[-1]
-    reel = Reel(episode, agent="b").start()
+    frame_cache = FrameCache(episode, agent="b").start()
     for step, decision in enumerate(episode.agent("b")):
-        picture = reel.picture(step, timeout=None)
+        picture = frame_cache.snapshot(step, timeout=None)
         assert picture is not None
         assert picture.agents[1].action == decision.action
         assert picture.agents[1].reward_terms == decision.reward_terms
         assert picture.tick == decision.begin
-    reel.stop()
+    frame_cache.stop()
 
 
 def test_who_waits_after_a_restart_is_shown_with_nothing_done() -> None:
@@ -117,26 +117,26 @@ def test_who_waits_after_a_restart_is_shown_with_nothing_done() -> None:
     for _ in range(40):
         sim.tick()
     recorder.finish()
-    reel = Reel(recorder.episodes[-1], agent="a").start()
-    assert reel.picture(reel.last, timeout=None) is not None
+    frame_cache = FrameCache(recorder.episodes[-1], agent="a").start()
+    assert frame_cache.snapshot(frame_cache.last, timeout=None) is not None
     actions = []
-    for step in range(reel.last):
-        picture = reel.picture(step)
+    for step in range(frame_cache.last):
+        picture = frame_cache.snapshot(step)
         assert picture is not None
         actions.append(picture.agents[1].action)
     assert actions[0] == {"move": (1.0, 0.0, 0.0, 0.0)}
     assert actions[3:] == [{}] * (len(actions) - 3)
-    reel.stop()
+    frame_cache.stop()
 
 
 def test_with_little_memory_it_shows_the_same() -> None:
     episode = take("box_chase", decisions=120).episode
-    whole, small = Reel(episode).start(), Reel(episode, largest=100_000).start()
+    whole, small = FrameCache(episode).start(), FrameCache(episode, largest=100_000).start()
     last = len(episode.agents[0])
-    assert small.picture(last, timeout=None) is not None
+    assert small.snapshot(last, timeout=None) is not None
     assert small.stride >= 4
     for step in (37, 36, 35, 2, last, 101, 5, last - 1, 0):
-        one, other = whole.picture(step, timeout=None), small.picture(step, timeout=None)
+        one, other = whole.snapshot(step, timeout=None), small.snapshot(step, timeout=None)
         assert one is not None
         assert other is not None
         assert one.bodies == other.bodies
@@ -149,30 +149,30 @@ def test_with_little_memory_it_shows_the_same() -> None:
 
 def test_what_is_not_ready_is_made_and_can_be_asked_for_again() -> None:
     episode = take("box_chase", decisions=30).episode
-    reel = Reel(episode)
-    assert reel.picture(3) is None
-    reel.start()
-    assert reel.picture(3, timeout=None) is not None
-    reel.stop()
+    frame_cache = FrameCache(episode)
+    assert frame_cache.snapshot(3) is None
+    frame_cache.start()
+    assert frame_cache.snapshot(3, timeout=None) is not None
+    frame_cache.stop()
 
 
 def test_it_ends_where_the_world_was_changed_by_hand() -> None:
     episode = replace(take("box_chase", decisions=30).episode, changed=60)
-    reel = Reel(episode).start()
-    while reel.picture(11, timeout=None) is None:
+    frame_cache = FrameCache(episode).start()
+    while frame_cache.snapshot(11, timeout=None) is None:
         pass
-    assert (reel.last, reel.ended) == (11, False)
-    assert reel.problem == "the world was changed by hand there"
-    reel.stop()
+    assert (frame_cache.last, frame_cache.ended) == (11, False)
+    assert frame_cache.problem == "the world was changed by hand there"
+    frame_cache.stop()
 
 
 def test_what_can_not_be_played_has_no_pictures_and_says_why() -> None:
     episode = take("box_chase", decisions=5).episode
     scene = episode.scene.model_copy(update={"agents": ({"body": "nobody"},)})
-    reel = Reel(replace(episode, scene=scene))
-    reel.start()
-    assert reel.picture(0, timeout=None) is None
-    reel._thread.join()
-    assert reel.last == -1
-    assert "the episode's scene can't be made" in reel.problem
-    reel.stop()
+    frame_cache = FrameCache(replace(episode, scene=scene))
+    frame_cache.start()
+    assert frame_cache.snapshot(0, timeout=None) is None
+    frame_cache._thread.join()
+    assert frame_cache.last == -1
+    assert "the episode's scene can't be made" in frame_cache.problem
+    frame_cache.stop()

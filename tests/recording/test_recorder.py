@@ -23,8 +23,8 @@ from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.base.errors import SetupError
 from ai4u_edu.cli import episodes as episode_commands
 from ai4u_edu.recording import Episode, Recorder, RecordingError, Replay, recorder_into
-from ai4u_edu.recording import episode_builder as tape
-from ai4u_edu.recording.scene_export import scene_of
+from ai4u_edu.recording import episode_builder as builder
+from ai4u_edu.recording.scene_export import export_scene
 from ai4u_edu.runtime.runner import Runner
 from tests.builders import small_sim
 from tests.recording.takes import driver, field_of
@@ -105,7 +105,7 @@ def test_what_is_under_way_can_be_looked_at() -> None:
 
 
 def test_an_episode_that_is_too_long_is_cut(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(tape, "LONGEST", 3000)
+    monkeypatch.setattr(builder, "LONGEST", 3000)
     sim = field_of(driver("a", [], skip_frame=1), driver("b", [], skip_frame=4))
     recorder = Recorder(sim)
     sim.reset(1)
@@ -141,7 +141,7 @@ def test_a_block_that_no_file_can_hold_stops_no_world() -> None:
 def test_the_scene_is_the_one_that_was_built() -> None:
     scene = Scene.load("tag")
     sim = scene.build()
-    portrait = scene_of(sim, scene.description)
+    portrait = export_scene(sim, scene.description)
     assert portrait.model_dump(exclude={"agents"}) == scene.description.model_dump(
         exclude={"agents"}
     )
@@ -256,7 +256,7 @@ def test_what_a_person_changes_is_noticed(change: Callable[[ControlRequestor], N
     episode = recorder.episodes[-1]
     assert episode.changed == 50
     replay = Replay(episode)
-    assert (replay.verdict.exact, replay.verdict.until) == (False, 50)
+    assert (replay.verdict.exact, replay.verdict.exact_until) == (False, 50)
     assert replay.verdict.why == "the world was changed by hand there"
     assert replay.at(9).percept == percepts[8]
     assert len(list(replay.moments())) == 10

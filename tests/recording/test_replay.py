@@ -10,7 +10,7 @@ from ai4u_edu import ControlRequestor, LocalBrain, Percept, ReplayController, Sc
 from ai4u_edu.blocks import Layout
 from ai4u_edu.envs import SceneEnv
 from ai4u_edu.recording import Episode, Recorder, RecordingError, Replay, ghost_of
-from ai4u_edu.recording.checksum import percept_print
+from ai4u_edu.recording.checksum import percept_checksum
 from ai4u_edu.recording.file import decode, encode
 from ai4u_edu.recording.player import Player
 from tests.recording.again import digest
@@ -303,7 +303,7 @@ def test_a_world_that_was_changed_without_telling_is_noticed() -> None:
         sim.step()
     recorder.finish()
     verdict = Replay(recorder.episodes[-1]).verdict
-    assert (verdict.exact, verdict.until) == (False, 24)
+    assert (verdict.exact, verdict.exact_until) == (False, 24)
     assert (
         verdict.why == "agent 'a', decision 8: the bodies were in other places, or moved otherwise"
     )
@@ -324,6 +324,6 @@ def test_a_ghost_has_the_poses_of_the_run() -> None:
 
 def test_texts_count() -> None:
     layout = Layout([], ["one", "other"])
-    assert percept_print(Percept(layout, b"", ("ab", "c"))) != percept_print(
+    assert percept_checksum(Percept(layout, b"", ("ab", "c"))) != percept_checksum(
         Percept(layout, b"", ("a", "bc"))
     )

@@ -148,8 +148,8 @@ def test_the_agent_is_the_scripts_only_while_there_is_one() -> None:
 def test_a_farewell_that_was_lost_keeps_the_bridge_out_of_nothing() -> None:
     with log_room(grace=60.0) as room:
         bridge = Bridge(room.url, port=free_port())
-        first, _ = bridge._connected()
-        second, robot = bridge._connected()  # the world thinks that the first one is still there
+        first, _ = bridge._connect()
+        second, robot = bridge._connect()  # the world thinks that the first one is still there
         assert second.run(robot.sense())["id"] == "a"
         second.run(robot.end())
         for line in (first, second):

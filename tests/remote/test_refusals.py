@@ -250,7 +250,7 @@ def test_a_long_action_is_refused_in_a_short_sentence(numbers: Any) -> None:
     with log_room() as room, connect(room.url, mode="lockstep") as robot:
         percept = robot.sense()
         said = native.Action(percept.episode, percept.step, percept.seq, {"log": numbers})
-        robot._line.run(robot._dialogue._answer(said))
+        robot._connection.run(robot._dialogue._answer(said))
         with pytest.raises((RemoteError, ActionError)) as caught:
             robot.sense()
         assert len(str(caught.value)) < 200

@@ -10,7 +10,7 @@ from websockets.exceptions import ConnectionClosed
 
 from ai4u_edu.remote import LostError, RefusedError, Robot, connect
 from ai4u_edu.remote.dialogue import Dialogue
-from ai4u_edu.remote.steps import Flow, LineLost, Open, Receive, Send, Step
+from ai4u_edu.remote.steps import ConnectionLostError, Flow, Open, Receive, Send, Step
 from ai4u_edu.server.scripts.sockets import PER_SECOND
 from ai4u_edu.wire import native
 from tests.remote.rooms import SECRET, Script, log_of, log_room
@@ -19,7 +19,7 @@ from tests.server.rooms import until
 
 def cut(robot: Robot) -> None:
     """Cuts a robot's connection, without a farewell."""
-    robot._line._there.socket.shutdown(SHUT_RDWR)
+    robot._connection._connected.socket.shutdown(SHUT_RDWR)
 
 
 def test_a_session_goes_on_where_it_was() -> None:
@@ -207,7 +207,7 @@ def test_a_connection_lost_before_the_first_percept_is_taken_up_with_one_hello_o
         greeted(beginning, next(beginning))
         sensing = dialogue.sense()
         assert isinstance(next(sensing), Receive)
-        again = greeted(sensing, sensing.throw(LineLost("cut")))
+        again = greeted(sensing, sensing.throw(ConnectionLostError("cut")))
         assert again == Send(hellos[1])  # and not the first one's, of another session
         assert hellos[0] != hellos[1]
 

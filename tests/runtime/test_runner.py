@@ -27,7 +27,7 @@ from ai4u_edu import (
 from ai4u_edu.base.errors import BlockError, NoDecisionError
 from ai4u_edu.recording import Recorder, Replay
 from ai4u_edu.runtime.runner import Runner
-from ai4u_edu.snapshot import Snapshot, picture_of
+from ai4u_edu.snapshot import Snapshot, capture_snapshot
 from tests.builders import small_sim, small_world
 from tests.server.rooms import free_port, until
 
@@ -58,67 +58,6 @@ def test_it_keeps_the_wall_clock() -> None:
     assert runner.latest.real_time_factor == pytest.approx(4.0, rel=0.5)
 
 
-def test_who_draws_gives_way_to_a_tick(monkeypatch: pytest.MonkeyPatch) -> None:
-    runner = Runner(Scene.load("box_chase").build(), seed=1)
-    is_in_it, goes_on, order = threading.Event(), threading.Event(), []
-    tick = runner.sim.tick
-
-    def slow_tick() -> None:
-        is_in_it.set()
-        goes_on.wait(5)
-        tick()
-        order.append("tick")
-
-    monkeypatch.setattr(runner.sim, "tick", slow_tick)
-    monkeypatch.setattr("ai4u_edu.runtime.clock.MAX_YIELD_S", 5.0)
-    ticking = threading.Thread(target=runner._tick)
-    ticking.start()
-    assert is_in_it.wait(5)
-
-    def draw() -> None:
-        runner.give_way()
-        order.append("picture")
-
-    drawing = threading.Thread(target=draw)
-    drawing.start()
-    drawing.join(0.1)
-    assert not order
-    goes_on.set()
-    ticking.join()
-    drawing.join()
-    assert order == ["tick", "picture"]
-
-
-@pytest.mark.parametrize(("before", "waits"), [(0.002, False), (0.0002, True), (-0.002, True)])
-def test_who_draws_gives_way_to_a_runner_that_is_about_to_wake_up(
-    monkeypatch: pytest.MonkeyPatch, before: float, *, waits: bool
-) -> None:
-    monkeypatch.setattr("ai4u_edu.runtime.clock.MAX_YIELD_S", 5.0)
-    runner = Runner(Scene.load("box_chase").build(), seed=1, clock=lambda: 100.0)
-    runner._schedule.due, runner._schedule.is_asleep = 100.0 + before, True
-    drawing = threading.Thread(target=runner.give_way)
-    drawing.start()
-    drawing.join(0.1 if waits else 5)
-    assert drawing.is_alive() == waits
-    runner._schedule.is_asleep = False
-    drawing.join(5)
-    assert not drawing.is_alive()
-
-
-@pytest.mark.parametrize(("time_scale", "late"), [(1.0, 1.0), (float("inf"), 0.0)])
-def test_who_draws_does_not_wait_for_a_world_that_never_rests(
-    time_scale: float, late: float
-) -> None:
-    class Barred:
-        def acquire(self, timeout: float) -> bool:
-            raise AssertionError("it waits")
-
-    runner = Runner(Scene.load("box_chase").build(), seed=1, time_scale=time_scale)
-    runner._schedule.lateness = late
-    runner._schedule.is_ticking = Barred()  # type: ignore[assignment]
-    runner.give_way()
-
-
 def test_at_one_go_a_decision_is_what_it_is_tick_by_tick() -> None:
     seen = []
     for leaps in (False, True):
@@ -126,7 +65,7 @@ def test_at_one_go_a_decision_is_what_it_is_tick_by_tick() -> None:
         runner = Runner(sim, seed=3)
         while sim.agents[0].steps < 20:
             runner._tick(leaps=leaps)
-        state = picture_of(sim)
+        state = capture_snapshot(sim)
         seen.append((state.tick, state.bodies, state.agents[0].percept, state.agents[0].reward))
         assert runner._schedule.ticked == sim.world.ticks == 100
     assert seen[0] == seen[1]
@@ -273,7 +212,7 @@ def test_snapshots_are_frozen_and_replaced(runner: Runner) -> None:
     first = runner.latest
     later = runner.wait(first, 5.0)
     assert later is not first
-    assert later.stage is first.stage
+    assert later.static_scene is first.static_scene
     with pytest.raises(AttributeError):
         first.tick = 3  # type: ignore[misc]  # that it can't be set is what is tested
     percept = first.agents[0].percept
@@ -306,7 +245,7 @@ def test_another_world_takes_this_ones_place(runner: Runner) -> None:
     runner.replace_sim(other, seed=7).result(5)
     assert runner.sim is other
     assert (runner.latest.seed, runner.latest.tick, runner.latest.paused) == (7, 0, True)
-    assert {body.name for body in runner.latest.stage.bodies} == set(other.world.bodies)
+    assert {body.name for body in runner.latest.static_scene.bodies} == set(other.world.bodies)
     assert closed == ["old"]
     assert not before.agents[0].keyboard.held()
     runner.resume().result(5)
@@ -394,7 +333,12 @@ def test_the_past_is_seen_and_changes_nothing(runner: Runner) -> None:
     past = replace(live, past="step 1 of 3", tick=-7, paused=False)
     runner.show_past(past).result(5)
     seen = runner.latest
-    assert (seen.past, seen.tick, seen.paused, seen.stage) == ("step 1 of 3", -7, True, live.stage)
+    assert (seen.past, seen.tick, seen.paused, seen.static_scene) == (
+        "step 1 of 3",
+        -7,
+        True,
+        live.static_scene,
+    )
     time.sleep(0.25)
     assert runner.latest is seen  # nobody has to draw it again
     runner.show_past(None).result(5)
@@ -656,7 +600,6 @@ def test_a_block_that_does_not_answer_is_named(monkeypatch: pytest.MonkeyPatch) 
         assert (stall.block, stall.agent) == ("Sensor Stuck 'stuck'", "0")
         assert stall.where.startswith("test_runner.py, line ")
         assert str(stall).startswith("Sensor Stuck 'stuck' of agent '0' has not answered for ")
-        runner.give_way()  # nobody waits for a tick that does not end
         waiting = runner.pause()
         assert not waiting.done()
 
@@ -725,8 +668,7 @@ def test_a_long_pause_between_two_ticks_keeps_no_command_waiting(ask: str) -> No
     sim = ControlRequestor(small_world(), [BasicAgent(body="robot", brains=[Silent()])])
     runner = Runner(sim, time_scale=0.0001)  # a tick takes minutes
     runner.start()
-    while not runner._schedule.is_asleep:
-        time.sleep(0.001)
+    wait_for(runner, 1)
     asked = runner.scale_time(1.0) if ask == "scale" else getattr(runner, ask)()
     asked.result(5)
     if ask == "scale":

@@ -138,19 +138,19 @@ def test_a_text_that_is_written_in_an_odd_way_loses_no_data() -> None:
 
 def test_comments_survive_the_page() -> None:
     shop = Shop(Scene.loads(TEXT))
-    assert shop.workshop.text() == TEXT
-    shop.done(shop.workshop.add_body({"name": "ball", "position": [0, 3]}))
-    shop.done(shop.workshop.move_body("box", 4, 2))
-    shop.done(shop.workshop.change_block("0", ("actuators", 0), {"move_amount": 3}))
-    text = shop.workshop.text()
+    assert shop.editor.text() == TEXT
+    shop.done(shop.editor.add_body({"name": "ball", "position": [0, 3]}))
+    shop.done(shop.editor.move_body("box", 4, 2))
+    shop.done(shop.editor.change_block("0", ("actuators", 0), {"move_amount": 3}))
+    text = shop.editor.text()
     assert comments_in(text) == COMMENTS
-    assert Scene.loads(text) == shop.workshop.scene
-    shop.done(shop.workshop.remove_body("ball"))
-    shop.done(shop.workshop.load(text.replace("small", "other")))
-    assert comments_in(shop.workshop.text()) == COMMENTS
+    assert Scene.loads(text) == shop.editor.scene
+    shop.done(shop.editor.remove_body("ball"))
+    shop.done(shop.editor.load(text.replace("small", "other")))
+    assert comments_in(shop.editor.text()) == COMMENTS
     for _ in range(5):
-        shop.done(shop.workshop.undo())
-    assert shop.workshop.text() == TEXT
+        shop.done(shop.editor.undo())
+    assert shop.editor.text() == TEXT
 
 
 def test_a_scene_that_was_made_in_python_is_written_plainly() -> None:

@@ -9,7 +9,7 @@ import pytest
 from ai4u_edu import Scene
 from ai4u_edu.base.errors import SceneError
 from ai4u_edu.scenes.serialization import OWN
-from ai4u_edu.snapshot import body_states, set_stage
+from ai4u_edu.snapshot import capture_bodies, capture_static_scene
 
 GOOD = """
 name: small
@@ -250,35 +250,35 @@ def test_what_is_random_comes_back_from_the_file() -> None:
     for seed in (None, 5):
         here.reset(seed)
         there.reset(seed)
-        assert set_stage(here) == set_stage(there)
-        assert body_states(here) == body_states(there)
+        assert capture_static_scene(here) == capture_static_scene(there)
+        assert capture_bodies(here) == capture_bodies(there)
     assert scene.dumps() == again.dumps(), "what was drawn is in no file"
 
 
 def test_a_built_scene_is_the_one_of_its_seed() -> None:
     built = Scene.loads(VARIED).build(seed=3)
-    before = set_stage(built), body_states(built)
+    before = capture_static_scene(built), capture_bodies(built)
     built.reset(3)
-    assert (set_stage(built), body_states(built)) == before
+    assert (capture_static_scene(built), capture_bodies(built)) == before
 
 
 def test_the_stage_is_another_one_in_each_episode() -> None:
     sim = Scene.loads(VARIED).build()
-    stages = []
+    static_scenes = []
     for seed in range(5):
         sim.reset(seed)
-        stages.append(set_stage(sim))
-        robot, wall = stages[-1].bodies
+        static_scenes.append(capture_static_scene(sim))
+        robot, wall = static_scenes[-1].bodies
         assert robot.position == sim.world["robot"].position
         assert wall is sim.world["wall"].description
     for each in (
-        {stage.bodies[0].position for stage in stages},
-        {stage.bodies[0].heading_deg for stage in stages},
-        {stage.bodies[0].shape for stage in stages},
+        {static_scene.bodies[0].position for static_scene in static_scenes},
+        {static_scene.bodies[0].heading_deg for static_scene in static_scenes},
+        {static_scene.bodies[0].shape for static_scene in static_scenes},
     ):
-        assert len(each) == len(stages)
-    assert {stage.areas[0].position for stage in stages} == {(-3, -3), (3, 3)}
-    assert len({stage.bounds for stage in stages}) == 1
+        assert len(each) == len(static_scenes)
+    assert {static_scene.areas[0].position for static_scene in static_scenes} == {(-3, -3), (3, 3)}
+    assert len({static_scene.bounds for static_scene in static_scenes}) == 1
 
 
 def test_a_respawn_wins_over_chance() -> None:

@@ -5,7 +5,7 @@ import pytest
 from ai4u_edu import Scene
 from ai4u_edu.base.errors import SceneError
 from ai4u_edu.check import check_scene
-from ai4u_edu.scenes.serialization import PlainError
+from ai4u_edu.scenes.serialization import PlainDataError
 
 SETUP = """
 name: small
@@ -95,7 +95,7 @@ def test_a_success_that_nothing_pays_is_a_fault(success: str, hint: str) -> None
     )
     scene = Scene.loads(SETUP)
     scene.description = scene.description.model_copy(update={"success": success})
-    with pytest.raises(PlainError, match="success: no reward function has the name"):
+    with pytest.raises(PlainDataError, match="success: no reward function has the name"):
         scene.build()
     report = check_scene(scene, decisions=2)
     assert not report.ok

@@ -11,7 +11,7 @@ from ruamel.yaml import YAML
 
 from ai4u_edu.base.errors import SceneError
 from ai4u_edu.scenes import Scene
-from ai4u_edu.scenes.yaml.file import MAX_SIZE, YamlFile
+from ai4u_edu.scenes.yaml.file import MAX_SCENE_CHARS, YamlFile
 from ai4u_edu.scenes.yaml.tree import IS_QUICK, read_tree
 
 PLAIN = (
@@ -54,7 +54,7 @@ def test_it_is_read_in_c() -> None:
 
 
 def test_a_file_of_the_largest_size_has_all_its_lines() -> None:
-    entries = MAX_SIZE // 25
+    entries = MAX_SCENE_CHARS // 25
     text = "bodies:\n" + "".join(f"  - name: body {number}\n" for number in range(entries))
     file = YamlFile(text, "x.yaml")
     assert file.data["bodies"][-1] == {"name": f"body {entries - 1}"}

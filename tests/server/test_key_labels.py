@@ -11,7 +11,7 @@ from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.server.bindings import takes_a_stick
 from ai4u_edu.server.human_override import RESTART, Hands
 from ai4u_edu.server.key_labels import captions, useful_keys
-from ai4u_edu.snapshot import BodyState, body_states
+from ai4u_edu.snapshot import BodyState, capture_bodies
 
 PATIENCE = 6
 """Decisions."""
@@ -38,7 +38,7 @@ def path(scene: str, agent_id: str, *held: str) -> tuple[BodyState, ...]:
     for _ in range(PATIENCE):
         agent.keyboard.hold(held)
         sim.step(agent)
-        states += [body for body in body_states(sim) if body.name == agent.body_name]
+        states += [body for body in capture_bodies(sim) if body.name == agent.body_name]
     return tuple(states)
 
 

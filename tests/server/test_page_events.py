@@ -9,7 +9,7 @@ from ai4u_edu import Scene
 from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.server.key_labels import captions, useful_keys
 from ai4u_edu.server.page_events import outcome
-from ai4u_edu.snapshot import Snapshot, picture_of
+from ai4u_edu.snapshot import Snapshot, capture_snapshot
 from tests.builders import small_sim
 
 
@@ -21,7 +21,7 @@ def sim_of(scene: str) -> ControlRequestor:
 
 def picture(scene: str, changes: dict[str, dict[str, Any]]) -> Snapshot:
     """A scene in which some agents are as said."""
-    whole = picture_of(sim_of(scene))
+    whole = capture_snapshot(sim_of(scene))
     agents = (agent._replace(**changes.get(agent.id, {})) for agent in whole.agents)
     return replace(whole, agents=tuple(agents))
 
@@ -54,7 +54,7 @@ def test_alone(ended: dict[str, Any], word: str) -> None:
 
 def test_where_no_success_is_named_what_is_paid_at_the_end_is_one() -> None:
     whole = picture("box_chase", {})
-    nameless = replace(whole, stage=replace(whole.stage, success=""))
+    nameless = replace(whole, static_scene=replace(whole.static_scene, success=""))
     agent = whole.agents[0]._replace(terminated=True, episode_reward=3.0)
     assert outcome(replace(nameless, agents=(agent,)), agent) == "goal"
 
@@ -88,7 +88,7 @@ def test_a_runner_that_is_caught_did_not_fall() -> None:
         sim.step(chaser)
     assert runner.terminated
     assert runner.body.fallen
-    whole = picture_of(sim)
+    whole = capture_snapshot(sim)
     caught = next(agent for agent in whole.agents if agent.id == "runner_1")
     assert not caught.fell
     assert outcome(whole, caught) == "lost"
@@ -98,7 +98,7 @@ def test_who_is_taken_away_for_no_reward_did_not_fall_either() -> None:
     sim = small_sim()
     sim.world["robot"].leave()
     sim.step()
-    (state,) = picture_of(sim).agents
+    (state,) = capture_snapshot(sim).agents
     assert (state.terminated, state.fell) == (True, False)
 
 
@@ -110,7 +110,7 @@ def test_who_drives_over_the_edge_fell() -> None:
         sim.step()
     for _ in range(120):
         sim.tick()
-    assert picture_of(sim).agents[0].fell
+    assert capture_snapshot(sim).agents[0].fell
 
 
 def test_who_won_and_rolls_over_the_edge_later_did_not_end_by_that() -> None:
@@ -123,7 +123,7 @@ def test_who_won_and_rolls_over_the_edge_later_did_not_end_by_that() -> None:
     for _ in range(120):
         sim.tick()
     assert agent.body.fallen
-    (state,) = picture_of(sim).agents
+    (state,) = capture_snapshot(sim).agents
     assert (state.succeeded, state.fell) == (True, False)
 
 

@@ -165,7 +165,7 @@ def test_nothing_is_made_for_those_who_have_gone(
         told.append("begun")
         try:
             while True:
-                for _ in replay.pictures():
+                for _ in replay.snapshots():
                     pass
         finally:
             told.append("ended")

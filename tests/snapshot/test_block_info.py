@@ -19,7 +19,7 @@ from ai4u_edu import (
     Sensor,
     World,
 )
-from ai4u_edu.snapshot import picture_of
+from ai4u_edu.snapshot import capture_snapshot
 
 SENSORS: list[Callable[[], Sensor]] = [
     lambda: LinearRayCastingSensor(group_code={"box": 1}, number_of_rays=5, perception_key="eyes"),
@@ -52,7 +52,7 @@ def test_rays_that_are_looked_at_later_are_those_of_their_time(
     at_once, later = [], []
     for _ in range(3):
         sim.step()
-        seen = picture_of(sim).agents[0].rays
+        seen = capture_snapshot(sim).agents[0].rays
         later.append(seen)
         at_once.append(sim.agents[0].sensors[0].picture())  # type: ignore[attr-defined]
     for early, late in zip(at_once, later, strict=True):
@@ -69,7 +69,7 @@ def test_rays_that_are_looked_at_later_are_those_of_their_time(
 @pytest.mark.parametrize("sensor", SENSORS)
 def test_a_picture_of_the_past_does_not_hold_on_to_the_world(sensor: Callable[[], Sensor]) -> None:
     sim = driver(sensor())
-    seen, world = picture_of(sim).agents[0].rays, ref(sim.world)
+    seen, world = capture_snapshot(sim).agents[0].rays, ref(sim.world)
     del sim
     gc.collect()
     assert world() is None

@@ -1,7 +1,7 @@
 from ai4u_edu.base.colors import rgb
-from ai4u_edu.snapshot.theme import WALL, body_colour, group_colours, mixed
+from ai4u_edu.snapshot.theme import WALL, body_colour, group_colours, mix_colours
 from ai4u_edu.world import BodyDescription
-from tests.viewer.worlds import busy_world, stage_of
+from tests.viewer.worlds import busy_world, static_scene_of
 
 
 def test_a_body_without_a_colour_gets_that_of_its_role() -> None:
@@ -18,7 +18,7 @@ def test_a_described_colour_wins() -> None:
 
 
 def test_a_group_has_the_colour_of_its_first_member() -> None:
-    colours = group_colours(stage_of(busy_world()))
+    colours = group_colours(static_scene_of(busy_world()))
     assert colours["target"] == rgb("orange")
     assert colours["wall"] == WALL
     assert colours["agent"] == rgb("blue")
@@ -26,5 +26,5 @@ def test_a_group_has_the_colour_of_its_first_member() -> None:
 
 
 def test_mixing_ends_at_both_colours() -> None:
-    assert mixed((10, 20, 30), (200, 100, 0), 0.0) == (10, 20, 30)
-    assert mixed((10, 20, 30), (200, 100, 0), 1.0) == (200, 100, 0)
+    assert mix_colours((10, 20, 30), (200, 100, 0), 0.0) == (10, 20, 30)
+    assert mix_colours((10, 20, 30), (200, 100, 0), 1.0) == (200, 100, 0)

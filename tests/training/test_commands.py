@@ -210,7 +210,7 @@ def test_watching_hands_the_policy_on(tmp_path: Path) -> None:
     watch = Watch(done.run, port=0, open_page=False)
     watch.init_callback(model)
     shutil.copy(done.run.last, tmp_path / MODEL)
-    watch.hand_on()
+    watch.write_weights()
     with subprocess.Popen(watch.command(), stderr=subprocess.PIPE, text=True) as page:
         assert page.stderr is not None
         try:
@@ -223,7 +223,7 @@ def test_watching_hands_the_policy_on(tmp_path: Path) -> None:
             weights = model.policy.action_net
             weights.weight.data.zero_()
             weights.bias.data[:] = weights.bias.new_tensor([0.0, 1.0, 0.0, 0.0])
-            watch.hand_on()
+            watch.write_weights()
             for _ in range(100):
                 time.sleep(0.1)
                 after = httpx.get(address, timeout=20).json()["agents"][0]
@@ -248,7 +248,7 @@ def test_watching_takes_another_port_where_that_one_is_taken(tmp_path: Path) -> 
         watch = Watch(done.run, port=port, open_page=False)
         watch.init_callback(load_model("ppo", done.run.last))
         shutil.copy(done.run.last, tmp_path / MODEL)
-        watch.hand_on()
+        watch.write_weights()
         with subprocess.Popen(watch.command(), stderr=subprocess.PIPE, text=True) as page:
             assert page.stderr is not None
             try:

@@ -12,7 +12,7 @@ pytest.importorskip("stable_baselines3")
 from ai4u_edu import Percept, Scene, World
 from ai4u_edu.blocks.brains.network import Network
 from ai4u_edu.training import evaluate
-from ai4u_edu.training.dagger import SEEDS, Lessons, imitate
+from ai4u_edu.training.dagger import FIRST_SEED, TeacherData, imitate
 from ai4u_edu.training.settings import DaggerSettings
 from tests.scenes.solvers import solver_of
 from tests.training.teachers import OWN
@@ -59,7 +59,7 @@ def test_the_same_seed_gives_the_same_network_and_no_seed_of_an_evaluation(
         for number, seed in enumerate((0, 0, 1))
     ]
     assert files[0] == files[1] != files[2]
-    assert min(given) >= SEEDS
+    assert min(given) >= FIRST_SEED
 
 
 def test_the_teacher_speaks_while_the_pupil_drives() -> None:
@@ -77,7 +77,7 @@ def test_the_teacher_speaks_while_the_pupil_drives() -> None:
         .dumps()
         .replace("max_steps_per_episode: 3000", "max_steps_per_episode: 200")
     )
-    lessons = Lessons(lambda: ahead, scene, seed=0)
+    lessons = TeacherData(lambda: ahead, scene, seed=0)
     for _ in range(6):
         lessons.episode(Idle())  # type: ignore[arg-type]
     assert (np.stack(lessons.said) == [1, 0, 0, 0]).all()

@@ -11,7 +11,7 @@ from ai4u_edu import BasicAgent, Command, LocalBrain, Percept, Scene
 from ai4u_edu.base.errors import AI4UError, SetupError
 from ai4u_edu.cli.main import app
 from ai4u_edu.training.episode import Episode, wilson
-from ai4u_edu.training.evaluating import LONGEST, Evaluation, evaluate
+from ai4u_edu.training.evaluating import DEFAULT_MAX_DECISIONS, Evaluation, evaluate
 from ai4u_edu.training.plots import plot_curves, plot_evaluations
 from ai4u_edu.training.policies import Entrant, entrant
 
@@ -119,7 +119,7 @@ def test_a_scene_without_a_limit_or_a_goal() -> None:
         "skip_frame: 11", "skip_frame: 0"
     )
     told = evaluate(driver(lambda _percept: {"move": [0, 0, 0, 0]}), Scene.loads(text), [1])
-    assert told.lengths == [LONGEST]
+    assert told.lengths == [DEFAULT_MAX_DECISIONS]
     assert told.success is None
     assert told.interval is None
 

@@ -7,7 +7,6 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from rich.console import Console
 
 pytest.importorskip("torch")
 pytest.importorskip("stable_baselines3")
@@ -16,7 +15,7 @@ from ai4u_edu import Controller, Percept, Scene
 from ai4u_edu.base.errors import SetupError
 from ai4u_edu.training import clone, demonstrate, evaluate, export, train
 from ai4u_edu.training.learning import Trained
-from ai4u_edu.training.progress_bar import Line, NotebookMeter, Silence, counted, meter
+from ai4u_edu.training.progress_bar import ProgressBar, counted
 from tests.training.small import SMALL
 from tests.training.test_evaluate import ROAD
 
@@ -124,47 +123,33 @@ def test_show_and_clone(tmp_path: Path) -> None:
     assert by_file.decisions == len(shown[0].agents[0])
 
 
-def test_a_meter_for_every_place() -> None:
-    assert isinstance(meter(3, "steps", quiet=True), Silence)
-    told = io.StringIO()
-    bar = meter(3, "steps", console=Console(file=told, force_terminal=True, width=120))
-    assert isinstance(bar, Line)
+class Terminal(io.StringIO):
+    """A stream that says that it is a terminal."""
+
+    def isatty(self) -> bool:
+        return True
+
+
+def test_a_bar_has_count_text_and_lines_above_it() -> None:
+    told = Terminal()
+    bar = ProgressBar(3, "steps", file=told)
     bar.note("so far")
     bar.show(2, "fast")
     bar.close()
-    assert "so far" in told.getvalue()
-    assert "2/3 steps fast" in told.getvalue()
-    notebook = Console(file=told, force_jupyter=True)
-    assert isinstance(meter(3, "steps", console=notebook), NotebookMeter)
-    # what does not stay has no place in a log
-    assert isinstance(meter(3, "steps", console=Console(file=told), keep=False), Silence)
+    assert "so far\n" in told.getvalue()
+    assert "2/3 steps, fast" in told.getvalue()
 
 
-def test_the_meter_of_a_notebook_is_one_output(monkeypatch: pytest.MonkeyPatch) -> None:
-    display = pytest.importorskip("IPython.display")
-    shown: list[Any] = []
-
-    class Handle:
-        def update(self, cell: Any) -> None:
-            shown.append(cell)
-
-    def show(cell: Any, *, display_id: bool) -> Handle:
-        assert display_id
-        assert not shown
-        shown.append(cell)
-        return Handle()
-
-    monkeypatch.setattr(display, "display", show)
-    bar = NotebookMeter(100, "steps", keep=True)
-    for done in range(0, 101, 10):
-        bar.note(f"<{done}>")
-        bar.show(done, "reward 1")
-    bar.close()
-    lines = repr(shown[-1]).splitlines()
-    assert lines[-1].startswith("100/100 steps  reward 1  0:0")
-    assert lines[:-1] == [f"<{done}>" for done in range(50, 101, 10)]  # the last few
-    assert "value='100'" in shown[-1]._repr_html_()
-    assert "&lt;100&gt;" in shown[-1]._repr_html_()
+def test_a_quiet_bar_and_one_that_could_not_be_removed_write_nothing() -> None:
+    log = io.StringIO()
+    for bar in (
+        ProgressBar(3, "steps", file=log, quiet=True),
+        ProgressBar(3, "steps", file=log, keep=False),
+    ):
+        bar.note("so far")
+        bar.show(3, "fast")
+        bar.close()
+    assert log.getvalue() == ""
 
 
 def test_what_is_counted_comes_through() -> None:

@@ -6,7 +6,7 @@ from ai4u_edu import Scene, zoo
 from ai4u_edu.blocks.brains.network import Network
 from ai4u_edu.training.evaluating import evaluate
 from ai4u_edu.training.policies import entrant
-from ai4u_edu.training.zoo import LARGEST, WANTED
+from ai4u_edu.training.zoo import MAX_NETWORK_BYTES, MIN_SUCCESS_SHARE
 
 NAMES = zoo.names()
 
@@ -18,7 +18,7 @@ def test_the_first_scenes_have_one() -> None:
 
 @pytest.mark.parametrize("name", NAMES)
 def test_it_is_small_and_says_where_it_learned(name: str) -> None:
-    assert zoo.network_of(name).stat().st_size <= LARGEST
+    assert zoo.network_of(name).stat().st_size <= MAX_NETWORK_BYTES
     about = Network(zoo.network_of(name)).about
     assert about["scene"] == name
     assert about["steps"] > 0
@@ -35,7 +35,7 @@ def row(name: str) -> list[str]:
 def test_it_still_drives_as_the_readme_says(name: str) -> None:
     """On fewer seeds than when it was made: a change of the scene or the physics shows here."""
     said = row(name)[4]
-    assert said == "-" or float(said.rstrip("%")) >= 100 * WANTED
+    assert said == "-" or float(said.rstrip("%")) >= 100 * MIN_SUCCESS_SHARE
     told = evaluate(entrant(f"zoo:{name}"), Scene.load(name), range(200, 220))
     if told.success is None:
         assert said == "-"

@@ -37,7 +37,7 @@ def test_the_arrow_turns_with_the_body(viewer: Viewer) -> None:
     sim.agents[0].body.move_to(1.0, 0.0, heading=np.pi / 2)
     runner._tick()
     actions = Actions(viewer.server)
-    actions.build(runner.latest.stage)
+    actions.build(runner.latest.static_scene)
     actions.draw(runner.latest)
     assert actions._lines is not None
     shaft = actions._lines.points[0]
@@ -48,7 +48,7 @@ def test_the_arrow_turns_with_the_body(viewer: Viewer) -> None:
 def test_other_actions_are_not_drawn(viewer: Viewer) -> None:
     runner = Runner(busy_sim(), seed=1)
     actions = Actions(viewer.server)
-    actions.build(runner.latest.stage)
+    actions.build(runner.latest.static_scene)
     actions.draw(runner.latest)
     assert actions._lines is not None
     assert len(actions._lines.points) == 1  # the stroke that can't be seen

@@ -134,8 +134,10 @@ def test_other_agents_are_looked_at_as_soon_as_they_are_there(
         shown(viewer)
         (viewer_client,) = viewer._viewer_clients.values()
         (tab,) = tabs_of(viewer, AgentTab)
-        stage = replace(runner.latest.stage, agent_of={"robot": "7"})
-        viewer._draw(replace(runner.latest, stage=stage))  # the agents of before are no error
+        static_scene = replace(runner.latest.static_scene, agent_of={"robot": "7"})
+        viewer._draw(
+            replace(runner.latest, static_scene=static_scene)
+        )  # the agents of before are no error
         assert viewer_client.agent == "7"
         assert tab.list.options == ("Agent 7: robot",)
 

@@ -18,7 +18,7 @@ from tests.viewer.pages import Page, page, seen, shown, tabs_of, until
 
 @pytest.fixture
 def viewer(shop: Shop) -> Iterator[Viewer]:
-    viewer = Viewer(shop.runner, workshop=shop.workshop)
+    viewer = Viewer(shop.runner, editor=shop.editor)
     yield viewer
     viewer.stop()
 
@@ -84,7 +84,7 @@ def test_what_is_wrong_stands_beside_its_field(viewer: Viewer, shop: Shop) -> No
         for name, complaint in form._complaints.items():
             place = [field.name for field in form.fields].index(name)
             assert complaint.order == place + 0.5
-        assert shop.workshop.can_undo == ""
+        assert shop.editor.undo_label == ""
         applied(viewer, here, tab, noise="0.1", delay=0)
         seen(viewer, lambda: not form._complaints)
         assert "it applies" in form._told.content
@@ -131,12 +131,12 @@ def test_a_controller_has_no_place_in_a_list(
         here.change(tab.kind, "Brains")
         seen(viewer, lambda: "1.controller ReplayController" in tab.block.options)
         chosen(viewer, here, tab, "1.controller ReplayController")
-        before = shop.workshop.state
+        before = shop.editor.state
         for word in tab.deeds.options:
             here.change(tab.deeds, word)
         here.change(tab.kind, "Rewards")  # after it, those were heard
         seen(viewer, lambda: "1 TouchRewardFunc" in tab.block.options)
-        assert shop.workshop.state == before
+        assert shop.editor.state == before
         gc.collect()
         assert caplog.records == []
 
@@ -158,7 +158,7 @@ def test_a_new_block_is_added_and_looked_at(viewer: Viewer, shop: Shop) -> None:
 def test_a_page_can_send_what_it_likes(viewer: Viewer, shop: Shop) -> None:
     with page(viewer) as here:
         tab = tab_of(viewer)
-        before = shop.workshop.state
+        before = shop.editor.state
         for handle in (tab.block, tab.new, tab.driver, tab.kind, tab.changes, tab.deeds):
             here.change(handle, "nonsense")
         here.change(tab.add, True)
@@ -168,7 +168,7 @@ def test_a_page_can_send_what_it_likes(viewer: Viewer, shop: Shop) -> None:
         seen(viewer, lambda: "noise" in form._complaints)
         assert "&lt;script&gt;" in form._complaints["noise"].content
         assert form.boxes["target"].value == "box"
-        assert shop.workshop.state == before
+        assert shop.editor.state == before
 
 
 def test_two_pages_have_a_form_each_and_see_each_others_changes(viewer: Viewer, shop: Shop) -> None:
@@ -190,7 +190,7 @@ def test_another_scene_has_other_lists(viewer: Viewer, shop: Shop) -> None:
         other = "title: Another one\n" + TEXT.replace(
             "BearingSensor, target: box, stacked_observations: 3", "HeadingSensor"
         )
-        shop.workshop.load(other).result(5)
+        shop.editor.load(other).result(5)
         seen(viewer, lambda: "1 HeadingSensor" in tab.block.options)
         assert viewer._title == "Another one"
         seen(viewer, lambda: tab._form is None or tab._form._block["type"] == "HeadingSensor")
@@ -198,7 +198,7 @@ def test_another_scene_has_other_lists(viewer: Viewer, shop: Shop) -> None:
 
 def test_what_was_left_is_offered(viewer: Viewer, shop: Shop, tmp_path: Any) -> None:
     text = TEXT.replace("position: [4, 0]", "position: [3, 3]")
-    shop.workshop.unsaved = Unsaved(tmp_path / "x", text, None, 0.0)
+    shop.editor.unsaved = Unsaved(tmp_path / "x", text, None, 0.0)
     with page(viewer) as here:
         tab = tab_of(viewer)
         assert tab._offer.visible

@@ -6,7 +6,6 @@ import re
 import time
 from collections.abc import Iterator
 from contextlib import ExitStack
-from threading import Event
 from typing import Any
 
 import msgspec
@@ -126,31 +125,6 @@ def test_it_fits_the_viser_that_is_there(server: LocalServer) -> None:
     ours, theirs = (inspect.signature(f) for f in (fan_out._produce, fan_out._viser_does))
     assert list(ours.parameters) == list(theirs.parameters)
     assert "_message_producer" in inspect.getsource(_infra.WebsockServer)
-
-
-def test_what_has_to_be_on_time_goes_before() -> None:
-    may_go = Event()
-    may_go.set()
-
-    def give_way() -> None:
-        may_go.wait(5)
-
-    server = LocalServer("AI4U Edu", give_way)
-    try:
-        with client(server) as page:
-            page.send(CAMERA)
-            until(lambda: len(server.get_clients()) == 1)
-            (mine,) = server.get_clients().values()
-            for guis, mark in ((server, "all"), (mine, "one")):
-                until(lambda: not said(page))
-                may_go.clear()
-                guis.gui.add_markdown(f"<{mark}>")
-                assert not said(page)
-                may_go.set()
-                frame_with(page, f"<{mark}>")
-    finally:
-        may_go.set()
-        server.stop()
 
 
 def test_with_another_viser_all_goes_visers_way(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -327,12 +301,8 @@ def test_nothing_that_goes_wrong_while_sending_ends_it(
     with client(server) as page, client(server) as other:
         out = settled(server, 2)
         with monkeypatch.context() as patched:
-            patched.setattr(out, "give_way", fail)
-            server.gui.add_markdown("<first>")
-            server.gui.add_markdown("<second>")
-        with monkeypatch.context() as patched:
             patched.setattr(fan_out, "_plain", fail)
-            server.gui.add_markdown("<third>")
+            server.gui.add_markdown("<first>")
             server.flush()
         server.gui.add_markdown("<last>")
         frame_with(page, "<last>")

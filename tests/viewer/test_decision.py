@@ -5,9 +5,9 @@ from dataclasses import replace
 
 import pytest
 
-from ai4u_edu.agent.cycle import Phase
+from ai4u_edu.agent.decision_cycle import Phase
 from ai4u_edu.runtime.runner import Runner
-from ai4u_edu.snapshot import picture_of
+from ai4u_edu.snapshot import capture_snapshot
 from ai4u_edu.viewer.panel.decision import MOST_TICKS, decision
 from tests.builders import small_sim
 
@@ -65,8 +65,8 @@ def test_a_snapshot_knows_how_far_each_agent_is(repeats: bool) -> None:
     sim = small_sim(skip_frame=3)
     sim.agents[0].brain.repeat_action = repeats
     sim.reset(1)
-    seen = [picture_of(sim).agents[0].phase]
+    seen = [capture_snapshot(sim).agents[0].phase]
     for _ in range(6):
         sim.tick()
-        seen.append(picture_of(sim).agents[0].phase)
+        seen.append(capture_snapshot(sim).agents[0].phase)
     assert seen == [Phase(tick, 4, repeats) for tick in (0, 1, 2, 3, 4, 1, 2)]

@@ -10,14 +10,14 @@ from ai4u_edu.viewer.scene.geometry import (
     band,
     cap,
     circle,
+    flat_mesh,
     grow,
     half_width,
-    joined,
+    join_meshes,
     prism,
+    rotate,
     segments,
-    sheet,
-    soft,
-    turn,
+    soft_shadow,
 )
 
 OUTLINES = {
@@ -71,7 +71,7 @@ def test_from_above_a_prism_covers_its_outline() -> None:
 
 
 def test_a_ring_has_a_hole() -> None:
-    ring = sheet(circle(2.0, corners=96), circle(1.0, corners=96))
+    ring = flat_mesh(circle(2.0, corners=96), circle(1.0, corners=96))
     assert area(ring) == pytest.approx(math.pi * (4 - 1), rel=0.01)
     assert (normals(ring)[:, 2] > 0).all()
     assert np.linalg.norm(ring.vertices[:, :2], axis=1).min() == pytest.approx(1.0)
@@ -95,7 +95,7 @@ def test_half_the_narrowest_width(name: str, expected: float) -> None:
 
 
 def test_a_soft_shadow_is_a_pile_of_sheets_that_get_smaller() -> None:
-    pile = soft(OUTLINES["circle"], 0.2, 0.05, 5)
+    pile = soft_shadow(OUTLINES["circle"], 0.2, 0.05, 5)
     radii = [float(np.linalg.norm(outline, axis=1).max()) for outline, _ in pile]
     assert radii == sorted(radii, reverse=True)
     assert (radii[0], radii[-1]) == pytest.approx((0.5, 0.3), abs=0.01)
@@ -104,7 +104,7 @@ def test_a_soft_shadow_is_a_pile_of_sheets_that_get_smaller() -> None:
 
 def test_joined_meshes_keep_their_triangles() -> None:
     parts = [cap(OUTLINES["box"]), cap(OUTLINES["circle"], 1.0).moved(5, 0)]
-    whole = joined(parts)
+    whole = join_meshes(parts)
     assert area(whole) == pytest.approx(sum(area(part) for part in parts))
 
 
@@ -121,4 +121,4 @@ def test_segments_close_the_outline() -> None:
 
 
 def test_turning_is_counter_clockwise() -> None:
-    assert turn(np.array([[1.0, 0.0]]), math.pi / 2)[0] == pytest.approx([0.0, 1.0])
+    assert rotate(np.array([[1.0, 0.0]]), math.pi / 2)[0] == pytest.approx([0.0, 1.0])

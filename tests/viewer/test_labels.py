@@ -10,7 +10,7 @@ from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.snapshot import Snapshot
 from ai4u_edu.viewer import Viewer
 from ai4u_edu.viewer.panel.agent_html import state
-from ai4u_edu.viewer.scene.labels import Labels, trouble
+from ai4u_edu.viewer.scene.labels import Labels, script_problem
 from tests.viewer.pages import part_of
 
 
@@ -44,4 +44,4 @@ def test_the_state_of_a_script_stands_at_its_agent_in_words(
 
 
 def test_who_has_no_script_has_no_trouble(runner: Runner) -> None:
-    assert trouble(runner.latest.agents[0]) == ""
+    assert script_problem(runner.latest.agents[0]) == ""

@@ -1,7 +1,7 @@
 import re
 
 from ai4u_edu import Scene
-from ai4u_edu.snapshot import Need, picture_of
+from ai4u_edu.snapshot import Need, capture_snapshot
 from ai4u_edu.viewer.panel.agent_html import AgentHtml
 from ai4u_edu.viewer.panel.needs import needs
 
@@ -33,10 +33,10 @@ def test_what_an_agent_needs_stands_in_its_panel() -> None:
     sim = Scene.load("forage").build()
     sim.reset(1)
     sim.step()
-    (agent,) = picture_of(sim).agents
+    (agent,) = capture_snapshot(sim).agents
     assert [need.name for need in agent.needs] == ["energy", "water"]
     assert agent.needs[0].level < 60
     assert agent.needs[0].comfort == (40.0, 80.0)
-    snapshot = picture_of(sim)
+    snapshot = capture_snapshot(sim)
     assert "energy" in AgentHtml.of(agent, snapshot, {}).inside
     assert not AgentHtml.of(agent._replace(needs=()), snapshot, {}).inside

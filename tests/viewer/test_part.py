@@ -2,7 +2,7 @@
 
 import pytest
 
-from ai4u_edu.snapshot import Snapshot, Stage
+from ai4u_edu.snapshot import Snapshot, StaticScene
 from ai4u_edu.viewer.backend import part
 from ai4u_edu.viewer.backend.log_once import Complaints
 from ai4u_edu.viewer.backend.part import Paced
@@ -27,7 +27,7 @@ class Drawn:
         self.takes = takes
         self.times = 0
 
-    def build(self, stage: Stage) -> None:
+    def build(self, static_scene: StaticScene) -> None:
         pass
 
     def draw(self, snapshot: Snapshot) -> None:
@@ -46,7 +46,7 @@ def test_what_takes_long_is_drawn_less_often(
     sim = busy_sim()
     sim.reset(1)
     snapshot = picture(sim)
-    paced.build(snapshot.stage)
+    paced.build(snapshot.static_scene)
     end = clock.now + 1
     while clock.now < end:
         paced.draw(snapshot)

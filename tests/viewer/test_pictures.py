@@ -5,7 +5,7 @@ import re
 import numpy as np
 
 from ai4u_edu.blocks import ChannelLegend, CodeLegend, GridSensor, LocalGridSensor, RayCastingSensor
-from ai4u_edu.snapshot.theme import UNKNOWN, VOID
+from ai4u_edu.snapshot.theme import UNKNOWN_GROUP, VOID
 from ai4u_edu.viewer.panel.pictures import MOST_CELLS, pictures
 
 COLOURS = {"wall": (1, 2, 3), "dirty": (4, 5, 6)}
@@ -27,7 +27,7 @@ def test_a_map_of_codes_has_the_colours_of_its_groups() -> None:
     assert cells(svg) == {
         "(1, 2, 3)": {(0, 0), (1, 0), (2, 1)},
         "(4, 5, 6)": {(0, 1)},
-        str(UNKNOWN): {(1, 1)},
+        str(UNKNOWN_GROUP): {(1, 1)},
     }
     assert 'viewBox="0 0 3 2"' in svg
 

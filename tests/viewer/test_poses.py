@@ -6,7 +6,7 @@ import pytest
 
 from ai4u_edu.snapshot import Snapshot
 from ai4u_edu.viewer.scene.layers import Layers
-from ai4u_edu.viewer.scene.poses import SHADOW_AT_REST, Poses, poses
+from ai4u_edu.viewer.scene.poses import SHADOW_OFFSET_M, Poses, compute_poses
 from tests.viewer.worlds import busy_sim, picture
 
 
@@ -17,59 +17,59 @@ def robot_at(**changes: Any) -> tuple[Poses, Layers]:
     snapshot = picture(sim)
     first, *others = snapshot.bodies
     snapshot = replace(snapshot, bodies=(first._replace(**changes), *others))
-    layers = Layers.of(snapshot.stage)
-    return poses(snapshot, layers), layers
+    layers = Layers.of(snapshot.static_scene)
+    return compute_poses(snapshot, layers), layers
 
 
 def reach(where: Poses) -> float:
     """How far the robot's shadow lies from under it."""
-    return float(np.linalg.norm(where.shadows[0, :2] - where.places[0, :2]))
+    return float(np.linalg.norm(where.shadow_positions[0, :2] - where.positions[0, :2]))
 
 
 def test_what_stands_on_the_ground_has_its_shadow_close() -> None:
     where, layers = robot_at()
-    assert reach(where) == pytest.approx(SHADOW_AT_REST)
-    assert where.shadows[0, 2] == pytest.approx(layers.shadow)
-    assert where.sizes[0] == 1.0
+    assert reach(where) == pytest.approx(SHADOW_OFFSET_M)
+    assert where.shadow_positions[0, 2] == pytest.approx(layers.shadow)
+    assert where.scales[0] == 1.0
     assert where.depths[0] == 0.0
 
 
 def test_the_shadow_moves_away_from_what_rises() -> None:
     low, layers = robot_at(z=0.5, on_ground=False)
     high, _ = robot_at(z=1.5, on_ground=False)
-    assert SHADOW_AT_REST < reach(low) < reach(high)
-    assert high.shadows[0, 2] == pytest.approx(layers.shadow)  # it stays on the floor
-    assert high.sizes[0] == 1.0
+    assert SHADOW_OFFSET_M < reach(low) < reach(high)
+    assert high.shadow_positions[0, 2] == pytest.approx(layers.shadow)  # it stays on the floor
+    assert high.scales[0] == 1.0
 
 
 def test_over_the_void_nothing_catches_the_shadow() -> None:
     where, _ = robot_at(x=50.0, z=0.5, on_ground=False)
-    assert where.shadow_sizes[0] == 0.0
-    assert np.isfinite(where.shadows).all()
+    assert where.shadow_scales[0] == 0.0
+    assert np.isfinite(where.shadow_positions).all()
 
 
 def test_a_shadow_lies_on_what_bears_the_body() -> None:
     where, layers = robot_at(z=1.0, on_ground=True)  # on top of another body
-    assert where.shadows[0, 2] == pytest.approx(1.0 + layers.shadow)
+    assert where.shadow_positions[0, 2] == pytest.approx(1.0 + layers.shadow)
 
 
 def test_what_falls_shrinks_and_then_is_gone() -> None:
     half, _ = robot_at(x=50.0, z=-1.0, on_ground=False)
     deep, _ = robot_at(x=50.0, z=-1.9, on_ground=False)
     gone, _ = robot_at(x=50.0, z=-2.1, on_ground=False, fallen=True)
-    assert 1.0 > half.sizes[0] > deep.sizes[0] > gone.sizes[0] == 0.0
+    assert 1.0 > half.scales[0] > deep.scales[0] > gone.scales[0] == 0.0
     assert 0.0 < half.depths[0] < deep.depths[0] <= 1.0
-    assert gone.shadow_sizes[0] == 0.0
+    assert gone.shadow_scales[0] == 0.0
 
 
 def test_headings_become_quaternions() -> None:
     where, _ = robot_at(heading=np.pi / 2)
-    assert where.turns[0] == pytest.approx([np.sqrt(0.5), 0, 0, np.sqrt(0.5)])
+    assert where.wxyzs[0] == pytest.approx([np.sqrt(0.5), 0, 0, np.sqrt(0.5)])
 
 
 def test_a_world_without_bodies_has_no_poses() -> None:
     sim = busy_sim()
     sim.reset(seed=1)
     empty: Snapshot = replace(picture(sim), bodies=())
-    where = poses(empty, Layers.of(empty.stage))
-    assert where.places.shape == (0, 3)
+    where = compute_poses(empty, Layers.of(empty.static_scene))
+    assert where.positions.shape == (0, 3)

@@ -72,7 +72,7 @@ def test_place_heading_and_size_are_those_of_the_episode(episodes: Iterator[Show
         assert shown.size == pytest.approx((scale, 2 * scale), abs=1e-5)
         assert abs(shown.turn[0]) == pytest.approx(abs(np.cos(box.heading / 2)), abs=1e-5)
         assert shown.goal == pytest.approx((goal.x, goal.y), abs=0.2)
-        assert shown.runner.latest.stage.bodies[1].shape == box.sampled.shape
+        assert shown.runner.latest.static_scene.bodies[1].shape == box.sampled.shape
         seen.append((shown.place, shown.turn, shown.size, shown.goal))
     assert [len(set(each)) for each in zip(*seen, strict=True)] == [5, 5, 5, 5]
 

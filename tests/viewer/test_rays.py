@@ -4,10 +4,10 @@ import pytest
 from ai4u_edu.base.colors import rgb
 from ai4u_edu.blocks import RayPicture
 from ai4u_edu.runtime.runner import Runner
-from ai4u_edu.snapshot.theme import NOTHING, WALL, group_colours
+from ai4u_edu.snapshot.theme import RAY_MISS, WALL, group_colours
 from ai4u_edu.viewer import Viewer
-from ai4u_edu.viewer.scene.light import strokes, surfaces
-from ai4u_edu.viewer.scene.rays import Rays, StageLook, ray_dots, ray_lines
+from ai4u_edu.viewer.scene.light import line_colours, surface_colours
+from ai4u_edu.viewer.scene.rays import Rays, RayStyle, ray_dots, ray_lines
 
 PICTURE = RayPicture(
     origin=(0.0, 0.0, 0.5),
@@ -31,17 +31,17 @@ def test_a_dot_touches_what_was_met_from_outside() -> None:
 
 @pytest.fixture
 def rays(viewer: Viewer) -> Rays:
-    return Rays(viewer.server.scene, StageLook(viewer.runner.latest.stage))
+    return Rays(viewer.server.scene, RayStyle(viewer.runner.latest.static_scene))
 
 
 def test_rays_have_the_colours_of_what_they_met(rays: Rays, runner: Runner) -> None:
     fan = runner.latest.agents[0].rays["fan"]
     assert set(fan.groups) == {"target", "wall", ""}
     rays.draw([fan])
-    colours = {"": NOTHING, "target": rgb("orange"), "wall": WALL}
+    colours = {"": RAY_MISS, "target": rgb("orange"), "wall": WALL}
     expected = [colours[group] for group in fan.groups]
-    assert (rays._lines.colors[:, 0] == strokes(expected)).all()
-    assert (rays._dots.batched_colors == surfaces(expected)).all()
+    assert (rays._lines.colors[:, 0] == line_colours(expected)).all()
+    assert (rays._dots.batched_colors == surface_colours(expected)).all()
     assert rays._dots.batched_scales is not None
     assert rays._dots.batched_scales.tolist() == [float(group != "") for group in fan.groups]
 
@@ -53,7 +53,7 @@ def test_more_and_fewer_rays(rays: Rays, runner: Runner) -> None:
         if count:
             assert rays._lines.points.shape == (count, 2, 3)
     lines = rays._lines
-    rays.build(StageLook(runner.latest.stage))
+    rays.build(RayStyle(runner.latest.static_scene))
     rays.draw([few])
     assert lines._impl.removed
     assert not rays._lines._impl.removed
@@ -62,5 +62,5 @@ def test_more_and_fewer_rays(rays: Rays, runner: Runner) -> None:
 
 
 def test_every_group_of_the_stage_has_a_colour(viewer: Viewer) -> None:
-    stage = viewer.runner.latest.stage
-    assert {"agent", "target", "wall", "floor"} <= group_colours(stage).keys()
+    static_scene = viewer.runner.latest.static_scene
+    assert {"agent", "target", "wall", "floor"} <= group_colours(static_scene).keys()

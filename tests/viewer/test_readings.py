@@ -3,7 +3,7 @@ import re
 import numpy as np
 import pytest
 
-from ai4u_edu.snapshot.block_info import Component, Control, facts_of
+from ai4u_edu.snapshot.block_info import ActuatorInfo, Component, block_info_of
 from ai4u_edu.viewer.panel.readings import BARS, IN_FULL, action, reading, rewards
 from tests.builders import small_sim
 
@@ -19,7 +19,7 @@ def bars(html: str) -> list[list[str]]:
     "html",
     [
         action({EVIL: (1.0,)}),
-        action({EVIL: (1.0,)}, [Control(EVIL, EVIL, (Component(EVIL, -1, 1),), False)]),
+        action({EVIL: (1.0,)}, [ActuatorInfo(EVIL, EVIL, (Component(EVIL, -1, 1),), False)]),
         rewards({EVIL: 1.0}, {EVIL: 2.0}),
     ],
 )
@@ -94,7 +94,7 @@ def test_small_rewards_do_not_vanish() -> None:
 
 
 def test_an_action_is_shown_by_the_names_of_its_components() -> None:
-    (control,) = facts_of(small_sim().agents[0]).controls
+    (control,) = block_info_of(small_sim().agents[0]).actuator_infos
     html = action({"move": (0.5, -1.0, 0.0, 0.0)}, [control])
     lines = re.findall('<span>(.*?)</span><div class="bar">(.*?)</div><b>(.*?)</b>', html)
     assert [(name, number) for name, _, number in lines] == [
@@ -109,7 +109,7 @@ def test_an_action_is_shown_by_the_names_of_its_components() -> None:
 
 
 def test_a_choice_is_a_number_out_of_some() -> None:
-    control = Control("move", "GridMoveActuator", (Component("", 0.0, 4.0),), True)
+    control = ActuatorInfo("move", "GridMoveActuator", (Component("", 0.0, 4.0),), True)
     assert "choice <b>3</b> <small>of 0 to 4</small>" in action({"move": (3.0,)}, [control])
 
 

@@ -40,9 +40,9 @@ def player(runner: Runner) -> Iterator[ReplayPlayer]:
 def opened(player: ReplayPlayer, number: int) -> None:
     player.open(number)
     until(lambda: player.number == number)
-    reel = player.reel
-    assert reel is not None
-    until(lambda: reel.picture(reel.last) is not None)
+    frame_cache = player.frame_cache
+    assert frame_cache is not None
+    until(lambda: frame_cache.snapshot(frame_cache.last) is not None)
 
 
 def test_whoever_chooses_an_episode_does_not_see_it_yet(

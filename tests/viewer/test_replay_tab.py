@@ -53,9 +53,9 @@ def opened(viewer: Viewer, here: Page) -> ReplayTab:
     tab = tab_of(viewer)
     here.change(tab._episode, "1")
     until(lambda: viewer._player.number == 1)
-    reel = viewer._player.reel
-    assert reel is not None
-    until(lambda: reel.picture(reel.last) is not None)
+    frame_cache = viewer._player.frame_cache
+    assert frame_cache is not None
+    until(lambda: frame_cache.snapshot(frame_cache.last) is not None)
     shown(viewer)
     return tab
 

@@ -2,7 +2,7 @@
 
 from ai4u_edu.agent import Entry, Ledger
 from ai4u_edu.runtime.runner import Runner
-from ai4u_edu.snapshot import picture_of
+from ai4u_edu.snapshot import capture_snapshot
 from ai4u_edu.viewer.panel.plot import INCREMENTS
 from ai4u_edu.viewer.panel.readings import rewards
 from ai4u_edu.viewer.panel.reward_table import LAST, curves, reward_table
@@ -36,16 +36,16 @@ def test_a_ledger_remembers_only_if_it_is_told_to() -> None:
     agent.end_of_step.connect(lambda agent: agent.add_reward(2.0, name="bonus"))
     sim.reset(1)
     sim.step()
-    assert picture_of(sim).agents[0].history == ()
-    agent.ledger.remember(2)
+    assert capture_snapshot(sim).agents[0].history == ()
+    agent.ledger.keep_history(2)
     for _ in range(3):
         sim.step()
-    assert picture_of(sim).agents[0].history == (
+    assert capture_snapshot(sim).agents[0].history == (
         Entry(3, {"bonus": 2.0}, 6.0),
         Entry(4, {"bonus": 2.0}, 8.0),
     )
     sim.reset(1)
-    assert picture_of(sim).agents[0].history == ()
+    assert capture_snapshot(sim).agents[0].history == ()
 
 
 def test_the_reward_that_is_shown_is_that_of_the_last_decision_that_is_over() -> None:
@@ -56,7 +56,7 @@ def test_the_reward_that_is_shown_is_that_of_the_last_decision_that_is_over() ->
     sim.reset(1)
 
     def shown() -> tuple[float, dict[str, float]]:
-        state = picture_of(sim).agents[0]
+        state = capture_snapshot(sim).agents[0]
         return state.reward, state.reward_terms
 
     seen = []
@@ -76,12 +76,12 @@ def test_a_sum_of_nothing_looks_like_any_sum() -> None:
 
 def test_what_is_kept_may_grow() -> None:
     book = Ledger()
-    book.remember(1)
+    book.keep_history(1)
     for step in (1, 2):
         book.open()
         book.pay("a", 1.0)
         book.close(step)
-    book.remember(3)
+    book.keep_history(3)
     assert [entry.step for entry in book.history] == [2]
     assert book.history.maxlen == 3
 

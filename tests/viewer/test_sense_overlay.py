@@ -18,10 +18,10 @@ from ai4u_edu import (
     World,
 )
 from ai4u_edu.runtime.runner import Runner
-from ai4u_edu.snapshot.block_info import Sense
+from ai4u_edu.snapshot.block_info import SensorInfo
 from ai4u_edu.viewer import Viewer
-from ai4u_edu.viewer.scene.pointers import RING, pointer
-from ai4u_edu.viewer.scene.sense_overlay import is_seen
+from ai4u_edu.viewer.scene.pointers import RING_RADIUS, pointer
+from ai4u_edu.viewer.scene.sense_overlay import is_drawable
 from tests.viewer.pages import Page, page, shown, until
 
 
@@ -51,13 +51,13 @@ def runner() -> Runner:
     return Runner(two(), seed=1)
 
 
-def senses(runner: Runner) -> dict[str, Sense]:
-    return {sense.key: sense for sense in runner.latest.agents[0].senses}
+def senses(runner: Runner) -> dict[str, SensorInfo]:
+    return {sense.key: sense for sense in runner.latest.agents[0].sensor_infos}
 
 
 def test_only_sensors_with_something_to_show_have_a_button(runner: Runner) -> None:
     agent = runner.latest.agents[0]
-    seen = {key for key, sense in senses(runner).items() if is_seen(sense, agent)}
+    seen = {key for key, sense in senses(runner).items() if is_drawable(sense, agent)}
     assert seen == {"fan", "bearing", "group_touch", "position", "map"}
 
 
@@ -65,9 +65,9 @@ def test_a_target_has_a_ring_and_a_line_that_ends_at_it(runner: Runner) -> None:
     body = runner.latest.bodies[0]
     ring, line = pointer(runner.latest, body, senses(runner)["bearing"])
     distances = np.hypot(ring[..., 0] - 3, ring[..., 1])
-    assert distances == pytest.approx(np.full(distances.shape, 0.5 * RING))
+    assert distances == pytest.approx(np.full(distances.shape, 0.5 * RING_RADIUS))
     assert line[0, 0, :2] == pytest.approx([0, 0])
-    assert line[0, 1, :2] == pytest.approx([3 - 0.5 * RING, 0])
+    assert line[0, 1, :2] == pytest.approx([3 - 0.5 * RING_RADIUS, 0])
 
 
 def test_all_of_a_group_are_pointed_at(runner: Runner) -> None:

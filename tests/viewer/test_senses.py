@@ -23,20 +23,20 @@ from ai4u_edu import (
     VelocitySensor,
 )
 from ai4u_edu.blocks import RayPicture
-from ai4u_edu.snapshot.block_info import Sense, Window, facts_of, pictures_of
-from ai4u_edu.snapshot.theme import NOTHING
+from ai4u_edu.snapshot.block_info import SensorInfo, Window, block_info_of, sensor_pictures_of
+from ai4u_edu.snapshot.theme import RAY_MISS
 from ai4u_edu.viewer.panel.senses import sense_html
 from tests.builders import small_sim
 
 EVIL = "<script>alert('&')</script>"
 
 
-def sense_of(sensor: Sensor) -> tuple[Sense, Any]:
+def sense_of(sensor: Sensor) -> tuple[SensorInfo, Any]:
     """What is known of a sensor, and what it reads."""
     sim = small_sim(sensors=[sensor])
     sim.reset(1)
     (agent,) = sim.agents
-    found = {sense.key: sense for sense in facts_of(agent).senses}[sensor.perception_key]
+    found = {sense.key: sense for sense in block_info_of(agent).sensor_infos}[sensor.perception_key]
     return found, agent.percept[sensor.perception_key]
 
 
@@ -127,7 +127,7 @@ def test_rays_have_the_colours_of_what_they_met_and_their_distances_apart() -> N
     html = sense_html(sense, value, {"target": (1, 2, 3)}, rays)
     assert html.count("<svg") == 2
     assert html.count('fill="rgb(1, 2, 3)"') == 2
-    assert html.count(f'fill="rgb{NOTHING}"') == 2
+    assert html.count(f'fill="rgb{RAY_MISS}"') == 2
     assert "how far away" in html
 
 
@@ -165,8 +165,8 @@ def test_all_readings_of_all_scenes_can_be_shown(name: str) -> None:
     sim = Scene.load(name).build()
     sim.reset(1)
     for agent in sim.agents:
-        rays = pictures_of(agent).rays
-        for sense in facts_of(agent).senses:
+        rays = sensor_pictures_of(agent).rays
+        for sense in block_info_of(agent).sensor_infos:
             reading = agent.percept[sense.key]
             assert sense_html(sense, reading, {}, rays.get(sense.key))
 
@@ -175,11 +175,11 @@ def test_facts_and_pictures_are_worked_out_once() -> None:
     sim = small_sim(sensors=[LinearRayCastingSensor(perception_key="fan")])
     sim.reset(1)
     (agent,) = sim.agents
-    facts, pictures = facts_of(agent), pictures_of(agent)
-    assert facts_of(agent) is facts
-    assert pictures_of(agent) is pictures
+    facts, pictures = block_info_of(agent), sensor_pictures_of(agent)
+    assert block_info_of(agent) is facts
+    assert sensor_pictures_of(agent) is pictures
     sim.step()
-    assert pictures_of(agent) is not pictures
+    assert sensor_pictures_of(agent) is not pictures
     agent.setup(sim.world)
     sim.reset(1)
-    assert facts_of(agent) is not facts
+    assert block_info_of(agent) is not facts

@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 
 from ai4u_edu import Scene
-from ai4u_edu.snapshot import Snapshot, picture_of
-from ai4u_edu.snapshot.theme import LIT, UNLIT
+from ai4u_edu.snapshot import Snapshot, capture_snapshot
+from ai4u_edu.snapshot.theme import SPOT_LIT, SPOT_UNLIT
 from ai4u_edu.viewer import Viewer
-from ai4u_edu.viewer.scene.light import surfaces
+from ai4u_edu.viewer.scene.light import surface_colours
 from ai4u_edu.viewer.scene.spots import Spots
 
 
@@ -17,7 +17,7 @@ def picture() -> Snapshot:
     sim.reset(1)
     sim.agents[0].body.move_to(-1.0, -3.85, heading=np.pi / 2)
     sim.agents[0].sense()
-    return picture_of(sim)
+    return capture_snapshot(sim)
 
 
 def test_the_spots_are_where_the_eyes_look(picture: Snapshot) -> None:
@@ -31,11 +31,11 @@ def test_spots_light_up_and_go(viewer: Viewer, picture: Snapshot) -> None:
     (agent,) = picture.agents
     some = agent.spots["line"]._replace(lit=(True, False, False, True, False))
     part = Spots(viewer.server.scene)
-    part.draw([some], lift=1.5)
-    expected = surfaces([LIT, UNLIT, UNLIT, LIT, UNLIT])
+    part.draw([some], height=1.5)
+    expected = surface_colours([SPOT_LIT, SPOT_UNLIT, SPOT_UNLIT, SPOT_LIT, SPOT_UNLIT])
     dots = part._dots
     assert (dots.batched_colors == expected).all()
     assert dots.batched_positions[:, 1] == pytest.approx(-3.5)
     assert dots.batched_positions[:, 2].min() > 1.0
-    part.draw([], lift=1.5)
+    part.draw([], height=1.5)
     assert dots._impl.removed

@@ -40,8 +40,8 @@ def test_how_it_stands_with_a_script_is_shown_escaped(runner: Runner) -> None:
 
 
 def test_the_goal_is_told_escaped(runner: Runner) -> None:
-    assert goal(runner.latest.stage) == ""
-    assert "Reach &lt;it&gt;" in goal(replace(runner.latest.stage, goal="Reach <it>"))
+    assert goal(runner.latest.static_scene) == ""
+    assert "Reach &lt;it&gt;" in goal(replace(runner.latest.static_scene, goal="Reach <it>"))
 
 
 def test_steps_are_those_of_the_only_agent(runner: Runner) -> None:
@@ -52,7 +52,7 @@ def test_steps_are_those_of_the_only_agent(runner: Runner) -> None:
 
 
 def test_the_legend_names_all_groups_and_what_rays_can_meet(runner: Runner) -> None:
-    html = legend(runner.latest.stage)
+    html = legend(runner.latest.static_scene)
     assert all(f"{name}</span>" in html for name in ("target", "wall", "floor", "other", "nothing"))
 
 

@@ -8,8 +8,8 @@ from viser import CameraHandle
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.snapshot import Snapshot
 from ai4u_edu.viewer import Viewer
-from ai4u_edu.viewer.scene.framing import Frame, centred, frame
-from ai4u_edu.viewer.scene.placing import seen_bounds
+from ai4u_edu.viewer.scene.arena import camera_bounds
+from ai4u_edu.viewer.scene.framing import Frame, frame_arena, frame_point
 from ai4u_edu.viewer.scene.view import FOLLOWED, Mode, View
 from tests.viewer.pages import Page, page, until
 
@@ -46,7 +46,7 @@ def watched(viewer: Viewer) -> Iterator[Watched]:
 
 
 def whole(snapshot: Snapshot, aspect: float = 1.2) -> Frame:
-    return frame(seen_bounds(snapshot.stage), aspect)
+    return frame_arena(camera_bounds(snapshot.static_scene), aspect)
 
 
 def place(shown: Frame) -> tuple[float, float, float]:
@@ -55,7 +55,7 @@ def place(shown: Frame) -> tuple[float, float, float]:
 
 def middle(x: float, y: float, height: float) -> list[float]:
     """What a camera looks at that has a place in the middle of the free part of its window."""
-    shown = centred(x, y, height, 1.2)
+    shown = frame_point(x, y, height, 1.2)
     return [shown.x, shown.y, 0.0]
 
 
@@ -126,8 +126,8 @@ def test_another_arena_is_shown_whole_whoever_moved_the_camera(
     watched.view.update(runner.latest, "0")
     watched.report(place(whole(runner.latest)))
     watched.report(PLACE)
-    stage = replace(runner.latest.stage, bounds=((0.0, 0.0), (40.0, 40.0)))
-    other = replace(runner.latest, stage=stage)
+    static_scene = replace(runner.latest.static_scene, bounds=((0.0, 0.0), (40.0, 40.0)))
+    other = replace(runner.latest, static_scene=static_scene)
     watched.view.update(other, "0")
     assert watched.camera.position == pytest.approx(place(whole(other)))
 

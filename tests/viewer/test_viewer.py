@@ -35,7 +35,7 @@ def test_the_scene_is_complete_before_anybody_watches(viewer: Viewer) -> None:
     for expected in (
         "/ground1/void",
         "/ground1/floor plate/top",
-        "/ground1/floor ring/cliff",
+        "/ground1/floor ring/side",
         "/ground1/area goal/fill",
         "/ground1/lines",
         "/bodies1/0/body",

@@ -11,8 +11,8 @@ import pytest
 
 from ai4u_edu import Scene
 from ai4u_edu.editing.autosave import Unsaved
-from ai4u_edu.editing.scene_store import Shelf
-from ai4u_edu.snapshot import picture_of
+from ai4u_edu.editing.scene_store import SceneStore
+from ai4u_edu.snapshot import capture_snapshot
 from ai4u_edu.viewer import Viewer
 from ai4u_edu.viewer.panel.add_menu import BODY_TEMPLATES, free_position
 from ai4u_edu.viewer.panel.body_form import BodyForm
@@ -24,7 +24,7 @@ from tests.viewer.pages import Page, page, seen, shown, tabs_of, until
 
 @pytest.fixture
 def viewer(shop: Shop) -> Iterator[Viewer]:
-    viewer = Viewer(shop.runner, workshop=shop.workshop)
+    viewer = Viewer(shop.runner, editor=shop.editor)
     yield viewer
     viewer.stop()
 
@@ -122,10 +122,10 @@ def test_a_wall_is_dragged_while_the_time_stands_still(viewer: Viewer, shop: Sho
         wall = index(shop, "wall")
         drag(here, tab, tab.handles.node, wall, (-4.1, 1), (-3, 1), (-2.1, -1.5))
         # it was taken up off its centre, and keeps to that
-        until(lambda: shop.workshop.can_undo == "move wall")
+        until(lambda: shop.editor.undo_label == "move wall")
         assert shop.world["wall"].position == pytest.approx((-2, -2.5))
         seen(viewer, lambda: "move wall: it applies at once" in tab.said.content)
-        described = shop.workshop.state.description.bodies[wall]
+        described = shop.editor.state.description.bodies[wall]
         assert described.position == pytest.approx((-2, -2.5))
         assert tab.thing.value == "wall"
         here.change(tab.changes, "Undo")
@@ -139,7 +139,7 @@ def test_where_it_can_not_stand_it_goes_back(viewer: Viewer, shop: Shop) -> None
         drag(here, tab, tab.handles.node, index(shop, "wall"), (-4, 0), (-2, 0), (4, 0))
         seen(viewer, lambda: "overlap" in tab.said.content)
         assert shop.world["wall"].position == (-4, 0)
-        assert shop.workshop.can_undo == ""
+        assert shop.editor.undo_label == ""
 
 
 def test_the_knob_turns_what_was_chosen_in_steps(viewer: Viewer, shop: Shop) -> None:
@@ -150,7 +150,7 @@ def test_the_knob_turns_what_was_chosen_in_steps(viewer: Viewer, shop: Shop) -> 
         seen(viewer, lambda: tab.handles.knob)
         assert tab.handles.knob is not None
         drag(here, tab, tab.handles.knob.name, 0, (-3, 0), (-3.5, 0.4), (-3.98, 1.03))
-        until(lambda: shop.workshop.can_undo == "move wall")
+        until(lambda: shop.editor.undo_label == "move wall")
         assert shop.world["wall"].heading == pytest.approx(1.5707963)
         assert shop.world["wall"].position == (-4, 0)
 
@@ -172,19 +172,19 @@ def test_a_page_can_drag_what_it_likes(viewer: Viewer, shop: Shop) -> None:
     with page(viewer) as here:
         tab = tab_of(viewer)
         moving(viewer, here, tab)
-        before = shop.workshop.state
+        before = shop.editor.state
         drag(here, tab, tab.handles.node, 99, (0, 0), (1, 1))
         drag(here, tab, tab.handles.node, -1, (0, 0), (1, 1))
         drag(here, tab, tab.handles.node, 2, (0, 0), (float("nan"), 1), (1, float("inf")))
         drag(here, tab, tab.handles.node, 2, (float("nan"), 0), (1, 1))
         drag(here, tab, tab.handles.node, 2, (0, 0), (1e12, 1), (1, -1e300))
-        until(lambda: tab.handles.grip is None)
+        until(lambda: tab.handles.drag is None)
         for handle in (tab.thing, tab.new, tab.scene, tab.changes, tab.offered):
             here.change(handle, "nonsense")
         here.change(tab.moves, False)
         seen(viewer, lambda: tab.handles.node == "")
         shop.runner.submit(lambda: None).result(5)  # all that was asked for before is done
-        assert shop.workshop.state == before
+        assert shop.editor.state == before
         assert shop.world["wall"].position == (-4, 0)
 
 
@@ -202,12 +202,12 @@ def test_escape_puts_back_what_is_held(viewer: Viewer, shop: Shop) -> None:
         shop.runner.submit(lambda: None).result(5)
         seen(viewer, lambda: tab.handles._states["wall"].x == -4)
         drag(here, tab, node, wall, (-4, 0), (-2, 2))  # the next time it is held as ever
-        until(lambda: shop.workshop.can_undo == "move wall")
+        until(lambda: shop.editor.undo_label == "move wall")
         assert shop.world["wall"].position == (-2, 2)
         here.say("CommandTriggerMessage", uuid=escape._impl.uuid)  # nothing is held
         here.change(tab.changes, "Undo")
         until(lambda: shop.world["wall"].position == (-4, 0))
-        assert shop.workshop.can_undo == ""
+        assert shop.editor.undo_label == ""
         here.change(tab.moves, False)
         seen(viewer, lambda: tab.handles.escape is None)
 
@@ -218,11 +218,11 @@ def test_a_page_that_vanishes_lets_go_of_what_it_holds(viewer: Viewer, shop: Sho
         moving(viewer, here, tab)
         drag(here, tab, tab.handles.node, index(shop, "wall"), (-4, 0), (-3, 1), lets_go=False)
         seen(viewer, lambda: shop.world["wall"].position == (-3, 1))
-    until(lambda: shop.workshop.can_undo == "move wall")
-    assert tab.handles.grip is None
-    assert not shop.workshop._bench._held
-    assert shop.workshop.state.description.bodies[index(shop, "wall")].position == (-3, 1)
-    shop.workshop.undo().result(5)
+    until(lambda: shop.editor.undo_label == "move wall")
+    assert tab.handles.drag is None
+    assert not shop.editor._bench._held
+    assert shop.editor.state.description.bodies[index(shop, "wall")].position == (-3, 1)
+    shop.editor.undo().result(5)
     assert shop.world["wall"].position == (-4, 0)
 
 
@@ -235,8 +235,8 @@ def test_what_is_held_while_the_handles_go_is_let_go_of(viewer: Viewer, shop: Sh
         seen(viewer, lambda: shop.world["wall"].position == (-3, 1))
         here.change(tab.moves, False)
         seen(viewer, lambda: tab.handles.node == "")
-        until(lambda: shop.workshop.can_undo == "move wall")
-        assert tab.handles.grip is None
+        until(lambda: shop.editor.undo_label == "move wall")
+        assert tab.handles.drag is None
 
 
 def test_a_hand_lets_nothing_fall_into_another_scene(viewer: Viewer, shop: Shop) -> None:
@@ -247,12 +247,12 @@ def test_a_hand_lets_nothing_fall_into_another_scene(viewer: Viewer, shop: Shop)
         drag(here, tab, tab.handles.node, wall, (-4, 0), (-3, 1), lets_go=False)
         seen(viewer, lambda: shop.world["wall"].position == (-3, 1))
         other = Scene.loads(TEXT.replace("position: [-4, 0]", "position: [-5, 0]"))
-        shop.workshop.open(other).result(5)
-        seen(viewer, lambda: tab.handles.grip is None)
+        shop.editor.open(other).result(5)
+        seen(viewer, lambda: tab.handles.drag is None)
         shop.runner.submit(lambda: None).result(5)
         assert shop.world["wall"].position == (-5, 0)
-        assert not shop.workshop._bench._held
-        assert shop.workshop.can_undo == "open small"
+        assert not shop.editor._bench._held
+        assert shop.editor.undo_label == "open small"
 
 
 def test_in_the_past_nothing_can_be_taken_up(viewer: Viewer, shop: Shop) -> None:
@@ -267,7 +267,7 @@ def test_in_the_past_nothing_can_be_taken_up(viewer: Viewer, shop: Shop) -> None
 def test_things_are_added_where_there_is_room(viewer: Viewer, shop: Shop, word: str) -> None:
     with page(viewer) as here:
         tab = tab_of(viewer)
-        name = shop.workshop.free_name(BODY_TEMPLATES[word]["name"])
+        name = shop.editor.free_name(BODY_TEMPLATES[word]["name"])
         here.change(tab.new, word)
         until(lambda: name in shop.world.bodies)
         seen(viewer, lambda: tab._form is not None and tab._form.body.name == name)
@@ -315,7 +315,7 @@ def test_a_form_changes_place_size_and_looks(viewer: Viewer, shop: Shop) -> None
         seen(viewer, lambda: form.boxes["x"].value == "-3.5")
         applied(here, form, length="0.5", width="3", colour="blue", label="gate", y="1")
         seen(viewer, lambda: "change wall: it applies at once" in tab.said.content)
-        wall = shop.workshop.state.description.bodies[index(shop, "wall")]
+        wall = shop.editor.state.description.bodies[index(shop, "wall")]
         assert wall.shape.model_dump() == {"type": "box", "size": (0.5, 3)}
         assert (wall.colour, wall.label, wall.position) == ("blue", "gate", (-3.5, 1))
         assert shop.world["wall"].position == (-3.5, 1)
@@ -333,7 +333,7 @@ def test_what_is_wrong_is_said_with_its_label(viewer: Viewer, shop: Shop) -> Non
         applied(here, form, length="0.4", x="left")
         seen(viewer, lambda: "x (m): expected a number" in form._told.content)
         assert "&#x27;left&#x27;" in form._told.content
-        assert shop.workshop.can_undo == ""
+        assert shop.editor.undo_label == ""
         applied(here, form, x="-4.5")
         seen(viewer, lambda: not form._told.content)
 
@@ -368,9 +368,9 @@ def test_a_scene_is_saved_by_name_and_chosen_again(
 ) -> None:
     with page(viewer) as here:
         assert tab_of(viewer).saving is None  # nowhere to save
-    shop.workshop.shelf = Shelf(tmp_path / "kept")
+    shop.editor.scene_store = SceneStore(tmp_path / "kept")
     left: Unsaved | None = Unsaved(tmp_path / "x", TEXT, None, time.time())
-    shop.workshop.unsaved = left
+    shop.editor.unsaved = left
     with page(viewer) as here:
         seen(viewer, lambda: any(tab.saving for tab in tabs_of(viewer, WorldTab)))
         (tab,) = (each for each in tabs_of(viewer, WorldTab) if each.saving)
@@ -387,19 +387,19 @@ def test_a_scene_is_saved_by_name_and_chosen_again(
         here.press(window.save)
         until(lambda: not window.is_open)
         seen(viewer, lambda: "saved as &#x27;Mine&#x27;" in tab.said.content)
-        assert not shop.workshop.unsaved
-        assert shop.workshop.shelf.load("Mine") == shop.workshop.scene
-        shop.workshop.remove_body("wall").result(5)
+        assert not shop.editor.unsaved
+        assert shop.editor.scene_store.load("Mine") == shop.editor.scene
+        shop.editor.remove_body("wall").result(5)
         here.change(tab.scene, "Save")
         until(lambda: window.is_open)
         here.change(window.name, "mine")
         here.press(window.save)
         until(lambda: window.save.label == "Replace it")
-        assert "wall" in shop.workshop.shelf.load("Mine").dumps()
+        assert "wall" in shop.editor.scene_store.load("Mine").dumps()
         here.change(window.name, "other")
         here.press(window.save)  # that is not what was asked about
         until(lambda: not window.is_open)
-        assert shop.workshop.shelf.names() == ["Mine", "other"]
+        assert shop.editor.scene_store.names() == ["Mine", "other"]
         here.change(tab.scene, "Save")
         until(lambda: window.is_open)
         here.change(window.name, "mine")
@@ -413,7 +413,7 @@ def test_a_scene_is_saved_by_name_and_chosen_again(
         until(lambda: "&#x27;Mine&#x27; is there already" in window.told.content)
         here.press(window.save)
         until(lambda: not window.is_open)
-        assert "wall" not in shop.workshop.shelf.load("Mine").dumps()
+        assert "wall" not in shop.editor.scene_store.load("Mine").dumps()
         here.change(tab.new, "Disc")
         until(lambda: "disc" in shop.world.bodies)
         here.change(tab.scene, "Choose a scene")
@@ -448,16 +448,16 @@ def test_the_scenes_own_settings_have_a_form(viewer: Viewer, shop: Shop) -> None
 
 
 def test_what_is_kept_can_be_spoilt_from_outside(tmp_path: Path) -> None:
-    shelf = Shelf(tmp_path)
-    shelf.save("good", Scene.loads(TEXT))
+    store = SceneStore(tmp_path)
+    store.save("good", Scene.loads(TEXT))
     (tmp_path / "bad.yaml").write_text("name: <b>")
-    bad, good = cards_of(shelf)
+    bad, good = cards_of(store)
     assert good.png
     assert good.title == "good"
     assert "can&#x27;t be read: bad.yaml, line" in bad.html
     assert "<img" not in bad.html
-    shelf.save("good", Scene.load("maze"), over=True)
-    assert cards_of(shelf)[1].goal == Scene.load("maze").description.goal
+    store.save("good", Scene.load("maze"), over=True)
+    assert cards_of(store)[1].goal == Scene.load("maze").description.goal
 
 
 def test_a_scene_file_is_opened(viewer: Viewer, shop: Shop) -> None:
@@ -479,25 +479,25 @@ def test_a_scene_file_is_opened(viewer: Viewer, shop: Shop) -> None:
 def test_what_is_no_scene_is_refused(viewer: Viewer, shop: Shop, content: bytes, told: str) -> None:
     with page(viewer) as here:
         tab = tab_of(viewer)
-        before = shop.workshop.state
+        before = shop.editor.state
         upload(tab, here, "mine.yaml", content)
         seen(viewer, lambda: told in tab.said.content)
         assert 'role="alert"' in tab.said.content
-        assert shop.workshop.state == before
+        assert shop.editor.state == before
 
 
 def test_what_was_left_is_offered_and_can_be_thrown_away(
     viewer: Viewer, shop: Shop, tmp_path: Path
 ) -> None:
     text = TEXT.replace("[4, 0]", "[3, 3]")
-    shop.workshop.unsaved = Unsaved(tmp_path / "x", text, None, time.time())
+    shop.editor.unsaved = Unsaved(tmp_path / "x", text, None, time.time())
     with page(viewer) as here:
         tab = tab_of(viewer)
         assert tab.offered.visible
         here.change(tab.offered, "Discard")
         seen(viewer, lambda: not tab.offered.visible)
         assert shop.world["box"].position == (4, 0)
-        shop.workshop.unsaved = Unsaved(tmp_path / "x", text, None, time.time())
+        shop.editor.unsaved = Unsaved(tmp_path / "x", text, None, time.time())
         seen(viewer, lambda: tab.offered.visible)
         here.change(tab.offered, "Restore")
         until(lambda: shop.world["box"].position == (3, 3))
@@ -507,7 +507,7 @@ def test_what_was_left_is_offered_and_can_be_thrown_away(
 def test_room_is_found_beside_what_there_is_and_never_over_the_void() -> None:
     sim = Scene.loads(TEXT).build()
     sim.reset(1)
-    snapshot = picture_of(sim)
+    snapshot = capture_snapshot(sim)
     place = free_position(snapshot, BODY_TEMPLATES["Disc"], 0, 0)
     assert place is not None
     assert 1.0 < abs(complex(*place)) < 2  # as near as the robot, at (0, 0), lets it be

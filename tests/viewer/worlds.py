@@ -17,7 +17,13 @@ from ai4u_edu import (
     TouchRewardFunc,
     World,
 )
-from ai4u_edu.snapshot import Snapshot, Stage, agent_state, body_states, set_stage
+from ai4u_edu.snapshot import (
+    Snapshot,
+    StaticScene,
+    capture_agent,
+    capture_bodies,
+    capture_static_scene,
+)
 
 
 def busy_world() -> World:
@@ -57,14 +63,14 @@ def busy_sim(controller: Any = lambda _percept: {}) -> ControlRequestor:
     return ControlRequestor(busy_world(), [agent])
 
 
-def stage_of(world: World) -> Stage:
+def static_scene_of(world: World) -> StaticScene:
     brain = LocalBrain(controller=lambda _percept: {})
-    return set_stage(ControlRequestor(world, [BasicAgent(body="robot", brains=[brain])]))
+    return capture_static_scene(ControlRequestor(world, [BasicAgent(body="robot", brains=[brain])]))
 
 
 def picture(sim: ControlRequestor) -> Snapshot:
     return Snapshot(
-        stage=set_stage(sim),
+        static_scene=capture_static_scene(sim),
         tick=sim.world.ticks,
         time=sim.world.time,
         seed=sim.world.seeds.seed,
@@ -73,6 +79,6 @@ def picture(sim: ControlRequestor) -> Snapshot:
         time_scale=1.0,
         real_time_factor=1.0,
         error="",
-        bodies=body_states(sim),
-        agents=tuple(agent_state(agent) for agent in sim.agents),
+        bodies=capture_bodies(sim),
+        agents=tuple(capture_agent(agent) for agent in sim.agents),
     )

@@ -1,4 +1,4 @@
-"""What every actuator has: a name, a space, and the way from numbers to an effect."""
+"""Base class of actuators: name, space, and the check of an action's numbers."""
 
 import math
 from collections.abc import Sequence
@@ -13,7 +13,7 @@ from ai4u_edu.world import Body, WorldView
 
 
 class Actuator(Block):
-    """The base of all actuators: fill :meth:`space` and :meth:`act`.
+    """The base of all actuators: implement :meth:`space` and :meth:`act`.
 
     >>> from gymnasium.spaces import Box
     >>> class Thruster(Actuator):
@@ -37,11 +37,11 @@ class Actuator(Block):
     """
 
     action_name: str = ""
-    """The action's name; left out: from the class's name."""
+    """The action's name; by default made from the class's name."""
     is_active: bool = True
-    """False switches the actuator off: nothing comes of its actions."""
+    """False switches the actuator off: its actions have no effect."""
     is_output: bool = True
-    """Whether a policy has to give it an action."""
+    """True requires an action for it from a policy."""
 
     is_continuous: ClassVar[bool] = True
 
@@ -49,17 +49,17 @@ class Actuator(Block):
         self.action_name = self.action_name or default_name(type(self), "Actuator")
 
     def space(self) -> spaces.Space[Any]:
-        """A Box of shape (n,), or a Discrete space: what an action of this actuator may be."""
+        """Return the space of its actions: a Box of shape (n,) or a Discrete space."""
         raise BlockError(
             f"{type(self).__name__} has no space(self): it must say what action it takes, as a Box"
         )
 
     def slots(self) -> tuple[str, ...]:
-        """What each number of an action is called, to be shown; empty if they have no names."""
+        """Return display names of the numbers of an action; empty if they have none."""
         return ()
 
     def act(self, body: Body, action: tuple[float, ...]) -> None:
-        """Carries an action out, for one tick.
+        """Apply an action to the body, for one tick.
 
         Args:
             body: the agent's body.
@@ -68,15 +68,17 @@ class Actuator(Block):
         raise BlockError(f"{type(self).__name__} has no act(self, body, action)")
 
     def on_tick(self, body: Body, view: WorldView) -> None:
-        """Called after every tick of a decision, acted or not; only where a subclass fills it.
+        """Run after every tick of a decision, whether it acted or not.
+
+        It is called only where a subclass implements it.
 
         Args:
             body: the agent's body.
-            view: the world, to be asked.
+            view: read access to the world.
         """
 
     def limits(self) -> tuple[list[float], list[float]]:
-        """Lowest and highest value of each number of an action."""
+        """Return the lowest and the highest value of each number of an action."""
         space = self.space()
         if isinstance(space, spaces.Box):
             return space.low.ravel().tolist(), space.high.ravel().tolist()
@@ -86,20 +88,20 @@ class Actuator(Block):
         raise BlockError(f"{self!r}: expected space() to be a Box or Discrete, got {space}")
 
     def prepare(self) -> None:
-        """Works the limits out once, at setup."""
+        """Compute the limits once, at setup."""
         low, high = self.limits()
         self._limits = list(zip(low, high, strict=True))
         self._within_all = max(low, default=0.0), min(high, default=0.0)
         self.clipped = 0
-        """How many numbers were outside their range, and cut, so far."""
+        """Count of numbers that were outside their range and were clipped."""
 
     def accept(self, values: Any) -> tuple[float, ...]:
-        """Checks the numbers of an action; what is out of range is cut and counted.
+        """Check the numbers of an action; clip and count those out of range.
 
         Raises:
             ActionError: not n finite numbers.
         """
-        # the shortest way for what comes most often
+        # a flat float array is the most frequent form
         plain = type(values) is np.ndarray and values.dtype.kind == "f" and values.ndim == 1
         numbers = tuple(values.tolist()) if plain else self._numbers(values)
         if len(numbers) != len(self._limits):
@@ -107,7 +109,7 @@ class Actuator(Block):
                 f"action {self.action_name!r}: expected {len(self._limits)} numbers, "
                 f"got {len(numbers)}: {shown(values)}"
             )
-        # a sum costs less, but that of large numbers may be infinite
+        # a sum costs less than a test of each, but that of large numbers may be infinite
         if not math.isfinite(sum(numbers)) and not all(map(math.isfinite, numbers)):
             raise ActionError(
                 f"action {self.action_name!r}: expected finite numbers, got {shown(values)}"

@@ -58,7 +58,7 @@ class CollectActuator(Actuator):
         return Box(0.0, 1.0, (0,))
 
     def on_setup(self, agent: AgentView, view: WorldView) -> None:
-        """Looks the group and the variables up."""
+        """Look the group and the variables up."""
         view.check_group(self.group)
         self._variables: dict[str, HomeostaticVariable] = {}
         for name in dict.fromkeys([*self.adds, *self.needs]):

@@ -53,7 +53,7 @@ class DiscreteActuator(GroundMotion, ChoiceActuator):
         return Discrete(self.size or len(self.table))
 
     def on_reset(self, agent: AgentView, view: WorldView) -> None:
-        """Looks whether there is something to do for every choice."""
+        """Look whether there is something to do for every choice."""
         # not before: until now a script had time to set a handler
         if self.handler is None and (self.size or 0) > len(self.table):
             raise BlockError(

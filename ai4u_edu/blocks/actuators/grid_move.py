@@ -45,7 +45,7 @@ class GridMoveActuator(OnGrid, ChoiceActuator):
         return Discrete(len(STEPS))
 
     def on_setup(self, agent: AgentView, view: WorldView) -> None:
-        """Looks the groups up and lays the grid."""
+        """Look up the groups and lay out the grid."""
         check_groups(self, "blocked_by", view)
         self._agent, self._view, self._grid = agent, view, self.grid()
         self._way: list[Point] = []
@@ -94,7 +94,7 @@ class GridMoveActuator(OnGrid, ChoiceActuator):
         )
 
     def _learn(self) -> None:
-        """Looks up what blocks the way, once for each build of the world."""
+        """Look up what blocks the way, once for each build of the world."""
         self._learnt = self._view.generation
         names = [name for tag in self.blocked_by for name in self._view.named(tag)]
         walls = [self._view[name] for name in dict.fromkeys(names)]

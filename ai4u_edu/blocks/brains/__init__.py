@@ -1,19 +1,9 @@
 """The brains, and what they can answer."""
 
 from ai4u_edu.blocks.brains.brain import Brain
-from ai4u_edu.blocks.brains.command import Action, Answer, Command
+from ai4u_edu.blocks.brains.command import Action, Command
 from ai4u_edu.blocks.brains.local import LocalBrain
 from ai4u_edu.blocks.brains.remote import RemoteBrain
-from ai4u_edu.blocks.brains.remote_status import RemoteStatus
 from ai4u_edu.blocks.brains.trained import trained_brain
 
-__all__ = [
-    "Action",
-    "Answer",
-    "Brain",
-    "Command",
-    "LocalBrain",
-    "RemoteBrain",
-    "RemoteStatus",
-    "trained_brain",
-]
+__all__ = ["Action", "Brain", "Command", "LocalBrain", "RemoteBrain", "trained_brain"]

@@ -4,6 +4,8 @@ from collections.abc import Mapping
 from enum import StrEnum
 from typing import Any
 
+__all__ = ["Action", "Command"]
+
 
 class Command(StrEnum):
     """An answer that is not an action."""

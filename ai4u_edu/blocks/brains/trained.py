@@ -5,6 +5,8 @@ from typing import Any
 from ai4u_edu.blocks.brains.controllers.neural import NeuralNetController
 from ai4u_edu.blocks.brains.local import LocalBrain
 
+__all__ = ["trained_brain"]
+
 
 def trained_brain(model_path: str, **parameters: Any) -> LocalBrain:
     """A LocalBrain that a network drives, in the rhythm in which it learned to.

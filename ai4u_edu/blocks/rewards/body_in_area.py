@@ -26,7 +26,7 @@ class BodyInAreaRewardFunc(RewardFunc):
     """True pays once an episode, False for each decision after which the body lies there."""
 
     def on_setup(self, agent: AgentView, view: WorldView) -> None:
-        """Looks body and area up."""
+        """Look body and area up."""
         _ = view[self.thing]
         check_area(self.area, view)
 

@@ -37,7 +37,7 @@ class CheckpointsReward(RewardFunc):
     """True for a round that may begin at any target and ends where it began."""
 
     def on_setup(self, agent: AgentView, view: WorldView) -> None:
-        """Looks the targets up."""
+        """Look up the targets."""
         for target in self.targets:
             view.check_target(target)
 
@@ -49,7 +49,7 @@ class CheckpointsReward(RewardFunc):
         self._is_done = self._finished = False
 
     def on_tick(self, body: BodyView, view: WorldView) -> None:
-        """Looks whether the next one is touched."""
+        """Look whether the next one is touched."""
         awaited = self._ahead[:1] if self._under_way else self._ahead
         for target in awaited:
             if view.touching(body, target):

@@ -21,7 +21,7 @@ class CollisionWithRewardFunc(RewardFunc):
     """Amount for each tick in contact; below 0 for a cost."""
 
     def on_setup(self, agent: AgentView, view: WorldView) -> None:
-        """Looks the group up."""
+        """Look up the group."""
         if self.group:
             view.check_group(self.group)
 
@@ -30,7 +30,7 @@ class CollisionWithRewardFunc(RewardFunc):
         self._ticks = 0
 
     def on_tick(self, body: BodyView, view: WorldView) -> None:
-        """Looks whether there is contact."""
+        """Look whether there is contact."""
         touched = view.contacts(body)
         if touched and (not self.group or any(self.group in view[name].tags for name in touched)):
             self._ticks += 1

@@ -30,7 +30,7 @@ class DistanceToTargetRewardFunc(RewardFunc):
     """True: farther away it falls with the square of the distance. False: with the distance."""
 
     def on_setup(self, agent: AgentView, view: WorldView) -> None:
-        """Looks the target up."""
+        """Look up the target."""
         _ = view[self.target]
 
     def on_update(self, body: BodyView, view: WorldView) -> float:

@@ -23,7 +23,7 @@ class DynamicFallReward(FallReward):
     """Height below the reference at which the agent counts as fallen."""
 
     def on_setup(self, agent: AgentView, view: WorldView) -> None:
-        """Looks the reference up."""
+        """Look up the reference."""
         _ = view[self.reference]
 
     def is_below(self, body: BodyView, view: WorldView) -> bool:

@@ -24,7 +24,7 @@ class EvalValue(RewardFunc):
     """What And and Or pay for it where they have ``update_children``."""
 
     def on_setup(self, agent: AgentView, view: WorldView) -> None:
-        """Looks the property up."""
+        """Look up the property."""
         self._look = find_property(self.property, self.target, agent, view)
 
     def on_update(self, body: BodyView, view: WorldView) -> float:

@@ -28,16 +28,16 @@ class GoneReward(RewardFunc):
     """True pays only when none of the group is left."""
 
     def on_setup(self, agent: AgentView, view: WorldView) -> None:
-        """Looks the group up."""
+        """Look up the group."""
         view.check_group(self.group)
 
     def on_reset(self, agent: AgentView, view: WorldView) -> None:
-        """Looks who is there."""
+        """Look who is there."""
         self._there = self._look(view)
         self._gone = 0
 
     def on_tick(self, body: BodyView, view: WorldView) -> None:
-        """Looks who went: it may come back before the decision is over."""
+        """Look who went: it may come back before the decision is over."""
         before, self._there = self._there, self._look(view)
         gone = sum(name not in self._there for name in before)
         self._gone += int(gone > 0 and not self._there) if self.only_last else gone

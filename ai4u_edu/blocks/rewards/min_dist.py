@@ -26,7 +26,7 @@ class MinDistReward(RewardFunc):
     """Amount for every other decision but the first; below 0 for a cost."""
 
     def on_setup(self, agent: AgentView, view: WorldView) -> None:
-        """Looks the target up."""
+        """Look up the target."""
         _ = view[self.target]
 
     def on_reset(self, agent: AgentView, view: WorldView) -> None:

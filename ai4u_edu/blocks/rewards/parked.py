@@ -37,7 +37,7 @@ class ParkedRewardFunc(RewardFunc):
     """True also takes a car that looks the opposite way."""
 
     def on_setup(self, agent: AgentView, view: WorldView) -> None:
-        """Looks the area up."""
+        """Look up the area."""
         check_area(self.area, view)
 
     def on_reset(self, agent: AgentView, view: WorldView) -> None:

@@ -23,7 +23,7 @@ class ProgressReward(RewardFunc):
     """Amount for each metre towards the target."""
 
     def on_setup(self, agent: AgentView, view: WorldView) -> None:
-        """Looks the target up."""
+        """Look up the target."""
         _ = view[self.target]
 
     def on_reset(self, agent: AgentView, view: WorldView) -> None:

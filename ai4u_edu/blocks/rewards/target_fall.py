@@ -25,7 +25,7 @@ class TargetFallReward(FallReward):
     """Amount for a decision after which the target is below the threshold."""
 
     def on_setup(self, agent: AgentView, view: WorldView) -> None:
-        """Looks the target up."""
+        """Look up the target."""
         _ = view[self.target]
 
     def is_below(self, body: BodyView, view: WorldView) -> bool:

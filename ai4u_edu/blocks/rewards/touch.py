@@ -35,7 +35,7 @@ class TouchRewardFunc(RewardFunc):
     """Time after a payment in which nothing is paid; 0 pays at every decision in touch."""
 
     def on_setup(self, agent: AgentView, view: WorldView) -> None:
-        """Looks the target up."""
+        """Look up the target."""
         view.check_target(self.target)
 
     def on_reset(self, agent: AgentView, view: WorldView) -> None:

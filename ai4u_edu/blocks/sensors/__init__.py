@@ -15,11 +15,9 @@ from ai4u_edu.blocks.sensors.line import LineSensor
 from ai4u_edu.blocks.sensors.linear_ray_casting import LinearRayCastingSensor
 from ai4u_edu.blocks.sensors.local_grid import LocalGridSensor
 from ai4u_edu.blocks.sensors.orientation import OrientationSensor
-from ai4u_edu.blocks.sensors.pictures import ChannelLegend, CodeLegend, Legend, SpotPicture
 from ai4u_edu.blocks.sensors.position import PositionSensor
 from ai4u_edu.blocks.sensors.presence import PresenceSensor
 from ai4u_edu.blocks.sensors.ray_casting import RayCastingSensor
-from ai4u_edu.blocks.sensors.ray_sensor import RayPicture, RaySensor
 from ai4u_edu.blocks.sensors.sensor import Sensor
 from ai4u_edu.blocks.sensors.status import (
     ActionSensor,
@@ -38,8 +36,6 @@ __all__ = [
     "AreaOrientationSensor",
     "BearingSensor",
     "CellSensor",
-    "ChannelLegend",
-    "CodeLegend",
     "DoneSensor",
     "FloatArrayCompositeSensor",
     "GridSensor",
@@ -48,7 +44,6 @@ __all__ = [
     "HeadingSensor",
     "HomeostaticSensor",
     "IDSensor",
-    "Legend",
     "LightSensor",
     "LineSensor",
     "LinearRayCastingSensor",
@@ -57,11 +52,8 @@ __all__ = [
     "PositionSensor",
     "PresenceSensor",
     "RayCastingSensor",
-    "RayPicture",
-    "RaySensor",
     "RewardSensor",
     "Sensor",
-    "SpotPicture",
     "StepSensor",
     "TouchSensor",
     "TruncatedSensor",

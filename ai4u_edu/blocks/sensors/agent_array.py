@@ -1,4 +1,4 @@
-"""Numbers that a script hands to the agent."""
+"""A sensor of numbers that a script sets."""
 
 from collections.abc import Sequence
 from typing import Annotated
@@ -15,12 +15,12 @@ from ai4u_edu.world import BodyView, WorldView
 
 
 class AgentArraySensor(Sensor):
-    """A row of numbers that a script sets, so that it can tell the agent something.
+    """A row of numbers that a script sets, so that it can send information to the agent.
 
-    What the script sets stays until it sets it anew; a reset zeroes all. Set a value in a handler
-    of ``begin_of_update_state`` and it is in the very percept that follows.
+    A value stays until the script sets another one; a reset sets all to 0. A value that is set in
+    a handler of ``begin_of_update_state`` is in the percept that follows.
 
-    Reading: (size,), each within range_min..range_max (zero counts as within). Source: AI4U's
+    Reading: (size,), each within range_min..range_max (0 is always allowed). Source: AI4U's
     AgentArraySensor.
 
     >>> message = AgentArraySensor(size=3)
@@ -45,18 +45,18 @@ class AgentArraySensor(Sensor):
                 f"got {self.range_min:g}..{self.range_max:g}"
             )
         self.numbers = np.zeros(self.size)
-        """What is read now."""
+        """The current values."""
 
     def space(self) -> Box:
-        """The range, and zero."""
+        """Return the range, extended to include 0."""
         low, high = min(self.range_min, 0.0), max(self.range_max, 0.0)
         return Box(low, high, (self.size,))
 
     def set_value(self, index: int, value: float) -> None:
-        """Sets one number, from now on.
+        """Set one number.
 
         Raises:
-            ReadingError: there is no such place, or the number is out of range.
+            ReadingError: the index or the number is out of range.
         """
         if not 0 <= index < self.size:
             raise ReadingError(
@@ -66,10 +66,10 @@ class AgentArraySensor(Sensor):
         self.numbers[index] = value
 
     def set_values(self, values: Sequence[float]) -> None:
-        """Sets all numbers, from now on.
+        """Set all numbers.
 
         Raises:
-            ReadingError: they are not as many as there are places, or one is out of range.
+            ReadingError: their count is not ``size``, or one is out of range.
         """
         if len(values) != self.size:
             raise ReadingError(f"{self._title()}: expected {self.size} values, got {len(values)}")
@@ -78,15 +78,15 @@ class AgentArraySensor(Sensor):
         self.numbers[:] = values
 
     def on_reset(self, agent: AgentView, view: WorldView) -> None:
-        """Zeroes all."""
+        """Set all numbers to 0."""
         self.numbers[:] = 0.0
 
     def write(self, out: Array, body: BodyView, view: WorldView) -> None:
-        """One reading."""
+        """Write the reading into ``out``."""
         out[...] = self.numbers
 
     def _check(self, value: float) -> None:
-        # asked this way round, nan is refused as well
+        # written this way round, nan is refused as well
         if not self.range_min <= value <= self.range_max:
             raise ReadingError(
                 f"{self._title()}: expected values from {self.range_min:g} to "

@@ -1,4 +1,4 @@
-"""A sensor of kind, direction and nearness of the nearest things."""
+"""A sensor of the kind, direction and nearness of the nearest bodies."""
 
 import math
 from typing import Annotated, ClassVar
@@ -19,19 +19,19 @@ from ai4u_edu.world import BodyView, WorldView
 class AreaOrientationSensor(Sensor):
     """[kind, cosine, nearness] of each of the nearest bodies around: like a sense of smell.
 
-    Only bodies that carry ``target_group`` are reported, and only those whose centre is in the
-    ``area`` and within ``radius`` of the one that looks; without either, the whole world counts.
+    It reports the bodies with the tag ``target_group`` whose centre is inside ``area`` and within
+    ``radius`` of the agent (or of ``reference``). Without either limit the whole world counts.
 
-    - kind: the body's code out of ``group_code``, divided by ``max_code_value``: 0..1.
-    - cosine: of the angle between the heading and the direction to it: -1..1.
-    - nearness: 1 up to ``min_distance``, from there on min_distance / distance: 0..1.
+    - kind: the body's code in ``group_code``, divided by ``max_code_value``: 0..1.
+    - cosine: of the angle between the heading and the direction to the body: -1..1.
+    - nearness: 1 up to ``min_distance``, beyond it min_distance / distance: 0..1.
 
-    The nearest comes first; of two that are equally near, the one whose name comes first in the
-    alphabet. Zeros stand after the last one (a body's nearness is never 0).
+    The nearest body comes first; at equal distance, the first in alphabetical order. The rest of
+    the reading is filled with zeros (a body's nearness is never 0).
 
     Reading: (3 * max_detection_reported,). Source: AI4U's AreaOrientationSensor.
 
-    Differs from AI4U: the reading is one row of numbers, there of shape (3, 20). ``area`` and
+    Differs from AI4U: the reading is one row of numbers; there its shape is (3, 20). ``area`` and
     ``reference`` may be left out; ``radius`` is ours. There is no collision mask.
     """
 
@@ -41,20 +41,20 @@ class AreaOrientationSensor(Sensor):
     radius: PositiveMetres | None = None
     """Largest distance of a body that is reported; left out: any distance."""
     reference: str = ""
-    """Name of the body that looks; left out: the agent's own."""
+    """Name of the body from which to look; left out: the agent's own."""
     max_detection_reported: Annotated[int, Field(ge=1, le=500)] = 20
-    """Most bodies that are reported, the nearest ones."""
+    """Maximum number of bodies that are reported, nearest first."""
     min_distance: PositiveMetres = 1.0
     """Distance up to which the nearness is 1."""
     target_group: str = "EMITTER"
     """Tag of the bodies that are reported."""
     group_code: dict[Name, Code] = Field(default_factory=dict)
-    """Code of each group (tag), 0..max_code_value; without a code a body reads 0. Of a body with
-    several tags, the first one that has a code counts."""
+    """Code of each group (tag), 0..max_code_value; a body without a code reads 0. Of a body's
+    tags, the first that has a code counts."""
     max_code_value: Annotated[int, Field(ge=1, le=MAX_COUNT)] = 100
     """Code that reads as 1; no code may be larger."""
     visibility_test: bool = True
-    """True hides a body behind whatever stands in between."""
+    """True hides a body behind any other body."""
 
     looks_at: ClassVar[tuple[str, ...]] = ("bodies",)
 
@@ -68,12 +68,12 @@ class AreaOrientationSensor(Sensor):
                 )
 
     def space(self) -> Box:
-        """[kind, cosine, nearness] for each body that can be reported."""
+        """Return the ranges of [kind, cosine, nearness] for each body that can be reported."""
         low = np.tile(np.array([0.0, -1.0, 0.0], np.float32), self.max_detection_reported)
         return Box(low, np.ones_like(low))
 
     def slots(self) -> tuple[str, ...]:
-        """Three for each body that can be reported."""
+        """Return three names for each body that can be reported."""
         return tuple(
             f"{part} {number}"
             for number in range(1, self.max_detection_reported + 1)
@@ -81,7 +81,7 @@ class AreaOrientationSensor(Sensor):
         )
 
     def on_setup(self, agent: AgentView, view: WorldView) -> None:
-        """Looks area, reference and group up."""
+        """Look up the area, the reference and the groups."""
         if self.area and self.area not in view.areas:
             raise NameNotFoundError(
                 f"no area is named {self.area!r}; {suggest(self.area, view.areas)}"
@@ -92,7 +92,7 @@ class AreaOrientationSensor(Sensor):
         check_groups(self, "group_code", view)
 
     def write(self, out: Array, body: BodyView, view: WorldView) -> None:
-        """One reading."""
+        """Write the reading into ``out``."""
         looker = view[self.reference] if self.reference else body
         found: list[float] = []
         for distance, other in self._around(looker, view):
@@ -106,7 +106,7 @@ class AreaOrientationSensor(Sensor):
         out[len(found) :] = 0.0
 
     def _around(self, looker: BodyView, view: WorldView) -> list[tuple[float, BodyView]]:
-        """(distance, body) of all that may be reported, nearest first."""
+        """Return (distance, body) of all bodies that may be reported, nearest first."""
         area = view.areas[self.area] if self.area else None
         reach = math.inf if self.radius is None else self.radius
         found = []

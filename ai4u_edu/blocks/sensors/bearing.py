@@ -1,4 +1,4 @@
-"""In which direction a target is."""
+"""A sensor of the direction to a target."""
 
 import math
 
@@ -12,28 +12,28 @@ from ai4u_edu.world import BodyView, WorldView
 class BearingSensor(Sensor):
     """[sine, cosine] of the angle to the target, counter-clockwise from the heading.
 
-    The sine is positive where the target is to the left, negative to the right: two numbers tell
-    all directions apart, where one cosine can't.
+    The sine is positive if the target is to the left, negative to the right: two numbers tell all
+    directions apart, one cosine can't.
 
     Reading: (2,), each -1..1. Source: ours.
     """
 
     target: str
-    """Name of the body whose direction is told."""
+    """Name of the body whose direction is read."""
 
     def space(self) -> Box:
-        """[sine, cosine]."""
+        """Return the range of sine and cosine."""
         return Box(-1.0, 1.0, (2,))
 
     def slots(self) -> tuple[str, ...]:
-        """Sine and cosine."""
+        """Return the names of the two numbers."""
         return "sine", "cosine"
 
     def on_setup(self, agent: AgentView, view: WorldView) -> None:
-        """Looks the target up."""
+        """Look up the target."""
         _ = view[self.target]
 
     def read(self, body: BodyView, view: WorldView) -> tuple[float, float]:
-        """One reading."""
+        """Return the reading."""
         angle = body.bearing(view[self.target])
         return math.sin(angle), math.cos(angle)

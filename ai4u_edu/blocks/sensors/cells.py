@@ -1,4 +1,4 @@
-"""The plane in square cells."""
+"""A grid of square cells over the world."""
 
 import math
 from typing import Annotated
@@ -15,27 +15,27 @@ from ai4u_edu.world import BodyView, Region
 Cell = tuple[int, int]
 """(row, column); row 0 is on top, column 0 on the left."""
 Cells = npt.NDArray[np.intp]
-"""The numbers of some cells, row by row: row * columns + column."""
+"""Indices of cells, row by row: row * columns + column."""
 Length = Annotated[int, Field(ge=1, le=512)]
 
-RIM = 1e-9
-"""A cell's centre this close to a rim (metres) lies on it, and belongs to the shape."""
+EDGE_TOLERANCE_M = 1e-9
+"""A cell's centre this close to a shape's edge (metres) belongs to the shape."""
 
 
 class OnGrid(Parameterized):
-    """The parameters of blocks that take the world for a grid; the same ones, where they meet."""
+    """The parameters of blocks that see the world as a grid; equal parameters give equal cells."""
 
     rows: Length = 20
     """Rows of the grid."""
     columns: Length = 20
     """Columns of the grid."""
     cell_size: PositiveMetres = 1.0
-    """Side of a cell."""
+    """Side length of a cell."""
     centre: Point = (0.0, 0.0)
     """Middle of the whole grid in the world: (x, y), in metres."""
 
     def grid(self) -> "Grid":
-        """The grid."""
+        """Return the grid that these parameters describe."""
         return Grid(self.rows, self.columns, self.cell_size, self.centre)
 
 
@@ -43,10 +43,10 @@ class Grid:
     """Rows and columns of cells, north up: row 0 is on top (+y), column 0 on the left (-x).
 
     Args:
-        rows: how many.
-        columns: how many.
-        cell_size: a cell's side, metres.
-        centre: the middle of the grid, world frame, metres.
+        rows: number of rows.
+        columns: number of columns.
+        cell_size: side length of a cell, metres.
+        centre: centre of the grid, world frame, metres.
 
     >>> grid = Grid(20, 20, 1.0, (0.0, 0.0))
     >>> grid.cell_at(-9.6, 9.9), grid.centre_of((0, 0))
@@ -60,15 +60,15 @@ class Grid:
         row, column = np.divmod(np.arange(rows * columns), columns)
         self._x = self._left + (column + 0.5) * cell_size
         self._y = self._top - (row + 0.5) * cell_size
-        self._known: dict[BodyView, tuple[object, Cells]] = {}
+        self._cache: dict[BodyView, tuple[object, Cells]] = {}
 
     def cell_at(self, x: float, y: float) -> Cell:
-        """The cell in which a point lies; off the grid the numbers go on."""
+        """Return the cell that contains a point; outside the grid the numbers continue."""
         column = math.floor((x - self._left) / self.cell_size)
         return math.floor((self._top - y) / self.cell_size), column
 
     def centre_of(self, cell: Cell) -> Point:
-        """The middle of a cell."""
+        """Return the centre of a cell, world frame, metres."""
         row, column = cell
         return (
             self._left + (column + 0.5) * self.cell_size,
@@ -76,26 +76,26 @@ class Grid:
         )
 
     def holds(self, cell: Cell) -> bool:
-        """Whether a cell is on the grid."""
+        """Return True if a cell is on the grid."""
         return 0 <= cell[0] < self.rows and 0 <= cell[1] < self.columns
 
     def number(self, cell: Cell) -> int:
-        """A cell's number, row by row."""
+        """Return a cell's index, row by row."""
         return cell[0] * self.columns + cell[1]
 
     def cells_of(self, body: BodyView) -> Cells:
-        """The cells whose centre a body covers; one that covers none is in the one it is in.
+        """Return the cells whose centre a body covers; if it covers none, the cell of its centre.
 
         A body thinner than a cell counts as one cell thick, so that no wall has gaps.
         """
         where = body.pose, body.sampled
-        known = self._known.get(body)
-        if known is None or known[0] != where:
-            known = self._known[body] = where, self._covered(body)
-        return known[1]
+        cached = self._cache.get(body)
+        if cached is None or cached[0] != where:
+            cached = self._cache[body] = where, self._covered(body)
+        return cached[1]
 
     def cells_in(self, region: Region) -> Cells:
-        """The cells whose centre lies in a floor or an area."""
+        """Return the cells whose centre lies in a floor or an area."""
         return np.flatnonzero(region.contains_each(self._x, self._y))
 
     def _covered(self, body: BodyView) -> Cells:
@@ -106,9 +106,9 @@ class Grid:
         parts = footprint(shape, self.cell_size)
         inside = np.zeros(len(u), np.bool_)
         for mid_u, mid_v, radius in parts.discs:
-            inside |= np.hypot(u - mid_u, v - mid_v) <= radius + RIM
+            inside |= np.hypot(u - mid_u, v - mid_v) <= radius + EDGE_TOLERANCE_M
         for edges in parts.polygons:
-            inside |= np.all([a * u + b * v <= c + RIM for a, b, c in edges], axis=0)
+            inside |= np.all([a * u + b * v <= c + EDGE_TOLERANCE_M for a, b, c in edges], axis=0)
         if not inside.any():
             mid_u, mid_v = np.mean(shape.outline(), axis=0).tolist()
             cell = self.cell_at(x + cos * mid_u - sin * mid_v, y + sin * mid_u + cos * mid_v)

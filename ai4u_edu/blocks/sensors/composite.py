@@ -1,4 +1,4 @@
-"""Several sensors in one array."""
+"""A sensor that joins other sensors' readings."""
 
 import math
 from collections.abc import Sequence
@@ -16,26 +16,26 @@ from ai4u_edu.blocks.percept import DTYPES
 from ai4u_edu.blocks.sensors.sensor import Array, Sensor
 from ai4u_edu.world import BodyView, WorldView
 
-ROUNDING = 1e-5
-"""By so much of the range's ends a number may be off, as a float32 is."""
+ROUNDING_TOLERANCE = 1e-5
+"""Relative tolerance at the ends of the range, for rounding in float32."""
 
 
 class FloatArrayCompositeSensor(Sensor):
     """The readings of its children, one after another, as one array of floats.
 
-    The children may be of any kind that is made of numbers; a bool reads as ``range_max`` or
-    ``range_min``. They are flattened, and the whole is stacked. With ``normalize`` every number v
-    becomes ``(v - min_value) / (max_value - min_value)``. A child that is off when the agent is
-    set up takes no part.
+    The children may read anything but text; a bool reads as ``range_max`` or ``range_min``. Their
+    readings are flattened, and stacked as a whole. With ``normalize`` every number v becomes
+    ``(v - min_value) / (max_value - min_value)``. A child that is not active when the agent is set
+    up is left out.
 
-    Reading: (n,), within range_min..range_max. A number that lies beyond is an error that names the
-    child: widen the range, or have the child normalised (``normalized`` there, or ``normalize``
-    here). Source: AI4U, which neither checks nor cuts.
+    Reading: (n,), within range_min..range_max. A number outside this range is an error that names
+    the child: widen the range, or normalise the child (``normalized`` there, or ``normalize``
+    here). Source: AI4U, which neither checks nor clips.
     """
 
     perception_key: str = "array"
     sensors: Annotated[list[Sensor], Field(min_length=1)]
-    """Sensors whose readings are put together, in this order; at least one."""
+    """Sensors whose readings are joined, in this order; at least one."""
     range_min: Annotated[float, quantity("")] = -1.0
     """Smallest number of the reading; also the reading of a false bool."""
     range_max: Annotated[float, quantity("")] = 1.0
@@ -43,9 +43,9 @@ class FloatArrayCompositeSensor(Sensor):
     normalize: bool = False
     """True shifts and scales the numbers so that min_value..max_value becomes 0..1."""
     min_value: Annotated[float, quantity("")] = -1.0
-    """Number that ``normalize`` makes 0."""
+    """Number that ``normalize`` maps to 0."""
     max_value: Annotated[float, quantity("")] = 1.0
-    """Number that ``normalize`` makes 1; above min_value."""
+    """Number that ``normalize`` maps to 1; above min_value."""
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -62,7 +62,7 @@ class FloatArrayCompositeSensor(Sensor):
         return [child for child in self.sensors if child.is_active]
 
     def on_setup(self, agent: AgentView, view: WorldView) -> None:
-        """Sets the children up and gives each a place of its own."""
+        """Set up the children, each with a buffer for its reading."""
         self._children = list(self.inner_blocks())
         self._places: list[Array] = []
         for child in self._children:
@@ -78,20 +78,20 @@ class FloatArrayCompositeSensor(Sensor):
             self._places.append(place)
 
     def on_reset(self, agent: AgentView, view: WorldView) -> None:
-        """Resets the children; one that is not resetable keeps all that it remembers."""
+        """Reset the children; one with ``resetable`` off keeps its state."""
         for child in self._children:
             if child.resetable:
                 child.on_reset(agent, view)
             child.restart()
 
     def space(self) -> Box:
-        """As many numbers as all children read together."""
+        """Return the range of the numbers that all children read together."""
         shapes = [child.observation_space().shape or () for child in self._children]
         size = sum(math.prod(shape) for shape in shapes)
         return Box(self.range_min, self.range_max, (size,))
 
     def write(self, out: Array, body: BodyView, view: WorldView) -> None:
-        """Reads all children."""
+        """Read all children into ``out``."""
         start = 0
         for child, place in zip(self._children, self._places, strict=True):
             if child.is_active:
@@ -110,9 +110,9 @@ class FloatArrayCompositeSensor(Sensor):
             self._trim(out)
 
     def _trim(self, out: Array) -> None:
-        """Cuts what rounding put beyond the range, and refuses what is farther off."""
+        """Clip rounding errors at the ends of the range, and refuse numbers farther outside."""
         low, high = self.range_min, self.range_max
-        slack = ROUNDING * max(1.0, abs(low), abs(high))
+        slack = ROUNDING_TOLERANCE * max(1.0, abs(low), abs(high))
         start = 0
         for child, place in zip(self._children, self._places, strict=True):
             part = out[start : start + place.size]

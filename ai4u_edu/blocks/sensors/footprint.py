@@ -1,4 +1,4 @@
-"""What a shape covers, taken apart into discs and convex polygons."""
+"""Decomposition of a shape into discs and convex polygons."""
 
 import math
 from typing import NamedTuple
@@ -21,7 +21,7 @@ Edge = tuple[float, float, float]
 
 
 class Footprint(NamedTuple):
-    """The parts of one shape, in its own frame, metres; together they cover what it covers."""
+    """Parts that together cover one shape, in its own frame, metres."""
 
     discs: tuple[Disc, ...] = ()
     polygons: tuple[tuple[Edge, ...], ...] = ()
@@ -30,12 +30,12 @@ class Footprint(NamedTuple):
 
 
 def footprint(shape: Shape, thinnest: float = 0.0) -> Footprint:
-    """Takes a shape apart.
+    """Decompose a shape.
 
     Args:
-        shape: of a body, a floor or an area.
-        thinnest: metres; what is thinner counts as that thick, so that no wall falls between the
-            points at which somebody looks.
+        shape: the shape of a body, a floor or an area.
+        thinnest: minimum thickness, metres; thinner shapes are widened to it, so that no wall falls
+            between two sample points.
     """
     least = thinnest / 2
     match shape:
@@ -58,7 +58,7 @@ def footprint(shape: Shape, thinnest: float = 0.0) -> Footprint:
 
 
 def edges(corners: list[Point]) -> tuple[Edge, ...]:
-    """The edges of a convex polygon from its corners, counter-clockwise.
+    """Return the edges of a convex polygon from its corners, counter-clockwise.
 
     >>> edges([(1, 0), (0, 1), (0, 0)])[1:]
     ((-1.0, 0.0, 0.0), (0.0, -1.0, 0.0))

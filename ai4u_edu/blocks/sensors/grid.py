@@ -15,24 +15,24 @@ from ai4u_edu.blocks.sensors.ray_sensor import Code
 from ai4u_edu.blocks.sensors.sensor import Array, Sensor
 from ai4u_edu.world import BodyView, Region, WorldView
 
-ENDLESS = ("floor",)
-"""The tags of the endless ground of a world without floors."""
+ENDLESS_GROUND_TAGS = ("floor",)
+"""Tags of the endless ground of a world without floors."""
 
 
 class GridSensor(OnGrid, Sensor):
     """The world as a map of square cells, each with the code of what is in it; north is up.
 
-    A body is in the cells whose centre it covers (thinner ones count as one cell thick, so that no
-    wall has gaps); a floor or an area in the cells whose centre lies in it. A thing's code is the
-    one that ``group_code`` gives to its tag (of several tags the first one counts); where several
-    things share a cell, the largest code shows; 0 is nothing at all. The agent shows only if its
-    tag has a code and ``self_exclude`` is off: a CellSensor says where it is. What is out of the
-    world is gone from the map.
+    A body is in the cells whose centre it covers (thinner bodies count as one cell thick, so that
+    no wall has gaps); a floor or an area is in the cells whose centre lies in it. Its code is the
+    one of its tag in ``group_code`` (of several tags, the first that has a code). Where several
+    things share a cell, the largest code shows; 0 means nothing. The agent shows only if its tag
+    has a code and ``self_exclude`` is off: a CellSensor reads where it is. A body that left the
+    world is not on the map.
 
-    With ``around=n`` it is no map of the world but one of the agent's surroundings: n cells to each
-    side, the agent's own in the middle; 0 beyond the grid. North stays up, however the agent turns.
+    With ``around=n`` the map shows the agent's surroundings: n cells to each side, the agent's cell
+    in the middle, 0 beyond the grid. North stays up, however the agent turns.
 
-    A corner of a map, with the codes as by default::
+    A corner of a map, with the default codes::
 
         row 0    50  50  50  50      50 wall
         row 1    50   1   1   1       1 floor
@@ -48,18 +48,18 @@ class GridSensor(OnGrid, Sensor):
     )
     """Code, 0..255, of each group (tag)."""
     around: Annotated[int, Field(ge=0, le=256)] = 0
-    """Count of cells to each side of the agent that are shown; 0 for the whole grid."""
+    """Number of cells to each side of the agent that are shown; 0 for the whole grid."""
     self_exclude: bool = True
-    """True leaves the agent's own body out."""
+    """True leaves out the agent's own body."""
 
     def space(self) -> Box:
-        """Codes."""
+        """Return the range of codes."""
         across = 2 * self.around + 1
         shape = (across, across) if self.around else (self.rows, self.columns)
         return Box(0, max(self.group_code.values()), shape, np.int32)
 
     def on_setup(self, agent: AgentView, view: WorldView) -> None:
-        """Looks the groups up and lays the grid."""
+        """Look up the groups and lay out the grid."""
         check_groups(self, "group_code", view)
         self._grid = self.grid()
         self._map = np.zeros(self.rows * self.columns, np.int32)
@@ -67,11 +67,11 @@ class GridSensor(OnGrid, Sensor):
         self._learnt: tuple[int, BodyView] | None = None
 
     def write(self, out: Array, body: BodyView, view: WorldView) -> None:
-        """Draws the map."""
+        """Draw the map."""
         if self._learnt != (view.generation, body):
             self._learn(body, view)
         self._map[:] = 0
-        for code, other in self._bodies:  # the largest comes last, over all the others
+        for code, other in self._bodies:  # the largest code is drawn last, over all others
             if not other.fallen:
                 self._map[self._grid.cells_of(other)] = code
         np.maximum(self._map, self._ground, out=self._map)
@@ -79,7 +79,7 @@ class GridSensor(OnGrid, Sensor):
         out[...] = self._cut(whole, body) if self.around else whole
 
     def legend(self) -> CodeLegend:
-        """The groups by their codes."""
+        """Return the group of each code."""
         scale = max(self.group_code.values()) if self.normalized else 1
         codes = tuple(code / scale for code in self.group_code.values())
         across = 2 * self.around + 1
@@ -87,12 +87,12 @@ class GridSensor(OnGrid, Sensor):
         return CodeLegend(shape, codes, tuple(self.group_code))
 
     def _learn(self, body: BodyView, view: WorldView) -> None:
-        """Looks codes up and draws floors and areas, once for each build of the world."""
+        """Look up the bodies' codes and draw floors and areas, once for each build of the world."""
         self._learnt = view.generation, body
         bodies = [view[name] for name in view if not (view[name] is body and self.self_exclude)]
         coded = [(self._code_of(other.tags), other) for other in bodies]
         self._bodies = sorted((each for each in coded if each[0]), key=lambda each: each[0])
-        self._ground[:] = 0 if view.floors else self._code_of(ENDLESS)
+        self._ground[:] = 0 if view.floors else self._code_of(ENDLESS_GROUND_TAGS)
         for region in [*map(Region, view.floors), *view.areas.values()]:
             cells = self._grid.cells_in(region)
             self._ground[cells] = np.maximum(self._ground[cells], self._code_of(region.tags))

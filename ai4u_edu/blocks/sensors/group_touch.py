@@ -1,4 +1,4 @@
-"""A bumper for all bodies of a group."""
+"""A contact sensor for all bodies of a group."""
 
 from gymnasium.spaces import Box
 
@@ -10,8 +10,8 @@ from ai4u_edu.world import BodyView, WorldView
 class GroupTouchSensor(Sensor):
     """+1 while the agent touches any body of the group (with that tag), else -1.
 
-    One bumper for all walls, say, however many there are. Like TouchSensor it reads this moment
-    and is cleared at a reset.
+    For example, one bumper for all walls. Like a TouchSensor it reads the present contacts and is
+    cleared at a reset.
 
     Reading: (1,), -1 or 1. Source: AI4U's GroupTouchSensor.
     """
@@ -20,14 +20,14 @@ class GroupTouchSensor(Sensor):
     """Tag of the bodies that count."""
 
     def space(self) -> Box:
-        """-1 or 1."""
+        """Return the range -1..1."""
         return Box(-1.0, 1.0, (1,))
 
     def on_setup(self, agent: AgentView, view: WorldView) -> None:
-        """Looks the group up."""
+        """Look up the group."""
         view.check_group(self.group)
 
     def read(self, body: BodyView, view: WorldView) -> float:
-        """One reading."""
+        """Return the reading."""
         touched = any(self.group in view[name].tags for name in view.contacts(body))
         return 1.0 if touched else -1.0

@@ -10,29 +10,29 @@ from ai4u_edu.world import BodyView, WorldView
 
 
 class HomeostaticSensor(Sensor):
-    """The agent's internal variables: how full each one is.
+    """The levels of the agent's internal variables.
 
-    0 is the bottom of a variable's range, 1 its top. The variables live in the HomeostaticReward
-    called ``source``, and are read in its order.
+    0 is the bottom of a variable's range, 1 its top. The variables belong to the HomeostaticReward
+    with the name ``source``, and are read in its order.
 
     Reading: (number of variables,), each 0..1. Source: ours.
     """
 
     source: str = "homeostatic"
-    """The name of the reward function that keeps the variables."""
+    """Name of the reward function that has the variables."""
 
     def on_setup(self, agent: AgentView, view: WorldView) -> None:
-        """Looks the source up."""
+        """Look up the source."""
         self._variables = keeper_of(agent, self.source).variables
 
     def space(self) -> Box:
-        """One number a variable."""
+        """Return the range 0..1 for each variable."""
         return Box(0.0, 1.0, (len(self._variables),))
 
     def slots(self) -> tuple[str, ...]:
-        """The variables' names."""
+        """Return the variables' names."""
         return tuple(variable.name for variable in self._variables)
 
     def write(self, out: Array, body: BodyView, view: WorldView) -> None:
-        """One reading."""
+        """Write the reading into ``out``."""
         out[:] = np.array([variable.normalised() for variable in self._variables])

@@ -1,4 +1,4 @@
-"""An eye for lamps."""
+"""A sensor of brightness."""
 
 import math
 
@@ -13,10 +13,10 @@ from ai4u_edu.world import BodyView, WorldView
 class LightSensor(Sensor):
     """Brightness on one side of the body: an eye for lamps, the bodies of a group.
 
-    A lamp at distance d, seen at an angle a from where the eye looks, adds
-    ``cos(a) / (1 + (d / reach)²)``: half as much at ``reach`` as close by, less the farther aside,
-    and nothing from behind the eye. Nothing casts a shadow. Two of them, one looking to the left
-    and one to the right, are the eyes of Braitenberg's vehicles.
+    A lamp at distance d and at an angle a from the eye's direction adds
+    ``cos(a) / (1 + (d / reach)²)``: half as much at ``reach`` as close by, less to the sides, and
+    nothing from behind the eye. Nothing casts a shadow. Two of these sensors, one looking left and
+    one right, are the eyes of Braitenberg's vehicles.
 
     Reading: (1,), 0 in the dark to 1. Source: ours, after V. Braitenberg, Vehicles (1984).
     """
@@ -34,20 +34,20 @@ class LightSensor(Sensor):
         self._angle = math.radians(self.angle_deg)
 
     def space(self) -> Box:
-        """0 to 1."""
+        """Return the range 0..1."""
         return Box(0.0, 1.0, (1,))
 
     def slots(self) -> tuple[str, ...]:
-        """One number."""
+        """Return the name of the number."""
         return ("brightness",)
 
     def on_setup(self, agent: AgentView, view: WorldView) -> None:
-        """Looks the group up."""
+        """Look up the group."""
         view.check_group(self.group)
         self._lamps = view.named(self.group)
 
     def read(self, body: BodyView, view: WorldView) -> float:
-        """One reading."""
+        """Return the reading."""
         light = 0.0
         for name in self._lamps:
             lamp = view[name]

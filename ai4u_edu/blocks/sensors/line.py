@@ -1,4 +1,4 @@
-"""A row of eyes that look at the ground."""
+"""A sensor of a line on the ground."""
 
 from typing import Annotated
 
@@ -18,34 +18,34 @@ from ai4u_edu.world import BodyView, WorldView
 class LineSensor(Sensor):
     """A row of eyes that look down at the ground: 1 on the line, 0 beside it.
 
-    ``points`` eyes sit on a bar, ``ahead`` of the body's centre and square to its heading; the bar
-    is ``width`` long, the first eye at its left end, the last at its right. Each looks straight
-    down, at one point. The line is made of areas that carry the tag ``group``; what stands on the
-    ground hides nothing.
+    ``points`` eyes sit on a bar, ``ahead`` of the body's centre and square to its heading. The bar
+    is ``width`` long, with the first eye at its left end and the last at its right. Each eye looks
+    straight down at one point. The line consists of the areas with the tag ``group``; bodies on it
+    do not hide it.
 
-    A robot that drives along a line reads [0, 0, 1, 0, 0]; once it reads [0, 1, 0, 0, 0] the line
-    is a bit to the left. Far off the line all is 0, to whichever side it went: to come back, it has
-    to remember (or to stack readings).
+    A robot that drives along a line reads [0, 0, 1, 0, 0]; when it reads [0, 1, 0, 0, 0], the line
+    is a bit to the left. Far from the line all numbers are 0, on either side: to find it again, an
+    agent has to remember (or to stack readings).
 
     Reading: (points,), each 0 or 1. Source: ours; after the line sensors of small robots, which
-    measure how much light the ground sends back.
+    measure how much light the ground reflects.
     """
 
     group: Name = "line"
     """The tag of the areas that are the line."""
     points: Annotated[int, Field(ge=1, le=64)] = 5
-    """Count of eyes on the bar."""
+    """Number of eyes on the bar."""
     ahead: Metres = 0.4
-    """Distance of the bar before the body's centre; below 0 behind it."""
+    """Distance of the bar in front of the body's centre; negative: behind it."""
     width: NonNegativeMetres = 0.6
     """Length of the bar, from the first eye to the last."""
 
     def space(self) -> Box:
-        """0 or 1 for each point."""
+        """Return the range 0..1 for each point."""
         return Box(0.0, 1.0, (self.points,))
 
     def on_setup(self, agent: AgentView, view: WorldView) -> None:
-        """Looks the line up."""
+        """Look up the areas of the line."""
         tags = {tag: None for area in view.areas.values() for tag in area.tags}
         if self.group not in tags:
             raise NameNotFoundError(
@@ -59,7 +59,7 @@ class LineSensor(Sensor):
         self._seen = nowhere, nowhere, 0.0, nowhere.astype(np.bool_)
 
     def read(self, body: BodyView, view: WorldView) -> npt.NDArray[np.bool_]:
-        """One reading."""
+        """Return the reading."""
         if self._learnt != view.generation:
             self._learn(view)
         (x, y), heading = body.position, body.heading
@@ -67,14 +67,14 @@ class LineSensor(Sensor):
         xs = x + cos * self.ahead - sin * self._left
         ys = y + sin * self.ahead + cos * self._left
         on_it = np.zeros(self.points, np.bool_)
-        # a line has many pieces, of which one or two are near
+        # a line has many areas, of which one or two are near
         for index in np.flatnonzero(np.hypot(self._x - x, self._y - y) <= self._far):
             on_it |= self._line[index].contains_each(xs, ys)
         self._seen = xs, ys, body.z, on_it
         return on_it
 
     def spots(self) -> SpotPicture:
-        """Where the eyes looked."""
+        """Return the points at which the eyes looked in the last reading."""
         xs, ys, z, on_it = self._seen
         places = np.column_stack([xs, ys, np.full(self.points, z)])
         return SpotPicture(places, tuple(on_it.tolist()))

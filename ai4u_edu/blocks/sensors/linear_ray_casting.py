@@ -18,15 +18,15 @@ from ai4u_edu.world import BodyView, Cast, WorldView
 
 
 class LinearRayCastingSensor(RaySensor):
-    """Codes and distances of what a flat fan of rays meets, level with the eye: a laser scanner.
+    """Codes and distances of what a level fan of rays hits: a laser scanner.
 
-    Ray i looks at ``(i + 1) * fov / (n + 1) - fov / 2 - shift`` from the heading, positive to the
-    left: as in a laser scan, ray 0 is the rightmost and the last one the leftmost.
+    The angle of ray i from the heading is ``(i + 1) * fov / (n + 1) - fov / 2 - shift``, positive
+    to the left: as in a laser scan, ray 0 is the rightmost and the last one the leftmost.
 
     Reading: (n,) codes; with ``return_distance`` (2 n,): code, then distance, ray by ray; without
     ``return_code`` (n,) distances alone. Codes are 0..1, a share of the largest code in use (whole
     codes with ``normalized=False``). Distances are 0..1, a share of ``vision_max_distance`` (metres
-    with ``normalize_distance=False``); 0 where nothing was met.
+    with ``normalize_distance=False``); 0 if the ray hits nothing.
 
     Source: AI4U's LinearRayCastingSensor.
 
@@ -35,9 +35,9 @@ class LinearRayCastingSensor(RaySensor):
     """
 
     number_of_rays: Annotated[int, Field(ge=1, le=1024)] = 10
-    """Count of rays."""
+    """Number of rays."""
     return_code: bool = True
-    """True reads the code of what each ray meets; False needs ``return_distance``."""
+    """True reads the code of what each ray hits; False needs ``return_distance``."""
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -48,16 +48,16 @@ class LinearRayCastingSensor(RaySensor):
             )
 
     def space(self) -> Box:
-        """Codes, and distances in metres (or 0..1 with normalize_distance)."""
+        """Return the ranges of codes and distances (metres, or 0..1 with normalize_distance)."""
         high = self._by_ray(self.largest_code, self.farthest).astype(np.float32)
         return Box(np.zeros_like(high), high)
 
     def scale(self) -> Any:
-        """Codes by the largest one; distances have normalize_distance."""
+        """Return the divisors: the largest code, and 1 for distances (see normalize_distance)."""
         return self._by_ray(self.largest_code, 1.0)
 
     def on_setup(self, agent: AgentView, view: WorldView) -> None:
-        """Looks the groups up and prepares the rays."""
+        """Look up the groups and prepare the rays."""
         check_groups(self, "group_code", view)
         angles = spread(self.number_of_rays, self.field_of_view)
         angles -= np.radians(self.horizontal_shift)
@@ -68,7 +68,7 @@ class LinearRayCastingSensor(RaySensor):
         self._shares = np.zeros(self.number_of_rays)
 
     def write(self, out: Array, body: BodyView, view: WorldView) -> None:
-        """Casts the fan."""
+        """Cast the rays."""
         fan = self._fan
         fan.cast(body)
         if not self.return_code:
@@ -79,7 +79,7 @@ class LinearRayCastingSensor(RaySensor):
             out[0::2], out[1::2] = fan.codes, self._measured()
 
     def _measured(self) -> Array:
-        """The distances, in the unit in which they are read."""
+        """Return the distances in the unit of the reading."""
         distances = self._fan.distances
         if not self.normalize_distance:
             return distances
@@ -87,11 +87,11 @@ class LinearRayCastingSensor(RaySensor):
         return self._shares
 
     def capture(self) -> Callable[[], RayPicture]:
-        """Makes the picture of the last reading when it is called."""
+        """Return a function that makes the picture of the last reading."""
         return partial(_picture, self._fan.kept(), self.vision_max_distance, self._names())
 
     def _by_ray(self, code: float, distance: float) -> npt.NDArray[np.float64]:
-        """What holds for codes and for distances, as the reading has them."""
+        """Return one number for codes and one for distances, in the order of the reading."""
         parts = [code] * self.return_code + [distance] * self.return_distance
         return np.tile(np.array(parts), self.number_of_rays)
 

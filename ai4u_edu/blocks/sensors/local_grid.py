@@ -1,4 +1,4 @@
-"""A picture from above."""
+"""A sensor that reads an image of the surroundings from above."""
 
 from typing import Annotated, Any, ClassVar
 
@@ -12,56 +12,56 @@ from ai4u_edu.blocks.agent_view import AgentView
 from ai4u_edu.blocks.groups import check_groups
 from ai4u_edu.blocks.sensors.memory import check_memory
 from ai4u_edu.blocks.sensors.pictures import ChannelLegend
-from ai4u_edu.blocks.sensors.plan import VOID, Plan
 from ai4u_edu.blocks.sensors.sensor import Array, Sensor
+from ai4u_edu.blocks.sensors.top_view import VOID, TopView
 from ai4u_edu.world import BodyView, WorldView
 
 Size = Annotated[int, Field(ge=1, le=512)]
 
 
 class LocalGridSensor(Sensor):
-    """A picture of the surroundings, seen from straight above, that turns with the agent.
+    """An image of the surroundings from above that turns with the agent.
 
-    The agent is in the middle and looks up: row 0 is farthest ahead, column 0 farthest left. Each
-    cell is a square of ``cell_size``; what counts is its centre. Each channel is a group, and shows
-    255 in the cells where something with that tag is: bodies, floors and areas alike. The channel
-    ``void`` shows where there is no floor at all. A body thinner than a cell is drawn one cell
-    thick, so that no wall has gaps. Heights don't matter; what fell out of the world is gone.
+    The agent is in the middle and faces up: row 0 is farthest ahead, column 0 farthest left. Each
+    cell is a square of side ``cell_size``, sampled at its centre. Each channel is a group: 255 in
+    the cells that hold a body, floor or area with that tag, else 0. The channel ``void`` shows
+    where there is no floor. A body thinner than a cell is drawn one cell thick, so that no wall has
+    gaps. Height has no effect; a body that fell out of the world is not drawn.
 
     With the defaults it sees 8 m to each side::
 
         row 0     . . . . . . . . .        . nothing of this group: 0
-                  . . . # # . . . .        # something of it: 255
+                  . . . # # . . . .        # something of this group: 255
                   . . . # # . . . .
                   . . . . A . . . .        A the agent, looking up (not drawn itself)
         last row  . . . . . . . . .
 
     Reading: (height, width, channels), uint8, 0 or 255 (0 or 1 with ``normalized``): channels last,
-    as image policies take them. Stacked, the older pictures' channels come first: (height, width,
+    as image policies expect. When stacked, older images' channels come first: (height, width,
     stacked_observations * channels).
 
-    Source: ours; in place of the cameras of AI4U (Camera, Camera3DSensor, ScreenSensor), and drawn
-    without one.
+    Source: ours; it replaces the cameras of AI4U (Camera, Camera3DSensor, ScreenSensor) and needs
+    no renderer.
     """
 
     width: Size = 64
-    """Columns of the picture."""
+    """Columns of the image."""
     height: Size = 64
-    """Rows of the picture."""
+    """Rows of the image."""
     cell_size: PositiveMetres = 0.25
-    """Side of a cell."""
+    """Side length of a cell."""
     channels: Annotated[list[Name], Field(min_length=1, max_length=64)] = Field(
         default_factory=lambda: ["floor", "void", "wall", "target", "agent"]
     )
-    """Groups (tags) that are shown, one channel each; ``void`` is where no floor is."""
+    """Groups (tags) that are shown, one channel each; ``void`` shows where there is no floor."""
     self_exclude: bool = True
-    """True leaves the agent's own body out."""
+    """True leaves out the agent's own body."""
 
     own_groups: ClassVar[tuple[str, ...]] = (VOID,)
 
     @property
     def kind(self) -> str:  # type: ignore[override]  # depends on a parameter here
-        """A picture, or an array of shares."""
+        """An image, or an array of floats if normalized."""
         return "sfloatarray" if self.normalized else "simage"
 
     def __post_init__(self) -> None:
@@ -75,28 +75,30 @@ class LocalGridSensor(Sensor):
                 )
 
     def space(self) -> Box:
-        """One picture."""
+        """Return the space of one image."""
         return Box(0, 255, (self.height, self.width, len(self.channels)), np.uint8)
 
     def observation_space(self) -> Box:
-        """The pictures side by side in the channels."""
+        """Return the space of the stacked images, joined along the channels."""
         count = len(self.channels) * self.stacked_observations
         shape = (self.height, self.width, count)
         return Box(0.0, 1.0, shape) if self.normalized else Box(0, 255, shape, np.uint8)
 
     def on_setup(self, agent: AgentView, view: WorldView) -> None:
-        """Looks the groups up and prepares the drawing."""
+        """Look up the groups and prepare the drawing."""
         check_groups(self, "channels", view)
-        self._plan = Plan(self.width, self.height, self.cell_size, self.channels, self.self_exclude)
+        self._top_view = TopView(
+            self.width, self.height, self.cell_size, self.channels, self.self_exclude
+        )
 
     def write(self, out: Array, body: BodyView, view: WorldView) -> None:
-        """Draws one picture."""
-        planes = self._plan.draw(body, view)
+        """Draw one image."""
+        planes = self._top_view.draw(body, view)
         # the negative of 1 in 8 bits is 255
         np.negative(planes.transpose(1, 2, 0), out=out, casting="unsafe")
 
     def legend(self) -> ChannelLegend:
-        """A group for each channel."""
+        """Return the group of each channel."""
         return ChannelLegend(tuple(self.channels))
 
     def _stack(self, reading: Any) -> None:

@@ -1,4 +1,4 @@
-"""The size of a sensor's readings in memory, which a few parameters can multiply without end."""
+"""A limit on the memory of a sensor's readings, which stacking and delay multiply."""
 
 import math
 from typing import TYPE_CHECKING
@@ -9,15 +9,15 @@ if TYPE_CHECKING:
     from ai4u_edu.blocks.sensors.sensor import Sensor
 
 MAX_KEPT_NUMBERS = 2**23
-"""Numbers that a sensor may keep: of its latest readings, for stack and delay."""
+"""Maximum count of numbers that a sensor may keep, over all readings for stack and delay."""
 
 
 def check_memory(sensor: "Sensor", shape: tuple[int, ...]) -> None:
-    """Raise a BlockError if a sensor's readings would take up too much memory.
+    """Raise a BlockError if a sensor's readings would need too much memory.
 
     Args:
-        sensor: whose.
-        shape: of one reading.
+        sensor: the sensor.
+        shape: shape of one reading.
     """
     size, kept = math.prod(shape), sensor.stacked_observations + sensor.delay
     if size * kept > MAX_KEPT_NUMBERS:

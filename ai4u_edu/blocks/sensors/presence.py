@@ -1,4 +1,4 @@
-"""A sensor of which bodies of a group are still there."""
+"""A sensor of the bodies of a group that are still in the world."""
 
 from gymnasium.spaces import Box
 
@@ -11,9 +11,9 @@ from ai4u_edu.world import BodyView, WorldView
 class PresenceSensor(Sensor):
     """A number for each body of the group: 1 while it is in the world, 0 while it is gone.
 
-    Gone is what was collected, or fell out. A position of something that is gone is the last one
-    that it had, so this tells which positions still count. The bodies stand in the order in which
-    the scene names them; wherever they are, near or far, seen or hidden.
+    A body is gone when it was collected or fell out. Its position then stays the last one it had,
+    so this sensor tells which positions are still valid. The bodies are in the scene's order. Their
+    distance and visibility have no effect.
 
     Reading: (n,) for n bodies, each 0 or 1. Source: ours.
     """
@@ -26,18 +26,18 @@ class PresenceSensor(Sensor):
         self._names: tuple[str, ...] = ("",)
 
     def space(self) -> Box:
-        """0 or 1 for each."""
+        """Return the range 0..1 for each body."""
         return Box(0.0, 1.0, (len(self._names),))
 
     def slots(self) -> tuple[str, ...]:
-        """The bodies' names."""
+        """Return the bodies' names."""
         return self._names
 
     def on_setup(self, agent: AgentView, view: WorldView) -> None:
-        """Looks the group up."""
+        """Look up the group."""
         view.check_group(self.group)
         self._names = view.named(self.group)
 
     def read(self, body: BodyView, view: WorldView) -> list[float]:
-        """One reading."""
+        """Return the reading."""
         return [0.0 if view[name].fallen else 1.0 for name in self._names]

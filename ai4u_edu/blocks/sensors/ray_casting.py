@@ -19,21 +19,21 @@ from ai4u_edu.world import BodyView, Cast, WorldView
 
 
 class RayCastingSensor(RaySensor):
-    """Codes and distances of what a grid of rays meets: a small picture, row 0 on top.
+    """Codes and distances of what a grid of rays hits: a small picture, row 0 on top.
 
-    Each ray reads the code of what it meets. A ray that goes down meets the floor, or the void
-    beyond its edge: so an agent can see a cliff. Column 0 is the leftmost; column i looks at
-    ``fov * ((i + 1) / (n + 1) - 1/2)`` from the middle, clockwise.
+    Each ray reads the code of what it hits. A ray that points down hits the floor, or the void
+    beyond its edge, so an agent can see a cliff. Column 0 is the leftmost; the angle of column i
+    from the middle is ``fov * ((i + 1) / (n + 1) - 1/2)``, clockwise.
 
     Reading: (rows, columns) codes; with ``return_distance`` (2, rows, columns), codes first, then
     distances along the rays. Codes are 0..1, a share of the largest code in use (whole codes with
     ``normalized=False``). Distances are 0..1, a share of ``vision_max_distance`` (metres with
-    ``normalize_distance=False``); 0 where nothing was met. ``flattened`` makes one row of numbers.
+    ``normalize_distance=False``); 0 if the ray hits nothing. ``flattened`` gives one row.
 
     Source: AI4U's RayCastingSensor.
 
-    Differs from AI4U: ``field_of_view`` is the whole angle, there fieldOfView is the angle to each
-    side (45 there is 90 here), and ``vertical_field_of_view`` is a parameter of its own.
+    Differs from AI4U: ``field_of_view`` is the whole angle; there fieldOfView is the angle to each
+    side (45 there is 90 here). ``vertical_field_of_view`` is a separate parameter.
     ``no_object_code`` is 0 and ``normalize_distance`` on.
     """
 
@@ -44,12 +44,12 @@ class RayCastingSensor(RaySensor):
     vertical_field_of_view: Annotated[float, quantity("deg", gt=0, lt=180)] = 45.0
     """The whole vertical angle."""
     vertical_shift: Degrees = 30.0
-    """Angle by which the middle row looks down."""
+    """Angle by which the middle row points down."""
     flattened: bool = False
-    """True reads one row of numbers in place of a grid."""
+    """True reads one row of numbers instead of a grid."""
 
     def space(self) -> Box:
-        """Codes, and distances in metres (or 0..1 with normalize_distance)."""
+        """Return the ranges of codes and distances (metres, or 0..1 with normalize_distance)."""
         codes = np.full((self.rows, self.columns), self.largest_code, np.float32)
         high = np.stack([codes, np.full_like(codes, self.farthest)])
         if not self.return_distance:
@@ -59,13 +59,13 @@ class RayCastingSensor(RaySensor):
         return Box(np.zeros_like(high), high)
 
     def scale(self) -> Any:
-        """Codes by the largest one; distances have normalize_distance."""
+        """Return the divisors: the largest code, and 1 for distances (see normalize_distance)."""
         codes = np.full((self.rows, self.columns), self.largest_code)
         by = np.stack([codes, np.ones_like(codes)]) if self.return_distance else codes
         return by.ravel() if self.flattened else by
 
     def on_setup(self, agent: AgentView, view: WorldView) -> None:
-        """Looks the groups up and prepares the rays."""
+        """Look up the groups and prepare the rays."""
         check_groups(self, "group_code", view)
         shift = np.radians(self.horizontal_shift)
         angles = -spread(self.columns, self.field_of_view) - shift
@@ -80,7 +80,7 @@ class RayCastingSensor(RaySensor):
         )
 
     def write(self, out: Array, body: BodyView, view: WorldView) -> None:
-        """Casts the grid."""
+        """Cast the rays."""
         grid = self._grid
         grid.cast(body)
         planes = out.reshape(-1, self.rows, self.columns)
@@ -90,12 +90,12 @@ class RayCastingSensor(RaySensor):
             np.divide(grid.distances, far, out=planes[1], casting="unsafe")
 
     def capture(self) -> Callable[[], RayPicture]:
-        """Makes the picture of the last reading when it is called; the rays row by row."""
+        """Return a function that makes the picture of the last reading, its rays row by row."""
         grid = self._grid
         return partial(_picture, grid.kept(), grid.pitches, self.vision_max_distance, self._names())
 
     def legend(self) -> CodeLegend:
-        """The groups by their codes."""
+        """Return the group of each code."""
         scale = self.largest_code if self.normalized else 1.0
         codes = tuple(code / scale for code in self.group_code.values())
         planes = 2 if self.return_distance else 1

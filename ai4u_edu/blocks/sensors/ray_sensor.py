@@ -1,4 +1,4 @@
-"""What the ray sensors share: codes of groups, and a picture of the last cast for the viewer."""
+"""The base of the ray sensors: codes of groups, and a picture of the last cast for the viewer."""
 
 from collections.abc import Callable, Mapping, Sequence
 from typing import Annotated, Any, ClassVar, NamedTuple
@@ -17,45 +17,45 @@ class RayPicture(NamedTuple):
     """The rays of the last reading, to be drawn."""
 
     origin: tuple[float, float, float]
-    """The eye, world frame, metres."""
+    """Position of the eye, world frame, metres."""
     ends: npt.NDArray[np.float64]
-    """(n, 3) where each ray ends: at what it met, or at its full length."""
+    """(n, 3) end point of each ray: where it hit something, or at its full length."""
     groups: tuple[str, ...]
-    """What each ray met: a key of ``group_code``; empty for nothing, ``?`` for something else."""
+    """The group that each ray hit (a key of ``group_code``); empty if none, ``?`` without code."""
 
 
 class RaySensor(Sensor):
-    """The parameters that both ray sensors have."""
+    """The parameters that all ray sensors have."""
 
     abstract = True
 
     field_of_view: Annotated[float, quantity("deg", gt=0, le=360)] = 90.0
     """The whole horizontal angle."""
     horizontal_shift: Degrees = 0.0
-    """Turns the whole fan clockwise."""
+    """Angle by which all rays are turned clockwise."""
     eye: tuple[Metres, Metres, Metres] = (0.0, 0.0, 0.5)
-    """Place of the eye on the body: (forward, left, up) of its centre and underside, in metres."""
+    """Position of the eye: (forward, left) of the body's centre, up from its underside, metres."""
     vision_max_distance: PositiveMetres = 30.0
-    """Length of a ray; what is farther away is not met."""
+    """Length of a ray."""
     group_code: dict[Name, Code] = Field(default_factory=dict)
-    """Code, 0..255, of each group (tag); of a body with several tags, the first one counts."""
+    """Code, 0..255, of each group (tag); of a body's tags, the first that has a code counts."""
     no_object_code: Code = 0
-    """Code of a ray that meets nothing, or something that has no code of its own."""
+    """Code of a ray that hits nothing, or something without a code."""
     return_distance: bool = False
-    """True reads the distance to what each ray meets as well."""
+    """True also reads the distance to what each ray hits."""
     normalize_distance: bool = True
     """True reads distances as a share of vision_max_distance, False in metres."""
     self_exclude: bool = True
     """True lets rays pass through the agent's own body."""
     collision_mask: Bits = 0xFFFFFFFF
-    """Bits of the collision layers that a ray can meet."""
+    """Bits of the collision layers that a ray can hit."""
     normalized: bool = True
-    """True reads codes as a share of the largest one in use, False as they are."""
+    """True reads codes as a share of the largest one in use, False as whole numbers."""
 
     looks_at: ClassVar[tuple[str, ...]] = ("bodies", "floors")
 
     def code_of(self, tags: Sequence[str]) -> float:
-        """The code of something with these tags."""
+        """Return the code of something with these tags."""
         for tag in tags:
             if tag in self.group_code:
                 return float(self.group_code[tag])
@@ -72,14 +72,14 @@ class RaySensor(Sensor):
         return 1.0 if self.normalize_distance else self.vision_max_distance
 
     def capture(self) -> Callable[[], RayPicture]:
-        """Makes the picture of the last reading when it is called, and as often as it is.
+        """Return a function that makes the picture of the last reading.
 
-        It has numbers of its own, and holds on to neither the sensor nor its world.
+        It holds a copy of the numbers, and no reference to the sensor or its world.
         """
         raise NotImplementedError  # each ray sensor has its own
 
     def picture(self) -> RayPicture:
-        """The rays of the last reading."""
+        """Return the picture of the last reading."""
         return self.capture()()
 
     def _options(self) -> dict[str, Any]:
@@ -96,7 +96,7 @@ class RaySensor(Sensor):
 def groups_met(
     names: Mapping[float, str], codes: npt.NDArray[np.float64], hit: npt.NDArray[np.bool_]
 ) -> tuple[str, ...]:
-    """What each ray met, as a :class:`RayPicture` has it."""
+    """Return the group that each ray hit, as in :class:`RayPicture`."""
     return tuple(
         names.get(code, "?") if met else ""
         for code, met in zip(codes.tolist(), hit.tolist(), strict=True)
@@ -104,7 +104,7 @@ def groups_met(
 
 
 def spread(count: int, field_of_view: float) -> npt.NDArray[np.float64]:
-    """Angles (radians) of ``count`` rays, evenly inside a field of view (degrees), rising.
+    """Return the angles (radians) of rays spread evenly over a field of view (degrees), rising.
 
     >>> np.degrees(spread(3, 120)).round().tolist()
     [-30.0, 0.0, 30.0]

@@ -1,9 +1,9 @@
-"""What every sensor has: a key, a space, and the path from a reading to the percept."""
+"""Base class of sensors: key, space, and the path from a raw reading to the percept."""
 
 import math
+import warnings
 from collections import deque
 from collections.abc import Callable
-from functools import partial
 from operator import truediv
 from struct import Struct
 from typing import Annotated, Any, ClassVar
@@ -30,16 +30,16 @@ SPACES = (
     spaces.MultiDiscrete,
     spaces.Text,
 )
-"""The spaces that a reading may have, besides a Tuple or a Sequence of Text."""
+"""Spaces that a reading may have, besides a Tuple or a Sequence of Text."""
 KINDS = (*DTYPES, *TEXTS)
 """AI4U's types of readings."""
 
 
 class Sensor(Block):
-    """The base of all sensors: fill :meth:`space` and :meth:`read`.
+    """The base of all sensors: implement :meth:`space` and :meth:`read`.
 
-    Stacking, normalising, noise, delay, dropout and on/off happen here, for every sensor alike.
-    A reading passes them in this order: dropout, noise, delay, normalising, stacking.
+    The base class adds dropout, noise, delay, normalising and stacking, in this order, and
+    switches a sensor off.
 
     >>> from gymnasium.spaces import Box
     >>> from ai4u_edu import BasicAgent, CircleShape, ControlRequestor, LocalBrain, World
@@ -65,59 +65,66 @@ class Sensor(Block):
     """
 
     perception_key: str = ""
-    """The reading's name in the percept; left out: from the class's name."""
+    """The reading's name in the percept; by default made from the class's name."""
     stacked_observations: Annotated[int, Field(ge=1, le=1000)] = 1
-    """How many of the latest readings are shown together, oldest first."""
+    """Number of latest readings that the percept holds, oldest first."""
     is_active: bool = True
-    """False leaves the sensor out; one that is switched off under way reads zeros."""
+    """False leaves the sensor out; one that is switched off during an episode reads zeros."""
     normalized: bool = False
-    """True divides the reading by the largest number that it can be (in AI4U the default)."""
+    """True divides the reading by its largest possible magnitude (AI4U's default)."""
     resetable: bool = True
-    """True lets a reset begin anew: on_reset runs, and stack and delay are filled with the first
-    reading. Switched off, on_reset never runs, not even at the first reset (prepare in on_setup
-    what a reading needs), and stack and delay go on over the resets."""
+    """True runs on_reset at every reset and fills stack and delay with the episode's first
+    reading. False never runs on_reset, not even at the first reset (prepare in on_setup what a
+    reading needs), and keeps stack and delay across resets."""
     is_input: bool = True
-    """Whether a policy gets it as part of its observation."""
+    """True makes the reading part of a policy's observation."""
     noise: Annotated[float, quantity("the reading's", ge=0)] = 0.0
     """Standard deviation of Gaussian noise."""
     delay: Annotated[int, quantity("decisions", ge=0, le=1000)] = 0
-    """Age of the reading that is shown: 0 is the present one, 1 the one of the decision before."""
+    """Age of the reading in the percept: 0 is the present one, 1 that of the decision before."""
     dropout: Annotated[float, quantity("1", ge=0, le=1)] = 0.0
-    """Chance that a reading is lost; the one before stays."""
+    """Probability that a reading is lost and the one before it stays."""
 
     unit: ClassVar[str] = ""
     kind: ClassVar[str] = ""
-    """AI4U's type of the reading; left out, it follows from the space."""
+    """AI4U's type of the reading; by default it follows from the space."""
     stackable: ClassVar[bool] = True
 
     def __post_init__(self) -> None:
         self.perception_key = self.perception_key or default_name(type(self), "Sensor")
 
-    # -- what a sensor fills ---------------------------------------------------------------------
+    def __init_subclass__(cls, **options: Any) -> None:
+        super().__init_subclass__(**options)
+        if "says_nothing" in vars(cls) and "is_sentinel" not in vars(cls):
+            text = f"{cls.__name__}.says_nothing is now {cls.__name__}.is_sentinel"
+            warnings.warn(text, DeprecationWarning, stacklevel=2)
+            setattr(cls, "is_sentinel", vars(cls)["says_nothing"])  # noqa: B010 - mypy: a method
+
+    # -- methods that a sensor implements --------------------------------------------------------
 
     def space(self) -> spaces.Space[Any]:
-        """The space of one raw reading, in the sensor's unit."""
+        """Return the space of one raw reading, in the sensor's unit."""
         raise BlockError(
             f"{type(self).__name__} has no space(self): it must say what it can read, as a Box"
         )
 
     def read(self, body: BodyView, view: WorldView) -> Any:
-        """One raw reading, inside :meth:`space`.
+        """Return one raw reading, inside :meth:`space`.
 
         Args:
             body: the agent's body.
-            view: the world, to be asked.
+            view: read access to the world.
         """
         raise BlockError(
             f"{type(self).__name__} has no read(self, body, view): it must return its reading"
         )
 
     def write(self, out: Array, body: BodyView, view: WorldView) -> None:
-        """Writes one raw reading into ``out``; a built-in fills it in place, faster than read."""
+        """Write one raw reading into ``out``; arrays are faster filled in place than by read."""
         out[...] = self._checked(self.read(body, view))
 
     def scale(self) -> Any:
-        """What a normalised reading is divided by; by default the largest |bound| of the space."""
+        """Return the divisor of normalising; by default the largest |bound| of the space."""
         space = self.space()
         if not isinstance(space, spaces.Box):
             return 1.0
@@ -125,22 +132,33 @@ class Sensor(Block):
         return np.where(np.isfinite(largest) & (largest > 0), largest, 1.0)
 
     def is_sentinel(self, reading: Any) -> bool:
-        """Whether a raw reading stands for "nothing there": it is not normalised."""
+        """Return True for a raw reading that means "nothing there" and is not normalised."""
+        return False
+
+    def says_nothing(self, reading: Any) -> bool:
+        """Return :meth:`is_sentinel`; deprecated name, kept for one release."""
+        warnings.warn(
+            "Sensor.says_nothing is now Sensor.is_sentinel", DeprecationWarning, stacklevel=2
+        )
+        for cls in type(self).__mro__:
+            found = vars(cls).get("is_sentinel")
+            if found is not None and found is not vars(cls).get("says_nothing"):
+                return bool(found(self, reading))
         return False
 
     def slots(self) -> tuple[str, ...]:
-        """What each number of one reading is called, to be shown; empty if they have no names."""
+        """Return display names of the numbers of one reading; empty if they have none."""
         return ()
 
     def spots(self) -> SpotPicture | None:
-        """The places at which the last reading looked, to be drawn; most sensors have none."""
+        """Return the places at which the last reading looked, to draw them; most have none."""
         return None
 
     def legend(self) -> Legend | None:
-        """How the reading is seen as a picture, if it is one."""
+        """Return how to draw the reading as a picture; None if it is no picture."""
         return None
 
-    # -- what the base does with it --------------------------------------------------------------
+    # -- the path from a raw reading to the percept ----------------------------------------------
 
     def reading_kind(self) -> str:
         """Return AI4U's type of the reading: sfloat, sfloatarray, sbool, sint, sstring, ...
@@ -175,7 +193,7 @@ class Sensor(Block):
         return "sintarray" if whole else "sfloatarray"
 
     def observation_space(self) -> spaces.Space[Any]:
-        """The space of what stands in the percept: normalised and stacked."""
+        """Return the space of the reading in the percept: normalised and stacked."""
         space = self.space()
         if not isinstance(space, spaces.Box):
             return space
@@ -192,12 +210,12 @@ class Sensor(Block):
         dtype: Any = np.float32 if self.normalized else space.dtype
         return spaces.Box(low.astype(dtype), high.astype(dtype), dtype=dtype)
 
-    def attach(self, out: Array, chance: Callable[[], np.random.Generator]) -> None:
-        """Prepares for an agent.
+    def attach(self, out: Array, get_rng: Callable[[], np.random.Generator]) -> None:
+        """Prepare for an agent.
 
         Args:
             out: the reading's place in the agent's memory; every reading is written there.
-            chance: gives the episode's generator for noise and dropout; made where it is needed.
+            get_rng: returns the episode's generator for noise and dropout; called when needed.
         """
         if self.stacked_observations > 1 and not self.stackable:
             raise BlockError(
@@ -205,67 +223,72 @@ class Sensor(Block):
                 f"got {self.stacked_observations}"
             )
         space = self.space()
-        self._out, self._chance, self._declared = out, chance, space
+        self._out, self._get_rng, self._declared = out, get_rng, space
         shape = space.shape or ()
         self._raw = np.zeros(shape, np.float64 if out.dtype == np.float32 else out.dtype)
         self._past: deque[Array] = deque(maxlen=self.delay + 1)
         self._fresh = True
-        self._ever_read = False
+        self._ever_read = self._is_range_checked = False
         self._scale = np.broadcast_to(np.asarray(self.scale(), np.float64), shape)
-        plain = not (self.stacked_observations > 1 or self.noise or self.delay or self.dropout)
         # dividing by 1 leaves a number as it is
-        self._direct = plain and (not self.normalized or bool((self._scale == 1.0).all()))
-        # a few numbers in Python's own form need no detour through arrays
-        reads = type(self).write is Sensor.write
-        self._count = out.size
-        self._few = plain and reads and out.dtype == np.float32 and bool(out.size)
-        self.take: Callable[[BodyView, WorldView], None] = self._take_first
-        """Takes one reading and puts it into the agent's memory, by the shortest way there is."""
-        if self._few:
+        self._is_scaled = self.normalized and bool((self._scale != 1.0).any())
+        is_filtered = self.stacked_observations > 1 or self.noise or self.delay or self.dropout
+        has_own_write = type(self).write is not Sensor.write
+        self._reads_numbers = not has_own_write and out.dtype == np.float32 and bool(out.size)
+        is_direct = not is_filtered and (self._reads_numbers or not self._is_scaled)
+        self._read_into_memory = self._read_direct if is_direct else self._read_filtered
+        if self._reads_numbers:
             self._memory = out.reshape(-1).data.cast("B")
             self._pack = Struct(f"={out.size}f").pack_into
-            self._divisors = None if self._direct else tuple(self._scale.ravel().tolist())
+            self._divisors = self._scale.ravel().tolist()
 
     def restart(self) -> None:
-        """Begins an episode: the next reading fills stack and delay."""
+        """Begin an episode: the next reading fills stack and delay."""
         self._fresh = self.resetable or not self._ever_read
 
     def blank(self) -> None:
-        """Puts zeros in place of a reading: the sensor is switched off."""
+        """Replace the reading by zeros: the sensor is switched off."""
         self._out[...] = 0
 
-    def _take_first(self, body: BodyView, view: WorldView) -> None:
-        take: Callable[[BodyView, WorldView], None] = self._take_through
-        if self._direct:
-            take = partial(self.write, self._out)
-        if self._few:
-            take = self._take_few
-        take(body, view)
-        self._ever_read = True
-        self._check_range()
-        self.take = take
+    def take(self, body: BodyView, view: WorldView) -> None:
+        """Take one reading and put it into the agent's memory.
 
-    def _take_few(self, body: BodyView, view: WorldView) -> None:
+        Raises:
+            ReadingError: the reading does not fit the space; its range is checked once.
+        """
+        self._read_into_memory(body, view)
+        if not self._is_range_checked:
+            self._ever_read = True
+            self._check_range()
+            self._is_range_checked = True
+
+    def _read_direct(self, body: BodyView, view: WorldView) -> None:
+        """Put a reading into memory that needs no filter; same bits as _read_filtered."""
+        if not self._reads_numbers:
+            self.write(self._out, body, view)
+            return
+        # a few Python numbers are packed faster than put through arrays
         reading = self.read(body, view)
         numbers = (reading,) if type(reading) is float else reading
         try:
-            fits = len(numbers) == self._count and math.isfinite(sum(numbers))
+            fits = len(numbers) == len(self._divisors) and math.isfinite(sum(numbers))
         except TypeError:
             fits = False
         if not fits:
             numbers = self._checked(reading).ravel().tolist()
-        if self._divisors is not None and not self.is_sentinel(numbers):
+        if self._is_scaled and not self.is_sentinel(numbers):
             numbers = map(truediv, numbers, self._divisors)
         self._pack(self._memory, 0, *numbers)
 
-    def _take_through(self, body: BodyView, view: WorldView) -> None:
-        lost = self.dropout and not self._fresh and self._chance().random() < self.dropout
-        if not lost:
+    def _read_filtered(self, body: BodyView, view: WorldView) -> None:
+        """Put a reading into memory with dropout, noise, delay, normalising and stacking."""
+        is_lost = self.dropout and not self._fresh and self._get_rng().random() < self.dropout
+        if not is_lost:
             self.write(self._raw, body, view)
         reading = self._raw
         if self.noise:
             space = self._declared
-            reading = reading + self._chance().normal(0.0, self.noise, reading.shape)
+            reading = reading + self._get_rng().normal(0.0, self.noise, reading.shape)
             if isinstance(space, spaces.Box):
                 reading = np.clip(reading, space.low, space.high)
         if self.delay:
@@ -273,7 +296,7 @@ class Sensor(Block):
                 self._past.clear()
             self._past.append(reading.copy())
             reading = self._past[0]
-        if self.normalized and not self.is_sentinel(reading):
+        if self._is_scaled and not self.is_sentinel(reading):
             reading = reading / self._scale
         self._stack(reading)
         self._fresh = False

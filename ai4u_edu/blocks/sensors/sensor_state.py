@@ -1,4 +1,4 @@
-"""What a sensor remembers, kept while it is set up anew; and a second look at the same moment."""
+"""State of a sensor, kept while the sensor is set up again; and reading a moment twice."""
 
 from dataclasses import dataclass
 from typing import Any
@@ -11,27 +11,28 @@ from ai4u_edu.world import BodyView, WorldView
 
 @dataclass(frozen=True)
 class SensorState:
-    """A sensor's stack, what it holds back, and whether it has read anything yet."""
+    """Stack, delayed readings and flags of a sensor and of the sensors inside it."""
 
     out: Array
     state: dict[str, Any]
     children: "tuple[SensorState, ...]"
 
     @classmethod
-    def of(cls, sensor: Sensor) -> "SensorState":
-        """What a sensor remembers now."""
+    def capture(cls, sensor: Sensor) -> "SensorState":
+        """Copy the present state of a sensor."""
         state = {
             "_raw": sensor._raw.copy(),
             "_past": sensor._past.copy(),
             "_fresh": sensor._fresh,
             "_ever_read": sensor._ever_read,
         }
-        return cls(sensor._out.copy(), state, tuple(map(cls.of, _children(sensor))))
+        return cls(sensor._out.copy(), state, tuple(map(cls.capture, _children(sensor))))
 
     def restore(self, sensor: Sensor) -> bool:
-        """Has a sensor that was set up anew go on from here; False if its reading looks different.
+        """Put the state into a sensor that was set up again.
 
-        Then it begins anew.
+        Returns:
+            False if the reading of the sensor, or of one inside it, has another shape or type now.
         """
         same = self.out.shape == sensor._out.shape and self.out.dtype == sensor._out.dtype
         children = _children(sensor)
@@ -47,7 +48,7 @@ class SensorState:
 
 
 def read_again(sensor: Sensor, body: BodyView, view: WorldView) -> None:
-    """Reads once more at the same moment: the new reading takes the place of the last one."""
+    """Replace the last reading by a new one of the same moment."""
     _unread(sensor)
     stack = sensor._out.copy() if sensor.stacked_observations > 1 and not sensor._fresh else None
     sensor.take(body, view)
@@ -56,7 +57,7 @@ def read_again(sensor: Sensor, body: BodyView, view: WorldView) -> None:
 
 
 def _unread(sensor: Sensor) -> None:
-    """Forgets the last reading of those that are held back."""
+    """Drop the newest of the delayed readings."""
     if sensor._past:
         sensor._past.pop()
     for child in _children(sensor):

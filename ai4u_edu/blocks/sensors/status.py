@@ -16,7 +16,7 @@ LARGEST = 2**31 - 1
 
 
 class StatusSensor(Sensor):
-    """A sensor that looks at its agent; it doesn't stack and is no input of a policy."""
+    """A sensor that reads its agent's state; it doesn't stack and is no policy input."""
 
     abstract = True
 
@@ -24,15 +24,15 @@ class StatusSensor(Sensor):
     stackable = False
 
     def on_setup(self, agent: AgentView, view: WorldView) -> None:
-        """Remembers the agent."""
+        """Store the agent."""
         self._agent = agent
 
 
 class DoneSensor(StatusSensor):
-    """The end of the episode: 1 once it is over, for whatever reason, else 0.
+    """The end of the episode: 1 once it is over, for any reason, else 0.
 
-    Every agent has one, also where its description names none. A policy doesn't get it
-    (``is_input`` is off), and it doesn't stack.
+    Every agent has one, even if its description names none. It is no policy input (``is_input`` is
+    off), and it doesn't stack.
 
     Reading: true or false; one number, 0 or 1. Source: AI4U.
     """
@@ -41,19 +41,19 @@ class DoneSensor(StatusSensor):
     kind = "sbool"
 
     def space(self) -> Discrete:
-        """0 or 1."""
+        """Return the space of 0 and 1."""
         return Discrete(2)
 
     def write(self, out: Array, body: BodyView, view: WorldView) -> None:
-        """One reading."""
+        """Write the reading into ``out``."""
         out[...] = self._agent.done
 
 
 class TruncatedSensor(StatusSensor):
-    """The end by the step limit: 1 once the episode was cut off by it, else 0.
+    """The end by the step limit: 1 once the episode was truncated by it, else 0.
 
-    ``done`` is true at every end; this one tells a cut from an end that the agent earned (a goal,
-    a fall). A policy doesn't get it (``is_input`` is off), and it doesn't stack.
+    ``done`` is true at every end; this sensor tells truncation from a terminal state (a goal, a
+    fall). It is no policy input (``is_input`` is off), and it doesn't stack.
 
     Reading: true or false; one number, 0 or 1. Source: AI4U.
     """
@@ -62,19 +62,19 @@ class TruncatedSensor(StatusSensor):
     kind = "sbool"
 
     def space(self) -> Discrete:
-        """0 or 1."""
+        """Return the space of 0 and 1."""
         return Discrete(2)
 
     def write(self, out: Array, body: BodyView, view: WorldView) -> None:
-        """One reading."""
+        """Write the reading into ``out``."""
         out[...] = self._agent.truncated
 
 
 class IDSensor(StatusSensor):
     """The agent's id, as text.
 
-    Every agent has one, also where its description names none. A policy doesn't get it
-    (``is_input`` is off), and it doesn't stack.
+    Every agent has one, even if its description names none. It is no policy input (``is_input`` is
+    off), and it doesn't stack.
 
     Reading: text of up to 80 characters. Source: AI4U.
     """
@@ -82,18 +82,18 @@ class IDSensor(StatusSensor):
     perception_key: str = "id"
 
     def space(self) -> Text:
-        """Up to 80 characters."""
+        """Return the space of texts of up to 80 characters."""
         return Text(80)
 
     def read(self, body: BodyView, view: WorldView) -> str:
-        """The id."""
+        """Return the id."""
         return self._agent.id
 
 
 class StepSensor(StatusSensor):
-    """The count of decisions that the agent has taken in this episode.
+    """The number of decisions that the agent has taken in this episode.
 
-    A policy doesn't get it (``is_input`` is off), and it doesn't stack.
+    It is no policy input (``is_input`` is off), and it doesn't stack.
 
     Reading: a whole number from 0 on; with ``normalized`` divided by ``max_size``. Source: AI4U.
 
@@ -102,31 +102,31 @@ class StepSensor(StatusSensor):
 
     perception_key: str = "steps"
     max_size: Annotated[int, Field(ge=1, le=MAX_COUNT)] = 300
-    """Count of decisions that a normalised reading shows as 1."""
+    """Number of decisions that reads as 1 when normalised."""
 
     @property
     def kind(self) -> str:  # type: ignore[override]  # depends on a parameter here
-        """A whole number, or a share of max_size."""
+        """An integer, or a float (share of max_size) if normalized."""
         return "sfloat" if self.normalized else "sint"
 
     def space(self) -> Box:
-        """From 0 on."""
+        """Return the range of integers from 0 on."""
         return Box(0, LARGEST, (), np.int32)
 
     def scale(self) -> float:
-        """The number of steps that reads as 1."""
+        """Return the number of steps that reads as 1."""
         return float(self.max_size)
 
     def write(self, out: Array, body: BodyView, view: WorldView) -> None:
-        """One reading."""
+        """Write the reading into ``out``."""
         out[...] = self._agent.steps
 
 
 class RewardSensor(StatusSensor):
     """The reward of the last decision, times ``reward_scale``.
 
-    It is the sum of all terms, after the agent's own ``reward_scale``. A policy doesn't get it
-    (``is_input`` is off), and it doesn't stack.
+    It is the sum of all terms, already multiplied by the agent's own ``reward_scale``. It is no
+    policy input (``is_input`` is off), and it doesn't stack.
 
     Reading: one number, of any size. Source: AI4U.
     """
@@ -137,16 +137,16 @@ class RewardSensor(StatusSensor):
     kind = "sfloat"
 
     def space(self) -> Box:
-        """Any number."""
+        """Return the range of all numbers."""
         return Box(-np.inf, np.inf, ())
 
     def write(self, out: Array, body: BodyView, view: WorldView) -> None:
-        """One reading."""
+        """Write the reading into ``out``."""
         out[...] = self._agent.reward * self.reward_scale
 
 
 class ActionSensor(Sensor):
-    """The last action of one actuator; zeros before the first, and where it got none.
+    """The last action of one actuator; zeros before the first action, or if it got none.
 
     Stack it to show a policy several of its latest actions.
 
@@ -158,10 +158,10 @@ class ActionSensor(Sensor):
     action_name: str = "move"
     """Name of the action that is read."""
     action_size: Annotated[int, Field(ge=1, le=1024)] | None = None
-    """Count of numbers; left out: as many as the actuator takes."""
+    """Number of values; left out: as many as the actuator takes."""
 
     def on_setup(self, agent: AgentView, view: WorldView) -> None:
-        """Looks the actuator up."""
+        """Look up the actuator."""
         actuators = {actuator.action_name: actuator for actuator in agent.actuators}
         if self.action_name not in actuators:
             raise BlockError(
@@ -178,13 +178,13 @@ class ActionSensor(Sensor):
         self._low, self._high = np.array(low, np.float32), np.array(high, np.float32)
 
     def space(self) -> Box:
-        """The actuator's own ranges, and zero."""
+        """Return the actuator's ranges, extended to include 0."""
         return Box(np.minimum(self._low, 0), np.maximum(self._high, 0))
 
     def slots(self) -> tuple[str, ...]:
-        """The actuator's own."""
+        """Return the actuator's names of its numbers."""
         return self._slots
 
     def write(self, out: Array, body: BodyView, view: WorldView) -> None:
-        """One reading."""
+        """Write the reading into ``out``."""
         out[...] = self._agent.last_action.get(self.action_name, 0.0)

@@ -22,7 +22,7 @@ from ai4u_edu.lessons.numeric import finite_number, finite_numbers, is_close
 from ai4u_edu.lessons.pictures import picture
 from ai4u_edu.lessons.rollouts import as_brain, drive, seeds_of
 from ai4u_edu.lessons.worlds import plate
-from ai4u_edu.snapshot import picture_of
+from ai4u_edu.snapshot import capture_snapshot
 from ai4u_edu.world import BoxShape, CircleShape, World
 
 STATUS = ("done", "id")
@@ -89,14 +89,14 @@ def finds_the_twin(twin: Any) -> Done:
                 f"At ({x:g}, {y:g}) the robot reads a distance of {distance:.2f}, at "
                 f"({u:g}, {v:g}) {twins_distance:.2f}.",
                 hint="far",
-                picture=picture(picture_of(other)),
+                picture=picture(capture_snapshot(other)),
             )
         if not is_close(twins_cosine, cosine, 0.01):
             raise NotYet(
                 f"At ({x:g}, {y:g}) the robot reads a cosine of {cosine:.2f}, at ({u:g}, {v:g}) "
                 f"{twins_cosine:.2f}.",
                 hint="behind",
-                picture=picture(picture_of(other)),
+                picture=picture(capture_snapshot(other)),
             )
     return Done("In five worlds the robot can't tell the box from its twin.")
 
@@ -228,7 +228,7 @@ def tells_apart(sensors: Any) -> Done:
             raise NotYet(
                 f"With {shown}, in sight or behind a wall, the percept is the same.",
                 hint="wall",
-                picture=picture(picture_of(hidden)),
+                picture=picture(capture_snapshot(hidden)),
             )
     if len(sensors) > 2:
         raise NotYet(f"You tell all pairs apart, with {len(sensors)} sensors.", hint="many")

@@ -11,7 +11,7 @@ from ai4u_edu.lessons.exercise import Done, NotYet, exercise
 from ai4u_edu.lessons.pictures import picture
 from ai4u_edu.lessons.rollouts import drive, drives, seeds_of
 from ai4u_edu.scenes import Scene
-from ai4u_edu.snapshot import picture_of
+from ai4u_edu.snapshot import capture_snapshot
 
 WANTED = ("goal", "controls", "rewards")
 
@@ -71,7 +71,7 @@ def is_complete(text: Any) -> Done:
         places.append([body.position for body in sim.world.bodies.values()])
     if places[0] == places[1] == places[2]:
         raise NotYet("All episodes begin in the same way.", hint="random")
-    return Done(f"{told.title or told.name}: complete.", picture(picture_of(sim)))
+    return Done(f"{told.title or told.name}: complete.", picture(capture_snapshot(sim)))
 
 
 @exercise(

@@ -10,8 +10,7 @@ import numpy as np
 from ai4u_edu.base.atomic_write import write_atomically
 from ai4u_edu.blocks import Percept
 from ai4u_edu.recording.replay import Replay
-from ai4u_edu.snapshot import Snapshot, Stage
-from ai4u_edu.snapshot import theme as look
+from ai4u_edu.snapshot import Snapshot, StaticScene, theme
 from ai4u_edu.world import BodyDescription, CircleShape, RegionDescription, RingShape
 
 TEMPLATE = Path(__file__).parent / "player.html"
@@ -42,9 +41,9 @@ def _data(replay: Replay) -> dict[str, Any]:
     episode = replay.episode
     scene = episode.scene
     every = max(1, round(scene.world.ticks_per_second / RATE))
-    frames = list(replay.pictures(every))
-    stage = frames[0].stage
-    moving = [body.name for body in stage.bodies if body.kind != "static"]
+    frames = list(replay.snapshots(every))
+    static_scene = frames[0].static_scene
+    moving = [body.name for body in static_scene.bodies if body.kind != "static"]
     verdict = replay.verdict
     return {
         "title": scene.title or scene.name,
@@ -54,13 +53,13 @@ def _data(replay: Replay) -> dict[str, Any]:
         "exact": verdict.exact,
         "why": verdict.why,
         "dt": 1 / scene.world.ticks_per_second,
-        "bounds": stage.bounds,
-        "void": _css(look.VOID),
-        "ground": None if stage.floors else _css(look.FLOOR),
-        "regions": _regions(stage),
+        "bounds": static_scene.bounds,
+        "void": _css(theme.VOID),
+        "ground": None if static_scene.floors else _css(theme.FLOOR),
+        "regions": _regions(static_scene),
         "bodies": [
-            _body(body, stage, frames[0])
-            for body in sorted(stage.bodies, key=lambda b: b.kind != "static")
+            _body(body, static_scene, frames[0])
+            for body in sorted(static_scene.bodies, key=lambda b: b.kind != "static")
         ],
         "moving": moving,
         "ticks": [frame.tick for frame in frames],
@@ -69,16 +68,18 @@ def _data(replay: Replay) -> dict[str, Any]:
     }
 
 
-def _regions(stage: Stage) -> list[dict[str, Any]]:
+def _regions(static_scene: StaticScene) -> list[dict[str, Any]]:
     floors = [
-        _region(floor, look.floor_colour(floor), look.CLIFF)
-        for floor in sorted(stage.floors, key=lambda floor: floor.top)
+        _region(floor, theme.floor_colour(floor), theme.FLOOR_EDGE)
+        for floor in sorted(static_scene.floors, key=lambda floor: floor.top)
     ]
-    areas = [_region(area, look.area_fill(area), look.area_colour(area)) for area in stage.areas]
+    areas = [
+        _region(area, theme.area_fill(area), theme.area_colour(area)) for area in static_scene.areas
+    ]
     return floors + areas
 
 
-def _region(region: RegionDescription, fill: look.Rgb, edge: look.Rgb) -> dict[str, Any]:
+def _region(region: RegionDescription, fill: theme.Rgb, edge: theme.Rgb) -> dict[str, Any]:
     hole = region.shape.hole() if isinstance(region.shape, RingShape) else []
     x, y = region.position
     return {
@@ -91,8 +92,8 @@ def _region(region: RegionDescription, fill: look.Rgb, edge: look.Rgb) -> dict[s
     }
 
 
-def _body(body: BodyDescription, stage: Stage, first: Snapshot) -> dict[str, Any]:
-    colour = look.body_colour(body, body.name in stage.agent_of)
+def _body(body: BodyDescription, static_scene: StaticScene, first: Snapshot) -> dict[str, Any]:
+    colour = theme.body_colour(body, body.name in static_scene.agent_of)
     shape = body.shape
     reach = shape.radius if isinstance(shape, CircleShape) else shape.reach * 0.7
     (state,) = [each for each in first.bodies if each.name == body.name]
@@ -101,9 +102,9 @@ def _body(body: BodyDescription, stage: Stage, first: Snapshot) -> dict[str, Any
         "label": body.label,
         "points": _points(shape.outline()),
         "fill": _css(colour),
-        "edge": _css(look.mixed(colour, (0, 0, 0), 0.45)),
-        "front": _short(reach) if body.name in stage.agent_of else 0,
-        "agent": stage.agent_of.get(body.name, ""),
+        "edge": _css(theme.mix_colours(colour, (0, 0, 0), 0.45)),
+        "front": _short(reach) if body.name in static_scene.agent_of else 0,
+        "agent": static_scene.agent_of.get(body.name, ""),
         "pose": None
         if state.fallen
         else [_short(state.x), _short(state.y), _short(state.z), _short(state.heading)],
@@ -173,5 +174,5 @@ def _digits(value: float) -> float:
     return float(f"{value:.4g}")
 
 
-def _css(colour: look.Rgb) -> str:
+def _css(colour: theme.Rgb) -> str:
     return "#{:02x}{:02x}{:02x}".format(*colour)

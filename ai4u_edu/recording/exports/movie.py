@@ -14,7 +14,7 @@ from PIL import Image
 from ai4u_edu.base.optional_deps import need
 from ai4u_edu.recording.errors import RecordingError
 from ai4u_edu.recording.replay import Replay
-from ai4u_edu.snapshot.raster import draw
+from ai4u_edu.snapshot.raster import draw_snapshot
 
 Frame = npt.NDArray[np.uint8]
 
@@ -94,9 +94,9 @@ def write_mp4(replay: Replay, path: Path, *, longest: int = 640) -> Path:
 
 
 def _frames(replay: Replay, every: int, longest: int) -> Iterator[Frame]:
-    for picture in replay.pictures(every):
+    for picture in replay.snapshots(every):
         if picture.tick % every == 0:  # the very last one would be too soon
-            yield draw(picture, longest=longest)
+            yield draw_snapshot(picture, longest=longest)
 
 
 def _rate(replay: Replay) -> int:

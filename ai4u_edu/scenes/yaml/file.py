@@ -13,7 +13,7 @@ from ai4u_edu.base.errors import SceneError
 from ai4u_edu.scenes.yaml.messages import shown
 from ai4u_edu.scenes.yaml.tree import IS_QUICK, NotYamlError, read_tree
 
-MAX_SIZE = 300_000 if IS_QUICK else 50_000
+MAX_SCENE_CHARS = 300_000 if IS_QUICK else 50_000
 """Characters that a scene file may have: what is read in a second, whatever it is. With 500 bodies
 it has 60,000."""
 EXPECTED = "lines such as name: ..., bodies: ..., agents: ..."
@@ -44,8 +44,10 @@ class YamlFile:
 
     def __init__(self, text: str, name: str, expected: str = EXPECTED) -> None:
         self.name = name
-        if len(text) > MAX_SIZE:
-            raise SceneError(f"{name}: expected at most {MAX_SIZE} characters, got {len(text)}")
+        if len(text) > MAX_SCENE_CHARS:
+            raise SceneError(
+                f"{name}: expected at most {MAX_SCENE_CHARS} characters, got {len(text)}"
+            )
         try:
             self._tree = read_tree(text)
         except NotYamlError as problem:

@@ -14,7 +14,6 @@ from ai4u_edu.base.loop_queue import Post
 from ai4u_edu.blocks import Answer, Command
 from ai4u_edu.blocks.brains.links.link import Answered, LinkState, Offer, Reset, Situation
 from ai4u_edu.runtime.runner import Runner
-from ai4u_edu.server.eager import look_out
 from ai4u_edu.server.scripts.outbox import Line
 from ai4u_edu.server.scripts.welcome import Excerpt
 from ai4u_edu.wire import native
@@ -167,8 +166,6 @@ class Session:
             self._is_resetting = isinstance(answered.answer, Reset)
             self._answers.append(answered)
         self._runner.notify_answer()
-        if self._runner.is_unpaced():
-            look_out()  # the next answer is as good as here
         return None
 
     # -- what they are made of -------------------------------------------------------------------

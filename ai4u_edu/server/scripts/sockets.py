@@ -7,7 +7,7 @@ from contextlib import suppress
 from starlette.types import Message, Receive, Scope, Send
 
 from ai4u_edu.runtime.runner import Runner
-from ai4u_edu.server.frames import CAP, EXTENSION, FramesProtocol
+from ai4u_edu.server.frames import EXTENSION, FramesProtocol
 from ai4u_edu.server.rate import Rate
 from ai4u_edu.server.scripts.agent_lease import Seat
 from ai4u_edu.server.scripts.lease_registry import Seats
@@ -52,7 +52,6 @@ class RemoteSockets:
         telling = asyncio.create_task(line.run())
         connection = _Connection(receive, line, self._seats)
         if frames:
-            frames.cap(CAP)
             frames.listener = connection.hear_answer
         try:
             if known:

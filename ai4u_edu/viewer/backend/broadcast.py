@@ -65,10 +65,6 @@ class Awakener(asyncio.Event):
         super().set()
 
 
-def do_nothing() -> None:
-    """Gives way to nobody."""
-
-
 class Page:
     """The way to one page.
 
@@ -81,8 +77,6 @@ class Page:
         # what waits for a slow page is to wait here, where newer messages replace it
         stream: socket.socket = connection.transport.get_extra_info("socket")
         stream.setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, SEND_BUFFER_BYTES)
-        self.give_way: Callable[[], None] = do_nothing
-        """Waits, if something has to be done first: said before each message of the page's own."""
 
     def is_clear(self) -> bool:
         """Whether it has taken all that it was told."""
@@ -90,7 +84,6 @@ class Page:
 
     async def send(self, message: bytes) -> None:
         """Tells it something after all else; viser's producers call this."""
-        self.give_way()
         await self.connection.send(message)
 
 
@@ -99,14 +92,10 @@ class FanOut:
 
     Args:
         buffer: viser's, of the messages for all pages.
-        give_way: waits, if something has to be done before pages are told anything.
     """
 
-    def __init__(
-        self, buffer: AsyncMessageBuffer, give_way: Callable[[], None] = do_nothing
-    ) -> None:
+    def __init__(self, buffer: AsyncMessageBuffer) -> None:
         self._buffer = buffer
-        self.give_way = give_way
         self._pages: dict[int, Page] = {}
         self._sending: asyncio.Task[None] | None = None
 
@@ -145,13 +134,8 @@ class FanOut:
     async def _send(self) -> None:
         buffer = self._buffer
         while True:
-            is_done = False
+            is_done, began = False, time.monotonic()
             try:  # all pages would be closed if this task ended
-                self.give_way()
-            except Exception as error:
-                _log_failure("waiting", "pages are told without waiting: %a", error)
-            began = time.monotonic()
-            try:
                 is_done = self._send_news()
             except Exception as error:
                 _log_failure("sending", "some pages were not told what is new: %a", error)
@@ -250,17 +234,16 @@ def _log_failure(key: str, text: str, error: Exception) -> None:
     log_limited(_logger, logging.ERROR, key, text, f"{type(error).__name__}: {error!s:.200}")
 
 
-def fan_out(server: viser.ViserServer, give_way: Callable[[], None] = do_nothing) -> bool:
+def fan_out(server: viser.ViserServer) -> bool:
     """Has a server pack once what all pages get; whether it can be done with this viser.
 
     Args:
         server: viser's.
-        give_way: called in its loop, which waits meanwhile, before pages are told anything.
     """
     if viser.__version__ != KNOWN:
         return False
     buffer = server._websock_server._broadcast_buffer
-    setattr(buffer, _NAME, FanOut(buffer, give_way))
+    setattr(buffer, _NAME, FanOut(buffer))
     server._websock_server.on_client_connect(_mark_own)
     if _infra._message_producer is _viser_does:
         _infra._message_producer = _produce
@@ -314,5 +297,4 @@ async def _produce(
     elif ours is None:
         await _viser_does(page, buffer, client_id, backlog_done_message)
     else:
-        page.give_way = ours.give_way
         await ours.serve(page, client_id, backlog_done_message)

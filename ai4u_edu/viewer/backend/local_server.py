@@ -1,13 +1,13 @@
 """viser's server as we run it: on loopback, silent, and never shared with the internet."""
 
 import warnings
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
 
 import rich
 from viser import ViserServer
 
-from ai4u_edu.viewer.backend.broadcast import do_nothing, fan_out
+from ai4u_edu.viewer.backend.broadcast import fan_out
 from ai4u_edu.viewer.backend.incoming import IncomingMessages
 from ai4u_edu.viewer.backend.quick_props import quick_props
 
@@ -20,15 +20,14 @@ class LocalServer(ViserServer):
 
     Args:
         label: what the panel is called.
-        give_way: called before pages are told anything, which waits until it returns.
     """
 
-    def __init__(self, label: str, give_way: Callable[[], None] = do_nothing) -> None:
+    def __init__(self, label: str) -> None:
         # a page may go while it is being written to; that is no news
         warnings.filterwarnings("ignore", r"Queued a \w+ on a closed connection")
         with quiet():
             super().__init__(host="127.0.0.1", port=0, label=label, verbose=False)
-        fan_out(self, give_way)
+        fan_out(self)
         IncomingMessages(self)
         quick_props()
 

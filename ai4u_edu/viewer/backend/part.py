@@ -4,7 +4,7 @@ import time
 from collections.abc import Callable
 from typing import Protocol
 
-from ai4u_edu.snapshot import Snapshot, Stage
+from ai4u_edu.snapshot import Snapshot, StaticScene
 from ai4u_edu.viewer.backend.log_once import Complaints
 
 MOST = 0.2
@@ -18,8 +18,8 @@ all of them see."""
 class Part(Protocol):
     """Something that is drawn."""
 
-    def build(self, stage: Stage) -> None:
-        """Gets ready for a stage; called for every new one."""
+    def build(self, static_scene: StaticScene) -> None:
+        """Gets ready for a static scene; called for every new one."""
 
     def draw(self, snapshot: Snapshot) -> None:
         """Shows a snapshot."""
@@ -53,11 +53,11 @@ class Paced:
         self._drawn_at = self._took = 0.0
         self._ready = False
 
-    def build(self, stage: Stage) -> None:
-        """Gets the part ready for a stage; its next picture is due at once."""
+    def build(self, static_scene: StaticScene) -> None:
+        """Gets the part ready for a static scene; its next picture is due at once."""
         self._drawn_at, self._ready = 0.0, False
         with self._complaints.caught():
-            self._part.build(stage)
+            self._part.build(static_scene)
             self._ready = True
 
     def draw(self, snapshot: Snapshot) -> None:

@@ -5,7 +5,7 @@ from collections.abc import Iterable, Iterator
 from typing import Any
 
 from ai4u_edu.snapshot import Snapshot
-from ai4u_edu.viewer.scene.placing import floor_under
+from ai4u_edu.viewer.scene.arena import floor_under
 from ai4u_edu.world import BodyDescription
 
 BODY_TEMPLATES: dict[str, dict[str, Any]] = {
@@ -70,18 +70,20 @@ def free_position(
 ) -> tuple[float, float] | None:
     """The free place for a thing that is nearest to (x, y); None if there is none around."""
     reach = BodyDescription.model_validate(thing).shape.reach + CLEARANCE
-    described = {body.name: body for body in snapshot.stage.bodies}
+    described = {body.name: body for body in snapshot.static_scene.bodies}
     now = [
         (described[state.name], state.x, state.y, state.heading)
         for state in snapshot.bodies
         if not state.fallen and state.name in described
     ]
     begin = [
-        (body, *body.position, math.radians(body.heading_deg)) for body in snapshot.stage.bodies
+        (body, *body.position, math.radians(body.heading_deg))
+        for body in snapshot.static_scene.bodies
     ]
     for place in _around(x, y):
         on_floor = all(
-            floor_under(snapshot.stage, place[0] + dx * reach, place[1] + dy * reach) is not None
+            floor_under(snapshot.static_scene, place[0] + dx * reach, place[1] + dy * reach)
+            is not None
             for dx, dy in ((0, 0), (1, 0), (-1, 0), (0, 1), (0, -1))
         )
         if on_floor and all(

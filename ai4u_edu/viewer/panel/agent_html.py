@@ -12,8 +12,8 @@ from ai4u_edu.viewer.panel.needs import needs
 from ai4u_edu.viewer.panel.readings import action, block, heading, reading
 from ai4u_edu.viewer.panel.reward_table import Curves, curves, reward_table
 from ai4u_edu.viewer.panel.senses import sense_html
-from ai4u_edu.viewer.scene.labels import trouble
-from ai4u_edu.viewer.scene.sense_overlay import is_seen
+from ai4u_edu.viewer.scene.labels import script_problem
+from ai4u_edu.viewer.scene.sense_overlay import is_drawable
 
 SIMPLE = {"DoneSensor", "TruncatedSensor", "IDSensor", "StepSensor"}
 """Sensors whose reading is one word or number that needs no explanation."""
@@ -58,9 +58,9 @@ class AgentHtml(NamedTuple):
                 colours,
                 agent.rays.get(sense.key),
                 lit=sense.key in lit,
-                named=not is_seen(sense, agent),
+                named=not is_drawable(sense, agent),
             )
-            for sense in agent.senses
+            for sense in agent.sensor_infos
             if sense.block not in SIMPLE
         }
         return cls(
@@ -70,7 +70,7 @@ class AgentHtml(NamedTuple):
             inside=needs(agent.needs),
             senses=senses,
             also=_also(agent),
-            action=action(agent.action, agent.controls),
+            action=action(agent.action, agent.actuator_infos),
             ledger=reward_table(agent),
         )
 
@@ -109,7 +109,7 @@ def _also(agent: AgentState) -> str:
     """The simplest readings, in a line."""
     told = [
         f"<span><small>{escape(sense.key)}</small> {reading(agent.percept[sense.key])}</span>"
-        for sense in agent.senses
+        for sense in agent.sensor_infos
         if sense.block in SIMPLE
     ]
     return block(*told) if told else ""
@@ -131,8 +131,8 @@ def state(agent: AgentState) -> str:
     end = ending(agent)
     if end:
         words.append(f"<br><b>{end}</b>")
-    if trouble(agent):
-        words.append(f"<br><strong>{trouble(agent)}</strong>")
+    if script_problem(agent):
+        words.append(f"<br><strong>{script_problem(agent)}</strong>")
     if agent.clipped:
         words.append(f"<br>{agent.clipped} numbers out of range, cut")
     return block(*words)
@@ -152,7 +152,7 @@ def ending(agent: AgentState) -> str:
 
 def overview(snapshot: Snapshot, chosen: str) -> str:
     """A row for each of several agents: its step, its reward, and how it ended."""
-    described = {body.name: body for body in snapshot.stage.bodies}
+    described = {body.name: body for body in snapshot.static_scene.bodies}
     alone = len({agent.episode for agent in snapshot.agents}) > 1
     head = ["", *(["episode"] if alone else []), "step", "reward", ""]
     rows = ["".join(f"<td><small>{each}</small></td>" for each in head)]

@@ -12,15 +12,15 @@ from viser import (
 )
 
 from ai4u_edu.runtime.runner import Runner
-from ai4u_edu.snapshot import AgentState, Snapshot, Stage
-from ai4u_edu.snapshot.block_info import Sense
+from ai4u_edu.snapshot import AgentState, Snapshot, StaticScene
+from ai4u_edu.snapshot.block_info import SensorInfo
 from ai4u_edu.snapshot.theme import Rgb, group_colours
 from ai4u_edu.viewer.panel.agent_html import SIMPLE, AgentHtmlCache, title
 from ai4u_edu.viewer.panel.plot import RewardPlot
 from ai4u_edu.viewer.panel.readings import block, heading
 from ai4u_edu.viewer.panel.remote_lines import RemoteLines
 from ai4u_edu.viewer.panel.status import legend
-from ai4u_edu.viewer.scene.sense_overlay import is_seen, shows_by_itself
+from ai4u_edu.viewer.scene.sense_overlay import is_drawable, is_shown_by_default
 from ai4u_edu.viewer.viewer_client import ViewerClient
 
 SHOWN: IconName = Icon.EYE
@@ -41,7 +41,7 @@ class AgentTab:
     ) -> None:
         gui = viewer_client.client.gui
         self._viewer_client, self._html_cache = viewer_client, html_cache
-        self._stage: Stage | None = None
+        self._static_scene: StaticScene | None = None
         self._colours: dict[str, Rgb] = {}
         self._ids: dict[str, str] = {}
         self._everybody = gui.add_html("", visible=False)
@@ -57,8 +57,8 @@ class AgentTab:
 
     def draw(self, snapshot: Snapshot) -> None:
         """Shows the agent's last decision."""
-        if snapshot.stage is not self._stage:
-            self._meet(snapshot.stage)
+        if snapshot.static_scene is not self._static_scene:
+            self._meet(snapshot.static_scene)
         agent = next(
             (each for each in snapshot.agents if each.id == self._viewer_client.agent), None
         )
@@ -77,10 +77,12 @@ class AgentTab:
         self._plot.draw(agent.history, lambda: self._html_cache.curves(agent))
         self._lines.draw()
 
-    def _meet(self, stage: Stage) -> None:
-        self._stage, self._colours = stage, group_colours(stage)
-        self._legend.content = block(heading("Senses"), legend(stage))
-        self._ids = {title(agent_id, body): agent_id for body, agent_id in stage.agent_of.items()}
+    def _meet(self, static_scene: StaticScene) -> None:
+        self._static_scene, self._colours = static_scene, group_colours(static_scene)
+        self._legend.content = block(heading("Senses"), legend(static_scene))
+        self._ids = {
+            title(agent_id, body): agent_id for body, agent_id in static_scene.agent_of.items()
+        }
         several = len(self._ids) > 1
         self._everybody.visible = self.list.visible = several
         if self.list.options != tuple(self._ids):
@@ -98,25 +100,25 @@ class _Senses:
         self._viewer_client = viewer_client
         self._client: ClientHandle = viewer_client.client
         self._folder: GuiFolderHandle = self._client.gui.add_folder(None)
-        self._seen: tuple[str, tuple[Sense, ...]] | None = None
+        self._seen: tuple[str, tuple[SensorInfo, ...]] | None = None
         self._parts: dict[str, GuiHtmlHandle] = {}
         self._buttons: dict[str, GuiButtonHandle] = {}
         self._inside: list[GuiButtonHandle | GuiHtmlHandle] = []
 
     def meet(self, agent: AgentState) -> None:
         """Makes the parts, if it is another agent, or has other sensors."""
-        if self._seen is not None and self._seen == (agent.id, agent.senses):
+        if self._seen is not None and self._seen == (agent.id, agent.sensor_infos):
             return
-        self._seen = (agent.id, agent.senses)
+        self._seen = (agent.id, agent.sensor_infos)
         for handle in self._inside:
             handle.remove()
         self._inside, self._parts, self._buttons = [], {}, {}
         gui = self._client.gui
         with self._folder:
-            for sense in agent.senses:
+            for sense in agent.sensor_infos:
                 if sense.block in SIMPLE:
                     continue
-                if is_seen(sense, agent):
+                if is_drawable(sense, agent):
                     self._add_button(agent, sense)
                 self._parts[sense.key] = gui.add_html("")
                 self._inside.append(self._parts[sense.key])
@@ -125,9 +127,9 @@ class _Senses:
         """The keys of the sensors that are shown in the scene; their buttons say so."""
         found = {
             sense.key
-            for sense in agent.senses
-            if is_seen(sense, agent)
-            and self._viewer_client.lights(sense.key, by_itself=shows_by_itself(sense, agent))
+            for sense in agent.sensor_infos
+            if is_drawable(sense, agent)
+            and self._viewer_client.lights(sense.key, by_itself=is_shown_by_default(sense, agent))
         }
         for key, button in self._buttons.items():
             icon = SHOWN if key in found else HIDDEN
@@ -139,8 +141,8 @@ class _Senses:
         for key, html in parts.items():
             self._parts[key].content = html
 
-    def _add_button(self, agent: AgentState, sense: Sense) -> None:
-        key, by_itself = sense.key, shows_by_itself(sense, agent)
+    def _add_button(self, agent: AgentState, sense: SensorInfo) -> None:
+        key, by_itself = sense.key, is_shown_by_default(sense, agent)
         hint = f"Shows in the scene what {key} is about, or hides it"
         button = self._client.gui.add_button(key, icon=HIDDEN, hint=hint)
 

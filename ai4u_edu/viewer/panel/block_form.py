@@ -6,9 +6,9 @@ from typing import Any
 
 from viser import ClientHandle
 
-from ai4u_edu.editing.blocks import Path, Plain
-from ai4u_edu.editing.forms import about, form
-from ai4u_edu.editing.names import Names
+from ai4u_edu.editing.blocks import BlockPath, Plain
+from ai4u_edu.editing.forms import block_form, block_summary
+from ai4u_edu.editing.names import SceneNames
 from ai4u_edu.viewer.panel.field_form import FieldForm
 
 
@@ -27,21 +27,23 @@ class BlockForm(FieldForm):
         self,
         client: ClientHandle,
         block: Plain,
-        path: Path,
-        names: Names,
+        path: BlockPath,
+        names: SceneNames,
         on_apply: Callable[[Any], Coroutine[Any, Any, None]],
     ) -> None:
         self._block, self._path, self._names = block, path, names
-        heading = f"<b>{escape(str(block['type']))}</b><br><small>{escape(about(block))}</small>"
-        super().__init__(client, heading, form(block, names), on_apply)
+        heading = (
+            f"<b>{escape(str(block['type']))}</b><br><small>{escape(block_summary(block))}</small>"
+        )
+        super().__init__(client, heading, block_form(block, names), on_apply)
 
-    def takes(self, block: Plain | None, path: Path | None) -> bool:
+    def takes(self, block: Plain | None, path: BlockPath | None) -> bool:
         """Shows a block as it is now, if it is still the one whose form this is."""
         if block is None or path != self._path or block["type"] != self._block["type"]:
             return False
         if block == self._block:
             return True
-        if not self.shows(form(block, self._names)):
+        if not self.shows(block_form(block, self._names)):
             return False
         self._block = block
         return True

@@ -3,8 +3,8 @@
 from html import escape
 
 from ai4u_edu.blocks.docs import summary
-from ai4u_edu.editing import Workshop
-from ai4u_edu.editing.blocks import Path, Plain, block_at, is_on, listed, types_of
+from ai4u_edu.editing import SceneEditor
+from ai4u_edu.editing.blocks import BlockPath, Plain, block_at, block_paths, is_enabled, types_of
 from ai4u_edu.snapshot import AgentState
 from ai4u_edu.viewer.panel.agent_html import title
 from ai4u_edu.viewer.panel.readings import block as paragraph
@@ -24,16 +24,16 @@ LONGEST = 72
 """Characters of a line in a list."""
 
 
-def titles(agent: Plain, kind: str) -> dict[str, Path]:
+def titles(agent: Plain, kind: str) -> dict[str, BlockPath]:
     """The blocks of a kind as lines of a list, each with its path; parts of a block below it."""
     found = {}
-    for path in listed(agent, kind):
+    for path in block_paths(agent, kind):
         block = block_at(agent, path)
         number = ".".join(str(part + 1) for part in path if isinstance(part, int))
         name = next(
             (block[key] for key in ("perception_key", "action_name", "name") if key in block), ""
         )
-        off = "" if not isinstance(path[-1], int) or is_on(path, block) else " (off)"
+        off = "" if not isinstance(path[-1], int) or is_enabled(path, block) else " (off)"
         part = "" if isinstance(path[-1], int) else f".{path[-1]}"
         line = " ".join(filter(None, (f"{number}{part}", str(name), str(block["type"]))))
         found[_short(line) + off] = path
@@ -52,14 +52,14 @@ def marked(kind: str) -> str:
     return f'<div class="ai4u mark bare" data-on="{place}"></div>'
 
 
-def said(workshop: Workshop, agent: AgentState, message: str) -> str:
+def said(editor: SceneEditor, agent: AgentState, message: str) -> str:
     """What happened last, and what could be taken back, as HTML."""
     lines = [f"<b>{escape(title(agent.id, agent.body))}</b>"]
     if message:
         lines.append(f'<span role="status" style="white-space: normal">{escape(message)}</span>')
-    if workshop.waits_for_reset:
+    if editor.waits_for_reset:
         lines.append(f"<small>{WAITS}</small>")
-    back, forth = workshop.can_undo, workshop.can_redo
+    back, forth = editor.undo_label, editor.redo_label
     if back or forth:
         told = " · ".join(
             f"{word}: {escape(label)}" for word, label in (("undo", back), ("redo", forth)) if label

@@ -9,12 +9,12 @@ from viser import GuiButtonGroupHandle, GuiButtonHandle, GuiDropdownHandle, GuiE
 from ai4u_edu.agent.block_errors import message_of
 from ai4u_edu.base.errors import AI4UError
 from ai4u_edu.base.parameters import Problem
-from ai4u_edu.editing import ChangeError, Outcome, Workshop
-from ai4u_edu.editing.blocks import Path, block_at, is_on
+from ai4u_edu.editing import ChangeError, ChangeResult, SceneEditor
+from ai4u_edu.editing.blocks import BlockPath, block_at, is_enabled
 from ai4u_edu.editing.forms import Field
-from ai4u_edu.editing.names import Names
+from ai4u_edu.editing.names import SceneNames
 from ai4u_edu.editing.settings import agent_form
-from ai4u_edu.editing.suggestion import suggestion
+from ai4u_edu.editing.suggestion import suggest_block
 from ai4u_edu.snapshot import Snapshot
 from ai4u_edu.viewer.panel.block_form import BlockForm
 from ai4u_edu.viewer.panel.block_labels import (
@@ -44,12 +44,12 @@ class BlocksTab:
 
     Args:
         viewer_client: the page.
-        workshop: carries out what is asked for.
+        editor: carries out what is asked for.
     """
 
-    def __init__(self, viewer_client: ViewerClient, workshop: Workshop) -> None:
+    def __init__(self, viewer_client: ViewerClient, editor: SceneEditor) -> None:
         gui = viewer_client.client.gui
-        self._viewer_client, self._workshop = viewer_client, workshop
+        self._viewer_client, self._editor = viewer_client, editor
         self._kind, self._path, self._form = "sensors", None, None
         self._seen: tuple[object, ...] = ()
         self._message, self._problems, self._agent = "", None, viewer_client.agent
@@ -71,7 +71,7 @@ class BlocksTab:
         self.deeds = gui.add_button_group("This block", (OFF, UP, DOWN, REMOVE), visible=False)
         self._place = gui.add_folder(None)
         self._types: dict[str, str] = {}
-        self._paths: dict[str, Path] = {}
+        self._paths: dict[str, BlockPath] = {}
         self._drivers: dict[str, str] = {}
         self._offered.on_click(self._on_offer)
         self.changes.on_click(self._on_changes)
@@ -82,33 +82,33 @@ class BlocksTab:
         self.new.on_update(self._on_new)
         self.add.on_click(self._on_add)
 
-    _path: Path | None
+    _path: BlockPath | None
     _form: BlockForm | None
     _problems: tuple[Problem, ...] | None
 
     def draw(self, snapshot: Snapshot) -> None:
         """Shows what there is to change, when that is other than before."""
-        workshop, agent = self._workshop, self._viewer_client.agent
+        editor, agent = self._editor, self._viewer_client.agent
         if not any(each.id == agent for each in snapshot.agents):
             return
         if agent != self._agent:
             self._agent, self._path = agent, None
         brains = next(each.brain for each in snapshot.agents if each.id == agent)
-        seen = (workshop.version, agent, self._kind, self._path, brains)
+        seen = (editor.version, agent, self._kind, self._path, brains)
         if seen != self._seen:
             try:
                 self._show(agent)
             except AI4UError:
                 return  # another scene has just come: what is shown and what is wanted differ
             self._seen = seen
-        self.settings.draw(agent, workshop.version)
+        self.settings.draw(agent, editor.version)
         if self._problems is not None and self._form is not None:
             problems, self._problems = self._problems, None
             self._form.explain(problems)
             if not problems:
                 self._form.tell(self._message)
         html = said(
-            workshop, next(each for each in snapshot.agents if each.id == agent), self._message
+            editor, next(each for each in snapshot.agents if each.id == agent), self._message
         )
         if self._said.content != html:
             self._said.content = html
@@ -117,7 +117,7 @@ class BlocksTab:
     # -- what is shown ---------------------------------------------------------------------------
 
     def _show(self, agent_id: str) -> None:
-        state = self._workshop.state
+        state = self._editor.state
         agent = state.agent(agent_id)
         self._mark.content = marked(self._kind)
         self._paths = titles(agent, self._kind)
@@ -128,9 +128,9 @@ class BlocksTab:
         self._types = menu(self._kind)
         _choose(self.new, (ADD, *self._types), ADD if self.new.value not in self._types else None)
         self.add.disabled = self.new.value not in self._types
-        offered = self._workshop.drivers(agent_id)
+        offered = self._editor.drivers(agent_id)
         self._drivers = {each.title: each.name for each in reversed(offered)}
-        drives = self._workshop.driver_of(agent_id)
+        drives = self._editor.driver_of(agent_id)
         title = next((t for t, name in self._drivers.items() if name == drives), "somebody else")
         names = tuple(dict.fromkeys((*(each.title for each in offered), title)))
         _choose(self.driver, names, title)
@@ -145,14 +145,14 @@ class BlocksTab:
         if block is not None and path is not None:
             if self._form is None:
                 with self._place:
-                    names = Names(state, agent_id)
+                    names = SceneNames(state, agent_id)
                     client = self._viewer_client.client
                     self._form = BlockForm(client, block, path, names, self._on_apply)
-            self.deeds.options = (OFF if is_on(path, block) else ON, UP, DOWN, REMOVE)
+            self.deeds.options = (OFF if is_enabled(path, block) else ON, UP, DOWN, REMOVE)
         self._bare.visible = self.deeds.visible = path is not None and isinstance(path[-1], int)
 
     def _show_offer(self) -> None:
-        unsaved = self._workshop.unsaved
+        unsaved = self._editor.unsaved
         if (unsaved is not None) != self._offer.visible:
             self._offer.visible = self._offered.visible = unsaved is not None
         if unsaved is not None:
@@ -160,7 +160,7 @@ class BlocksTab:
             self._offer.content = f'<div class="ai4u">{told}</div>'
 
     def _settings(self) -> list[Field]:
-        return agent_form(self._workshop.state.agent(self._viewer_client.agent))
+        return agent_form(self._editor.state.agent(self._viewer_client.agent))
 
     # -- what people ask for; in viser's loop, one after the other -------------------------------
 
@@ -173,12 +173,10 @@ class BlocksTab:
         except ChangeError as error:
             self._problems = error.problems
             return
-        self._ask(
-            self._workshop.change_block(self._viewer_client.agent, path, values), of_form=True
-        )
+        self._ask(self._editor.change_block(self._viewer_client.agent, path, values), of_form=True)
 
-    def _on_settings(self, values: dict[str, Any]) -> "Future[Outcome]":
-        future = self._workshop.change_agent(self._viewer_client.agent, values)
+    def _on_settings(self, values: dict[str, Any]) -> "Future[ChangeResult]":
+        future = self._editor.change_agent(self._viewer_client.agent, values)
         self._ask(future)
         return future
 
@@ -188,33 +186,33 @@ class BlocksTab:
             return  # a controller belongs to its brain: it has no place in a list
         match event.target.value:
             case "On" | "Off" as word:
-                self._ask(self._workshop.switch_block(agent, path, word == ON))
+                self._ask(self._editor.switch_block(agent, path, word == ON))
             case "Up" | "Down" as word:
                 by = -1 if word == UP else 1
                 *above, index = path
-                future = self._workshop.move_block(agent, path, by)
+                future = self._editor.move_block(agent, path, by)
                 self._ask(future, (*above, max(0, int(index) + by)))
             case "Remove":
-                self._ask(self._workshop.remove_block(agent, path))
+                self._ask(self._editor.remove_block(agent, path))
 
     async def _on_add(self, _event: GuiEvent[GuiButtonHandle]) -> None:
         name, agent, state = self._types.get(self.new.value), self._viewer_client.agent, None
         if name is None:
             return
-        state = self._workshop.state
+        state = self._editor.state
         where, count = (self._kind,), len(state.agent(agent).get(self._kind, ()))
-        future = self._workshop.add_block(agent, where, suggestion(state, agent, name))
+        future = self._editor.add_block(agent, where, suggest_block(state, agent, name))
         self._ask(future, (*where, count))
 
     async def _on_changes(self, event: GuiEvent[GuiButtonGroupHandle]) -> None:
         undoes = event.target.value == UNDO
-        self._ask(self._workshop.undo() if undoes else self._workshop.redo())
+        self._ask(self._editor.undo() if undoes else self._editor.redo())
 
     async def _on_driver(self, event: GuiEvent[GuiDropdownHandle[str]]) -> None:
         name = self._drivers.get(event.target.value)
         if event.client is not None and name is not None:
             self._seen = ()  # if it can't be, the list shows again who drives
-            self._ask(self._workshop.drive(self._viewer_client.agent, name))
+            self._ask(self._editor.set_driver(self._viewer_client.agent, name))
 
     async def _on_kind(self, event: GuiEvent[GuiButtonGroupHandle]) -> None:
         self._kind = KINDS.get(event.target.value, self._kind)
@@ -228,17 +226,21 @@ class BlocksTab:
 
     async def _on_offer(self, event: GuiEvent[GuiButtonGroupHandle]) -> None:
         if event.target.value == BRING_BACK:
-            self._ask(self._workshop.bring_back())
+            self._ask(self._editor.restore_unsaved())
         else:
-            self._workshop.discard()
+            self._editor.discard_unsaved()
 
     def _ask(
-        self, future: "Future[Outcome]", then: Path | None = None, *, of_form: bool = False
+        self,
+        future: "Future[ChangeResult]",
+        then: BlockPath | None = None,
+        *,
+        of_form: bool = False,
     ) -> None:
         """Says when it applies, or what is wrong; ``then`` is the block that is looked at then."""
-        notify_stall(self._viewer_client.client, self._workshop.stall, future)
+        notify_stall(self._viewer_client.client, self._editor.stall, future)
 
-        def tell(done: "Future[Outcome]") -> None:
+        def tell(done: "Future[ChangeResult]") -> None:
             error = None if done.cancelled() else done.exception()
             if error is None and not done.cancelled():
                 outcome = done.result()
@@ -263,6 +265,6 @@ def _choose(handle: GuiDropdownHandle[str], options: tuple[str, ...], value: str
         handle.value = value  # type: ignore[misc]  # a method parts getter from setter
 
 
-def blocks_tab(workshop: Workshop) -> TabKind:
+def blocks_tab(editor: SceneEditor) -> TabKind:
     """The tab for blocks and drivers."""
-    return TabKind("Blocks", lambda viewer_client: BlocksTab(viewer_client, workshop))
+    return TabKind("Blocks", lambda viewer_client: BlocksTab(viewer_client, editor))

@@ -10,7 +10,7 @@ from viser import ClientHandle, GuiDropdownHandle, GuiTextHandle
 from ai4u_edu.base.colors import PALETTE
 from ai4u_edu.base.parameters import Problem
 from ai4u_edu.editing import ChangeError
-from ai4u_edu.editing.forms import NONE, Field
+from ai4u_edu.editing.forms import NONE_LABEL, Field
 from ai4u_edu.viewer.panel.readings import block as paragraph
 from ai4u_edu.world import BodyDescription, BoxShape, CapsuleShape, CircleShape, SegmentShape
 
@@ -125,7 +125,7 @@ class BodyForm:
 
 def fields(body: BodyDescription) -> list[Field]:
     """What can be changed of a body, and how it is now."""
-    colours = (NONE, *PALETTE)
+    colours = (NONE_LABEL, *PALETTE)
     if body.colour is not None and body.colour not in PALETTE:
         colours = (*colours, body.colour)
     (x, y), kind = body.position, KINDS[body.kind]

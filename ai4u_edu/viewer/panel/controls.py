@@ -7,7 +7,7 @@ from viser import GuiButtonGroupHandle, GuiDropdownHandle, GuiEvent, GuiInputHan
 
 from ai4u_edu.base.limits import MAX_EXACT_INT
 from ai4u_edu.runtime.runner import Runner
-from ai4u_edu.snapshot import Snapshot, Stage
+from ai4u_edu.snapshot import Snapshot, StaticScene
 from ai4u_edu.viewer.backend.local_server import LocalServer
 from ai4u_edu.viewer.panel.notify import notify_failure
 from ai4u_edu.viewer.panel.status import goal, speed_name, status
@@ -51,9 +51,9 @@ class Controls:
         self._speed.on_update(self._on_speed)
         self._form.on_submit(self._on_seed)
 
-    def build(self, stage: Stage) -> None:
-        """Tells the goal of a stage."""
-        self._goal.content = goal(stage)
+    def build(self, static_scene: StaticScene) -> None:
+        """Tells the goal of a static_scene."""
+        self._goal.content = goal(static_scene)
 
     def draw(self, snapshot: Snapshot) -> None:
         """Shows what the time does."""

@@ -43,7 +43,7 @@ def _tick(number: int, present: int, *, acts: bool) -> str:
 def _said(agent: AgentState, snapshot: Snapshot) -> str:
     """The same in words."""
     tick, ticks, repeats = agent.phase
-    seconds = ticks / snapshot.stage.settings.ticks_per_second
+    seconds = ticks / snapshot.static_scene.settings.ticks_per_second
     many = f"{ticks} ticks" if ticks > 1 else "1 tick"
     how = "" if ticks == 1 else "; it acts at each" if repeats else "; it acts at the first only"
     if not (snapshot.paused or snapshot.time_scale <= SLOW):

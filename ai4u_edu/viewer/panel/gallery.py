@@ -8,7 +8,7 @@ from typing import Any
 from viser import ClientHandle, GuiButtonHandle
 from viser._gui_handles import GuiModalHandle
 
-from ai4u_edu.editing.scene_store import Shelf
+from ai4u_edu.editing.scene_store import SceneStore
 from ai4u_edu.scenes import Scene
 from ai4u_edu.viewer.panel.gallery_pictures import STYLE, Card, cards, cards_of
 from ai4u_edu.viewer.panel.readings import block
@@ -17,7 +17,7 @@ Load = Callable[[], Scene]
 
 
 class Gallery:
-    """Shows the library's scenes, and those that were kept on a shelf.
+    """Shows the library's scenes, and those that were kept in a store.
 
     It is made when somebody asks for it, so that pages cost nothing.
 
@@ -33,15 +33,15 @@ class Gallery:
         self.buttons: dict[str, GuiButtonHandle] = {}
         """Of the library's scenes, by name."""
         self.kept: dict[str, GuiButtonHandle] = {}
-        """Of the shelf's."""
+        """Of the store's."""
 
-    async def open(self, shelf: Shelf | None) -> None:
+    async def open(self, store: SceneStore | None) -> None:
         """Shows the window."""
         if self._window is None and not self._is_opening:
             self._is_opening = True
             try:
-                kept = await asyncio.to_thread(cards_of, shelf) if shelf is not None else []
-                self._show(await asyncio.to_thread(cards), kept, shelf)
+                kept = await asyncio.to_thread(cards_of, store) if store is not None else []
+                self._show(await asyncio.to_thread(cards), kept, store)
             finally:
                 self._is_opening = False
 
@@ -52,15 +52,15 @@ class Gallery:
         if window is not None:
             window.close()
 
-    def _show(self, found: list[Card], kept: list[Card], shelf: Shelf | None) -> None:
+    def _show(self, found: list[Card], kept: list[Card], store: SceneStore | None) -> None:
         gui = self._client.gui
         with self._client.atomic(), gui.add_modal("Choose a scene") as self._window:
             gui.add_button("Stay here").on_click(self._on_close)
             gui.add_html(STYLE)
-            if shelf is not None and kept:
+            if store is not None and kept:
                 gui.add_html(block("<b>Saved here</b>"))
                 for each in kept:
-                    self.kept[each.name] = self._add(each, partial(shelf.load, each.name))
+                    self.kept[each.name] = self._add(each, partial(store.load, each.name))
                 gui.add_html(block("<b>The library</b>"))
             for each in found:
                 self.buttons[each.name] = self._add(each, partial(Scene.load, each.name))

@@ -9,10 +9,10 @@ from typing import NamedTuple
 from PIL import Image
 
 from ai4u_edu.base.errors import AI4UError
-from ai4u_edu.editing.scene_store import MOST, Shelf
+from ai4u_edu.editing.scene_store import MAX_SCENES, SceneStore
 from ai4u_edu.scenes import Scene
-from ai4u_edu.snapshot import picture_of
-from ai4u_edu.snapshot.raster import draw
+from ai4u_edu.snapshot import capture_snapshot
+from ai4u_edu.snapshot.raster import draw_snapshot
 
 LONGEST = 144
 """Pixels of a picture's longer side: twice what is shown, for sharp screens."""
@@ -21,7 +21,7 @@ COLOURS = 32
 
 
 class Card(NamedTuple):
-    """A scene, of the library or of a shelf."""
+    """A scene, of the library or of a store."""
 
     name: str
     title: str
@@ -68,29 +68,29 @@ def cards() -> list[Card]:
     return sorted((card(name) for name in Scene.names()), key=lambda each: each.title.lower())
 
 
-def cards_of(shelf: Shelf) -> list[Card]:
-    """All scenes of a shelf, by name; one that can't be read says why."""
-    return [_kept(shelf, name, _stamp(shelf, name)) for name in shelf.names()]
+def cards_of(store: SceneStore) -> list[Card]:
+    """All scenes of a store, by name; one that can't be read says why."""
+    return [_kept(store, name, _stamp(store, name)) for name in store.names()]
 
 
-@lru_cache(MOST)
-def _kept(shelf: Shelf, name: str, _stamp: float) -> Card:
+@lru_cache(MAX_SCENES)
+def _kept(store: SceneStore, name: str, _stamp: float) -> Card:
     try:
-        return _card(name, name, shelf.load(name))
+        return _card(name, name, store.load(name))
     except AI4UError as error:
         return Card(name, name, f"can't be read: {error}", b"")
 
 
-def _stamp(shelf: Shelf, name: str) -> float:
+def _stamp(store: SceneStore, name: str) -> float:
     """When a scene was kept; it may have been taken away meanwhile."""
-    file = shelf.file(name)
+    file = store.file(name)
     return file.stat().st_mtime if file is not None else 0.0
 
 
 def _card(name: str, title: str, scene: Scene) -> Card:
     sim = scene.build()
     sim.reset(1)
-    picture = Image.fromarray(draw(picture_of(sim), longest=LONGEST))
+    picture = Image.fromarray(draw_snapshot(capture_snapshot(sim), longest=LONGEST))
     out = io.BytesIO()
     picture.quantize(COLOURS).save(out, "PNG", optimize=True)
     return Card(name, title, scene.description.goal, out.getvalue())

@@ -2,7 +2,7 @@
 
 from viser import GuiButtonGroupHandle, GuiCheckboxHandle, GuiEvent
 
-from ai4u_edu.snapshot import Snapshot, Stage
+from ai4u_edu.snapshot import Snapshot, StaticScene
 from ai4u_edu.viewer.scene.view import Mode
 from ai4u_edu.viewer.viewer_client import ViewerClient, ViewerClients
 
@@ -16,8 +16,8 @@ class PageControls:
         self._viewer_clients = viewer_clients
         self._pages: dict[int, _Page] = {}
 
-    def build(self, stage: Stage) -> None:
-        """Nothing: pages stay when a stage is built anew."""
+    def build(self, static_scene: StaticScene) -> None:
+        """Nothing: pages stay when a static scene is built anew."""
 
     def draw(self, _snapshot: Snapshot) -> None:
         """Gives pages that have come their controls."""

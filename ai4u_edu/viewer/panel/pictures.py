@@ -7,7 +7,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ai4u_edu.blocks import ChannelLegend, CodeLegend, Legend
-from ai4u_edu.snapshot.theme import UNKNOWN, VOID, Rgb
+from ai4u_edu.snapshot.theme import UNKNOWN_GROUP, VOID, Rgb
 
 WIDEST = 224
 """Pixels of a picture's width at most."""
@@ -35,7 +35,9 @@ def pictures(reading: Any, legend: Legend, colours: Mapping[str, Rgb], stack: in
         colours: of the groups.
         stack: so many readings are in it; older ones are drawn smaller, oldest first.
     """
-    known = [VOID if group == "void" else colours.get(group, UNKNOWN) for group in legend.groups]
+    known = [
+        VOID if group == "void" else colours.get(group, UNKNOWN_GROUP) for group in legend.groups
+    ]
     older = [
         _svg(legend.groups_in(each), known, SMALL_CELL)
         for each in _readings(np.asarray(reading), legend, stack)[:-1][-OLDER:]

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from ai4u_edu.snapshot.block_info import Control
+from ai4u_edu.snapshot.block_info import ActuatorInfo
 from ai4u_edu.viewer.panel.bars import amount, bars, number
 
 IN_FULL = 8
@@ -36,7 +36,7 @@ def table(rows: Iterable[Sequence[str]]) -> str:
     return f"<table>{''.join(lines)}</table>"
 
 
-def action(numbers: Mapping[str, Sequence[float]], controls: Iterable[Control] = ()) -> str:
+def action(numbers: Mapping[str, Sequence[float]], controls: Iterable[ActuatorInfo] = ()) -> str:
     """What an agent does, each component by its name.
 
     Args:
@@ -78,12 +78,12 @@ def reading(value: Any) -> str:
     return _bars(array)
 
 
-def _named(name: str, control: Control | None) -> str:
+def _named(name: str, control: ActuatorInfo | None) -> str:
     block_name = f" {escape(control.block)}" if control is not None else ""
     return f"<div>{escape(name)}<small>{block_name}</small></div>"
 
 
-def _components(values: Sequence[float], control: Control | None) -> str:
+def _components(values: Sequence[float], control: ActuatorInfo | None) -> str:
     if control is None or len(control.components) != len(values):
         return "&ensp;".join(number(value) for value in values)
     if control.is_choice:

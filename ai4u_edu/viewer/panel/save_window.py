@@ -9,7 +9,7 @@ from viser import ClientHandle, GuiButtonHandle, GuiHtmlHandle, GuiTextHandle
 from viser._gui_handles import GuiModalHandle
 
 from ai4u_edu.base.errors import AI4UError
-from ai4u_edu.editing.scene_store import Shelf, TakenError
+from ai4u_edu.editing.scene_store import SceneExistsError, SceneStore
 from ai4u_edu.scenes import Scene
 from ai4u_edu.viewer.panel.readings import block
 
@@ -21,7 +21,7 @@ class SaveWindow:
 
     Args:
         client: the page.
-        shelf: where scenes are kept.
+        store: where scenes are kept.
         scene: gives the one that is to be kept.
         on_saved: called with the name, in viser's loop.
     """
@@ -29,11 +29,11 @@ class SaveWindow:
     def __init__(
         self,
         client: ClientHandle,
-        shelf: Shelf,
+        store: SceneStore,
         scene: Callable[[], Scene],
         on_saved: Callable[[str], None],
     ) -> None:
-        self._client, self._shelf, self._scene = client, shelf, scene
+        self._client, self._store, self._scene = client, store, scene
         self._on_saved = on_saved
         self._window: GuiModalHandle | None = None
         self._taken, self._is_saving = "", False
@@ -74,8 +74,8 @@ class SaveWindow:
         over = bool(self._taken) and self._taken == name
         self._is_saving = True
         try:
-            kept = await asyncio.to_thread(self._shelf.save, name, scene, over=over)
-        except TakenError as error:
+            kept = await asyncio.to_thread(self._store.save, name, scene, over=over)
+        except SceneExistsError as error:
             self._taken = name
             self._tell(f"{error}; press “{REPLACE}”, or choose another name", REPLACE)
         except AI4UError as error:

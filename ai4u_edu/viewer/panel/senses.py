@@ -8,8 +8,8 @@ import numpy as np
 import numpy.typing as npt
 
 from ai4u_edu.blocks import RayPicture
-from ai4u_edu.snapshot.block_info import Sense
-from ai4u_edu.snapshot.theme import NOTHING, UNKNOWN, Rgb
+from ai4u_edu.snapshot.block_info import SensorInfo
+from ai4u_edu.snapshot.theme import RAY_MISS, UNKNOWN_GROUP, Rgb
 from ai4u_edu.viewer.panel.bars import bars, number, strip
 from ai4u_edu.viewer.panel.pictures import pictures
 from ai4u_edu.viewer.panel.readings import block, reading
@@ -25,7 +25,7 @@ OLDER = 4
 
 
 def sense_html(
-    sense: Sense,
+    sense: SensorInfo,
     value: Any,
     colours: Mapping[str, Rgb],
     rays: RayPicture | None = None,
@@ -51,7 +51,9 @@ def sense_html(
     )
 
 
-def _drawn(sense: Sense, value: Any, colours: Mapping[str, Rgb], rays: RayPicture | None) -> str:
+def _drawn(
+    sense: SensorInfo, value: Any, colours: Mapping[str, Rgb], rays: RayPicture | None
+) -> str:
     if sense.legend is not None:
         return pictures(value, sense.legend, colours, stack=sense.stack)
     array = np.asarray(value)
@@ -65,7 +67,7 @@ def _drawn(sense: Sense, value: Any, colours: Mapping[str, Rgb], rays: RayPictur
     return f"<div>{reading(value)}</div>"
 
 
-def _lines(sense: Sense, rows: npt.NDArray[np.float64]) -> str:
+def _lines(sense: SensorInfo, rows: npt.NDArray[np.float64]) -> str:
     """A line a number; with its older values below it, oldest first."""
     count = len(sense.low)
     names = sense.slots or tuple(map(str, range(count)) if count > 1 else ("value",))
@@ -90,7 +92,7 @@ def _strip(past: npt.NDArray[np.float64], low: float, high: float) -> str:
 
 
 def _strips(
-    sense: Sense,
+    sense: SensorInfo,
     rows: npt.NDArray[np.float64],
     colours: Mapping[str, Rgb],
     rays: RayPicture | None,
@@ -116,11 +118,11 @@ def _strips(
 
 def _met(rays: RayPicture, colours: Mapping[str, Rgb]) -> list[Rgb]:
     """The colours of what each ray met."""
-    known = {"": NOTHING, "?": UNKNOWN} | dict(colours)
-    return [known.get(group, UNKNOWN) for group in rays.groups]
+    known = {"": RAY_MISS, "?": UNKNOWN_GROUP} | dict(colours)
+    return [known.get(group, UNKNOWN_GROUP) for group in rays.groups]
 
 
-def _title(sense: Sense, value: Any) -> str:
+def _title(sense: SensorInfo, value: Any) -> str:
     shape = " x ".join(map(str, np.shape(value)))
     stacked = f", the last {sense.stack}" if sense.stack > 1 else ""
     return f"{escape(sense.block)}{f' {shape}' if shape else ''}{stacked}"

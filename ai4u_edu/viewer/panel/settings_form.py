@@ -8,7 +8,7 @@ from viser import ClientHandle, GuiButtonHandle, GuiEvent
 
 from ai4u_edu.base.errors import AI4UError
 from ai4u_edu.base.parameters import Problem
-from ai4u_edu.editing import ChangeError, Outcome
+from ai4u_edu.editing import ChangeError, ChangeResult
 from ai4u_edu.editing.forms import Field
 from ai4u_edu.viewer.panel.field_form import FieldForm
 from ai4u_edu.viewer.panel.readings import block
@@ -33,7 +33,7 @@ class SettingsForm:
         client: ClientHandle,
         name: str,
         fields: Callable[[], list[Field]],
-        on_values: Callable[[dict[str, Any]], "Future[Outcome]"],
+        on_values: Callable[[dict[str, Any]], "Future[ChangeResult]"],
     ) -> None:
         self._client, self._name = client, name
         self._fields, self._on_values = fields, on_values
@@ -88,7 +88,7 @@ class SettingsForm:
             return
         self._on_values(values).add_done_callback(self._tell)
 
-    def _tell(self, done: "Future[Outcome]") -> None:
+    def _tell(self, done: "Future[ChangeResult]") -> None:
         error = None if done.cancelled() else done.exception()
         if isinstance(error, ChangeError):
             self._problems = tuple(_in_the_form(error.problems))

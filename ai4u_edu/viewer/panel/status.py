@@ -3,8 +3,8 @@
 from html import escape
 
 from ai4u_edu.runtime.stall_monitor import Stall
-from ai4u_edu.snapshot import AgentState, Snapshot, Stage
-from ai4u_edu.snapshot.theme import NOTHING, UNKNOWN, group_colours
+from ai4u_edu.snapshot import AgentState, Snapshot, StaticScene
+from ai4u_edu.snapshot.theme import RAY_MISS, UNKNOWN_GROUP, group_colours
 from ai4u_edu.viewer.panel.bars import number
 from ai4u_edu.viewer.panel.readings import block
 
@@ -25,10 +25,10 @@ def speed_name(speed: float) -> str:
     return "as fast as it goes" if speed == float("inf") else f"{speed:g}x"
 
 
-def legend(stage: Stage) -> str:
+def legend(static_scene: StaticScene) -> str:
     """The colours of groups, and so of what rays met."""
-    groups = dict(tuple(group_colours(stage).items())[:MOST_GROUPS])
-    groups |= {"other": UNKNOWN, "nothing": NOTHING}
+    groups = dict(tuple(group_colours(static_scene).items())[:MOST_GROUPS])
+    groups |= {"other": UNKNOWN_GROUP, "nothing": RAY_MISS}
     dots = [
         f'<span><i style="background: rgb{colour}"></i>{escape(group)}</span> '
         for group, colour in groups.items()
@@ -54,9 +54,11 @@ def status(snapshot: Snapshot, stall: Stall | None = None) -> str:
     return block(place, pace, *map(_script, agents), kind="status bare")
 
 
-def goal(stage: Stage) -> str:
+def goal(static_scene: StaticScene) -> str:
     """What is to be done."""
-    return block(f'<div class="goal">{escape(stage.goal)}</div>') if stage.goal else ""
+    return (
+        block(f'<div class="goal">{escape(static_scene.goal)}</div>') if static_scene.goal else ""
+    )
 
 
 def _script(agent: AgentState) -> str:

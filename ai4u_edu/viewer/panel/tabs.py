@@ -5,7 +5,7 @@ from typing import NamedTuple, Protocol
 
 from viser import PanelHandle
 
-from ai4u_edu.snapshot import Snapshot, Stage
+from ai4u_edu.snapshot import Snapshot, StaticScene
 from ai4u_edu.viewer.backend.log_once import Complaints
 from ai4u_edu.viewer.backend.turns import Turns
 from ai4u_edu.viewer.viewer_client import ViewerClient, ViewerClients
@@ -19,7 +19,7 @@ class Tab(Protocol):
     """
 
     def draw(self, snapshot: Snapshot) -> None:
-        """Shows a snapshot; called some times a second, and at once on a new stage."""
+        """Shows a snapshot; called some times a second, and at once on a new static_scene."""
 
 
 class TabKind(NamedTuple):
@@ -39,7 +39,6 @@ class Tabs:
         viewer_clients: the pages.
         kinds: the tabs, from left to right.
         complaints: gets to know what went wrong; the other tabs are drawn all the same.
-        give_way: called between two pages.
     """
 
     def __init__(
@@ -47,16 +46,15 @@ class Tabs:
         viewer_clients: ViewerClients,
         kinds: Sequence[TabKind],
         complaints: Complaints,
-        give_way: Callable[[], None],
     ) -> None:
-        self._give_way, self._turns = give_way, Turns()
+        self._turns = Turns()
         self._viewer_clients = viewer_clients
         self._kinds = tuple(kinds)
         self._complaints = complaints
         self._pages: dict[int, _Page] = {}
 
-    def build(self, stage: Stage) -> None:
-        """Nothing: a tab finds the stage in the snapshot."""
+    def build(self, static_scene: StaticScene) -> None:
+        """Nothing: a tab finds the static scene in the snapshot."""
 
     def draw(self, snapshot: Snapshot) -> None:
         """Shows a snapshot in all tabs of all pages, new ones too."""
@@ -65,7 +63,6 @@ class Tabs:
         for new in self._viewer_clients.keys() - self._pages.keys():
             self._pages[new] = _Page(self._viewer_clients[new], self._kinds, self._complaints)
         for number in self._turns.next(self._pages.keys()):
-            self._give_way()
             for tab in self._pages[number].tabs:
                 with self._complaints.caught():
                     tab.draw(snapshot)

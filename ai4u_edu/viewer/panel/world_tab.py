@@ -17,11 +17,11 @@ from viser import (
 from ai4u_edu.agent.block_errors import message_of
 from ai4u_edu.base.errors import AI4UError
 from ai4u_edu.base.parameters import Problem
-from ai4u_edu.editing import ChangeError, Outcome, Workshop
+from ai4u_edu.editing import ChangeError, ChangeResult, SceneEditor
 from ai4u_edu.editing.forms import Field
 from ai4u_edu.editing.settings import scene_form
 from ai4u_edu.scenes import Scene
-from ai4u_edu.scenes.yaml.file import MAX_SIZE
+from ai4u_edu.scenes.yaml.file import MAX_SCENE_CHARS
 from ai4u_edu.snapshot import Snapshot
 from ai4u_edu.viewer.backend.reporting import reporting
 from ai4u_edu.viewer.panel.add_menu import BODY_TEMPLATES, free_position, ground_at_center
@@ -52,12 +52,12 @@ class WorldTab:
 
     Args:
         viewer_client: the page.
-        workshop: carries out what is asked for.
+        editor: carries out what is asked for.
     """
 
-    def __init__(self, viewer_client: ViewerClient, workshop: Workshop) -> None:
+    def __init__(self, viewer_client: ViewerClient, editor: SceneEditor) -> None:
         gui = viewer_client.client.gui
-        self._viewer_client, self._workshop = viewer_client, workshop
+        self._viewer_client, self._editor = viewer_client, editor
         self._chosen, self._message, self._is_wrong = "", "", False
         self._problems: tuple[Problem, ...] | None = None
         self._form: BodyForm | None = None
@@ -67,10 +67,10 @@ class WorldTab:
         self.gallery = Gallery(viewer_client.client, self._open)
         self.saving: SaveWindow | None = None
         """There if scenes can be kept here."""
-        if workshop.shelf is not None:
-            client, shelf = viewer_client.client, workshop.shelf
-            self.saving = SaveWindow(client, shelf, lambda: workshop.scene, self._on_saved)
-        self.handles = Handles(viewer_client, workshop, self._choose, self._ask)
+        if editor.scene_store is not None:
+            client, store = viewer_client.client, editor.scene_store
+            self.saving = SaveWindow(client, store, lambda: editor.scene, self._on_saved)
+        self.handles = Handles(viewer_client, editor, self._choose, self._ask)
         self._offer = gui.add_html("", visible=False)
         self._bare = gui.add_html(BARE, visible=False)
         self.offered = gui.add_button_group("Unsaved", (RESTORE, DISCARD), visible=False)
@@ -90,7 +90,7 @@ class WorldTab:
         self._place = gui.add_folder(None)
         self.delete = gui.add_button("Delete", visible=False)
         self.upload = gui.add_upload_button("Open a scene file", hint="A .yaml file")
-        limit_uploads(viewer_client.client, 4 * MAX_SIZE)  # no character takes more bytes
+        limit_uploads(viewer_client.client, 4 * MAX_SCENE_CHARS)  # no character takes more bytes
         self.offered.on_click(self._on_offer)
         self.scene.on_click(self._on_scene)
         self.changes.on_click(self._on_changes)
@@ -102,13 +102,13 @@ class WorldTab:
 
     def draw(self, snapshot: Snapshot) -> None:
         """Shows what there is to change, when that is other than before."""
-        workshop, self._latest = self._workshop, snapshot
+        editor, self._latest = self._editor, snapshot
         self.handles.draw(snapshot, self._chosen, on=self.moves.value)
-        unsaved = workshop.unsaved
-        self.settings.draw("scene", workshop.version)
-        waits, autosave = workshop.waits_for_reset, workshop.autosave
+        unsaved = editor.unsaved
+        self.settings.draw("scene", editor.version)
+        waits, autosave = editor.waits_for_reset, editor.autosave
         problem = autosave.problem if autosave is not None else ""
-        seen = (workshop.version, self._chosen, self._message, unsaved, waits, problem)
+        seen = (editor.version, self._chosen, self._message, unsaved, waits, problem)
         if self._is_applied:
             self._seen = ()
         if seen != self._seen:
@@ -128,7 +128,7 @@ class WorldTab:
     # -- what is shown ---------------------------------------------------------------------------
 
     def _show(self, problem: str) -> None:
-        workshop, description = self._workshop, self._workshop.state.description
+        editor, description = self._editor, self._editor.state.description
         bodies = {body.name: body for body in description.bodies}
         options = (NOTHING, *bodies)
         if self.thing.options != options:
@@ -137,7 +137,7 @@ class WorldTab:
         if self.thing.value != value:
             self.thing.value = value  # type: ignore[misc]  # a method parts getter from setter
         self._show_form(bodies.get(self._chosen))
-        back, forth = workshop.can_undo, workshop.can_redo
+        back, forth = editor.undo_label, editor.redo_label
         steps = [
             f"{word}: {escape(label)}" for word, label in (("undo", back), ("redo", forth)) if label
         ]
@@ -145,9 +145,9 @@ class WorldTab:
         style = "white-space: normal"
         told = escape(self._message).replace("\n", "<br>")
         lines = [
-            f"<b>{escape(workshop.title)}</b>",
+            f"<b>{escape(editor.title)}</b>",
             told and f'<span role="{word}" style="{style}">{told}</span>',
-            f"<small>{WAITS}</small>" if workshop.waits_for_reset else "",
+            f"<small>{WAITS}</small>" if editor.waits_for_reset else "",
             problem and f'<small role="alert" style="{style}">{escape(problem)}</small>',
             f"<small>{' · '.join(steps)}</small>" if steps else "",
         ]
@@ -169,7 +169,7 @@ class WorldTab:
         self._chosen = name
 
     def _settings(self) -> list[Field]:
-        return scene_form(self._workshop.state.description)
+        return scene_form(self._editor.state.description)
 
     # -- what people ask for; in viser's loop, one after the other -------------------------------
 
@@ -180,28 +180,28 @@ class WorldTab:
             self._tell(str(error), is_wrong=True)
             return
         self._chosen = ""
-        self._ask(self._workshop.open(scene))
+        self._ask(self._editor.open(scene))
 
     def _on_saved(self, name: str) -> None:
-        self._workshop.forget()
+        self._editor.mark_saved()
         self._tell(f"the scene is saved as {name!r}; it is among the scenes that you can choose")
 
     async def _on_scene(self, event: GuiEvent[GuiButtonGroupHandle]) -> None:
         if event.target.value == CHOOSE:
-            await self.gallery.open(self._workshop.shelf)
+            await self.gallery.open(self._editor.scene_store)
         elif event.target.value == SAVE and self.saving is not None:
-            self.saving.open(_file_name(self._workshop.scene))
+            self.saving.open(_file_name(self._editor.scene))
         elif event.target.value == DOWNLOAD:
-            scene = self._workshop.scene
+            scene = self._editor.scene
             self._viewer_client.client.send_file_download(
                 f"{_file_name(scene)}.yaml", scene.dumps().encode(), save_immediately=True
             )
-            self._workshop.forget()
+            self._editor.mark_saved()
             self._tell("the scene's file is among your downloads")
 
     async def _on_changes(self, event: GuiEvent[GuiButtonGroupHandle]) -> None:
         undoes = event.target.value == UNDO
-        self._ask(self._workshop.undo() if undoes else self._workshop.redo())
+        self._ask(self._editor.undo() if undoes else self._editor.redo())
 
     async def _on_moves(self, event: GuiEvent[GuiCheckboxHandle]) -> None:
         words = MOVING if event.target.value else HINT
@@ -221,13 +221,13 @@ class WorldTab:
         if place is None:
             self._tell("there is no room for it around the middle of the picture", is_wrong=True)
             return
-        name = self._workshop.free_name(thing["name"])
+        name = self._editor.free_name(thing["name"])
         # it is put where there is room; mostly it is to be elsewhere
         self.moves.value = True  # type: ignore[misc]
-        self._ask(self._workshop.add_body(thing | {"name": name, "position": place}), name)
+        self._ask(self._editor.add_body(thing | {"name": name, "position": place}), name)
 
-    def _on_settings(self, values: dict[str, Any]) -> "Future[Outcome]":
-        future = self._workshop.change_settings(values)
+    def _on_settings(self, values: dict[str, Any]) -> "Future[ChangeResult]":
+        future = self._editor.change_settings(values)
         self._ask(future)
         return future
 
@@ -242,17 +242,17 @@ class WorldTab:
             return
         name = form.body.name
         if not values and place:
-            future = self._workshop.move_body(name, **place)
+            future = self._editor.move_body(name, **place)
         else:
             if place:
                 values["position"] = (place["x"], place["y"])
                 values["heading_deg"] = place["heading_deg"]
-            future = self._workshop.change_body(name, values)
+            future = self._editor.change_body(name, values)
         self._ask(future, of_form=True)
 
     async def _on_delete(self, _event: GuiEvent[GuiButtonHandle]) -> None:
         if self._chosen:
-            self._ask(self._workshop.remove_body(self._chosen))
+            self._ask(self._editor.remove_body(self._chosen))
 
     async def _on_upload(self, event: GuiEvent[GuiUploadButtonHandle]) -> None:
         file = take_file(event)
@@ -262,13 +262,13 @@ class WorldTab:
             self._tell(f"{file.name[:80]}: expected a text file, YAML", is_wrong=True)
             return
         self._chosen = ""
-        self._ask(await asyncio.to_thread(self._workshop.load, text, file.name[:80]))
+        self._ask(await asyncio.to_thread(self._editor.load, text, file.name[:80]))
 
     async def _on_offer(self, event: GuiEvent[GuiButtonGroupHandle]) -> None:
         if event.target.value == RESTORE:
-            self._ask(self._workshop.bring_back())
+            self._ask(self._editor.restore_unsaved())
         elif event.target.value == DISCARD:
-            self._workshop.discard()
+            self._editor.discard_unsaved()
 
     def _tell(self, message: str, *, is_wrong: bool = False) -> None:
         self._message, self._is_wrong = message, is_wrong
@@ -277,12 +277,12 @@ class WorldTab:
             client.add_notification("That didn't work", message, auto_close_seconds=8.0)
 
     def _ask(
-        self, future: "Future[Outcome]", then: str | None = None, *, of_form: bool = False
+        self, future: "Future[ChangeResult]", then: str | None = None, *, of_form: bool = False
     ) -> None:
         """Says when it applies, or what is wrong; ``then`` is the body that is chosen then."""
-        notify_stall(self._viewer_client.client, self._workshop.stall, future)
+        notify_stall(self._viewer_client.client, self._editor.stall, future)
 
-        def tell(done: "Future[Outcome]") -> None:
+        def tell(done: "Future[ChangeResult]") -> None:
             if done.cancelled():
                 return
             error = done.exception()
@@ -304,6 +304,6 @@ def _file_name(scene: Scene) -> str:
     return name[:60].strip("_") or "scene"
 
 
-def world_tab(workshop: Workshop) -> TabKind:
+def world_tab(editor: SceneEditor) -> TabKind:
     """The tab for the world."""
-    return TabKind("World", lambda viewer_client: WorldTab(viewer_client, workshop))
+    return TabKind("World", lambda viewer_client: WorldTab(viewer_client, editor))

@@ -3,7 +3,7 @@
 from collections.abc import Iterable
 from html import escape
 
-from ai4u_edu.recording import Entry
+from ai4u_edu.recording import ArchiveEntry
 from ai4u_edu.viewer.panel.bars import number
 from ai4u_edu.viewer.panel.readings import block
 
@@ -25,7 +25,9 @@ FORMATS = {"html": "Page", "gif": "GIF", "mp4": "MP4", "csv": "Table", "episode"
 """What can be downloaded, by the file's ending."""
 
 
-def listed(entries: Iterable[Entry], chosen: int | None, best: Entry | None = None) -> str:
+def listed(
+    entries: Iterable[ArchiveEntry], chosen: int | None, best: ArchiveEntry | None = None
+) -> str:
     """A table, the latest episode first.
 
     Args:
@@ -55,7 +57,7 @@ def downloads(chosen: int, formats: Iterable[str]) -> str:
     return block(f'<div class="downloads">Download: {"".join(links)}</div>')
 
 
-def driver(entry: Entry) -> str:
+def driver(entry: ArchiveEntry) -> str:
     """Who drove the first agent, in few words."""
     return entry.source or short(entry.first.driver)
 
@@ -70,7 +72,7 @@ def short(title: str) -> str:
     return ", ".join(part.removesuffix("Controller") or part for part in parts)
 
 
-def _row(entry: Entry, is_chosen: bool, is_best: bool) -> str:
+def _row(entry: ArchiveEntry, is_chosen: bool, is_best: bool) -> str:
     episode, goal = entry.episode, entry.success
     cells = (
         str(episode.seed) if episode.seed < 10**7 else f"{str(episode.seed)[:6]}…",

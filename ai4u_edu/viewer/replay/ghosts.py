@@ -8,8 +8,8 @@ from viser import FrameHandle, LabelHandle, SceneApi
 
 from ai4u_edu.base.errors import AI4UError
 from ai4u_edu.recording import Episode, Ghost, ghost_of
-from ai4u_edu.snapshot import Snapshot, Stage
-from ai4u_edu.snapshot.theme import Rgb, body_colour, mixed
+from ai4u_edu.snapshot import Snapshot, StaticScene
+from ai4u_edu.snapshot.theme import Rgb, body_colour, mix_colours
 from ai4u_edu.viewer.backend.local_server import LocalServer
 from ai4u_edu.viewer.scene.face import face
 from ai4u_edu.viewer.scene.geometry import half_width, prism
@@ -65,22 +65,22 @@ class Ghosts:
         if self._episode is None:
             return ""
         told = f"Ghost: {escape(self.name)}"
-        if self._is_elsewhere(snapshot.stage):
+        if self._is_elsewhere(snapshot.static_scene):
             return f"{told}. <strong>It ran in another scene.</strong>"
         if snapshot.seed != self._episode.seed:
             seed = self._episode.seed
             return f"{told}. <strong>It began otherwise: with seed {seed}. Race it anew.</strong>"
         return told
 
-    def build(self, stage: Stage) -> None:
+    def build(self, static_scene: StaticScene) -> None:
         """Learns how high things are drawn."""
-        self._layers, self._made = Layers.of(stage), None
+        self._layers, self._made = Layers.of(static_scene), None
 
     def draw(self, snapshot: Snapshot) -> None:
         """Puts the ghost where it was at this time of its episode."""
         ghost, layers = self._ghost, self._layers
         if ghost is not self._made and layers is not None:
-            self._make(ghost, snapshot.stage, layers)
+            self._make(ghost, snapshot.static_scene, layers)
         if ghost is None or layers is None:
             return
         now = ghost.at(snapshot.time + 1e-4)  # its times are rounded
@@ -89,11 +89,11 @@ class Ghosts:
         for body in self._bodies:
             body.move(now.get(body.name), layers, text)
 
-    def _make(self, ghost: Ghost | None, stage: Stage, layers: Layers) -> None:
+    def _make(self, ghost: Ghost | None, static_scene: StaticScene, layers: Layers) -> None:
         self._made, self._bodies = ghost, []
         episode = self._episode
         with self._subtree.rebuild() as parent:
-            if ghost is None or episode is None or self._is_elsewhere(stage):
+            if ghost is None or episode is None or self._is_elsewhere(static_scene):
                 return
             drivers = {str(agent.get("body", "")) for agent in episode.scene.agents}
             for number, body in enumerate(episode.scene.bodies):
@@ -111,14 +111,14 @@ class Ghosts:
         if self._episode is episode:
             self._ghost = ghost
 
-    def _is_elsewhere(self, stage: Stage) -> bool:
+    def _is_elsewhere(self, static_scene: StaticScene) -> bool:
         """Whether the run's things are others than those that are here; places may be chance."""
         episode = self._episode
         if episode is None:
             return False
         there = {(body.name, body.kind, body.shape) for body in episode.scene.bodies}
-        here = {(body.name, body.kind, body.shape) for body in stage.bodies}
-        return there != here or len(episode.scene.floors) != len(stage.floors)
+        here = {(body.name, body.kind, body.shape) for body in static_scene.bodies}
+        return there != here or len(episode.scene.floors) != len(static_scene.floors)
 
 
 class _Body:
@@ -128,7 +128,7 @@ class _Body:
         self.name = body.name
         outline = body.shape.outline()
         self._radius = radius = half_width(outline)
-        colour = mixed(body_colour(body, is_agent=True), PALE, 0.35)
+        colour = mix_colours(body_colour(body, is_agent=True), PALE, 0.35)
         self._frame: FrameHandle = scene.add_frame(node, show_axes=False, visible=False)
         drawer = MeshDrawer(scene, node)
         # a little below a living body, so that the two never flicker through each other

@@ -5,8 +5,8 @@ from concurrent.futures import CancelledError, Future
 from contextlib import suppress
 
 from ai4u_edu.base.errors import AI4UError
-from ai4u_edu.recording import Archive, Entry, RecordingError
-from ai4u_edu.recording.frame_cache import Reel
+from ai4u_edu.recording import Archive, ArchiveEntry, RecordingError
+from ai4u_edu.recording.frame_cache import FrameCache
 from ai4u_edu.runtime.runner import Runner
 
 NOW = 0
@@ -24,7 +24,7 @@ class ReplayPlayer:
 
     def __init__(self, runner: Runner) -> None:
         self._runner = runner
-        self.reel: Reel | None = None
+        self.frame_cache: FrameCache | None = None
         """Of the episode that was chosen."""
         self.number: int | None = None
         """Of that episode; :data:`NOW` for the one that is under way."""
@@ -67,12 +67,12 @@ class ReplayPlayer:
             self._load(entry, number, agent, step)
             return
 
-        def take() -> Entry | None:
+        def take() -> ArchiveEntry | None:
             recorder = self._runner.recorder
             episode = recorder.now() if recorder is not None else None
             if recorder is None or episode is None or not len(episode.agents[0]):
                 return None
-            return Entry(recorder.episodes.next_number, episode)
+            return ArchiveEntry(recorder.episodes.next_number, episode)
 
         self._runner.submit(take).add_done_callback(
             lambda done: self._load(None if done.cancelled() else done.result(), NOW, agent, step)
@@ -80,25 +80,25 @@ class ReplayPlayer:
 
     def go_to(self, step: int) -> None:
         """Shows a moment: a decision, by its number from 0 on."""
-        if self.number == NOW and self.reel is not None and not self.is_showing:
-            self.open(NOW, self.reel.record.id, step)  # it may have gone on since
+        if self.number == NOW and self.frame_cache is not None and not self.is_showing:
+            self.open(NOW, self.frame_cache.record.id, step)  # it may have gone on since
         else:
             self._want(step)
 
     def move(self, steps: int) -> None:
         """Goes some decisions on, or back."""
-        reel = self.reel
-        if self.number == NOW and reel is not None and not self.is_showing:
-            self.open(NOW, reel.record.id, min(steps, 0) - 1)  # from now, and not from then
+        frame_cache = self.frame_cache
+        if self.number == NOW and frame_cache is not None and not self.is_showing:
+            self.open(NOW, frame_cache.record.id, min(steps, 0) - 1)  # from now, and not from then
         else:
             self.go_to(self.step + steps)
 
     def play(self, *, on: bool = True) -> None:
         """Lets the moments follow each other; from the beginning, if it is at its end."""
-        reel = self.reel
-        if reel is None:
+        frame_cache = self.frame_cache
+        if frame_cache is None:
             return
-        self._want(0 if on and self.step >= reel.last else self.step, playing=on)
+        self._want(0 if on and self.step >= frame_cache.last else self.step, playing=on)
 
     def back(self) -> "Future[None]":
         """Back to now."""
@@ -117,17 +117,21 @@ class ReplayPlayer:
         Returns:
             What the runner answers; a :class:`~ai4u_edu.recording.RecordingError` if it can't be.
         """
-        reel, step = self.reel, self.step
-        if reel is None:
+        frame_cache, step = self.frame_cache, self.step
+        if frame_cache is None:
             return _failed("choose an episode first")
         self.leave()
-        reel.picture(min(step, max(reel.last, 0)), timeout=None)  # then it is known how it goes
-        if reel.replay is None:
-            return _failed(reel.problem)
+        frame_cache.snapshot(
+            min(step, max(frame_cache.last, 0)), timeout=None
+        )  # then it is known how it goes
+        if frame_cache.replay is None:
+            return _failed(frame_cache.problem)
         try:
             # after the last decision there is none in whose place something else could be done
-            last = len(reel.record) - 1
-            return self._runner.continue_from(reel.replay, min(step, last), agent=reel.record.id)
+            last = len(frame_cache.record) - 1
+            return self._runner.continue_from(
+                frame_cache.replay, min(step, last), agent=frame_cache.record.id
+            )
         except AI4UError as error:
             return _failed(str(error))
 
@@ -138,12 +142,12 @@ class ReplayPlayer:
             self._changed.notify_all()
         if self._thread is not None:
             self._thread.join()
-        if self.reel is not None:
-            self.reel.stop()
+        if self.frame_cache is not None:
+            self.frame_cache.stop()
 
     # -- how -------------------------------------------------------------------------------------
 
-    def _load(self, entry: Entry | None, number: int, agent: str, step: int | None) -> None:
+    def _load(self, entry: ArchiveEntry | None, number: int, agent: str, step: int | None) -> None:
         if entry is None:
             self.problem = (
                 "nothing of it is recorded yet"
@@ -152,25 +156,25 @@ class ReplayPlayer:
             )
             return
         known = agent if agent in entry.episode.ids else None
-        reel = Reel(entry.episode, agent=known, number=entry.number)
+        frame_cache = FrameCache(entry.episode, agent=known, number=entry.number)
         with self._changed:
-            before, self.reel, self.number = self.reel, reel.start(), number
+            before, self.frame_cache, self.number = self.frame_cache, frame_cache.start(), number
             # who looks at what is under way wants to go back from where it is
-            self.step = reel.last if number == NOW else 0
+            self.step = frame_cache.last if number == NOW else 0
             self._wish, self._wanted = self._wish + 1, False
             self.playing, self.problem = False, ""
         if before is not None:
             before.stop(wait=False)
         if self.is_showing or step is not None:
             wanted = self.step if step is None else step
-            self._want(wanted if wanted >= 0 else reel.last + 1 + wanted)
+            self._want(wanted if wanted >= 0 else frame_cache.last + 1 + wanted)
 
     def _want(self, step: int, *, playing: bool = False) -> None:
-        reel = self.reel
-        if reel is None:
+        frame_cache = self.frame_cache
+        if frame_cache is None:
             return
         with self._changed:
-            self.step = min(max(step, 0), max(reel.last, 0))
+            self.step = min(max(step, 0), max(frame_cache.last, 0))
             self._wish, self._wanted, self.playing = self._wish + 1, True, playing
             self._goes_on = False
             if self._thread is None and not self._stopping:
@@ -185,20 +189,20 @@ class ReplayPlayer:
                 if self._stopping:
                     return
                 self._wanted = False
-                wish, reel, step = self._wish, self.reel, self.step
+                wish, frame_cache, step = self._wish, self.frame_cache, self.step
                 goes_on, self._goes_on = self._goes_on, False
-            if reel is None or not self._show(reel, step, wish, goes_on=goes_on):
+            if frame_cache is None or not self._show(frame_cache, step, wish, goes_on=goes_on):
                 continue
             if self.playing:
-                self._play_on(reel, step, wish)
+                self._play_on(frame_cache, step, wish)
 
-    def _show(self, reel: Reel, step: int, wish: int, *, goes_on: bool) -> bool:
+    def _show(self, frame_cache: FrameCache, step: int, wish: int, *, goes_on: bool) -> bool:
         """Shows a picture as soon as it is there; whether it was shown."""
-        while (picture := reel.picture(step, timeout=0.25)) is None:
+        while (picture := frame_cache.snapshot(step, timeout=0.25)) is None:
             if wish != self._wish or self._stopping:
                 return False
-            if not reel.is_alive or step > reel.last:
-                self.problem, self.playing = reel.problem or "there is nothing to see", False
+            if not frame_cache.is_alive or step > frame_cache.last:
+                self.problem, self.playing = frame_cache.problem or "there is nothing to see", False
                 return False
         with self._changed:
             if wish != self._wish:
@@ -208,10 +212,10 @@ class ReplayPlayer:
             shown.result(1.0)
         return True
 
-    def _play_on(self, reel: Reel, step: int, wish: int) -> None:
+    def _play_on(self, frame_cache: FrameCache, step: int, wish: int) -> None:
         """Waits as long as this moment took then, and wants the next one."""
-        here = reel.picture(step)
-        there = reel.picture(step + 1, timeout=5.0) if step < reel.last else None
+        here = frame_cache.snapshot(step)
+        there = frame_cache.snapshot(step + 1, timeout=5.0) if step < frame_cache.last else None
         if here is None or there is None or not self.is_showing:  # somebody had the world go on
             self.playing = False
             return

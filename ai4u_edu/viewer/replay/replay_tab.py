@@ -14,8 +14,8 @@ from viser import (
 
 from ai4u_edu.base.errors import AI4UError
 from ai4u_edu.base.optional_deps import has
-from ai4u_edu.recording import Entry, Episode
-from ai4u_edu.recording.file import LARGEST_FILE, decode
+from ai4u_edu.recording import ArchiveEntry, Episode
+from ai4u_edu.recording.file import MAX_FILE_BYTES, decode
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.snapshot import Snapshot
 from ai4u_edu.viewer.backend.reporting import reporting
@@ -69,7 +69,7 @@ class ReplayTab:
         self._links = gui.add_html("")
         hint = "An .episode file, of a friend's or your own"
         self._upload = gui.add_upload_button("Open a recording", hint=hint)
-        limit_uploads(self._client, LARGEST_FILE)
+        limit_uploads(self._client, MAX_FILE_BYTES)
         self._episode.on_update(self._on_episode)
         self._step.on_update(self._on_step)
         self._steps.on_click(self._on_steps)
@@ -88,7 +88,7 @@ class ReplayTab:
             self._offer(entries)
         self._follow(snapshot)
 
-    def _offer(self, entries: tuple[Entry, ...]) -> None:
+    def _offer(self, entries: tuple[ArchiveEntry, ...]) -> None:
         """Lists the episodes, and marks the one that was chosen."""
         chosen = self._player.number
         archive = self._player.archive
@@ -108,14 +108,14 @@ class ReplayTab:
 
     def _follow(self, snapshot: Snapshot) -> None:
         """Shows the moment that is wanted, whoever wanted it."""
-        player, reel = self._player, self._player.reel
+        player, frame_cache = self._player, self._player.frame_cache
         recorder = self._runner.recorder
-        there = reel is not None and reel.last >= 0
+        there = frame_cache is not None and frame_cache.last >= 0
         for handle in (self._step, self._steps, self._speed, self._verbs):
             handle.visible = there
-        if reel is not None and there:
+        if frame_cache is not None and there:
             # people count from 1; the end comes after the last step
-            last, step = max(reel.last, 1) + 1, player.step + 1
+            last, step = max(frame_cache.last, 1) + 1, player.step + 1
             if self._step.max != last:
                 self._step.max = last
             if self._step.value != step:
@@ -126,7 +126,7 @@ class ReplayTab:
         self._nobody.visible = bool(self._ghosts.name)
         told = [
             snapshot.past and f"Seen now: {snapshot.past}",
-            escape(player.problem or (reel.problem if reel is not None else "")),
+            escape(player.problem or (frame_cache.problem if frame_cache is not None else "")),
             self._ghosts.told(snapshot),
             escape(recorder.problem or recorder.save_problem) if recorder is not None else "",
         ]
@@ -141,7 +141,7 @@ class ReplayTab:
             self._player.open(number, self._viewer_client.agent)
 
     async def _on_step(self, event: GuiEvent[GuiSliderHandle[int]]) -> None:
-        if event.client is not None and self._player.reel is not None:
+        if event.client is not None and self._player.frame_cache is not None:
             self._player.go_to(int(event.target.value) - 1)
 
     async def _on_steps(self, event: GuiEvent[GuiButtonGroupHandle]) -> None:
@@ -163,11 +163,13 @@ class ReplayTab:
                 notify_failure(self._client, self._runner, player.back())
             case "Continue here":
                 notify_failure(self._client, self._runner, await asyncio.to_thread(player.go_on))
-            case "Race it" if player.reel is not None:
-                reel = player.reel
+            case "Race it" if player.frame_cache is not None:
+                frame_cache = player.frame_cache
                 player.leave()
-                self._ghosts.race(reel.episode, f"episode {reel.number}")
-                notify_failure(self._client, self._runner, self._runner.reset(reel.episode.seed))
+                self._ghosts.race(frame_cache.episode, f"episode {frame_cache.number}")
+                notify_failure(
+                    self._client, self._runner, self._runner.reset(frame_cache.episode.seed)
+                )
                 notify_failure(self._client, self._runner, self._runner.resume())
 
     async def _on_nobody(self, _event: GuiEvent[GuiButtonHandle]) -> None:

@@ -1,1 +1,1 @@
-"""The drawn world: bodies, sensors, overlays, handles."""
+"""The 3D scene of a page: ground, bodies, sensor overlays, camera and drag handles."""

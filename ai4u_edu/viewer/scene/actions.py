@@ -1,4 +1,4 @@
-"""What agents do: an arrow ahead or back, a bent one for a turn, a ring for a jump."""
+"""Marks for agents' actions: a straight arrow to drive, a bent one to turn, a ring to jump."""
 
 import math
 from functools import lru_cache
@@ -6,48 +6,48 @@ from functools import lru_cache
 import numpy as np
 from viser import LineSegmentsHandle
 
-from ai4u_edu.snapshot import AgentState, BodyState, Snapshot, Stage
+from ai4u_edu.snapshot import AgentState, BodyState, Snapshot, StaticScene
 from ai4u_edu.snapshot.theme import ACTION
 from ai4u_edu.viewer.backend.local_server import LocalServer
-from ai4u_edu.viewer.scene.geometry import Array, circle, half_width, segments, turn
+from ai4u_edu.viewer.scene.geometry import Array, circle, half_width, rotate, segments
 from ai4u_edu.viewer.scene.layers import Layers
-from ai4u_edu.viewer.scene.light import strokes
+from ai4u_edu.viewer.scene.light import line_colours
 
 ACTION_NAME = "move"
-"""The action that is drawn: [forward, turn, jump, forward jump], as AI4U's actuator takes it."""
-FARTHEST_TURN = math.radians(75)
-"""How far the bent arrow reaches for a full turn."""
-SMALLEST = 0.02
-"""What is less than this isn't drawn."""
+"""Name of the drawn action: [forward, turn, jump, forward jump], as AI4U's actuator orders it."""
+MAX_TURN_ARROW_RAD = math.radians(75)
+"""Angle that the bent arrow spans for a turn of 1."""
+MIN_DRAWN_VALUE = 0.02
+"""Smallest component of an action that is drawn."""
 
 
 class Actions:
-    """Draws the last action of every agent."""
+    """Marks of the last action of every agent."""
 
     def __init__(self, server: LocalServer) -> None:
         self._scene = server.scene
         self._lines: LineSegmentsHandle | None = None
 
-    def build(self, stage: Stage) -> None:
-        """Learns how large the agents are."""
-        self._layers = Layers.of(stage)
+    def build(self, static_scene: StaticScene) -> None:
+        """Read the agents' sizes from a static scene."""
+        self._layers = Layers.of(static_scene)
         self._sizes = {
             body.name: (half_width(body.shape.outline()), body.height)
-            for body in stage.bodies
-            if body.name in stage.agent_of
+            for body in static_scene.bodies
+            if body.name in static_scene.agent_of
         }
 
     def draw(self, snapshot: Snapshot) -> None:
-        """Draws the actions as they are."""
+        """Draw the agents' current actions."""
         bodies = {body.name: body for body in snapshot.bodies if body.name in self._sizes}
         marks = [self._marks(agent, bodies[agent.body]) for agent in snapshot.agents]
         below = self._layers.void - 1.0
-        # a stroke that can't be seen: of no strokes at all the page would keep the last ones
+        # an invisible segment: given no segments at all, the page would keep the previous ones
         marks.append(np.array([[(0.0, 0.0, below), (1.0, 0.0, below)]]))
         lines = np.concatenate(marks).astype(np.float32)
         if self._lines is None:
             self._lines = self._scene.add_line_segments(
-                "/actions", lines, strokes(ACTION), thickness=2.5, thickness_units="screen"
+                "/actions", lines, line_colours(ACTION), thickness=2.5, thickness_units="screen"
             )
         self._lines.points = lines
 
@@ -56,7 +56,7 @@ class Actions:
         if len(numbers) != 4 or body.fallen:
             return np.empty((0, 2, 3))
         radius, height = self._sizes[agent.body]
-        flat = turn(action_marks(numbers, radius).reshape(-1, 2), body.heading)
+        flat = rotate(action_marks(numbers, radius).reshape(-1, 2), body.heading)
         z = body.z + height + self._layers.body + 3 * self._layers.unit
         points = np.column_stack([flat + np.array([body.x, body.y]), np.full(len(flat), z)])
         return points.reshape(-1, 2, 3)
@@ -64,26 +64,28 @@ class Actions:
 
 @lru_cache(maxsize=1024)
 def action_marks(numbers: tuple[float, ...], radius: float) -> Array:
-    """The strokes for an action, (n, 2, 2), in the frame of a body of that radius (metres)."""
-    forward, right, jump, leap = (max(-1.0, min(1.0, number)) for number in numbers)
+    """Return an action's line segments (n, 2, 2), in the frame of a body of that radius (m)."""
+    forward, right, jump, forward_jump = (max(-1.0, min(1.0, number)) for number in numbers)
     marks = [np.empty((0, 2, 2))]
-    ahead = max(-1.0, min(1.0, forward + leap))
-    if abs(ahead) >= SMALLEST:
+    ahead = max(-1.0, min(1.0, forward + forward_jump))
+    if abs(ahead) >= MIN_DRAWN_VALUE:
         start = math.copysign(1.15 * radius, ahead)
         path = np.array([(start, 0.0), (start + 1.3 * radius * ahead, 0.0)])
         marks.append(_arrow(path, radius))
-    if abs(right) >= SMALLEST:
-        angles = np.linspace(0.0, -right * FARTHEST_TURN, 9)
+    if abs(right) >= MIN_DRAWN_VALUE:
+        angles = np.linspace(0.0, -right * MAX_TURN_ARROW_RAD, 9)
         path = 1.3 * radius * np.stack([np.cos(angles), np.sin(angles)], axis=1)
         marks.append(_arrow(path, radius))
-    if max(jump, leap) >= SMALLEST:
+    if max(jump, forward_jump) >= MIN_DRAWN_VALUE:
         marks.append(segments(circle(1.45 * radius, corners=24))[..., :2])
     return np.concatenate(marks)
 
 
 def _arrow(path: Array, radius: float) -> Array:
-    """A path's strokes, with a head at its end."""
+    """Return a path's line segments, with an arrowhead at its end."""
     tip = path[-1]
     way = (tip - path[-2]) / max(float(np.linalg.norm(tip - path[-2])), 1e-9)
-    head = [np.stack([tip, tip - 0.28 * radius * turn(way[None], side)[0]]) for side in (0.6, -0.6)]
+    head = [
+        np.stack([tip, tip - 0.28 * radius * rotate(way[None], side)[0]]) for side in (0.6, -0.6)
+    ]
     return np.concatenate([np.stack([path[:-1], path[1:]], axis=1), np.stack(head)])

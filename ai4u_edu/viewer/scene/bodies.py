@@ -1,4 +1,4 @@
-"""What moves: bodies as prisms with shadows, faces and marks; one batch for each kind of body."""
+"""Bodies, drawn as prisms with shadows and marks; one batched mesh for each group of body."""
 
 from collections import defaultdict
 from collections.abc import Callable
@@ -7,87 +7,96 @@ import numpy as np
 import numpy.typing as npt
 from viser import BatchedMeshHandle, SceneNodePointerEvent
 
-from ai4u_edu.snapshot import Snapshot, Stage
-from ai4u_edu.snapshot.theme import VOID, Rgb, body_colour, mixed
+from ai4u_edu.snapshot import Snapshot, StaticScene
+from ai4u_edu.snapshot.theme import VOID, Rgb, body_colour, mix_colours
 from ai4u_edu.viewer.backend.local_server import LocalServer
 from ai4u_edu.viewer.backend.reporting import reporting
 from ai4u_edu.viewer.scene.face import face, pupils, rings
-from ai4u_edu.viewer.scene.geometry import cap, half_width, joined, prism, soft
+from ai4u_edu.viewer.scene.geometry import cap, half_width, join_meshes, prism, soft_shadow
 from ai4u_edu.viewer.scene.layers import Layers
-from ai4u_edu.viewer.scene.light import surfaces
+from ai4u_edu.viewer.scene.light import surface_colours
 from ai4u_edu.viewer.scene.mesh_drawer import MeshDrawer
-from ai4u_edu.viewer.scene.poses import Poses, poses
+from ai4u_edu.viewer.scene.poses import Poses, compute_poses
 from ai4u_edu.viewer.scene.subtree import Subtree
 
 BLACK: Rgb = (0, 0, 0)
 LIGHT: Rgb = (240, 243, 246)
 DARK: Rgb = (24, 28, 34)
-BLUR = 0.16
-"""How soft a shadow's edge is at most, in metres."""
-RIM = 0.05
-"""How wide a body's outline is drawn at most, in metres."""
+MAX_SHADOW_BLUR_M = 0.16
+"""Largest width (m) of a shadow's soft edge."""
+SHADOW_LAYERS = 9
+"""Number of translucent layers that make a shadow's soft edge."""
+MAX_RIM_M = 0.05
+"""Largest width (m) of the dark rim that outlines a body."""
 
 
 class Bodies:
-    """Draws all bodies; only what moved is sent.
+    """All bodies of the world; viser sends only what changed.
 
     Args:
         server: viser's.
-        on_agent: called with a page's number and a body's name when an agent is clicked on.
+        on_agent: called with viser's client id and a body's name when an agent is clicked.
     """
 
     def __init__(self, server: LocalServer, on_agent: Callable[[int, str], None]) -> None:
         self._on_agent = on_agent
         self._scene = server.scene
         self._subtree = Subtree(server.scene, "bodies")
-        self._seen: object = None
-        self._kinds: list[_Kind] = []
+        self._built_for: object = None
+        self._groups: list[_BodyGroup] = []
 
-    def build(self, stage: Stage) -> None:
-        """Makes a batch for each kind of body, if there are other bodies than before."""
-        self._layers = Layers.of(stage)
-        wanted = (stage.bodies, stage.agent_of, self._layers)
-        if wanted == self._seen:
+    def build(self, static_scene: StaticScene) -> None:
+        """Create a batch for each kind of body, if the bodies have changed."""
+        self._layers = Layers.of(static_scene)
+        wanted = (static_scene.bodies, static_scene.agent_of, self._layers)
+        if wanted == self._built_for:
             return
         members: defaultdict[object, list[int]] = defaultdict(list)
-        for index, body in enumerate(stage.bodies):
-            role = (body.name in stage.agent_of, "target" in body.tags)
+        for index, body in enumerate(static_scene.bodies):
+            role = (body.name in static_scene.agent_of, "target" in body.tags)
             members[body.shape, body.height, role].append(index)
         with self._subtree.rebuild() as parent:
-            self._kinds = [
-                _Kind(MeshDrawer(self._scene, f"{parent}/{number}"), self._layers, stage, indices)
+            self._groups = [
+                _BodyGroup(
+                    MeshDrawer(self._scene, f"{parent}/{number}"),
+                    self._layers,
+                    static_scene,
+                    indices,
+                )
                 for number, indices in enumerate(members.values())
             ]
-            for kind in self._kinds:
-                if kind.names[0] in stage.agent_of:
-                    kind.listen(self._on_agent)
-        self._seen = wanted
+            for group in self._groups:
+                if group.names[0] in static_scene.agent_of:
+                    group.listen(self._on_agent)
+        self._built_for = wanted
 
     def draw(self, snapshot: Snapshot) -> None:
-        """Puts all bodies where they are."""
-        where = poses(snapshot, self._layers)
-        for kind in self._kinds:
-            kind.move(where)
+        """Move all bodies to their current poses."""
+        poses = compute_poses(snapshot, self._layers)
+        for group in self._groups:
+            group.move(poses)
 
 
-class _Kind:
-    """Bodies that look alike but for their colour."""
+class _BodyGroup:
+    """Bodies that differ only in colour and pose."""
 
     def __init__(
-        self, drawer: MeshDrawer, layers: Layers, stage: Stage, members: list[int]
+        self, drawer: MeshDrawer, layers: Layers, static_scene: StaticScene, members: list[int]
     ) -> None:
         self._members = np.array(members)
-        bodies = [stage.bodies[index] for index in members]
+        bodies = [static_scene.bodies[index] for index in members]
         self.names = [body.name for body in bodies]
-        is_agent = bodies[0].name in stage.agent_of
+        is_agent = bodies[0].name in static_scene.agent_of
         colours = [body_colour(body, is_agent) for body in bodies]
-        self._own = surfaces(colours)
-        self._deep = surfaces([mixed(colour, VOID, 0.75) for colour in colours])
+        self._own = surface_colours(colours)
+        self._deep = surface_colours([mix_colours(colour, VOID, 0.75) for colour in colours])
         outline, height = bodies[0].shape.outline(), bodies[0].height
         radius, top, count = half_width(outline), height + layers.unit, len(members)
-        pile = joined([cap(*each) for each in soft(outline, min(BLUR, radius), 5 * layers.unit, 9)])
-        self._shadow = drawer.batch("shadow", pile, [BLACK] * count, opacity=0.05)
-        body = prism(outline, height, min(RIM, 0.16 * radius))
+        blur = min(MAX_SHADOW_BLUR_M, radius)
+        shadow = soft_shadow(outline, blur, 5 * layers.unit, SHADOW_LAYERS)
+        shadow_mesh = join_meshes([cap(*each) for each in shadow])
+        self._shadow = drawer.batch("shadow", shadow_mesh, [BLACK] * count, opacity=0.05)
+        body = prism(outline, height, min(MAX_RIM_M, 0.16 * radius))
         self._body = drawer.batch("body", body, colours)
         self._marks = []
         if is_agent:
@@ -98,30 +107,30 @@ class _Kind:
             self._marks.append(drawer.batch("rings", rings(radius, top), [LIGHT] * count))
 
     def listen(self, on_agent: Callable[[int, str], None]) -> None:
-        """Has a click on a member told, with the page on which it was clicked."""
+        """Call ``on_agent`` with the client id and the body's name when a member is clicked."""
 
-        async def tell(event: SceneNodePointerEvent[BatchedMeshHandle]) -> None:
+        async def on_click(event: SceneNodePointerEvent[BatchedMeshHandle]) -> None:
             index = event.instance_index
             if index is not None and 0 <= index < len(self.names):
                 on_agent(event.client_id, self.names[index])
 
-        self._body.on_click(reporting(tell))
+        self._body.on_click(reporting(on_click))
 
-    def move(self, where: Poses) -> None:
-        """Puts the members where they are."""
+    def move(self, poses: Poses) -> None:
+        """Move the members to their current poses."""
         members = self._members
-        places, turns, sizes = where.places[members], where.turns[members], where.sizes[members]
+        wxyzs = poses.wxyzs[members]
         for batch in (self._body, *self._marks):
-            batch.batched_positions = places
-            batch.batched_wxyzs = turns
-            batch.batched_scales = sizes
-        self._shadow.batched_positions = where.shadows[members]
-        self._shadow.batched_wxyzs = turns
-        self._shadow.batched_scales = where.shadow_sizes[members]
-        self._body.batched_colors = self._colours(where.depths[members])
+            batch.batched_positions = poses.positions[members]
+            batch.batched_wxyzs = wxyzs
+            batch.batched_scales = poses.scales[members]
+        self._shadow.batched_positions = poses.shadow_positions[members]
+        self._shadow.batched_wxyzs = wxyzs
+        self._shadow.batched_scales = poses.shadow_scales[members]
+        self._body.batched_colors = self._colours(poses.depths[members])
 
     def _colours(self, depths: npt.NDArray[np.float64]) -> npt.NDArray[np.uint8]:
-        """A body that falls fades into the void."""
+        """Return the members' colours; a falling body fades to the colour of the void."""
         if not depths.any():
             return self._own
         share = depths[:, None]

@@ -12,25 +12,25 @@ Outline = Sequence[tuple[float, float]] | Array
 
 
 class Mesh(NamedTuple):
-    """Triangles: (v, 3) corners and (f, 3) indices into them, counter-clockwise from outside."""
+    """A triangle mesh: (v, 3) vertices and (f, 3) indices, counter-clockwise seen from outside."""
 
     vertices: Array
     faces: npt.NDArray[np.int64]
 
     def moved(self, x: float, y: float, z: float = 0.0) -> "Mesh":
-        """The same mesh elsewhere."""
+        """Return the mesh translated by (x, y, z)."""
         return Mesh(self.vertices + np.array([x, y, z]), self.faces)
 
 
-def turn(points: Array, angle: float) -> Array:
-    """(n, 2) points turned around the origin by an angle in radians."""
+def rotate(points: Array, angle: float) -> Array:
+    """Rotate (n, 2) points around the origin by an angle in radians."""
     c, s = math.cos(angle), math.sin(angle)
-    turned: Array = points @ np.array([[c, s], [-s, c]])
-    return turned
+    rotated: Array = points @ np.array([[c, s], [-s, c]])
+    return rotated
 
 
 def grow(outline: Outline, by: float) -> Array:
-    """A convex outline whose edges have moved outwards; inwards for a negative ``by``.
+    """Move the edges of a convex outline outwards by a distance; inwards if it is negative.
 
     >>> grow([(1, 1), (-1, 1), (-1, -1), (1, -1)], 0.5).tolist()
     [[1.5, 1.5], [-1.5, 1.5], [-1.5, -1.5], [1.5, -1.5]]
@@ -38,21 +38,21 @@ def grow(outline: Outline, by: float) -> Array:
     corners = np.asarray(outline, np.float64)
     normals = _normals(corners)
     before = np.roll(normals, 1, axis=0)
-    # a sharp corner's tip would fly far away, hence the bound
+    # bounded, because the tip of a sharp corner would move very far
     stretch = np.maximum(1.0 + (normals * before).sum(axis=1, keepdims=True), 0.25)
     moved: Array = corners + by * (normals + before) / stretch
     return moved
 
 
 def half_width(outline: Outline) -> float:
-    """Half the width of a convex outline where it is narrowest: the thickness of a wall, halved."""
+    """Return half the smallest width of a convex outline: half a wall's thickness."""
     corners = np.asarray(outline, np.float64)
     depths = _normals(corners) @ corners.T
     return float(np.ptp(depths, axis=1).min() / 2)
 
 
 def cap(outline: Outline, z: float = 0.0) -> Mesh:
-    """A flat convex sheet that faces up."""
+    """Return a flat, convex mesh that faces up."""
     corners = np.asarray(outline, np.float64)
     n = len(corners)
     second = np.arange(1, n - 1)
@@ -61,9 +61,9 @@ def cap(outline: Outline, z: float = 0.0) -> Mesh:
 
 
 def band(low: Outline, low_z: float, high: Outline, high_z: float) -> Mesh:
-    """The strip between two outlines of the same number of corners.
+    """Return the strip between two outlines with the same number of corners.
 
-    It faces outwards and up where ``low`` lies outside of ``high``, or right below it.
+    It faces outwards and up if ``low`` lies around ``high`` or right below it.
     """
     n = len(low)
     i = np.arange(n)
@@ -75,13 +75,13 @@ def band(low: Outline, low_z: float, high: Outline, high_z: float) -> Mesh:
     return Mesh(corners, faces)
 
 
-def sheet(outline: Outline, hole: Outline | None = None, z: float = 0.0) -> Mesh:
-    """A flat sheet that faces up; with a hole, both outlines have as many corners."""
+def flat_mesh(outline: Outline, hole: Outline | None = None, z: float = 0.0) -> Mesh:
+    """Return a flat mesh that faces up. A hole needs as many corners as the outline."""
     return cap(outline, z) if hole is None else band(outline, z, hole, z)
 
 
-def joined(meshes: Sequence[Mesh]) -> Mesh:
-    """Several meshes as one; drawn in this order."""
+def join_meshes(meshes: Sequence[Mesh]) -> Mesh:
+    """Join meshes into one, drawn in the given order."""
     starts = np.cumsum([0, *(len(mesh.vertices) for mesh in meshes)])
     return Mesh(
         np.concatenate([mesh.vertices for mesh in meshes]),
@@ -90,44 +90,46 @@ def joined(meshes: Sequence[Mesh]) -> Mesh:
 
 
 def prism(outline: Outline, height: float, rim: float) -> Mesh:
-    """A convex outline pulled up from z = 0 to ``height``, open below.
+    """Extrude a convex outline from z = 0 to ``height``, open below.
 
-    The upper edge is cut off along a steep ``rim`` (metres wide, as seen from above): it catches
-    less light than the top, and so draws the outline. The parts share no corners, as corners that
-    are shared are shaded softly.
+    The upper edge is bevelled by ``rim`` (its width in metres, seen from above). The bevel gets
+    less light than the top, so it appears as the outline. The parts share no vertices, because
+    shading would be smoothed across shared ones.
     """
     inner = grow(outline, -rim)
     shoulder = height - min(3.0 * rim, 0.5 * height)
     side = band(outline, 0.0, outline, shoulder)
     edge = band(outline, shoulder, inner, height)
-    return joined([side, edge, cap(inner, height)])
+    return join_meshes([side, edge, cap(inner, height)])
 
 
-def soft(outline: Outline, blur: float, depth: float, sheets: int) -> list[tuple[Array, float]]:
-    """A shadow with a soft edge, as sheets on top of each other, each a little smaller.
+def soft_shadow(
+    outline: Outline, blur: float, depth: float, count: int
+) -> list[tuple[Array, float]]:
+    """Return a shadow with a soft edge, as stacked translucent layers, each a little smaller.
 
     Args:
-        outline: of what throws it.
-        blur: how wide the soft edge is.
-        depth: from the lowest sheet, at height 0, to the highest.
-        sheets: how many.
+        outline: outline of the body that casts the shadow.
+        blur: width of the soft edge.
+        depth: height of the highest layer above the lowest one, which is at 0.
+        count: number of layers.
 
     Returns:
-        The outline and the height of each sheet.
+        The outline and the height of each layer.
     """
-    shares = np.linspace(0.0, 1.0, sheets).tolist()
+    shares = np.linspace(0.0, 1.0, count).tolist()
     return [(grow(outline, blur * (0.5 - share)), share * depth) for share in shares]
 
 
 def segments(outline: Outline, z: float = 0.0) -> Array:
-    """An outline's edges as (n, 2, 3) line segments."""
+    """Return an outline's edges as (n, 2, 3) line segments."""
     corners = np.asarray(outline, np.float64)
     points = np.column_stack([corners, np.full(len(corners), z)])
     return np.stack([points, np.roll(points, -1, axis=0)], axis=1)
 
 
 def circle(radius: float, x: float = 0.0, y: float = 0.0, corners: int = 32) -> Array:
-    """A circle's outline."""
+    """Return a circle's outline."""
     angles = np.arange(corners) * (2 * math.pi / corners)
     around = np.stack([np.cos(angles), np.sin(angles)], axis=1)
     outline: Array = np.array([x, y]) + radius * around
@@ -135,7 +137,7 @@ def circle(radius: float, x: float = 0.0, y: float = 0.0, corners: int = 32) -> 
 
 
 def _normals(corners: Array) -> Array:
-    """The outward unit normal of each edge."""
+    """Return the outward unit normal of each edge."""
     edges = np.roll(corners, -1, axis=0) - corners
     normals = np.stack([edges[:, 1], -edges[:, 0]], axis=1)
     unit: Array = normals / np.linalg.norm(normals, axis=1, keepdims=True)

@@ -1,53 +1,54 @@
-"""How things that lie on each other are kept apart, so that they don't flicker through each other.
+"""Small height differences between flat things on top of each other, against z-fighting.
 
-Seen from straight above a small lift doesn't show. It has to be more than the depth buffer can tell
-apart, and that grows with the camera's distance, and so with the size of the arena.
+Seen from above, the differences are invisible. They must exceed the depth buffer's resolution,
+which gets coarser with the camera's distance and so with the arena's size.
 """
 
 from dataclasses import dataclass
 
-from ai4u_edu.snapshot import Stage
-from ai4u_edu.viewer.scene.placing import lowest_floor, size
+from ai4u_edu.snapshot import StaticScene
+from ai4u_edu.viewer.scene.arena import arena_size, lowest_floor
 
 
 @dataclass(frozen=True)
 class Layers:
-    """Heights (metres) above what something lies on."""
+    """Heights (m) above the thing underneath."""
 
     unit: float
+    """The smallest difference that the depth buffer resolves safely."""
     void: float
-    """The height of the bottom of everything."""
+    """Height of the background plane, below everything else."""
 
     @classmethod
-    def of(cls, stage: Stage) -> "Layers":
-        """The layers of a stage."""
-        unit = size(stage) / 2500
-        deepest = min(stage.settings.fall_threshold, lowest_floor(stage))
+    def of(cls, static_scene: StaticScene) -> "Layers":
+        """Return the layers for a static scene."""
+        unit = arena_size(static_scene) / 2500
+        deepest = min(static_scene.settings.fall_threshold, lowest_floor(static_scene))
         return cls(unit, deepest - 5.0 - 20 * unit)
 
     @property
     def floor_shadow(self) -> float:
-        """What a floor throws on what is below: a pile of sheets, eight units high."""
+        """A floor's shadow, a stack of layers eight units high."""
         return -11 * self.unit
 
     @property
-    def cliff(self) -> float:
-        """A floor's side, drawn as if one could see it."""
+    def floor_side(self) -> float:
+        """A floor's side, drawn flat below the floor as if seen at a slant."""
         return -2 * self.unit
 
     @property
     def rim(self) -> float:
-        """A floor's edge; under the floors, so that it shows only where no other floor joins."""
+        """A floor's edge; below the floors, so it is hidden where two floors meet."""
         return -self.unit
 
     @property
     def grid(self) -> float:
-        """Lines on a floor."""
+        """The grid on a floor."""
         return self.unit
 
     @property
     def paint(self) -> float:
-        """What is painted on a floor."""
+        """The fill of a painted area."""
         return 1.5 * self.unit
 
     @property
@@ -62,7 +63,7 @@ class Layers:
 
     @property
     def shadow(self) -> float:
-        """What a body throws: a pile of sheets, five units high."""
+        """A body's shadow, a stack of layers five units high."""
         return 4 * self.unit
 
     @property

@@ -1,4 +1,4 @@
-"""Puts meshes, lines and labels under one node of the scene, in the colours they shall have."""
+"""Adds meshes, lines and labels below one scene node, with colours corrected for lighting."""
 
 from typing import Literal
 
@@ -7,15 +7,15 @@ from viser import BatchedMeshHandle, LabelHandle, LineSegmentsHandle, SceneApi
 
 from ai4u_edu.snapshot.theme import Rgb
 from ai4u_edu.viewer.scene.geometry import Array, Mesh
-from ai4u_edu.viewer.scene.light import strokes, surfaces
+from ai4u_edu.viewer.scene.light import line_colours, surface_colours
 
 
 class MeshDrawer:
-    """Draws below a node; lines are collected and drawn as one by :meth:`finish`.
+    """Adds things below a scene node; :meth:`finish` adds all collected lines at once.
 
     Args:
         scene: viser's scene.
-        parent: the name of the node.
+        parent: name of the scene node.
     """
 
     def __init__(self, scene: SceneApi, parent: str) -> None:
@@ -27,19 +27,19 @@ class MeshDrawer:
     def mesh(
         self, name: str, mesh: Mesh, z: float, colour: Rgb, opacity: float | None = None
     ) -> None:
-        """Draws a mesh that stays where it is, at a height.
+        """Add a static mesh at a height.
 
-        It is a batch of one: for single meshes a page would have to compile programs of their own
-        that do the same, which takes long where there is no graphics card.
+        It is a batch of one mesh: single meshes would need shaders of their own, and compiling
+        those takes long without a graphics card.
         """
         batch = self.batch(name, mesh, [colour], opacity)
-        batch.position = (0.0, 0.0, z)  # for the page, which draws what is nearest first
+        batch.position = (0.0, 0.0, z)  # on the node itself: the page sorts nodes by distance
         batch.batched_scales = np.ones(1, np.float32)
 
     def batch(
         self, name: str, mesh: Mesh, colours: list[Rgb], opacity: float | None = None
     ) -> BatchedMeshHandle:
-        """Draws a mesh many times, once for each colour; all of them still at the origin."""
+        """Add a mesh once for each colour, all at the origin and with scale 0."""
         count = len(colours)
         return self._scene.add_batched_meshes_simple(
             f"{self._parent}/{name}",
@@ -48,18 +48,18 @@ class MeshDrawer:
             np.tile([1.0, 0.0, 0.0, 0.0], (count, 1)),
             np.zeros((count, 3)),
             batched_scales=np.zeros(count),
-            batched_colors=surfaces(colours),
+            batched_colors=surface_colours(colours),
             opacity=opacity,
-            # light by steps: what faces up has all of it, and a page without a graphics card draws
-            # half as much again as with viser's physical material
+            # shading in steps, with all light on upward faces; without a graphics card, 1.5 times
+            # the frame rate of viser's physically based material
             material="toon5",
-            lod="off",  # it would thin out meshes that are far from the camera, as ours always are
+            lod="off",  # level of detail would simplify distant meshes, and ours are always distant
             cast_shadow=False,
             receive_shadow=False,
         )
 
     def moving_lines(self, name: str, count: int, thickness: float = 1.5) -> LineSegmentsHandle:
-        """Draws line segments that are to be moved and coloured later; thickness in pixels."""
+        """Add line segments whose points and colours are set later; thickness in pixels."""
         return self._scene.add_line_segments(
             f"{self._parent}/{name}",
             np.zeros((count, 2, 3)),
@@ -69,7 +69,7 @@ class MeshDrawer:
         )
 
     def line(self, lines: Array, colour: Rgb) -> None:
-        """Adds (n, 2, 3) line segments to what :meth:`finish` draws."""
+        """Collect (n, 2, 3) line segments for :meth:`finish`."""
         self._lines.append(lines)
         self._colours.extend([colour] * len(lines))
 
@@ -80,13 +80,13 @@ class MeshDrawer:
         place: tuple[float, float, float] = (0.0, 0.0, 0.0),
         anchor: Literal["center-center", "top-center"] = "center-center",
     ) -> LabelHandle:
-        """Writes a text that keeps its size on the screen."""
+        """Add a text with a constant size on the screen."""
         return self._scene.add_label(f"{self._parent}/{name}", text, position=place, anchor=anchor)
 
     def finish(self) -> None:
-        """Draws the collected lines."""
+        """Add the collected lines as one node."""
         if self._colours:
-            colours = strokes(self._colours)
+            colours = line_colours(self._colours)
             lines = self.moving_lines("lines", len(colours), 1.3)
             lines.points = np.concatenate(self._lines).astype(np.float32)
             lines.colors = np.stack([colours, colours], axis=1)

@@ -1,4 +1,4 @@
-"""What a sensor is about, in the scene: a line to its target and a ring around it, or an area."""
+"""Marks of the things a sensor refers to: a line to a target and a ring around it, or an area."""
 
 import math
 from collections.abc import Iterable
@@ -7,38 +7,43 @@ import numpy as np
 from viser import LineSegmentsHandle, SceneApi
 
 from ai4u_edu.snapshot import BodyState, Snapshot
-from ai4u_edu.snapshot.block_info import Sense, Window
-from ai4u_edu.snapshot.theme import LIT, Rgb
-from ai4u_edu.viewer.scene.geometry import Array, circle, segments, turn
+from ai4u_edu.snapshot.block_info import SensorInfo, Window
+from ai4u_edu.snapshot.theme import SPOT_LIT, Rgb
+from ai4u_edu.viewer.scene.arena import floor_under, lowest_floor, region_outlines
+from ai4u_edu.viewer.scene.geometry import Array, circle, rotate, segments
 from ai4u_edu.viewer.scene.layers import Layers
-from ai4u_edu.viewer.scene.light import strokes
-from ai4u_edu.viewer.scene.placing import floor_under, lowest_floor, placed
+from ai4u_edu.viewer.scene.light import line_colours
 
-RING = 1.25
-"""A ring's radius, as a multiple of how far its body reaches."""
-THICKNESS = 3.0
-"""Pixels."""
-INK: Rgb = LIT
+RING_RADIUS = 1.25
+"""Radius of the ring around a body, as a multiple of the body's reach."""
+LINE_THICKNESS_PX = 3.0
+INK: Rgb = SPOT_LIT
 
 
-def has_pointer(sense: Sense) -> bool:
-    """Whether a sensor is about something that can be pointed at."""
+def has_pointer(sense: SensorInfo) -> bool:
+    """Return True if a sensor refers to bodies, areas or a window of the world."""
     return bool(sense.targets or sense.groups or sense.window)
 
 
 class Pointers:
-    """Draws on one page what sensors are about.
+    """Marks of sensors' targets, on one page.
 
     Args:
-        scene: the page's.
+        scene: viser's scene of the page.
     """
 
     def __init__(self, scene: SceneApi) -> None:
         self._scene = scene
         self._lines: LineSegmentsHandle | None = None
 
-    def draw(self, snapshot: Snapshot, body: BodyState, senses: Iterable[Sense]) -> None:
-        """Draws what these sensors of the agent with that body are about, and nothing else."""
+    def draw(self, snapshot: Snapshot, body: BodyState, senses: Iterable[SensorInfo]) -> None:
+        """Draw the targets of these sensors, and remove all other marks.
+
+        Args:
+            snapshot: the shown state of the world.
+            body: the body of the sensors' agent.
+            senses: the sensors.
+        """
         marks = [mark for sense in senses for mark in pointer(snapshot, body, sense)]
         if not marks:
             if self._lines is not None:
@@ -47,52 +52,56 @@ class Pointers:
         points = np.concatenate(marks).astype(np.float32)
         if self._lines is None:
             self._lines = self._scene.add_line_segments(
-                "/pointers", points, strokes(INK), thickness=THICKNESS, thickness_units="screen"
+                "/pointers",
+                points,
+                line_colours(INK),
+                thickness=LINE_THICKNESS_PX,
+                thickness_units="screen",
             )
         self._lines.points, self._lines.visible = points, True
 
 
-def pointer(snapshot: Snapshot, body: BodyState, sense: Sense) -> list[Array]:
-    """The strokes for a sensor: (n, 2, 3) each, world frame, metres."""
-    stage = snapshot.stage
-    z = body.z + 2 * Layers.of(stage).body
+def pointer(snapshot: Snapshot, body: BodyState, sense: SensorInfo) -> list[Array]:
+    """Return a sensor's marks as arrays of line segments (n, 2, 3); world frame, metres."""
+    static_scene = snapshot.static_scene
+    z = body.z + 2 * Layers.of(static_scene).body
     bodies = {each.name: each for each in snapshot.bodies}
     marks = []
-    for described in stage.bodies:
+    for described in static_scene.bodies:
         state = bodies[described.name]
-        is_meant = described.name in sense.targets or set(described.tags) & set(sense.groups)
-        if is_meant and not state.fallen and state.name != body.name:
+        is_target = described.name in sense.targets or set(described.tags) & set(sense.groups)
+        if is_target and not state.fallen and state.name != body.name:
             reach = described.shape.reach
-            ring = segments(circle(RING * reach, state.x, state.y), state.z + z - body.z)
-            marks += [ring, _line(body, state.x, state.y, z, short_by=RING * reach)]
-    for area in stage.areas:
+            ring = segments(circle(RING_RADIUS * reach, state.x, state.y), state.z + z - body.z)
+            marks += [ring, _line(body, state.x, state.y, z, short_by=RING_RADIUS * reach)]
+    for area in static_scene.areas:
         if area.name in sense.targets or set(area.tags) & set(sense.groups):
-            top = floor_under(stage, *area.position)
-            level = (lowest_floor(stage) if top is None else top) + z - body.z
-            outline, hole = placed(area)
+            top = floor_under(static_scene, *area.position)
+            level = (lowest_floor(static_scene) if top is None else top) + z - body.z
+            outline, hole = region_outlines(area)
             marks += [segments(edge, level) for edge in (outline, hole) if edge is not None]
             if area.name in sense.targets:
                 marks.append(_line(body, *area.position, z, short_by=0.0))
     if sense.window is not None:
-        marks.append(segments(_corners(sense.window, body), z))
+        marks.append(segments(_window_corners(sense.window, body), z))
     return marks
 
 
 def _line(body: BodyState, x: float, y: float, z: float, short_by: float) -> Array:
-    """From the body towards a place, and so much short of it."""
+    """Return a line from the body towards (x, y) that ends ``short_by`` metres before it."""
     dx, dy = x - body.x, y - body.y
     share = max(1 - short_by / max(math.hypot(dx, dy), 1e-9), 0.0)
     end = (body.x + share * dx, body.y + share * dy, z)
     return np.array([[(body.x, body.y, z), end]])
 
 
-def _corners(window: Window, body: BodyState) -> Array:
-    """The corners of what a picture from above shows."""
+def _window_corners(window: Window, body: BodyState) -> Array:
+    """Return the corners of the part of the world that a picture from above shows."""
     along, across = window.size[0] / 2, window.size[1] / 2
     corners = np.array([(along, across), (-along, across), (-along, -across), (along, -across)])
     if window.centre is not None:
-        place, turned = window.centre, corners
+        centre, rotated = window.centre, corners
     else:
-        place, turned = (body.x, body.y), turn(corners, body.heading)
-    moved: Array = turned + np.array(place)
+        centre, rotated = (body.x, body.y), rotate(corners, body.heading)
+    moved: Array = rotated + np.array(centre)
     return moved

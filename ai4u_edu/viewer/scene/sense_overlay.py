@@ -1,91 +1,88 @@
-"""What the agents that somebody looks at sense, in the scene: on each page its own agent's."""
+"""Sensor readings drawn in the scene: on each page, those of the agent that it shows."""
 
-from collections.abc import Callable
-
-from ai4u_edu.snapshot import AgentState, Snapshot, Stage
-from ai4u_edu.snapshot.block_info import Sense
+from ai4u_edu.snapshot import AgentState, Snapshot, StaticScene
+from ai4u_edu.snapshot.block_info import SensorInfo
 from ai4u_edu.viewer.backend.turns import Turns
 from ai4u_edu.viewer.scene.layers import Layers
 from ai4u_edu.viewer.scene.pointers import Pointers, has_pointer
-from ai4u_edu.viewer.scene.rays import Rays, StageLook
+from ai4u_edu.viewer.scene.rays import Rays, RayStyle
 from ai4u_edu.viewer.scene.spots import Spots
 from ai4u_edu.viewer.viewer_client import ViewerClient, ViewerClients
 
 
-def is_seen(sense: Sense, agent: AgentState) -> bool:
-    """Whether a sensor has something that can be shown in the scene."""
-    return shows_by_itself(sense, agent) or has_pointer(sense)
+def is_drawable(sense: SensorInfo, agent: AgentState) -> bool:
+    """Return True if a sensor has something to draw in the scene."""
+    return is_shown_by_default(sense, agent) or has_pointer(sense)
 
 
-def shows_by_itself(sense: Sense, agent: AgentState) -> bool:
-    """Whether that is shown unless somebody switches it off: rays and spots are."""
+def is_shown_by_default(sense: SensorInfo, agent: AgentState) -> bool:
+    """Return True if a sensor is drawn unless switched off: one with rays or spots."""
     return sense.key in agent.rays or sense.key in agent.spots
 
 
 class SenseOverlay:
-    """Draws the rays, spots and targets of sensors; nothing for agents that nobody looks at.
+    """Rays, spots and targets of sensors, for the agents that pages show.
 
     Args:
         viewer_clients: the pages.
-        give_way: called between two pages.
     """
 
-    def __init__(self, viewer_clients: ViewerClients, give_way: Callable[[], None]) -> None:
+    def __init__(self, viewer_clients: ViewerClients) -> None:
         self._viewer_clients = viewer_clients
-        self._give_way, self._turns = give_way, Turns()
+        self._turns = Turns()
         self._pages: dict[int, _Page] = {}
 
-    def build(self, stage: Stage) -> None:
-        """Learns how large the agents are, and the colours of what they see."""
-        layers = Layers.of(stage)
-        self._look = StageLook(stage)
-        lift = layers.body + 3 * layers.unit
-        self._lifts = {body.name: body.height + lift for body in stage.bodies}
+    def build(self, static_scene: StaticScene) -> None:
+        """Read the agents' sizes and the colours of groups from a static scene."""
+        layers = Layers.of(static_scene)
+        self._style = RayStyle(static_scene)
+        margin = layers.body + 3 * layers.unit
+        self._tops = {body.name: body.height + margin for body in static_scene.bodies}
         for page in self._pages.values():
-            page.build(self._look)
+            page.build(self._style)
 
     def draw(self, snapshot: Snapshot) -> None:
-        """Draws what is looked at."""
+        """Draw the sensors of each page's agent."""
         for gone in self._pages.keys() - self._viewer_clients.keys():
             del self._pages[gone]
         agents = {agent.id: agent for agent in snapshot.agents}
         for number in self._turns.next(self._viewer_clients.keys()):
             viewer_client = self._viewer_clients[number]
             if number not in self._pages:
-                self._pages[number] = _Page(viewer_client, self._look)
+                self._pages[number] = _Page(viewer_client, self._style)
             agent = agents.get(viewer_client.agent)
             if agent is not None:
-                self._give_way()
-                self._pages[number].draw(snapshot, agent, self._lifts[agent.body])
+                self._pages[number].draw(snapshot, agent, self._tops[agent.body])
 
 
 class _Page:
-    """One page's."""
+    """The overlay of one page."""
 
-    def __init__(self, viewer_client: ViewerClient, look: StageLook) -> None:
+    def __init__(self, viewer_client: ViewerClient, style: RayStyle) -> None:
         scene = viewer_client.client.scene
         self._viewer_client = viewer_client
-        self._rays, self._spots = Rays(scene, look), Spots(scene)
+        self._rays, self._spots = Rays(scene, style), Spots(scene)
         self._pointers = Pointers(scene)
-        self._seen: object = None
+        self._drawn_rays: object = None
         self._keys: list[str] = []
 
-    def draw(self, snapshot: Snapshot, agent: AgentState, lift: float) -> None:
+    def draw(self, snapshot: Snapshot, agent: AgentState, top: float) -> None:
         (body,) = (each for each in snapshot.bodies if each.name == agent.body)
-        lit = [
+        shown = [
             sense
-            for sense in agent.senses
+            for sense in agent.sensor_infos
             if not body.fallen
-            and self._viewer_client.lights(sense.key, by_itself=shows_by_itself(sense, agent))
+            and self._viewer_client.lights(sense.key, by_itself=is_shown_by_default(sense, agent))
         ]
-        keys = [sense.key for sense in lit]
+        keys = [sense.key for sense in shown]
         with self._viewer_client.client.atomic():
-            if agent.rays is not self._seen or keys != self._keys:  # else nothing was sensed since
-                self._seen, self._keys = agent.rays, keys
+            # `rays` is a new object after every reading
+            if agent.rays is not self._drawn_rays or keys != self._keys:
+                self._drawn_rays, self._keys = agent.rays, keys
                 self._rays.draw([agent.rays[key] for key in keys if key in agent.rays])
-                self._spots.draw([agent.spots[key] for key in keys if key in agent.spots], lift)
-            self._pointers.draw(snapshot, body, lit)
+                self._spots.draw([agent.spots[key] for key in keys if key in agent.spots], top)
+            self._pointers.draw(snapshot, body, shown)
 
-    def build(self, look: StageLook) -> None:
-        self._seen = None
-        self._rays.build(look)
+    def build(self, style: RayStyle) -> None:
+        self._drawn_rays = None
+        self._rays.build(style)

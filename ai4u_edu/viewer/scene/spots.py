@@ -1,4 +1,4 @@
-"""Where sensors look at single places of the world: dots that light up where something is."""
+"""Points at which sensors probe the world: dots that light up where something is detected."""
 
 from collections.abc import Sequence
 
@@ -6,47 +6,49 @@ import numpy as np
 from viser import SceneApi
 
 from ai4u_edu.blocks import SpotPicture
-from ai4u_edu.snapshot.theme import LIT, SPOT, UNLIT
+from ai4u_edu.snapshot.theme import SPOT_LIT, SPOT_RADIUS_M, SPOT_UNLIT
 from ai4u_edu.viewer.scene.geometry import cap, circle
-from ai4u_edu.viewer.scene.light import surfaces
+from ai4u_edu.viewer.scene.light import surface_colours
 from ai4u_edu.viewer.scene.mesh_drawer import MeshDrawer
 from ai4u_edu.viewer.scene.subtree import Subtree
 
 
 class Spots:
-    """Draws dots on one page.
+    """The probed points, drawn as dots on one page.
 
     Args:
-        scene: the page's.
+        scene: viser's scene of the page.
     """
 
     def __init__(self, scene: SceneApi) -> None:
         self._scene = scene
         self._subtree = Subtree(scene, "spots")
-        self._colours = surfaces([UNLIT, LIT])
+        self._colours = surface_colours([SPOT_UNLIT, SPOT_LIT])
         self._count = 0
 
-    def draw(self, pictures: Sequence[SpotPicture], lift: float) -> None:
-        """Draws these spots, and no others.
+    def draw(self, pictures: Sequence[SpotPicture], height: float) -> None:
+        """Draw these spots, and remove all others.
 
         Args:
-            pictures: where sensors looked.
-            lift: how far above (m): an eye below the body's edge is to be seen too.
+            pictures: the probed points of each sensor.
+            height: height (m) added to the points, so that the agent's body doesn't hide them.
         """
         lit = np.array([each for spots in pictures for each in spots.lit], np.intp)
         if len(lit) != self._count:
-            self._make(len(lit))
+            self._rebuild(len(lit))
         if len(lit):
             self._dots.batched_positions = np.concatenate(
-                [spots.places + np.array([0.0, 0.0, lift]) for spots in pictures],
+                [spots.places + np.array([0.0, 0.0, height]) for spots in pictures],
                 dtype=np.float32,
             )
             self._dots.batched_colors = self._colours[lit]
 
-    def _make(self, count: int) -> None:
+    def _rebuild(self, count: int) -> None:
         with self._subtree.rebuild() as parent:
             if count:
-                dot = cap(circle(SPOT, corners=16))
-                self._dots = MeshDrawer(self._scene, parent).batch("dots", dot, count * [UNLIT])
+                dot = cap(circle(SPOT_RADIUS_M, corners=16))
+                self._dots = MeshDrawer(self._scene, parent).batch(
+                    "dots", dot, count * [SPOT_UNLIT]
+                )
                 self._dots.batched_scales = np.ones(count, np.float32)
         self._count = count

@@ -1,4 +1,4 @@
-"""A part of the scene that is now and then built anew."""
+"""A part of the scene that is rebuilt as a whole."""
 
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -7,29 +7,32 @@ from viser import FrameHandle, SceneApi
 
 
 class Subtree:
-    """The node under which a part of the scene hangs.
+    """The parent node of a part of the scene.
 
     Args:
         scene: viser's scene.
-        name: of the node; two names are in use by turns, ``<name>0`` and ``<name>1``.
+        name: name of the node; it alternates between ``<name>0`` and ``<name>1``.
     """
 
     def __init__(self, scene: SceneApi, name: str) -> None:
         self._scene = scene
         self._name = name
-        self._turn = 0
+        self._suffix = 0
         self._frame: FrameHandle | None = None
 
     @contextmanager
     def rebuild(self) -> Iterator[str]:
-        """Gives the name of a new, empty node; the old one goes once the new one is complete."""
-        old, self._turn = self._frame, 1 - self._turn
-        new = self._scene.add_frame(f"/{self._name}{self._turn}", show_axes=False)
+        """Yield the name of a new, empty node that replaces the old one at the end of the block.
+
+        If the block raises, the new node is removed and the old one stays.
+        """
+        old, self._suffix = self._frame, 1 - self._suffix
+        new = self._scene.add_frame(f"/{self._name}{self._suffix}", show_axes=False)
         try:
             yield new.name
         except BaseException:
             new.remove()
-            self._turn = 1 - self._turn
+            self._suffix = 1 - self._suffix
             raise
         self._frame = new
         if old is not None:

@@ -9,17 +9,23 @@ import numpy as np
 from viser import CameraHandle, ClientHandle
 
 from ai4u_edu.snapshot import AgentState, BodyState, Snapshot
-from ai4u_edu.viewer.scene.eye import EYE_FAR, EYE_NEAR, EYE_VIEW, Daylight, eye
+from ai4u_edu.viewer.scene.arena import arena_size, camera_bounds
+from ai4u_edu.viewer.scene.eye import (
+    EYE_FAR_IN_ARENAS,
+    EYE_FIELD_OF_VIEW_RAD,
+    EYE_NEAR_M,
+    Daylight,
+    eye_pose,
+)
 from ai4u_edu.viewer.scene.framing import (
-    FIELD_OF_VIEW,
+    FIELD_OF_VIEW_RAD,
     Bounds,
     Frame,
-    centred,
-    frame,
+    frame_arena,
+    frame_point,
     visible_height,
 )
 from ai4u_edu.viewer.scene.geometry import Array
-from ai4u_edu.viewer.scene.placing import seen_bounds, size
 
 FOLLOWED = 22.0
 """A window in which an agent is followed is so many times as high as the agent's radius."""
@@ -94,32 +100,35 @@ class View:
         return max(camera.image_width, 1) / max(camera.image_height, 1)
 
     def _show_all(self, snapshot: Snapshot) -> None:
-        bounds, aspect = seen_bounds(snapshot.stage), self._shape()
+        bounds, aspect = camera_bounds(snapshot.static_scene), self._shape()
         reshaped = abs(aspect - self._aspect) > 0.02 * self._aspect and not self._is_theirs
         if bounds != self._bounds or reshaped:
             self._bounds, self._aspect = bounds, aspect
-            self._put(frame(bounds, aspect))
+            self._put(frame_arena(bounds, aspect))
 
     def _begin(self, snapshot: Snapshot, body: BodyState) -> None:
         aspect = self._shape()
-        (reach,) = (b.shape.reach for b in snapshot.stage.bodies if b.name == body.name)
-        whole = frame(seen_bounds(snapshot.stage), aspect).height
+        (reach,) = (b.shape.reach for b in snapshot.static_scene.bodies if b.name == body.name)
+        whole = frame_arena(camera_bounds(snapshot.static_scene), aspect).height
         height = min(whole, FOLLOWED * reach)
-        self._put(centred(body.x, body.y, height, aspect), self._up(body))
+        self._put(frame_point(body.x, body.y, height, aspect), self._up(body))
 
     def _look_out(
         self, snapshot: Snapshot, agent: AgentState, body: BodyState, *, begins: bool
     ) -> None:
         """Through the agent's eye, ahead."""
         camera = self._client.camera
-        place, ahead = eye(snapshot.stage, agent, body)
+        place, ahead = eye_pose(snapshot.static_scene, agent, body)
         with self._client.atomic():
             if begins:
                 self._daylight = Daylight(self._client.scene)
                 camera.min_orbit_distance, camera.max_orbit_distance = 0.01, 100.0
                 camera.up_direction = (0.0, 0.0, 1.0)
-                camera.fov = EYE_VIEW
-                camera.near, camera.far = EYE_NEAR, EYE_FAR * size(snapshot.stage)
+                camera.fov = EYE_FIELD_OF_VIEW_RAD
+                camera.near, camera.far = (
+                    EYE_NEAR_M,
+                    EYE_FAR_IN_ARENAS * arena_size(snapshot.static_scene),
+                )
             camera.position = place
             camera.look_at = ahead
 
@@ -156,7 +165,7 @@ class View:
             camera.up_direction = up
             camera.position = (wanted.x, wanted.y, distance)
             camera.look_at = (wanted.x, wanted.y, 0.0)
-            camera.fov = FIELD_OF_VIEW
+            camera.fov = FIELD_OF_VIEW_RAD
             camera.near, camera.far = wanted.near, wanted.far
             camera.min_orbit_distance, camera.max_orbit_distance = distance / 12, distance * 4
 
@@ -164,7 +173,7 @@ class View:
         camera, now, up = self._client.camera, time.monotonic(), self._up(body)
         # from how far and from which side is the person's choice
         offset: Array = camera.position - camera.look_at
-        goal = centred(body.x, body.y, visible_height(float(np.linalg.norm(offset))), aspect)
+        goal = frame_point(body.x, body.y, visible_height(float(np.linalg.norm(offset))), aspect)
         if self.mode is Mode.TURN:
             # what covers the lower part of the window covers what is behind the agent
             short = goal.y - body.y

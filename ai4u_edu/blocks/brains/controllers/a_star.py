@@ -12,6 +12,8 @@ from ai4u_edu.blocks.brains.controllers.planner import (
     way_to,
 )
 
+__all__ = ["AStarController", "a_star"]
+
 
 def a_star(free: Map, start: Cell, goals: Iterable[Cell]) -> Found:
     """A shortest way to the nearest goal, by A*.

@@ -12,6 +12,8 @@ from ai4u_edu.blocks.brains.controllers.planner import (
     way_to,
 )
 
+__all__ = ["BreadthFirstController", "breadth_first"]
+
 
 def breadth_first(free: Map, start: Cell, goals: Iterable[Cell]) -> Found:
     """A shortest way to the nearest goal, by breadth-first search.

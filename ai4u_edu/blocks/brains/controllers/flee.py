@@ -43,7 +43,7 @@ class FleeController(SteeringController):
     reads = ("pursuer", "rays")
 
     def on_setup(self, agent: AgentView, view: WorldView) -> None:
-        """Looks its sensors up, and where the rays look."""
+        """Look its sensors up, and where the rays look."""
         super().on_setup(agent, view)
         sensor = self._sensors["rays"]
         if not isinstance(sensor, LinearRayCastingSensor) or not sensor.return_distance:

@@ -5,6 +5,8 @@ import time
 from collections.abc import Callable, Iterable
 from typing import NamedTuple
 
+__all__ = ["Keyboard"]
+
 SILENCE = 0.3
 """A page that holds keys says so about ten times a second; after this long without a word (s) the
 keys count as released."""

@@ -1,4 +1,4 @@
-"""Drivers that know where they want to go: towards a point, with a little whim."""
+"""DriverRegistry that know where they want to go: towards a point, with a little whim."""
 
 import math
 from collections.abc import Sequence
@@ -53,7 +53,7 @@ class SteeringController(Controller):
     """The parameters that hold perception keys."""
 
     def on_setup(self, agent: AgentView, view: WorldView) -> None:
-        """Looks its sensors up."""
+        """Look its sensors up."""
         self._sensors = {name: _sensor_of(agent, name, getattr(self, name)) for name in self.reads}
         self._scales = {
             name: sensor.scale() if sensor.normalized else 1.0

@@ -12,6 +12,8 @@ from ai4u_edu.blocks.brains.controllers.controller import Controller
 from ai4u_edu.blocks.percept import Percept
 from ai4u_edu.world import WorldView
 
+__all__ = ["TrainController", "Trainer"]
+
 
 class Trainer:
     """A script that drives an agent by the requests that it makes to its TrainController.

@@ -5,7 +5,6 @@ import time
 import weakref
 
 from ai4u_edu.base.errors import SetupError
-from ai4u_edu.base.lookout import give_way
 from ai4u_edu.blocks.brains.command import Command
 from ai4u_edu.blocks.brains.links.ai4u_codec import AI4UCodec
 from ai4u_edu.blocks.brains.links.link import Answered, LinkState, Offer, Reset, Situation
@@ -26,9 +25,6 @@ PATIENT_AFTER = 20
 longer, and asking would only take the processor from it."""
 MOST_PATIENT = 0.004
 """Seconds between two questions to a script that thinks longer."""
-EAGER = 2e-4
-"""Seconds for which a fast script's reply is looked for without going to sleep: waking up again
-takes as long as the reply itself (measured: 3,050 round trips a second in place of 1,700)."""
 FAREWELL = 0.3
 """Seconds for which a script's last reply is waited for."""
 MAX_READ_AT_ONCE = 1000
@@ -230,14 +226,6 @@ class AI4ULink:
     def _read(self, until: float) -> tuple[bytes, bool]:
         """The next datagram, and whether it is the script's; raises what a socket raises."""
         wire = self._wire
-        if self.expecting and not self._threaded:
-            eager = min(until, self._sent + EAGER)
-            while not wire.is_there(0):
-                if time.monotonic() > eager:
-                    break
-                give_way()
-            else:
-                return wire.take()
         wire.is_there(max(0.0, until - time.monotonic()) * 1000)
         return wire.take()
 

@@ -8,7 +8,7 @@ When = Literal["now", "next decision", "next reset"]
 
 
 @dataclass(frozen=True)
-class Outcome:
+class ChangeResult:
     """When a change takes effect, and what else there is to know about it."""
 
     when: When
@@ -27,8 +27,8 @@ class Outcome:
         return "; ".join(filter(None, (words[self.when], self.note)))
 
 
-def failed(error: Exception) -> "Future[Outcome]":
+def failed(error: Exception) -> "Future[ChangeResult]":
     """Return a future of an outcome that there can't be."""
-    future: Future[Outcome] = Future()
+    future: Future[ChangeResult] = Future()
     future.set_exception(error)
     return future

@@ -1,4 +1,4 @@
-"""The world around a body, drawn from above."""
+"""Images of the world around a body, seen from above."""
 
 from collections.abc import Iterable, Sequence
 from typing import NamedTuple
@@ -11,20 +11,19 @@ from ai4u_edu.blocks.sensors.raster import Bits, Floats, Raster
 from ai4u_edu.world import BodyDescription, BodyView, RegionDescription, WorldView
 
 VOID = "void"
-"""The channel of what is no floor."""
+"""Name of the channel that shows where there is no floor."""
 
-ENDLESS = "floor"
-"""The tag of the endless ground of a world without floors."""
+ENDLESS_GROUND_TAG = "floor"
+"""Tag of the endless ground of a world without floors."""
 
-GONE = (1e9, 1e9, 0.0, 0.0)
-"""The pose of what fell out of the world."""
-
+POSE_OF_FALLEN = (1e9, 1e9, 0.0, 0.0)
+"""Pose that is used for bodies that fell out of the world: far outside any image."""
 
 Indices = npt.NDArray[np.intp]
 
 
 class _Seen(NamedTuple):
-    """Where each owner of parts is in the picture (cells), how it is turned, whether it is near."""
+    """Position (cells) and rotation of each shape in the image, and True if it is near."""
 
     u: Floats
     v: Floats
@@ -37,12 +36,12 @@ class _Parts(NamedTuple):
     """Discs (n, 3), or polygons with the same number of edges (n, edges, 3); lengths in cells."""
 
     first: int
-    """The number of the first part's picture."""
+    """Index of the first part's picture."""
     owners: Indices
     forms: Floats
 
     def draw(self, seen: _Seen, raster: Raster) -> tuple[Indices, Floats, Floats]:
-        """The numbers of all parts that are near, and where each begins and ends in each row."""
+        """Return the indices of all parts that are near, and their start and end in each row."""
         picks = np.flatnonzero(seen.near[self.owners])
         forms, owner = self.forms[picks], self.owners[picks]
         u, v, cos, sin = (each[owner] for each in seen[:4])
@@ -58,15 +57,15 @@ class _Parts(NamedTuple):
         return self.first + picks, *raster.polygons(forms)
 
 
-class Plan:
-    """Draws what lies around a body: heading up, one picture a group.
+class TopView:
+    """Draws the surroundings of a body, heading up, as one picture for each group.
 
     Args:
         width: columns.
         height: rows.
-        cell: a cell's side, metres.
-        channels: the groups, a picture each.
-        exclude_self: whether the body in the middle is left out.
+        cell: side length of a cell, metres.
+        channels: the groups, one picture each.
+        exclude_self: True leaves out the body in the middle.
     """
 
     def __init__(
@@ -81,43 +80,43 @@ class Plan:
         self._learnt: tuple[int, BodyView] | None = None
 
     def draw(self, body: BodyView, view: WorldView) -> Bits:
-        """(channels, height, width) of 0 and 1: what lies around a body now."""
+        """Return the present surroundings of a body as 0 and 1: (channels, height, width)."""
         if self._learnt != (view.generation, body):
             self._learn(body, view)
         seen = self._look(body)
-        pictures = self._raster.nothing(self._count)
+        pictures = self._raster.empty(self._count)
         drawn = [parts.draw(seen, self._raster) for parts in self._parts]
         numbers, low, high = map(np.concatenate, zip(*drawn, strict=True))
         pictures[numbers] = self._raster.fill(low, high)
         for hole, outer in self._holes:
             pictures[outer] &= ~pictures[hole]
-        planes = self._raster.nothing(len(self._channels))
+        planes = self._raster.empty(len(self._channels))
         for plane, channel, shown in zip(planes, self._channels, self._shown, strict=True):
             if shown.size:
-                plane |= _together(pictures, shown)
+                plane |= _union(pictures, shown)
             if channel == VOID and self._ground.size:
-                plane |= ~_together(pictures, self._ground)
-            if channel == ENDLESS and not self._ground.size:
+                plane |= ~_union(pictures, self._ground)
+            if channel == ENDLESS_GROUND_TAG and not self._ground.size:
                 plane[...] = 0xFF
         return self._raster.cells(planes)
 
     def _look(self, body: BodyView) -> _Seen:
         poses = self._poses
         for index, other in enumerate(self._bodies):
-            poses[index] = GONE if other.fallen else other.pose
+            poses[index] = POSE_OF_FALLEN if other.fallen else other.pose
         (own_x, own_y), own = body.position, body.heading
         cos, sin = np.cos(own), np.sin(own)
         dx, dy = (poses[:, 0] - own_x) / self._cell, (poses[:, 1] - own_y) / self._cell
         left, ahead = cos * dy - sin * dx, cos * dx + sin * dy
         turned = poses[:, 3] - own
-        # what is farther away than the corners can't be in the picture
+        # beyond the corners nothing can be in the picture
         near = np.hypot(left, ahead) <= self._corner + self._reaches
         return _Seen(
             self._middle[0] - left, self._middle[1] - ahead, np.cos(turned), np.sin(turned), near
         )
 
     def _learn(self, body: BodyView, view: WorldView) -> None:
-        """Takes everything apart, once for each build of the world."""
+        """Decompose all shapes, once for each build of the world."""
         self._learnt = view.generation, body
         self._bodies = [
             other
@@ -169,11 +168,11 @@ class Plan:
         self._ground = _numbers(number for number in whole if whose[number] in floors)
 
 
-def _together(pictures: Bits, numbers: Indices) -> Bits:
+def _union(pictures: Bits, numbers: Indices) -> Bits:
     # flat, since numpy's inner loop runs along the last axis
     flat = pictures.take(numbers, axis=0).reshape(len(numbers), -1)
-    together: Bits = np.bitwise_or.reduce(flat, axis=0).reshape(pictures.shape[1:])
-    return together
+    union: Bits = np.bitwise_or.reduce(flat, axis=0).reshape(pictures.shape[1:])
+    return union
 
 
 def _numbers(found: Iterable[int]) -> Indices:

@@ -1,0 +1,65 @@
+"""Samples of sensors whose defaults do not suit the checks' world."""
+
+import math
+
+from ai4u_edu import (
+    AgentArraySensor,
+    AreaOrientationSensor,
+    BasicAgent,
+    BearingSensor,
+    Body,
+    CellSensor,
+    FloatArrayCompositeSensor,
+    GridSensor,
+    GroupTouchSensor,
+    HeadingSensor,
+    IDSensor,
+    LightSensor,
+    LinearRayCastingSensor,
+    LineSensor,
+    LocalGridSensor,
+    OrientationSensor,
+    PresenceSensor,
+    RayCastingSensor,
+    TouchSensor,
+    VelocitySensor,
+)
+from tests.check.samples.sample import Sample
+
+CODES = {"floor": 1, "target": 2, "wall": 4, "agent": 8}
+
+
+def set_array(agent: BasicAgent, decision: int) -> None:
+    """Set the values of the agent's AgentArraySensor, as a script does."""
+    for sensor in agent.sensors:
+        if isinstance(sensor, AgentArraySensor):
+            sensor.set_value(0, abs(math.sin(decision)))
+
+
+def remove_ball(agent: BasicAgent, decision: int) -> None:
+    """Remove the ball after a while, so that its presence changes."""
+    if decision == 90:
+        ball = agent.view["ball"]
+        assert isinstance(ball, Body)
+        ball.leave()
+
+
+SAMPLES = (
+    Sample(AgentArraySensor(size=2), script=set_array),
+    AreaOrientationSensor(target_group="target", group_code={"target": 2, "wall": 4}, radius=3),
+    BearingSensor(target="box"),
+    CellSensor(rows=14, columns=14, cell_size=0.5),
+    FloatArrayCompositeSensor(sensors=[BearingSensor(target="box"), HeadingSensor()]),
+    GridSensor(rows=14, columns=14, cell_size=0.5, group_code=CODES, self_exclude=False),
+    GroupTouchSensor(group="target"),
+    Sample(IDSensor(), always_same="an agent keeps its id"),
+    LineSensor(group="goal"),
+    LightSensor(group="target", angle_deg=40),
+    LinearRayCastingSensor(group_code=CODES, return_distance=True),
+    LocalGridSensor(width=16, height=16, cell_size=0.5, stacked_observations=2),
+    OrientationSensor(target="box", visibility_test=True),
+    Sample(PresenceSensor(group="target"), script=remove_ball),
+    RayCastingSensor(rows=3, columns=5, group_code=CODES, return_distance=True),
+    TouchSensor(target="box"),
+    VelocitySensor(noise=0.1, delay=1, stacked_observations=2, dropout=0.1),
+)

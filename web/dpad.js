@@ -1,0 +1,18 @@
+/** The directional pad: which four of an agent's actions lie crosswise on the screen. */
+
+/** Actions by direction of the pad; the first one that the agent has is taken. */
+const DIRECTION_ACTIONS = {
+  up: ["forward", "up"],
+  left: ["turn_left", "left"],
+  down: ["backward", "down"],
+  right: ["turn_right", "right"],
+};
+
+/** Return the actions on the pad by direction (up, left, down, right), without empty directions. */
+export function dpadActions(bindings) {
+  const found = Object.entries(DIRECTION_ACTIONS).map(([direction, actions]) => [
+    direction,
+    actions.find((action) => action in bindings),
+  ]);
+  return new Map(found.filter(([, action]) => action !== undefined));
+}
