@@ -5,7 +5,8 @@ from collections.abc import Iterator
 import pytest
 from playwright.sync_api import Browser, Page, expect
 
-from tests.playing import Played, new_page, played
+from tests.chromium import new_page
+from tests.playing import Played, played
 
 pytestmark = pytest.mark.browser
 

@@ -8,7 +8,8 @@ from typing import Any
 import pytest
 from playwright.sync_api import Browser, Locator, Page, expect
 
-from tests.playing import Played, new_page, played
+from tests.chromium import new_page
+from tests.playing import Played, played
 from tests.server.rooms import until
 
 pytestmark = pytest.mark.browser

@@ -12,7 +12,7 @@ from ai4u_edu import ControlRequestor
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.server import RoomMount, ServerThread, room_app
 from tests.browser.theatre import Theatre, ready, seat
-from tests.playing import new_page
+from tests.chromium import new_page
 from tests.server.rooms import Room, free_port, served, until
 
 pytestmark = pytest.mark.browser

@@ -21,7 +21,8 @@ from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.blocks.brains.controllers.keyboard import Stick
 from tests.browser.theatre import SPEED, Theatre, connected, ready, seat
 from tests.builders import small_sim
-from tests.playing import Played, new_page, played
+from tests.chromium import new_page
+from tests.playing import Played, played
 from tests.server.rooms import until
 
 pytestmark = pytest.mark.browser

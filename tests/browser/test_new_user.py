@@ -10,7 +10,8 @@ from playwright.sync_api import Browser, Locator, Page
 from ai4u_edu import Scene
 from tests.browser.keys import body, carry, take, where, whole
 from tests.browser.theatre import ready
-from tests.playing import Played, new_page, played
+from tests.chromium import new_page
+from tests.playing import Played, played
 from tests.server.rooms import until
 
 pytestmark = pytest.mark.browser

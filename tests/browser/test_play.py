@@ -9,7 +9,8 @@ import pytest
 from playwright.sync_api import Browser, Page, expect
 
 from tests.browser.theatre import connected, ready
-from tests.playing import Played, new_page, played
+from tests.chromium import new_page
+from tests.playing import Played, played
 
 pytestmark = pytest.mark.browser
 

@@ -12,7 +12,8 @@ from playwright.sync_api import Browser, Page, expect
 
 from tests.browser.test_world import SCENE
 from tests.browser.theatre import connected, seat
-from tests.playing import Played, new_page, played
+from tests.chromium import new_page
+from tests.playing import Played, played
 from tests.server.rooms import free_port, until
 
 pytestmark = pytest.mark.browser

@@ -13,7 +13,8 @@ from playwright.sync_api import Browser, Page, expect
 from ai4u_edu import LocalBrain, ReplayController, Scene
 from ai4u_edu.recording import Episode, Recorder, Replay
 from tests.browser.theatre import ready
-from tests.playing import Played, new_page, played
+from tests.chromium import new_page
+from tests.playing import Played, played
 
 pytestmark = pytest.mark.browser
 

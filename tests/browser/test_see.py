@@ -16,7 +16,8 @@ from ai4u_edu.snapshot import capture_static_scene
 from ai4u_edu.snapshot.theme import SPOT_LIT, VOID, Rgb
 from ai4u_edu.viewer.scene.arena import camera_bounds
 from ai4u_edu.viewer.scene.framing import frame_arena
-from tests.playing import Played, new_page, played
+from tests.chromium import new_page
+from tests.playing import Played, played
 
 pytestmark = pytest.mark.browser
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 import viser
 from playwright.sync_api import Browser, BrowserContext, Locator, Page, Route
 
-from tests.playing import new_page
+from tests.chromium import new_page
 from tests.server.rooms import Room, until
 
 SPEED, TURN = 5.0, 2.0

@@ -8,6 +8,8 @@ import pytest
 from ai4u_edu import Scene
 from tests.scenes.rollout import trajectory
 
+pytestmark = pytest.mark.slow
+
 
 def elsewhere(*names: str) -> dict[str, str]:
     """Return the trajectories of scenes in a process of their own, one after the other."""

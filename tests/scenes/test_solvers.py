@@ -10,6 +10,8 @@ from ai4u_edu import BasicAgent, LocalBrain, Percept, Scene
 from ai4u_edu.envs.spaces_of import outputs_of
 from tests.scenes.solvers import Driver, solver_of
 
+pytestmark = pytest.mark.slow
+
 SEEDS = pytest.mark.parametrize(
     "seeds", [range(4), pytest.param(range(4, 20), marks=pytest.mark.nightly)], ids=str
 )

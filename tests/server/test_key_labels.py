@@ -13,6 +13,8 @@ from ai4u_edu.server.human_override import RESTART, Hands
 from ai4u_edu.server.key_labels import captions, useful_keys
 from ai4u_edu.snapshot import BodyState, capture_bodies
 
+pytestmark = pytest.mark.slow
+
 PATIENCE = 6
 """Decisions."""
 
