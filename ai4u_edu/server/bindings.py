@@ -64,7 +64,7 @@ def keys_of(agent: BasicAgent, brain: Brain | None = None) -> dict[str, list[str
 
 def acting(brain: Brain) -> Brain:
     """The brain that decides: in place of a script elsewhere it may be a person's."""
-    hand = brain.hand if isinstance(brain, RemoteBrain) else None
+    hand = brain.override if isinstance(brain, RemoteBrain) else None
     return hand or brain
 
 

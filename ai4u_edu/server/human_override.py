@@ -97,7 +97,7 @@ class Hands:
         before = agent.brain
         self._is_made = not any(spare is brain for brain in agent.brains)
         if isinstance(before, RemoteBrain):
-            before.lend(spare)
+            before.begin_override(spare)
         else:
             agent.use_brain(spare)
         self._before, self._ours = before, spare
@@ -109,7 +109,7 @@ class Hands:
             return
         agent.keyboard.release()
         if isinstance(before, RemoteBrain):
-            before.take_back()
+            before.end_override()
         else:
             agent.use_brain(before)
         if self._is_made:

@@ -8,7 +8,7 @@ import pymunk
 from ai4u_edu.base.errors import WorldError
 from ai4u_edu.world.descriptions import BodyDescription
 from ai4u_edu.world.grasp import held_by, hold, release
-from ai4u_edu.world.native.chipmunk import QUICK
+from ai4u_edu.world.native import MOTION
 
 if TYPE_CHECKING:
     from ai4u_edu.world.world import World
@@ -16,9 +16,9 @@ if TYPE_CHECKING:
 TAU = 2 * math.pi
 
 # looked up once: these are asked several times a tick
-_place, _angle, _push = QUICK.place, QUICK.angle, QUICK.push
-_set_velocity, _set_angular_velocity = QUICK.set_velocity, QUICK.set_angular_velocity
-_CENTRE = QUICK.vector()
+_position, _angle, _apply_force = MOTION.position, MOTION.angle, MOTION.apply_force
+_set_velocity, _set_angular_velocity = MOTION.set_velocity, MOTION.set_angular_velocity
+_CENTRE = MOTION.vector()
 
 
 class BodyView:
@@ -55,7 +55,7 @@ class BodyView:
     @_pm.setter
     def _pm(self, pm: pymunk.Body) -> None:
         self._pymunk = pm
-        self._handle, self._vector = QUICK.handle(pm), QUICK.vector()
+        self._handle, self._vector = MOTION.handle(pm), MOTION.vector()
 
     @property
     def moves(self) -> bool:
@@ -65,7 +65,7 @@ class BodyView:
     @property
     def position(self) -> tuple[float, float]:
         """Centre (x, y) in metres."""
-        place = _place(self._handle)
+        place = _position(self._handle)
         return place.x, place.y
 
     @property
@@ -86,7 +86,7 @@ class BodyView:
     @property
     def pose(self) -> tuple[float, float, float, float]:
         """(x, y, z, heading)."""
-        place = _place(self._handle)
+        place = _position(self._handle)
         return place.x, place.y, self.z, self.heading
 
     @property
@@ -96,18 +96,18 @@ class BodyView:
 
     def distance(self, other: "BodyView") -> float:
         """Metres between the two centres, height included."""
-        here, there = _place(self._handle), _place(other._handle)
+        here, there = _position(self._handle), _position(other._handle)
         return math.hypot(there.x - here.x, there.y - here.y, other.z - self.z)
 
     def bearing(self, other: "BodyView") -> float:
         """Where the other one is, seen from here: 0 ahead, positive to the left, radians."""
-        here, there = _place(self._handle), _place(other._handle)
+        here, there = _position(self._handle), _position(other._handle)
         direction = math.atan2(there.y - here.y, there.x - here.x)
         return (direction - _angle(self._handle) + math.pi) % TAU - math.pi
 
     def to_local(self, x: float, y: float) -> tuple[float, float]:
         """A point of the world in this body's frame: (forward, left) in metres."""
-        place, angle = _place(self._handle), _angle(self._handle)
+        place, angle = _position(self._handle), _angle(self._handle)
         cos, sin = math.cos(angle), math.sin(angle)
         dx, dy = x - place.x, y - place.y
         return cos * dx + sin * dy, cos * dy - sin * dx
@@ -140,7 +140,7 @@ class Body(BodyView):
             self._refuse("force", (forward, left))
         vector = self._vector
         vector.x, vector.y = forward, left
-        _push(self._handle, vector, _CENTRE)
+        _apply_force(self._handle, vector, _CENTRE)
 
     def jump(self, speed: float) -> None:
         """Sets an upward speed in m/s and leaves the ground."""

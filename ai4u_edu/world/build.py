@@ -7,6 +7,7 @@ import pymunk
 
 from ai4u_edu.world.body import Body
 from ai4u_edu.world.descriptions import BodyDescription
+from ai4u_edu.world.native import FastBody, FastCircle, FastPoly
 from ai4u_edu.world.shapes import (
     BodyShape,
     BoxShape,
@@ -31,24 +32,6 @@ KINDS = {
 }
 
 
-class _Direct:
-    # pymunk sets attributes through a method in Python that adds nothing, some two hundred times
-    # in a world's reset
-    __setattr__ = object.__setattr__
-
-
-class QuickBody(_Direct, pymunk.Body):
-    """A body, sooner made."""
-
-
-class QuickCircle(_Direct, pymunk.Circle):
-    """A circle, sooner made."""
-
-
-class QuickPoly(_Direct, pymunk.Poly):
-    """A polygon, sooner made."""
-
-
 def build(body: Body, space: pymunk.Space, group: int) -> None:
     """Makes the body's physical parts and adds them to a space.
 
@@ -58,7 +41,7 @@ def build(body: Body, space: pymunk.Space, group: int) -> None:
         group: a number of the body's own (not 0), so that its own rays don't meet it.
     """
     description = body.sampled
-    pm = QuickBody(body_type=KINDS[description.kind])
+    pm = FastBody(body_type=KINDS[description.kind])
     pm.position = description.position
     pm.angle = math.radians(description.heading_deg)
     if description.kind != "static":
@@ -80,9 +63,9 @@ def make_shape(
 ) -> pymunk.Circle | pymunk.Poly:
     """The pymunk shape of a description, with ``more`` metres all around it."""
     if isinstance(shape, CircleShape):
-        return QuickCircle(pm, shape.radius + more)
+        return FastCircle(pm, shape.radius + more)
     corners, radius = core(shape)
-    return QuickPoly(pm, corners, _AS_IT_IS, radius + more)
+    return FastPoly(pm, corners, _AS_IT_IS, radius + more)
 
 
 def core(shape: BodyShape) -> tuple[Sequence[Corner], float]:

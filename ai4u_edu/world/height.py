@@ -10,13 +10,13 @@ from typing import TYPE_CHECKING, Any
 import pymunk
 
 from ai4u_edu.world.ground import SAME, Ground
-from ai4u_edu.world.native.chipmunk import QUICK
+from ai4u_edu.world.native import MOTION
 
 if TYPE_CHECKING:
     from ai4u_edu.world.body import Body
     from ai4u_edu.world.world import World
 
-_place = QUICK.place  # each mover is asked at each tick
+_position = MOTION.position  # each mover is asked at each tick
 
 
 class Height:
@@ -103,7 +103,7 @@ class Height:
 
     def _stands(self, body: "Body") -> bool:
         """Whether something bears a body right below its centre; the floor is asked first."""
-        z, place = body.z, _place(body._handle)
+        z, place = body.z, _position(body._handle)
         return self.ground(place.x, place.y, z) == z or self._support(body, z) == z
 
     def _support(self, body: "Body", below: float) -> float | None:

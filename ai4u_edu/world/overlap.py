@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import pymunk
 
-from ai4u_edu.world.native.chipmunk import FAST, distances
+from ai4u_edu.world.native import IS_NATIVE, contact_distances
 
 if TYPE_CHECKING:
     from ai4u_edu.world.body import BodyView
@@ -18,7 +18,7 @@ OVERLAP = 1e-3
 
 def in_the_way(world: "World", body: "BodyView") -> "BodyView | None":
     """The body that another one overlaps, if there is one; what can't move may overlap."""
-    if not body.moves and FAST:
+    if not body.moves and IS_NATIVE:
         return _mover_in_the_way(world, body)
     for shape in body._shapes:
         for hit in world.space.shape_query(shape):
@@ -48,7 +48,7 @@ def _mover_in_the_way(world: "World", body: "BodyView") -> "BodyView | None":
             for its in other._shapes:
                 if _pass_through(shape.filter, its.filter):
                     continue
-                found = distances(shape, its, other._pm)
+                found = contact_distances(shape, its, other._pm)
                 if overlap(shape, body._pm, its, other._pm, found):
                     return other
     return None

@@ -9,10 +9,10 @@ import pymunk
 
 from ai4u_edu.base.errors import WorldError
 from ai4u_edu.base.seeding import Seeds
-from ai4u_edu.world.build import QuickBody, core, dress, make_shape
+from ai4u_edu.world.build import core, dress, make_shape
 from ai4u_edu.world.descriptions import AreaDescription, BodyDescription, FloorDescription
 from ai4u_edu.world.ground import Ground
-from ai4u_edu.world.native.chipmunk import distances
+from ai4u_edu.world.native import FastBody, contact_distances
 from ai4u_edu.world.overlap import overlap
 from ai4u_edu.world.region import Region
 from ai4u_edu.world.shapes import BodyShape, CircleShape, RingShape
@@ -73,14 +73,14 @@ class _Form:
         """Whether the two are in each other in the plane, and would collide there."""
         (pm, shape), (its_pm, its_shape) = self.solid, other.solid
         return not shape.filter.rejects_collision(its_shape.filter) and overlap(
-            shape, pm, its_shape, its_pm, distances(shape, its_shape, its_pm)
+            shape, pm, its_shape, its_pm, contact_distances(shape, its_shape, its_pm)
         )
 
     @cached_property
     def solid(self) -> tuple[pymunk.Body, pymunk.Shape]:
         """The same for pymunk; made only for what something comes near to, which is seldom."""
         thing = self._thing
-        pm = QuickBody(body_type=pymunk.Body.STATIC)
+        pm = FastBody(body_type=pymunk.Body.STATIC)
         pm.position = thing.position
         pm.angle = math.radians(thing.heading_deg)
         shape = make_shape(self._shape, pm, self._more)

@@ -8,7 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ai4u_edu.world.body import BodyView
-from ai4u_edu.world.native.grid import compiled_grid
+from ai4u_edu.world.native import GridArrays, compile_grid
 from ai4u_edu.world.rays import Cast, Caster, CodeOf, Floats, Obstacle
 
 if TYPE_CHECKING:
@@ -51,7 +51,10 @@ class RayGrid(Caster):
         self._flat_reach = float(self._reaches.max())
         self.codes: Floats = np.zeros((len(self.pitches), len(self.angles)))
         self.distances: Floats = np.zeros_like(self.codes)
-        self._compiled = compiled_grid(self)
+        arrays = GridArrays(
+            self._slopes, self._runs, self._reaches, self._cos, self.codes, self.distances
+        )
+        self._compiled = compile_grid(arrays, self._segments, self._miss)
 
     def kept(self) -> Cast:
         """The last cast."""
@@ -67,7 +70,7 @@ class RayGrid(Caster):
         # until the end, the distances are those in the plane, and infinite for nothing
         codes, flat = self.codes, self.distances
         if self._compiled:
-            if self._compiled.look(self.origin, *self._open_heights()):
+            if self._compiled.cast(self.origin, *self._open_heights()):
                 return
             undecided = self._compiled.undecided
         else:
@@ -90,7 +93,7 @@ class RayGrid(Caster):
     def _learn(self, body: BodyView) -> None:
         super()._learn(body)
         if self._compiled:
-            self._compiled.learn(self._bodies, self._codes, self._grounds)
+            self._compiled.update(self._bodies, self._codes, self._grounds)
 
     def _open_heights(self) -> tuple[float, float]:
         """Between which heights a ray may meet more than what stands first in its column."""

@@ -14,8 +14,7 @@ import pymunk
 from numpy import multiply
 
 from ai4u_edu.world.body import BodyView
-from ai4u_edu.world.native.chipmunk import QUICK, shape_key
-from ai4u_edu.world.native.segments import segments
+from ai4u_edu.world.native import MOTION, make_segments, shape_key
 from ai4u_edu.world.region import Region
 
 if TYPE_CHECKING:
@@ -29,7 +28,7 @@ CodeOf = Callable[[Sequence[str]], float]
 GROUND_TAGS = ("floor",)
 """The tags of the endless ground of a world without floors."""
 
-_place, _angle = QUICK.place, QUICK.angle
+_position, _angle = MOTION.position, MOTION.angle
 
 
 class Obstacle(NamedTuple):
@@ -73,7 +72,7 @@ class Caster:
         self._mask, self._exclude_self = mask, exclude_self
         self._code_of = code_of
         self._miss = code_of(())
-        self._segments = segments(len(self.angles))
+        self._segments = make_segments(len(self.angles))
         self._learnt = -1
         self._looker: BodyView | None = None
         self._codes: dict[int, float] = {}
@@ -99,7 +98,7 @@ class Caster:
         if self._learnt != self._world.generation or self._looker is not body:
             self._learn(body)
         forward, left, up = self.eye
-        place, heading = _place(body._handle), _angle(body._handle)
+        place, heading = _position(body._handle), _angle(body._handle)
         x, y, cos, sin = place.x, place.y, math.cos(heading), math.sin(heading)
         if forward or left:
             x, y = x + cos * forward - sin * left, y + sin * forward + cos * left

@@ -24,7 +24,7 @@ class Region:
         self.tags = description.tags
         self.x, self.y = description.position
         heading = math.radians(description.heading_deg)
-        self._cos, self._sin = math.cos(heading), math.sin(heading)
+        self.cos, self.sin = math.cos(heading), math.sin(heading)
         self._contains: Callable[[Any, Any], Any] = description.shape.contains
         shape = description.shape
         self._box = shape.size if isinstance(shape, BoxShape) and heading == 0.0 else None
@@ -56,10 +56,10 @@ class Region:
     def placed(self, points: list[tuple[float, float]]) -> list[tuple[float, float]]:
         """Points of the region's own frame in world coordinates."""
         return [
-            (self.x + self._cos * x - self._sin * y, self.y + self._sin * x + self._cos * y)
+            (self.x + self.cos * x - self.sin * y, self.y + self.sin * x + self.cos * y)
             for x, y in points
         ]
 
     def _to_local(self, x: Any, y: Any) -> tuple[Any, Any]:
         dx, dy = x - self.x, y - self.y
-        return self._cos * dx + self._sin * dy, self._cos * dy - self._sin * dx
+        return self.cos * dx + self.sin * dy, self.cos * dy - self.sin * dx

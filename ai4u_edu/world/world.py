@@ -21,7 +21,7 @@ from ai4u_edu.world.descriptions import (
 )
 from ai4u_edu.world.grasp import detach
 from ai4u_edu.world.height import Height
-from ai4u_edu.world.native.chipmunk import let_go, stepper
+from ai4u_edu.world.native import release_space, step_function
 from ai4u_edu.world.overlap import in_the_way
 from ai4u_edu.world.placement import Thing
 from ai4u_edu.world.randomize import place_now, randomize
@@ -212,13 +212,13 @@ class World:
         """
         if self._has_random:
             self._draw()
-        let_go(self.space)
+        release_space(self.space)
         self.space = pymunk.Space()
         self.space.damping = self.settings.damping
         self.space.collision_slop, self.space.collision_bias = SLOP, BIAS
         self.ticks = 0
         self.owners = {}
-        self._step = stepper(self.space, self._dt)
+        self._step = step_function(self.space, self._dt)
         self.contacts.attach(self.space, self.owners)
         self._groups = 0
         for body in self._bodies.values():

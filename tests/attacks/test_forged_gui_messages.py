@@ -98,8 +98,8 @@ def all_open(room: Room, here: Page) -> None:
     here.change(blocks.block, "1 BearingSensor")
     here.press(blocks.settings.button)
     here.press(world.settings.button)
-    here.change(world.thing, "wall")
-    here.change(world.moves, True)
+    here.change(world.body_list, "wall")
+    here.change(world.drag_enabled, True)
     seen(viewer, lambda: blocks._form and world._form and blocks.settings.form)
     seen(viewer, lambda: world.settings.form and world.handles.node)
 

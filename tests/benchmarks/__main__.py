@@ -114,7 +114,7 @@ def vectors(count: int) -> dict[str, Callable[[], object]]:
 
 def show(timings: dict[str, Timing]) -> None:
     """Prints the table."""
-    loop = "compiled" if segments.compiled() else "cffi: nothing compiled here"
+    loop = "compiled" if segments.compiled_cast() else "cffi: nothing compiled here"
     print(f"{platform.machine()}, Python {platform.python_version()}; our loop over rays: {loop}\n")
     print("| one decision | microseconds | a second | fastest round | ours is |")
     print("|---|---|---|---|---|")

@@ -13,13 +13,13 @@ from ai4u_edu.world.native import compiled as _compiled
 
 pytestmark = pytest.mark.skipif(os.name != "posix", reason="is compiled on Unix only")
 needs_compiler = pytest.mark.skipif(shutil.which("cc") is None, reason="no C compiler here")
-library = _compiled.library.__wrapped__
+library = _compiled.load_library.__wrapped__
 
 
 @pytest.fixture(autouse=True)
 def kept(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """An empty cache folder."""
-    monkeypatch.delenv(_compiled.SWITCH, raising=False)
+    monkeypatch.delenv(_compiled.SWITCH_VARIABLE, raising=False)
     monkeypatch.setattr(sys, "platform", "linux")
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
     return tmp_path / "ai4u-edu"
@@ -52,7 +52,7 @@ def test_it_is_made_once(kept: Path, compiler: Callable[[str], None]) -> None:
 
 
 def test_it_can_be_switched_off(kept: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setenv(_compiled.SWITCH, "0")
+    monkeypatch.setenv(_compiled.SWITCH_VARIABLE, "0")
     assert library() is None
     assert not kept.exists()
 
@@ -97,7 +97,9 @@ def test_what_others_could_write_is_not_run(kept: Path) -> None:
 
 
 def begin_another_process() -> subprocess.Popen[str]:
-    program = "from ai4u_edu.world.native.compiled import library; print(library() is not None)"
+    program = (
+        "from ai4u_edu.world.native.compiled import load_library; print(load_library() is not None)"
+    )
     command = [sys.executable, "-c", program]
     return subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
 
@@ -128,7 +130,7 @@ def test_a_mac_without_tools_is_asked_nothing(
     compiler(f"touch {asked}")
     monkeypatch.setattr(sys, "platform", "darwin")
     monkeypatch.setenv("HOME", str(tmp_path))
-    assert _compiled.folder() == tmp_path / "Library" / "Caches" / "ai4u-edu"
+    assert _compiled.cache_folder() == tmp_path / "Library" / "Caches" / "ai4u-edu"
     assert library() is None, "/usr/bin/xcode-select is not here"
     assert not asked.exists()
 
@@ -136,4 +138,4 @@ def test_a_mac_without_tools_is_asked_nothing(
 def test_it_lies_in_the_users_own_cache(monkeypatch: pytest.MonkeyPatch) -> None:
     for given in ("", "not/absolute"):
         monkeypatch.setenv("XDG_CACHE_HOME", given)
-        assert _compiled.folder() == Path.home() / ".cache" / "ai4u-edu"
+        assert _compiled.cache_folder() == Path.home() / ".cache" / "ai4u-edu"

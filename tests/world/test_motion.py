@@ -7,7 +7,7 @@ from typing import Any
 import pymunk
 
 from ai4u_edu.world.native import chipmunk as _chipmunk
-from ai4u_edu.world.native.chipmunk import PUBLIC, QUICK, Motion, stepper
+from ai4u_edu.world.native.chipmunk import MOTION, PUBLIC_MOTION, Motion, step_function
 
 
 def make_space() -> tuple[pymunk.Space, list[pymunk.Body]]:
@@ -36,31 +36,31 @@ def drive(way: Motion, tick: Any, bodies: list[pymunk.Body]) -> list[tuple[float
         for i, handle in enumerate(handles):
             vector.x, vector.y = chance.uniform(-9, 9), chance.uniform(-9, 9)
             if i % 3 == 0:
-                way.push(handle, vector, where)
+                way.apply_force(handle, vector, where)
             elif i % 3 == 1:
                 way.set_velocity(handle, vector)
             else:
                 way.set_angular_velocity(handle, vector.x)
         tick()
         for handle in handles:
-            place = way.place(handle)
+            place = way.position(handle)
             seen.append((place.x, place.y, way.angle(handle)))
     return seen
 
 
 def test_the_quick_way_is_there_and_gives_exactly_what_the_public_one_gives() -> None:
-    assert QUICK is not PUBLIC, "with another pymunk it is; here we want to know"
+    assert MOTION is not PUBLIC_MOTION, "with another pymunk it is; here we want to know"
     space, bodies = make_space()
-    expected = drive(PUBLIC, lambda: space.step(1 / 60), bodies)
+    expected = drive(PUBLIC_MOTION, lambda: space.step(1 / 60), bodies)
     space, bodies = make_space()
-    assert drive(QUICK, stepper(space, 1 / 60), bodies) == expected
+    assert drive(MOTION, step_function(space, 1 / 60), bodies) == expected
     assert len(set(expected)) == len(expected)
 
 
 def test_without_it_ticks_go_the_public_way(monkeypatch: Any) -> None:
-    monkeypatch.setattr(_chipmunk, "FAST", False)
+    monkeypatch.setattr(_chipmunk, "IS_NATIVE", False)
     space, bodies = make_space()
-    slow = drive(PUBLIC, stepper(space, 1 / 60), bodies)
+    slow = drive(PUBLIC_MOTION, step_function(space, 1 / 60), bodies)
     monkeypatch.undo()
     space, bodies = make_space()
-    assert drive(QUICK, stepper(space, 1 / 60), bodies) == slow
+    assert drive(MOTION, step_function(space, 1 / 60), bodies) == slow

@@ -8,7 +8,7 @@ import pytest
 
 from ai4u_edu.world import AreaDescription, BodyDescription, RingShape
 from ai4u_edu.world.native import chipmunk as _chipmunk
-from ai4u_edu.world.native.chipmunk import distances
+from ai4u_edu.world.native.chipmunk import contact_distances
 from ai4u_edu.world.placement import Places
 from tests.world.random_worlds import SIDE, _body_shape, _region_shape
 
@@ -41,13 +41,13 @@ def test_what_touches_is_what_a_space_finds(monkeypatch: pytest.MonkeyPatch) -> 
 
     def found() -> list[list[float]]:
         return [
-            distances(one.solid[1], other.solid[1], other.solid[0])
+            contact_distances(one.solid[1], other.solid[1], other.solid[0])
             for pair in pairs
             for one, other in (pair, pair[::-1])
         ]
 
     quick = found()
-    monkeypatch.setattr(_chipmunk, "FAST", False)
+    monkeypatch.setattr(_chipmunk, "IS_NATIVE", False)
     assert quick == found()
     assert sum(bool(each) for each in quick) > 600
 

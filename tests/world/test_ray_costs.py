@@ -39,7 +39,7 @@ def queries(monkeypatch: pytest.MonkeyPatch) -> Queries:
     functions = {name: getattr(real, name) for name in dir(real) if name.startswith("cp")}
     counting = functions | {"cpSpaceSegmentQueryFirst": counting_first}
     monkeypatch.setattr(_segments, "lib", SimpleNamespace(**counting))
-    monkeypatch.setattr(rays, "segments", _segments.QuickSegments)
+    monkeypatch.setattr(rays, "make_segments", _segments.CffiSegments)
     monkeypatch.setattr(pymunk.Space, "segment_query", counting_every)
     monkeypatch.setattr(pymunk.Space, "point_query", counting_point)
     return counted

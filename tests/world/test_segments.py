@@ -11,13 +11,15 @@ from ai4u_edu import Scene
 from ai4u_edu.world import RayFan, RayGrid, rays
 from ai4u_edu.world.native import segments as _segments
 from ai4u_edu.world.native.chipmunk import shape_key
-from ai4u_edu.world.native.segments import CompiledSegments, QuickSegments, Segments
+from ai4u_edu.world.native.segments import CffiSegments, CompiledSegments, Segments
 from tests.world.random_worlds import SIDE, make_world, shuffle
 
-needs_compiler = pytest.mark.skipif(_segments.compiled() is None, reason="nothing is compiled here")
+needs_compiler = pytest.mark.skipif(
+    _segments.compiled_cast() is None, reason="nothing is compiled here"
+)
 WAYS = [
     pytest.param(CompiledSegments, marks=needs_compiler),
-    QuickSegments,
+    CffiSegments,
 ]
 
 
@@ -54,7 +56,7 @@ def test_sensors_read_the_same_in_every_scene(
     for name in Scene.names():
         told = []
         for each in (way, Segments):
-            monkeypatch.setattr(rays, "segments", each)
+            monkeypatch.setattr(rays, "make_segments", each)
             told.append(_told(name))
         assert told[0] == told[1], name
 
@@ -88,8 +90,8 @@ def test_fans_and_grids_see_the_same(monkeypatch: pytest.MonkeyPatch) -> None:
         eye = (0.0, 0.0, chance.uniform(0.1, 1.0))
         angles = [chance.uniform(-4, 4) for _ in range(9)]
         pairs: list[list[Any]] = []
-        for way in (CompiledSegments, QuickSegments):
-            monkeypatch.setattr(rays, "segments", way)
+        for way in (CompiledSegments, CffiSegments):
+            monkeypatch.setattr(rays, "make_segments", way)
             fan = RayFan(world, angles, 9.0, _code_of, eye=eye)
             pairs.append([fan, RayGrid(world, angles, [0.2, 0.0, -0.3], 9.0, _code_of, eye=eye)])
         for _ in range(20):
@@ -111,16 +113,16 @@ def _code_of(tags: Any) -> float:
 
 def test_the_quick_way_is_there() -> None:
     """Where it is not, with another pymunk, all goes on more slowly; here we want to know."""
-    assert isinstance(_segments.segments(1), QuickSegments)
+    assert isinstance(_segments.make_segments(1), CffiSegments)
 
 
 def test_the_fastest_way_is_taken(monkeypatch: pytest.MonkeyPatch) -> None:
-    if _segments.compiled() is not None:
-        assert type(_segments.segments(1)) is CompiledSegments
-    monkeypatch.setattr(_segments, "compiled", lambda: None)
-    assert type(_segments.segments(1)) is QuickSegments
-    monkeypatch.setattr(_segments, "FAST", False)
-    assert type(_segments.segments(1)) is Segments
+    if _segments.compiled_cast() is not None:
+        assert type(_segments.make_segments(1)) is CompiledSegments
+    monkeypatch.setattr(_segments, "compiled_cast", lambda: None)
+    assert type(_segments.make_segments(1)) is CffiSegments
+    monkeypatch.setattr(_segments, "IS_NATIVE", False)
+    assert type(_segments.make_segments(1)) is Segments
 
 
 @pytest.mark.parametrize(
@@ -134,11 +136,11 @@ def test_the_fastest_way_is_taken(monkeypatch: pytest.MonkeyPatch) -> None:
 def test_nothing_compiled_is_used_with_another_pymunk(
     changed: dict[str, Any], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    assert _segments._as_expected()
+    assert _segments._is_known()
     monkeypatch.setattr(_segments, "_LAYOUT", changed)
-    assert _segments.compiled.__wrapped__() is None
+    assert _segments.compiled_cast.__wrapped__() is None
 
 
 def test_nothing_compiled_is_used_with_another_query(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(_segments, "_QUERY", _segments._QUERY.replace("double", "float"))
-    assert _segments.compiled.__wrapped__() is None
+    assert _segments.compiled_cast.__wrapped__() is None

@@ -1,8 +1,4 @@
-"""Pymunk's private parts: motion and ticks without an object each; rays are beside, in _segments.
-
-Everything here has a twin in pymunk's public interface, which is used where the private one is
-not as expected, and gives exactly the same numbers.
-"""
+"""Motion of bodies and steps of a space through pymunk's cffi layer."""
 
 import ctypes
 from collections.abc import Callable
@@ -12,43 +8,64 @@ from typing import Any, NamedTuple
 
 import pymunk
 
-from ai4u_edu.world.native.compiled import library
+from ai4u_edu.world.native.compiled import load_library
 
 try:
     from pymunk._chipmunk_cffi import ffi as ffi
     from pymunk._chipmunk_cffi import lib as lib
-
-    FAST = (
-        all(hasattr(lib, name) for name in ("cpSpaceSegmentQueryFirst", "cpSpaceStep"))
-        and ffi.sizeof("cpSegmentQueryInfo") == 48
-    )
 except ImportError:  # pragma: no cover - another pymunk than the pinned one
     ffi = lib = None
-    FAST = False
+
+PYMUNK_VERSION = "7.3."
+"""Start of the version of pymunk whose private layer is known."""
+_FUNCTIONS = (
+    "cpBodyApplyForceAtLocalPoint",
+    "cpBodyGetAngle",
+    "cpBodyGetPosition",
+    "cpBodySetAngularVelocity",
+    "cpBodySetVelocity",
+    "cpShapesCollide",
+    "cpSpaceSegmentQueryFirst",
+    "cpSpaceStep",
+)
+
+
+def _is_known() -> bool:
+    """Return True if pymunk's private layer is the one that this package was written for."""
+    return (
+        lib is not None
+        and pymunk.version.startswith(PYMUNK_VERSION)
+        and all(hasattr(lib, name) for name in _FUNCTIONS)
+        and bool(ffi.sizeof("cpSegmentQueryInfo") == 48)
+    )
+
+
+IS_NATIVE = _is_known()
+"""True if Chipmunk is called through pymunk's private layer, False if through its public API."""
 
 
 class _Vector:
-    """Two numbers, where Chipmunk's own vector is not to be had."""
+    """Stand-in for Chipmunk's vector."""
 
     x = y = 0.0
 
 
 class Motion(NamedTuple):
-    """How bodies are asked and moved, many times a tick: functions of a body's ``handle``."""
+    """Functions that read and set the motion of a body, given its ``handle``."""
 
     handle: Callable[[pymunk.Body], Any]
     vector: Callable[[], Any]
-    """Makes something with an ``x`` and a ``y``, to be filled."""
-    place: Callable[[Any], Any]
-    """(handle): its centre, with ``x`` and ``y``, metres."""
+    """Make a vector with ``x`` and ``y``, to be filled by the caller."""
+    position: Callable[[Any], Any]
+    """(handle): centre with ``x`` and ``y``, metres."""
     angle: Callable[[Any], float]
     """(handle): radians, not wrapped."""
     set_velocity: Callable[[Any, Any], None]
-    """(handle, vector): in the world's frame, m/s."""
+    """(handle, vector): world frame, m/s."""
     set_angular_velocity: Callable[[Any, float], None]
     """(handle, omega): radians per second."""
-    push: Callable[[Any, Any, Any], None]
-    """(handle, vector, where): adds a force in its own frame, newtons."""
+    apply_force: Callable[[Any, Any, Any], None]
+    """(handle, force, point): both vectors in the body's frame; newtons, metres."""
 
 
 def _set_velocity(pm: pymunk.Body, vector: Any) -> None:
@@ -59,95 +76,93 @@ def _set_angular_velocity(pm: pymunk.Body, omega: float) -> None:
     pm.angular_velocity = omega
 
 
-def _push(pm: pymunk.Body, vector: Any, where: Any) -> None:
-    pm.apply_force_at_local_point((vector.x, vector.y), (where.x, where.y))
+def _apply_force(pm: pymunk.Body, force: Any, point: Any) -> None:
+    pm.apply_force_at_local_point((force.x, force.y), (point.x, point.y))
 
 
-PUBLIC = Motion(
+PUBLIC_MOTION = Motion(
     handle=lambda pm: pm,
     vector=_Vector,
-    place=attrgetter("position"),
+    position=attrgetter("position"),
     angle=attrgetter("angle"),
     set_velocity=_set_velocity,
     set_angular_velocity=_set_angular_velocity,
-    push=_push,
+    apply_force=_apply_force,
 )
-QUICK = (
+MOTION = (
     Motion(
         handle=attrgetter("_body"),
         vector=lambda: ffi.new("cpVect *")[0],
-        place=lib.cpBodyGetPosition,
+        position=lib.cpBodyGetPosition,
         angle=lib.cpBodyGetAngle,
         set_velocity=lib.cpBodySetVelocity,
         set_angular_velocity=lib.cpBodySetAngularVelocity,
-        push=lib.cpBodyApplyForceAtLocalPoint,
+        apply_force=lib.cpBodyApplyForceAtLocalPoint,
     )
-    if FAST
-    else PUBLIC
+    if IS_NATIVE
+    else PUBLIC_MOTION
 )
-"""The fastest way there is."""
+"""The fastest functions that this pymunk allows."""
 
 
-def stepper(space: pymunk.Space, dt: float) -> Callable[[], None]:
-    """What moves a space on by one tick, for as long as it is there.
+def step_function(space: pymunk.Space, dt: float) -> Callable[[], None]:
+    """Return a function that steps a space by ``dt`` seconds.
 
-    pymunk's own also checks masses, which descriptions have done, and lets collision handlers add
-    and remove things, which ours don't.
+    pymunk's own step also checks masses, which descriptions have done, and lets collision handlers
+    add and remove objects, which ours don't.
     """
-    return partial(lib.cpSpaceStep, space._space, dt) if FAST else partial(space.step, dt)
+    return partial(lib.cpSpaceStep, space._space, dt) if IS_NATIVE else partial(space.step, dt)
 
 
-def let_go(space: pymunk.Space) -> None:
-    """Lets a space that nobody needs any more be freed at once.
+def release_space(space: pymunk.Space) -> None:
+    """Break the reference cycles of a space that is no longer used, so that it is freed at once.
 
-    Its collision handlers point back at it, so it would wait for the garbage collector; and where
-    episodes are short, hundreds of spaces would wait.
+    Its collision handlers refer back to it. Where episodes are short, hundreds of spaces would
+    wait for the garbage collector.
     """
     for handler in getattr(space, "_handlers", {}).values():
-        handler.separate = None  # it would still be called for whoever touches at the end
+        handler.separate = None  # it would still be called for bodies that touch at the end
         handler._space = None
 
 
-def distances(shape: pymunk.Shape, other: pymunk.Shape, its_pm: pymunk.Body) -> list[float]:
-    """Metres between two shapes at the points where they touch; none if they don't.
-
-    Neither is in a space; both know where they are, by ``cache_bb``.
+def contact_distances(
+    shape: pymunk.Shape, other: pymunk.Shape, other_pm: pymunk.Body
+) -> list[float]:
+    """Return the distances (metres) of two shapes at their contact points; empty without contact.
 
     Args:
-        shape: one.
-        other: the other one.
-        its_pm: the other one's body.
+        shape: a shape with an up-to-date bounding box (``cache_bb``).
+        other: likewise; without Chipmunk's private layer it must be in no space.
+        other_pm: the body of ``other``.
     """
-    if FAST:  # pymunk's own Shape.shapes_collide can't tell of two that don't touch
+    if IS_NATIVE:  # pymunk's own Shape.shapes_collide fails for shapes that don't touch
         found = lib.cpShapesCollide(shape._shape, other._shape)
         return [found.points[i].distance for i in range(found.count)]
     space = pymunk.Space()
-    space.add(its_pm, other)
+    space.add(other_pm, other)
     hits = space.shape_query(shape)
-    space.remove(its_pm, other)
+    space.remove(other_pm, other)
     return [point.distance for hit in hits for point in hit.contact_point_set.points]
 
 
 def shape_key(shape: pymunk.Shape) -> int:
-    """The number by which a ray names the shape that it met."""
-    if FAST:
-        return address(shape._shape)
-    return id(shape)
+    """Return the number by which a cast of segments names the shape that it met."""
+    return address_of(shape._shape) if IS_NATIVE else id(shape)
 
 
-def address(pointer: Any) -> int:
-    """Where something of Chipmunk's lies, for the compiled part."""
+def address_of(pointer: Any) -> int:
+    """Return the memory address of a cffi pointer, for the compiled functions."""
     return int(ffi.cast("uintptr_t", pointer))
 
 
-def c_function(name: str, form: str) -> Any:
-    """A function of the compiled part, to be called through cffi; None where there is none.
+def compiled_function(name: str, form: str) -> Any:
+    """Return a function of the compiled library as a cffi function; None without the library.
 
     Args:
-        name: as in the C source.
-        form: its type, as ``"void (*)(void *)"``.
+        name: its name in the C source.
+        form: its C type, as ``"void (*)(void *)"``.
     """
-    made = library() if FAST else None
-    if made is None:
+    library = load_library() if IS_NATIVE else None
+    if library is None:
         return None
-    return ffi.cast(form, ctypes.cast(getattr(made, name), ctypes.c_void_p).value)
+    return ffi.cast(form, ctypes.cast(getattr(library, name), ctypes.c_void_p).value)

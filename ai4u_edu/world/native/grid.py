@@ -1,14 +1,14 @@
-"""The grid in perspective, worked out by the compiled part: cell by cell what ray_grid.py does."""
+"""The compiled form of the perspective ray grid; same bits as ray_grid.py, cell by cell."""
 
 from collections.abc import Mapping, Sequence
 from struct import Struct
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
+import numpy.typing as npt
 
-from ai4u_edu.world.body import BodyView
-from ai4u_edu.world.native.chipmunk import c_function
-from ai4u_edu.world.native.segments import CompiledSegments
+from ai4u_edu.world.native.chipmunk import compiled_function
+from ai4u_edu.world.native.segments import CompiledSegments, Segments
 from ai4u_edu.world.region import Region
 from ai4u_edu.world.shapes import (
     BoxShape,
@@ -20,42 +20,66 @@ from ai4u_edu.world.shapes import (
 )
 
 if TYPE_CHECKING:
-    from ai4u_edu.world.ray_grid import RayGrid
+    from ai4u_edu.world.body import BodyView
 
 _GRID, _FLOOR = Struct("=4q10Qd3Q"), Struct("=2q8dQ")  # Grid and Floor in rays.c
 _LOOK = "long long (*)(void *, double, double, double, double, double)"
 
+Floats = npt.NDArray[np.float64]
 
-def compiled_grid(grid: "RayGrid") -> "CompiledGrid | None":
-    """The quick way for a grid; None where nothing is compiled."""
-    rays, look = grid._segments, c_function("look", _LOOK)
-    return CompiledGrid(grid, rays, look) if isinstance(rays, CompiledSegments) and look else None
+
+class GridArrays(NamedTuple):
+    """Arrays of a grid of m pitches and n angles; the last two are filled by a cast."""
+
+    slopes: Floats
+    """(m,) tangent of each pitch."""
+    runs: Floats
+    """(m,) 1 / slope; NaN for level rays."""
+    reaches: Floats
+    """(m,) reach in the plane, metres."""
+    cosines: Floats
+    """(m, 1) cosine of each pitch."""
+    codes: Floats
+    """(m, n) code of each ray's hit."""
+    distances: Floats
+    """(m, n) metres along the ray."""
+
+
+def compile_grid(arrays: GridArrays, columns: Segments, miss: float) -> "CompiledGrid | None":
+    """Return the compiled form of a grid; None where the library is missing.
+
+    Args:
+        arrays: the grid's arrays.
+        columns: the segments that its columns cast in the plane.
+        miss: code of a ray that meets nothing.
+    """
+    look = compiled_function("look", _LOOK)
+    if not isinstance(columns, CompiledSegments) or look is None:
+        return None
+    return CompiledGrid(arrays, columns, miss, look)
 
 
 class CompiledGrid:
-    """Fills the codes and distances of a grid.
-
-    Args:
-        grid: whose, ready but for this.
-        rays: its columns.
-        look: the function that does it.
+    """Fills the codes and distances of a grid in one call; made by :func:`compile_grid`.
 
     Attributes:
-        undecided: (m, n) bool: which rays may meet more than what stands first in their column.
+        undecided: (m, n) bool: rays that may meet more than the first body of their column.
     """
 
-    def __init__(self, grid: "RayGrid", rays: CompiledSegments, look: Any) -> None:
-        self._grid, self._rays, self._look = grid, rays, look
-        self.undecided = np.zeros(grid.codes.shape, np.bool_)
+    def __init__(
+        self, arrays: GridArrays, columns: CompiledSegments, miss: float, look: Any
+    ) -> None:
+        self._arrays, self._columns, self._miss, self._look = arrays, columns, miss, look
+        self.undecided = np.zeros(arrays.codes.shape, np.bool_)
         self._movers: list[tuple[int, BodyView]] = []
 
-    def learn(
+    def update(
         self,
-        bodies: Mapping[int, BodyView],
+        bodies: "Mapping[int, BodyView]",
         codes: Mapping[int, float],
         grounds: Sequence[tuple[float, Region | None, float]],
     ) -> None:
-        """Lays out what is in the world, after each build of it.
+        """Pack the contents of the world for the compiled function, after each change of them.
 
         Args:
             bodies: by the key of each of their shapes.
@@ -67,40 +91,39 @@ class CompiledGrid:
         for top, region, code in grounds:
             floors += self._floor(top, region, code)
         shapes = np.array(list(bodies), np.uint64)
-        self._things = np.array(
+        self._heights_and_codes = np.array(
             [(each.z, each.z + each.height, codes[key]) for key, each in bodies.items()]
         ).reshape(-1, 3)
         self._movers = [(i, each) for i, each in enumerate(bodies.values()) if each.moves]
-        self._heights: Any = self._things.reshape(-1).data
-        grid, where = self._grid, self._address
-        pitched = (grid._slopes, grid._runs, grid._reaches, grid._cos)
+        self._heights: Any = self._heights_and_codes.reshape(-1).data
+        arrays, where = self._arrays, self._address
         self._job = _GRID.pack(
-            *grid.codes.shape,
+            *arrays.codes.shape,
             len(grounds),
             len(bodies),
-            *map(where, pitched),
-            *self._rays.addresses(),
+            *map(where, arrays[:4]),
+            *self._columns.addresses(),
             where(np.frombuffer(floors, np.uint8)),
             where(shapes),
-            where(self._things),
-            grid._miss,
-            *map(where, (grid.codes, grid.distances, self.undecided)),
+            where(self._heights_and_codes),
+            self._miss,
+            *map(where, (arrays.codes, arrays.distances, self.undecided)),
         )
 
-    def look(self, eye: tuple[float, float, float], bottom: float, ceiling: float) -> bool:
-        """Fills codes and distances.
+    def cast(self, eye: tuple[float, float, float], bottom: float, ceiling: float) -> bool:
+        """Fill codes and distances.
 
         Args:
-            eye: where it is, metres.
-            bottom: from which height something may stand behind what is first...
-            ceiling: ... to which.
+            eye: its position, metres.
+            bottom: height from which a ray may meet something behind the first body, metres.
+            ceiling: height up to which it may.
 
         Returns:
-            Whether all is done; else there are some ``undecided``, and all distances are still
-            those in the plane, infinite for nothing.
+            True if all is done; else some rays are ``undecided``, and all distances are still
+            those in the plane, infinite for a ray that meets nothing.
         """
         heights = self._heights
-        for i, body in self._movers:  # all else is where it was when the world was built
+        for i, body in self._movers:  # the others have not moved since the last update
             heights[3 * i] = z = body.z
             heights[3 * i + 1] = z + body.height
         return not self._look(self._job, *eye, bottom, ceiling)
@@ -111,18 +134,18 @@ class CompiledGrid:
         shape = region.description.shape
         kind, a, b = _lengths(shape)
         corners = np.array(shape.vertices if isinstance(shape, PolygonShape) else [(0.0, 0.0)])
-        place = region.x, region.y, region._cos, region._sin
+        place = region.x, region.y, region.cos, region.sin
         return _FLOOR.pack(kind, len(corners), top, code, *place, a, b, self._address(corners))
 
     def _address(self, array: Any) -> int:
-        """Where an array lies; it stays there as long as this is kept."""
+        """Return the address of an array, and keep the array alive."""
         self._kept.append(array)
         where: int = array.ctypes.data
         return where
 
 
 def _lengths(shape: RegionShape) -> tuple[int, float, float]:
-    """Which shape it is, and its lengths, as rays.c has them."""
+    """Return the number of a shape's kind and its lengths, as in rays.c."""
     match shape:
         case CircleShape():
             return 1, shape.radius, 0.0

@@ -1,7 +1,7 @@
-/* The loops over rays, for _segments.py and _grid.py; they say when they are used.
+/* The loops over rays, for segments.py and grid.py, which say when they are used.
  *
  * Nothing of Chipmunk is linked: its query is called through a pointer that comes with the job. The
- * numbers are those of the Python way to the last bit, so it has to be compiled without contraction
+ * results have the same bits as the Python code's, so it has to be compiled without contraction
  * (no a * b + c in one step).
  */
 

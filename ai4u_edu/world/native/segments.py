@@ -1,7 +1,7 @@
-"""Many rays from one point: three ways to ask pymunk, with the same numbers to the last bit.
+"""Many segments cast from one point: three implementations with the same bits.
 
-The compiled way is a loop in C, the quick way one in Python over Chipmunk's own query, the public
-way goes through pymunk's interface. :func:`segments` takes the first one that there is.
+The compiled one is a loop in C, the second one a loop in Python over Chipmunk's own query, the
+third one uses pymunk's public API. :func:`make_segments` takes the first one that is available.
 """
 
 from functools import cache
@@ -13,7 +13,14 @@ import numpy.typing as npt
 import pymunk
 from numpy import add, fmod, multiply
 
-from ai4u_edu.world.native.chipmunk import FAST, address, c_function, ffi, lib, shape_key
+from ai4u_edu.world.native.chipmunk import (
+    IS_NATIVE,
+    address_of,
+    compiled_function,
+    ffi,
+    lib,
+    shape_key,
+)
 
 _HIT = np.dtype(
     [("shape", "u8"), ("px", "f8"), ("py", "f8"), ("nx", "f8"), ("ny", "f8"), ("alpha", "f8")]
@@ -32,15 +39,15 @@ _WHOLE = np.ones(())
 
 
 class Segments:
-    """Casts n segments that start at one point and tells what each meets first: the public way.
+    """n segments from one point and the first shape that each meets; uses pymunk's public API.
 
     Args:
-        count: how many segments.
+        count: number of segments.
 
     Attributes:
-        directions: (n, 2) float64, where each segment points; written by the caller, unit vectors.
-        alpha: (n,) float64, the share of each segment up to what it meets; 1 for nothing.
-        distances: (n,) float64, metres to what each meets; 0 for nothing.
+        directions: (n, 2) float64 unit vectors, written by the caller.
+        alpha: (n,) float64, fraction of each segment up to its hit; 1 without a hit.
+        distances: (n,) float64, metres to each hit; 0 without a hit.
     """
 
     def __init__(self, count: int) -> None:
@@ -52,7 +59,7 @@ class Segments:
     def cast(
         self, space: pymunk.Space, x: float, y: float, reach: float, accept: pymunk.ShapeFilter
     ) -> None:
-        """Fills ``alpha`` and ``distances``, and what :meth:`shapes` tells."""
+        """Cast all segments: fill ``alpha``, ``distances`` and the result of :meth:`shapes`."""
         keys = []
         for i, (dx, dy) in enumerate(self.directions.tolist()):
             end = dx * reach + x, dy * reach + y
@@ -63,12 +70,12 @@ class Segments:
         self._shapes = keys
 
     def shapes(self) -> list[int]:
-        """What each met at the last cast, as :func:`shape_key` names it; 0 for nothing."""
+        """Return the :func:`shape_key` of each hit of the last cast; 0 without a hit."""
         return self._shapes
 
 
-class QuickSegments(Segments):
-    """The same through pymunk's cffi layer, into memory that is there already."""
+class CffiSegments(Segments):
+    """The same through pymunk's cffi layer, into preallocated memory."""
 
     def __init__(self, count: int) -> None:
         super().__init__(count)
@@ -84,7 +91,7 @@ class QuickSegments(Segments):
         ends = np.frombuffer(ffi.buffer(end_memory), np.float64)
         self._ends = ends.reshape(count, 2)
         # a pair (x, y) side by side is a complex number; for numpy, an array of one number is
-        # half the work of a number
+        # half the work of a Python number
         self._end_points, self._start_point = ends.view(np.complex128), np.zeros((), np.complex128)
         self._reach = np.zeros(())
         self._start, self._filter = ffi.new("cpVect *")[0], ffi.new("cpShapeFilter *")[0]
@@ -93,9 +100,9 @@ class QuickSegments(Segments):
     def cast(
         self, space: pymunk.Space, x: float, y: float, reach: float, accept: pymunk.ShapeFilter
     ) -> None:
-        """Fills ``alpha`` and ``distances``, and what :meth:`shapes` tells."""
+        """Cast all segments: fill ``alpha``, ``distances`` and the result of :meth:`shapes`."""
         chosen = self._filter
-        if accept is not self._accept:  # turned into Chipmunk's form once, not for each ray
+        if accept is not self._accept:  # converted once, not for each ray
             self._accept = accept
             chosen.group, chosen.categories, chosen.mask = accept
         self._reach[()], self._start_point[()] = reach, complex(x, y)
@@ -105,32 +112,32 @@ class QuickSegments(Segments):
         start.x, start.y = x, y
         for end, hit in self._pairs:
             first(handle, start, end, 0.0, chosen, hit)
-        # a ray that meets nothing has gone its whole way, and of 1 this leaves 0
+        # alpha is 1 without a hit, and fmod makes 0 of it
         fmod(self.alpha, _WHOLE, self.distances)
         multiply(self.distances, self._reach, self.distances)
 
     def shapes(self) -> list[int]:
-        """What each met at the last cast, as :func:`shape_key` names it; 0 for nothing."""
+        """Return the :func:`shape_key` of each hit of the last cast; 0 without a hit."""
         keys: list[int] = self._hits["shape"].tolist()
         return keys
 
 
-class CompiledSegments(QuickSegments):
-    """The same in one call of a loop in C; only where :func:`compiled` finds it."""
+class CompiledSegments(CffiSegments):
+    """The same in one call of a loop in C; only where :func:`compiled_cast` finds it."""
 
     def _prepare(self) -> None:
-        self._call = compiled()
+        self._call = compiled_cast()
         self._fan = ffi.new("char[]", _FAN.size)
         self._memory = ffi.buffer(self._fan)
 
     def cast(
         self, space: pymunk.Space, x: float, y: float, reach: float, accept: pymunk.ShapeFilter
     ) -> None:
-        """Fills ``alpha`` and ``distances``, and what :meth:`shapes` tells."""
+        """Cast all segments: fill ``alpha``, ``distances`` and the result of :meth:`shapes`."""
         if accept is not self._accept:
             self._accept = accept
             self._memory[:] = _FAN.pack(
-                address(ffi.addressof(lib, "cpSpaceSegmentQueryFirst")),
+                address_of(ffi.addressof(lib, "cpSpaceSegmentQueryFirst")),
                 len(self.directions),
                 *accept,
                 *self.addresses(),
@@ -138,31 +145,31 @@ class CompiledSegments(QuickSegments):
         self._call(self._fan, space._space, x, y, reach)
 
     def addresses(self) -> tuple[int, int, int]:
-        """Where directions, hits and distances lie, for what goes on with them in C."""
-        hits = address(self._hit_memory)
+        """Return the addresses of directions, hits and distances, for other compiled functions."""
+        hits = address_of(self._hit_memory)
         return self.directions.ctypes.data, hits, self.distances.ctypes.data
 
 
-def segments(count: int) -> Segments:
-    """So many segments, by the fastest way there is."""
-    if not FAST:
+def make_segments(count: int) -> Segments:
+    """Return segments of the fastest implementation that is available."""
+    if not IS_NATIVE:
         return Segments(count)
-    return QuickSegments(count) if compiled() is None else CompiledSegments(count)
+    return CffiSegments(count) if compiled_cast() is None else CompiledSegments(count)
 
 
 @cache
-def compiled() -> Any:
-    """The loop in C: (fan, space, x, y, reach); None where it can't be had.
+def compiled_cast() -> Any:
+    """Return the loop in C, called as (fan, space, x, y, reach); None where it is not available.
 
-    It calls Chipmunk's query by its address, so it is used only if that is what it was written for.
+    It calls Chipmunk's query by its address, so it is used only if the query has the known type.
     """
-    if not _as_expected():
+    if not _is_known():
         return None
-    return c_function("cast_fan", "void (*)(void *, void *, double, double, double)")
+    return compiled_function("cast_fan", "void (*)(void *, void *, double, double, double)")
 
 
-def _as_expected() -> bool:
-    """Whether pymunk's own declarations are those of rays.c."""
+def _is_known() -> bool:
+    """Return True if pymunk's declarations are those that rays.c was written for."""
     query = ffi.typeof(ffi.addressof(lib, "cpSpaceSegmentQueryFirst")).cname
     return query == _QUERY and all(
         ffi.sizeof(name) == size
