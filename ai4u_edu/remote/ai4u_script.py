@@ -7,7 +7,7 @@ import threading
 import time
 
 from ai4u_edu.remote.errors import RemoteError
-from ai4u_edu.wire.ai4u_dialogue import Dialogue, Heard, Phase, State
+from ai4u_edu.wire.ai4u_dialogue import AI4UDialogue, AI4UReply, Phase, State
 from ai4u_edu.wire.validation import WireError
 
 KNOCK_EVERY = 0.25
@@ -42,7 +42,7 @@ class AI4UScript:
     def __init__(
         self,
         port: int,
-        dialogue: Dialogue,
+        dialogue: AI4UDialogue,
         *,
         host: str = "127.0.0.1",
         patience: float = 5.0,
@@ -65,7 +65,7 @@ class AI4UScript:
         if sys.platform == "win32":  # there a refusal would be told of every later datagram
             self._socket.ioctl(0x9800000C, False)
 
-    def ask(self, state: State | None = None) -> Heard | None:
+    def ask(self, state: State | None = None) -> AI4UReply | None:
         """Says what is due, and waits for the reply.
 
         Nothing is ever said twice, other than knocks: the script would take one more for the next.
@@ -77,7 +77,7 @@ class AI4UScript:
             ScriptGoneError: there is no reply.
         """
         dialogue = self.dialogue
-        knocks = dialogue.phase is Phase.KNOCKING
+        knocks = dialogue.phase is Phase.CONNECTING
         self._drain()
         until = time.monotonic() + (KNOCK_EVERY if knocks else self._patience)
         try:
@@ -85,7 +85,7 @@ class AI4UScript:
             while (left := until - time.monotonic()) > 0:
                 self._socket.settimeout(min(left, LISTENING))
                 try:
-                    return dialogue.hear(self._socket.recv(2**16))
+                    return dialogue.parse_reply(self._socket.recv(2**16))
                 except WireError:
                     self.ignored += 1
                 except TimeoutError:
@@ -103,9 +103,9 @@ class AI4UScript:
 
     def say_goodbye(self) -> None:
         """Tells a script that the world has ended."""
-        if self.dialogue.phase not in (Phase.KNOCKING, Phase.OVER):
+        if self.dialogue.phase not in (Phase.CONNECTING, Phase.OVER):
             with contextlib.suppress(OSError):
-                self._socket.send(self.dialogue.farewell())
+                self._socket.send(self.dialogue.goodbye_request())
                 self._socket.settimeout(FAREWELL)
                 self._socket.recv(2**16)
         self.dialogue.begin()

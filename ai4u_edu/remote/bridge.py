@@ -23,7 +23,7 @@ from ai4u_edu.remote.sync_connection import StoppedError, SyncConnection
 from ai4u_edu.wire import ai4u_dialogue, native
 from ai4u_edu.wire.agent_codec import AgentCodec
 from ai4u_edu.wire.ai4u import Order, number
-from ai4u_edu.wire.ai4u_dialogue import Phase, State, Word
+from ai4u_edu.wire.ai4u_dialogue import Phase, ReplyKind, State
 from ai4u_edu.wire.validation import WireError
 
 SETTLE = 0.1
@@ -36,7 +36,7 @@ THINKING = (1e-4, 0.004)
 STILL_HERE = 0.25
 """Seconds between two words to the world while the script asks for time."""
 
-_ORDERS = {Word.PAUSE: "pause", Word.RESUME: "resume", Word.STOP: "stop"}
+_ORDERS = {ReplyKind.PAUSE: "pause", ReplyKind.RESUME: "resume", ReplyKind.STOP: "stop"}
 
 
 class _Reading(NamedTuple):
@@ -99,7 +99,7 @@ class Bridge:
         welcome = self._robot.welcome
         self._title = f"agent {welcome.agent!r} of {welcome.title!r}"
         self._codec = _codec_of(welcome)
-        dialogue = ai4u_dialogue.Dialogue(
+        dialogue = ai4u_dialogue.AI4UDialogue(
             script_id,
             metadata=self._codec.metadata,
             max_steps=welcome.max_steps,
@@ -168,10 +168,10 @@ class Bridge:
             if heard is None and not told and not script.is_over.is_set():
                 told = True
                 self._tell(f"no AI4U script listens at {script.where} yet; start it")
-            elif heard is not None and heard.word is Word.HALT:
+            elif heard is not None and heard.kind is ReplyKind.HALT:
                 script.dialogue.begin()
             elif heard is not None:
-                greets = script.dialogue.phase is Phase.GREETING
+                greets = script.dialogue.phase is Phase.HANDSHAKE
                 time.sleep(SETTLE if greets else POLL_EVERY)
         return False
 
@@ -187,16 +187,16 @@ class Bridge:
         state, waits, said = self._state(percept), 0, 0.0
         while not script.is_over.is_set():
             heard = script.ask(state)
-            word = heard.word if heard else Word.CONTROL
-            if word is Word.HALT:
+            word = heard.kind if heard else ReplyKind.CONTROL
+            if word is ReplyKind.HALT:
                 script.dialogue.begin()
                 self._tell("the AI4U script has ended; start another one, or end me with Ctrl-C")
-            if word in (Word.HALT, Word.CONTROL):
+            if word in (ReplyKind.HALT, ReplyKind.CONTROL):
                 return
-            if word is Word.WAIT and time.monotonic() - said > STILL_HERE:
+            if word is ReplyKind.WAIT and time.monotonic() - said > STILL_HERE:
                 self._connection.run(self._robot.wait())
                 said = time.monotonic()
-            waits = waits + 1 if word is Word.WAIT else 0
+            waits = waits + 1 if word is ReplyKind.WAIT else 0
             after = self._obeyed(word, heard.orders if heard else [], percept)
             if after is None:
                 step, most = THINKING
@@ -205,16 +205,20 @@ class Bridge:
                 percept, state = after, self._state(after)
 
     def _obeyed(
-        self, word: Word, orders: list[Order], percept: RemotePercept
+        self, word: ReplyKind, orders: list[Order], percept: RemotePercept
     ) -> RemotePercept | None:
         """Has the world do what the script asks for; what the agent senses then, if it did."""
         run, robot = self._connection.run, self._robot
-        if word is Word.RESET:
+        if word is ReplyKind.RESET:
             return run(robot.reset())
         if word in _ORDERS:
             run(robot.order(_ORDERS[word]))  # type: ignore[arg-type]  # they are what it takes
             return run(robot.sense())
-        if word is not Word.ACTION or percept.done or self._script.dialogue.phase is Phase.STARTED:
+        if (
+            word is not ReplyKind.ACTION
+            or percept.done
+            or self._script.dialogue.phase is Phase.STARTED
+        ):
             return None
         try:
             run(robot.act(_numbers(self._codec.action(orders))))

@@ -1,24 +1,29 @@
-"""Who says what when in AI4U's protocol, seen from the world's side; without a socket.
+"""The world's side of AI4U's protocol as a state machine, without I/O.
 
 ::
 
-    KNOCKING   is there a command?               -> whatever               GREETING
-    GREETING   handshake                         -> max_steps ...@id ...   POLLING
-    POLLING    is there a command?               -> __noop__               (asked again)
-                                                 -> __start_agent__        STARTED
-                                                 -> __reset__              PLAYING
-    STARTED    state, with done                  -> __waitnewaction__      (asked again)
-                                                 -> __reset__              PLAYING
-    PLAYING    state                             -> an action, __waitnewaction__, __reset__, ...
-                                                 -> __envcontrol__         POLLING
+    phase       request                        reply                     next phase
+    CONNECTING  poll for a command             any                       HANDSHAKE
+    HANDSHAKE   handshake                      max_steps ...@id ...      POLLING
+    POLLING     poll for a command             __noop__                  POLLING
+                                               __start_agent__           STARTED
+                                               __reset__                 PLAYING
+    STARTED     state, with done               __waitnewaction__         STARTED
+                                               __reset__                 PLAYING
+    PLAYING     state                          an action,
+                                               __waitnewaction__,
+                                               __reset__, ...            PLAYING
+                                               __envcontrol__            POLLING
 
-A script's ``halt`` ends the session at any time. AI4U's world is started after the script, and
-begins with the handshake. One that knocks until a script is there may meet it while it is still
-putting itself together, and what it says then would be forgotten: so it asks for a command first,
-which does no harm. What a script answers to that, it means; it is done after the handshake.
+A script's ``halt`` ends the session in any phase.
 
-There are no numbers in this protocol: that a reply is one to the request before can only be told by
-what it says, and what nobody can say in a phase is no reply.
+AI4U's own world is started after the script, and begins with the handshake. Ours looks for a script
+until there is one. A script that is still initialising would forget a handshake, so our world polls
+for a command first, which does no harm. If the script answers that with a command, the command
+takes effect after the handshake.
+
+The protocol has no sequence numbers. Only its content tells that a reply belongs to the last
+request; a reply that is not valid in the current phase is ignored.
 """
 
 from collections.abc import Sequence
@@ -42,18 +47,18 @@ COMMANDS = "restart, resume, start_and_reset, start"
 
 
 class Phase(Enum):
-    """How far a session is."""
+    """Phases of a session."""
 
-    KNOCKING = "knocking"
-    GREETING = "greeting"
+    CONNECTING = "connecting"
+    HANDSHAKE = "handshake"
     POLLING = "polling"
     STARTED = "started"
     PLAYING = "playing"
     OVER = "over"
 
 
-class Word(StrEnum):
-    """What a reply asks for."""
+class ReplyKind(StrEnum):
+    """Kinds of replies, by the command that they carry."""
 
     CONFIGURED = "max_steps"
     NOOP = "__noop__"
@@ -70,30 +75,37 @@ class Word(StrEnum):
     ACTION = "an action"
 
 
-WORDS = {
-    Phase.KNOCKING: {Word.NOOP, Word.START, Word.RESET, Word.RESTART},
-    Phase.GREETING: {Word.CONFIGURED, Word.HALT},
-    Phase.POLLING: {Word.NOOP, Word.START, Word.RESET, Word.RESTART, Word.HALT},
-    Phase.STARTED: set(Word) - {Word.CONFIGURED, Word.START},
-    Phase.PLAYING: set(Word) - {Word.CONFIGURED, Word.START},
-    Phase.OVER: {Word.HALT},
+_COMMANDS = {ReplyKind.NOOP, ReplyKind.START, ReplyKind.RESET, ReplyKind.RESTART}
+VALID_KINDS = {
+    Phase.CONNECTING: {ReplyKind.NOOP, ReplyKind.START, ReplyKind.RESET, ReplyKind.RESTART},
+    Phase.HANDSHAKE: {ReplyKind.CONFIGURED, ReplyKind.HALT},
+    Phase.POLLING: {
+        ReplyKind.NOOP,
+        ReplyKind.START,
+        ReplyKind.RESET,
+        ReplyKind.RESTART,
+        ReplyKind.HALT,
+    },
+    Phase.STARTED: set(ReplyKind) - {ReplyKind.CONFIGURED, ReplyKind.START},
+    Phase.PLAYING: set(ReplyKind) - {ReplyKind.CONFIGURED, ReplyKind.START},
+    Phase.OVER: {ReplyKind.HALT},
 }
-"""What can be said when."""
+"""Kinds of replies that are valid in each phase."""
 
 
-class Heard(NamedTuple):
-    """A reply."""
+class AI4UReply(NamedTuple):
+    """A reply of a script, parsed."""
 
-    word: Word
+    kind: ReplyKind
     orders: list[Order]
-    """All commands of it; of an action the first has the actuator's name."""
+    """All of its commands; the first one of an action has the actuator's name."""
 
 
 class State(NamedTuple):
-    """What a script is told of an agent."""
+    """The state of an agent, as it is sent to a script."""
 
     sensors: Sequence[bytes]
-    """Their readings, packed, without those named as one of the following."""
+    """Their readings, encoded, without those that have the name of one of the following fields."""
     reward: float
     steps: int
     done: bool
@@ -103,30 +115,30 @@ class State(NamedTuple):
 
 
 STANDARD = ("done", "reward", "id", "steps", "truncated")
-"""Readings that every state has, whether or not there are sensors of that name."""
+"""Names of the fields that every state has, whether or not sensors have these names."""
 
 
-class Dialogue:
-    """One world's sessions with a script, one after another.
+class AI4UDialogue:
+    """The world's side of AI4U's protocol: one session with a script after another, without I/O.
 
     Args:
         agent: the agent's id.
-        max_steps: decisions after which an episode is cut off.
-        metadata: as :func:`~ai4u_edu.wire.ai4u_metadata.metadata` makes it.
+        max_steps: decisions after which an episode is truncated.
+        metadata: from :func:`~ai4u_edu.wire.ai4u_metadata.metadata`.
         skip_frame: ticks skipped between two decisions.
-        repeat_action: whether an action is applied on each of them.
+        repeat_action: whether an action is applied on each of these ticks.
 
-    >>> dialogue = Dialogue("0", metadata="{}")
+    >>> dialogue = AI4UDialogue("0", metadata="{}")
     >>> dialogue.request(None)[:40]
     b'   4  10__target__3      10envcontrol  1'
-    >>> dialogue.hear(b"__noop__;1;0").word, dialogue.phase
-    (<Word.NOOP: '__noop__'>, <Phase.GREETING: 'greeting'>)
+    >>> dialogue.parse_reply(b"__noop__;1;0").kind, dialogue.phase
+    (<ReplyKind.NOOP: '__noop__'>, <Phase.HANDSHAKE: 'greeting'>)
     >>> handshake = dialogue.request(None)
-    >>> dialogue.hear(b"max_steps;1;0@id;1;0").word, dialogue.phase
-    (<Word.CONFIGURED: 'max_steps'>, <Phase.POLLING: 'polling'>)
+    >>> dialogue.parse_reply(b"max_steps;1;0@id;1;0").kind, dialogue.phase
+    (<ReplyKind.CONFIGURED: 'max_steps'>, <Phase.POLLING: 'polling'>)
     >>> poll = dialogue.request(None)
-    >>> dialogue.hear(b"__reset__;1;0").word, dialogue.phase
-    (<Word.RESET: '__reset__'>, <Phase.PLAYING: 'playing'>)
+    >>> dialogue.parse_reply(b"__reset__;1;0").kind, dialogue.phase
+    (<ReplyKind.RESET: '__reset__'>, <Phase.PLAYING: 'playing'>)
     """
 
     def __init__(
@@ -139,11 +151,11 @@ class Dialogue:
         repeat_action: bool = True,
     ) -> None:
         self.agent = agent
-        self.phase = Phase.KNOCKING
+        self.phase = Phase.CONNECTING
         self.in_flight = False
-        """Whether a request is on its way; the next one has to wait for the reply."""
+        """True while a request waits for its reply; no other one may be sent."""
         self._last = ""
-        self._meant = Word.NOOP
+        self._first_kind = ReplyKind.NOOP
         self._id = Field("id", Kind.TEXT, agent)
         self._handshake = encode_request(
             (
@@ -155,8 +167,8 @@ class Dialogue:
             )
         )
         self._reward, self._steps = packer("reward", Kind.FLOAT), packer("steps", Kind.INT)
-        self._told: tuple[State, Phase, bytes] | None = None
-        """What was told last, and how: a script that asks for time is told the same again."""
+        self._last_request: tuple[State, Phase, bytes] | None = None
+        """The last state request; a script that asks for time gets the same bytes again."""
         self._always = [
             packed(field)
             for field in (
@@ -170,59 +182,59 @@ class Dialogue:
         ]
 
     def begin(self) -> None:
-        """Forgets the session; the next request knocks."""
-        self.phase, self.in_flight, self._last = Phase.KNOCKING, False, ""
+        """Forget the session; the next request looks for a script."""
+        self.phase, self.in_flight, self._last = Phase.CONNECTING, False, ""
 
     def request(self, state: State | None) -> bytes:
-        """What is to be sent now.
+        """Return the next request.
 
         Args:
-            state: of the agent; needed when started and while playing.
+            state: of the agent; needed in the phases STARTED and PLAYING.
         """
         self.in_flight = True
         phase = self.phase
-        if state is None or phase not in _TOLD:
-            return self._handshake if phase is Phase.GREETING else self._poll()
-        told = self._told
-        if told is None or told[0] is not state or told[1] is not phase:
+        if state is None or phase not in _STATE_PHASES:
+            return self._handshake if phase is Phase.HANDSHAKE else self._poll()
+        last = self._last_request
+        if last is None or last[0] is not state or last[1] is not phase:
             request = self._state(state, done=state.done or phase is Phase.STARTED)
-            self._told = told = state, phase, request
-        return told[2]
+            self._last_request = last = state, phase, request
+        return last[2]
 
-    def hear(self, reply: bytes) -> Heard:
-        """Takes a reply.
+    def parse_reply(self, reply: bytes) -> AI4UReply:
+        """Parse a reply, and go on to the phase that follows it.
 
         Raises:
-            WireError: it is garbage, or nothing that can be said now; it counts as not heard.
+            WireError: it is malformed, or not valid in this phase; the phase stays as it is.
         """
         orders = decode_reply(reply)
         name = orders[0].name
-        word = _WORDS.get(name, Word.ACTION)
-        if word not in WORDS[self.phase]:
+        kind = _KINDS.get(name, ReplyKind.ACTION)
+        if kind not in VALID_KINDS[self.phase]:
             raise WireError(f"nothing that can be said while {self.phase.value}: {name!r}")
-        if word is Word.CONFIGURED and Order("id", (self.agent,)) not in orders[1:]:
+        if kind is ReplyKind.CONFIGURED and Order("id", (self.agent,)) not in orders[1:]:
             raise WireError(f"expected an answer for agent {self.agent!r}, got {orders[1:]}")
         self.in_flight, self._last = False, name
-        if self.phase is Phase.KNOCKING:
-            self.phase, self._meant = Phase.GREETING, word
-            return Heard(Word.NOOP, orders)
-        if word is Word.CONFIGURED and self._meant is not Word.NOOP:
-            word = self._meant
-        match word:
-            case Word.ACTION | Word.WAIT:
+        if self.phase is Phase.CONNECTING:
+            self.phase, self._first_kind = Phase.HANDSHAKE, kind
+            return AI4UReply(ReplyKind.NOOP, orders)
+        if kind is ReplyKind.CONFIGURED and self._first_kind is not ReplyKind.NOOP:
+            kind = self._first_kind
+        match kind:
+            case ReplyKind.ACTION | ReplyKind.WAIT:
                 pass  # most replies
-            case Word.CONFIGURED | Word.CONTROL:
+            case ReplyKind.CONFIGURED | ReplyKind.CONTROL:
                 self.phase = Phase.POLLING
-            case Word.START:
+            case ReplyKind.START:
                 self.phase = Phase.STARTED
-            case Word.RESET | Word.RESTART:
+            case ReplyKind.RESET | ReplyKind.RESTART:
                 self.phase = Phase.PLAYING
-            case Word.HALT:
+            case ReplyKind.HALT:
                 self.phase = Phase.OVER
-        return Heard(Word.RESET if word is Word.RESTART else word, orders)
+        return AI4UReply(ReplyKind.RESET if kind is ReplyKind.RESTART else kind, orders)
 
-    def farewell(self) -> bytes:
-        """The last request; its reply is ``halt``."""
+    def goodbye_request(self) -> bytes:
+        """Return the last request; its reply is ``halt``."""
         self.phase, self.in_flight = Phase.OVER, True
         return encode_request(
             (
@@ -233,7 +245,7 @@ class Dialogue:
         )
 
     def _poll(self) -> bytes:
-        # the script looks for fields by name, and would take these for requests
+        # the script would take fields of these names for requests
         last = "" if self._last in ("max_steps", "__stop__") else self._last
         return encode_request(
             (
@@ -259,11 +271,11 @@ class Dialogue:
         )
 
 
-def _switch(name: str) -> dict[bool, bytes]:
+def _encoded_bools(name: str) -> dict[bool, bytes]:
     return {on: packed(Field(name, Kind.BOOL, on)) for on in (False, True)}
 
 
-_DONE, _TRUNCATED = _switch("done"), _switch("truncated")
-_PAUSED, _STOPPED = _switch("__ctrl_paused__"), _switch("__ctrl_stopped__")
-_TOLD = (Phase.PLAYING, Phase.STARTED)
-_WORDS = {word.value: word for word in Word if word is not Word.ACTION}
+_DONE, _TRUNCATED = _encoded_bools("done"), _encoded_bools("truncated")
+_PAUSED, _STOPPED = _encoded_bools("__ctrl_paused__"), _encoded_bools("__ctrl_stopped__")
+_STATE_PHASES = (Phase.PLAYING, Phase.STARTED)
+_KINDS = {kind.value: kind for kind in ReplyKind if kind is not ReplyKind.ACTION}

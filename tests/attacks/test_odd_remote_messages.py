@@ -182,7 +182,7 @@ def test_no_odd_value_gets_through(kind: type[native.Message]) -> None:
 @pytest.fixture
 def quiet(caplog: pytest.LogCaptureFixture, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
     """A room says nothing in its log, and listens to as many odd frames as a test has."""
-    monkeypatch.setattr(sockets, "PER_SECOND", 1_000_000)
+    monkeypatch.setattr(sockets, "MAX_STRAY_FRAMES_PER_S", 1_000_000)
     with caplog.at_level(logging.INFO):
         yield
     assert [each.getMessage() for each in caplog.records if each.levelno > logging.INFO] == []
@@ -254,7 +254,7 @@ def test_a_world_refuses_them_and_the_session_goes_on(place: int) -> None:
 def test_a_world_refuses_an_odd_hello_and_hears_the_next_one(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr(sockets, "MISTAKES", 1_000_000)
+    monkeypatch.setattr(sockets, "MAX_MALFORMED_FRAMES", 1_000_000)
     right = native.Hello(native.VERSION, "a", "", "lockstep", ("id",), "", SECRET, "coast")
     with log_room(grace=0.0) as room:
         script = Script(room)

@@ -31,10 +31,10 @@ from ai4u_edu import (
     World,
 )
 from ai4u_edu.blocks.brains.links.ai4u_codec import AI4UCodec
-from ai4u_edu.blocks.brains.links.link import Situation, offer_of
+from ai4u_edu.blocks.brains.links.link import Observation, describe_agent
 from ai4u_edu.runtime.process_tuning import tuned_process
 from ai4u_edu.runtime.runner import Runner
-from ai4u_edu.wire.ai4u_dialogue import Dialogue, Phase
+from ai4u_edu.wire.ai4u_dialogue import AI4UDialogue, Phase
 from ai4u_edu.world import BodyView, WorldView
 from tests.remote.test_ai4u_package import free_port, run_script
 
@@ -125,9 +125,9 @@ def respond(port: int, ended: threading.Event) -> None:
     sim = Scene.load("box_chase").build()
     sim.reset(1)
     agent = sim.agents[0]
-    codec = AI4UCodec(offer_of(agent, skip_frame=4, repeat_action=True, tick=1 / 60))
+    codec = AI4UCodec(describe_agent(agent, skip_frame=4, repeat_action=True, tick=1 / 60))
     state = codec.state(
-        Situation(
+        Observation(
             number=1,
             episode=1,
             percept=agent.percept,
@@ -141,7 +141,7 @@ def respond(port: int, ended: threading.Event) -> None:
             stopped=False,
         )
     )
-    dialogue = Dialogue("0", metadata=codec.metadata)
+    dialogue = AI4UDialogue("0", metadata=codec.metadata)
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as udp:
         udp.connect(("127.0.0.1", port))
         udp.settimeout(0.5)
@@ -157,7 +157,7 @@ def respond(port: int, ended: threading.Event) -> None:
             except OSError:
                 continue
             if not same:
-                dialogue.hear(reply)
+                dialogue.parse_reply(reply)
 
 
 if __name__ == "__main__":

@@ -27,17 +27,17 @@ from ai4u_edu import (
 from ai4u_edu.base.errors import ParameterError, SetupError
 from ai4u_edu.blocks.brains.links.ai4u_codec import AI4UCodec
 from ai4u_edu.blocks.brains.links.link import (
-    Answered,
+    AgentSpec,
     LinkState,
-    Offer,
+    Observation,
+    Reply,
     Reset,
-    Situation,
-    offer_of,
+    describe_agent,
 )
 from ai4u_edu.blocks.brains.patience import YIELD_AFTER_S
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.wire.ai4u import Order, decode_request
-from ai4u_edu.wire.ai4u_dialogue import Dialogue, Phase
+from ai4u_edu.wire.ai4u_dialogue import AI4UDialogue, Phase
 from tests.builders import small_sim
 
 AHEAD = {"move": [1, 0, 0, 0]}
@@ -51,32 +51,32 @@ class PaperLink:
         self.state = LinkState.CONNECTED
         self.reason = ""
         self.ignored = 0
-        self.heard = 0.0
-        self.expecting = True
-        self.will_call = False
-        self.told: list[Situation] = []
+        self.time_asked_at = 0.0
+        self.expects_reply = True
+        self.will_notify = False
+        self.told: list[Observation] = []
         self.refused: list[str] = []
         self.may_try_again = False
         self.timeouts: list[float] = []
         self.closed = ""
         self.idled = 0
 
-    def open(self, offer: Offer) -> None:
+    def open(self, offer: AgentSpec) -> None:
         self.offer = offer
 
-    def tell(self, situation: Situation) -> None:
+    def tell(self, situation: Observation) -> None:
         self.told.append(situation)
 
-    def ask(self, situation: Situation, timeout: float) -> Answered | None:
+    def ask(self, situation: Observation, timeout: float) -> Reply | None:
         self.timeouts.append(timeout)
         if not self.told or self.told[-1] is not situation:
             self.told.append(situation)
         answer = self.answers.pop(0) if self.answers else None
-        if answer is None or isinstance(answer, Answered):
+        if answer is None or isinstance(answer, Reply):
             return answer
-        return Answered(answer, situation)
+        return Reply(answer, situation)
 
-    def refuse(self, answered: Answered, reason: str) -> bool:
+    def refuse(self, answered: Reply, reason: str) -> bool:
         self.refused.append(reason)
         return self.may_try_again
 
@@ -93,7 +93,7 @@ def over(link: PaperLink, **fields: Any) -> Any:
         for name in ("mode", "on_missing", "receive_timeout", "skip_frame")
         if name in fields
     }
-    brain = RemoteBrain.over(link, **({"skip_frame": 0} | brain_fields))
+    brain = RemoteBrain.with_link(link, **({"skip_frame": 0} | brain_fields))
     sim = small_sim([BearingSensor(target="box")], brains=[brain], **fields)
     return sim, brain
 
@@ -114,7 +114,7 @@ def test_who_drives_in_its_place_decides_and_its_answers_are_counted() -> None:
     link = PaperLink(AHEAD, AHEAD, None, Command.STOP, Reset(7), AHEAD)
     sim, brain = over(link)
     sim.tick()
-    brain.lend(LocalBrain(controller=lambda _: back))
+    brain.begin_override(LocalBrain(controller=lambda _: back))
     for _ in range(3):
         sim.tick()
         assert sim.agents[0].last_action["move"][0] == -1
@@ -125,7 +125,7 @@ def test_who_drives_in_its_place_decides_and_its_answers_are_counted() -> None:
     assert brain.status().state == "connected"
     sim.tick()  # a reset is not an action
     assert (sim.episode, sim.world.seeds.seed) == (2, 7)
-    brain.take_back()
+    brain.end_override()
     sim.tick()
     assert sim.agents[0].last_action["move"][0] == 1
 
@@ -135,7 +135,7 @@ def test_a_person_who_restarts_asks_for_no_seed_of_the_scripts() -> None:
     sim, brain = over(link)
     sim.tick()
     assert brain.restart_seed() == 7
-    brain.lend(LocalBrain(controller=lambda _: Command.RESTART))
+    brain.begin_override(LocalBrain(controller=lambda _: Command.RESTART))
     sim.tick()
     assert sim.episode == 3
     assert sim.world.seeds.seed != 7
@@ -159,14 +159,14 @@ def test_who_waits_for_a_call_keeps_the_world_waiting() -> None:
     sim, brain = over(link)
     sim.tick()
     assert (sim.waiting_for_brain, brain.keeps_waiting) == (True, False)  # it has to be asked
-    link.will_call = True
+    link.will_notify = True
     assert brain.keeps_waiting
-    brain.lend(LocalBrain(controller=lambda _: {}))
+    brain.begin_override(LocalBrain(controller=lambda _: {}))
     assert not brain.keeps_waiting
-    brain.take_back()
-    link.will_call = False
+    brain.end_override()
+    link.will_notify = False
     sim.tick()
-    link.will_call = True
+    link.will_notify = True
     assert (sim.waiting_for_brain, brain.keeps_waiting) == (
         False,
         True,
@@ -186,7 +186,7 @@ def test_a_call_ticks_nothing_and_a_world_that_was_called_is_not_asked_again_in_
     runner.advance()
     assert sim.waiting_for_brain
     link.answers.append(AHEAD)
-    link.will_call = True
+    link.will_notify = True
     link.timeouts.clear()
     runner.expect_answer()
     runner.notify_answer()
@@ -205,7 +205,7 @@ def pair(link: PaperLink, controller: Any) -> ControlRequestor:
     world = World()
     agents = []
     for index, brain in enumerate(
-        (RemoteBrain.over(link, skip_frame=0), LocalBrain(controller=controller, skip_frame=4))
+        (RemoteBrain.with_link(link, skip_frame=0), LocalBrain(controller=controller, skip_frame=4))
     ):
         world.add_body(f"robot{index}", CircleShape(), position=(0, 3 * index))
         agents.append(
@@ -263,7 +263,7 @@ def test_a_script_that_asks_for_time_does_not_stop_the_others_for_long() -> None
     began = time.monotonic()
     while sim.world.ticks < 5:
         assert time.monotonic() < began + 5
-        link.heard = time.monotonic()
+        link.time_asked_at = time.monotonic()
         sim.tick()
     assert time.monotonic() - began >= YIELD_AFTER_S
     assert [agent.steps for agent in sim.agents] == [0, 1]
@@ -288,7 +288,7 @@ def test_a_lost_script_is_replaced_by_the_policy(on_missing: str, action: dict[s
 
 def test_while_it_waits_for_a_script_the_agent_takes_no_decisions() -> None:
     link = PaperLink()
-    link.state, link.expecting = LinkState.WAITING, False
+    link.state, link.expects_reply = LinkState.WAITING, False
     sim, brain = over(link)
     for _ in range(3):
         sim.tick()
@@ -326,7 +326,7 @@ def test_a_script_that_was_given_up_is_not_waited_for() -> None:
     link = PaperLink(AHEAD)
     sim, brain = silent_sim(link)
     link.timeouts.clear()
-    link.will_call = True
+    link.will_notify = True
     for missing in range(2, 30):
         sim.tick()
         assert not sim.waiting_for_brain
@@ -346,13 +346,13 @@ def test_a_script_that_was_given_up_is_waited_for_again_once_it_speaks(speaks: s
     sim.tick()
     match speaks:
         case "late":
-            link.answers.append(Answered({"move": [0, 1, 0, 0]}, link.told[1]))
+            link.answers.append(Reply({"move": [0, 1, 0, 0]}, link.told[1]))
         case "now":
             link.answers.append(AHEAD)
         case "resets":
             link.answers.append(Reset())
         case "asks for time":
-            link.heard = time.monotonic()
+            link.time_asked_at = time.monotonic()
     sim.tick()
     assert sim.agents[0].last_action != {"move": (0.0, 1.0, 0.0, 0.0)}
     sim.tick()
@@ -378,7 +378,7 @@ def test_a_late_answer_in_lockstep_is_dropped_and_counted() -> None:
     link = PaperLink(AHEAD)
     sim, brain = over(link)
     sim.tick()
-    link.answers.append(Answered({"move": [0, 1, 0, 0]}, link.told[0]))  # that one is answered
+    link.answers.append(Reply({"move": [0, 1, 0, 0]}, link.told[0]))  # that one is answered
     sim.tick()
     assert sim.waiting_for_brain
     assert brain.status().ignored == 1
@@ -392,10 +392,10 @@ def test_in_real_time_nobody_waits_and_a_late_answer_is_for_the_next_decision() 
         sim.tick()
     assert set(link.timeouts) == {0.0}
     assert (sim.agents[0].steps, brain.status().missing) == (2, 2)
-    link.answers.append(Answered(AHEAD, link.told[0]))
+    link.answers.append(Reply(AHEAD, link.told[0]))
     sim.tick()
     assert sim.agents[0].last_action == {"move": (1.0, 0.0, 0.0, 0.0)}
-    link.answers += [Answered(AHEAD, link.told[0])]
+    link.answers += [Reply(AHEAD, link.told[0])]
     sim.reset()
     sim.tick()
     assert sim.agents[0].last_action == {}  # it was meant for another episode
@@ -412,7 +412,7 @@ def test_in_real_time_a_script_is_told_as_soon_as_the_agent_has_sensed() -> None
     assert [told.steps for told in link.told] == [0, 1]
     assert link.told[-1].percept is agent.percept
     assert link.told[-1].tick == sim.world.ticks == 2
-    link.answers.append(Answered(AHEAD, link.told[-1]))  # in time for the very next tick
+    link.answers.append(Reply(AHEAD, link.told[-1]))  # in time for the very next tick
     sim.tick()
     assert agent.last_action == {"move": (1.0, 0.0, 0.0, 0.0)}
     before = len(agent.end_of_update_state.handlers)
@@ -505,7 +505,7 @@ def test_another_brain_closes_it_and_it_can_be_opened_again() -> None:
     link = PaperLink(AHEAD)
     sim, brain = over(link)
     agent = sim.agents[0]
-    agent.use_brain(RemoteBrain.over(PaperLink()))
+    agent.use_brain(RemoteBrain.with_link(PaperLink()))
     assert link.closed
     with pytest.raises(SetupError, match=r"was closed; expected agent.use_brain"):
         brain.decide(agent.percept)
@@ -537,10 +537,10 @@ def test_wrong_parameters(fields: dict[str, Any], says: str) -> None:
 # -- in AI4U's words -------------------------------------------------------------------------------
 
 
-def codec_of(sim: Any) -> tuple[AI4UCodec, Situation]:
+def codec_of(sim: Any) -> tuple[AI4UCodec, Observation]:
     agent = sim.agents[0]
-    offer = offer_of(agent, skip_frame=4, repeat_action=True, tick=1 / 60)
-    situation = Situation(
+    offer = describe_agent(agent, skip_frame=4, repeat_action=True, tick=1 / 60)
+    situation = Observation(
         number=1,
         episode=1,
         percept=agent.percept,
@@ -572,7 +572,7 @@ def test_pictures_go_out_as_one_png_a_channel_and_numbers_flat() -> None:
     }
     grid = inputs["local_grid"]
     assert (grid["type"], grid["rangeMin"], grid["rangeMax"]) == (7, 0.0, 255.0)
-    dialogue = Dialogue("0", metadata=codec.metadata)
+    dialogue = AI4UDialogue("0", metadata=codec.metadata)
     dialogue.phase = Phase.PLAYING
     fields = {
         field.name: field for field in decode_request(dialogue.request(codec.state(situation)))
@@ -586,7 +586,7 @@ def test_pictures_go_out_as_one_png_a_channel_and_numbers_flat() -> None:
 
 def test_a_sensor_with_a_standard_name_is_sent_once() -> None:
     codec, situation = codec_of(small_sim([BearingSensor(target="box"), StepSensor()]))
-    dialogue = Dialogue("0", metadata=codec.metadata)
+    dialogue = AI4UDialogue("0", metadata=codec.metadata)
     dialogue.phase = Phase.PLAYING
     names = [field.name for field in decode_request(dialogue.request(codec.state(situation)))]
     assert names.count("steps") == 1
@@ -617,7 +617,7 @@ def test_a_percepts_floats_arrive_as_they_are() -> None:
     sim.agents[0].body.move_to(0.3, 0.7, heading=1.1)
     sim.agents[0].sense()
     codec, situation = codec_of(sim)
-    dialogue = Dialogue("0", metadata=codec.metadata)
+    dialogue = AI4UDialogue("0", metadata=codec.metadata)
     dialogue.phase = Phase.PLAYING
     fields = {
         field.name: field for field in decode_request(dialogue.request(codec.state(situation)))

@@ -10,12 +10,12 @@ from pydantic import Field
 from ai4u_edu import FloatArrayCompositeSensor, Sensor, check_scene, check_sensor
 from ai4u_edu.base.errors import BlockError, ReadingError
 from ai4u_edu.blocks import Layout, Percept
-from ai4u_edu.blocks.brains.links.link import Reading
+from ai4u_edu.blocks.brains.links.link import ReadingSpec
 from ai4u_edu.envs.spaces_of import Observer
 from ai4u_edu.recording.checksum import percept_checksum
 from ai4u_edu.remote import connect
 from ai4u_edu.remote.spaces import reading_space
-from ai4u_edu.server.scripts.welcome import Excerpt
+from ai4u_edu.server.scripts.welcome import ObservationSubset
 from ai4u_edu.snapshot import capture_snapshot
 from ai4u_edu.viewer.panel.readings import reading
 from ai4u_edu.wire import native
@@ -100,13 +100,13 @@ def test_our_own_protocol_carries_them() -> None:
 
 def test_too_many_are_cut_off_at_a_whole_text() -> None:
     (agent,) = small_sim([Signs(words=["x" * 1000] * 9)]).agents
-    _, texts = Excerpt(agent, ["signs"]).of(agent.percept)
+    _, texts = ObservationSubset(agent, ["signs"]).extract(agent.percept)
     assert len(texts[0]) <= native.LONGEST_READ
     assert unpack_texts(texts[0]) == ("x" * 1000,) * 3
 
 
 def test_ai4us_protocol_carries_them_as_type_7() -> None:
-    signs = Reading("signs", "sstrings", spaces.Sequence(spaces.Text(20)), "", is_input=True)
+    signs = ReadingSpec("signs", "sstrings", spaces.Sequence(spaces.Text(20)), "", is_input=True)
     codec = AgentCodec([signs], [])
     assert codec.metadata == '{"inputs": [], "outputs": []}'
     assert codec.sensors({"signs": ("left", "stop")}) == [b"   5signs7       9left stop"]

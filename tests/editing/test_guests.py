@@ -17,9 +17,9 @@ class Line:
     state = LinkState.CONNECTED
     reason = ""
     ignored = 0
-    heard = 0.0
-    expecting = False
-    will_call = False
+    time_asked_at = 0.0
+    expects_reply = False
+    will_notify = False
 
     def __init__(self) -> None:
         self.opened: list[Any] = []
@@ -97,7 +97,7 @@ def test_one_who_took_over_stays(shop: Shop) -> None:
 
 def test_a_script_that_was_told_what_it_senses_has_to_come_again(shop: Shop) -> None:
     line = Line()
-    brain = RemoteBrain.over(line, mode="realtime")
+    brain = RemoteBrain.with_link(line, mode="realtime")
     shop.agent.use_brain(brain)
     shop.tick(2)
     shop.done(shop.editor.move_body("wall", -4, 1))  # that changes nothing for it
@@ -113,7 +113,7 @@ def test_a_script_that_was_told_what_it_senses_has_to_come_again(shop: Shop) -> 
 
 def test_a_change_that_fails_leaves_the_driver_in_its_place(shop: Shop) -> None:
     line = Line()
-    brain = RemoteBrain.over(line, mode="realtime")
+    brain = RemoteBrain.with_link(line, mode="realtime")
     shop.agent.use_brain(brain)
     fitting = shop.agent.bound_blocks
     with pytest.raises(Exception, match="perception_key"):

@@ -2,6 +2,7 @@
 
 import asyncio
 import math
+from types import SimpleNamespace
 from typing import Any
 
 import pytest
@@ -9,34 +10,38 @@ from hypothesis import settings
 from hypothesis import strategies as st
 from hypothesis.stateful import RuleBasedStateMachine, initialize, invariant, rule
 
-from ai4u_edu.blocks.brains.links.link import Answered, Situation
+from ai4u_edu.blocks.brains.links.link import Observation, Reply
 from ai4u_edu.blocks.brains.links.link import Reset as ResetAnswer
-from ai4u_edu.server.scripts.outbox import Line
+from ai4u_edu.server.scripts.outbox import Outbox
 from ai4u_edu.server.scripts.session import Session
 from ai4u_edu.wire import native
 from ai4u_edu.wire.ai4u import decode_request
-from ai4u_edu.wire.ai4u_dialogue import WORDS, Dialogue, Phase, State, Word
+from ai4u_edu.wire.ai4u_dialogue import VALID_KINDS, AI4UDialogue, Phase, ReplyKind, State
 from ai4u_edu.wire.validation import WireError
 
 SAYABLE = {
-    Word.CONFIGURED: b"max_steps;1;0@id;1;0",
-    Word.ACTION: b"move;2;1.0;0.5",
+    ReplyKind.CONFIGURED: b"max_steps;1;0@id;1;0",
+    ReplyKind.ACTION: b"move;2;1.0;0.5",
 } | {
     word: f"{word.value};1;0".encode()
-    for word in Word
-    if word not in (Word.CONFIGURED, Word.ACTION, Word.HALT)
+    for word in ReplyKind
+    if word not in (ReplyKind.CONFIGURED, ReplyKind.ACTION, ReplyKind.HALT)
 }
-SAYABLE[Word.HALT] = b"halt"
+SAYABLE[ReplyKind.HALT] = b"halt"
 NEXT = {
-    (Phase.GREETING, Word.CONFIGURED): Phase.POLLING,
-    **{(phase, Word.HALT): Phase.OVER for phase in Phase if phase is not Phase.KNOCKING},
+    (Phase.HANDSHAKE, ReplyKind.CONFIGURED): Phase.POLLING,
+    **{(phase, ReplyKind.HALT): Phase.OVER for phase in Phase if phase is not Phase.CONNECTING},
     **{(phase, word): Phase.PLAYING for phase in (Phase.POLLING, Phase.STARTED, Phase.PLAYING)
-       for word in (Word.RESET, Word.RESTART)},
-    (Phase.POLLING, Word.START): Phase.STARTED,
-    (Phase.STARTED, Word.CONTROL): Phase.POLLING,
-    (Phase.PLAYING, Word.CONTROL): Phase.POLLING,
+       for word in (ReplyKind.RESET, ReplyKind.RESTART)},
+    (Phase.POLLING, ReplyKind.START): Phase.STARTED,
+    (Phase.STARTED, ReplyKind.CONTROL): Phase.POLLING,
+    (Phase.PLAYING, ReplyKind.CONTROL): Phase.POLLING,
 }  # fmt: skip
-MEANT = {Word.START: Phase.STARTED, Word.RESET: Phase.PLAYING, Word.RESTART: Phase.PLAYING}
+MEANT = {
+    ReplyKind.START: Phase.STARTED,
+    ReplyKind.RESET: Phase.PLAYING,
+    ReplyKind.RESTART: Phase.PLAYING,
+}
 """What a script that is knocked at says is done after the handshake."""
 
 
@@ -45,8 +50,8 @@ class AI4USession(RuleBasedStateMachine):
 
     def __init__(self) -> None:
         super().__init__()
-        self.dialogue = Dialogue("0", metadata="{}")
-        self.phase = Phase.KNOCKING
+        self.dialogue = AI4UDialogue("0", metadata="{}")
+        self.phase = Phase.CONNECTING
         self.meant: Phase | None = None
 
     @rule(done=st.booleans(), reward=st.floats(allow_nan=False, allow_infinity=False))
@@ -57,16 +62,16 @@ class AI4USession(RuleBasedStateMachine):
         assert ("reward" in names) == (self.phase in (Phase.STARTED, Phase.PLAYING))
         assert self.dialogue.in_flight
 
-    @rule(word=st.sampled_from(Word))
-    def hear(self, word: Word) -> None:
-        if word not in WORDS[self.phase]:
+    @rule(word=st.sampled_from(ReplyKind))
+    def hear(self, word: ReplyKind) -> None:
+        if word not in VALID_KINDS[self.phase]:
             with pytest.raises(WireError, match="nothing that can be said while"):
-                self.dialogue.hear(SAYABLE[word])
+                self.dialogue.parse_reply(SAYABLE[word])
             return
-        self.dialogue.hear(SAYABLE[word])
-        if self.phase is Phase.KNOCKING:
-            self.phase, self.meant = Phase.GREETING, MEANT.get(word)
-        elif word is Word.CONFIGURED and self.meant is not None:
+        self.dialogue.parse_reply(SAYABLE[word])
+        if self.phase is Phase.CONNECTING:
+            self.phase, self.meant = Phase.HANDSHAKE, MEANT.get(word)
+        elif word is ReplyKind.CONFIGURED and self.meant is not None:
             self.phase = self.meant
         else:
             self.phase = NEXT.get((self.phase, word), self.phase)
@@ -76,14 +81,14 @@ class AI4USession(RuleBasedStateMachine):
     def garbage(self, reply: bytes) -> None:
         before = self.dialogue.in_flight
         try:
-            self.dialogue.hear(b"\xff" + reply)
+            self.dialogue.parse_reply(b"\xff" + reply)
         except WireError:
             assert self.dialogue.in_flight == before
 
     @rule()
     def begin(self) -> None:
         self.dialogue.begin()
-        self.phase = Phase.KNOCKING
+        self.phase = Phase.CONNECTING
 
     @invariant()
     def phase_is_the_pictures(self) -> None:
@@ -93,6 +98,8 @@ class AI4USession(RuleBasedStateMachine):
 class _World:
     """What a session needs of a runner."""
 
+    sim = SimpleNamespace(agents=[None])
+
     def expect_answer(self) -> None:
         pass
 
@@ -100,8 +107,8 @@ class _World:
         pass
 
 
-class _Excerpt:
-    def of(self, percept: Any) -> tuple[bytes, tuple[str, ...]]:
+class _Subset:
+    def extract(self, percept: Any) -> tuple[bytes, tuple[str, ...]]:
         return b"", ()
 
 
@@ -113,17 +120,17 @@ class NativeSession(RuleBasedStateMachine):
         self.loop = asyncio.new_event_loop()
         self.loop.run_until_complete(self._make())
         self.number = 0
-        self.asked: Situation | None = None
+        self.asked: Observation | None = None
         self.heard: list[native.Message] = []
         self.sent: list[native.Action | native.Reset] = []
         self.carried_out: list[int] = []
-        self.line: Line | None = None
+        self.line: Outbox | None = None
 
     async def _make(self) -> None:
         world: Any = _World()
-        excerpt: Any = _Excerpt()
+        subset: Any = _Subset()
         self.session = Session(world, lambda reason: None)
-        self.session.excerpt = excerpt
+        self.session.subset = subset
 
     @initialize()
     def come(self) -> None:
@@ -138,7 +145,7 @@ class NativeSession(RuleBasedStateMachine):
         async def never(message: Any) -> None:
             raise AssertionError
 
-        self.line = Line(never, write)
+        self.line = Outbox(never, write)
         self.session.attach(self.line)
 
     @rule()
@@ -150,7 +157,7 @@ class NativeSession(RuleBasedStateMachine):
         if new or self.asked is None:
             self.number += 1
             nothing: Any = None
-            self.asked = Situation(
+            self.asked = Observation(
                 number=self.number, episode=1 + self.number // 5, percept=nothing, reward=1.0,
                 terms={},
                 steps=self.number % 5, tick=self.number, done=self.number % 5 == 4,
@@ -161,8 +168,8 @@ class NativeSession(RuleBasedStateMachine):
             self._check(answered)
             self.asked = None  # a brain that has its answer asks about something new
 
-    def _check(self, answered: Answered) -> None:
-        told = answered.situation
+    def _check(self, answered: Reply) -> None:
+        told = answered.observation
         assert told is not None
         assert not self.carried_out or told.number > self.carried_out[-1], "twice, or out of order"
         self.carried_out.append(told.number)

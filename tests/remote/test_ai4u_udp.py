@@ -576,7 +576,7 @@ def test_garbage_without_an_end_does_not_stop_the_world(
     sim, brain = remote_sim(script, mode=mode)
     script.meet(sim)
     link: Any = brain._link
-    monkeypatch.setattr(link._datagrams, "take", lambda: (b"garbage", False))
+    monkeypatch.setattr(link._socket, "receive", lambda: (b"garbage", False))
     ticks = sim.world.ticks
     silent(sim, brain)
     assert sim.world.ticks >= ticks

@@ -10,7 +10,7 @@ import pytest
 from ai4u_edu import ControlRequestor, RemoteBrain, Scene
 from ai4u_edu.blocks.agent_view import AgentView
 from ai4u_edu.blocks.brains.links.ai4u_codec import AI4UCodec
-from ai4u_edu.blocks.brains.links.link import offer_of
+from ai4u_edu.blocks.brains.links.link import describe_agent
 from ai4u_edu.remote import LostError, RefusedError, connect
 from ai4u_edu.remote.bridge import Bridge
 from tests.remote.bridged import OPTIONS, TOKEN, bridged, run, scene_room
@@ -54,7 +54,7 @@ def offered(sim: ControlRequestor) -> AI4UCodec:
 
     class Link(RemoteBrain):
         def on_setup(self, agent: AgentView, view: Any) -> None:
-            found.append(offer_of(agent, skip_frame=4, repeat_action=True, tick=view.dt))
+            found.append(describe_agent(agent, skip_frame=4, repeat_action=True, tick=view.dt))
 
     agent.use_brain(Link())
     return AI4UCodec(found[0])
@@ -259,7 +259,7 @@ def test_a_bridge_can_be_stopped_while_it_waits_for_a_world_that_stands_still() 
         begin(script)
         room.runner.pause().result(5)
         script.say("log;1;7")
-        until(lambda: len(room.sim.agents[0].brain._link._answers) == 1)  # type: ignore[attr-defined]
+        until(lambda: len(room.sim.agents[0].brain._link.exchange) == 1)  # type: ignore[attr-defined]
         bridge.stop()
         thread.join(10)
         assert not thread.is_alive()

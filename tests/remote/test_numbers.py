@@ -1,5 +1,7 @@
 """Frames that come twice, late, or not at all: everything counts once, and where it belongs."""
 
+from functools import partial
+
 import pytest
 
 from ai4u_edu import BasicAgent
@@ -111,6 +113,8 @@ def test_what_was_paid_while_nobody_listened_is_told_once_and_by_name() -> None:
             beyond(agent, before.step + 2)
             script.act(before, 1)  # too late
             first = script.percept()
+            decision = (first.episode, first.step)
+            until(partial(paid.__contains__, decision))  # the script is told first
             missed = [
                 paid[first.episode, step]["pay"] for step in range(before.step + 1, first.step + 1)
             ]
@@ -153,7 +157,7 @@ def answered_in_realtime(room: Room, script: Script) -> native.Percept:
 
 def answers(room: Room) -> int:
     """How many of the script's answers lie there."""
-    return len(room.sim.agents[0].brain._link._answers)  # type: ignore[attr-defined]
+    return len(room.sim.agents[0].brain._link.exchange)  # type: ignore[attr-defined]
 
 
 def test_in_realtime_a_percept_comes_before_the_next_tick() -> None:

@@ -100,7 +100,7 @@ def test_malformed_frames_are_answered_and_then_end_the_connection() -> None:
     with log_room() as room, Script(room) as script:
         script.hello()
         percept = script.percept()
-        for _ in range(sockets.MISTAKES - 1):
+        for _ in range(sockets.MAX_MALFORMED_FRAMES - 1):
             script.socket.send(b"\xc1")
             problem = script.hear()
             assert isinstance(problem, native.Problem)
@@ -108,7 +108,7 @@ def test_malformed_frames_are_answered_and_then_end_the_connection() -> None:
             assert problem.text.startswith("expected msgpack, got b'\\xc1' (")
         script.act(percept, 1)  # a good one in between: the count begins anew
         script.percept()
-        for _ in range(sockets.MISTAKES):
+        for _ in range(sockets.MAX_MALFORMED_FRAMES):
             script.socket.send("text")
         code, reason = script.end()
         assert code == native.PROBLEMS["malformed"]
@@ -150,16 +150,17 @@ def test_a_flood_ends_the_connection() -> None:
         percept = script.percept()
         late = native.encode(native.Action(1, 0, percept.seq + 9, {}))
         with contextlib.suppress(ConnectionClosed):  # it may be over before all are sent
-            for _ in range(2 * sockets.PER_SECOND):
+            for _ in range(2 * sockets.MAX_STRAY_FRAMES_PER_S):
                 script.socket.send(late)
         assert script.end() == (
             native.PROBLEMS["too_fast"],
-            f"expected at most {sockets.PER_SECOND} frames a second that answer nothing",
+            f"expected at most {sockets.MAX_STRAY_FRAMES_PER_S} frames a second that answer "
+            "nothing",
         )
 
 
 def test_a_connection_that_says_nothing_is_ended(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(sockets, "HELLO_WITHIN", 0.1)
+    monkeypatch.setattr(sockets, "HELLO_TIMEOUT_S", 0.1)
     with log_room() as room, Script(room) as script:
         assert script.end() == (native.PROBLEMS["malformed"], "expected a hello within 0.1 s")
 

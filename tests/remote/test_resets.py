@@ -11,8 +11,8 @@ from typing import Any
 import pytest
 
 from ai4u_edu import BasicAgent
-from ai4u_edu.blocks.brains.links.link import Answered, Reset, Situation
-from ai4u_edu.blocks.brains.links.link_thread import Desk
+from ai4u_edu.blocks.brains.links.link import Observation, Reply, Reset
+from ai4u_edu.blocks.brains.links.link_thread import LinkThread
 from ai4u_edu.remote import Robot, connect
 from ai4u_edu.wire import native
 from tests.remote.faulty_proxy import Faults, FaultyProxy
@@ -93,7 +93,7 @@ def begin_in_realtime(room: Room, script: Script) -> tuple[native.Welcome, nativ
 def heard(room: Room) -> bool:
     """Whether an answer of the script waits for the next decision."""
     brain: Any = room.sim.agents[0].brain
-    return len(brain._link._answers) == 1
+    return len(brain._link.exchange) == 1
 
 
 @pytest.mark.parametrize("is_lost", [False, True])
@@ -105,7 +105,7 @@ def test_a_reset_in_the_middle_of_a_decision_is_not_answered_with_its_end(is_los
         until(lambda: heard(room))
         if is_lost:
             script.socket.socket.shutdown(SHUT_RDWR)
-            until(lambda: room.sim.agents[0].brain._link.line is None)  # type: ignore[attr-defined]
+            until(lambda: room.sim.agents[0].brain._link.outbox is None)  # type: ignore[attr-defined]
         room.runner.step(6).result(5)
         if is_lost:
             script = scripts.enter_context(Script(room))
@@ -127,10 +127,10 @@ def test_a_session_that_is_taken_up_again_begins_one_episode() -> None:
             reset_once(robot, room.sim.agents[0])
 
 
-def situation_of(episode: int) -> Situation:
+def situation_of(episode: int) -> Observation:
     """The first of an episode; its number is the episode's."""
     nothing: Any = None
-    return Situation(
+    return Observation(
         number=episode,
         episode=episode,
         percept=nothing,
@@ -146,22 +146,22 @@ def situation_of(episode: int) -> Situation:
 
 
 def test_an_ai4u_script_is_not_told_of_the_episode_that_it_has_ended() -> None:
-    told: Queue[Situation | None] = Queue()
+    told: Queue[Observation | None] = Queue()
     asks_for_reset = Event()
 
-    def talk(situation: Situation | None, until: float) -> Answered | None:
+    def talk(situation: Observation | None, until: float) -> Reply | None:
         told.put(situation)
         asks_for_reset.wait(5)
-        return Answered(Reset(), situation)
+        return Reply(Reset(), situation)
 
     before, after, anew = map(situation_of, (1, 2, 3))
-    desk = Desk(talk, "a script's desk")
-    desk.leave(before)
+    desk = LinkThread(talk, "a script's desk")
+    desk.put(before)
     assert told.get(timeout=5) is before
-    desk.leave(after)  # the end of the decision in which it asks
+    desk.put(after)  # the end of the decision in which it asks
     asks_for_reset.set()
-    assert desk.exchange(after, 5) == Answered(Reset(), before)
-    assert not desk._due()  # there is nothing to tell it until the episode has begun
-    desk.leave(anew)
+    assert desk.exchange(after, 5) == Reply(Reset(), before)
+    assert not desk._has_work()  # there is nothing to tell it until the episode has begun
+    desk.put(anew)
     assert told.get(timeout=5) is anew
     desk.close()

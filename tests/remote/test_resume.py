@@ -11,7 +11,7 @@ from websockets.exceptions import ConnectionClosed
 from ai4u_edu.remote import LostError, RefusedError, Robot, connect
 from ai4u_edu.remote.dialogue import Dialogue
 from ai4u_edu.remote.steps import ConnectionLostError, Flow, Open, Receive, Send, Step
-from ai4u_edu.server.scripts.sockets import PER_SECOND
+from ai4u_edu.server.scripts.sockets import MAX_STRAY_FRAMES_PER_S
 from ai4u_edu.wire import native
 from tests.remote.rooms import SECRET, Script, log_of, log_room
 from tests.server.rooms import until
@@ -117,10 +117,12 @@ def test_in_realtime_a_lost_script_stops_its_agent_and_in_time_frees_it() -> Non
         robot.close()
 
 
-FLOODED = f"expected at most {PER_SECOND} frames a second that answer nothing"
+FLOODED = f"expected at most {MAX_STRAY_FRAMES_PER_S} frames a second that answer nothing"
 
 
-def flood(script: Script, late: native.Percept, times: int = 3 * PER_SECOND) -> tuple[int, str]:
+def flood(
+    script: Script, late: native.Percept, times: int = 3 * MAX_STRAY_FRAMES_PER_S
+) -> tuple[int, str]:
     """Answers one percept again and again; how the connection ends."""
     with suppress(ConnectionClosed):
         for _ in range(times):
@@ -153,10 +155,10 @@ def test_a_seated_script_that_floods_is_sent_away_and_may_come_back() -> None:
 def test_who_answers_as_fast_as_it_can_is_no_flood() -> None:
     with log_room() as room, Script(room) as script:
         script.hello()
-        for number in range(2 * PER_SECOND):
+        for number in range(2 * MAX_STRAY_FRAMES_PER_S):
             script.act(script.percept(), number)
         script.percept()
-        assert len(log_of(room)) == 2 * PER_SECOND
+        assert len(log_of(room)) == 2 * MAX_STRAY_FRAMES_PER_S
 
 
 def test_a_flooding_scripts_seat_is_free_after_the_grace_time() -> None:

@@ -22,7 +22,7 @@ from ai4u_edu.wire.ai4u import (
     floats,
     number,
 )
-from ai4u_edu.wire.ai4u_dialogue import Dialogue, Phase, State, Word
+from ai4u_edu.wire.ai4u_dialogue import AI4UDialogue, Phase, ReplyKind, State
 from ai4u_edu.wire.png import grey_png
 from ai4u_edu.wire.validation import WireError
 
@@ -201,28 +201,28 @@ def test_a_picture_can_be_read_by_others() -> None:
 STATE = State(sensors=[], reward=0.5, steps=3, done=False, truncated=False)
 
 
-def asked(dialogue: Dialogue, state: State | None = None) -> dict[str, Any]:
+def asked(dialogue: AI4UDialogue, state: State | None = None) -> dict[str, Any]:
     return {field.name: field.value for field in decode_request(dialogue.request(state))}
 
 
-def playing() -> Dialogue:
-    dialogue = Dialogue("0", metadata="{}")
+def playing() -> AI4UDialogue:
+    dialogue = AI4UDialogue("0", metadata="{}")
     for reply in (b"__noop__;1;0", b"max_steps;1;0@id;1;0", b"__reset__;1;0"):
         dialogue.request(None)
-        dialogue.hear(reply)
+        dialogue.parse_reply(reply)
     assert dialogue.phase.value == "playing"
     return dialogue
 
 
 def test_a_session_from_its_beginning() -> None:
-    dialogue = Dialogue("7", metadata='{"inputs": []}', max_steps=300, skip_frame=8)
+    dialogue = AI4UDialogue("7", metadata='{"inputs": []}', max_steps=300, skip_frame=8)
     poll = {
         "__target__": "envcontrol",
         "wait_command": "restart, resume, start_and_reset, start",
         "id": "7",
     }
     assert asked(dialogue) == poll | {"": ""}
-    assert dialogue.hear(b"__noop__;1;0").word is Word.NOOP
+    assert dialogue.parse_reply(b"__noop__;1;0").kind is ReplyKind.NOOP
     assert asked(dialogue) == {
         "__target__": "envcontrol",
         "max_steps": 300,
@@ -230,16 +230,16 @@ def test_a_session_from_its_beginning() -> None:
         "modelmetadata": '{"inputs": []}',
         "config": 1,
     }
-    assert dialogue.hear(b"max_steps;1;300@id;1;7").word is Word.CONFIGURED
+    assert dialogue.parse_reply(b"max_steps;1;300@id;1;7").kind is ReplyKind.CONFIGURED
     assert asked(dialogue) == poll | {"": ""}
-    dialogue.hear(b"__noop__;1;0")
+    dialogue.parse_reply(b"__noop__;1;0")
     assert asked(dialogue) == poll | {"__noop__": "__noop__"}
-    assert dialogue.hear(b"__start_agent__;1;0").word is Word.START
+    assert dialogue.parse_reply(b"__start_agent__;1;0").kind is ReplyKind.START
     assert asked(dialogue, STATE)["done"] is True  # it waits for a reset
-    assert dialogue.hear(b"__waitnewaction__;1;0").word is Word.WAIT
+    assert dialogue.parse_reply(b"__waitnewaction__;1;0").kind is ReplyKind.WAIT
     assert dialogue.phase.value == "started"
     dialogue.request(STATE)
-    assert dialogue.hear(b"__restart__;1;0").word is Word.RESET
+    assert dialogue.parse_reply(b"__restart__;1;0").kind is ReplyKind.RESET
     assert asked(dialogue, STATE) == {
         "done": False,
         "reward": 0.5,
@@ -254,21 +254,21 @@ def test_a_session_from_its_beginning() -> None:
         "__ctrl_repeatAction__": True,
         "__ctrl_envMode__": False,
     }
-    heard = dialogue.hear(b"move;1;0.5@note;1;hello")
-    assert (heard.word, heard.orders[1]) == (Word.ACTION, Order("note", ("hello",)))
+    heard = dialogue.parse_reply(b"move;1;0.5@note;1;hello")
+    assert (heard.kind, heard.orders[1]) == (ReplyKind.ACTION, Order("note", ("hello",)))
     dialogue.request(STATE)
-    assert dialogue.hear(b"__envcontrol__;1;0").word is Word.CONTROL
+    assert dialogue.parse_reply(b"__envcontrol__;1;0").kind is ReplyKind.CONTROL
     assert dialogue.phase.value == "polling"
-    assert decode_request(dialogue.farewell())[1] == Field("__stop__", Kind.TEXT, "stop")
-    assert dialogue.hear(b"halt").word is Word.HALT
+    assert decode_request(dialogue.goodbye_request())[1] == Field("__stop__", Kind.TEXT, "stop")
+    assert dialogue.parse_reply(b"halt").kind is ReplyKind.HALT
 
 
 def test_who_asks_for_time_is_told_the_same_again() -> None:
     dialogue = playing()
     request = dialogue.request(STATE)
-    dialogue.hear(b"__waitnewaction__;1;0")
+    dialogue.parse_reply(b"__waitnewaction__;1;0")
     assert dialogue.request(STATE) is request
-    dialogue.hear(b"move;1;1")
+    dialogue.parse_reply(b"move;1;1")
     assert asked(dialogue, STATE._replace(steps=4))["steps"] == 4
 
 
@@ -284,16 +284,18 @@ def test_what_can_not_be_told_is_not_told_as_something_else() -> None:
 @pytest.mark.parametrize(
     ("first", "phase", "word"),
     [
-        (b"__start_agent__;1;0", Phase.STARTED, Word.START),
-        (b"__reset__;1;0", Phase.PLAYING, Word.RESET),
+        (b"__start_agent__;1;0", Phase.STARTED, ReplyKind.START),
+        (b"__reset__;1;0", Phase.PLAYING, ReplyKind.RESET),
     ],
 )
-def test_what_a_script_says_to_a_knock_it_means(first: bytes, phase: Phase, word: Word) -> None:
-    dialogue = Dialogue("0", metadata="{}")
+def test_what_a_script_says_to_a_knock_it_means(
+    first: bytes, phase: Phase, word: ReplyKind
+) -> None:
+    dialogue = AI4UDialogue("0", metadata="{}")
     dialogue.request(None)
-    dialogue.hear(first)
+    dialogue.parse_reply(first)
     dialogue.request(None)
-    assert dialogue.hear(b"max_steps;1;0@id;1;0").word is word
+    assert dialogue.parse_reply(b"max_steps;1;0@id;1;0").kind is word
     assert dialogue.phase is phase
 
 
@@ -301,7 +303,7 @@ def test_what_a_script_says_to_a_knock_it_means(first: bytes, phase: Phase, word
 def test_commands_while_playing(word: str) -> None:
     dialogue = playing()
     dialogue.request(STATE)
-    assert dialogue.hear(f"{word};1;0".encode()).word.value == word
+    assert dialogue.parse_reply(f"{word};1;0".encode()).kind.value == word
     assert dialogue.phase.value == "playing"
     assert not dialogue.in_flight
 
@@ -310,7 +312,7 @@ def test_after_a_stop_the_script_is_not_told_to_stop() -> None:
     dialogue = playing()
     for reply in (b"__stop__;1;0", b"__envcontrol__;1;0"):
         dialogue.request(STATE)
-        dialogue.hear(reply)
+        dialogue.parse_reply(reply)
     dialogue._last = "__stop__"
     assert "__stop__" not in asked(dialogue)
 
@@ -320,16 +322,16 @@ def test_what_can_not_be_said_while_playing_is_not_heard(reply: bytes) -> None:
     dialogue = playing()
     dialogue.request(STATE)
     with pytest.raises(WireError):
-        dialogue.hear(reply)
+        dialogue.parse_reply(reply)
     assert dialogue.in_flight
-    dialogue.hear(b"move;1;0")
+    dialogue.parse_reply(b"move;1;0")
     assert not dialogue.in_flight
 
 
 def test_a_greeting_for_another_agent_is_not_heard() -> None:
-    dialogue = Dialogue("0", metadata="{}")
+    dialogue = AI4UDialogue("0", metadata="{}")
     dialogue.request(None)
-    dialogue.hear(b"__noop__;1;0")
+    dialogue.parse_reply(b"__noop__;1;0")
     dialogue.request(None)
     with pytest.raises(WireError, match="expected an answer for agent '0'"):
-        dialogue.hear(b"max_steps;1;0@id;1;1")
+        dialogue.parse_reply(b"max_steps;1;0@id;1;1")

@@ -54,7 +54,7 @@ class Patience:
 
     def asks_for_time(self, link: Link) -> bool:
         """Return True if a script that was given up has asked for time since then."""
-        return self.is_given_up and link.heard > self._given_up
+        return self.is_given_up and link.time_asked_at > self._given_up
 
     def has_time(self, link: Link, *, can_act: bool) -> bool:
         """Return True if the world may wait for the script.
@@ -66,12 +66,12 @@ class Patience:
         """
         if self.is_given_up:
             return False
-        since = max(self._asked, link.heard) if can_act else self._asked
+        since = max(self._asked, link.time_asked_at) if can_act else self._asked
         return time.monotonic() - since <= self._timeout_s
 
     def yields(self, link: Link) -> bool:
         """Return True if the script has asked for time for so long that others may go on."""
-        return link.heard > self._asked and time.monotonic() - self._asked > YIELD_AFTER_S
+        return link.time_asked_at > self._asked and time.monotonic() - self._asked > YIELD_AFTER_S
 
     def wait_s(self, link: Link, *, can_act: bool, has_company: bool) -> float:
         """Return the time to wait for an answer now.

@@ -9,7 +9,14 @@ from ai4u_edu.base.parameters import quantity
 from ai4u_edu.blocks.agent_view import AgentView
 from ai4u_edu.blocks.brains.brain import Brain
 from ai4u_edu.blocks.brains.command import Accepted, Action, Answer, Command
-from ai4u_edu.blocks.brains.links.link import Answered, Link, LinkState, Reset, Situation, offer_of
+from ai4u_edu.blocks.brains.links.link import (
+    Link,
+    LinkState,
+    Observation,
+    Reply,
+    Reset,
+    describe_agent,
+)
 from ai4u_edu.blocks.brains.patience import WAIT_SLICE_S, Patience
 from ai4u_edu.blocks.brains.remote_status import RemoteStatus
 from ai4u_edu.blocks.percept import Percept
@@ -64,12 +71,12 @@ class RemoteBrain(Brain):
     ``stop`` gives zeros."""
 
     def __post_init__(self) -> None:
-        self.hand: Brain | None = None
+        self.override: Brain | None = None
         """Who decides in the script's place for now: a person's keyboard."""
         self._given: Link | None = None
         self._link: Link | None = None
-        self._situation: Situation | None = None
-        self._told: Situation | None = None
+        self._situation: Observation | None = None
+        self._told: Observation | None = None
         self._number = 0
         self._patience = Patience(self.receive_timeout / 1000)
         self._seed: int | None = None
@@ -78,38 +85,38 @@ class RemoteBrain(Brain):
         self._decisions = self._missing = self._dropped = self._refused = self._clipped = 0
 
     @classmethod
-    def over(cls, link: Link, **parameters: Any) -> Self:
+    def with_link(cls, link: Link, **parameters: Any) -> Self:
         """A remote brain whose script is reached in another way than by ``host`` and ``port``."""
         brain = cls(**parameters)
         brain._given = link
         return brain
 
     @property
-    def is_given(self) -> bool:
+    def has_own_link(self) -> bool:
         """Whether its script came by itself, and was told already what the agent senses."""
         return self._given is not None
 
-    def lend(self, hand: Brain) -> None:
+    def begin_override(self, hand: Brain) -> None:
         """Has another brain decide in the script's place, which stays connected."""
         hand.on_setup(self._agent, self._view)
         hand.on_reset(self._agent, self._view)
-        self.hand = hand
+        self.override = hand
 
-    def take_back(self) -> None:
+    def end_override(self) -> None:
         """The script decides again, from the next decision on."""
-        self.hand = None
+        self.override = None
 
     # -- what a brain does -----------------------------------------------------------------------
 
     def on_setup(self, agent: AgentView, view: WorldView) -> None:
         """Begins to look out for a script."""
         self.close("the agent is set up anew")
-        self.hand = None
+        self.override = None
         self._agent, self._view = agent, view
         self._actuators = {each.action_name: each for each in agent.actuators if each.is_active}
         link = self._given or self._own_link()
         link.open(
-            offer_of(
+            describe_agent(
                 agent,
                 skip_frame=self.skip_frame,
                 repeat_action=self.repeat_action,
@@ -130,8 +137,8 @@ class RemoteBrain(Brain):
         self._cut_short = is_new and told is not None and not told.done
         self._resetting = self._stopped = False
         self._situation = None
-        if self.hand is not None:
-            self.hand.on_reset(agent, view)
+        if self.override is not None:
+            self.override.on_reset(agent, view)
 
     def decide(self, percept: Percept) -> Answer:
         """What the script says, or what is done without it."""
@@ -140,16 +147,16 @@ class RemoteBrain(Brain):
             raise SetupError(
                 f"{self.title()} was closed; expected agent.use_brain(...) to open it again"
             )
-        situation = self._situation or self._now(percept)
-        if self.hand is not None:
-            return self._by_hand(self.hand, link, situation)
+        observation = self._situation or self._now(percept)
+        if self.override is not None:
+            return self._by_hand(self.override, link, observation)
         timeout = self._time_for(link)
-        answered = self._ask(link, situation, timeout)
-        if answered is None:
+        reply = self._ask(link, observation, timeout)
+        if reply is None:
             return self._without_answer(link, waits=timeout == WAIT_SLICE_S)
         self._situation = None
         self._late = False
-        return self._obeyed(link, answered, situation)
+        return self._obeyed(link, reply, observation)
 
     @property
     def keeps_waiting(self) -> bool:
@@ -157,10 +164,10 @@ class RemoteBrain(Brain):
         link = self._link
         return (
             link is not None
-            and link.will_call
+            and link.will_notify
             and not self._patience.is_given_up
             and self.mode == "lockstep"
-            and self.hand is None
+            and self.override is None
             and self._told is self._situation is not None
         )
 
@@ -191,7 +198,7 @@ class RemoteBrain(Brain):
         link = self._link
         state = LinkState.WAITING if link is None else link.state
         here = state is LinkState.CONNECTED
-        said = BY_HAND if self.hand is not None else self._reason
+        said = BY_HAND if self.override is not None else self._reason
         return RemoteStatus(
             state="late" if here and self._late else state.value,
             reason=(said if here else "") or (link.reason if link else ""),
@@ -204,33 +211,33 @@ class RemoteBrain(Brain):
 
     # -- the steps of it -------------------------------------------------------------------------
 
-    def _ask(self, link: Link, situation: Situation, timeout: float) -> Answered | None:
+    def _ask(self, link: Link, observation: Observation, timeout: float) -> Reply | None:
         """The script's answer, if there is one that counts."""
-        answered = link.ask(situation, timeout)
+        reply = link.ask(observation, timeout)
         if link.state is not LinkState.CONNECTED:
             self._told = None
             self._patience.resume()
-        elif link.expecting or answered is not None:
-            self._told = situation
+        elif link.expects_reply or reply is not None:
+            self._told = observation
         patience = self._patience
-        if patience.is_given_up and (answered is not None or patience.asks_for_time(link)):
+        if patience.is_given_up and (reply is not None or patience.asks_for_time(link)):
             patience.resume()
             patience.restart()
             self._late, self._reason = False, ""
-        if answered is not None and self._outdated(answered, situation):
+        if reply is not None and self._outdated(reply, observation):
             self._dropped += 1
             return None
-        return answered
+        return reply
 
-    def _by_hand(self, hand: Brain, link: Link, situation: Situation) -> Answer:
+    def _by_hand(self, hand: Brain, link: Link, observation: Observation) -> Answer:
         """What a person does; the script sees it, and nobody waits for what it would do."""
-        answered = self._ask(link, situation, 0.0)
+        reply = self._ask(link, observation, 0.0)
         self._situation, self._seed, self._late = None, None, False
-        if answered is not None:
-            if isinstance(answered.answer, Reset):
-                return self._obeyed(link, answered, situation)
+        if reply is not None:
+            if isinstance(reply.answer, Reset):
+                return self._obeyed(link, reply, observation)
             self._dropped += 1
-        return hand.decide(situation.percept)
+        return hand.decide(observation.percept)
 
     def _own_link(self) -> Link:
         from ai4u_edu.blocks.brains.links.ai4u import AI4ULink
@@ -242,8 +249,8 @@ class RemoteBrain(Brain):
             threaded=self.mode == "realtime",
         )
 
-    def _now(self, percept: Percept) -> Situation:
-        """What is to be told now; the same until it is answered."""
+    def _now(self, percept: Percept) -> Observation:
+        """What is to be told now; the same until it is reply."""
         self._number += 1
         if self._cut_short and self._told is not None:
             self._cut_short = False
@@ -252,7 +259,7 @@ class RemoteBrain(Brain):
             )
         else:
             agent = self._agent
-            now = Situation(
+            now = Observation(
                 number=self._number,
                 episode=agent.episode,
                 percept=percept,
@@ -270,20 +277,20 @@ class RemoteBrain(Brain):
         return now
 
     def _tell(self, agent: AgentView) -> None:
-        """Has the script see at once what was sensed: until the next tick it may have answered."""
+        """Has the script see at once what was sensed: until the next tick it may have reply."""
         link = self._link
         if link is not None and link.state is LinkState.CONNECTED:
             link.tell(self._now(agent.percept))
-            if link.expecting:
+            if link.expects_reply:
                 self._told = self._situation
 
-    def _outdated(self, answered: Answered, situation: Situation) -> bool:
+    def _outdated(self, reply: Reply, observation: Observation) -> bool:
         """Whether an answer belongs to what is over: it must not reach another episode."""
-        told = answered.situation
-        if told is None or isinstance(answered.answer, Reset):
+        told = reply.observation
+        if told is None or isinstance(reply.answer, Reset):
             return False
         if self.mode == "lockstep":
-            return told.number != situation.number
+            return told.number != observation.number
         return told.episode != self._agent.episode
 
     def _can_act(self) -> bool:
@@ -311,7 +318,7 @@ class RemoteBrain(Brain):
         if link.state is LinkState.WAITING:
             return Command.WAIT
         if link.state is LinkState.CONNECTED:
-            if not link.expecting:
+            if not link.expects_reply:
                 return Command.WAIT
             if waits:
                 return Command.HOLD
@@ -348,9 +355,9 @@ class RemoteBrain(Brain):
             case _:
                 assert_never(self.on_missing)
 
-    def _obeyed(self, link: Link, answered: Answered, situation: Situation) -> Answer:
+    def _obeyed(self, link: Link, reply: Reply, observation: Observation) -> Answer:
         """The answer in the cycle's terms."""
-        answer, agent = answered.answer, self._agent
+        answer, agent = reply.answer, self._agent
         if isinstance(answer, Reset):
             self._resetting, self._cut_short = True, False
             self._seed = answer.seed
@@ -360,15 +367,15 @@ class RemoteBrain(Brain):
             self._stopped = self._stopped or answer is Command.STOP
             # the cycle would not ask again, and so would never hear of a reset
             return Command.WAIT if answer is Command.STOP else answer
-        if not self._can_act() or situation.done:
+        if not self._can_act() or observation.done:
             return Command.WAIT
         try:
             action = self._checked(answer)
         except ActionError as error:
             self._refused += 1
             self._reason = str(error)
-            if link.refuse(answered, self._reason) and self._has_time(link):
-                self._situation = situation
+            if link.refuse(reply, self._reason) and self._has_time(link):
+                self._situation = observation
                 return Command.HOLD
             return self._without_action()
         self._decisions += 1

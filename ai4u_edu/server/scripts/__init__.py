@@ -1,4 +1,4 @@
-"""Scripts on other machines drive agents: a socket for each, and who has which agent."""
+"""The server's side of scripts on other machines: connections, and leases of agents."""
 
 from ai4u_edu.server.scripts.settings import Rules
 from ai4u_edu.server.scripts.sockets import RemoteSockets

@@ -1,4 +1,4 @@
-"""One agent's seat while a script has it."""
+"""The lease of one agent to one script."""
 
 import asyncio
 from collections.abc import Callable
@@ -6,33 +6,35 @@ from secrets import token_hex
 
 from ai4u_edu.agent import BasicAgent
 from ai4u_edu.base.errors import AI4UError, NameNotFoundError, shorten
-from ai4u_edu.base.loop_queue import Post
 from ai4u_edu.blocks import Brain
-from ai4u_edu.blocks.brains.links.link import LinkState
 from ai4u_edu.blocks.brains.remote import RemoteBrain
 from ai4u_edu.runtime.runner import ANOTHER_WORLD, Runner
-from ai4u_edu.server.scripts.outbox import Line
+from ai4u_edu.server.loop_queue import LoopQueue
+from ai4u_edu.server.scripts.outbox import Outbox
 from ai4u_edu.server.scripts.refusal import RefusalError
 from ai4u_edu.server.scripts.session import Session
 from ai4u_edu.server.scripts.settings import Rules
-from ai4u_edu.server.scripts.welcome import Excerpt, output_of
+from ai4u_edu.server.scripts.welcome import ObservationSubset, output_of
 from ai4u_edu.wire import native
 from ai4u_edu.wire.validation import LONGEST_TEXT
 
-BLINK = 0.3
-"""Seconds for which a lost connection counts as a script that is late; then as one that is lost."""
+SHORT_DROP_S = 0.3
+"""Time for which a script whose connection is lost counts as late; after that it counts as lost."""
 
 
-class Seat:
-    """One agent's seat while a script has it.
+class AgentLease:
+    """The lease of one agent to one script: from its hello until it leaves, or stays away too long.
+
+    Only the server's event loop calls its methods; what changes the agent is submitted to the
+    runner's thread.
 
     Args:
         runner: the room's.
-        agent: whose seat it is.
-        hello: what the script wants.
+        agent: the agent that the script drives.
+        hello: the script's request.
         rules: of the room.
-        post: of the room.
-        on_left: called when the seat is free.
+        queue: of calls for the event loop, shared by the room.
+        on_released: called when the lease has ended.
     """
 
     def __init__(
@@ -41,111 +43,114 @@ class Seat:
         agent: BasicAgent,
         hello: native.Hello,
         rules: Rules,
-        post: Post,
-        on_left: Callable[["Seat"], None],
+        queue: LoopQueue,
+        on_released: Callable[["AgentLease"], None],
     ) -> None:
         self.agent = agent
         self.secret = hello.secret
         self._runner = runner
         self._hello = hello
         self._rules = rules
-        self._on_left = on_left
+        self._on_released = on_released
         self._name = token_hex(4)
         self._on_missing = hello.on_missing or rules.on_missing
         self._timers: list[asyncio.TimerHandle] = []
-        self.is_left = False
-        """Whether the seat is free again."""
+        self.is_released = False
         self._brain: RemoteBrain | None = None
         self._before: Brain | None = None
-        self.is_claimed = asyncio.Event()
-        """Whether it is settled that the agent is the script's, or can't be."""
-        alone = len(runner.sim.agents) == 1
+        self.claimed = asyncio.Event()
+        """Set as soon as the script has the agent, or can't have it."""
+        is_only_agent = len(runner.sim.agents) == 1
         if hello.mode == "lockstep":
             _check_lockstep(rules, len(runner.sim.agents))
         self.session = Session(
             runner,
-            self._taken_away,
-            may_seed=alone or rules.seeded_resets,
-            post=post,
+            self._on_brain_closed,
+            may_seed=is_only_agent or rules.seeded_resets,
+            queue=queue,
         )
         self.welcome = b""
 
     @property
-    def line(self) -> Line | None:
+    def outbox(self) -> Outbox | None:
         """The connection; None while it is lost."""
-        return self.session.line
+        return self.session.outbox
 
     async def claim(self, title: str) -> None:
-        """Takes the agent's brain's place.
+        """Put a remote brain in the place of the agent's brain.
 
-        All that is said of the agent is looked up in the runner's thread, since somebody may change
-        its blocks just now.
+        Everything that the script is told about the agent is read in the runner's thread, since
+        others may be changing its blocks.
 
         Raises:
-            RefusalError: it can't be taken.
+            RefusalError: the agent can't be claimed.
         """
-
-        def take() -> bytes:
-            if not any(agent is self.agent for agent in self._runner.sim.agents):
-                raise RefusalError("ended", ANOTHER_WORLD)  # since the script said hello
-            try:
-                self.session.excerpt = Excerpt(self.agent, self._hello.keys)
-            except NameNotFoundError as error:
-                raise RefusalError("unknown_key", str(error)) from None
-            self._before = before = self.agent.brain
-            self._brain = RemoteBrain.over(
-                self.session,
-                mode=self._hello.mode,
-                receive_timeout=self._rules.receive_timeout,
-                on_missing=self._on_missing or "hold",
-                skip_frame=before.skip_frame,
-                repeat_action=before.repeat_action,
-            )
-            self.agent.use_brain(self._brain)
-            return self._welcome(title)
-
         try:
-            self.welcome = await asyncio.wrap_future(self._runner.submit(take))
+            self.welcome = await asyncio.wrap_future(
+                self._runner.submit(lambda: self._install_brain(title))
+            )
         except RefusalError as refusal:
-            self.leave(str(refusal))
+            self.release(str(refusal))
             raise
         except (AI4UError, asyncio.CancelledError) as error:
-            self.leave("it could not be taken")
+            self.release("it could not be taken")
             raise RefusalError("ended", f"the agent can't be taken now ({error})") from None
         finally:
-            self.is_claimed.set()
+            self.claimed.set()
 
-    def sit(self, line: Line) -> None:
-        """The script is here, over this connection."""
+    def attach(self, outbox: Outbox) -> None:
+        """Use this connection to the script from now on."""
         self._stop_timers()
         if self._brain is not None:
             self._brain.on_missing = self._on_missing or "hold"
-        line.say(self.welcome)
-        self.session.attach(line)
+        outbox.send(self.welcome)
+        self.session.attach(outbox)
 
-    def lose(self, line: Line) -> None:
-        """A connection is lost; if it was the script's, the seat is kept for a while."""
-        if self.session.line is not line or self.is_left:
+    def detach(self, outbox: Outbox) -> None:
+        """Note that a connection is lost; if it was the current one, wait for the script."""
+        if self.session.outbox is not outbox or self.is_released:
             return
         self.session.detach()
         call_later = asyncio.get_running_loop().call_later
         self._timers = [
-            call_later(BLINK, self._be_lost),
-            call_later(self._rules.grace, self.leave, "the script did not come back"),
+            call_later(SHORT_DROP_S, self._mark_lost),
+            call_later(self._rules.grace, self.release, "the script did not come back"),
         ]
 
-    def leave(self, reason: str) -> None:
-        """The seat is free, and the agent goes back to the brain that it had before."""
-        if self.is_left:
+    def release(self, reason: str) -> None:
+        """End the lease, and give the agent back to the brain that it had before."""
+        if self.is_released:
             return
-        self.is_left = True
+        self.is_released = True
         self._stop_timers()
-        if self.session.line is not None:
-            self.session.line.end(native.PROBLEMS["ended"], reason)
-        self._runner.submit(self._give_back)
-        self._on_left(self)
+        if self.session.outbox is not None:
+            self.session.outbox.close(native.PROBLEMS["ended"], reason)
+        self._runner.submit(self._restore_brain)
+        self._on_released(self)
 
-    def _welcome(self, title: str) -> bytes:
+    # -- in the runner's thread ------------------------------------------------------------------
+
+    def _install_brain(self, title: str) -> bytes:
+        """Give the agent a remote brain, and return the script's welcome."""
+        if not any(agent is self.agent for agent in self._runner.sim.agents):
+            raise RefusalError("ended", ANOTHER_WORLD)  # since the script said hello
+        try:
+            self.session.subset = ObservationSubset(self.agent, self._hello.keys)
+        except NameNotFoundError as error:
+            raise RefusalError("unknown_key", str(error)) from None
+        self._before = before = self.agent.brain
+        self._brain = RemoteBrain.with_link(
+            self.session,
+            mode=self._hello.mode,
+            receive_timeout=self._rules.receive_timeout,
+            on_missing=self._on_missing or "hold",
+            skip_frame=before.skip_frame,
+            repeat_action=before.repeat_action,
+        )
+        self.agent.use_brain(self._brain)
+        return self._encode_welcome(title)
+
+    def _encode_welcome(self, title: str) -> bytes:
         agent, settings = self.agent, self._runner.sim.world.settings
         return native.encode(
             native.Welcome(
@@ -161,34 +166,34 @@ class Seat:
                 max_steps=agent.max_steps_per_episode,
                 rewards=tuple(reward.name for reward in agent.bound_blocks.rewards),
                 success=self._runner.sim.success,
-                readings=self.session.excerpt.readings,
+                readings=self.session.subset.readings,
                 outputs=tuple(
                     output_of(name, each) for name, each in agent.bound_blocks.actuators.items()
                 ),
             )
         )
 
-    def _give_back(self) -> None:
+    def _restore_brain(self) -> None:
         agent, brain, before = self.agent, self._brain, self._before
         if brain is None or before is None or agent not in self._runner.sim.agents:
-            return  # it never had the agent, or another world runs by now
+            return  # the agent was never claimed, or another world runs by now
         if agent.brain is brain:
             agent.use_brain(before)
         agent.brains[:] = [each for each in agent.brains if each is not brain]
 
-    def _taken_away(self, reason: str) -> None:
-        """The brain was closed by somebody else: another took its place, or the world has ended."""
-        if not self.is_left and self.session.line is not None:
-            self.session.line.say(native.encode(native.Bye(reason)))
-        self.leave(reason)
+    # -- events ----------------------------------------------------------------------------------
 
-    def _be_lost(self) -> None:
-        self.session.reason = "the script's connection is lost"
-        if self._hello.mode == "realtime":  # in lockstep the world waits for it to come back
-            self.session.state = LinkState.LOST
+    def _on_brain_closed(self, reason: str) -> None:
+        """Release the agent after another brain took its place, or the world ended."""
+        if not self.is_released and self.session.outbox is not None:
+            self.session.outbox.send(native.encode(native.Bye(reason)))
+        self.release(reason)
+
+    def _mark_lost(self) -> None:
+        is_waited_for = self._hello.mode == "lockstep"
+        self.session.mark_lost("the script's connection is lost", is_waited_for=is_waited_for)
         if self._brain is not None:
-            # nobody knows what it would do now
-            self._brain.on_missing = self._on_missing or "stop"
+            self._brain.on_missing = self._on_missing or "stop"  # nobody supervises the last action
 
     def _stop_timers(self) -> None:
         for timer in self._timers:

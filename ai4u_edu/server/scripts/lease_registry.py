@@ -1,28 +1,27 @@
-"""Which script has which agent."""
+"""The leases of a room's agents to scripts."""
 
 from collections.abc import Callable
 
 from ai4u_edu.agent import BasicAgent
 from ai4u_edu.base.errors import suggest
-from ai4u_edu.base.loop_queue import Post, post_here
 from ai4u_edu.runtime.runner import Runner
-from ai4u_edu.server.scripts.agent_lease import Seat
-from ai4u_edu.server.scripts.outbox import Line
+from ai4u_edu.server.loop_queue import LoopQueue, queue_here
+from ai4u_edu.server.scripts.agent_lease import AgentLease
+from ai4u_edu.server.scripts.outbox import Outbox
 from ai4u_edu.server.scripts.refusal import RefusalError, wrong_version
 from ai4u_edu.server.scripts.settings import Rules
-from ai4u_edu.server.token_auth import same
+from ai4u_edu.server.token_auth import is_same_secret
 from ai4u_edu.wire import native
 
-SHORTEST_SECRET = 16
-"""Characters."""
+MIN_SECRET_CHARS = 16
 
 
-class Seats:
-    """The agents of a room, and the scripts that have them. Belongs to the server's loop.
+class LeaseRegistry:
+    """The leases of a room's agents, at most one an agent. Only the server's event loop calls it.
 
     Args:
         runner: the room's.
-        title: tells the room's, which may change.
+        title: returns the room's title, which may change.
         rules: of the room.
     """
 
@@ -30,58 +29,64 @@ class Seats:
         self._runner = runner
         self._title = title
         self._rules = rules
-        self._seats: dict[str, Seat] = {}
-        self._post: Post | None = None
+        self._leases: dict[str, AgentLease] = {}
+        self._queue: LoopQueue | None = None
 
-    async def enter(self, hello: native.Hello, line: Line) -> Seat:
-        """Gives a script the agent that it wants, or the session back that it had.
+    async def acquire(self, hello: native.Hello, outbox: Outbox) -> AgentLease:
+        """Lease the agent that a script asks for, or resume the session that it had.
 
         Raises:
-            RefusalError: it can't be.
+            RefusalError: the script can't have the agent.
         """
         self._check(hello)
         agent = self._agent(hello.agent)
-        seat = self._seats.get(agent.id)
-        if seat is not None and same(seat.secret, hello.secret):
-            await seat.is_claimed.wait()
-            if seat.is_left:
-                raise RefusalError("ended", f"agent {agent.id!r} could not be taken; connect anew")
-            if seat.line is not None and seat.line is not line:
-                seat.line.end_by("taken_over", "the session goes on over another connection")
+        lease = self._leases.get(agent.id)
+        if lease is not None and is_same_secret(lease.secret, hello.secret):
+            await self._take_over(lease, outbox)
         elif hello.session:
             raise RefusalError(
                 "session_over",
                 f"session {hello.session!r} of agent {agent.id!r} is over; connect anew",
             )
-        elif seat is not None:
+        elif lease is not None:
             raise RefusalError("agent_taken", self._taken(agent))
         else:
-            self._post = post_here(self._post)
-            seat = Seat(self._runner, agent, hello, self._rules, self._post, self._left)
-            self._seats[agent.id] = seat
-            await seat.claim(self._title())
-        seat.sit(line)
-        return seat
+            self._queue = queue_here(self._queue)
+            lease = AgentLease(self._runner, agent, hello, self._rules, self._queue, self._remove)
+            self._leases[agent.id] = lease
+            await lease.claim(self._title())
+        lease.attach(outbox)
+        return lease
+
+    async def _take_over(self, lease: AgentLease, outbox: Outbox) -> None:
+        """Close the connection that a session had before, for a new one."""
+        await lease.claimed.wait()
+        if lease.is_released:
+            agent = lease.agent.id
+            raise RefusalError("ended", f"agent {agent!r} could not be taken; connect anew")
+        if lease.outbox is not None and lease.outbox is not outbox:
+            text = "the session goes on over another connection"
+            lease.outbox.close_with_problem("taken_over", text)
 
     def _check(self, hello: native.Hello) -> None:
         if hello.version != native.VERSION:
             raise RefusalError("version", wrong_version(f"version {native.VERSION}", hello.version))
-        if self._rules.token and not same(self._rules.token, hello.token):
+        if self._rules.token and not is_same_secret(self._rules.token, hello.token):
             got = "another one" if hello.token else "none"
             raise RefusalError(
                 "bad_token",
                 f"expected this world's token, got {got}; take the whole address that its terminal "
                 "shows, as in connect('http://teacher:8080/?token=...')",
             )
-        if len(hello.secret) < SHORTEST_SECRET:
+        if len(hello.secret) < MIN_SECRET_CHARS:
             raise RefusalError(
                 "malformed",
-                f"secret: expected at least {SHORTEST_SECRET} characters, got {len(hello.secret)}",
+                f"secret: expected at least {MIN_SECRET_CHARS} characters, got {len(hello.secret)}",
             )
 
-    def _left(self, seat: Seat) -> None:
-        if self._seats.get(seat.agent.id) is seat:
-            del self._seats[seat.agent.id]
+    def _remove(self, lease: AgentLease) -> None:
+        if self._leases.get(lease.agent.id) is lease:
+            del self._leases[lease.agent.id]
 
     def _agent(self, agent_id: str) -> BasicAgent:
         agents = self._runner.sim.agents
@@ -95,7 +100,8 @@ class Seats:
         raise RefusalError("unknown_agent", f"{asked}; {suggest(agent_id, known)}")
 
     def _taken(self, agent: BasicAgent) -> str:
-        free = [each.id for each in self._runner.sim.agents if each.id not in self._seats]
+        """Return the text for a script whose agent another one has."""
+        free = [each.id for each in self._runner.sim.agents if each.id not in self._leases]
         others = f"free are {', '.join(map(repr, free))}" if free else "no other is free"
         return (
             f"agent {agent.id!r} is driven by another script; {others}; a seat is free "

@@ -1,4 +1,4 @@
-"""One connection: what is to be said goes out in its order."""
+"""The queue of frames to one script's connection."""
 
 import asyncio
 from collections import deque
@@ -8,54 +8,56 @@ from starlette.types import Message, Send
 
 from ai4u_edu.wire import native
 
-LONGEST_REASON = 120
-"""Bytes of a close's reason; WebSocket has room for 123."""
+MAX_REASON_BYTES = 120
+"""Longest reason of a close; the WebSocket protocol has room for 123 bytes."""
 
 
-class Line:
-    """The way out to one script. Belongs to the server's loop, as all of its methods do.
+class Outbox:
+    """A queue of frames to one script, sent in order. Only the server's event loop calls it.
 
     Args:
-        send: the socket's.
-        write: the short way, where there is one: sends a frame at once, or says that it can't.
+        send: the ASGI connection's.
+        write: sends a frame at once, without the queue, and returns False if it can't.
     """
 
     def __init__(self, send: Send, write: Callable[[bytes], bool] | None = None) -> None:
         self._send = send
         self._write = write
-        self._outbox: deque[Message] = deque()
-        self._something = asyncio.Event()
-        self.is_ending = False
+        self._queue: deque[Message] = deque()
+        self._is_not_empty = asyncio.Event()
+        self.is_closing = False
 
-    def say(self, frame: bytes) -> None:
-        """Sends a frame, after all others."""
-        if self.is_ending:
+    def send(self, frame: bytes) -> None:
+        """Send a frame after all others; discard it if the connection is being closed."""
+        if self.is_closing:
             return
-        if self._outbox or self._write is None or not self._write(frame):
-            self._outbox.append({"type": "websocket.send", "bytes": frame})
-            self._something.set()
+        if self._queue or self._write is None or not self._write(frame):
+            self._put({"type": "websocket.send", "bytes": frame})
 
-    def end(self, code: int, reason: str) -> None:
-        """Closes the connection when all has been said."""
-        if not self.is_ending:
-            self.is_ending = True
-            short = reason.encode()[:LONGEST_REASON].decode(errors="ignore")
-            self._outbox.append({"type": "websocket.close", "code": code, "reason": short})
-            self._something.set()
+    def close(self, code: int, reason: str) -> None:
+        """Close the connection when all frames have been sent."""
+        if not self.is_closing:
+            self.is_closing = True
+            short = reason.encode()[:MAX_REASON_BYTES].decode(errors="ignore")
+            self._put({"type": "websocket.close", "code": code, "reason": short})
 
-    def end_by(self, code: str, text: str) -> None:
-        """Says what is wrong, and closes the connection."""
-        self.say(native.encode(native.Problem(code, text, 0)))
-        self.end(native.PROBLEMS[code], text)
+    def close_with_problem(self, code: str, text: str) -> None:
+        """Send a problem, and close the connection with its code."""
+        self.send(native.encode(native.Problem(code, text, 0)))
+        self.close(native.PROBLEMS[code], text)
 
     async def run(self) -> None:
-        """Carries out what is to be said, until the connection is closed from here."""
+        """Send what is in the queue, until the close has been sent."""
         while True:
-            await self._something.wait()
-            self._something.clear()
-            while self._outbox:
-                message = self._outbox[0]
+            await self._is_not_empty.wait()
+            self._is_not_empty.clear()
+            while self._queue:
+                message = self._queue[0]
                 await self._send(message)
-                self._outbox.popleft()
+                self._queue.popleft()
                 if message["type"] == "websocket.close":
                     return
+
+    def _put(self, message: Message) -> None:
+        self._queue.append(message)
+        self._is_not_empty.set()

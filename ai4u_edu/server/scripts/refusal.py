@@ -1,8 +1,8 @@
-"""Why a script does not get what it wants."""
+"""Reasons for which a script is refused."""
 
 
 class RefusalError(Exception):
-    """A script does not get what it wants.
+    """A script does not get the agent that it asked for.
 
     Attributes:
         code: one of :data:`ai4u_edu.wire.native.PROBLEMS`.
@@ -14,7 +14,7 @@ class RefusalError(Exception):
 
 
 def wrong_version(expected: str, got: object) -> str:
-    """What to do about two versions that don't go together."""
+    """Return the text for a script whose version of the protocol is another one."""
     return (
         f"expected {expected}, got {got}; install the ai4u-edu that the world has "
         "(pip install -U ai4u-edu, on both machines)"

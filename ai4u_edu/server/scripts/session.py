@@ -1,32 +1,32 @@
-"""A script that has an agent: its brain's link, and what the loop hears for it.
-
-The runner's thread asks; the server's loop hears and speaks. What both touch is guarded by a lock,
-and is never held for long.
-"""
+"""The link between a RemoteBrain and a script that connects by WebSocket."""
 
 import time
-from collections import deque
-from collections.abc import Callable, Mapping
-from threading import Lock
+from collections.abc import Callable
 from typing import Any
 
-from ai4u_edu.base.loop_queue import Post
-from ai4u_edu.blocks import Answer, Command
-from ai4u_edu.blocks.brains.links.link import Answered, LinkState, Offer, Reset, Situation
+from ai4u_edu.blocks.brains.links.link import AgentSpec, LinkState, Observation, Reply, Reset
 from ai4u_edu.runtime.runner import Runner
-from ai4u_edu.server.scripts.outbox import Line
-from ai4u_edu.server.scripts.welcome import Excerpt
+from ai4u_edu.server.loop_queue import LoopQueue
+from ai4u_edu.server.scripts.answers import find_problem, is_request_for_time, to_brain_answer
+from ai4u_edu.server.scripts.exchange import Exchange, Turn
+from ai4u_edu.server.scripts.outbox import Outbox
+from ai4u_edu.server.scripts.reward_sum import RewardSum
+from ai4u_edu.server.scripts.welcome import ObservationSubset
 from ai4u_edu.wire import native
 
 
 class Session:
-    """One script at one agent, over however many connections.
+    """One script that drives one agent, over any number of connections in turn.
+
+    It is the brain's :class:`~ai4u_edu.blocks.brains.links.link.Link`. The runner's thread calls
+    the link's methods; the server's event loop calls ``attach``, ``detach``, ``mark_lost`` and
+    ``hear``. The state that both change is in a thread-safe :class:`Exchange`.
 
     Args:
         runner: the room's.
-        on_close: called in the loop when the agent's brain is closed.
+        on_close: called in the event loop when the agent's brain is closed.
         may_seed: whether a reset may have a seed, which resets the whole world.
-        post: the way into the loop that all sessions of a room share; left out, one of its own.
+        queue: of calls for the event loop, shared by a room; left out, a new one.
     """
 
     def __init__(
@@ -35,235 +35,178 @@ class Session:
         on_close: Callable[[str], None],
         *,
         may_seed: bool = True,
-        post: Post | None = None,
+        queue: LoopQueue | None = None,
     ) -> None:
         self.state = LinkState.CONNECTED
         self.reason = ""
-        self.ignored = 0
-        self.heard = 0.0
-        self.excerpt: Excerpt
-        """The readings that the script wants; set in the runner's thread, before it is told any."""
+        self.time_asked_at = 0.0
+        self.subset: ObservationSubset
+        """The readings that the script gets; set in the runner's thread before the first one."""
+        self.exchange = Exchange()
+        self.outbox: Outbox | None = None
+        """The connection; None while it is lost. Only the event loop changes it."""
         self._runner = runner
-        self._post = post or Post()
+        self._queue = queue or LoopQueue()
         self._on_close = on_close
         self._may_seed = may_seed
-        self._lock = Lock()
-        self._line: Line | None = None
-        self._answers: deque[Answered] = deque()
-        self._told: Situation | None = None
-        self._is_answered = False
-        self._is_resetting = False
-        """True while an answer that asks for a reset waits for the brain."""
-        self._frame = b""
-        self._counted = (0, 0)
-        self._reward = 0.0
-        self._terms: dict[str, float] = {}
+        self._rewards = RewardSum()
 
     # -- for the brain, in the runner's thread ---------------------------------------------------
 
     @property
-    def expecting(self) -> bool:
-        """Whether the script owes an answer."""
-        return self._told is not None
+    def ignored(self) -> int:
+        """Messages that were no answer."""
+        return self.exchange.ignored
 
     @property
-    def will_call(self) -> bool:
-        """Whether it owes one that it has not given."""
-        return self._told is not None and not self._is_answered
+    def expects_reply(self) -> bool:
+        """True while the brain can expect an answer to the latest percept."""
+        return self.exchange.turn is not Turn.IDLE
 
-    def open(self, offer: Offer) -> None:
-        """Nothing: the script is here already, and knows."""
+    @property
+    def will_notify(self) -> bool:
+        """True while the script owes an answer, of which the runner will be notified."""
+        return self.exchange.turn is Turn.ASKED
 
-    def tell(self, situation: Situation) -> None:
-        """The agent's now, unless the script still thinks about what it was told before."""
-        if self._line is not None and (self._told is None or self._is_answered):
-            self._count(situation)
-            self._tell(situation)
+    def open(self, spec: AgentSpec) -> None:
+        """Do nothing: the script is connected, and knows the agent from its welcome."""
 
-    def ask(self, situation: Situation, timeout: float) -> Answered | None:
-        """The script's answer, if it is there; if not, the runner is called when it is."""
-        self._count(situation)
-        if not self._answers:
-            if self._told is None or (self._line is None and _replaces(situation, self._told)):
-                self._tell(situation)
+    def tell(self, observation: Observation) -> None:
+        """Send an observation in advance, unless the script still computes its last answer."""
+        if self.outbox is not None and self.exchange.turn is not Turn.ASKED:
+            self._rewards.add(observation)
+            self._send_percept(observation)
+
+    def ask(self, observation: Observation, timeout: float) -> Reply | None:
+        """Return the script's answer if it is there; if not, the runner is notified of it later."""
+        self._rewards.add(observation)
+        reply = self.exchange.take()
+        if reply is None:
+            asked = self.exchange.observation
+            if asked is None or (self.outbox is None and _replaces(observation, asked)):
+                self._send_percept(observation)
             if timeout:  # the world waits for it
                 self._runner.expect_answer()
             return None
-        answered = self._newest()
-        is_reset = isinstance(answered.answer, Reset)
-        with self._lock:
-            self._is_resetting = self._is_resetting and not is_reset
-            if self._told is answered.situation:
-                self._told = None
-        if answered.situation is not situation and self._told is None and not is_reset:
-            self._tell(situation)  # it was late; what it says counts now, what it sees is new
-        return answered
+        is_late = reply.observation is not observation
+        if is_late and not self.expects_reply and not isinstance(reply.answer, Reset):
+            self._send_percept(observation)  # the late answer counts now; the observation is new
+        return reply
 
-    def refuse(self, answered: Answered, reason: str) -> bool:
-        """Tells the script that its action can't be carried out."""
-        situation = answered.situation
-        if situation is None:
+    def refuse(self, reply: Reply, reason: str) -> bool:
+        """Tell the script that its action can't be carried out."""
+        observation = reply.observation
+        if observation is None:
             return False
-        with self._lock:
-            again = self._told is None
-            if again:
-                self._told, self._is_answered = situation, False
-        self._give(self._say, native.encode(native.Problem("bad_action", reason, situation.number)))
-        return again
+        may_answer_again = self.exchange.ask_again(observation)
+        problem = native.Problem("bad_action", reason, observation.number)
+        self._call_in_loop(self._send, native.encode(problem))
+        return may_answer_again
 
     def idle(self) -> None:
-        """Nothing: the connection looks after itself."""
+        """Do nothing: WebSocket pings keep the connection alive."""
 
     def close(self, reason: str) -> None:
-        """The agent has another brain, or the world has ended."""
+        """End the session: the agent has another brain, or the world has ended."""
         self.state, self.reason = LinkState.WAITING, reason
-        self._told = None
-        self._give(self._on_close, reason)
+        self.exchange.cancel()
+        self._call_in_loop(self._on_close, reason)
 
-    # -- for the connections, in the loop --------------------------------------------------------
+    # -- for the connections, in the event loop --------------------------------------------------
 
-    @property
-    def line(self) -> Line | None:
-        """The connection; None while it is lost."""
-        return self._line
-
-    def attach(self, line: Line) -> None:
-        """A connection is there; a percept that waits for its answer is said (again)."""
-        self._line = line
-        with self._lock:
-            if self._told is not None and not self._is_answered:
-                line.say(self._frame)
+    def attach(self, outbox: Outbox) -> None:
+        """Use this connection from now on; repeat a percept that waits for its answer."""
+        self.outbox = outbox
+        self._repeat_percept()
         self.state, self.reason = LinkState.CONNECTED, ""
 
     def detach(self) -> None:
-        """The connection is lost."""
-        self._line = None
+        """Forget the connection, which is lost."""
+        self.outbox = None
+
+    def mark_lost(self, reason: str, *, is_waited_for: bool) -> None:
+        """Note that the script has been away for more than a moment.
+
+        Args:
+            reason: for the page.
+            is_waited_for: whether the world waits for it to come back.
+        """
+        self.reason = reason
+        if not is_waited_for:
+            self.state = LinkState.LOST
 
     def hear(self, message: native.Answer) -> native.Problem | None:
-        """An answer. What answers nothing is not counted, and the last percept is said again.
+        """Handle an answer; if it answers nothing, ignore it and repeat the latest percept.
 
         Returns:
-            What is wrong with it, if it is an answer and can't be one.
+            The reason why it can't be an answer to the latest percept, if it was meant as one.
         """
-        with self._lock:
-            told = self._told
-            waits = isinstance(message, native.Order) and message.word == "wait"
-            if told is None or self._is_answered or message.seq != told.number:
-                if waits:
-                    return None
-                self.ignored += 1
-                if told is not None and not self._is_answered and self._line is not None:
-                    self._line.say(self._frame)
-                return None
-            if waits:
-                self.heard = time.monotonic()
-                return None
-            problem = self._problem(message, told)
-            if problem is not None:
-                return problem
-            answered = Answered(_answer_in(message), told)
-            self._is_answered = True
-            self._is_resetting = isinstance(answered.answer, Reset)
-            self._answers.append(answered)
-        self._runner.notify_answer()
+        asks_for_time = is_request_for_time(message)
+        asked = self.exchange.observation_for(message.seq)
+        if asked is None:
+            if not asks_for_time:
+                self.exchange.ignored += 1
+                self._repeat_percept()
+            return None
+        if asks_for_time:
+            self.time_asked_at = time.monotonic()
+            return None
+        agents = len(self._runner.sim.agents)
+        problem = find_problem(message, asked, agents=agents, may_seed=self._may_seed)
+        if problem is not None:
+            return problem
+        if self.exchange.answer(Reply(to_brain_answer(message), asked)):
+            self._runner.notify_answer()
         return None
 
-    # -- what they are made of -------------------------------------------------------------------
+    # -- frames ------------------------------------------------------------------------------------
 
-    def _problem(self, message: native.Answer, told: Situation) -> native.Problem | None:
-        """Why a message can't be the answer to what was told."""
-        match message:
-            case native.Action() if told.done:
-                text = "the episode is over; expected a reset"
-                return native.Problem("episode_over", text, told.number)
-            case native.Action(episode=episode, step=step):
-                if (episode, step) == (told.episode, told.steps):
-                    return None
-                text = (
-                    f"percept {told.number} is of episode {told.episode}, step {told.steps}; "
-                    f"got an action for episode {episode}, step {step}"
-                )
-                return native.Problem("bad_action", text, told.number)
-            case native.Reset(seed=int()) if not self._may_seed:
-                text = (
-                    "expected a reset without a seed, which begins an episode for this agent; with "
-                    f"one it would begin for all {len(self._runner.sim.agents)} agents, and whoever"
-                    " runs the world has to allow that (ai4u-edu play --seeded-resets)"
-                )
-                return native.Problem("seed_refused", text, told.number)
-        return None
-
-    def _newest(self) -> Answered:
-        """The answer that counts: an action that came too late gives way to one that did not."""
-        answered = self._answers.popleft()
-        while self._answers and isinstance(answered.answer, Mapping):
-            self.ignored += 1
-            answered = self._answers.popleft()
-        return answered
-
-    def _count(self, situation: Situation) -> None:
-        """Adds up what was paid since the last percept that the script was told."""
-        place = (situation.episode, situation.steps)
-        if place == self._counted:
+    def _send_percept(self, observation: Observation) -> None:
+        if self.exchange.turn is Turn.RESETTING:
             return
-        if situation.episode != self._counted[0]:
-            self._reward, self._terms = 0.0, {}
-        self._counted = place
-        self._reward += situation.reward
-        for name, amount in situation.terms.items():
-            self._terms[name] = self._terms.get(name, 0.0) + amount
-
-    def _tell(self, situation: Situation) -> None:
-        data, texts = self.excerpt.of(situation.percept)
+        data, texts = self.subset.extract(observation.percept)
         frame = native.encode(
             native.Percept(
-                episode=situation.episode,
-                step=situation.steps,
-                seq=situation.number,
-                tick=situation.tick,
-                reward=self._reward,
-                terms=self._terms,
-                terminated=situation.done and not situation.truncated,
-                truncated=situation.truncated,
-                paused=situation.paused,
-                stopped=situation.stopped,
+                episode=observation.episode,
+                step=observation.steps,
+                seq=observation.number,
+                tick=observation.tick,
+                reward=self._rewards.total,
+                terms=self._rewards.terms,
+                terminated=observation.done and not observation.truncated,
+                truncated=observation.truncated,
+                paused=observation.paused,
+                stopped=observation.stopped,
                 data=data,
                 texts=texts,
             )
         )
-        self._reward, self._terms = 0.0, {}
-        with self._lock:
-            if self._is_resetting:  # told of the episode that ends, it would ask for one more
-                return
-            self._told, self._frame, self._is_answered = situation, frame, False
-        if self._line is not None:  # else it is said when there is one again
-            self._give(self._say, frame)
+        if not self.exchange.ask(observation, frame):
+            return
+        self._rewards.clear()
+        if self.outbox is not None:  # else it is sent with the next connection
+            self._call_in_loop(self._send, frame)
 
-    def _say(self, frame: bytes) -> None:
-        if self._line is not None:
-            self._line.say(frame)
+    def _repeat_percept(self) -> None:
+        frame = self.exchange.unanswered_frame()
+        if frame is not None:
+            self._send(frame)
 
-    def _give(self, function: Callable[[Any], None], argument: object) -> None:
+    def _send(self, frame: bytes) -> None:
+        if self.outbox is not None:
+            self.outbox.send(frame)
+
+    def _call_in_loop(self, function: Callable[[Any], None], argument: object) -> None:
         try:
-            self._post.give(function, argument)
+            self._queue.call(function, argument)
         except RuntimeError:  # the server has ended before the world
             self.state, self.reason = LinkState.LOST, "the server has ended"
 
 
-def _replaces(situation: Situation, told: Situation) -> bool:
-    """Return True if a script that is away is to see this in place of what it was told.
+def _replaces(observation: Observation, asked: Observation) -> bool:
+    """Return True if a script that is away is to see this in place of what it was asked.
 
-    The first percept of an episode stays, since a reset gives it back.
+    The first percept of an episode stays, since it is the result of a reset.
     """
-    is_first = told.steps == 0 and told.episode == situation.episode
-    return situation is not told and not is_first
-
-
-def _answer_in(message: native.Answer) -> Answer | Reset:
-    match message:
-        case native.Action(values=values):
-            return values
-        case native.Reset(seed=seed):
-            return Reset(seed)
-        case native.Order(word=word):
-            return Command(word)
+    is_first = asked.steps == 0 and asked.episode == observation.episode
+    return observation is not asked and not is_first

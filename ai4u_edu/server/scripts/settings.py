@@ -1,4 +1,4 @@
-"""The rules of a room for all its scripts."""
+"""The settings of a room for its scripts."""
 
 import math
 from dataclasses import dataclass
@@ -13,7 +13,7 @@ MAX_RECEIVE_TIMEOUT_MS = 600_000
 
 @dataclass(frozen=True, slots=True)
 class Rules:
-    """The limits of a room's scripts: their times, their token, their rights.
+    """The settings of a room for its scripts: timeouts, token, permissions.
 
     Raises:
         SetupError: a number is out of range.
@@ -25,17 +25,17 @@ class Rules:
     """
 
     grace: float = 3.0
-    """Seconds that a seat is kept for a script whose connection is lost."""
+    """Seconds for which a script whose connection is lost keeps its agent."""
     receive_timeout: int = 2000
     """Milliseconds for which a world in lockstep waits for an action; a script that is silent for
     longer is given up until it speaks again."""
     token: str = ""
-    """What a script, and a page, has to say to be let in; empty for nothing."""
+    """Token that scripts and pages must send; empty: none is needed."""
     seeded_resets: bool = False
     """Whether the script of one of several agents may begin a new episode for all of them."""
     lockstep: bool | None = None
-    """True lets a script have the world wait for its actions; left out, only where its agent is
-    the only one. A program that drives all agents of a world in lockstep needs True."""
+    """True allows scripts to make the world wait for their actions; left out, this is allowed only
+    if there is a single agent. A program that drives all agents in lockstep needs True."""
     on_missing: OnMissing = ""
     """Substitute for an action that is missing, if a script does not choose; empty: hold
     while its connection is there, stop when it is lost."""

@@ -1,4 +1,4 @@
-"""What a script is told of an agent: its readings and where they lie, its actuators."""
+"""The description of an agent for a script: its readings and their layout, its actuators."""
 
 from collections.abc import Collection
 from typing import Any
@@ -14,12 +14,12 @@ from ai4u_edu.wire import native
 from ai4u_edu.wire.texts import pack_texts
 
 
-class Excerpt:
-    """The readings that a script wants, out of an agent's percepts.
+class ObservationSubset:
+    """A selection of the readings in an agent's percepts.
 
     Args:
-        agent: whose percepts.
-        keys: the readings' keys; none named: all.
+        agent: the agent.
+        keys: of the readings; empty: all.
 
     Raises:
         NameNotFoundError: there is no such reading.
@@ -79,8 +79,8 @@ class Excerpt:
             )
         self.readings = tuple(found)
 
-    def of(self, percept: Percept) -> tuple[bytes, tuple[str, ...]]:
-        """The numbers, one reading after another, and the texts."""
+    def extract(self, percept: Percept) -> tuple[bytes, tuple[str, ...]]:
+        """Return the numbers, one reading after another, and the texts."""
         texts = tuple([_as_text(percept.texts[place]) for place in self._texts])
         if self._is_all:
             return percept.data, texts
@@ -92,14 +92,14 @@ class Excerpt:
 
 
 def _as_text(reading: str | tuple[str, ...]) -> str:
-    """A reading that is text; of one that is several, all as one."""
+    """Return a text reading as it is sent; several texts are packed into one."""
     if isinstance(reading, tuple):
         return pack_texts(reading, native.LONGEST_READ)
     return reading[: native.LONGEST_READ]
 
 
 def output_of(name: str, actuator: Actuator) -> native.Output:
-    """What a script is told of an actuator."""
+    """Describe an actuator for a script."""
     low, high = actuator.limits()
     return native.Output(
         name=name,
@@ -115,7 +115,7 @@ def _is_discrete(space: spaces.Space[Any]) -> bool:
 
 
 def _bounds(space: spaces.Space[Any], slot: Slot) -> tuple[bytes, bytes]:
-    """Lowest and highest: one number where all entries have the same, else one for each."""
+    """Return the lowest and highest values: one each if all entries share it, else one an entry."""
     if isinstance(space, spaces.Discrete):
         # numbers from 0 on need no more than this; a bool is 0 or 1
         low, high = np.array([space.start]), np.array([space.start + space.n - 1])

@@ -9,7 +9,6 @@ from viser import ViserServer
 
 from ai4u_edu.viewer.backend.broadcast import fan_out
 from ai4u_edu.viewer.backend.incoming import IncomingMessages
-from ai4u_edu.viewer.backend.quick_props import quick_props
 
 
 class LocalServer(ViserServer):
@@ -29,7 +28,6 @@ class LocalServer(ViserServer):
             super().__init__(host="127.0.0.1", port=0, label=label, verbose=False)
         fan_out(self)
         IncomingMessages(self)
-        quick_props()
 
     def request_share_url(self, verbose: bool = True) -> str | None:  # noqa: ARG002
         """Refuses."""

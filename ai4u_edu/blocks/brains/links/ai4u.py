@@ -1,4 +1,4 @@
-"""AI4U's protocol over UDP: the world knocks, a script listens."""
+"""The link to an AI4U script: the world sends requests over UDP, the script answers."""
 
 import socket
 import time
@@ -7,50 +7,52 @@ import weakref
 from ai4u_edu.base.errors import SetupError
 from ai4u_edu.blocks.brains.command import Command
 from ai4u_edu.blocks.brains.links.ai4u_codec import AI4UCodec
-from ai4u_edu.blocks.brains.links.link import Answered, LinkState, Offer, Reset, Situation
-from ai4u_edu.blocks.brains.links.link_thread import Desk
-from ai4u_edu.blocks.brains.links.udp import Datagrams
-from ai4u_edu.wire.ai4u_dialogue import Dialogue, Heard, Phase, State, Word
+from ai4u_edu.blocks.brains.links.link import AgentSpec, LinkState, Observation, Reply, Reset
+from ai4u_edu.blocks.brains.links.link_thread import LinkThread
+from ai4u_edu.blocks.brains.links.udp import UdpSocket
+from ai4u_edu.wire.ai4u_dialogue import AI4UDialogue, AI4UReply, Phase, ReplyKind, State
 from ai4u_edu.wire.validation import WireError
 
-KNOCK_EVERY = 0.25
-"""Seconds between two knocks while no script is there."""
-SETTLE = 0.1
-"""Seconds that a script gets to put itself together, before it is greeted and before it is told a
-first state: it asks for its reset meanwhile."""
-POLL_EVERY = 0.01
-"""Seconds between two questions to a script that is there and has not begun."""
-PATIENT_AFTER = 20
-"""A script that asks for time is asked again at once, so many times; then it thinks about something
-longer, and asking would only take the processor from it."""
-MOST_PATIENT = 0.004
-"""Seconds between two questions to a script that thinks longer."""
-FAREWELL = 0.3
-"""Seconds for which a script's last reply is waited for."""
-MAX_READ_AT_ONCE = 1000
-"""Datagrams; somebody may send garbage faster than it is read, and the world is not to wait."""
+CONNECT_INTERVAL_S = 0.25
+"""Interval of the requests that look for a script."""
+SETTLE_S = 0.1
+"""Time that a script gets to initialise, before the handshake and before its first state. It asks
+for its reset meanwhile."""
+POLL_INTERVAL_S = 0.01
+"""Interval of the requests to a script that is connected and has not started."""
+IMMEDIATE_REPEATS = 20
+"""A script that asks for time is asked again at once, this many times. After that the interval
+grows, since each question takes processor time from the script."""
+REPEAT_BACKOFF_S = 1e-4
+"""Growth of that interval with each question."""
+MAX_REPEAT_INTERVAL_S = 0.004
+"""Longest interval between two questions to a script that asks for time."""
+GOODBYE_TIMEOUT_S = 0.3
+"""Timeout of a script's last reply."""
+MAX_RECEIVED_AT_ONCE = 1000
+"""Datagrams read before the world goes on, even if somebody sends faster than we read."""
 NEVER = float("-inf")
 
 COMMANDS = {
-    Word.NOOP: Command.WAIT,
-    Word.PAUSE: Command.PAUSE,
-    Word.RESUME: Command.RESUME,
-    Word.STOP: Command.STOP,
+    ReplyKind.NOOP: Command.WAIT,
+    ReplyKind.PAUSE: Command.PAUSE,
+    ReplyKind.RESUME: Command.RESUME,
+    ReplyKind.STOP: Command.STOP,
 }
 
 
 class AI4ULink:
-    """A :class:`~ai4u_edu.blocks.brains.links.link.Link` that speaks AI4U's own protocol.
+    """A :class:`~ai4u_edu.blocks.brains.links.link.Link` that uses AI4U's own protocol.
 
-    Nothing is ever sent twice: the protocol has no numbers, and one datagram too many would shift
-    the script's dialogue for good. So a lost one ends the session; then it knocks again, and a
-    script may begin a new one.
+    It never resends: the protocol has no sequence numbers, so the script would take a repeated
+    datagram for the next one, and stay one behind for good. A lost datagram ends the session; the
+    link then looks for a script again.
 
     Args:
         host: where the script listens.
         port: its UDP port.
         receive_timeout: seconds for which a script may be silent.
-        threaded: whether a thread of its own talks to the script, so that nobody waits for it.
+        threaded: whether a thread of its own talks to the script, so that the world never waits.
 
     Raises:
         SetupError: there is no such host.
@@ -63,244 +65,246 @@ class AI4ULink:
         self.state = LinkState.WAITING
         self.reason = ""
         self.ignored = 0
-        self.heard = 0.0
-        self._peer = _address_of(host, port)
+        self.time_asked_at = 0.0
+        self._peer = _resolve(host, port)
         self._timeout = receive_timeout
-        self._threaded = threaded
-        self._datagrams: Datagrams | None = None
+        self._is_threaded = threaded
+        self._socket: UdpSocket | None = None
 
     @property
-    def expecting(self) -> bool:
-        """Whether the script owes an answer."""
-        return self._datagrams is not None and self._dialogue.phase is Phase.PLAYING
+    def expects_reply(self) -> bool:
+        """True while the script owes an answer."""
+        return self._socket is not None and self._dialogue.phase is Phase.PLAYING
 
     @property
-    def will_call(self) -> bool:
-        """Never: it is asked again and again."""
+    def will_notify(self) -> bool:
+        """Always False: the runner has to poll."""
         return False
 
-    def open(self, offer: Offer) -> None:
-        """Begins to knock."""
+    def open(self, spec: AgentSpec) -> None:
+        """Begin to look for a script."""
         self.close("the agent is set up anew")
-        self._codec = AI4UCodec(offer)
-        self._dialogue = Dialogue(
-            offer.agent,
+        self._codec = AI4UCodec(spec)
+        self._dialogue = AI4UDialogue(
+            spec.agent,
             metadata=self._codec.metadata,
-            max_steps=offer.max_steps,
-            skip_frame=offer.skip_frame,
-            repeat_action=offer.repeat_action,
+            max_steps=spec.max_steps,
+            skip_frame=spec.skip_frame,
+            repeat_action=spec.repeat_action,
         )
         self.state = LinkState.WAITING
         self.reason = f"no AI4U script listens at {self.where} yet"
-        self._sent = NEVER
-        self._waits = 0
-        self._open: Situation | None = None
-        self._told: tuple[Situation, State] | None = None
-        self._kept: Answered | None = None
-        self._datagrams = Datagrams(self._peer)
-        self._closed = weakref.finalize(self, self._datagrams.close)
-        if self._threaded:
-            self._desk = Desk(self.talk, f"ai4u {self.where}")
+        self._sent_at = NEVER
+        self._time_requests = 0
+        """Replies in a row by which the script asked for time."""
+        self._asked: Observation | None = None
+        """The observation that waits for an answer."""
+        self._state: tuple[Observation, State] | None = None
+        """The last observation that was converted, and its state."""
+        self._early_reply: Reply | None = None
+        """A reply that came while the world stood still."""
+        self._socket = UdpSocket(self._peer)
+        self._close_socket = weakref.finalize(self, self._socket.close)
+        if self._is_threaded:
+            self._thread = LinkThread(self.talk, f"ai4u {self.where}")
 
-    def tell(self, situation: Situation) -> None:
-        """Sends it, or has the thread that talks to the script do so."""
-        if not self.expecting:
+    def tell(self, observation: Observation) -> None:
+        """Send an observation in advance, or let the thread send it."""
+        if not self.expects_reply:
             return
-        if self._threaded:
-            self._desk.leave(situation)
-        elif self._kept is None and not self._dialogue.in_flight:
-            self._send(situation, NEVER)
+        if self._is_threaded:
+            self._thread.put(observation)
+        elif self._early_reply is None and not self._dialogue.in_flight:
+            self._send(observation, NEVER)
 
-    def ask(self, situation: Situation, timeout: float) -> Answered | None:
-        """The script's answer."""
-        if self._threaded:
-            return self._desk.exchange(situation, timeout)
-        if self._kept is not None:
-            kept, self._kept = self._kept, None
-            return kept
-        return self.talk(situation, time.monotonic() + timeout)
+    def ask(self, observation: Observation, timeout: float) -> Reply | None:
+        """Return the script's answer."""
+        if self._is_threaded:
+            return self._thread.exchange(observation, timeout)
+        if self._early_reply is not None:
+            reply, self._early_reply = self._early_reply, None
+            return reply
+        return self.talk(observation, time.monotonic() + timeout)
 
-    def refuse(self, answered: Answered, reason: str) -> bool:
-        """The protocol has no word for it: the script gets the next state, and nothing moved."""
+    def refuse(self, reply: Reply, reason: str) -> bool:
+        """Return False: the protocol can't express it; the script gets the next state instead."""
         return False
 
     def idle(self) -> None:
-        """Goes on asking a script that asked for time, and polling one that has not begun."""
-        if self._threaded or self._datagrams is None or self._kept is not None:
+        """Repeat the question to a script that asked for time, or poll one that has not started."""
+        if self._is_threaded or self._socket is None or self._early_reply is not None:
             return
-        if self._open is not None or not self.expecting:
-            self._kept = self.talk(self._open, time.monotonic())
+        if self._asked is not None or not self.expects_reply:
+            self._early_reply = self.talk(self._asked, time.monotonic())
 
     def close(self, reason: str) -> None:
-        """Tells the script that the world has ended."""
-        if self._datagrams is None:
+        """Tell the script that the world has ended."""
+        if self._socket is None:
             return
-        if self._threaded:
-            self._desk.close()
+        if self._is_threaded:
+            self._thread.close()
         if self.state is LinkState.CONNECTED:
             self._say_goodbye()
-        self._closed()
-        self._datagrams = None
+        self._close_socket()
+        self._socket = None
         self.state, self.reason = LinkState.WAITING, reason
 
-    # -- the conversation ------------------------------------------------------------------------
+    # -- the dialogue ----------------------------------------------------------------------------
 
-    def talk(self, situation: Situation | None, until: float) -> Answered | None:
-        """Sends what is due and takes what comes, until there is an answer or it is late enough."""
-        while self._dialogue.in_flight or self._send(situation, until):
-            heard = self._receive(until)
-            if heard is None:
+    def talk(self, observation: Observation | None, deadline: float) -> Reply | None:
+        """Send requests and handle replies, until there is an answer or the deadline is over."""
+        while self._dialogue.in_flight or self._send(observation, deadline):
+            received = self._receive(deadline)
+            if received is None:
                 return None
-            answered = self._understood(heard)
-            if answered is not None:
-                self._open = None
-                return answered
+            reply = self._handle(received)
+            if reply is not None:
+                self._asked = None
+                return reply
         return None
 
-    def _send(self, situation: Situation | None, until: float) -> bool:
-        """Sends the next request, unless it is too early for it; whether one is on its way."""
+    def _send(self, observation: Observation | None, deadline: float) -> bool:
+        """Send the next request if it is due; return True if a request is in flight."""
         now = time.monotonic()
-        due = self._sent + self._pause()
+        due = self._sent_at + self._interval()
         if due > now:
-            until = min(due, self._patience(until))
-            if until > now:
-                time.sleep(until - now)
-            if due > until:
+            deadline = min(due, self._wait_until(deadline))
+            if deadline > now:
+                time.sleep(deadline - now)
+            if due > deadline:
                 return False
         if self._dialogue.phase in (Phase.STARTED, Phase.PLAYING):
-            if situation is None:
+            if observation is None:
                 return False
-            self._open = situation
-            if self._told is None or self._told[0] is not situation:
-                self._told = situation, self._codec.state(situation)
-        wire = self._wire
-        self.ignored += wire.drain()
-        request = self._dialogue.request(self._told[1] if self._told else None)
-        self._sent = time.monotonic()
+            self._asked = observation
+            if self._state is None or self._state[0] is not observation:
+                self._state = observation, self._codec.state(observation)
+        udp = self._open_socket
+        self.ignored += udp.drain()
+        request = self._dialogue.request(self._state[1] if self._state else None)
+        self._sent_at = time.monotonic()
         try:
-            wire.send(request)
+            udp.send(request)
         except OSError as error:
-            self._unreachable(error)
+            self._handle_unreachable(error)
             return False
         return True
 
-    def _patience(self, until: float) -> float:
-        """Until when to wait: before a session has begun there is nothing to wait for."""
-        return until if self._threaded or self._dialogue.phase is Phase.PLAYING else NEVER
+    def _wait_until(self, deadline: float) -> float:
+        """Return the deadline, or NEVER if the world must not wait since no session has begun."""
+        may_wait = self._is_threaded or self._dialogue.phase is Phase.PLAYING
+        return deadline if may_wait else NEVER
 
-    def _pause(self) -> float:
-        """Seconds that have to pass from one request to the next."""
+    def _interval(self) -> float:
+        """Return the seconds that have to pass from one request to the next."""
         match self._dialogue.phase:
-            case Phase.PLAYING if self._waits <= PATIENT_AFTER:
+            case Phase.PLAYING if self._time_requests <= IMMEDIATE_REPEATS:
                 return 0.0
-            case Phase.KNOCKING:
-                return KNOCK_EVERY
-            case Phase.GREETING:
-                return SETTLE
-            case Phase.STARTED if not self._waits:
-                return SETTLE
+            case Phase.CONNECTING:
+                return CONNECT_INTERVAL_S
+            case Phase.HANDSHAKE:
+                return SETTLE_S
+            case Phase.STARTED if not self._time_requests:
+                return SETTLE_S
             case Phase.STARTED | Phase.POLLING:
-                return POLL_EVERY
-        return min(MOST_PATIENT, max(0, self._waits - PATIENT_AFTER) * 1e-4)
+                return POLL_INTERVAL_S
+        excess = max(0, self._time_requests - IMMEDIATE_REPEATS)
+        return min(MAX_REPEAT_INTERVAL_S, excess * REPEAT_BACKOFF_S)
 
-    def _receive(self, until: float) -> Heard | None:
-        """The reply to what is on its way; None if it is not there yet, or never comes."""
-        for _ in range(MAX_READ_AT_ONCE):
+    def _receive(self, deadline: float) -> AI4UReply | None:
+        """Return the reply to the request in flight; None if it is not there yet, or was lost."""
+        udp = self._open_socket
+        for _ in range(MAX_RECEIVED_AT_ONCE):
+            udp.wait_readable(max(0.0, self._wait_until(deadline) - time.monotonic()) * 1000)
             try:
-                reply, is_the_scripts = self._read(self._patience(until))
+                datagram, is_from_script = udp.receive()
             except BlockingIOError:
-                self._look_at_the_clock()
+                self._check_timeout()
                 return None
             except OSError as error:
-                self._unreachable(error)
+                self._handle_unreachable(error)
                 return None
-            if is_the_scripts:
+            if is_from_script:
                 try:
-                    return self._dialogue.hear(reply)
+                    return self._dialogue.parse_reply(datagram)
                 except WireError:
                     pass
             self.ignored += 1
-        self._look_at_the_clock()
+        self._check_timeout()
         return None
 
-    def _read(self, until: float) -> tuple[bytes, bool]:
-        """The next datagram, and whether it is the script's; raises what a socket raises."""
-        wire = self._wire
-        wire.is_there(max(0.0, until - time.monotonic()) * 1000)
-        return wire.take()
-
-    def _understood(self, heard: Heard) -> Answered | None:
-        """What a reply asks of the agent; None if it asks for nothing."""
-        word, situation = heard.word, self._open
-        self._waits = self._waits + 1 if word is Word.WAIT else 0
-        if self.state is not LinkState.CONNECTED and self._dialogue.phase is not Phase.GREETING:
+    def _handle(self, received: AI4UReply) -> Reply | None:
+        """Return what a reply means for the agent; None if it means nothing."""
+        kind, observation = received.kind, self._asked
+        self._time_requests = self._time_requests + 1 if kind is ReplyKind.WAIT else 0
+        if self.state is not LinkState.CONNECTED and self._dialogue.phase is not Phase.HANDSHAKE:
             self.state, self.reason = LinkState.CONNECTED, ""
-        match word:
-            case Word.CONFIGURED:
-                self._sent = NEVER
-            case Word.WAIT:
-                self.heard = time.monotonic()
-            case Word.RESET:
-                return Answered(Reset(), situation)
-            case Word.HALT:
-                self._over(LinkState.WAITING, f"the script at {self.where} has ended")
-            case Word.ACTION if self.expecting:
-                return Answered(self._codec.action(heard.orders), situation)
-            case _ if self.expecting:
-                return Answered(COMMANDS[word], situation)
+        match kind:
+            case ReplyKind.CONFIGURED:
+                self._sent_at = NEVER
+            case ReplyKind.WAIT:
+                self.time_asked_at = time.monotonic()
+            case ReplyKind.RESET:
+                return Reply(Reset(), observation)
+            case ReplyKind.HALT:
+                self._end_session(LinkState.WAITING, f"the script at {self.where} has ended")
+            case ReplyKind.ACTION if self.expects_reply:
+                return Reply(self._codec.action(received.orders), observation)
+            case _ if self.expects_reply:
+                return Reply(COMMANDS[kind], observation)
         return None
 
-    def _look_at_the_clock(self) -> None:
-        silent = time.monotonic() - self._sent
-        if self._dialogue.phase is Phase.KNOCKING:
-            self._dialogue.in_flight = silent < KNOCK_EVERY
-        elif silent > self._timeout:
-            self._over(
+    def _check_timeout(self) -> None:
+        silence = time.monotonic() - self._sent_at
+        if self._dialogue.phase is Phase.CONNECTING:
+            self._dialogue.in_flight = silence < CONNECT_INTERVAL_S
+        elif silence > self._timeout:
+            self._end_session(
                 LinkState.LOST,
                 f"the script at {self.where} did not answer for {self._timeout:g} s: its session "
                 "is over, since AI4U's protocol can't make up for a lost packet; start the script "
                 "again (or give it a longer receive_timeout, if it was only slow)",
             )
 
-    def _unreachable(self, error: OSError) -> None:
-        if self._dialogue.phase is Phase.KNOCKING:
+    def _handle_unreachable(self, error: OSError) -> None:
+        if self._dialogue.phase is Phase.CONNECTING:
             self._dialogue.in_flight = False
             if not isinstance(error, ConnectionError):
                 self.reason = f"{self.where} can't be reached: {error.strerror or error}"
         else:
-            self._over(
+            self._end_session(
                 LinkState.LOST,
                 f"the script at {self.where} is gone ({error.strerror or error}); start it again",
             )
 
-    def _over(self, state: LinkState, reason: str) -> None:
-        """A session has ended; from now on it knocks again."""
+    def _end_session(self, state: LinkState, reason: str) -> None:
+        """End a session, and look for a script again."""
         if self.state is not LinkState.WAITING:  # else it had not begun yet
             self.state = state
         self.reason = reason
-        self._open = self._told = None
+        self._asked = self._state = None
         self._dialogue.begin()
 
     def _say_goodbye(self) -> None:
-        until = time.monotonic() + FAREWELL
-        wire = self._wire
+        deadline = time.monotonic() + GOODBYE_TIMEOUT_S
+        udp = self._open_socket
         try:
-            wire.send(self._dialogue.farewell())
-            while (left := until - time.monotonic()) > 0:
-                wire.is_there(left * 1000)
-                if wire.take() == (b"halt", True):
+            udp.send(self._dialogue.goodbye_request())
+            while (left := deadline - time.monotonic()) > 0:
+                udp.wait_readable(left * 1000)
+                if udp.receive() == (b"halt", True):
                     return
         except OSError:
             return  # then it has gone already
 
     @property
-    def _wire(self) -> Datagrams:
-        if self._datagrams is None:
+    def _open_socket(self) -> UdpSocket:
+        if self._socket is None:
             raise SetupError(f"the link to {self.where} is closed; expected open() first")
-        return self._datagrams
+        return self._socket
 
 
-def _address_of(host: str, port: int) -> tuple[str, int]:
+def _resolve(host: str, port: int) -> tuple[str, int]:
     try:
         found = socket.getaddrinfo(host, port, socket.AF_INET, socket.SOCK_DGRAM)
     except OSError as error:

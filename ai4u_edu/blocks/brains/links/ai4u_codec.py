@@ -1,36 +1,36 @@
-"""An agent in the terms of AI4U's protocol, for a script beside the world."""
+"""Conversion of an agent's observations to AI4U's protocol, for a script beside the world."""
 
 from ai4u_edu.base.errors import SetupError
-from ai4u_edu.blocks.brains.links.link import Offer, Situation
+from ai4u_edu.blocks.brains.links.link import AgentSpec, Observation
 from ai4u_edu.wire.agent_codec import AgentCodec
 from ai4u_edu.wire.ai4u_dialogue import State
 from ai4u_edu.wire.validation import WireError
 
 
 class AI4UCodec(AgentCodec):
-    """Situations to states, replies to actions.
+    """Converts observations to states, and replies to actions.
 
     Args:
-        offer: the agent.
+        spec: of the agent.
 
     Raises:
-        SetupError: AI4U's protocol has no words for what a sensor reads.
+        SetupError: AI4U's protocol can't express what a sensor reads.
     """
 
-    def __init__(self, offer: Offer) -> None:
+    def __init__(self, spec: AgentSpec) -> None:
         try:
-            super().__init__(offer.readings, offer.outputs)
+            super().__init__(spec.readings, spec.outputs)
         except WireError as error:
             raise SetupError(str(error)) from None
 
-    def state(self, now: Situation) -> State:
-        """What the script is told."""
+    def state(self, observation: Observation) -> State:
+        """Return what the script is sent."""
         return State(
-            sensors=self.sensors(now.percept),
-            reward=now.reward,
-            steps=now.steps,
-            done=now.done,
-            truncated=now.truncated,
-            paused=now.paused,
-            stopped=now.stopped,
+            sensors=self.sensors(observation.percept),
+            reward=observation.reward,
+            steps=observation.steps,
+            done=observation.done,
+            truncated=observation.truncated,
+            paused=observation.paused,
+            stopped=observation.stopped,
         )

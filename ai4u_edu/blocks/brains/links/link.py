@@ -1,4 +1,4 @@
-"""What a RemoteBrain and a transport say to each other."""
+"""The interface between a RemoteBrain and a transport to its script."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -13,31 +13,31 @@ from ai4u_edu.blocks.percept import Percept
 
 
 class LinkState(StrEnum):
-    """Whether a script is at the other end."""
+    """States of the connection to a script."""
 
     WAITING = "waiting"
-    """No script has come yet, or the last one said goodbye."""
+    """No script has connected yet, or the last one said goodbye."""
     CONNECTED = "connected"
     LOST = "lost"
-    """A script was there and is gone; it may come back, or another one may come."""
+    """The script is gone; it may come back, or another one may connect."""
 
 
-class Reading(NamedTuple):
-    """What one sensor puts into the percept."""
+class ReadingSpec(NamedTuple):
+    """The description of one sensor's reading in the percept."""
 
     name: str
     """Its perception key."""
     kind: str
     """AI4U's type: sfloatarray, simage, ..."""
     space: spaces.Space[Any]
-    """Of what stands in the percept: normalised and stacked."""
+    """The space of the values in the percept, normalised and stacked."""
     unit: str
     is_input: bool
-    """Whether a policy gets it as part of its observation."""
+    """Whether it is part of a policy's observation."""
 
 
-class Output(NamedTuple):
-    """What one actuator takes."""
+class OutputSpec(NamedTuple):
+    """The description of one actuator's action."""
 
     name: str
     is_continuous: bool
@@ -47,137 +47,149 @@ class Output(NamedTuple):
 
 
 @dataclass(frozen=True, slots=True)
-class Offer:
-    """What a script is told of an agent, once."""
+class AgentSpec:
+    """The description of an agent, sent to a script once."""
 
     agent: str
     """The agent's id."""
     max_steps: int
-    """Decisions after which an episode is cut off; 0 for no limit."""
+    """Decisions after which an episode is truncated; 0 for no limit."""
     skip_frame: int
     repeat_action: bool
     tick: float
-    """Seconds of a tick."""
-    readings: tuple[Reading, ...]
-    """Of the agent's own sensors; every percept has ``done`` and ``id`` besides."""
-    outputs: tuple[Output, ...]
+    """Duration of a tick in seconds."""
+    readings: tuple[ReadingSpec, ...]
+    """Of the agent's own sensors; every percept has ``done`` and ``id`` too."""
+    outputs: tuple[OutputSpec, ...]
     rewards: tuple[str, ...]
-    """The names of the reward's terms."""
+    """Names of the reward's terms."""
 
 
-class Situation(NamedTuple):
-    """What a script is told before each of its answers."""
+class Observation(NamedTuple):
+    """Everything that a script gets before it answers."""
 
     number: int
-    """Counted from 1 on, by the brain; each is answered once."""
+    """Counted by the brain, from 1; each observation gets at most one answer."""
     episode: int
-    """The agent's, counted from 1 on."""
+    """Counted by the agent, from 1."""
     percept: Percept
     reward: float
     """Of the last decision."""
     terms: Mapping[str, float]
-    """The same, by named term."""
+    """The same reward by named term."""
     steps: int
     """Decisions taken in this episode."""
     tick: int
-    """Of the world, since its reset."""
+    """Ticks of the world since its reset."""
     done: bool
-    """Whether the episode is over, in whatever way."""
+    """Whether the episode is over: terminated or truncated."""
     truncated: bool
-    """Whether it was cut off: by its limit, or by somebody else's reset."""
+    """Whether it was cut off: by its limit, or by a reset that the script did not ask for."""
     paused: bool
     stopped: bool
 
 
 class Reset(NamedTuple):
-    """An answer that asks for a new episode: of the world, or of this agent if it has company."""
+    """An answer that asks for a new episode: of the world, or of one of several agents."""
 
     seed: int | None = None
-    """Given, it is the whole world that begins anew, from this seed."""
+    """With a seed, the whole world is reset, with this seed."""
 
 
-class Answered(NamedTuple):
-    """What a script answered, and what it had been told."""
+class Reply(NamedTuple):
+    """A script's answer, and the observation that it answers."""
 
     answer: Answer | Reset
-    """An action, as it came; PAUSE, RESUME, STOP; WAIT for "nothing; tell me again at the next
+    """An action, unchecked; PAUSE, RESUME or STOP; WAIT for "no action; ask me again at the next
     tick"; or a :class:`Reset`."""
-    situation: Situation | None
-    """None if it answered nothing in particular, as one that just came and asks for a reset."""
+    observation: Observation | None
+    """None if it answers no observation, such as a reset by a script that has just connected."""
 
 
 class Link(Protocol):
-    """One transport's way to a script. All methods are called by the runner's thread.
+    """The connection to one script over some transport. The runner's thread calls all methods.
 
-    A link never raises because of what a script does or sends: that ends in its ``state``, its
-    ``reason`` and its counts.
+    A link never raises because of what a script does or sends: that changes its ``state``,
+    ``reason`` and ``ignored``.
     """
 
-    state: LinkState
-    reason: str
-    """What happened last, in a sentence for the page; empty while there is nothing to say."""
-    ignored: int
-    """How much came that was no answer: garbage, repeated, too late, from somebody else."""
-    heard: float
-    """When the script said last (time.monotonic) that it needs more time; 0 for never. A transport
-    whose scripts can't say so leaves it at 0."""
+    @property
+    def state(self) -> LinkState:
+        """Whether a script is connected."""
 
     @property
-    def expecting(self) -> bool:
-        """Whether the script owes an answer, so that a world in lockstep has to wait for it."""
+    def reason(self) -> str:
+        """A sentence for the page about the last event; empty if there is nothing to report."""
 
     @property
-    def will_call(self) -> bool:
-        """Whether it owes one, and the world's runner is called as soon as it is there."""
+    def ignored(self) -> int:
+        """The number of messages that were no answer: malformed, repeated, late, from others."""
 
-    def open(self, offer: Offer) -> None:
-        """Begins to look out for a script. What was open before is closed."""
+    @property
+    def time_asked_at(self) -> float:
+        """The time (time.monotonic) at which the script last asked for more time; 0 for never.
 
-    def tell(self, situation: Situation) -> None:
-        """The agent's now, sooner than it is asked about.
-
-        A link that can sends it at once: a script sees what is new and not a tick old, and thinks
-        while the world finishes its tick.
+        It stays 0 if the transport has no such message.
         """
 
-    def ask(self, situation: Situation, timeout: float) -> Answered | None:
-        """The script's answer, as soon as it is there.
+    @property
+    def expects_reply(self) -> bool:
+        """True while the script owes an answer, so that a world in lockstep waits for it."""
 
-        Sends the situation, unless one is on its way already: there is one in flight at most. With
-        no script there, looks out for one, and returns at once.
+    @property
+    def will_notify(self) -> bool:
+        """True while it owes an answer, and the runner will be notified when it arrives."""
+
+    def open(self, spec: AgentSpec) -> None:
+        """Begin to wait for a script; close the connection that was open before."""
+
+    def tell(self, observation: Observation) -> None:
+        """Send an observation before it is asked about, if that is possible now.
+
+        The script can compute its answer while the world finishes its tick, and what it gets is not
+        a tick old.
+        """
+
+    def ask(self, observation: Observation, timeout: float) -> Reply | None:
+        """Return the script's answer, as soon as it is there.
+
+        The observation is sent unless another one is in flight: there is at most one. With no
+        script connected, look for one and return at once.
 
         Args:
-            situation: the agent's now; one with the same number is the same one, asked again.
-            timeout: how long to wait (s); 0 to look only.
+            observation: the current one; one with the same number is a repeated question.
+            timeout: seconds to wait; 0 to return at once.
 
         Returns:
-            An answer, possibly to an earlier situation; None if there is none yet.
+            An answer, possibly to an earlier observation; None if there is none yet.
         """
 
-    def refuse(self, answered: Answered, reason: str) -> bool:
-        """The answer can't be carried out; tells the script, where the transport can.
+    def refuse(self, reply: Reply, reason: str) -> bool:
+        """Report to the script, if the transport can, that its answer can't be carried out.
 
         Returns:
-            Whether the script may answer the same situation again.
+            True if the script may answer the same observation again.
         """
 
     def idle(self) -> None:
-        """Called now and then while the world stands still: stay in touch, ask for nothing new."""
+        """Keep the connection alive while the world stands still; called now and then."""
 
     def close(self, reason: str) -> None:
-        """Says goodbye. Closing twice is fine, and ``open`` begins anew."""
+        """Say goodbye. It may be called twice; ``open`` begins again."""
 
 
-def offer_of(agent: AgentView, *, skip_frame: int, repeat_action: bool, tick: float) -> Offer:
-    """What a script is told of an agent."""
-    return Offer(
+def describe_agent(
+    agent: AgentView, *, skip_frame: int, repeat_action: bool, tick: float
+) -> AgentSpec:
+    """Return the description of an agent for its script."""
+    return AgentSpec(
         agent=agent.id,
         max_steps=agent.max_steps_per_episode,
         skip_frame=skip_frame,
         repeat_action=repeat_action,
         tick=tick,
         readings=tuple(
-            Reading(
+            ReadingSpec(
                 sensor.perception_key,
                 sensor.reading_kind(),
                 sensor.observation_space(),
@@ -188,7 +200,7 @@ def offer_of(agent: AgentView, *, skip_frame: int, repeat_action: bool, tick: fl
             if sensor.is_active
         ),
         outputs=tuple(
-            Output(
+            OutputSpec(
                 actuator.action_name,
                 actuator.is_continuous,
                 actuator.space(),

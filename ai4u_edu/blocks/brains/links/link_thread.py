@@ -1,88 +1,92 @@
-"""A conversation that nobody waits for: a thread has it."""
+"""A thread that talks to a script, so that the world does not wait for the network."""
 
 import threading
 import time
 from collections.abc import Callable
 
 from ai4u_edu.base.errors import AI4UError
-from ai4u_edu.blocks.brains.links.link import Answered, Reset, Situation
+from ai4u_edu.blocks.brains.links.link import Observation, Reply, Reset
 
-TURN = 0.05
-"""Seconds after which the thread looks whether there is a newer situation, or an end."""
+POLL_S = 0.05
+"""Interval at which the thread looks for a newer observation, and for its end."""
 
 
-class Desk:
-    """Where the thread that talks and the one that runs the world hand things over.
+class LinkThread:
+    """A thread that talks to a script, and a mailbox between it and the runner's thread.
+
+    The mailbox holds one observation and one answer. The runner's thread calls ``put``,
+    ``exchange`` and ``close``; the thread itself calls ``talk``. A condition guards both.
 
     Args:
-        talk: goes on with the conversation until a time (time.monotonic) or an answer.
+        talk: continues the dialogue until a deadline (time.monotonic) or an answer.
         name: of the thread.
     """
 
     def __init__(
-        self, talk: Callable[[Situation | None, float], Answered | None], name: str
+        self, talk: Callable[[Observation | None, float], Reply | None], name: str
     ) -> None:
         self._talk = talk
-        self._news = threading.Condition()
-        self._latest: Situation | None = None
-        self._answered: Answered | None = None
-        self._number = 0
-        """Of the situation that was answered last: the next one has a higher one."""
-        self._closing = False
+        self._changed = threading.Condition()
+        self._latest: Observation | None = None
+        self._reply: Reply | None = None
+        self._answered_number = 0
+        """Number of the observation that was answered last; the next one has a higher number."""
+        self._is_closing = False
         self._error: AI4UError | None = None
         self._thread = threading.Thread(target=self._run, name=name, daemon=True)
         self._thread.start()
 
-    def leave(self, situation: Situation) -> None:
-        """Leaves the latest situation."""
-        with self._news:
-            self._latest = situation
-            self._news.notify_all()
+    def put(self, observation: Observation) -> None:
+        """Replace the observation in the mailbox."""
+        with self._changed:
+            self._latest = observation
+            self._changed.notify_all()
 
-    def exchange(self, situation: Situation, timeout: float) -> Answered | None:
-        """Leaves the latest situation, takes the answer that lies there.
+    def exchange(self, observation: Observation, timeout: float) -> Reply | None:
+        """Replace the observation, and take the answer if there is one within the timeout (s).
 
         Raises:
-            AI4UError: what the conversation raised, such as a situation that can't be sent.
+            AI4UError: the dialogue raised it, for example for an observation that can't be sent.
         """
-        with self._news:
-            self._latest = situation
-            self._news.notify_all()
-            if timeout and self._answered is None:
-                self._news.wait_for(lambda: self._answered is not None, timeout)
+        with self._changed:
+            self._latest = observation
+            self._changed.notify_all()
+            if timeout and self._reply is None:
+                self._changed.wait_for(lambda: self._reply is not None, timeout)
             if self._error is not None:
                 raise self._error
-            answered, self._answered = self._answered, None
-            if answered is not None and isinstance(answered.answer, Reset):
+            reply, self._reply = self._reply, None
+            if reply is not None and isinstance(reply.answer, Reset):
                 self._latest = None  # of the episode that ends: the script waits for another one
-        return answered
+        return reply
 
     def close(self) -> None:
-        """Ends the thread."""
-        with self._news:
-            self._closing = True
-            self._news.notify_all()
+        """End the thread."""
+        with self._changed:
+            self._is_closing = True
+            self._changed.notify_all()
         self._thread.join()
 
     def _run(self) -> None:
         while True:
-            with self._news:
-                self._news.wait_for(self._due)
-                if self._closing:
+            with self._changed:
+                self._changed.wait_for(self._has_work)
+                if self._is_closing:
                     return
-                situation = self._latest
+                observation = self._latest
             try:
-                answered = self._talk(situation, time.monotonic() + TURN)
+                reply = self._talk(observation, time.monotonic() + POLL_S)
             except AI4UError as error:
                 self._error = error
                 return
-            if answered is not None:
-                with self._news:
-                    self._answered = answered
-                    self._number = situation.number if situation else self._number
-                    self._news.notify_all()
+            if reply is not None:
+                with self._changed:
+                    self._reply = reply
+                    if observation is not None:
+                        self._answered_number = observation.number
+                    self._changed.notify_all()
 
-    def _due(self) -> bool:
-        """Whether there is something to tell."""
-        news = self._latest is not None and self._latest.number > self._number
-        return self._closing or (news and self._answered is None)
+    def _has_work(self) -> bool:
+        """Return True if there is an observation to send, or the thread has to end."""
+        is_new = self._latest is not None and self._latest.number > self._answered_number
+        return self._is_closing or (is_new and self._reply is None)

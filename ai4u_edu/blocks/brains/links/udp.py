@@ -1,4 +1,4 @@
-"""UDP to one address, and waiting for what comes back."""
+"""A UDP socket that talks to one address."""
 
 import contextlib
 import select
@@ -6,21 +6,19 @@ import socket
 import sys
 from collections.abc import Callable
 
-LARGEST = 2**16
-"""Bytes of the largest datagram, and more."""
-MOST_DRAINED = 1000
-"""Datagrams thrown away at one go, at most: somebody may send faster than we read."""
+RECEIVE_BUFFER_BYTES = 2**16
+"""More than the largest datagram."""
+MAX_DRAINED = 1000
+"""Datagrams that one drain discards at most: somebody may send faster than we read."""
+LINUX_IP_RECVERR = 11
+"""Socket option that reports unreachable ports at once; Python has no name for it."""
 
 
-IP_RECVERR = 11
-"""Linux's option by which a socket is told that nobody listens; Python has no name for it."""
+class UdpSocket:
+    """A UDP socket that talks to one address, and never blocks by itself.
 
-
-class Datagrams:
-    """A socket that speaks to one address, and never waits by itself.
-
-    It is not connected, so that what others send can be counted. Its timeout never changes: setting
-    one is a call to the system each time.
+    It is not connected, so that datagrams from others can be counted. Its timeout never changes,
+    since setting one is a system call.
 
     Args:
         peer: the address.
@@ -31,60 +29,61 @@ class Datagrams:
         self._socket = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
         self._socket.setblocking(False)
         if sys.platform == "linux":
-            # else it takes the timeout to find out that nobody listens at a port
-            self._socket.setsockopt(socket.IPPROTO_IP, IP_RECVERR, 1)
-        self.is_there = _watch(self._socket)
-        """Whether there is something to take, an error too, within so many milliseconds."""
+            # without it, only a timeout shows that nobody listens at a port
+            self._socket.setsockopt(socket.IPPROTO_IP, LINUX_IP_RECVERR, 1)
+        self.wait_readable = _poller(self._socket)
+        """Waits up to so many milliseconds; returns something true if there is a datagram, or an
+        error, to receive."""
         self.close = self._socket.close
 
     def send(self, data: bytes) -> None:
-        """Sends to the address.
+        """Send a datagram to the address.
 
         Raises:
-            OSError: this one, or one that was sent before, can't reach it.
+            OSError: this datagram, or an earlier one, can't reach it.
         """
         try:
             self._socket.sendto(data, self.peer)
         except OSError:
-            self._forget_errors()
+            self._clear_errors()
             raise
 
-    def take(self) -> tuple[bytes, bool]:
-        """The next datagram, and whether it is from the address.
+    def receive(self) -> tuple[bytes, bool]:
+        """Return the next datagram, and whether it is from the address.
 
         Raises:
             BlockingIOError: there is none.
-            OSError: what was sent before reached nobody.
+            OSError: an earlier datagram reached nobody.
         """
         try:
-            data, sender = self._socket.recvfrom(LARGEST)
+            data, sender = self._socket.recvfrom(RECEIVE_BUFFER_BYTES)
         except BlockingIOError:
             raise
         except OSError:
-            self._forget_errors()
+            self._clear_errors()
             raise
         return data, sender == self.peer
 
     def drain(self) -> int:
-        """Throws away what has come; how many there were."""
+        """Discard the datagrams that have arrived, and return their number."""
         count = 0
-        for _ in range(MOST_DRAINED):
-            if not self.is_there(0):
+        for _ in range(MAX_DRAINED):
+            if not self.wait_readable(0):
                 break
-            with contextlib.suppress(OSError):  # some datagram reached nobody; the next one tells
-                self.take()
+            with contextlib.suppress(OSError):  # a datagram reached nobody; the next one will tell
+                self.receive()
                 count += 1
         return count
 
-    def _forget_errors(self) -> None:
-        """Empties Linux's queue of them: as long as one is in it, no waiting waits."""
+    def _clear_errors(self) -> None:
+        """Empty Linux's error queue: while an error is in it, polling returns at once."""
         if sys.platform == "linux":
             with contextlib.suppress(OSError):
                 while True:
                     self._socket.recvmsg(0, 0, socket.MSG_ERRQUEUE)
 
 
-def _watch(udp: socket.socket) -> Callable[[float], object]:
+def _poller(udp: socket.socket) -> Callable[[float], object]:
     if hasattr(select, "poll"):
         poll = select.poll()
         poll.register(udp, select.POLLIN)
