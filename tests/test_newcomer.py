@@ -32,6 +32,8 @@ from ai4u_edu.viewer import Viewer
 from tests.viewer.pages import page, shown
 from tests.viewer.test_agent_tab import text_of
 
+pytestmark = pytest.mark.slow
+
 HERE = Path(__file__).parent / "newcomer"
 
 
