@@ -136,11 +136,11 @@ def test_a_second_hello_can_not_be_another_one() -> None:
 def test_a_frame_that_is_too_large_ends_the_connection() -> None:
     with log_room() as room, Script(room) as script:
         script.hello()
-        script.socket.send(bytes(native.LARGEST_SAID + 1))
+        script.socket.send(bytes(native.MAX_SCRIPT_FRAME_BYTES + 1))
         assert script.end() == (
             native.PROBLEMS["too_large"],
-            f"expected at most {native.LARGEST_SAID} bytes in a frame, got "
-            f"{native.LARGEST_SAID + 1}",
+            f"expected at most {native.MAX_SCRIPT_FRAME_BYTES} bytes in a frame, got "
+            f"{native.MAX_SCRIPT_FRAME_BYTES + 1}",
         )
 
 
