@@ -4,7 +4,13 @@ import pytest
 
 from tests.prose import ROOT, check_paths
 
-CHECKED = ("tests/prose.py", "ai4u_edu/cli", "ai4u_edu/envs", "ai4u_edu/training")
+CHECKED = (
+    "tests/prose.py",
+    "ai4u_edu/cli",
+    "ai4u_edu/envs",
+    "ai4u_edu/lessons",
+    "ai4u_edu/training",
+)
 
 
 @pytest.mark.parametrize("path", CHECKED)

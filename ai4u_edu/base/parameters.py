@@ -72,10 +72,14 @@ def is_open(bound: float) -> bool:
     return abs(bound) in (MAX_NUMBER, MAX_COUNT)
 
 
+DataPath = tuple[str | int, ...]
+"""Path of a value in nested data: ``("agents", 0, "sensors", 2, "reach")``."""
+
+
 class Problem(NamedTuple):
     """One wrong parameter: where it is and what is wrong with it."""
 
-    path: tuple[str | int, ...]
+    path: DataPath
     text: str
 
     def __str__(self) -> str:

@@ -15,6 +15,7 @@ from ai4u_edu.cli.options import OwnBlocks, load_own_blocks
 if TYPE_CHECKING:
     from ai4u_edu.agent import ControlRequestor
     from ai4u_edu.editing import SceneEditor
+    from ai4u_edu.editing.autosave import Autosave
     from ai4u_edu.editing.unsaved import Unsaved
     from ai4u_edu.recording import Episode
     from ai4u_edu.runtime.runner import Runner
@@ -121,7 +122,7 @@ def serve_scene(settings: PlaySettings) -> None:
     from ai4u_edu.runtime.process_tuning import tuned_process
     from ai4u_edu.runtime.runner import Runner
     from ai4u_edu.scenes import Scene
-    from ai4u_edu.server import hosts_for, room_app, serve, shut_side_door
+    from ai4u_edu.server import hosts_for, lock_viser_port, room_app, serve
     from ai4u_edu.server.process_exit import HAS_SERVED
     from ai4u_edu.viewer import Viewer
 
@@ -140,15 +141,18 @@ def serve_scene(settings: PlaySettings) -> None:
     runner = Runner(
         sim, seed=_first_seed(settings, ghost), time_scale=settings.time_scale, recorder=recorder
     )
-    editor = _make_editor(settings, runner, scene, restored, unsaved)
     autosave = (
         Autosave(unsaved_folder(), scene.description.name, _warn) if settings.autosave else None
     )
-    editor.autosave = autosave
+    editor = _make_editor(settings, runner, scene, autosave)
+    if restored is not None:
+        editor.recovery.mark_restored(restored)
+    elif unsaved:
+        editor.recovery.unsaved = unsaved[0]
     viewer = Viewer(runner, title=title, editor=editor)
     if ghost is not None and settings.ghost is not None:
         viewer.ghosts.race(ghost, settings.ghost.name)
-    shut_side_door(viewer.server)
+    lock_viser_port(viewer.server)
     room = room_app(
         runner,
         viser_port=viewer.port,
@@ -190,17 +194,13 @@ def _make_editor(
     settings: PlaySettings,
     runner: "Runner",
     scene: "Scene",
-    restored: "Unsaved | None",
-    unsaved: "list[Unsaved]",
+    autosave: "Autosave | None",
 ) -> "SceneEditor":
     from ai4u_edu.editing import SceneEditor
     from ai4u_edu.editing.scene_store import SceneStore
 
     editor = SceneEditor(runner, scene, offers=settings.offers)
-    if restored is not None:
-        editor.mark_restored(restored)
-    elif unsaved:
-        editor.unsaved = unsaved[0]
+    editor.recovery.autosave = autosave
     if settings.saved_scenes is not None:
         editor.scene_store = SceneStore(settings.saved_scenes)
     return editor
@@ -210,12 +210,12 @@ def _announcer(
     settings: PlaySettings, title: str, editor: "SceneEditor", unsaved: "list[Unsaved]"
 ) -> Callable[[str], None]:
     from ai4u_edu.editing.unsaved import format_unsaved
-    from ai4u_edu.server import announcement, open_on_desktop, with_token
+    from ai4u_edu.server import open_on_desktop, startup_banner, with_token
 
     def announce(url: str) -> None:
-        typer.echo(announcement(title, settings.host, url, settings.rules.token))
-        if editor.unsaved is not None:
-            when = editor.unsaved.when
+        typer.echo(startup_banner(title, settings.host, url, settings.rules.token))
+        if editor.recovery.unsaved is not None:
+            when = editor.recovery.unsaved.when
             typer.echo(f"an unsaved scene from {when} is there: ai4u-edu play --restore")
         if len(unsaved) > 1:
             typer.echo(f"unsaved scenes: {format_unsaved(unsaved)}: ai4u-edu play SCENE --restore")

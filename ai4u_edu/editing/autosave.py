@@ -1,7 +1,7 @@
-"""Keeps what nobody saved: a killed server offers it when it is started again.
+"""Autosave of changed scenes, so that a killed server can offer them when it is started again.
 
-Each server writes files of its own, one for each scene that it changes, and holds a lock for as
-long as it lives. A file whose server holds no lock any more was left behind, and is offered.
+Each server writes its own files, one for each scene that it changes, and holds a lock while it
+runs. A file whose server no longer holds its lock was left behind, and is offered.
 """
 
 import json
@@ -14,25 +14,25 @@ from dataclasses import dataclass
 from pathlib import Path
 from secrets import token_hex
 
-from ai4u_edu.base.atomic_write import partial_file, reason, remove_leftovers
+from ai4u_edu.base.atomic_write import reason, remove_leftovers, write_atomically
 from ai4u_edu.base.file_lock import FileLock
 from ai4u_edu.editing.state import EditState
 from ai4u_edu.editing.unsaved import ENDING, LOCK_ENDING, Unsaved, latest, prune, unsaved_scenes
 
 __all__ = ["Autosave", "Unsaved", "latest", "unsaved_folder", "unsaved_scenes"]
 
-DELAY = 0.4
-"""Seconds that changes have to be over before they are written; a hand may be moving a wall."""
-LONGEST = 2.0
-"""Seconds after which they are written in any case."""
+WRITE_DELAY_S = 0.4
+"""Time without a change after which a scene is written."""
+MAX_WRITE_DELAY_S = 2.0
+"""Time after the first change after which a scene is written in any case."""
 RETRY_S = 10.0
-"""Time after which what could not be written is tried again."""
+"""Time after which a failed write is tried again."""
 MAX_NAME_BYTES = 120
-"""Length of the part of a file's name that says which scene it is."""
+"""Length of the scene's name in a file's name."""
 
 
 def unsaved_folder() -> Path:
-    """Where this user's unsaved scenes are: with the other state of programs, not among files."""
+    """Return the user's folder for unsaved scenes, below the platform's state folder."""
     if sys.platform == "win32":
         place = Path(os.environ.get("LOCALAPPDATA") or _home() / "AppData/Local")
     elif sys.platform == "darwin":
@@ -43,22 +43,22 @@ def unsaved_folder() -> Path:
 
 
 @dataclass
-class _Work:
-    """A scene that was opened, and the file for what is changed in it."""
+class _OpenScene:
+    """A scene that was opened, and the file for its changes."""
 
     opened: object
     file: Path | None = None
     restored: EditState | None = None
-    """The scene as it was opened, if that was unsaved already."""
+    """The opened state, if it was restored and so is unsaved already."""
 
 
 class Autosave:
-    """Writes a scene a moment after it was changed, in a thread of its own.
+    """Writes a scene shortly after it was changed, in its own thread.
 
-    Nothing that goes wrong there ends a lesson: it is told once, and tried again later.
+    Failed writes are reported once and retried. Any thread may call the methods.
 
     Args:
-        folder: where; it is made.
+        folder: folder of the files; created if needed.
         name: of the scene; part of the file's name.
         on_problem: called with a sentence when changes can't be written, in any thread.
     """
@@ -67,14 +67,14 @@ class Autosave:
         self, folder: Path, name: str, on_problem: Callable[[str], object] | None = None
     ) -> None:
         self.problem = ""
-        """Why nothing can be written just now, in a sentence; empty if all is well."""
+        """Sentence about why writing fails at present; empty if it does not."""
         self._folder, self._name = folder, name
         self._on_problem = on_problem
         self._instance = token_hex(6)
         self._lock: FileLock | None = None
         self._holding = threading.Lock()
-        self._works: list[_Work] = []
-        self._due: dict[int, tuple[_Work, EditState | None]] = {}
+        self._open_scenes: list[_OpenScene] = []
+        self._due: dict[int, tuple[_OpenScene, EditState | None]] = {}
         self._since = 0.0
         self._stopping = False
         self._changed = threading.Condition()
@@ -89,45 +89,45 @@ class Autosave:
         self._thread = threading.Thread(target=self._run, name="autosave", daemon=True)
         self._thread.start()
 
-    def note(self, state: EditState | None, opened: object = None) -> None:
-        """Have a state written soon, which costs the caller nothing.
+    def schedule(self, state: EditState | None, opened: object = None) -> None:
+        """Schedule a state to be written; returns at once.
 
         Args:
-            state: as the scene is now; None: it is again as it was opened.
-            opened: which scene was opened; each has a file of its own.
+            state: the present state; None if it is again the opened one.
+            opened: the state that was opened; each has its own file.
         """
         with self._changed:
-            work = self._work(opened)
+            entry = self._entry(opened)
             if not self._due:
                 self._since = time.monotonic()
-            self._due[id(work)] = work, work.restored if state is None else state
+            self._due[id(entry)] = entry, entry.restored if state is None else state
             self._changed.notify()
 
     def claim(self, unsaved: Unsaved, opened: EditState) -> None:
-        """Take over a file that a killed server left; it is kept until somebody saves the scene.
+        """Take over a file that a killed server left, and keep it until the scene is saved.
 
         Args:
-            unsaved: what was left.
-            opened: the same, as it was opened here.
+            unsaved: the scene that was left.
+            opened: the state that it was opened as.
         """
         with self._changed:
-            work = self._work(opened)
-            work.restored = opened
+            entry = self._entry(opened)
+            entry.restored = opened
         try:
-            self._hold()
-            work.file = self._file(unsaved.name or self._name)
-            unsaved.file.replace(work.file)
-        except OSError:  # another server was faster, or the folder may not be written to
-            self.note(opened, opened)
+            self._hold_lock()
+            entry.file = self._file(unsaved.name or self._name)
+            unsaved.file.replace(entry.file)
+        except OSError:  # another server claimed it first, or the folder is read-only
+            self.schedule(opened, opened)
 
     def forget(self, opened: object = None) -> None:
-        """Somebody saved the scene: what is kept of it can go."""
+        """Delete the file of a scene that was saved."""
         with self._changed:
-            self._work(opened).restored = None
-        self.note(None, opened)
+            self._entry(opened).restored = None
+        self.schedule(None, opened)
 
     def stop(self) -> None:
-        """Write what still waits, and end."""
+        """Write scheduled states, and end the thread."""
         with self._changed:
             self._stopping = True
             self._changed.notify()
@@ -136,12 +136,12 @@ class Autosave:
             self._lock.release(remove=True)
             self._lock = None
 
-    def _work(self, opened: object) -> _Work:
-        for work in self._works:
-            if work.opened is opened:
-                return work
-        self._works.append(_Work(opened))
-        return self._works[-1]
+    def _entry(self, opened: object) -> _OpenScene:
+        for entry in self._open_scenes:
+            if entry.opened is opened:
+                return entry
+        self._open_scenes.append(_OpenScene(opened))
+        return self._open_scenes[-1]
 
     def _run(self) -> None:
         while True:
@@ -149,9 +149,9 @@ class Autosave:
                 self._changed.wait_for(lambda: self._due or self._stopping)
                 if not self._due:
                     return
-                self._settle()
+                self._wait_for_pause()
                 due, self._due = self._due, {}
-            failed = {key: each for key, each in due.items() if not self._keep(*each)}
+            failed = {key: each for key, each in due.items() if not self._write(*each)}
             with self._changed:
                 self._due = {**failed, **self._due}
                 if failed and self._stopping:
@@ -161,35 +161,35 @@ class Autosave:
                 elif not self._due:
                     self.problem = ""
 
-    def _settle(self) -> None:
-        """Wait until nobody has changed anything for a moment."""
-        while not self._stopping and time.monotonic() - self._since < LONGEST:
+    def _wait_for_pause(self) -> None:
+        """Wait until nothing has been changed for a moment."""
+        while not self._stopping and time.monotonic() - self._since < MAX_WRITE_DELAY_S:
             before = dict(self._due)
-            self._changed.wait(DELAY)
+            self._changed.wait(WRITE_DELAY_S)
             if all(self._due[key] is each for key, each in before.items()):
                 break
 
-    def _keep(self, work: _Work, state: EditState | None) -> bool:
-        """Write a state, or delete the file of one that is no longer unsaved."""
+    def _write(self, entry: _OpenScene, state: EditState | None) -> bool:
+        """Write a state, or delete the file of one that is not unsaved; return False on failure."""
         try:
             if state is not None:
-                self._hold()
-                work.file = work.file or self._file(state.description.name or self._name)
-                _write(work.file, state)
-            elif work.file is not None:
-                work.file.unlink(missing_ok=True)
+                self._hold_lock()
+                entry.file = entry.file or self._file(state.description.name or self._name)
+                _write_file(entry.file, state)
+            elif entry.file is not None:
+                entry.file.unlink(missing_ok=True)
         except OSError as error:
             self._fail(reason(error))
             return False
-        except Exception as error:  # a scene that can't be written down is no reason to stop
+        except Exception as error:  # one scene that can't be serialized must not end the thread
             self._fail(str(error))
         return True
 
-    def _hold(self) -> None:
-        """Hold the lock by which other servers see that this one lives."""
+    def _hold_lock(self) -> None:
+        """Hold the lock that tells other servers that this one runs."""
         with self._holding:
             while self._lock is None or not self._lock.path.exists():
-                if self._lock is not None:  # another server took it for one that was left
+                if self._lock is not None:  # another server deleted it as a leftover
                     self._lock.release()
                     self._lock = None
                 self._folder.mkdir(parents=True, exist_ok=True)
@@ -198,7 +198,7 @@ class Autosave:
     def _file(self, name: str) -> Path:
         safe = "".join(char if char.isalnum() or char in "-_" else "_" for char in name)
         short = safe.encode()[:MAX_NAME_BYTES].decode(errors="ignore")
-        number = len(self._works)
+        number = len(self._open_scenes)
         return self._folder / f"{short}-{self._instance}-{number}{ENDING}"
 
     def _fail(self, why: str) -> None:
@@ -210,11 +210,11 @@ class Autosave:
 def _home() -> Path:
     try:
         return Path.home()
-    except RuntimeError:  # nobody knows it; what is written there fails with a sentence
+    except RuntimeError:  # unknown; writing there fails with a readable error
         return Path(os.devnull)
 
 
-def _write(file: Path, state: EditState) -> None:
+def _write_file(file: Path, state: EditState) -> None:
     data = {
         "scene": state.description.name,
         "text": state.scene.dumps(),
@@ -222,5 +222,4 @@ def _write(file: Path, state: EditState) -> None:
         "saved_at": time.time(),
     }
     file.parent.mkdir(parents=True, exist_ok=True)
-    with partial_file(file, mode=0o600) as beside, beside.open("w", encoding="utf-8") as out:
-        json.dump(data, out)
+    write_atomically(file, json.dumps(data), mode=0o600)

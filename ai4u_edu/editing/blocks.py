@@ -1,6 +1,6 @@
-"""Changes of an agent's blocks, as data: an agent's parameters in, others out.
+"""Changes of an agent's blocks as data: each function takes an agent and returns another one.
 
-A block is named by its path in the agent: ``("sensors", 2)``, or of one that is part of another
+A block is named by its path in the agent: ``("sensors", 2)``, or for a block inside another one
 ``("rewards", 0, "children", 1)`` and ``("brains", 0, "controller")``.
 """
 
@@ -19,19 +19,14 @@ from ai4u_edu.blocks import (
     Sensor,
 )
 from ai4u_edu.editing.errors import ChangeError
+from ai4u_edu.editing.input_checks import MAX_DEPTH, check_name, check_number, check_plain
+from ai4u_edu.editing.plain import BlockPath, Plain
 from ai4u_edu.editing.typed import (
-    MAX_DEPTH,
-    check_name,
-    check_number,
-    check_plain,
     check_typed,
     check_typed_and,
     schema_of,
 )
 from ai4u_edu.scenes.serialization import from_plain, is_serializable
-
-BlockPath = tuple[str | int, ...]
-Plain = Mapping[str, Any]
 
 KINDS: dict[str, type[Block]] = {
     "sensors": Sensor,
@@ -42,11 +37,11 @@ KINDS: dict[str, type[Block]] = {
     "controller": Controller,
     "variables": HomeostaticVariable,
 }
-"""What kind of blocks stands in each parameter that holds some."""
+"""Kind of the blocks that each parameter holds."""
 
 
 def kind_at(path: BlockPath) -> type[Block]:
-    """What kind of block stands at a path."""
+    """Return the kind of the block at a path."""
     _check_path(path)
     names = [part for part in path if isinstance(part, str)]
     if not names or names[-1] not in KINDS:
@@ -55,7 +50,7 @@ def kind_at(path: BlockPath) -> type[Block]:
 
 
 def types_of(kind: str) -> list[type[Block]]:
-    """All types of blocks that may stand in such a place, in the order of their names.
+    """Return all block types that a parameter can hold, sorted by name.
 
     Args:
         kind: ``sensors``, ``actuators``, ``rewards``, ``brains``, ``children``, ``controller``.
@@ -69,7 +64,7 @@ def types_of(kind: str) -> list[type[Block]]:
 
 
 def block_at(agent: Plain, path: BlockPath) -> Plain:
-    """A block as data."""
+    """Return a block as plain data."""
     here: Any = agent
     _check_path(path)
     for part in path:
@@ -83,10 +78,10 @@ def block_at(agent: Plain, path: BlockPath) -> Plain:
 
 
 def changed(agent: Plain, path: BlockPath, values: Plain) -> Plain:
-    """With other parameters of a block; None, or the default, leaves a parameter out.
+    """Change parameters of a block; None, or the default, leaves a parameter out.
 
     Raises:
-        ChangeError: some are wrong; each is told with its path, as seen from the block.
+        ChangeError: some are wrong; each is told with its path relative to the block.
     """
     before = block_at(agent, path)
     check_plain(values)
@@ -101,65 +96,65 @@ def changed(agent: Plain, path: BlockPath, values: Plain) -> Plain:
             del block[name]
     schema = schema_of(cls) if cls is not None else {}
     check_typed_and(values, schema, lambda: from_plain(kind_at(path), block))
-    return _put(agent, path, lambda _: block)
+    return _replace(agent, path, lambda _: block)
 
 
 def added(
-    agent: Plain, where: BlockPath, block: Plain, index: int | None = None
+    agent: Plain, parent: BlockPath, block: Plain, index: int | None = None
 ) -> tuple[Plain, BlockPath]:
-    """With one block more, and its path.
+    """Add a block, and return the agent and the block's path.
 
     Args:
-        agent: as it is.
-        where: ``("sensors",)``, or inside another block ``("rewards", 0, "children")``.
-        block: as data.
-        index: before which of its like; left out, it is the last one.
+        agent: the agent as plain data.
+        parent: ``("sensors",)``, or inside another block ``("rewards", 0, "children")``.
+        block: the block as plain data.
+        index: its position among the blocks of its kind; by default the last one.
 
     Raises:
-        ChangeError: there are no such blocks, or their parameters are wrong.
+        ChangeError: no blocks can be there, or the block's parameters are wrong.
     """
     check_typed(block, {})
     if index is not None:
         check_number(index, "index", MAX_COUNT)
-    from_plain(kind_at(where), block)
-    *above, kind = where
+    from_plain(kind_at(parent), block)
+    *above, kind = parent
     owner: Any = block_at(agent, tuple(above)) if above else agent
     blocks = list(owner.get(kind, ()))
     place = len(blocks) if index is None else max(0, min(index, len(blocks)))
     blocks.insert(place, dict(block))
-    return _put(agent, tuple(above), lambda owner: {**owner, kind: blocks}), (*where, place)
+    return _replace(agent, tuple(above), lambda owner: {**owner, kind: blocks}), (*parent, place)
 
 
 def block_paths(agent: Plain, kind: str) -> list[BlockPath]:
-    """The paths of all blocks of a kind, each followed by those that are part of it."""
+    """Return the paths of all blocks of a kind; blocks inside a block follow it."""
     found: list[BlockPath] = []
 
-    def look(blocks: Any, where: BlockPath) -> None:
+    def visit(blocks: Any, parent: BlockPath) -> None:
         for index, block in enumerate(blocks):
-            found.append((*where, index))
+            found.append((*parent, index))
             for name, value in block.items():
                 if name not in KINDS:
                     continue
                 if isinstance(value, Mapping):
-                    found.append((*where, index, name))
+                    found.append((*parent, index, name))
                 elif isinstance(value, list | tuple):
-                    look(value, (*where, index, name))
+                    visit(value, (*parent, index, name))
 
-    look(agent.get(kind, ()), (kind,))
+    visit(agent.get(kind, ()), (kind,))
     return found
 
 
 def removed(agent: Plain, path: BlockPath) -> Plain:
-    """Without a block."""
+    """Remove a block."""
     block_at(agent, path)
     *above, index = path
     if not isinstance(index, int):
         raise ChangeError([Problem((), f"{dotted(path)} can be changed, but not left out")])
-    return _put(agent, tuple(above), lambda blocks: [*blocks[:index], *blocks[index + 1 :]])
+    return _replace(agent, tuple(above), lambda blocks: [*blocks[:index], *blocks[index + 1 :]])
 
 
 def moved(agent: Plain, path: BlockPath, by: int) -> Plain:
-    """With a block so many places further down among its like; negative for up."""
+    """Move a block down by a number of positions among the blocks of its kind; negative for up."""
     block = block_at(agent, path)
     check_number(by, "by", MAX_COUNT)
     *above, index = path
@@ -171,11 +166,11 @@ def moved(agent: Plain, path: BlockPath, by: int) -> Plain:
         others.insert(max(0, index + by), block)
         return others
 
-    return _put(agent, tuple(above), move)
+    return _replace(agent, tuple(above), move)
 
 
-def switched(agent: Plain, path: BlockPath, on: bool) -> Plain:
-    """With a block on or off; of brains exactly one is on."""
+def with_enabled(agent: Plain, path: BlockPath, on: bool) -> Plain:
+    """Enable or disable a block; exactly one brain is enabled."""
     block_at(agent, path)
     if not isinstance(on, bool):
         raise ChangeError([Problem((), f"expected true or false, got {shown(on)}")])
@@ -195,18 +190,18 @@ def switched(agent: Plain, path: BlockPath, on: bool) -> Plain:
 
 
 def is_enabled(path: BlockPath, block: Plain) -> bool:
-    """Whether a block takes part."""
+    """Return True if a block is enabled."""
     return bool(block.get("enabled" if path[0] == "brains" else "is_active", True))
 
 
-def _put(here: Any, path: BlockPath, change: Callable[[Any], Any]) -> Plain:
+def _replace(here: Any, path: BlockPath, change: Callable[[Any], Any]) -> Plain:
     if not path:
         return cast(Plain, change(here))
     part, *rest = path
     if isinstance(here, Mapping):
-        return {**here, str(part): _put(here[part], tuple(rest), change)}
+        return {**here, str(part): _replace(here[part], tuple(rest), change)}
     copy = list(here)
-    copy[cast(int, part)] = _put(here[part], tuple(rest), change)
+    copy[cast(int, part)] = _replace(here[part], tuple(rest), change)
     return cast(Plain, copy)
 
 

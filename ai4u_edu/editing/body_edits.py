@@ -1,4 +1,4 @@
-"""Bodies that come, go and are changed in a running world."""
+"""Bodies that are added, removed and changed in a running world."""
 
 import math
 from collections.abc import Callable, Mapping
@@ -6,30 +6,30 @@ from collections.abc import Callable, Mapping
 from ai4u_edu.scenes import SceneDescription
 from ai4u_edu.world import BodyDescription, Pose, World, edit_body, insert_body, reorder
 
-NEAR = 1e-6
-"""Bodies closer to where they belong than this (m) are there."""
+TOLERANCE_M = 1e-6
+"""Distance below which a body counts as being where it belongs."""
 
 
-class Furniture:
-    """The bodies of a world.
+class BodyEdits:
+    """One transaction of changes to the bodies of a world; :meth:`undo` rolls it back.
 
     Args:
-        world: theirs.
+        world: the world of the bodies.
     """
 
     def __init__(self, world: World) -> None:
         self._world = world
-        self._undo: list[Callable[[], object]] = []
-        self.is_astray = False
-        """Whether something had to be put elsewhere than where its episode began."""
+        self._undo_steps: list[Callable[[], object]] = []
+        self.has_moved_back = False
+        """True if :meth:`restore_poses` had to move a body."""
 
-    def rearrange(
-        self, old: SceneDescription, new: SceneDescription, places: Mapping[str, Pose]
+    def apply(
+        self, old: SceneDescription, new: SceneDescription, poses: Mapping[str, Pose]
     ) -> bool:
-        """Makes those of one scene out of those of another; whether anything was done.
+        """Turn the bodies of one scene into those of another, and return True if any changed.
 
         Raises:
-            WorldError: it can't be; then all is as it was.
+            WorldError: it is not possible; everything was rolled back.
         """
         before = {body.name: body for body in old.bodies}
         after = {body.name: body for body in new.bodies}
@@ -39,34 +39,40 @@ class Furniture:
                     self._remove(name)
             for name, body in after.items():
                 if name not in before:
-                    self._add(body, places.get(name))
-                elif body != before[name] or name in places:
-                    self._change(before[name], body, places.get(name))
+                    self._add(body, poses.get(name))
+                elif body != before[name] or name in poses:
+                    self._change(before[name], body, poses.get(name))
         except BaseException:
             self.undo()
             raise
-        if self._undo:
+        if self._undo_steps:
             reorder(self._world, [thing.name for thing in new.things])
-        return bool(self._undo)
+        return bool(self._undo_steps)
 
     def undo(self) -> None:
-        """All as it was."""
-        undo, self._undo = self._undo, []
-        for step in reversed(undo):
+        """Roll back all changes."""
+        steps, self._undo_steps = self._undo_steps, []
+        for step in reversed(steps):
             step()
-        self._undo = []  # each of these steps could be taken back in turn
+        self._undo_steps = []  # undoing an edit adds an undo step of its own
 
-    def put_where_they_belong(self, places: Mapping[str, Pose]) -> None:
-        """After a reset: chance, or an actuator, may have put elsewhere what a person placed."""
-        for name, pose in places.items():
-            if name in self._world.bodies and math.dist(self.pose(name)[:2], pose[:2]) > NEAR:
+    def restore_poses(self, poses: Mapping[str, Pose]) -> None:
+        """Move bodies back to where a person put them, if the reset moved them.
+
+        Randomization or an actuator may have done that.
+        """
+        for name, pose in poses.items():
+            if name in self._world.bodies and self._distance(name, pose) > TOLERANCE_M:
                 edit_body(self._world, self._world[name].description, pose)
-                self.is_astray = True
+                self.has_moved_back = True
 
     def pose(self, name: str) -> Pose:
-        """Where a body is now."""
+        """Return the present pose of a body."""
         x, y, _, heading = self._world[name].pose
         return x, y, heading
+
+    def _distance(self, name: str, pose: Pose) -> float:
+        return math.dist(self.pose(name)[:2], pose[:2])
 
     def _add(self, body: BodyDescription, pose: Pose | None) -> None:
         if pose is None:
@@ -75,20 +81,17 @@ class Furniture:
             here = {"position": pose[:2], "heading_deg": math.degrees(pose[2]), "random": None}
             insert_body(self._world, body.model_copy(update=here))
             edit_body(self._world, body, pose)
-        self._undo.append(lambda: self._world.remove(body.name))
+        self._undo_steps.append(lambda: self._world.remove(body.name))
 
     def _remove(self, name: str) -> None:
         body, pose = self._world[name].description, self.pose(name)
         self._world.remove(name)
-        self._undo.append(lambda: self._add(body, pose))
+        self._undo_steps.append(lambda: self._add(body, pose))
 
     def _change(self, old: BodyDescription, new: BodyDescription, pose: Pose | None) -> None:
-        was = self.pose(new.name)
-        if pose is None and (old.position, old.heading_deg, old.z) != (
-            new.position,
-            new.heading_deg,
-            new.z,
-        ):
+        pose_before = self.pose(new.name)
+        place_before = (old.position, old.heading_deg, old.z)
+        if pose is None and place_before != (new.position, new.heading_deg, new.z):
             pose = (*new.position, math.radians(new.heading_deg))
         edit_body(self._world, new, pose)
-        self._undo.append(lambda: edit_body(self._world, old, was))
+        self._undo_steps.append(lambda: edit_body(self._world, old, pose_before))

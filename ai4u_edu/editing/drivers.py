@@ -1,4 +1,4 @@
-"""Who may drive an agent in place of its own brain, by a name that a page can send."""
+"""Drivers that can replace an agent's own brain, by names that a page can send."""
 
 import ast
 from collections.abc import Iterable, Mapping
@@ -22,32 +22,31 @@ from ai4u_edu.recording import Episode
 
 SCRIPT, RECORDING, NETWORK, REMOTE = "script:", "recording:", "network:", "ai4u://"
 ENDINGS = (".py", ".episode", ".onnx")
-"""Of the files in which drivers are."""
+"""Suffixes of files that contain drivers."""
 
 
 @dataclass(frozen=True)
 class Driver:
-    """Somebody who may drive."""
+    """A driver that a page can choose."""
 
     name: str
-    """By which :meth:`SceneEditor.set_driver` knows it."""
+    """Name to pass to :meth:`SceneEditor.set_driver`."""
     title: str
-    """What a person calls it."""
+    """Title to show to a person."""
 
 
 class DriverRegistry:
-    """The scripts, recordings, networks and addresses from which a page may choose.
+    """Scripts, recordings, networks and addresses that pages can choose drivers from.
 
-    A page sends names, never code: a script is a file that whoever started the world has named, or
-    that lies in a folder that was named. The same holds for networks that do not lie beside the
-    scene, and for AI4U scripts on other machines.
+    A page sends names, never code. Scripts, networks outside the scene's folder and AI4U scripts on
+    other machines have to be named, or lie in a folder that was named, when the server is started.
 
     Args:
         places: Python files, ``.episode`` files and ``.onnx`` files, and folders of them; addresses
             of AI4U scripts (``ai4u://HOST:PORT``).
 
     Raises:
-        SetupError: one of them is not there, or is something else.
+        SetupError: one of them does not exist, or is of another kind.
     """
 
     def __init__(self, places: Iterable[Path | str] = ()) -> None:
@@ -55,20 +54,23 @@ class DriverRegistry:
         remote = [str(each) for each in given if str(each).startswith(REMOTE)]
         self._places = [_checked(Path(each)) for each in given if str(each) not in remote]
         self._remotes = {each: brain_at(each) for each in remote}
-        self._taken: dict[str, tuple[Episode, str]] = {}
+        self._kept_episodes: dict[str, tuple[Episode, str]] = {}
 
     def offered(self) -> list[Driver]:
-        """All that there are now; files that came since the start too."""
+        """Return all drivers, those in files that were added since the start too."""
         scripts = [
             Driver(f"{SCRIPT}{path.name}:{name}", f"{path.name}: {name}")
             for path in self._files(".py")
-            for name in _drivers_in(path)
+            for name in _driver_names(path)
         ]
         recordings = [
             Driver(f"{RECORDING}{path.name}", f"Recording {path.stem}")
             for path in self._files(".episode")
         ]
-        kept = [Driver(name, f"Recording {name.removeprefix(RECORDING)}") for name in self._taken]
+        kept = [
+            Driver(name, f"Recording {name.removeprefix(RECORDING)}")
+            for name in self._kept_episodes
+        ]
         networks = [
             Driver(f"{NETWORK}{path.name}", f"Network {path.name}") for path in self._files(".onnx")
         ]
@@ -79,25 +81,25 @@ class DriverRegistry:
         return [*scripts, *networks, *recordings, *kept, *remotes]
 
     def has(self, name: str) -> bool:
-        """Return True if a driver of that name is offered here, or belongs to those who are."""
+        """Return True if a name is one of this registry's, whether or not the file exists."""
         if name.startswith((SCRIPT, RECORDING)):
-            return True  # whether it is there is told when it is made
+            return True  # `brain` raises if it does not exist
         networks = [f"{NETWORK}{path.name}" for path in self._files(".onnx")]
         return name in networks or name in self._remotes
 
     def keep(self, episode: Episode, name: str, agent: str = "") -> str:
-        """Offers an episode that lies in no file; the name by which it is known then."""
+        """Offer an episode that is in no file, and return its driver's name."""
         full = f"{RECORDING}{name}"
-        self._taken[full] = episode, agent
+        self._kept_episodes[full] = episode, agent
         return full
 
     def brain(self, name: str, agent_id: str, like: Brain) -> Brain:
-        """A new brain.
+        """Make a brain of a driver.
 
         Args:
-            name: of a driver.
-            agent_id: whom it is to drive.
-            like: decides as often as this one, where the driver has no rhythm of its own.
+            name: of the driver.
+            agent_id: the agent that it will drive.
+            like: brain whose ``skip_frame`` and ``repeat_action`` are used, if the driver has none.
 
         Raises:
             AI4UError: there is no such driver, or its file can't be read or run.
@@ -106,11 +108,11 @@ class DriverRegistry:
             "skip_frame": like.skip_frame,
             "repeat_action": like.repeat_action,
         }
-        if name in self._taken:
-            return _again(*self._taken[name], agent_id)
+        if name in self._kept_episodes:
+            return _replay_brain(*self._kept_episodes[name], agent_id)
         if name.startswith(RECORDING):
             path = self._file(name.removeprefix(RECORDING), ".episode")
-            return _again(Episode.load(path), "", agent_id)
+            return _replay_brain(Episode.load(path), "", agent_id)
         if name in self._remotes:
             return self._remotes[name].changed(**rhythm)
         if name.startswith(NETWORK):
@@ -119,9 +121,9 @@ class DriverRegistry:
             return LocalBrain(controller=network, **(rhythm | network.network.rhythm))
         file, _, function = name.removeprefix(SCRIPT).rpartition(":")
         path = self._file(file, ".py")
-        if function not in _drivers_in(path):
+        if function not in _driver_names(path):
             raise SetupError(
-                f"{path.name} has no driver {function!r}; {suggest(function, _drivers_in(path))}"
+                f"{path.name} has no driver {function!r}; {suggest(function, _driver_names(path))}"
             )
         found = run_file(path)[function]
         controller = found() if isinstance(found, type) else found
@@ -157,8 +159,8 @@ def _checked(place: Path) -> Path:
     )
 
 
-def _drivers_in(path: Path) -> list[str]:
-    """Functions of one argument and controllers in a file, found without running it."""
+def _driver_names(path: Path) -> list[str]:
+    """Return the functions of one argument and the controllers in a file, without running it."""
     try:
         tree = parsed(path.read_text(encoding="utf-8"))
     except (OSError, SyntaxError, ValueError, RecursionError):
@@ -166,12 +168,12 @@ def _drivers_in(path: Path) -> list[str]:
     return [
         each.name
         for each in tree.body
-        if (isinstance(each, ast.FunctionDef) and _takes_a_percept(each))
+        if (isinstance(each, ast.FunctionDef) and _has_one_argument(each))
         or (isinstance(each, ast.ClassDef) and _is_controller(each))
     ]
 
 
-def _takes_a_percept(function: ast.FunctionDef) -> bool:
+def _has_one_argument(function: ast.FunctionDef) -> bool:
     arguments = function.args
     needed = len(arguments.args) + len(arguments.posonlyargs) - len(arguments.defaults)
     return needed == 1 and not function.name.startswith("_")
@@ -182,8 +184,8 @@ def _is_controller(cls: ast.ClassDef) -> bool:
     return any(issubclass(Block.types.get(name, Block), Controller) for name in bases)
 
 
-def _again(episode: Episode, recorded: str, agent_id: str) -> Brain:
-    """A brain that does what was done in an episode; begins anew with each reset."""
+def _replay_brain(episode: Episode, recorded: str, agent_id: str) -> Brain:
+    """Make a brain that repeats a recorded agent's actions; it starts again at each reset."""
     record = episode.agent(recorded or (agent_id if agent_id in episode.ids else None))
     if not len(record):
         raise SetupError(f"agent {record.id!r} took no decision in this recording")

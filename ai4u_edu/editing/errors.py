@@ -1,4 +1,4 @@
-"""What can't be changed so, parameter by parameter."""
+"""Error of a change that can't be made."""
 
 from collections.abc import Sequence
 
@@ -7,11 +7,11 @@ from ai4u_edu.base.parameters import Problem, listed
 
 
 class ChangeError(SetupError):
-    """A change that can't be made; all stays as it was.
+    """A change that can't be made; nothing was changed.
 
     Args:
-        problems: what is wrong, each with the path of the parameter that it is about, as seen from
-            the block or the body that was to be changed; () for the whole of it.
+        problems: what is wrong, each with the path of its parameter relative to the block or body
+            that was to be changed; () for the block or body itself.
     """
 
     def __init__(self, problems: Sequence[Problem]) -> None:

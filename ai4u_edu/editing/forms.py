@@ -1,4 +1,4 @@
-"""The form of a block, from its declaration: what a page asks for, and how it is read."""
+"""Form fields for a block's parameters, derived from its declaration."""
 
 import json
 import re
@@ -11,66 +11,69 @@ from ai4u_edu.base.errors import SceneError
 from ai4u_edu.base.parameters import Problem, is_open
 from ai4u_edu.blocks import Actuator, Block, Brain, Controller, RewardFunc, Sensor
 from ai4u_edu.blocks.docs import summary
-from ai4u_edu.editing.blocks import KINDS, Plain
+from ai4u_edu.editing.blocks import KINDS
 from ai4u_edu.editing.errors import ChangeError
 from ai4u_edu.editing.names import SceneNames
+from ai4u_edu.editing.plain import Plain
 from ai4u_edu.scenes.yaml.file import YamlFile
 
 Kind = Literal["number", "whole", "switch", "choice", "text", "data"]
 BASES = (Sensor, Actuator, RewardFunc, Brain, Controller)
 SWITCHES = {"is_active", "enabled"}
-"""Not in a form: a button switches a block on and off."""
+"""Parameters that are not in a form; a page has a button for them."""
 NONE_LABEL = "(none)"
 
 
 @dataclass(frozen=True)
 class Field:
-    """One parameter, as a person sees it."""
+    """A form field for one parameter."""
 
     name: str
     label: str
     kind: Kind
     value: Any
-    """As it is now, plain."""
+    """The present value, as plain data."""
     hint: str
     choices: tuple[Any, ...] = ()
     is_common: bool = False
-    """Whether every block of the kind has it; then it is of less interest."""
+    """True if every block of the kind has it; such fields come last."""
 
     @property
     def shown(self) -> str:
-        """The value as it is written in a box, or named in a list."""
+        """The value as text in an input, or as an option of a list."""
         if self.value is None:
             return NONE_LABEL if self.kind == "choice" else ""
         if self.kind == "data":
-            return _written(self.value)
+            return _format(self.value)
         if isinstance(self.value, float):
             return f"{self.value:.10g}"
         return str(self.value) if self.value != "" or self.kind != "choice" else NONE_LABEL
 
-    def read(self, said: Any) -> Any:
-        """What a person made of it, plain; None for "as by default".
+    def read(self, entered: Any) -> Any:
+        """Parse what a person entered; None stands for the default.
 
         Raises:
-            ChangeError: it can't be read at all.
+            ChangeError: it can't be parsed.
         """
         if self.kind == "switch":
-            return bool(said)
+            return bool(entered)
         if self.kind == "choice":
-            return {**{str(each): each for each in self.choices}, NONE_LABEL: None}.get(said, said)
-        if isinstance(said, str) and not said.strip():
+            return {**{str(each): each for each in self.choices}, NONE_LABEL: None}.get(
+                entered, entered
+            )
+        if isinstance(entered, str) and not entered.strip():
             return None
         if self.kind in {"number", "whole"}:
-            return _number(said)
-        return _data(self.name, str(said)) if self.kind == "data" else str(said)
+            return _number(entered)
+        return _data(self.name, str(entered)) if self.kind == "data" else str(entered)
 
 
 def block_form(block: Plain, names: SceneNames) -> list[Field]:
-    """The parameters of a block, its own before those that all of its kind have.
+    """Return the fields of a block; its own parameters come before those of all of its kind.
 
     Args:
-        block: its type, and the parameters that are not as by default.
-        names: what there is in the scene, to choose from.
+        block: its type, and the parameters that differ from the default.
+        names: names in the scene to choose from.
     """
     cls = Block.types[str(block["type"])]
     schema = cls.json_schema()
@@ -88,19 +91,19 @@ def block_form(block: Plain, names: SceneNames) -> list[Field]:
     ]
     needed = schema.get("required", ())
 
-    def turn(field: Field) -> tuple[bool, bool, int]:
+    def sort_key(field: Field) -> tuple[bool, bool, int]:
         return field.is_common, field.name not in needed, _distance(cls, field.name)
 
-    return sorted(fields, key=turn)
+    return sorted(fields, key=sort_key)
 
 
 def block_summary(block: Plain) -> str:
-    """What a block is, in a sentence."""
+    """Return a sentence about a block."""
     return summary(Block.types[str(block["type"])])
 
 
 def _distance(cls: type[Block], name: str) -> int:
-    """How far above a class a parameter is declared; what is a block's own comes first."""
+    """Return how many classes above a class a parameter is declared."""
     declared = [name in get_annotations(base) for base in cls.__mro__]
     return declared.index(True) if True in declared else len(declared)
 
@@ -113,14 +116,14 @@ def field_of(
     known: Iterable[str] | None = None,
     is_common: bool = False,
 ) -> Field:
-    """The field for a parameter.
+    """Make the field of a parameter.
 
     Args:
-        name: the parameter's.
-        about: what the JSON Schema says of it.
-        value: as it is now, plain.
-        known: names in the scene that it may be, if it is a name.
-        is_common: whether every block of the kind has it.
+        name: of the parameter.
+        about: its JSON Schema.
+        value: its present value, as plain data.
+        known: names in the scene that it can have, if it is a name.
+        is_common: True if every block of the kind has it.
     """
     options = [each for each in about.get("anyOf", ()) if each.get("type") != "null"]
     can_be_none = len(options) < len(about.get("anyOf", ()))
@@ -170,24 +173,24 @@ def _holds_blocks(cls: type[Block], name: str) -> bool:
     return name in KINDS and any(isinstance(p, type) and issubclass(p, Block) for p in parts)
 
 
-def _number(said: Any) -> Any:
-    text = str(said).strip()
+def _number(entered: Any) -> Any:
+    text = str(entered).strip()
     if re.fullmatch(r"[+-]?\d+,\d+", text):
-        text = text.replace(",", ".")  # as half of the world writes it
+        text = text.replace(",", ".")  # the decimal comma of many countries
     for kind in (int, float):
         try:
             return kind(text)
         except ValueError:
             continue
-    return said
+    return entered
 
 
-def _written(value: Any) -> str:
-    """Lists and mappings on one line, as in a scene file."""
+def _format(value: Any) -> str:
+    """Format a value on one line, as in a scene file."""
     if isinstance(value, Mapping):
-        return "{" + ", ".join(f"{_word(k)}: {_written(v)}" for k, v in value.items()) + "}"
+        return "{" + ", ".join(f"{_word(k)}: {_format(v)}" for k, v in value.items()) + "}"
     if isinstance(value, list | tuple):
-        return "[" + ", ".join(map(_written, value)) + "]"
+        return "[" + ", ".join(map(_format, value)) + "]"
     return f"{value:.10g}" if isinstance(value, float) else _word(value)
 
 
@@ -198,8 +201,8 @@ def _word(value: Any) -> str:
     return json.dumps(value)
 
 
-def _data(name: str, said: str) -> Any:
-    text = said.strip()
+def _data(name: str, entered: str) -> Any:
+    text = entered.strip()
     try:
         return YamlFile(f"x: {text}", name).data["x"]
     except SceneError as error:

@@ -1,58 +1,59 @@
-"""What was, and what was taken back."""
+"""The undo and redo stacks."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 from ai4u_edu.editing.state import EditState
 from ai4u_edu.world import Pose
 
-DEPTH = 200
-"""So many changes can be taken back."""
+MAX_STEPS = 200
+"""Changes that can be undone."""
 
 
 @dataclass(frozen=True)
 class Step:
-    """One change."""
+    """One change that was made."""
 
     label: str
     before: EditState
     after: EditState
-    was: dict[str, Pose]
-    """Where the bodies stood that it moved."""
-    now: dict[str, Pose]
-    """Where it put them."""
-    whole: bool = False
-    """Whether another scene runs since then."""
-    opened: EditState | None = None
-    """What had been opened last before."""
+    poses_before: Mapping[str, Pose]
+    """Earlier poses of the bodies that the change moved, by name."""
+    poses_after: Mapping[str, Pose]
+    """Poses to which the change moved them."""
+    replaces_world: bool = False
+    """True if the change opened another scene."""
+    opened_before: EditState | None = None
+    """The state that had been opened last before this change."""
 
 
 class History:
-    """Changes that were made, and those that were taken back and can be made again."""
+    """Changes that can be undone, and undone changes that can be redone."""
 
-    def __init__(self, depth: int = DEPTH) -> None:
-        self._depth = depth
+    def __init__(self, max_steps: int = MAX_STEPS) -> None:
+        self._max_steps = max_steps
         self._done: list[Step] = []
         self._undone: list[Step] = []
 
     @property
     def last(self) -> Step | None:
-        """What would be undone."""
+        """The change that undo takes back; None if there is none."""
         return self._done[-1] if self._done else None
 
     @property
     def next(self) -> Step | None:
-        """What would be done again."""
+        """The change that redo makes again; None if there is none."""
         return self._undone[-1] if self._undone else None
 
     def add(self, step: Step) -> None:
-        """A change was made; what was taken back before is gone."""
-        self._done = [*self._done, step][-self._depth :]
+        """Add a new change, and forget all undone ones."""
+        self._done = [*self._done, step][-self._max_steps :]
         self._undone = []
 
-    def back(self) -> None:
-        """The last one was taken back."""
+    def move_back(self) -> None:
+        """Mark the last change as undone."""
         self._undone.append(self._done.pop())
 
-    def forth(self) -> None:
-        """The last one that was taken back was made again."""
+    def move_forward(self) -> None:
+        """Mark the change that was undone last as done again."""
         self._done.append(self._undone.pop())

@@ -1,4 +1,4 @@
-"""What there is in a scene for blocks to refer to, by name."""
+"""Names in a scene that a block's parameters can refer to."""
 
 from collections.abc import Mapping
 from functools import cached_property
@@ -9,10 +9,10 @@ from ai4u_edu.editing.state import EditState
 
 
 class SceneNames:
-    """The names in a scene, as one of its agents may use them.
+    """Names that one agent's blocks can use.
 
     Args:
-        state: the scene.
+        state: has the scene.
         agent_id: the agent.
     """
 
@@ -22,45 +22,45 @@ class SceneNames:
 
     @cached_property
     def bodies(self) -> tuple[str, ...]:
-        """All bodies but the agent's own, targets first."""
+        """Names of all bodies but the agent's own, targets first."""
         others = [body for body in self._description.bodies if body.name != self.agent.get("body")]
         others.sort(key=lambda body: "target" not in body.tags)
         return tuple(body.name for body in others)
 
     @property
     def areas(self) -> tuple[str, ...]:
-        """All areas."""
+        """Names of all areas."""
         return tuple(area.name for area in self._description.areas)
 
     @property
     def things(self) -> tuple[str, ...]:
-        """All that can be a target."""
+        """Names of everything that can be a target."""
         return (*self.bodies, *self.areas)
 
     @property
     def tags(self) -> tuple[str, ...]:
-        """The tags of all bodies, that of targets first."""
+        """Tags of all bodies, ``target`` first."""
         tags = dict.fromkeys(tag for body in self._description.bodies for tag in body.tags)
         return tuple(sorted(tags, key=lambda tag: tag != "target"))
 
     @property
     def area_tags(self) -> tuple[str, ...]:
-        """The tags of all areas."""
+        """Tags of all areas."""
         return tuple(dict.fromkeys(tag for area in self._description.areas for tag in area.tags))
 
     def of_blocks(self, kind: str, parameter: str, only: str = "") -> tuple[str, ...]:
-        """What the agent's blocks are called.
+        """Return the names of the agent's blocks.
 
         Args:
             kind: ``sensors``, ``actuators`` or ``rewards``.
-            parameter: in which they have their name.
-            only: the type of those that are meant.
+            parameter: the parameter that holds a block's name.
+            only: a type, to return the names of these blocks only.
         """
         blocks = [each for each in self.agent.get(kind, ()) if only in ("", each["type"])]
         return tuple(dict.fromkeys(name_of(each, parameter) for each in blocks))
 
     def fitting(self, parameter: str) -> tuple[str, ...] | None:
-        """What may stand in a parameter of that name; None where it is no name from the scene."""
+        """Return the values that a parameter can have; None if it does not name anything."""
         match parameter:
             case "target":
                 return self.things
@@ -78,16 +78,16 @@ class SceneNames:
 
 
 def name_of(block: Mapping[str, Any], parameter: str) -> str:
-    """What a block is called: as it says, or as its kind is called by default."""
+    """Return a block's name: the given one, or the default of its type."""
     given = block.get(parameter)
     if given:
         return str(given)
     cls = Block.types[str(block["type"])]
     default = cls.parameters()[parameter].get_default() if parameter in cls.parameters() else ""
-    return str(default or _by_itself(cls))
+    return str(default or _default_name(cls))
 
 
-def _by_itself(cls: type[Block]) -> str:
+def _default_name(cls: type[Block]) -> str:
     from ai4u_edu.blocks.block import default_name
 
     return default_name(cls, "Sensor", "Actuator", "RewardFunc", "Reward", "Func")

@@ -1,4 +1,4 @@
-"""What a page may not ask of the machine that runs the world."""
+"""Permissions of pages on the machine that runs the world: hosts and files that they may name."""
 
 from collections.abc import Iterator, Mapping
 from pathlib import PurePath
@@ -7,30 +7,31 @@ from typing import Any
 from ai4u_edu.base.parameters import Problem
 from ai4u_edu.blocks.brains.network import IN_THE_ZOO
 from ai4u_edu.editing.errors import ChangeError
+from ai4u_edu.editing.plain import BlockPath
 
-HERE = frozenset({"127.0.0.1", "localhost", "::1"})
+LOCAL_HOSTS = frozenset({"127.0.0.1", "localhost", "::1"})
 
-Found = Iterator[tuple[tuple[str | int, ...], str, str]]
+References = Iterator[tuple[BlockPath, str, str]]
 
 
-class Trust:
-    """Which machines and files the scenes of this room may name.
+class Permissions:
+    """Hosts and files that edited scenes may name.
 
-    Whoever starts the world names a scene, and with it whatever that says. Who comes by a page
-    can name no other machine, and no file that does not lie beside the scene.
+    The scene that the server was started with may name any. An edit from a page may add no other
+    host than this machine, and no file outside the scene's folder.
 
     Args:
-        named: the agents of the scene that the world was started with.
+        named: the agents of the scene that the server was started with.
     """
 
     def __init__(self, named: Any) -> None:
-        self._known = {(name, value) for _, name, value in outward(named)}
+        self._known = {(name, value) for _, name, value in external_references(named)}
 
-    def check(self, agents: Any, where: tuple[str | int, ...] = ("agents",)) -> None:
-        """Raises ChangeError if they name what they may not."""
+    def check(self, agents: Any, path: BlockPath = ("agents",)) -> None:
+        """Raise a ChangeError if agents name a host or a file that they may not."""
         problems = [
-            Problem(path, text)
-            for path, name, value in outward(agents, where)
+            Problem(at, text)
+            for at, name, value in external_references(agents, path)
             if (name, value) not in self._known and (text := _fault(name, value))
         ]
         if problems:
@@ -38,7 +39,7 @@ class Trust:
 
 
 def _fault(name: str, value: str) -> str:
-    if name == "host" and value not in HERE:
+    if name == "host" and value not in LOCAL_HOSTS:
         return (
             f"a page can't have this machine connect to {value!r}; expected 127.0.0.1, or start "
             "the world with --brain ai4u://..."
@@ -50,14 +51,14 @@ def _fault(name: str, value: str) -> str:
     return ""
 
 
-def outward(data: Any, path: tuple[str | int, ...] = ()) -> Found:
-    """All hosts and files that blocks name: path, name of the parameter, value."""
+def external_references(data: Any, path: BlockPath = ()) -> References:
+    """Yield the hosts and files that blocks name: path, name of the parameter, value."""
     if isinstance(data, Mapping):
         for name, value in data.items():
             if name in {"host", "model_path"} and isinstance(value, str):
                 yield (*path, str(name)), str(name), value
             else:
-                yield from outward(value, (*path, str(name)))
+                yield from external_references(value, (*path, str(name)))
     elif isinstance(data, list | tuple):
         for index, value in enumerate(data):
-            yield from outward(value, (*path, index))
+            yield from external_references(value, (*path, index))

@@ -1,4 +1,4 @@
-"""A folder in which scenes are kept under names that people give them."""
+"""A folder of scenes that people saved by name."""
 
 import re
 import threading
@@ -8,7 +8,7 @@ from pathlib import Path
 from ai4u_edu.base.atomic_write import make_folder, reason, write_atomically
 from ai4u_edu.base.errors import SceneError, SetupError, suggest
 from ai4u_edu.blocks.brains.network import IN_THE_ZOO
-from ai4u_edu.editing.permissions import outward
+from ai4u_edu.editing.permissions import external_references
 from ai4u_edu.scenes import Scene
 from ai4u_edu.scenes.yaml.file import MAX_SCENE_CHARS
 
@@ -16,23 +16,23 @@ ENDING = ".yaml"
 NAME = re.compile(r"[^\W_](?:[\w -]{0,58}[\w-])?")
 """Letters of any script, digits, spaces, - and _; so no name is a path, hidden, or an option."""
 DEVICES = re.compile(r"(?i)con|prn|aux|nul|(com|lpt)[0-9]")
-"""What Windows takes for something else than a file."""
+"""Names of devices on Windows."""
 MAX_SCENES = 300
-"""So many scenes lie in one store: a page must not fill a disk."""
+"""Scenes in one store; a page must not fill a disk."""
 
 
 class SceneExistsError(SetupError):
-    """Another scene has that name already, and nobody said that it may go."""
+    """Another scene has that name already, and must not be replaced."""
 
 
 class SceneStore:
-    """Keeps scenes as files in one folder; whatever a page calls them, they lie in it.
+    """Saves and loads scenes in one folder; no name leads out of it.
 
     Args:
-        folder: is made if it isn't there.
+        folder: the folder; created if it does not exist.
 
     Raises:
-        SetupError: it can't be.
+        SetupError: it can't be created.
     """
 
     def __init__(self, folder: Path) -> None:
@@ -41,16 +41,16 @@ class SceneStore:
         make_folder(self.folder, "scenes")
 
     def names(self) -> list[str]:
-        """The names of all scenes that lie there."""
+        """Return the names of all saved scenes."""
         return sorted(map(_name_of, self._files()), key=str.casefold)
 
     def file(self, name: str) -> Path | None:
-        """The file of a scene; None if there is none. Capitals make no difference."""
-        wanted = proper(name).casefold()
+        """Return the file of a scene, ignoring case; None if there is none."""
+        wanted = normalized_name(name).casefold()
         return next((each for each in self._files() if _name_of(each).casefold() == wanted), None)
 
     def load(self, name: str) -> Scene:
-        """The scene of that name.
+        """Load a scene.
 
         Raises:
             SceneError: there is none, or something in it is wrong.
@@ -63,21 +63,21 @@ class SceneStore:
         return Scene.load(file)
 
     def save(self, name: str, scene: Scene, *, over: bool = False) -> str:
-        """Keeps a scene, whole or not at all.
+        """Save a scene atomically.
 
         Args:
             name: see :data:`NAME`.
-            scene: which.
-            over: whether one of that name may go for it.
+            scene: the scene.
+            over: True to replace a scene of that name.
 
         Returns:
-            The name under which it lies there.
+            The name under which it was saved; of a replaced scene, that one's.
 
         Raises:
-            SetupError: the name won't do, the store is full, or the disk.
-            SceneExistsError: one of that name is there already.
+            SetupError: the name is invalid, or the store or the disk is full.
+            SceneExistsError: there is a scene of that name, and ``over`` is False.
         """
-        name = proper(name)
+        name = normalized_name(name)
         self._check_files(scene)
         with self._lock:
             there = self.file(name)
@@ -89,10 +89,10 @@ class SceneStore:
                 )
             file = there or self.folder / f"{name}{ENDING}"
             if file.is_symlink() or (file.exists() and not file.is_file()):
-                # a link or a folder, which is nobody's to replace
+                # never replace a link or a folder
                 raise SetupError(f"{name!r} can't be used; choose another name")
             try:
-                # another server may keep its scenes here too, under the same names
+                # `over=False`: another server may use this folder at the same time
                 write_atomically(file, scene.dumps(), over=over)
             except FileExistsError:
                 raise SceneExistsError(f"{name!r} is there already") from None
@@ -101,17 +101,17 @@ class SceneStore:
         return _name_of(file)
 
     def _check_files(self, scene: Scene) -> None:
-        """What a scene needs beside it has to be here too."""
-        for _, kind, value in outward(scene.description.agents):
+        """Raise a SetupError if the scene needs a network file that is not in this folder."""
+        for _, kind, value in external_references(scene.description.agents):
             is_file = kind == "model_path" and not value.startswith(IN_THE_ZOO)
-            if is_file and not (self.folder / value).is_file():  # an absolute one stays what it is
+            if is_file and not (self.folder / value).is_file():  # `/` keeps an absolute path
                 raise SetupError(
                     f"it needs {value!r}, which lies beside the scene that it came from; "
                     "put a copy into the folder for saved scenes"
                 )
 
     def _files(self) -> list[Path]:
-        """No links: they lead out of the folder."""
+        """Return all scene files; no links, since they lead out of the folder."""
         return [
             path
             for path in self.folder.glob(f"*{ENDING}")
@@ -119,15 +119,15 @@ class SceneStore:
         ]
 
 
-def proper(name: str) -> str:
-    """A name as its file has it.
+def normalized_name(name: str) -> str:
+    """Normalize a name, and check that it can be a file's name.
 
     Raises:
-        SetupError: it won't do.
+        SetupError: it can't.
 
-    >>> proper(" Mi laberinto-2 ")
+    >>> normalized_name(" Mi laberinto-2 ")
     'Mi laberinto-2'
-    >>> proper("../maze")
+    >>> normalized_name("../maze")
     Traceback (most recent call last):
     ...
     ai4u_edu.base.errors.SetupError: expected a name of letters, digits, spaces, - and _, \

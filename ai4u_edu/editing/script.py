@@ -1,4 +1,4 @@
-"""A Python file in which somebody wrote how to drive."""
+"""Runs a Python file with drivers."""
 
 import runpy
 import traceback
@@ -11,7 +11,7 @@ from ai4u_edu.blocks.block import is_built_in
 
 
 def run_file(path: Path) -> dict[str, Any]:
-    """Runs a file, which may do all that Python can do; what it defines, by name.
+    """Run a file without any sandbox, and return its globals by name.
 
     Raises:
         SetupError: it can't be run, or gives a block the name of a built-in one.
@@ -21,7 +21,7 @@ def run_file(path: Path) -> dict[str, Any]:
     found: dict[str, Any] = {}
     try:
         found = runpy.run_path(str(path))
-    except (Exception, SystemExit) as error:  # it is theirs, so it may be any
+    except (Exception, SystemExit) as error:  # a user's code may raise anything
         lines = [
             frame.lineno
             for frame in traceback.extract_tb(error.__traceback__)

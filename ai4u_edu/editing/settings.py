@@ -1,4 +1,4 @@
-"""What an agent and a scene have of their own, besides blocks and things: forms, and changes."""
+"""Forms for, and changes of, the parameters of an agent and of a scene themselves."""
 
 from collections.abc import Mapping
 from dataclasses import replace
@@ -11,53 +11,55 @@ from ai4u_edu.base.errors import ParameterError
 from ai4u_edu.base.parameters import Problem, explain
 from ai4u_edu.blocks import Block
 from ai4u_edu.editing import blocks
-from ai4u_edu.editing.blocks import BlockPath, Plain
-from ai4u_edu.editing.difference import OWN
+from ai4u_edu.editing.difference import RUNTIME_PARAMETERS
 from ai4u_edu.editing.errors import ChangeError
 from ai4u_edu.editing.forms import Field, field_of
+from ai4u_edu.editing.plain import BlockPath, Plain
 from ai4u_edu.editing.typed import check_typed, schema_of
 from ai4u_edu.scenes import SceneDescription
 from ai4u_edu.world import WorldSettings
 
 RHYTHM = ("skip_frame", "repeat_action")
-"""What a person takes for the agent's own; its brain has them."""
-WORDS = ("title", "goal")
-"""What a scene says of itself."""
-TURNS = ("spread_decisions",)
-"""What it says of its agents together."""
+"""Parameters that are shown with the agent, and belong to its brain."""
+TEXTS = ("title", "goal")
+"""Texts of a scene."""
+SCHEDULING = ("spread_decisions",)
+"""Parameters of a scene about all its agents."""
 
 
 def agent_form(agent: Plain) -> list[Field]:
-    """The parameters of an agent and the rhythm of its brain, as they are now."""
+    """Return the form of an agent: its parameters, and those of its enabled brain's rhythm."""
     brain = blocks.block_at(agent, brain_of(agent))
     schema = BasicAgent.json_schema()
     return [
         *_fields(Block.types[str(brain["type"])].json_schema(), RHYTHM, brain),
-        *_fields(schema, OWN, agent),
-        *_later(_fields(schema, ("priority",), agent)),
+        *_fields(schema, RUNTIME_PARAMETERS, agent),
+        *_applying_later(_fields(schema, ("priority",), agent)),
     ]
 
 
 def scene_form(scene: SceneDescription) -> list[Field]:
-    """A scene's words, and what holds for all agents and for its world, as it is now."""
+    """Return the form of a scene: its texts, its agents' scheduling, its world's settings."""
     schema = TypeAdapter(SceneDescription).json_schema()
     world = WorldSettings.model_json_schema()
     settings = scene.world.model_dump()
     return [
-        *_fields(schema, WORDS, {name: getattr(scene, name) for name in WORDS}),
-        *_later(_fields(schema, TURNS, {name: getattr(scene, name) for name in TURNS})),
-        *_later(_fields(world, tuple(WorldSettings.model_fields), settings)),
+        *_fields(schema, TEXTS, {name: getattr(scene, name) for name in TEXTS}),
+        *_applying_later(
+            _fields(schema, SCHEDULING, {name: getattr(scene, name) for name in SCHEDULING})
+        ),
+        *_applying_later(_fields(world, tuple(WorldSettings.model_fields), settings)),
     ]
 
 
 def brain_of(agent: Plain) -> BlockPath:
-    """The path of the brain that is on."""
+    """Return the path of the enabled brain."""
     brains = agent["brains"]
     return "brains", next((i for i, each in enumerate(brains) if each.get("enabled", True)), 0)
 
 
 def with_agent_settings(agent: Plain, values: Plain) -> Plain:
-    """With other parameters of an agent, or of its brain's rhythm; None for one as by default."""
+    """Change parameters of an agent, or of its brain's rhythm; None resets one to its default."""
     check_typed(values, schema_of(BasicAgent))
     rhythm = {name: values[name] for name in RHYTHM if name in values}
     if rhythm:
@@ -67,13 +69,13 @@ def with_agent_settings(agent: Plain, values: Plain) -> Plain:
 
 
 def with_scene_settings(scene: SceneDescription, values: Plain) -> SceneDescription:
-    """With other words or turns of a scene, or settings of its world; None for one as by default.
+    """Change texts or scheduling of a scene, or settings of its world; None resets to the default.
 
     Raises:
-        ChangeError: some are wrong, or nothing of the scene is called so.
+        ChangeError: some values are wrong, or no parameter has such a name.
     """
     check_typed(values, WorldSettings.model_json_schema())
-    own = {name: values[name] for name in _OWN if name in values}
+    own = {name: values[name] for name in _ADAPTERS if name in values}
     settings = scene.world.model_dump(exclude_defaults=True)
     settings |= {name: value for name, value in values.items() if name not in own}
     problems: list[Problem] = []
@@ -81,7 +83,7 @@ def with_scene_settings(scene: SceneDescription, values: Plain) -> SceneDescript
     for name, value in own.items():
         default = SceneDescription.model_fields[name].default
         try:
-            fields[name] = _OWN[name].validate_python(default if value is None else value)
+            fields[name] = _ADAPTERS[name].validate_python(default if value is None else value)
         except ValidationError as error:
             problems += [Problem((name,), each.text) for each in explain(error.errors(), ())]
     try:
@@ -105,11 +107,11 @@ def _fields(schema: Mapping[str, Any], names: tuple[str, ...], values: Plain) ->
     ]
 
 
-def _later(fields: list[Field]) -> list[Field]:
-    """With a word on when they apply."""
+def _applying_later(fields: list[Field]) -> list[Field]:
+    """Say in the hints that the fields apply at the next reset."""
     return [replace(each, hint=f"{each.hint}; applies at the next reset") for each in fields]
 
 
-_OWN: dict[str, TypeAdapter[Any]] = {
-    name: TypeAdapter(SceneDescription.__annotations__[name]) for name in (*WORDS, *TURNS)
+_ADAPTERS: dict[str, TypeAdapter[Any]] = {
+    name: TypeAdapter(SceneDescription.__annotations__[name]) for name in (*TEXTS, *SCHEDULING)
 }

@@ -1,4 +1,4 @@
-"""What a person changes: a scene's description, and who drives besides what it says."""
+"""The edited state: a scene's description, and drivers that it does not contain."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
@@ -9,36 +9,36 @@ from typing import Any
 from ai4u_edu.base.errors import NameNotFoundError, suggest
 from ai4u_edu.blocks import Block
 from ai4u_edu.blocks.block import default_name
-from ai4u_edu.editing.typed import check_name
+from ai4u_edu.editing.input_checks import check_name
 from ai4u_edu.scenes import Scene, SceneDescription
 
-NOBODY: Mapping[str, str] = MappingProxyType({})
+NO_DRIVERS: Mapping[str, str] = MappingProxyType({})
 
 
 @dataclass(frozen=True)
 class EditState:
-    """Everything that undo takes back; never changed, only replaced."""
+    """Everything that undo restores; immutable."""
 
     description: SceneDescription
     folder: Path | None = None
-    """Where paths in the description begin."""
-    drivers: Mapping[str, str] = field(default_factory=lambda: NOBODY)
-    """Who drives in place of an agent's own brain, by its id; see :mod:`drivers`."""
+    """The folder to which paths in the description are relative."""
+    drivers: Mapping[str, str] = field(default_factory=lambda: NO_DRIVERS)
+    """Names of drivers in place of agents' own brains, by agent id; see :mod:`drivers`."""
     source: str = field(default="", compare=False, repr=False)
-    """The text that the scene was read from, for its comments."""
+    """The text that the scene was read from; its comments are kept."""
 
     @property
     def scene(self) -> Scene:
-        """As a scene, to be saved or built."""
+        """The scene, to be saved or built."""
         return Scene(self.description, self.folder, self.source)
 
     @property
     def title(self) -> str:
-        """What the scene is called."""
+        """The scene's title, or its name."""
         return self.description.title or self.description.name
 
     def agent_index(self, agent_id: str) -> int:
-        """Where the agent of that id stands in the description."""
+        """Return the index of an agent in the description."""
         check_name(agent_id, "an agent's id")
         ids = [str(agent.get("id", "0")) for agent in self.description.agents]
         if agent_id not in ids:
@@ -46,14 +46,14 @@ class EditState:
         return ids.index(agent_id)
 
     def agent(self, agent_id: str) -> Mapping[str, Any]:
-        """The parameters of an agent, blocks as mappings with a ``type``."""
+        """Return the parameters of an agent, blocks as mappings with a ``type``."""
         return self.description.agents[self.agent_index(agent_id)]
 
     def with_agent(self, agent_id: str, agent: Mapping[str, Any]) -> "EditState":
-        """The same with other parameters of an agent.
+        """Return a copy with other parameters of an agent.
 
-        Where the reward function that pays the scene's success gets another name, the success has
-        that one too; where it is taken away, the scene has none.
+        If the reward function that pays the scene's ``success`` term is renamed, ``success`` is
+        renamed too; if it is removed, the scene has no ``success`` any more.
         """
         agents = list(self.description.agents)
         index = self.agent_index(agent_id)
@@ -62,11 +62,11 @@ class EditState:
         return self.describing(agents=tuple(agents), success=success)
 
     def describing(self, **fields: Any) -> "EditState":
-        """The same with other fields of the description."""
+        """Return a copy with other fields of the description."""
         return replace(self, description=self.description.model_copy(update=fields))
 
     def driven(self, agent_id: str, driver: str) -> "EditState":
-        """The same with another driver; an empty one for the agent's own brain."""
+        """Return a copy with another driver; an empty one for the agent's own brain."""
         drivers = {name: each for name, each in self.drivers.items() if name != agent_id}
         if driver:
             drivers[agent_id] = driver
@@ -75,18 +75,18 @@ class EditState:
 
 def _success(before: SceneDescription, index: int, agent: Mapping[str, Any]) -> str | None:
     wanted = before.success
-    had = [_terms(each) for each in before.agents]
-    have = _terms(agent)
+    had = [_reward_names(each) for each in before.agents]
+    have = _reward_names(agent)
     others = {name for number, names in enumerate(had) if number != index for name in names}
     if wanted is None or wanted not in had[index] or wanted in others or wanted in have:
         return wanted
     if len(have) != len(had[index]):
-        return None  # it was taken away
+        return None  # the function was removed
     return have[had[index].index(wanted)]
 
 
-def _terms(agent: Mapping[str, Any]) -> list[str]:
-    """The names of an agent's reward functions."""
+def _reward_names(agent: Mapping[str, Any]) -> list[str]:
+    """Return the names of an agent's reward functions."""
     endings = ("RewardFunc", "Reward", "Func")
     return [
         str(each.get("name") or default_name(Block.types[str(each["type"])], *endings))

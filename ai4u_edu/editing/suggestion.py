@@ -1,10 +1,10 @@
-"""A block that fits an agent, before anybody has said a word about its parameters."""
+"""Suggested parameters for a new block."""
 
 from typing import Any
 
 from ai4u_edu.blocks import Actuator, Block, Brain, RewardFunc, Sensor
-from ai4u_edu.editing.blocks import Plain
 from ai4u_edu.editing.names import SceneNames, name_of
+from ai4u_edu.editing.plain import Plain
 from ai4u_edu.editing.state import EditState
 from ai4u_edu.zoo import names as in_the_zoo
 
@@ -16,26 +16,26 @@ NAMED = {
 
 
 def suggest_block(state: EditState, agent_id: str, type_name: str) -> Plain:
-    """A new block as data: what has no default, or says nothing by default, is filled in.
+    """Return a new block as plain data, with parameters filled in that need a value to be useful.
 
     Args:
-        state: the scene.
-        agent_id: whose block it is to be.
+        state: has the scene.
+        agent_id: the agent that gets the block.
         type_name: the block's type.
     """
     cls, names = Block.types[type_name], SceneNames(state, agent_id)
     block: dict[str, Any] = {"type": type_name}
     for name, field in cls.parameters().items():
         known, default = names.fitting(name), field.get_default(call_default_factory=True)
-        is_strange = known is not None and default not in ("", None, *known)
-        if not (field.is_required() or is_strange or name == "group_code"):
+        is_unknown_name = known is not None and default not in ("", None, *known)
+        if not (field.is_required() or is_unknown_name or name == "group_code"):
             continue
         value = _value(name, state, names)
         if value is not None:
             block[name] = value
     for base, (kind, parameter) in NAMED.items():
         if issubclass(cls, base):
-            _find_a_name(block, parameter, names.of_blocks(kind, parameter))
+            _make_name_unique(block, parameter, names.of_blocks(kind, parameter))
     if issubclass(cls, Brain):
         brains = names.agent.get("brains", ())
         on: Plain = next((each for each in brains if each.get("enabled", True)), {})
@@ -80,7 +80,7 @@ def _actuators(names: SceneNames) -> tuple[str, ...]:
     return names.of_blocks("actuators", "action_name")
 
 
-def _find_a_name(block: dict[str, Any], parameter: str, taken: tuple[str, ...]) -> None:
+def _make_name_unique(block: dict[str, Any], parameter: str, taken: tuple[str, ...]) -> None:
     name, number = name_of(block, parameter), 2
     if name not in taken:
         return

@@ -1,4 +1,4 @@
-"""How changes are carried out, one after the other, and taken back."""
+"""Changes that are checked, applied and recorded one after another, and undone."""
 
 import math
 from collections.abc import Callable
@@ -7,189 +7,193 @@ from concurrent.futures import Future
 from ai4u_edu.base.errors import AI4UError
 from ai4u_edu.base.parameters import Problem
 from ai4u_edu.editing import bodies
-from ai4u_edu.editing.apply import Live
-from ai4u_edu.editing.blocks import BlockPath
+from ai4u_edu.editing.apply import RunningScene
 from ai4u_edu.editing.change_result import ChangeResult, When
 from ai4u_edu.editing.drivers import DriverRegistry
-from ai4u_edu.editing.dry_run import THOROUGHLY, tried
+from ai4u_edu.editing.dry_run import MANY_EPISODES, dry_run
 from ai4u_edu.editing.errors import ChangeError
 from ai4u_edu.editing.history import History, Step
-from ai4u_edu.editing.move_warnings import note_on
-from ai4u_edu.editing.permissions import Trust
+from ai4u_edu.editing.move_warnings import move_warnings
+from ai4u_edu.editing.permissions import Permissions
+from ai4u_edu.editing.proposals import Poses, Proposal
 from ai4u_edu.editing.state import EditState
 from ai4u_edu.recording.scene_export import export_scene
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.scenes.serialization import PlainDataError
 from ai4u_edu.world import Pose
 
-Made = tuple[EditState, str, BlockPath]
-"""What is wanted, what is done to get there, and the place in the scene that it is about."""
 
+class Transactions:
+    """The wanted state, its history, and the running scene that follows it.
 
-class Bench:
-    """The state that is wanted, what it was before, and the world that is made to fit it.
-
-    All but :meth:`do` belongs to the runner's thread.
+    :meth:`submit` may be called from any thread; everything else belongs to the runner's thread.
 
     Args:
-        runner: whose world it is.
-        state: what that world was built from.
-        drivers: make the brains that are in no description.
+        runner: runs the world.
+        state: the state that the world was built from.
+        drivers: makes the brains that are in no scene description.
     """
 
     def __init__(self, runner: Runner, state: EditState, drivers: DriverRegistry) -> None:
         self._runner = runner
         self._drivers = drivers
-        self._live = Live(runner, state, drivers)
-        self._held: dict[str, Pose] = {}
-        self.trust = Trust(state.description.agents)
+        self._running = RunningScene(runner, state, drivers)
+        self._dragged: dict[str, Pose] = {}
+        self.permissions = Permissions(state.description.agents)
         self.history = History()
         self.listeners: list[Callable[[EditState], object]] = []
         """Called with the state after each change."""
         self.state = state
         self.opened = state
-        """What was opened last, before any change."""
+        """The state that was opened last, before any change."""
         self.version = 0
 
     @property
     def waits_for_reset(self) -> bool:
-        """Whether something comes with the next reset only."""
-        return self._live.is_due
+        """True if some change takes effect at the next reset only."""
+        return self._running.waits_for_reset
 
-    def do(
-        self,
-        make: Callable[[], Made],
-        *,
-        places: dict[str, Pose] | None = None,
-        whole: bool = False,
-        drives: str = "",
+    @property
+    def is_dragging(self) -> bool:
+        """True while some body is dragged."""
+        return bool(self._dragged)
+
+    def submit(
+        self, propose: Callable[[], Proposal], *, whole: bool = False, driver_of: str = ""
     ) -> "Future[ChangeResult]":
-        """Has a change made, between two decisions.
+        """Make a change between two decisions.
 
         Args:
-            make: works out what is wanted from what is then.
-            places: where bodies are put, by name; filled by ``make``.
-            whole: whether it is another scene, which runs at once in place of this one.
-            drives: the agent whose driver is chosen, even if it is the one that it should have.
+            propose: works out the wanted state from the state at that time.
+            whole: True if another scene is opened, which replaces the world at once.
+            driver_of: the agent whose driver was chosen; it takes control again even if it was
+                chosen before.
         """
-        now = {} if places is None else places
-        return self._runner.submit(lambda: self._do(make, now, whole, drives))
+        return self._runner.submit(lambda: self._carry_out(propose, whole, driver_of))
 
     def undo(self) -> ChangeResult:
-        """Takes the last change back."""
-        self._adopt()
+        """Take back the last change."""
+        self._adopt_other_world()
         step = self.history.last
         if step is None:
             raise ChangeError([Problem((), "there is nothing to undo")])
-        when = self._bring_about(step.before, step.was, step.whole)
-        if step.whole and step.opened is not None:
-            self.opened = step.opened
-        self.history.back()
-        self._became(step.before)
+        when = self._apply(step.before, step.poses_before, step.replaces_world)
+        if step.replaces_world and step.opened_before is not None:
+            self.opened = step.opened_before
+        self.history.move_back()
+        self._set_state(step.before)
         return ChangeResult(when, f"undo: {step.label}")
 
     def redo(self) -> ChangeResult:
-        """Makes it again."""
-        self._adopt()
+        """Make the change again that was undone last."""
+        self._adopt_other_world()
         step = self.history.next
         if step is None:
             raise ChangeError([Problem((), "there is nothing to do again")])
-        when = self._bring_about(step.after, step.now, step.whole)
-        if step.whole:
+        when = self._apply(step.after, step.poses_after, step.replaces_world)
+        if step.replaces_world:
             self.opened = step.after
-        self.history.forth()
-        self._became(step.after)
+        self.history.move_forward()
+        self._set_state(step.after)
         return ChangeResult(when, f"redo: {step.label}")
 
     def drag(self, name: str, x: float, y: float, heading_deg: float | None) -> None:
-        """A hand holds a body there."""
-        bodies.check_held(x, y, heading_deg)
-        self._adopt()
+        """Move a body without recording a change, and remember where the drag began."""
+        bodies.check_dragged(x, y, heading_deg)
+        self._adopt_other_world()
         bodies.body_named(self.state, name)
         body, before = self._runner.sim.world[name], self.pose(name)
         heading = None if heading_deg is None else math.radians(heading_deg)
         body.move_to(x, y, heading=heading)
-        self._held.setdefault(name, before)
-        self._live.stir()
+        self._dragged.setdefault(name, before)
+        self._running.mark_edited()
 
     def cancel_drag(self, name: str) -> None:
-        """The hand puts it back where it was."""
-        pose = self._held.pop(name, None)
+        """Put a dragged body back where the drag began."""
+        pose = self._dragged.pop(name, None)
         if pose is not None and name in self._runner.sim.world.bodies:
             self._runner.sim.world[name].move_to(pose[0], pose[1], heading=pose[2])
-            self._live.stir()
+            self._running.mark_edited()
 
     def pose(self, name: str) -> Pose:
-        """Where a body is now."""
+        """Return the present pose of a body."""
         x, y, _, heading = self._runner.sim.world[name].pose
         return x, y, heading
 
-    def _do(
-        self, make: Callable[[], Made], now: dict[str, Pose], whole: bool, drives: str
+    def _carry_out(
+        self, propose: Callable[[], Proposal], whole: bool, driver_of: str
     ) -> ChangeResult:
-        self._adopt()
+        self._adopt_other_world()
         before = self.state
+        poses: Poses = {}
         try:
-            after, label, where = _made(make)
-            if after == before and drives:
-                self._live.hand_back(drives)
-                self._became(after)
-                return ChangeResult("next decision", label)
-            if after == before and not whole and not now:
+            proposal = _checked(propose)
+            after, poses = proposal.state, proposal.poses
+            if after == before and driver_of:
+                self._running.restore_driver(driver_of)
+                self._set_state(after)
+                return ChangeResult("next decision", proposal.label)
+            if after == before and not whole and not poses:
                 return ChangeResult("now", note="nothing is other than it was")
-            self.trust.check(after.description.agents)
-            moves = after.description.things != before.description.things
-            tried(after, where, episodes=THOROUGHLY if moves else 1)
-            was = {name: self._held.get(name) or self.pose(name) for name in now}
-            when = self._bring_about(after, now, whole)
+            self.permissions.check(after.description.agents)
+            has_moved = after.description.things != before.description.things
+            dry_run(after, proposal.path, episodes=MANY_EPISODES if has_moved else 1)
+            poses_before = {name: self._dragged.get(name) or self.pose(name) for name in poses}
+            when = self._apply(after, poses, whole)
         except BaseException as error:
-            for name in now:
+            for name in poses:
                 self.cancel_drag(name)
             if isinstance(error, PlainDataError):
                 raise ChangeError(error.problems) from None
             raise
-        self._held = {name: pose for name, pose in self._held.items() if name not in now}
-        self.history.add(Step(label, before, after, was, now, whole, self.opened))
+        self._dragged = {name: pose for name, pose in self._dragged.items() if name not in poses}
+        step = Step(proposal.label, before, after, poses_before, poses, whole, self.opened)
+        self.history.add(step)
         if whole:
             self.opened = after
-        self._became(after)
-        notes = [note_on(after.description, now)]
-        if before.description.success and not after.description.success and not whole:
-            notes.append(f"nothing pays {before.description.success!r} any more: no goal is left")
-        return ChangeResult(when, label, "; ".join(filter(None, notes)))
+        self._set_state(after)
+        return ChangeResult(when, proposal.label, _warnings(step))
 
-    def _bring_about(self, state: EditState, places: dict[str, Pose], whole: bool) -> When:
+    def _apply(self, state: EditState, poses: Poses, whole: bool) -> When:
         if whole:
-            self._held = {}
-            self._live.build_anew(state)
+            self._dragged = {}
+            self._running.rebuild(state)
             return "now"
-        return self._live.bring_about(state, places)
+        return self._running.apply(state, poses)
 
-    def _became(self, state: EditState) -> None:
+    def _set_state(self, state: EditState) -> None:
         self.state = state
         self.version += 1
         for listener in self.listeners:
             listener(state)
 
-    def _adopt(self) -> None:
-        """Somebody else had another world run, such as one that goes on from a recording."""
-        if self._live.is_ours:
+    def _adopt_other_world(self) -> None:
+        """Follow the runner if it runs another world, such as one continued from a recording."""
+        if self._running.is_current:
             return
         before = self.state
         description = export_scene(self._runner.sim, before.description)
         state = EditState(description, before.folder, source=before.source)
-        self._live = Live(self._runner, state, self._drivers)
-        self._held = {}
-        self.history.add(Step("go on in another world", before, state, {}, {}, whole=True))
-        self._became(state)
+        self._running = RunningScene(self._runner, state, self._drivers)
+        self._dragged = {}
+        self.history.add(Step("go on in another world", before, state, {}, {}, True))
+        self._set_state(state)
 
 
-def _made(make: Callable[[], Made]) -> Made:
-    """Work out a change; whatever it was asked with, what is wrong is told in a sentence."""
+def _checked(propose: Callable[[], Proposal]) -> Proposal:
+    """Return a proposal; errors of unusable arguments become a ChangeError with a sentence."""
     try:
-        return make()
+        return propose()
     except AI4UError:
         raise
     except (ArithmeticError, AttributeError, LookupError, TypeError, ValueError) as error:
         text = f"expected values that can be used for it: {type(error).__name__}: {error}"
         raise ChangeError([Problem((), text)]) from error
+
+
+def _warnings(step: Step) -> str:
+    before, after = step.before.description, step.after.description
+    warnings = [move_warnings(after, step.poses_after)]
+    if before.success and not after.success and not step.replaces_world:
+        warnings.append(f"nothing pays {before.success!r} any more: no goal is left")
+    return "; ".join(filter(None, warnings))

@@ -1,4 +1,4 @@
-"""Scenes that were changed and not saved, as a server that has ended left them."""
+"""Unsaved scenes that an earlier server left."""
 
 import json
 import math
@@ -20,7 +20,7 @@ OWNED = re.compile(r"(?P<name>.*)-(?P<instance>[0-9a-f]{12})-[0-9]+")
 """A file's name, without its ending: the scene, the server that wrote it, and a number."""
 LOCK_NAME = re.compile(r"[0-9a-f]{12}" + re.escape(LOCK_ENDING))
 MAX_LEFT = 20
-"""Files that are kept; of each scene the latest is kept in any case."""
+"""Files that are kept; the latest of each scene is always kept."""
 MAX_AGE_S = 30 * 24 * 3600.0
 MAX_FILE_BYTES = 32 * 2**20
 MAX_TOLD = 5
@@ -37,17 +37,17 @@ class Unsaved:
     saved_at: float
     """Seconds since 1970."""
     name: str = ""
-    """The scene's."""
+    """Name of the scene."""
 
     @property
     def when(self) -> str:
-        """The time of day, and the day if it was another one."""
+        """The local time of day, with the date if it was not today."""
         then = datetime.fromtimestamp(self.saved_at)
         today = then.date() == datetime.now().date()
         return then.strftime("%H:%M" if today else "%Y-%m-%d %H:%M")
 
     def scene(self) -> Scene:
-        """As a scene.
+        """Return the scene.
 
         Raises:
             SceneError: it can't be read.
@@ -55,24 +55,24 @@ class Unsaved:
         return Scene.loads(self.text, name="the unsaved scene", folder=self.folder)
 
     def discard(self) -> None:
-        """Delete its file, unless a server that lives has taken it over."""
+        """Delete its file, unless a running server has claimed it."""
         with suppress(OSError):
             self.file.unlink(missing_ok=True)
 
 
 def unsaved_scenes(folder: Path) -> list[Unsaved]:
-    """Return all that servers left there that no longer live, the latest first."""
+    """Return the unsaved scenes of servers that no longer run, the latest first."""
     found = []
     with suppress(OSError):
         for file in folder.glob(f"*{ENDING}"):
             with suppress(OSError, ValueError, TypeError, KeyError, OverflowError, RecursionError):
-                if not _is_living(file):
-                    found.append(_read(file))
+                if not _is_owner_running(file):
+                    found.append(_load(file))
     return sorted(found, key=lambda each: each.saved_at, reverse=True)
 
 
 def latest(folder: Path) -> Unsaved | None:
-    """Return what was left there last; None if there is nothing that can be read."""
+    """Return the latest unsaved scene; None if there is none that can be read."""
     return next(iter(unsaved_scenes(folder)), None)
 
 
@@ -81,8 +81,7 @@ def choose_unsaved(left: Sequence[Unsaved], wanted: str = "") -> Unsaved:
 
     Args:
         left: all of them, the latest first.
-        wanted: a scene, of which it is the latest; or a number, 1 for the latest of all; empty for
-            that too.
+        wanted: a scene's name, for its latest one; or a number from 1, the latest; by default 1.
 
     Raises:
         SetupError: there is none, or none of that scene.
@@ -101,14 +100,14 @@ def choose_unsaved(left: Sequence[Unsaved], wanted: str = "") -> Unsaved:
 
 
 def format_unsaved(left: Sequence[Unsaved]) -> str:
-    """Return the names and times of unsaved scenes, numbered, as a person reads them."""
+    """Return a numbered text of unsaved scenes' names and times."""
     told = [f"{n} {each.name} ({each.when})" for n, each in enumerate(left[:MAX_TOLD], start=1)]
     more = [f"{len(left) - MAX_TOLD} more"] if len(left) > MAX_TOLD else []
     return ", ".join(told + more)
 
 
 def prune(folder: Path) -> None:
-    """Delete what is too old or too much, and locks of servers that no longer live."""
+    """Delete old and surplus files, and the locks of servers that no longer run."""
     seen: set[str] = set()
     for number, each in enumerate(unsaved_scenes(folder)):
         is_old = number >= MAX_LEFT or time.time() - each.saved_at > MAX_AGE_S
@@ -123,19 +122,19 @@ def prune(folder: Path) -> None:
 
 
 def _names(wanted: str) -> set[str]:
-    """The names that a scene may have which is given as a name or as a file."""
+    """Return the names that a scene can have which is given as a name or a file."""
     names = {wanted, Path(wanted).stem}
     with suppress(AI4UError, OSError):
         names.add(Scene.load(wanted).description.name)
     return names
 
 
-def _is_living(file: Path) -> bool:
+def _is_owner_running(file: Path) -> bool:
     owned = OWNED.fullmatch(file.name.removesuffix(ENDING))
     return owned is not None and is_locked(file.with_name(owned["instance"] + LOCK_ENDING))
 
 
-def _read(file: Path) -> Unsaved:
+def _load(file: Path) -> Unsaved:
     if file.stat().st_size > MAX_FILE_BYTES:
         raise ValueError(file.name)
     data = json.loads(file.read_text(encoding="utf-8"))

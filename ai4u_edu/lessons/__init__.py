@@ -1,10 +1,10 @@
-"""What the lessons' notebooks use.
+"""Functions for the lessons' notebooks.
 
 ::
 
     from ai4u_edu.lessons import check, hint, progress, report, show, solution
 
-Names are loaded when they are first asked for, so that the command line starts quickly.
+Imports are lazy, so that the command line starts quickly.
 """
 
 from typing import TYPE_CHECKING

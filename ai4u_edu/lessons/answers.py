@@ -1,6 +1,6 @@
 """Solutions, and plausible wrong answers with the hint that each should lead to.
 
-One file an exercise in the course's folder ``answers``. Its cells::
+Each exercise has one file in the course's folder ``answers``. Its cells::
 
     # %% tags=["solution"]
     ...
@@ -24,19 +24,19 @@ class Wrong:
 
     code: str
     hint: str
-    """The name of the hint that the check should point to."""
+    """Name of the hint that the check should point to."""
 
 
 @dataclass(frozen=True)
 class Answers:
-    """What may stand in an exercise's cell."""
+    """Possible contents of an exercise's cell."""
 
     solution: str
     wrong: tuple[Wrong, ...]
 
 
 def answers_to(exercise: str) -> Answers:
-    """The answers to an exercise.
+    """Return the answers to an exercise.
 
     Raises:
         SetupError: there are none, or a cell is not marked.

@@ -1,4 +1,4 @@
-"""What a student wrote into an exercise's cell: found by the names that the cell makes."""
+"""Source of the cell in which a student solved an exercise, found by the names it defines."""
 
 import ast
 from collections.abc import Sequence
@@ -9,14 +9,14 @@ from ai4u_edu.lessons.notebook_output import cells_so_far
 
 
 def written(exercise: str) -> str:
-    """The code that was run last for an exercise; empty outside of a notebook, or if none was."""
+    """Return the code that was run last for an exercise; empty outside a notebook."""
     cells = lesson(exercise.partition(".")[0]).cells
     wanted = {name for cell in cells if cell.exercise == exercise for name in made_in(cell.source)}
     return latest(wanted, cells_so_far())
 
 
 def latest(wanted: set[str], cells: Sequence[str]) -> str:
-    """The last of some cells that makes one of some names.
+    """Return the last cell that defines one of the names.
 
     >>> latest({"go"}, ["def go(): ...", "go()", "x = 1"])
     'def go(): ...'
@@ -26,7 +26,7 @@ def latest(wanted: set[str], cells: Sequence[str]) -> str:
 
 
 def made_in(code: str) -> set[str]:
-    r"""The names that a cell makes, apart from those within a function.
+    r"""Return the names that a cell defines, apart from those within a function.
 
     >>> sorted(made_in("def f(): x = 1\na, b = 1, 2\nclass C: ..."))
     ['C', 'a', 'b', 'f']

@@ -1,4 +1,4 @@
-"""``check``, ``hint``, ``solution``, ``progress``: what a student asks of the course."""
+"""``check``, ``hint``, ``solution`` and ``progress``, for students."""
 
 import reprlib
 from dataclasses import dataclass
@@ -8,7 +8,7 @@ from ai4u_edu.lessons.answers import answers_to
 from ai4u_edu.lessons.cell_source import written
 from ai4u_edu.lessons.exercise import Done, Exercise, NotYet, find, unfinished
 from ai4u_edu.lessons.notebook_output import card, put
-from ai4u_edu.lessons.progress_file import Entry, Keeper
+from ai4u_edu.lessons.progress_file import Entry, ProgressFile
 from ai4u_edu.lessons.student_errors import told
 
 YES, NO = "\u2714", "\u2013"
@@ -17,17 +17,17 @@ UNFINISHED = "There is still `...` where your answer should be: run its cell onc
 
 @dataclass(frozen=True)
 class Verdict:
-    """What a check found."""
+    """Result of a check."""
 
     passed: bool
     text: str
     hint: str = ""
-    """The name of the hint that helps."""
+    """Name of the hint that helps."""
     picture: bytes = b""
 
 
 def judge(exercise: Exercise, *things: Any) -> Verdict:
-    """Tries out what a student made; an exception of theirs is told as a sentence."""
+    """Run a student's work; return their exception as a sentence."""
     first = next(iter(exercise.hints))
     if not things or any(unfinished(thing) for thing in things):
         return Verdict(False, UNFINISHED, first)
@@ -42,7 +42,7 @@ def judge(exercise: Exercise, *things: Any) -> Verdict:
 
 
 def check(exercise_id: str, *things: Any) -> None:
-    """Tries out an exercise, says what is right or what happened, and keeps that.
+    """Check an exercise, show what is right or what happened, and save the result.
 
     Args:
         exercise_id: such as ``"03.2"``.
@@ -53,8 +53,8 @@ def check(exercise_id: str, *things: Any) -> None:
     """
     exercise = find(exercise_id)
     verdict = judge(exercise, *things)
-    keeper = Keeper()
-    keeper.note(
+    progress = ProgressFile()
+    progress.note(
         exercise_id,
         passed=verdict.passed,
         text=verdict.text,
@@ -67,19 +67,19 @@ def check(exercise_id: str, *things: Any) -> None:
     else:
         colour, sign = "vermillion", "Not yet."
         more = [f'Stuck? Run `hint("{exercise_id}")`.']
-    lines = [verdict.text, *more, *([keeper.trouble] if keeper.trouble else [])]
+    lines = [verdict.text, *more, *([progress.trouble] if progress.trouble else [])]
     put(card(colour, sign, lines, verdict.picture), _words(sign, lines))
 
 
 def hint(exercise_id: str) -> None:
-    """Gives the hint that the last check pointed to; asked again, the next one.
+    """Show the hint that the last check pointed to; called again, the next one.
 
     Raises:
         SetupError: there is no such exercise.
     """
     exercise = find(exercise_id)
     names = list(exercise.hints)
-    pointed = Keeper().entries().get(exercise_id, Entry()).hint
+    pointed = ProgressFile().entries().get(exercise_id, Entry()).hint
     start = names.index(pointed) if pointed in names else 0
     asked = _asked.get((exercise_id, pointed), 0)
     _asked[exercise_id, pointed] = asked + 1
@@ -94,7 +94,7 @@ _asked: dict[tuple[str, str], int] = {}
 
 
 def solution(exercise_id: str) -> None:
-    """Prints one solution; there are others.
+    """Print one solution; there are others.
 
     Raises:
         SetupError: there is no such exercise.
@@ -104,11 +104,11 @@ def solution(exercise_id: str) -> None:
 
 
 def progress() -> None:
-    """Shows which exercises are solved."""
+    """Show which exercises are solved."""
     from ai4u_edu.lessons.course import lessons
 
-    keeper = Keeper()
-    entries = keeper.entries()
+    progress = ProgressFile()
+    entries = progress.entries()
     rows, words, passed, total = [], [], 0, 0
     for lesson in lessons():
         marks = [entries.get(each, Entry()).passed for each in lesson.exercises]
@@ -117,12 +117,12 @@ def progress() -> None:
         signs = "   ".join(f"{name} {YES if mark else NO}" for name, mark in named)
         rows.append(f"{lesson.title}: {signs}")
     lines = [f"{passed} of {total} exercises are solved.", *rows]
-    words = [*lines, *([keeper.trouble] if keeper.trouble else [])]
+    words = [*lines, *([progress.trouble] if progress.trouble else [])]
     put(card("blue", "Progress.", words), _words("Progress.", words))
 
 
 def _unusable(things: tuple[Any, ...], error: Exception) -> str:
-    """Said where no line of the student's has to do with an exception."""
+    """Return the text for an exception that no line of the student's caused."""
     shown = reprlib.repr(things[0]) if len(things) == 1 else reprlib.repr(things)
     return (
         f"The check could not try out {shown} ({type(error).__name__}: {error}). Is it what the "

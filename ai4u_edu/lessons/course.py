@@ -1,4 +1,4 @@
-"""Where the course lies: in the package, or beside it in a checkout."""
+"""Location and contents of the course, in the package or in a checkout."""
 
 from dataclasses import dataclass
 from functools import cached_property
@@ -21,27 +21,27 @@ class Lesson:
 
     @property
     def name(self) -> str:
-        """The file's name without its ending."""
+        """File name without its suffix."""
         return self.path.stem
 
     @cached_property
     def cells(self) -> list[Cell]:
-        """What a student gets."""
+        """Return the cells that a student gets."""
         return read_cells(self.path)
 
     @property
     def title(self) -> str:
-        """The first heading."""
+        """Return the first heading."""
         return self.cells[0].source.splitlines()[0].lstrip("# ")
 
     @property
     def exercises(self) -> list[str]:
-        """The ids of its exercises, in order."""
+        """Return the ids of its exercises, in order."""
         return [cell.exercise for cell in self.cells if cell.exercise]
 
 
 def course_folder() -> Path:
-    """The folder of the course."""
+    """Return the folder of the course."""
     here = Path(__file__).resolve().parent
     for folder in (here / "course", here.parent.parent / "lessons"):
         if (folder / "00_start_here.py").is_file():
@@ -50,12 +50,12 @@ def course_folder() -> Path:
 
 
 def lessons() -> list[Lesson]:
-    """All lessons, in order."""
+    """Return all lessons, in order."""
     return [Lesson(path) for path in sorted(course_folder().glob("[0-9][0-9]_*.py"))]
 
 
 def lesson(number: str) -> Lesson:
-    """A lesson by its number.
+    """Return a lesson by its number.
 
     Raises:
         SetupError: there is none.

@@ -1,4 +1,4 @@
-"""What an exercise is: a check that tries out what a student made, and hints.
+"""Exercises: a check that runs a student's work, and hints.
 
 A lesson's exercises stand in ``exercises/lesson_03.py``::
 
@@ -19,7 +19,7 @@ from ai4u_edu.base.errors import SetupError, suggest
 
 
 class NotYet(Exception):  # noqa: N818 - no error: the student is on the way
-    """An exercise is not solved yet.
+    """Raised by a check: the exercise is not solved yet.
 
     Args:
         text: what happened, in sentences for the student: what was expected, what came, where
@@ -38,35 +38,35 @@ class Done:
     """An exercise is solved."""
 
     text: str
-    """What was right, in a sentence."""
+    """Sentence on what was right."""
     picture: bytes = b""
 
 
 Judge = Callable[..., "str | Done"]
-"""Gets what the student made; says what is right in it, or raises :class:`NotYet`."""
+"""Function from a student's work to a sentence on what is right; or it raises :class:`NotYet`."""
 
 
 @dataclass(frozen=True)
 class Exercise:
-    """Something to be done, and how one finds out whether it is."""
+    """Task for a student, with its check and hints."""
 
     id: str
     title: str
     judge: Judge
     hints: Mapping[str, str] = field(default_factory=dict)
-    """By name; the first one is for who has not begun."""
+    """Hints by name; the first one is for students who have not begun."""
 
 
 EXERCISES: dict[str, Exercise] = {}
 
 
 def exercise(exercise_id: str, title: str, *, hints: Mapping[str, str]) -> Callable[[Judge], Judge]:
-    """Makes a function the check of an exercise.
+    """Register a function as the check of an exercise.
 
     Args:
         exercise_id: the lesson's number, a point, the exercise's number.
-        title: in a few words.
-        hints: by name; at least one.
+        title: a few words.
+        hints: hints by name; at least one.
     """
 
     def enter(judge: Judge) -> Judge:
@@ -77,7 +77,7 @@ def exercise(exercise_id: str, title: str, *, hints: Mapping[str, str]) -> Calla
 
 
 def find(exercise_id: Any) -> Exercise:
-    """An exercise by its id.
+    """Return an exercise by its id.
 
     Raises:
         SetupError: there is none of that id.
@@ -101,12 +101,12 @@ def find(exercise_id: Any) -> Exercise:
 
 
 def unfinished(thing: Any) -> bool:
-    """Whether a student has put nothing yet where ``...`` stands."""
+    """Return True while ``...`` still stands for the student's work."""
     return thing is ... or thing is None
 
 
 def a_function(thing: Any) -> Callable[..., Any]:
-    """What a student handed in, if it can be called.
+    """Return a student's work if it is callable.
 
     Raises:
         NotYet: it can't.

@@ -1,12 +1,12 @@
-"""``film``: one episode as an animation in the notebook; no server, nothing to click."""
+"""``film``: an episode as an animation in the notebook, without a server."""
 
 from collections import deque
 from typing import Any
 
 from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.lessons.notebook_output import image, put
-from ai4u_edu.lessons.pictures import RATE, SECONDS, animation, moving
-from ai4u_edu.lessons.rollouts import LONGEST, Drive, drives
+from ai4u_edu.lessons.pictures import FRAMES_PER_S, MAX_ANIMATION_S, animation, moving
+from ai4u_edu.lessons.rollouts import DEFAULT_MAX_DECISIONS, Drive, drives
 from ai4u_edu.recording import Episode
 from ai4u_edu.scenes import Scene
 from ai4u_edu.snapshot import Snapshot, capture_snapshot
@@ -17,27 +17,27 @@ def film(
     brain: Any = None,
     *,
     seed: int = 0,
-    limit: int = LONGEST,
+    limit: int = DEFAULT_MAX_DECISIONS,
 ) -> None:
-    """Drives one episode as fast as it goes, and shows its end as an animation.
+    """Run one episode at full speed, and show its end as an animation.
 
     Args:
         world: a scene or its name, a world with its agents; or an episode that was recorded.
-        brain: who drives the first agent; left out, whoever it has.
-        seed: of the episode.
-        limit: decisions after which it is cut off.
+        brain: the first agent's driver; left out, its own.
+        seed: seed of the episode.
+        limit: decisions after which it is truncated.
     """
     if isinstance(world, Episode):
         put(image(animation(world), "the episode"), f"An episode of {world.seconds:.1f} s.")
         return
-    shown: deque[Snapshot] = deque(maxlen=RATE * SECONDS)
+    shown: deque[Snapshot] = deque(maxlen=FRAMES_PER_S * MAX_ANIMATION_S)
     due = 0.0
 
     def watch(drive: Drive) -> None:
         nonlocal due
         if drive.sim.world.time >= due or drive.agent.done:
             shown.append(capture_snapshot(drive.sim))
-            due = drive.sim.world.time + 0.99 / RATE
+            due = drive.sim.world.time + 0.99 / FRAMES_PER_S
 
     source = (lambda: world) if isinstance(world, ControlRequestor) else world
     (drive,) = drives(source, brain, [seed], limit=limit, watch=watch)

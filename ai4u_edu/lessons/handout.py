@@ -1,4 +1,4 @@
-"""Copies the course into a student's folder; what a student wrote is never overwritten."""
+"""Copying of the course into a student's folder; a student's work is never overwritten."""
 
 import hashlib
 import json
@@ -13,28 +13,28 @@ from ai4u_edu.lessons.notebook import dumps
 from ai4u_edu.lessons.progress_file import FOLDER
 
 LAB = {"disabledExtensions": {"@jupyterlab/apputils-extension:announcements": True}}
-"""How JupyterLab is set up: it would ask whether it may fetch news from the internet."""
+"""Settings of JupyterLab that keep it from asking to fetch news from the internet."""
 BOOK = "handed-out.json"
-"""In the hidden folder: which version of each notebook was handed out."""
+"""File in the hidden folder with the version of each notebook that was handed out."""
 
 
 @dataclass
 class HandedOut:
-    """What became of each notebook."""
+    """Outcome for each notebook."""
 
     folder: Path
     new: list[str] = field(default_factory=list)
     kept: list[str] = field(default_factory=list)
-    """There already, and left as they are."""
+    """Notebooks that existed and were left as they are."""
     beside: list[str] = field(default_factory=list)
-    """Newer ones, put beside those that are there."""
+    """Newer versions, written beside existing notebooks."""
 
 
 def hand_out(folder: Path) -> HandedOut:
-    """Writes the notebooks and their pictures.
+    """Write the notebooks and their pictures.
 
-    A notebook that is there already stays. If the course has a newer one by now, that is put
-    beside it, as ``NAME.new.ipynb``.
+    An existing notebook stays. If the course has a newer version, that is written beside it, as
+    ``NAME.new.ipynb``.
 
     Raises:
         SetupError: the folder can't be written to.
@@ -69,7 +69,7 @@ def hand_out(folder: Path) -> HandedOut:
 
 
 def lab_config(folder: Path) -> Path:
-    """Where JupyterLab finds how it is set up here."""
+    """Return the folder of JupyterLab's settings."""
     return folder.absolute() / FOLDER / "jupyter"
 
 

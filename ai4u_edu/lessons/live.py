@@ -1,4 +1,4 @@
-"""A world that runs, and its page inside the notebook."""
+"""A running world and its page inside the notebook."""
 
 import html
 import json
@@ -11,35 +11,35 @@ from secrets import token_urlsafe
 from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.base.errors import AI4UError
 from ai4u_edu.lessons.notebook_output import card, image, in_notebook, replace
-from ai4u_edu.lessons.pictures import SIDE, animation, picture
+from ai4u_edu.lessons.pictures import PICTURE_SIZE_PX, animation, picture
 from ai4u_edu.recording import Episode, Recorder
 from ai4u_edu.runtime.runner import Runner
 
 TOKEN = token_urlsafe(24)
-"""Of all pages of this process. A notebook server may be one that many share, and under any name;
-so whoever asks for the page has to know this, whatever the name."""
+"""Token of all pages of this process. Many may share one notebook server under any host name, so
+a page asks for the token whatever the host."""
 TEMPLATE = Path(__file__).with_name("embed.html")
-LONGEST = 120
-"""An episode of more seconds is not played again for an animation: that would take too long."""
+MAX_REPLAY_S = 120
+"""Longest episode (s) that is replayed for an animation; more would take too long."""
 
 _numbers = count(1)
 
 
 class Live:
-    """A world that runs, and its page.
+    """Running world and its page.
 
     Args:
         sim: the world and its agents.
-        recorder: listens to it.
-        title: of the page.
-        seed: of the first episode.
+        recorder: records the world.
+        title: the page's title.
+        seed: seed of the first episode.
     """
 
     def __init__(
         self, sim: ControlRequestor, recorder: Recorder, title: str, seed: int | None = None
     ) -> None:
         # loaded when a world is shown: exercises can be checked without a page
-        from ai4u_edu.server import Rules, ServerThread, room_app, shut_side_door, with_token
+        from ai4u_edu.server import Rules, ServerThread, lock_viser_port, room_app, with_token
         from ai4u_edu.viewer import Viewer
 
         self.sim = sim
@@ -47,7 +47,7 @@ class Live:
         self.recorder = recorder
         self.runner = Runner(sim, seed=seed, recorder=recorder)
         self._viewer = Viewer(self.runner, title=title)
-        shut_side_door(self._viewer.server)
+        lock_viser_port(self._viewer.server)
         room = room_app(
             self.runner,
             viser_port=self._viewer.port,
@@ -67,18 +67,18 @@ class Live:
 
     @property
     def port(self) -> int:
-        """Where the page is served."""
+        """Port of the page."""
         return int(self._server.url.rstrip("/").rpartition(":")[2])
 
     @property
     def episodes(self) -> list[Episode]:
-        """The episodes so far, the one under way last."""
+        """Return the episodes so far, the current one last."""
         now = self.recorder.now()
         under_way = [now] if now is not None and any(map(len, now.agents)) else []
         return [*self.recorder.episodes, *under_way]
 
     def close(self) -> None:
-        """Ends the world, and says nothing."""
+        """End the world silently."""
         if self.running:
             self.running = False
             self._server.stop()
@@ -86,7 +86,7 @@ class Live:
             self.runner.stop()
 
     def stop(self) -> None:
-        """Ends the world; in its place stays what happened last."""
+        """End the world, and leave an animation of the last episode in its place."""
         if not self.running:
             return
         last = self.episodes[-1:] if in_notebook() else []
@@ -98,7 +98,7 @@ class Live:
         replace(page + image(moments or self._still(), "the last episode"), words, self.handle)
 
     def keep(self) -> None:
-        """Puts the last finished episode beneath, for whoever reads the notebook without a server.
+        """Put the last finished episode beneath, for readers of the notebook without a server.
 
         The live page hides it.
         """
@@ -113,11 +113,11 @@ class Live:
 
     @property
     def film(self) -> str:
-        """The name by which the last episode's place is found again."""
+        """Display id of the last episode's animation."""
         return f"{self.handle}-film"
 
     def page(self, height: int) -> str:
-        """What stands under the cell."""
+        """Return the HTML under the cell."""
         spec = {
             "id": self.handle,
             "port": self.port,
@@ -139,14 +139,14 @@ class Live:
         return text
 
     def _still(self) -> bytes:
-        return picture(self.runner.latest, longest=SIDE)
+        return picture(self.runner.latest, longest=PICTURE_SIZE_PX)
 
     def _ipython_display_(self) -> None:
-        """Nothing more: the cell shows the world already."""
+        """Show nothing more: the cell shows the world already."""
 
 
 def _animated(episode: Episode) -> bytes:
-    if episode.seconds > LONGEST:
+    if episode.seconds > MAX_REPLAY_S:
         return b""
     with suppress(AI4UError, RuntimeError):  # blocks of a student's own may not play again
         return animation(episode)

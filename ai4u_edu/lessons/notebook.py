@@ -1,4 +1,4 @@
-"""Notebooks as text: jupytext's percent format, of which the course needs little.
+"""Notebooks as text, in the part of jupytext's percent format that the course needs.
 
 A cell begins with ``# %%``; a cell of text with ``# %% [markdown]``, each of its lines a comment.
 ``tags=["setup"]`` may follow.
@@ -16,32 +16,32 @@ from ai4u_edu.base.errors import SetupError
 _HEAD = re.compile(r"# %%(?P<text> \[markdown\])?(?: tags=(?P<tags>\[[^\]]*\]))?")
 KERNEL = {"display_name": "Python 3 (ipykernel)", "language": "python", "name": "python3"}
 EXERCISE = "exercise-"
-"""A cell in which a student writes carries the tag ``exercise-03.2``."""
+"""Prefix of the tag of a cell in which a student writes, such as ``exercise-03.2``."""
 
 
 @dataclass(frozen=True)
 class Cell:
-    """A piece of a notebook."""
+    """Cell of a notebook."""
 
     source: str
     is_text: bool = False
     tags: tuple[str, ...] = ()
     line: int = 0
-    """Where its source begins in the file, from 1 on."""
+    """First line of its source in the file, from 1 on."""
 
     @property
     def exercise(self) -> str:
-        """The exercise that is solved here, such as ``03.2``; empty for none."""
+        """Id of the exercise that is solved here, such as ``03.2``; empty for none."""
         found = [tag.removeprefix(EXERCISE) for tag in self.tags if tag.startswith(EXERCISE)]
         return found[0] if found else ""
 
 
 def cells_of(text: str, name: str = "notebook") -> list[Cell]:
-    r"""The cells of a percent script.
+    r"""Return the cells of a percent script.
 
     Args:
-        text: all of it.
-        name: for messages.
+        text: the script.
+        name: its name in messages.
 
     Raises:
         SetupError: a line that begins a cell can't be read.
@@ -77,12 +77,12 @@ def cells_of(text: str, name: str = "notebook") -> list[Cell]:
 
 
 def read_cells(path: Path) -> list[Cell]:
-    """The cells of a file."""
+    """Return the cells of a file."""
     return cells_of(path.read_text(encoding="utf-8"), path.name)
 
 
 def to_notebook(cells: Iterable[Cell]) -> dict[str, Any]:
-    """Jupyter's own form (nbformat 4.5), without outputs; the same cells give the same text."""
+    """Return a notebook (nbformat 4.5) without outputs; the same cells give the same text."""
     return {
         "cells": [_plain(cell, index) for index, cell in enumerate(cells)],
         "metadata": {"kernelspec": KERNEL, "language_info": {"name": "python"}},
@@ -92,7 +92,7 @@ def to_notebook(cells: Iterable[Cell]) -> dict[str, Any]:
 
 
 def dumps(cells: Iterable[Cell]) -> str:
-    """The text of a .ipynb file."""
+    """Return the text of a .ipynb file."""
     return json.dumps(to_notebook(cells), indent=1, ensure_ascii=False) + "\n"
 
 

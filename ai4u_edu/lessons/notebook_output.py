@@ -1,4 +1,4 @@
-"""Shows things under a cell; where there is no notebook, prints their words."""
+"""Output under a notebook's cell, or as text where there is no notebook."""
 
 import base64
 import html
@@ -9,30 +9,30 @@ from ai4u_edu.base.colors import PALETTE
 
 
 def in_notebook() -> bool:
-    """Whether a Jupyter kernel runs this."""
+    """Return True in a Jupyter kernel."""
     return _shell() is not None
 
 
 def cells_so_far() -> list[str]:
-    """The code of the notebook's cells, in the order in which they were run."""
+    """Return the code of the notebook's cells in the order of execution."""
     shell = _shell()
     return [] if shell is None else list(shell.user_ns.get("In", ()))
 
 
 def after_each_cell(function: Callable[..., object]) -> None:
-    """Has something done whenever a cell has run; once, however often that is asked for."""
+    """Register a function to run after each cell; registering it again has no effect."""
     shell = _shell()
     if shell is not None and function not in shell.events.callbacks["post_run_cell"]:
         shell.events.register("post_run_cell", function)
 
 
 def put(page: str, words: str, handle: str = "") -> None:
-    """Shows HTML under the cell.
+    """Show HTML under the cell.
 
     Args:
         page: the HTML; everything in it escaped.
-        words: the same in words, for where no HTML is shown.
-        handle: a name by which :func:`replace` finds it again.
+        words: the same as text, for where no HTML is shown.
+        handle: the display id for :func:`replace`.
     """
     if not in_notebook():
         print(words)  # noqa: T201 - there is nowhere else to say it
@@ -41,18 +41,18 @@ def put(page: str, words: str, handle: str = "") -> None:
 
 
 def replace(page: str, words: str, handle: str) -> None:
-    """Shows other HTML in the place of what was shown before."""
+    """Replace HTML that was shown before."""
     if in_notebook():
         _publish(page, words, transient={"display_id": handle}, update=True)
 
 
 def card(colour: str, sign: str, lines: Iterable[str], picture: bytes = b"") -> str:
-    """A framed note: a coloured edge, a sign in words, lines, a picture.
+    """Return a framed note: a coloured edge, a sign in words, lines, a picture.
 
     Args:
-        colour: a name out of the palette.
-        sign: what the colour says, in words; never the colour alone.
-        lines: plain text; what stands between backquotes is code.
+        colour: a colour's name.
+        sign: the colour's meaning in words; never the colour alone.
+        lines: plain text; text between backquotes is code.
         picture: PNG or GIF.
     """
     first = f'<b style="color:{PALETTE[colour]}">{html.escape(sign)}</b> '
@@ -67,14 +67,14 @@ def card(colour: str, sign: str, lines: Iterable[str], picture: bytes = b"") -> 
 
 
 def image(picture: bytes, alt: str = "what happened") -> str:
-    """A picture inside the page itself; nothing for none."""
+    """Return an <img> element with the picture inside; empty for none."""
     if not picture:
         return ""
     return f'<img alt="{html.escape(alt)}" style="max-width:100%" src="{address(picture)}">'
 
 
 def address(picture: bytes) -> str:
-    """A picture as a ``data:`` address."""
+    """Return a picture as a ``data:`` URL."""
     kind = "gif" if picture.startswith(b"GIF8") else "png"
     return f"data:image/{kind};base64,{base64.b64encode(picture).decode()}"
 
@@ -89,7 +89,7 @@ def _marked(line: str) -> str:
 
 
 def _shell() -> Any:
-    """The notebook's, or None."""
+    """Return the notebook's shell, or None."""
     try:
         from IPython.core.getipython import get_ipython
     except ImportError:

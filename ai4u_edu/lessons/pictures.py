@@ -1,4 +1,4 @@
-"""Still and moving pictures of a world, as bytes that a notebook can hold."""
+"""Pictures (PNG) and animations (GIF) of a world, as bytes for a notebook."""
 
 import io
 from collections import deque
@@ -11,18 +11,18 @@ from ai4u_edu.recording import Episode, Replay
 from ai4u_edu.snapshot import Snapshot
 from ai4u_edu.snapshot.raster import MARGIN_M, draw_snapshot
 
-SIDE = 320
-"""Pixels of a picture's longer side."""
-RATE = 10
-"""Pictures a second in an animation."""
-SECONDS = 12
-"""What an animation shows of a long episode: its end."""
+PICTURE_SIZE_PX = 320
+"""Longer side of a picture, pixels."""
+FRAMES_PER_S = 10
+"""Frame rate of an animation."""
+MAX_ANIMATION_S = 12
+"""Length of an animation; of a longer episode it shows the end."""
 
 
 def picture(
-    snapshot: Snapshot, trail: Sequence[tuple[float, float]] = (), *, longest: int = SIDE
+    snapshot: Snapshot, trail: Sequence[tuple[float, float]] = (), *, longest: int = PICTURE_SIZE_PX
 ) -> bytes:
-    """A world from above, as PNG.
+    """Return a world from above, as PNG.
 
     Args:
         snapshot: what is drawn.
@@ -43,15 +43,15 @@ def picture(
     return out.getvalue()
 
 
-def animation(episode: Episode, *, longest: int = SIDE) -> bytes:
-    """The end of an episode as an animated GIF, at the pace of the world's time."""
-    every = max(1, round(episode.scene.world.ticks_per_second / RATE))
-    last = deque(Replay(episode).snapshots(every), maxlen=RATE * SECONDS)
+def animation(episode: Episode, *, longest: int = PICTURE_SIZE_PX) -> bytes:
+    """Return the end of an episode as an animated GIF, in real time."""
+    every = max(1, round(episode.scene.world.ticks_per_second / FRAMES_PER_S))
+    last = deque(Replay(episode).snapshots(every), maxlen=FRAMES_PER_S * MAX_ANIMATION_S)
     return moving(last, longest=longest)
 
 
-def moving(snapshots: Iterable[Snapshot], *, longest: int = SIDE) -> bytes:
-    """Pictures one after another as an animated GIF, :data:`RATE` a second."""
+def moving(snapshots: Iterable[Snapshot], *, longest: int = PICTURE_SIZE_PX) -> bytes:
+    """Pictures one after another as an animated GIF, :data:`FRAMES_PER_S` a second."""
     frames = [
         # the same few colours in all pictures: they pack better, and nothing flickers
         Image.fromarray(draw_snapshot(each, longest=longest)).quantize(
@@ -65,7 +65,7 @@ def moving(snapshots: Iterable[Snapshot], *, longest: int = SIDE) -> bytes:
         format="GIF",
         save_all=True,
         append_images=frames[1:],
-        duration=[*([round(1000 / RATE)] * (len(frames) - 1)), 1500],  # the end can be seen
+        duration=[*([round(1000 / FRAMES_PER_S)] * (len(frames) - 1)), 1500],  # the end can be seen
         loop=0,
     )
     return out.getvalue()

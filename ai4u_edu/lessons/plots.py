@@ -1,4 +1,4 @@
-"""Plots by matplotlib, in the colours of the worlds; never told apart by colour alone."""
+"""Plots with matplotlib in the worlds' colours; lines differ by more than colour."""
 
 import io
 import math
@@ -11,8 +11,8 @@ from ai4u_edu.lessons.notebook_output import image, put
 COLOURS = ("blue", "orange", "green", "vermillion", "purple", "sky blue", "black")
 STYLES = ("-", "--", "-.", ":")
 MARKERS = "osD^v<>"
-FEW = 30
-"""Points up to which each gets a marker."""
+MAX_MARKED_POINTS = 30
+"""Number of points up to which each gets a marker."""
 
 
 def plot(
@@ -23,14 +23,14 @@ def plot(
     ylabel: str = "",
     title: str = "",
 ) -> None:
-    """Draws lines, one for each name.
+    """Draw lines, one for each name.
 
     Args:
-        lines: the heights by the line's name.
-        x: where they stand; left out, 0, 1, 2 and so on.
-        xlabel: what x is, with its unit.
-        ylabel: what the heights are, with their unit.
-        title: above it.
+        lines: the values by the line's name.
+        x: x values; left out, 0, 1, 2 and so on.
+        xlabel: name and unit of x.
+        ylabel: name and unit of the values.
+        title: the title above it.
 
     Raises:
         SetupError: matplotlib is not installed.
@@ -48,7 +48,7 @@ def plot(
             heights,
             STYLES[index % len(STYLES)],
             color=PALETTE[COLOURS[index % len(COLOURS)]],
-            marker=MARKERS[index % len(MARKERS)] if len(heights) <= FEW else "",
+            marker=MARKERS[index % len(MARKERS)] if len(heights) <= MAX_MARKED_POINTS else "",
             label=name.replace("$", r"\$"),
         )
     panel.set(xlabel=xlabel, ylabel=ylabel, title=title)
@@ -62,12 +62,12 @@ def plot(
 
 
 def bars(heights: Mapping[str, float], *, ylabel: str = "", title: str = "") -> None:
-    """Draws a bar for each name.
+    """Draw a bar for each name.
 
     Args:
-        heights: by name.
-        ylabel: what the heights are, with their unit.
-        title: above it.
+        heights: values by name.
+        ylabel: name and unit of the values.
+        title: the title above it.
 
     Raises:
         SetupError: matplotlib is not installed.

@@ -1,4 +1,4 @@
-"""What a student has solved: a small file in the folder of the notebooks."""
+"""File with a student's progress, in the folder of the notebooks."""
 
 import json
 import time
@@ -13,36 +13,36 @@ from ai4u_edu.base.file_lock import FileLock, LockedError
 
 FILE = "progress.json"
 FOLDER = ".ai4u-edu"
-"""In it lie the pictures of the checks."""
+"""Folder for the progress and the pictures of the checks."""
 VERSION = 1
 LOCK_FILE = "progress.lock"
 LOCK_TIMEOUT_S = 5.0
-"""Time after which a check no longer waits for another notebook that writes its own result."""
+"""Time-out for another notebook that holds the file's lock."""
 LOCK_POLL_S = 0.01
 
 
 @dataclass
 class Entry:
-    """How it stands with one exercise."""
+    """Progress in one exercise."""
 
     passed: bool = False
     when: str = ""
-    """When it was passed first, local time."""
+    """Local time at which it was passed first."""
     tries: int = 0
     """Checks up to the first that passed."""
     text: str = ""
-    """What the last check said."""
+    """Text of the last check."""
     hint: str = ""
-    """The hint that it pointed to."""
+    """Name of the hint that it pointed to."""
     code: str = ""
-    """What stood in the exercise's cell; empty if that is not known."""
+    """Source of the exercise's cell; empty if not known."""
 
 
-class Keeper:
-    """Reads and writes the file.
+class ProgressFile:
+    """Reader and writer of the progress file.
 
     Args:
-        folder: of the notebooks; left out, the current one.
+        folder: the notebooks' folder; left out, the current one.
     """
 
     def __init__(self, folder: Path | None = None) -> None:
@@ -52,7 +52,7 @@ class Keeper:
         """What was wrong with the file, in a sentence; empty if nothing was."""
 
     def entries(self) -> dict[str, Entry]:
-        """By the exercise's id; a damaged file is put aside, and it begins anew."""
+        """Return the entries by exercise id; a damaged file is renamed, and a new one begins."""
         try:
             text = self.path.read_text(encoding="utf-8")
         except FileNotFoundError:
@@ -70,7 +70,7 @@ class Keeper:
     def note(
         self, exercise: str, *, passed: bool, text: str, hint: str, picture: bytes, code: str = ""
     ) -> None:
-        """Keeps what a check found; what was passed once stays passed."""
+        """Save a check's result; an exercise that was passed once stays passed."""
         with self._alone():
             self._note(exercise, passed, text, hint, picture, code)
 
@@ -93,7 +93,7 @@ class Keeper:
             write_atomically(place, picture)
 
     def picture(self, exercise: str) -> Path:
-        """Where the picture of the last check lies, if there is one."""
+        """Return the path of the last check's picture, if there is one."""
         return self.folder / FOLDER / f"{exercise}.picture"
 
     def _write(self, entries: dict[str, Entry]) -> None:

@@ -1,4 +1,4 @@
-"""``ready``: whether all is there that the course needs, in a sentence."""
+"""``ready``: a check that everything is installed that the course needs."""
 
 import platform
 from importlib.util import find_spec
@@ -15,7 +15,7 @@ FOR = {"lessons": "plots", "train": "the lessons about learning, 09 to 11"}
 
 
 def ready() -> None:
-    """Lets a robot drive for a second, and says what is installed and what is missing."""
+    """Let a robot drive for a second, and say what is installed and what is missing."""
     (drive,) = drives("box_chase", lambda _: {"move": [0, 1, 0, 0]}, [0], limit=12)
     what = f"AI4U Edu {__version__} on Python {platform.python_version()}"
     lines = [f"{what}: a robot drove for {drive.sim.world.time:g} s of its time."]

@@ -13,41 +13,41 @@ from ai4u_edu.lessons.course import lessons
 from ai4u_edu.lessons.exercise import find
 from ai4u_edu.lessons.notebook import EXERCISE
 from ai4u_edu.lessons.notebook_output import address, card, put
-from ai4u_edu.lessons.progress_file import Entry, Keeper
+from ai4u_edu.lessons.progress_file import Entry, ProgressFile
 
 STYLE = """body{font:16px/1.5 system-ui,sans-serif;max-width:48em;margin:2em auto;padding:0 1em}
 pre{background:#f3f5f7;padding:.7em;overflow-x:auto}img{max-width:100%}
 h3{margin-bottom:.2em}.text{margin:.2em 0}@media print{h2{break-before:page}}"""
-LARGEST = 3_000_000
-"""Bytes of a picture that is put in."""
+MAX_PICTURE_BYTES = 3_000_000
+"""Limit of a picture that is included."""
 
 
 def report(name: str = "", file: str | Path = "report.html") -> None:
-    """Writes the page: for each exercise the code, what the check said, and its picture.
+    """Write the page: for each exercise the code, the check's text and its picture.
 
     Args:
-        name: whose work it is; left out, none stands there.
-        file: where it is written.
+        name: the student's name; left out, none is written.
+        file: the page's path.
     """
-    keeper = Keeper()
-    path = keeper.folder / file
-    write_atomically(path, page(keeper, name))
+    progress = ProgressFile()
+    path = progress.folder / file
+    write_atomically(path, page(progress, name))
     line = f"The report is in `{path.name}`, beside your notebooks."
     put(card("green", "Written.", [line]), line)
 
 
-def page(keeper: Keeper, name: str = "") -> str:
-    """The page's text; everything from outside in it is escaped."""
-    entries = keeper.entries()
+def page(progress: ProgressFile, name: str = "") -> str:
+    """Return the page's HTML; everything from outside is escaped."""
+    entries = progress.entries()
     parts, passed, total = [], 0, 0
     for lesson in lessons():
         done = [each for each in lesson.exercises if each in entries]
         passed += sum(entries[each].passed for each in done)
         total += len(lesson.exercises)
         if done:
-            code = codes(keeper.folder / f"{lesson.name}.ipynb")
+            code = codes(progress.folder / f"{lesson.name}.ipynb")
             parts.append(f"<h2>{html.escape(lesson.title)}</h2>")
-            parts += [_exercise(keeper, each, entries[each], code) for each in done]
+            parts += [_exercise(progress, each, entries[each], code) for each in done]
     whose = f"{html.escape(name)}: " if name else ""
     title = f"{whose}AI4U Edu lessons"
     policy = "default-src 'none'; style-src 'unsafe-inline'; img-src data:"
@@ -62,7 +62,7 @@ def page(keeper: Keeper, name: str = "") -> str:
 
 
 def codes(path: Path) -> Mapping[str, str]:
-    """What stands in the exercises' cells of a notebook; nothing if it can't be read."""
+    """Return the sources of a notebook's exercise cells; empty if it can't be read."""
     try:
         plain: Any = json.loads(path.read_text(encoding="utf-8"))
         found = {}
@@ -77,7 +77,7 @@ def codes(path: Path) -> Mapping[str, str]:
     return found
 
 
-def _exercise(keeper: Keeper, name: str, entry: Entry, code: Mapping[str, str]) -> str:
+def _exercise(progress: ProgressFile, name: str, entry: Entry, code: Mapping[str, str]) -> str:
     colour = PALETTE["green" if entry.passed else "vermillion"]
     how = f"solved {entry.when}" if entry.passed else "not yet"
     checks = f"{entry.tries} check{'' if entry.tries == 1 else 's'}"
@@ -85,14 +85,15 @@ def _exercise(keeper: Keeper, name: str, entry: Entry, code: Mapping[str, str]) 
     return (
         f"<h3>{html.escape(name)} {html.escape(find(name).title)}</h3>"
         f'<p class="text"><b style="color:{colour}">{html.escape(how)}</b>, {checks}</p>'
-        f'<pre>{written}</pre><p class="text">{html.escape(entry.text)}</p>{_picture(keeper, name)}'
+        f'<pre>{written}</pre><p class="text">{html.escape(entry.text)}</p>'
+        f"{_picture(progress, name)}"
     )
 
 
-def _picture(keeper: Keeper, name: str) -> str:
-    path = keeper.picture(name)
+def _picture(progress: ProgressFile, name: str) -> str:
+    path = progress.picture(name)
     try:
-        data = path.read_bytes() if path.stat().st_size <= LARGEST else b""
+        data = path.read_bytes() if path.stat().st_size <= MAX_PICTURE_BYTES else b""
     except OSError:
         return ""
     return f'<img alt="what the check saw" src="{address(data)}">' if data else ""

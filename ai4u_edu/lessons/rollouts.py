@@ -1,4 +1,4 @@
-"""Lets what a student made drive in worlds that they have not seen."""
+"""Rollouts of a student's work in worlds that they have not seen."""
 
 import zlib
 from collections.abc import Callable, Iterator
@@ -13,19 +13,19 @@ from ai4u_edu.lessons.pictures import picture
 from ai4u_edu.scenes import Scene
 from ai4u_edu.snapshot import Snapshot, capture_agent, capture_snapshot
 
-LONGEST = 600
-"""Decisions after which a drive in a scene without a limit is cut off."""
+DEFAULT_MAX_DECISIONS = 600
+"""Decisions after which an episode is truncated in a scene without a limit."""
 
 
 @dataclass
 class Drive:
-    """One episode."""
+    """Rollout of one episode."""
 
     sim: ControlRequestor
     agent: BasicAgent
     seed: int
     trail: list[tuple[float, float]] = field(default_factory=list)
-    """Where the agent was at each decision, the beginning first; metres."""
+    """Position of the agent at each decision, the beginning first; metres."""
 
     @property
     def steps(self) -> int:
@@ -34,48 +34,48 @@ class Drive:
 
     @property
     def won(self) -> bool:
-        """Whether the term that the scene calls its success was paid."""
+        """True if the scene's success term was paid."""
         return self.agent.ledger.episode_terms.get(self.sim.success, 0.0) > 0
 
     @property
     def fell(self) -> bool:
-        """Whether the agent's episode ended because it fell."""
+        """True if the agent's episode ended because it fell."""
         return capture_agent(self.agent, self.sim.success).fell
 
     @property
     def moved(self) -> float:
-        """Metres between the beginning and now."""
+        """Distance between the beginning and now, metres."""
         (x, y), (u, v) = self.trail[0], self.trail[-1]
         return float(((x - u) ** 2 + (y - v) ** 2) ** 0.5)
 
     @property
     def where(self) -> str:
-        """The seed and the step, for a sentence."""
+        """Seed and step, for a sentence."""
         return f"seed {self.seed}, step {self.steps}"
 
     def picture(self) -> bytes:
-        """The world as it is now, with the way that the agent took; PNG."""
+        """Return the world as it is now, with the agent's trail; PNG."""
         shown: Snapshot = capture_snapshot(self.sim)
         return picture(shown, self.trail)
 
     def not_yet(self, text: str, hint: str = "") -> NotYet:
-        """The reason why an exercise is not solved, with this drive's picture.
+        """Return the reason why an exercise is not solved, with this rollout's picture.
 
         Args:
-            text: in which ``{where}`` stands for the seed and the step.
+            text: a text in which ``{where}`` stands for the seed and the step.
             hint: the name of the hint.
         """
         return NotYet(text.replace("{where}", self.where), hint=hint, picture=self.picture())
 
 
 def seeds_of(exercise_id: str, count: int = 20) -> list[int]:
-    """Seeds for an exercise's worlds: the same each time, and none that a notebook shows."""
+    """Return seeds for an exercise's worlds: always the same, and none that a notebook shows."""
     first = 10_000 + zlib.crc32(exercise_id.encode()) % 100_000
     return list(range(first, first + count))
 
 
 def as_brain(thing: Any) -> Brain:
-    """A student's controller, function or brain as a brain.
+    """Return a student's controller, function or brain as a brain.
 
     Raises:
         NotYet: it is none of these.
@@ -93,7 +93,7 @@ def as_brain(thing: Any) -> Brain:
 
 
 def brain_for(thing: Any, agent: BasicAgent) -> Brain:
-    """What a student made as a brain that decides as often as the agent's own does."""
+    """Return a student's work as a brain that decides as often as the agent's own."""
     brain, before = as_brain(thing), agent.brain
     if isinstance(thing, Brain):
         return brain
@@ -106,17 +106,17 @@ def drives(
     seeds: list[int],
     *,
     agent: str = "",
-    limit: int = LONGEST,
+    limit: int = DEFAULT_MAX_DECISIONS,
     watch: Callable[[Drive], object] = lambda _: None,
 ) -> Iterator[Drive]:
-    """One episode for each seed, driven by what a student made.
+    """Run one episode for each seed, driven by a student's work.
 
     Args:
         source: a scene, its name, or a function that makes a world with its agents.
         thing: a function, a controller, a brain; None where the agent has its own.
-        seeds: of the episodes.
-        agent: the id of who is driven; left out, who acts first.
-        limit: decisions after which an episode is cut off.
+        seeds: seeds of the episodes.
+        agent: id of the driven agent; left out, the one that acts first.
+        limit: decisions after which an episode is truncated.
         watch: called at the beginning and after each decision; may raise :class:`NotYet`.
     """
     if isinstance(source, str):
@@ -133,10 +133,10 @@ def drive(
     sim: ControlRequestor,
     agent: BasicAgent,
     seed: int,
-    limit: int = LONGEST,
+    limit: int = DEFAULT_MAX_DECISIONS,
     watch: Callable[[Drive], object] = lambda _: None,
 ) -> Drive:
-    """One episode, from a reset to its end or the limit."""
+    """Run one episode, from a reset to its end or the limit."""
     sim.reset(seed)
     done = Drive(sim, agent, seed, [agent.body.position])
     watch(done)

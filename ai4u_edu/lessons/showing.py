@@ -26,16 +26,15 @@ def show(
     height: int = 520,
     record: str | Path | None = None,
 ) -> Live:
-    """Lets a world run, and shows its page under the cell; the one shown before ends.
+    """Run a world and show its page under the cell; the one shown before ends.
 
     Args:
         world: a scene's name or file, a scene, a world with its agents (ControlRequestor), or a
             world alone.
-        brain: who drives the first agent: a function, a controller or a brain; left out, whoever
-            it has.
-        seed: of the first episode.
-        height: of the page, pixels.
-        record: a folder in which every episode is kept as a file.
+        brain: the first agent's driver: a function, a controller or a brain; left out, its own.
+        seed: seed of the first episode.
+        height: height of the page, pixels.
+        record: a folder in which every episode is saved as a file.
     """
     global _current
     sim, scene, title = _sim_of(world)
@@ -58,7 +57,7 @@ def show(
 
 
 def stop() -> None:
-    """Ends the world that is shown; an animation of its last episode stays in its place."""
+    """End the world that is shown; an animation of its last episode stays in its place."""
     global _current
     if _current is not None:
         ended, _current = _current, None
@@ -86,7 +85,7 @@ def _sim_of(world: Any) -> tuple[ControlRequestor, Scene | None, str]:
 
 
 def _looked_at(world: World) -> ControlRequestor:
-    """A world alone, in which nobody does anything."""
+    """Return a world without agents, to be looked at."""
     bodies = [name for name, body in world.bodies.items() if body.moves]
     if not bodies:
         raise SetupError("show: expected a world with a body that can move; add one first")

@@ -1,4 +1,4 @@
-"""A student's exception as a sentence, with the line of theirs that it comes from."""
+"""Sentences for students' exceptions, with the line of their code."""
 
 import linecache
 import sys
@@ -13,7 +13,7 @@ _LIBRARIES = tuple({*sysconfig.get_paths().values(), sys.prefix, sys.base_prefix
 
 
 def told(error: BaseException) -> str:
-    r"""What went wrong, for the student; empty if no line of theirs and no block has to do with it.
+    r"""Return a sentence for an exception; empty if no student's line and no block caused it.
 
     >>> try:
     ...     exec(compile("def f(x):\n    return 1 / x\nf(0)", "<cell>", "exec"))

@@ -1,4 +1,4 @@
-"""Worlds in which exercises are checked; what is in them lies elsewhere in each episode."""
+"""Worlds in which exercises are checked, random in each episode."""
 
 from typing import Any
 
@@ -14,11 +14,11 @@ ANYWHERE = Variation(x=(-3.5, 3.5), y=(-3.5, 3.5), heading_deg=(-180, 180), clea
 def plate(
     robot: Variation | None = ANYWHERE, box: Variation | None = ANYWHERE, *, size: float = 10
 ) -> World:
-    """A square plate over the void with a robot and a box.
+    """Return a square plate over the void with a robot and a box.
 
     Args:
-        robot: where the robot may be; None for the middle, looking along +x.
-        box: where the box may be; None for 3 m in front of the middle.
+        robot: range of the robot's place; None for the middle, looking along +x.
+        box: range of the box's place; None for 3 m in front of the middle.
         size: the plate's side, metres.
     """
     world = World()
@@ -29,12 +29,12 @@ def plate(
 
 
 def put_in(agent: Any, world: World, brain: Brain | None = None) -> ControlRequestor:
-    """A student's agent in a world.
+    """Put a student's agent into a world.
 
     Args:
-        agent: what they made.
-        world: where it is put.
-        brain: drives in place of their own; left out, theirs does.
+        agent: the student's agent.
+        world: the world.
+        brain: a driver in place of the agent's own.
 
     Raises:
         NotYet: it is no agent, or has nobody to drive it.
@@ -47,5 +47,5 @@ def put_in(agent: Any, world: World, brain: Brain | None = None) -> ControlReque
 
 
 def forward(amount: float = 1.0, turn: float = 0.0) -> LocalBrain:
-    """A brain that always does the same."""
+    """Return a brain that always does the same."""
     return LocalBrain(controller=lambda _: {"move": [amount, turn, 0, 0]})

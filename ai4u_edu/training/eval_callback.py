@@ -17,7 +17,7 @@ FIRST_SEED = 2 * ABOVE
 """First seed of the checks' episodes; neither trainings nor evaluations use them."""
 
 
-class Keeper(BaseCallback):  # type: ignore[misc]  # seen without its types
+class EvalCallback(BaseCallback):  # type: ignore[misc]  # seen without its types
     """Callback that checks the policy at regular intervals.
 
     Args:

@@ -17,7 +17,7 @@ from ai4u_edu.base.seeding import MAX_TRAINING_SEED, checked_seed
 from ai4u_edu.envs import SceneEnv
 from ai4u_edu.scenes import Scene
 from ai4u_edu.training.algorithms import check_actions, load_model, new_model
-from ai4u_edu.training.eval_callback import Keeper
+from ai4u_edu.training.eval_callback import EvalCallback
 from ai4u_edu.training.interrupt import Interrupt
 from ai4u_edu.training.prepare import prepare
 from ai4u_edu.training.progress import ProgressCallback
@@ -175,7 +175,7 @@ def _learn(
     watch: bool,
 ) -> Trained:
     settings = config.settings
-    keeper = Keeper(
+    evaluation = EvalCallback(
         run,
         lambda: _env(prepared, settings),
         settings,
@@ -184,19 +184,19 @@ def _learn(
         has_goal=prepared.description.success is not None,
     )
     interrupt = Interrupt()
-    bar = ProgressCallback(keeper, config.steps, quiet=quiet)
+    bar = ProgressCallback(evaluation, config.steps, quiet=quiet)
     formats = ["tensorboard"] if find_spec("tensorboard") else []
     model.set_logger(configure(str(run.tensorboard), formats))
     left = config.steps - model.num_timesteps
-    callbacks: list[BaseCallback] = [interrupt, keeper, bar]
+    callbacks: list[BaseCallback] = [interrupt, evaluation, bar]
     page = _page(run) if watch else None
     if page:
         callbacks.append(page)
     try:
         with interrupt.listening():
             model.learn(left, CallbackList(callbacks), reset_num_timesteps=False)
-            if not keeper.checks or keeper.checks[-1].steps < model.num_timesteps:
-                keeper.check()
+            if not evaluation.checks or evaluation.checks[-1].steps < model.num_timesteps:
+                evaluation.check()
     finally:
         bar.close()
         if page:
@@ -205,7 +205,7 @@ def _learn(
     run.put(run.last, model.save)
     if isinstance(model, OffPolicyAlgorithm):
         run.put(run.replay, model.save_replay_buffer)
-    return Trained(run, model.num_timesteps, interrupt.asked, keeper.enough, keeper.checks)
+    return Trained(run, model.num_timesteps, interrupt.asked, evaluation.enough, evaluation.checks)
 
 
 def _env(prepared: Scene, settings: Settings) -> SceneEnv:

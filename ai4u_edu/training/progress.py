@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from stable_baselines3.common.callbacks import BaseCallback
 
-from ai4u_edu.training.eval_callback import Keeper
+from ai4u_edu.training.eval_callback import EvalCallback
 from ai4u_edu.training.progress_bar import REFRESH_S, ProgressBar
 
 WINDOW = 100
@@ -18,18 +18,18 @@ class ProgressCallback(BaseCallback):  # type: ignore[misc]  # seen without its 
     """Callback that shows steps a second, mean reward, success rate and remaining time.
 
     Args:
-        keeper: the evaluation callback whose checks are shown.
+        evaluation: the evaluation callback whose checks are shown.
         until: the step at which the training ends at the latest.
         quiet: True shows nothing.
     """
 
-    def __init__(self, keeper: Keeper, until: int, *, quiet: bool = False) -> None:
+    def __init__(self, evaluation: EvalCallback, until: int, *, quiet: bool = False) -> None:
         super().__init__()
-        self._keeper = keeper
+        self._evaluation = evaluation
         self._until = until
         self._rewards: deque[float] = deque(maxlen=WINDOW)
         self._won: deque[bool] = deque(maxlen=WINDOW)
-        self._told = len(keeper.checks)
+        self._told = len(evaluation.checks)
         self._quiet = quiet
         self._bar: ProgressBar | None = None
 
@@ -45,7 +45,10 @@ class ProgressCallback(BaseCallback):  # type: ignore[misc]  # seen without its 
             if episode:
                 self._rewards.append(episode["r"])
                 self._won.append(info["is_success"])
-        if time.perf_counter() - self._shown > REFRESH_S or len(self._keeper.checks) > self._told:
+        if (
+            time.perf_counter() - self._shown > REFRESH_S
+            or len(self._evaluation.checks) > self._told
+        ):
             self._show()
         return True
 
@@ -66,13 +69,13 @@ class ProgressCallback(BaseCallback):  # type: ignore[misc]  # seen without its 
         if self._bar is None:
             return
         self._shown = time.perf_counter()
-        for check in self._keeper.checks[self._told :]:
+        for check in self._evaluation.checks[self._told :]:
             success = "" if check.success is None else f"success {check.success:.0%}, "
             self._bar.note(
                 f"after {check.steps} steps, {check.seconds:.0f} s: {success}"
                 f"reward {check.reward:.2f} in {check.length:.0f} decisions"
             )
-        self._told = len(self._keeper.checks)
+        self._told = len(self._evaluation.checks)
         speed = (self.num_timesteps - self._first) / max(self._shown - self._began, 1e-9)
         reward = f"{np.mean(self._rewards):.2f}" if self._rewards else "-"
         success = f"{np.mean(self._won):.0%}" if self._won else "-"

@@ -23,7 +23,7 @@ from ai4u_edu import (
     TouchSensor,
 )
 from ai4u_edu.base.errors import BlockError, ReadingError
-from ai4u_edu.blocks.rewards.properties import OF_A_BODY
+from ai4u_edu.blocks.rewards.properties import BODY_PROPERTIES
 from tests.builders import small_sim, small_world
 
 
@@ -152,8 +152,8 @@ def test_every_property_of_a_body(name: str, value: float) -> None:
     body.move_to(4, -1, heading=1.5707963267948966)
     body.set_velocity(3, 4)
     body.set_angular_velocity(2)
-    assert OF_A_BODY[name](body) == pytest.approx(value)
-    assert len(OF_A_BODY) == 9
+    assert BODY_PROPERTIES[name](body) == pytest.approx(value)
+    assert len(BODY_PROPERTIES) == 9
 
 
 def test_of_a_target_or_of_the_agent() -> None:

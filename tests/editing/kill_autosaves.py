@@ -20,7 +20,7 @@ import time
 from pathlib import Path
 from ai4u_edu import Scene
 from ai4u_edu.editing import EditState, autosave
-autosave.DELAY = autosave.LONGEST = 0.0
+autosave.WRITE_DELAY_S = autosave.LONGEST = 0.0
 scene = Scene.load("soccer")
 saver = autosave.Autosave(Path(sys.argv[1]), "soccer")
 print("saving", flush=True)

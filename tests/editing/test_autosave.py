@@ -30,20 +30,20 @@ def saver(tmp_path: Path) -> Autosave:
 @pytest.fixture
 def written(monkeypatch: pytest.MonkeyPatch) -> Semaphore:
     """Released after each write; without the usual delay before it."""
-    done, write = Semaphore(0), autosave._write
+    done, write = Semaphore(0), autosave._write_file
 
     def tell(file: Path, state: EditState) -> None:
         write(file, state)
         done.release()
 
-    monkeypatch.setattr(autosave, "DELAY", 0.0)
-    monkeypatch.setattr(autosave, "_write", tell)
+    monkeypatch.setattr(autosave, "WRITE_DELAY_S", 0.0)
+    monkeypatch.setattr(autosave, "_write_file", tell)
     return done
 
 
 def test_a_changed_scene_is_written_and_read(saver: Autosave, tmp_path: Path) -> None:
     shop = Shop()
-    shop.editor.listeners.append(saver.note)
+    shop.editor.listeners.append(saver.schedule)
     shop.done(shop.editor.add_body({"name": "ball", "position": [0, 3]}))
     shop.done(shop.editor.move_body("ball", 1, 3))
     saver.stop()
@@ -59,7 +59,7 @@ def test_a_changed_scene_is_written_and_read(saver: Autosave, tmp_path: Path) ->
 
 def test_what_was_taken_back_is_not_offered(tmp_path: Path) -> None:
     shop, saver = Shop(), Autosave(tmp_path, "small")
-    shop.editor.autosave = saver
+    shop.editor.recovery.autosave = saver
     shop.done(shop.editor.add_body({"name": "ball", "position": [0, 3]}))
     shop.done(shop.editor.open(Scene.load("sumo")))
     saver.stop()
@@ -70,7 +70,7 @@ def test_what_was_taken_back_is_not_offered(tmp_path: Path) -> None:
 
 def test_what_was_written_goes_when_it_is_taken_back(tmp_path: Path, written: Semaphore) -> None:
     shop, saver = Shop(), Autosave(tmp_path, "small")
-    shop.editor.autosave = saver
+    shop.editor.recovery.autosave = saver
     shop.done(shop.editor.add_body({"name": "ball", "position": [0, 3]}))
     assert written.acquire(timeout=30)
     shop.done(shop.editor.open(Scene.load("sumo")))
@@ -82,7 +82,7 @@ def test_what_was_written_goes_when_it_is_taken_back(tmp_path: Path, written: Se
 
 def test_each_scene_that_was_changed_is_kept(tmp_path: Path) -> None:
     shop, saver = Shop(), Autosave(tmp_path, "small")
-    shop.editor.autosave = saver
+    shop.editor.recovery.autosave = saver
     shop.done(shop.editor.add_body({"name": "ball", "position": [0, 3]}))
     shop.done(shop.editor.open(Scene.load("sumo")))
     shop.done(shop.editor.add_body({"name": "pole", "position": [0, 3]}))
@@ -91,8 +91,8 @@ def test_each_scene_that_was_changed_is_kept(tmp_path: Path) -> None:
         "small": True,
         "sumo": False,
     }
-    shop.editor.autosave = saver = Autosave(tmp_path, "small")
-    shop.editor.mark_saved()  # the one that runs was saved
+    shop.editor.recovery.autosave = saver = Autosave(tmp_path, "small")
+    shop.editor.recovery.mark_saved()  # the one that runs was saved
     saver.stop()
     assert {each.name for each in unsaved_scenes(tmp_path)} == {"small", "sumo"}
 
@@ -103,7 +103,7 @@ def test_two_servers_on_one_scene_leave_each_other_s_work_alone(
     shops = [Shop(), Shop()]
     savers = [Autosave(tmp_path, "small") for _ in shops]
     for number, (shop, saver) in enumerate(zip(shops, savers, strict=True)):
-        shop.editor.autosave = saver
+        shop.editor.recovery.autosave = saver
         shop.done(shop.editor.add_body({"name": f"ball {number}", "position": [0, 3]}))
         assert written.acquire(timeout=30)
     assert len(list(tmp_path.glob("*.unsaved"))) == 2
@@ -118,15 +118,15 @@ def test_two_servers_on_one_scene_leave_each_other_s_work_alone(
 
 def test_a_restored_scene_is_kept_until_it_is_saved(tmp_path: Path) -> None:
     shop, saver = Shop(), Autosave(tmp_path, "small")
-    shop.editor.autosave = saver
+    shop.editor.recovery.autosave = saver
     shop.done(shop.editor.add_body({"name": "ball", "position": [0, 3]}))
     saver.stop()
     left = latest(tmp_path)
     assert left is not None
     # as play --restore does; then it is changed, and the change is taken back
     again, saver = Shop(left.scene()), Autosave(tmp_path, "small")
-    again.editor.autosave = saver
-    again.editor.mark_restored(left)
+    again.editor.recovery.autosave = saver
+    again.editor.recovery.mark_restored(left)
     assert latest(tmp_path) is None, "it has an owner again"
     again.done(again.editor.remove_body("wall"))
     again.done(again.editor.undo())
@@ -134,9 +134,9 @@ def test_a_restored_scene_is_kept_until_it_is_saved(tmp_path: Path) -> None:
     (kept,) = unsaved_scenes(tmp_path)
     assert kept.scene() == left.scene()
     third, saver = Shop(), Autosave(tmp_path, "small")
-    third.editor.autosave, third.editor.unsaved = saver, kept
-    third.done(third.editor.restore_unsaved())
-    third.editor.mark_saved()
+    third.editor.recovery.autosave, third.editor.recovery.unsaved = saver, kept
+    third.done(third.editor.recovery.restore())
+    third.editor.recovery.mark_saved()
     saver.stop()
     assert list(tmp_path.iterdir()) == []
 
@@ -148,8 +148,8 @@ def test_of_two_servers_that_restore_one_scene_both_keep_it(tmp_path: Path) -> N
     savers = [Autosave(tmp_path, "small") for _ in range(2)]
     for saver in savers:
         shop = Shop(left.scene())
-        shop.editor.autosave = saver
-        shop.editor.mark_restored(left)
+        shop.editor.recovery.autosave = saver
+        shop.editor.recovery.mark_restored(left)
     for saver in savers:
         saver.stop()
     assert [each.text for each in unsaved_scenes(tmp_path)] == [Shop().editor.text(), TEXT]
@@ -194,31 +194,31 @@ def test_old_ones_go_but_never_the_latest_of_a_scene(
 
 def test_it_is_brought_back_or_forgotten(tmp_path: Path) -> None:
     left, saver = Shop(), Autosave(tmp_path, "small")
-    left.editor.autosave = saver
+    left.editor.recovery.autosave = saver
     left.done(left.editor.add_body({"name": "ball", "position": [0, 3]}))
     saver.stop()
     shop = Shop()
-    shop.editor.unsaved = latest(tmp_path)
-    shop.done(shop.editor.restore_unsaved())
+    shop.editor.recovery.unsaved = latest(tmp_path)
+    shop.done(shop.editor.recovery.restore())
     assert shop.editor.scene == left.editor.scene
-    assert shop.editor.unsaved is None
+    assert shop.editor.recovery.unsaved is None
     shop.done(shop.editor.undo())
     assert "ball" not in shop.world.bodies
-    shop.editor.autosave = saver = Autosave(tmp_path, "small")
-    shop.editor.mark_saved()
+    shop.editor.recovery.autosave = saver = Autosave(tmp_path, "small")
+    shop.editor.recovery.mark_saved()
     saver.stop()
     assert latest(tmp_path) is None
     with pytest.raises(SetupError, match="there is no unsaved scene"):
-        shop.done(shop.editor.restore_unsaved())
+        shop.done(shop.editor.recovery.restore())
 
 
 def test_many_changes_are_written_once(saver: Autosave, monkeypatch: pytest.MonkeyPatch) -> None:
     written = []
-    monkeypatch.setattr(autosave, "_write", lambda _file, state: written.append(state))
+    monkeypatch.setattr(autosave, "_write_file", lambda _file, state: written.append(state))
     state = Shop().editor.state
     for number in range(100):
         state = state.describing(title=str(number))
-        saver.note(state)
+        saver.schedule(state)
     saver.stop()
     assert [each.description.title for each in written][-1] == "99"
     assert len(written) <= 3
@@ -239,7 +239,7 @@ def test_a_folder_that_can_t_be_made_is_told_of_once(tmp_path: Path, where: str)
     assert told == [saver.problem]
     assert told[0].startswith("changes can't be kept in ")
     shop = Shop()
-    shop.editor.autosave = saver
+    shop.editor.recovery.autosave = saver
     shop.done(shop.editor.add_body({"name": "ball", "position": [0, 3]}))
     saver.stop()
     assert told == [saver.problem]
@@ -249,9 +249,9 @@ def test_a_folder_that_can_t_be_made_is_told_of_once(tmp_path: Path, where: str)
 def test_a_full_disk_is_told_of_once_and_tried_again(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(autosave, "DELAY", 0.0)
+    monkeypatch.setattr(autosave, "WRITE_DELAY_S", 0.0)
     monkeypatch.setattr(autosave, "RETRY_S", 0.01)
-    tries, is_written, write = Semaphore(0), Event(), autosave._write
+    tries, is_written, write = Semaphore(0), Event(), autosave._write_file
     is_full = [True]
 
     def written(file: Path, state: EditState) -> None:
@@ -261,10 +261,10 @@ def test_a_full_disk_is_told_of_once_and_tried_again(
         write(file, state)
         is_written.set()
 
-    monkeypatch.setattr(autosave, "_write", written)
+    monkeypatch.setattr(autosave, "_write_file", written)
     told: list[str] = []
     shop, saver = Shop(), Autosave(tmp_path, "small", told.append)
-    shop.editor.autosave = saver
+    shop.editor.recovery.autosave = saver
     shop.done(shop.editor.add_body({"name": "ball", "position": [0, 3]}))
     for _ in range(3):
         assert tries.acquire(timeout=30)
@@ -280,7 +280,7 @@ def test_a_full_disk_is_told_of_once_and_tried_again(
 
 def test_a_name_that_is_too_long_for_a_file_is_cut(tmp_path: Path) -> None:
     shop, saver = Shop(), Autosave(tmp_path, "\u4e00" * 80)
-    saver.note(shop.editor.state.describing(name="\u4e00" * 80))
+    saver.schedule(shop.editor.state.describing(name="\u4e00" * 80))
     saver.stop()
     assert len(unsaved_scenes(tmp_path)) == 1
 

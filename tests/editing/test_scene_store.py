@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from ai4u_edu import Scene
 from ai4u_edu.base.errors import SceneError, SetupError
 from ai4u_edu.editing import scene_store as shelves
-from ai4u_edu.editing.scene_store import SceneExistsError, SceneStore, proper
+from ai4u_edu.editing.scene_store import SceneExistsError, SceneStore, normalized_name
 from tests.editing.shops import TEXT
 
 
@@ -95,14 +95,14 @@ def test_names_are_no_paths(store: SceneStore, name: str) -> None:
 @given(st.text(max_size=70))
 def test_whatever_is_a_name_names_one_file_in_the_folder(name: str) -> None:
     try:
-        kept = proper(name)
+        kept = normalized_name(name)
     except SetupError:
         return
     path = Path("/shelf") / f"{kept}.yaml"
     assert path.resolve().parent == Path("/shelf")
     assert path.stem == kept
     assert len(path.name.encode()) < 255
-    assert proper(kept) == kept
+    assert normalized_name(kept) == kept
 
 
 def test_links_lead_nowhere(store: SceneStore, tmp_path: Path) -> None:

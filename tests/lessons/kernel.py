@@ -11,7 +11,7 @@ from nbclient import NotebookClient
 from ai4u_edu.lessons.answers import answers_to
 from ai4u_edu.lessons.course import Lesson
 from ai4u_edu.lessons.notebook import dumps
-from ai4u_edu.lessons.progress_file import Entry, Keeper
+from ai4u_edu.lessons.progress_file import Entry, ProgressFile
 from tests.lessons.workbook import solved
 
 LONGEST = 120
@@ -52,4 +52,4 @@ def executed(lesson: Lesson, folder: Path) -> Executed:
     client.execute()
     ends = [*times[1:], time.perf_counter()]
     slowest = max(end - start for start, end in zip(times, ends, strict=True))
-    return Executed(book, Keeper(folder).entries(), ends[-1] - began, slowest)
+    return Executed(book, ProgressFile(folder).entries(), ends[-1] - began, slowest)

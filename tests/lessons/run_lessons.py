@@ -16,7 +16,7 @@ from typing import Any
 
 from ai4u_edu.lessons import stop
 from ai4u_edu.lessons.course import Lesson, lesson
-from ai4u_edu.lessons.progress_file import Keeper
+from ai4u_edu.lessons.progress_file import ProgressFile
 from tests.lessons.workbook import run
 
 
@@ -36,7 +36,7 @@ def through(one: Lesson, folder: Path) -> dict[str, Any]:
                 error = traceback.format_exc()
                 break
         stop()
-    entries = {name: asdict(entry) for name, entry in Keeper().entries().items()}
+    entries = {name: asdict(entry) for name, entry in ProgressFile().entries().items()}
     seconds = time.perf_counter() - began
     return {"error": error, "entries": entries, "words": words.getvalue(), "seconds": seconds}
 

@@ -13,7 +13,7 @@ from ai4u_edu.lessons import check, hint, progress, solution
 from ai4u_edu.lessons.checking import UNFINISHED, judge
 from ai4u_edu.lessons.exercise import EXERCISES, Exercise, find
 from ai4u_edu.lessons.notebook import Cell
-from ai4u_edu.lessons.progress_file import FILE, Keeper
+from ai4u_edu.lessons.progress_file import FILE, ProgressFile
 from tests.lessons.workbook import run
 
 
@@ -51,7 +51,7 @@ def test_what_happened_is_said_with_seed_step_picture_and_where_to_get_help(
     assert "Not yet. Your robot stayed where it was (seed " in told
     assert ", step 8).\n" in told
     assert 'hint("00.1")' in told
-    assert Keeper().picture("00.1").read_bytes().startswith(b"\x89PNG")
+    assert ProgressFile().picture("00.1").read_bytes().startswith(b"\x89PNG")
 
 
 @pytest.mark.parametrize("thing", [..., None])
@@ -116,7 +116,7 @@ def test_an_unknown_exercise_is_told(ask: Any) -> None:
 def test_progress_counts_and_keeps_what_was_passed(capsys: pytest.CaptureFixture[str]) -> None:
     for thing in (stay, stay, go, stay):
         check("00.1", thing)
-    entry = Keeper().entries()["00.1"]
+    entry = ProgressFile().entries()["00.1"]
     assert (entry.passed, entry.tries) == (True, 3)
     assert entry.text.startswith("Your robot drives forward")
     capsys.readouterr()
@@ -150,7 +150,7 @@ def test_a_damaged_file_is_put_aside_and_said(
     (folder / FILE).write_bytes(text.encode(errors="surrogateescape"))
     check("00.1", go)
     assert "progress.json could not be read" in capsys.readouterr().out
-    assert Keeper().entries()["00.1"].passed
+    assert ProgressFile().entries()["00.1"].passed
     aside = (folder / "progress.damaged.json").read_bytes()
     assert aside == text.encode(errors="surrogateescape")
 
@@ -166,7 +166,7 @@ def test_a_write_that_fails_leaves_the_file_as_it_was(
 
     monkeypatch.setattr(json, "dump", fail)
     with pytest.raises(OSError, match="no room"):
-        Keeper().note("00.2", passed=True, text="", hint="", picture=b"")
+        ProgressFile().note("00.2", passed=True, text="", hint="", picture=b"")
     assert (folder / FILE).read_bytes() == before
     assert sorted(path.name for path in folder.iterdir() if path.name.startswith(".p")) == []
 
@@ -181,7 +181,7 @@ def test_the_code_that_was_checked_is_kept(monkeypatch: pytest.MonkeyPatch) -> N
     cells = ["def go(percept):\n    return 1", "%magic", "check('00.1', go)", "go = 7", "x = go"]
     monkeypatch.setattr(written_module, "cells_so_far", lambda: cells[:3])
     check("00.1", go)
-    assert Keeper().entries()["00.1"].code == cells[0]
+    assert ProgressFile().entries()["00.1"].code == cells[0]
     assert written_module.latest({"go"}, cells) == "go = 7"
 
 
@@ -189,13 +189,13 @@ def test_two_notebooks_that_check_at_once_both_keep_their_result(folder: Path) -
     started = threading.Barrier(8)
 
     def note(number: int) -> None:
-        keeper = Keeper(folder)
+        progress = ProgressFile(folder)
         started.wait()
-        keeper.note(f"00.{number}", passed=True, text="", hint="", picture=b"")
+        progress.note(f"00.{number}", passed=True, text="", hint="", picture=b"")
 
     threads = [threading.Thread(target=note, args=(number,)) for number in range(8)]
     for thread in threads:
         thread.start()
     for thread in threads:
         thread.join()
-    assert len(Keeper(folder).entries()) == 8
+    assert len(ProgressFile(folder).entries()) == 8

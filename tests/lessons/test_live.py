@@ -151,14 +151,14 @@ def test_a_film_moves_and_says_how_it_ended(shown: list[tuple[str, str, str]]) -
 
 
 def test_a_film_shows_the_end_of_a_long_episode() -> None:
-    from ai4u_edu.lessons.pictures import RATE, SECONDS, moving
+    from ai4u_edu.lessons.pictures import FRAMES_PER_S, MAX_ANIMATION_S, moving
     from ai4u_edu.snapshot import capture_snapshot
 
     (done,) = drives("box_chase", drive, [1], limit=1)
     one = capture_snapshot(done.sim)
     gif = Image.open(io.BytesIO(moving([one, one, one], longest=100)))
     assert gif.size == (100, 100)
-    assert RATE * SECONDS <= 150
+    assert FRAMES_PER_S * MAX_ANIMATION_S <= 150
 
 
 def test_words_are_escaped_and_code_is_marked() -> None:

@@ -7,7 +7,7 @@ import pytest
 
 from ai4u_edu.lessons import check, report
 from ai4u_edu.lessons.handout import hand_out
-from ai4u_edu.lessons.progress_file import Keeper
+from ai4u_edu.lessons.progress_file import ProgressFile
 from ai4u_edu.lessons.report_page import codes, page
 
 EVIL = '<script>alert("x")</script>&"\''
@@ -39,15 +39,15 @@ def test_it_holds_code_result_and_picture(folder: Path) -> None:
 
 
 def test_everything_in_it_is_escaped(folder: Path) -> None:
-    keeper = Keeper()
-    keeper.note("00.1", passed=False, text=EVIL, hint="", picture=b"")
+    progress = ProgressFile()
+    progress.note("00.1", passed=False, text=EVIL, hint="", picture=b"")
     hand_out(folder)
     book = folder / "00_start_here.ipynb"
     written = "def go(percept):\\n"
     assert written in book.read_text()
     evil = EVIL.replace('"', '\\"')
     book.write_text(book.read_text().replace(written, f"def go(percept): # {evil}\\n"))
-    text = page(keeper, EVIL)
+    text = page(progress, EVIL)
     assert "<script" not in text
     assert text.count("&lt;script&gt;") == 4  # title, heading, code, sentence
 

@@ -11,7 +11,7 @@ import torch
 from ai4u_edu import Scene, World
 from ai4u_edu.base.errors import SetupError
 from ai4u_edu.training.algorithms import load_model
-from ai4u_edu.training.eval_callback import Keeper
+from ai4u_edu.training.eval_callback import EvalCallback
 from ai4u_edu.training.learning import resume, train
 from ai4u_edu.training.run import Check, Run
 from ai4u_edu.training.settings import ALGORITHMS, Algorithm
@@ -109,14 +109,14 @@ def test_a_resume_needs_something_to_do(tmp_path: Path) -> None:
 
 
 def test_ctrl_c_keeps_what_was_learned(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    check = Keeper.check
+    check = EvalCallback.check
 
-    def interrupting(keeper: Keeper) -> Check:
-        if not keeper.checks:
+    def interrupting(evaluation: EvalCallback) -> Check:
+        if not evaluation.checks:
             signal.raise_signal(signal.SIGINT)
-        return check(keeper)
+        return check(evaluation)
 
-    monkeypatch.setattr(Keeper, "check", interrupting)
+    monkeypatch.setattr(EvalCallback, "check", interrupting)
     handler = signal.getsignal(signal.SIGINT)
     done = small_training(tmp_path, "sac")
     assert done.interrupted

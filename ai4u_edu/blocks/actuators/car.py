@@ -1,4 +1,4 @@
-"""Four wheels, of which the front ones steer."""
+"""An actuator that drives like a car."""
 
 import math
 from typing import Annotated
@@ -17,15 +17,15 @@ class CarActuator(Actuator):
 
     - throttle: -1..1, times ``max_speed`` is the speed of the rear wheels along the heading in m/s;
       < 0 is backward.
-    - steering: -1..1, times ``max_steering_deg`` is how far the front wheels are turned; > 0 to the
+    - steering: -1..1, times ``max_steering_deg`` is the angle of the front wheels; > 0 to the
       right, < 0 to the left.
 
-    The axles sit ``wheelbase`` apart, as far before the body's centre as behind it. A car turns
-    only while it rolls: with the front wheels at an angle a, the middle of the rear axle goes round
-    a circle of radius wheelbase / tan(a), and can't go sideways. So to get into a narrow place one
-    has to think ahead, or to back up.
+    The axles are ``wheelbase`` apart, with the body's centre in the middle. A car turns only while
+    it rolls: with the front wheels at an angle a, the centre of the rear axle moves on a circle of
+    radius wheelbase / tan(a), never sideways. To get into a narrow space, one has to plan ahead or
+    to back up.
 
-    Speed is set, not pushed to: throttle 0 stops the car. It acts only on the ground; wheels don't
+    It sets the speed directly: throttle 0 stops the car. It acts only on the ground; wheels don't
     slip.
 
     Source: ours; the usual kinematic model of a car ("bicycle model").
@@ -40,15 +40,15 @@ class CarActuator(Actuator):
     """Distance between the axles."""
 
     def space(self) -> Box:
-        """[throttle, steering]."""
+        """Return the range of [throttle, steering]."""
         return Box(-1.0, 1.0, (2,), np.float32)
 
     def slots(self) -> tuple[str, ...]:
-        """Pedal and wheel."""
+        """Return the names of the numbers."""
         return "throttle", "steering"
 
     def act(self, body: Body, action: tuple[float, ...]) -> None:
-        """Sets the body's speeds, if it stands on the ground."""
+        """Set the body's velocity if it is on the ground."""
         if body.on_ground:
             set_body_velocity(body, *self._speeds(action))
 

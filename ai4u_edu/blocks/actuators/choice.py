@@ -1,4 +1,4 @@
-"""How an action that is one of a few choices is checked."""
+"""The base of actuators whose action is one choice out of a few."""
 
 from typing import Any
 
@@ -7,16 +7,16 @@ from ai4u_edu.blocks.actuators.actuator import Actuator
 
 
 class ChoiceActuator(Actuator):
-    """The base of actuators with a Discrete space: what is no choice is refused, never cut."""
+    """The base of actuators with a Discrete space: an invalid choice is refused, never clipped."""
 
     abstract = True
     is_continuous = False
 
     def accept(self, values: Any) -> tuple[float, ...]:
-        """Checks a choice.
+        """Check a choice.
 
         Raises:
-            ActionError: not one of them.
+            ActionError: it is not in the space.
         """
         last = int(self._limits[0][1])
         try:

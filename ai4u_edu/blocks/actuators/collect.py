@@ -1,4 +1,4 @@
-"""Takes in what the agent touches: food, water, coins."""
+"""An actuator that collects what the agent touches: food, water, coins."""
 
 from typing import cast
 
@@ -10,28 +10,28 @@ from ai4u_edu.base.parameters import Name, Number, Seconds
 from ai4u_edu.blocks.actuators.actuator import Actuator
 from ai4u_edu.blocks.agent_view import AgentView
 from ai4u_edu.blocks.homeostasis import HomeostaticVariable
-from ai4u_edu.blocks.rewards.homeostatic import keeper_of
+from ai4u_edu.blocks.rewards.homeostatic import find_homeostatic_reward
 from ai4u_edu.world import Body, BodyView, WorldView
 
-WAIT = 1.0
-"""What finds no free place to come back to tries again after so many seconds."""
+RETRY_S = 1.0
+"""Delay after which a body that found no free place to come back to tries again."""
 
 
 class CollectActuator(Actuator):
-    """Takes bodies of a group out of the world when the agent touches them, and feeds on them.
+    """Removes bodies of a group from the world when the agent touches them.
 
-    What is collected is gone at once: nothing touches it, no ray meets it. It comes back
-    ``comes_back_after`` seconds later, where its description says: at another place if that is
-    ``random``. So much as ``adds`` says is added to the agent's variables (which a
-    HomeostaticReward keeps). With ``needs``, only an agent whose variables are at least at these
-    levels can collect; to any other one the body is an obstacle.
+    A collected body disappears at once: nothing touches it, no ray hits it. It comes back
+    ``comes_back_after`` seconds later at the place in its description; if that is random, at
+    another place. The amounts in ``adds`` are added to the agent's variables (those of a
+    HomeostaticReward). With ``needs``, the agent can only collect while its variables are at least
+    at these levels; otherwise the body is an obstacle.
 
-    Examples: fruit is ``group="fruit", adds={"energy": 30}, comes_back_after=10``; dirt that is
-    gone for good ``group="dirty"``; a door that costs a key ``group="door", needs={"keys": 1},
+    Examples: fruit is ``group="fruit", adds={"energy": 30}, comes_back_after=10``; dirt that never
+    comes back ``group="dirty"``; a door that costs a key ``group="door", needs={"keys": 1},
     adds={"keys": -1}``.
 
-    It takes no action of its own: nobody decides to collect, but where to go. What is collected is
-    paid for by GoneReward, or by the HomeostaticReward as the agent feels better.
+    It takes no action: the agent only decides where to go. Collecting is rewarded by a GoneReward,
+    or by the HomeostaticReward when the variables come closer to their comfort zones.
 
     Source: ours, after the fruit and the ruby of AI4U's Platform demo.
     """
@@ -39,45 +39,45 @@ class CollectActuator(Actuator):
     action_name: str = "collect"
     is_output: bool = False
     group: Name
-    """The tag of what is collected."""
+    """Tag of the bodies that are collected."""
     adds: dict[Name, Number] = Field(default_factory=dict)
-    """Amount that one of them adds, by the variable's name, in the variable's unit."""
+    """Amount that one body adds, by the variable's name, in the variable's unit."""
     needs: dict[Name, Number] = Field(default_factory=dict)
-    """Lowest level with which it can be collected, by the variable's name."""
+    """Lowest level at which the agent can collect, by the variable's name."""
     comes_back_after: Seconds | None = None
-    """Time after which a collected body is back; left out: it is gone for the episode."""
+    """Time after which a collected body comes back; left out: not in this episode."""
     source: str = "homeostatic"
-    """The name of the HomeostaticReward that keeps the variables."""
+    """Name of the HomeostaticReward that has the variables."""
 
     def __post_init__(self) -> None:
         super().__post_init__()
         self._due: dict[str, int] = {}
 
     def space(self) -> Box:
-        """Nothing."""
+        """Return a space without numbers."""
         return Box(0.0, 1.0, (0,))
 
     def on_setup(self, agent: AgentView, view: WorldView) -> None:
-        """Look the group and the variables up."""
+        """Look up the group and the variables."""
         view.check_group(self.group)
         self._variables: dict[str, HomeostaticVariable] = {}
         for name in dict.fromkeys([*self.adds, *self.needs]):
-            self._variables[name] = keeper_of(agent, self.source).variable(name)
+            self._variables[name] = find_homeostatic_reward(agent, self.source).variable(name)
 
     def on_reset(self, agent: AgentView, view: WorldView) -> None:
-        """Forgets what came back with the reset of the world."""
+        """Forget the bodies that came back with the reset of the world."""
         self._due = {
             name: due for name, due in self._due.items() if name in view and view[name].fallen
         }
 
     def act(self, body: Body, action: tuple[float, ...]) -> None:
-        """Does nothing."""
+        """Do nothing."""
 
     def on_tick(self, body: Body, view: WorldView) -> None:
-        """Puts back what is due, and collects what is touched."""
+        """Put back the bodies whose time is over, and collect those that the agent touches."""
         for name in [name for name, due in self._due.items() if view.ticks >= due]:
             del self._due[name]
-            if name in view:  # else somebody removed it for good
+            if name in view:  # else it was removed from the world by hand
                 self._put_back(_whole(view[name]), view)
         for name in view.contacts(body):
             if self.group in view[name].tags and self._can():
@@ -86,8 +86,8 @@ class CollectActuator(Actuator):
     def _put_back(self, thing: Body, view: WorldView) -> None:
         try:
             thing.come_back()
-        except WorldError:  # somebody stands wherever it could be
-            self._due[thing.name] = view.ticks + round(WAIT / view.dt)
+        except WorldError:  # all places are taken
+            self._due[thing.name] = view.ticks + round(RETRY_S / view.dt)
 
     def _can(self) -> bool:
         return all(self._variables[name].level >= level for name, level in self.needs.items())

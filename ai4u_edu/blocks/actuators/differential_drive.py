@@ -1,4 +1,4 @@
-"""Two wheels."""
+"""An actuator with two wheels."""
 
 from typing import Annotated
 
@@ -14,14 +14,14 @@ from ai4u_edu.world import Body
 class DifferentialDriveActuator(Actuator):
     """Drives with two wheels: [left, right], each -1..1, times ``max_wheel_speed`` in m/s.
 
-    Seen from above, the wheels sit left and right of the centre, ``axle_width`` apart. Both equal:
-    straight ahead at that speed. Opposite: it turns on the spot. The faster wheel runs on the
-    outside of the curve:
+    The wheels are to the left and right of the centre, ``axle_width`` apart. At equal speeds the
+    body drives straight ahead; at opposite speeds it turns on the spot. Otherwise the faster wheel
+    is on the outside of the curve:
 
     - speed = (left + right) / 2, along the heading (m/s);
     - turning speed = (right - left) / axle_width, counter-clockwise (rad/s).
 
-    Wire a light sensor to each wheel, straight or crossed, and you have Braitenberg's vehicles. It
+    Connect a light sensor to each wheel, straight or crossed, to build Braitenberg's vehicles. It
     acts only on the ground; wheels don't slip.
 
     Source: ours; after V. Braitenberg, "Vehicles: Experiments in Synthetic Psychology" (1984).
@@ -34,15 +34,15 @@ class DifferentialDriveActuator(Actuator):
     """Distance between the two wheels."""
 
     def space(self) -> Box:
-        """[left, right]."""
+        """Return the range of [left, right]."""
         return Box(-1.0, 1.0, (2,), np.float32)
 
     def slots(self) -> tuple[str, ...]:
-        """The wheels."""
+        """Return the names of the wheels."""
         return "left", "right"
 
     def act(self, body: Body, action: tuple[float, ...]) -> None:
-        """Sets the body's speeds, if it stands on the ground."""
+        """Set the body's velocity if it is on the ground."""
         if body.on_ground:
             set_body_velocity(body, *self._speeds(action))
 

@@ -1,4 +1,4 @@
-"""One choice out of a few."""
+"""An actuator with a table of motions."""
 
 from collections.abc import Callable
 from typing import Annotated
@@ -18,28 +18,28 @@ Share = Annotated[float, quantity("1", ge=0, le=1)]
 Row = tuple[Signed, Signed, Share, Share]
 
 ARROWS: list[Row] = [(0, 0, 0, 0), (0, 1, 0, 0), (0, -1, 0, 0), (1, 0, 0, 0), (-1, 0, 0, 0)]
-"""Nothing, turn right, turn left, ahead, back: as DiscreteArrowController counts them."""
+"""Nothing, turn right, turn left, forward, backward: as in DiscreteArrowController."""
 
 
 class DiscreteActuator(GroundMotion, ChoiceActuator):
     """Takes a whole number from 0 to size - 1 and looks it up in a table of motions.
 
-    A row of the table is [forward, turn, jump, forward jump], as RBMoveActuator takes them (-1..1,
-    -1..1, 0..1, 0..1), and moves the body in the same way. Without a table, the rows are:
-    0 nothing, 1 turn right, 2 turn left, 3 ahead, 4 back.
+    A row of the table is [forward, turn, jump, forward jump] as in RBMoveActuator (-1..1, -1..1,
+    0..1, 0..1), and moves the body in the same way. The default rows are:
+    0 nothing, 1 turn right, 2 turn left, 3 forward, 4 backward.
 
-    A script may take the choice in the table's place: ``actuator.handler = f``, and ``f(body,
-    index)`` is called for every tick of the decision, on the ground or not.
+    A script may replace the table: with ``actuator.handler = f``, ``f(body, index)`` is called in
+    every tick of the decision, on the ground or in the air.
 
-    Action: Discrete(size), as an int. What is no choice is refused, not cut to the nearest one.
+    Action: Discrete(size), as an int. An invalid choice is refused, not clipped.
     Source: AI4U's DiscretActuator.
 
-    Differs from AI4U: without a handler it moves the body by its table, there it does nothing; a
-    handler is a function, there a node with SetAction and Reset.
+    Differs from AI4U: without a handler it moves the body by its table; there it does nothing. A
+    handler is a function; there it is a node with SetAction and Reset.
     """
 
     size: Annotated[int, Field(ge=1, le=1024)] | None = None
-    """Count of choices; left out: as many as the table has rows."""
+    """Number of choices; left out: as many as the table has rows."""
     table: Annotated[list[Row], Field(min_length=1)] = Field(default_factory=lambda: list(ARROWS))
     """A row [forward, turn, jump, forward jump] for each choice: shares of full power, -1..1 for
     the first two, 0..1 for the jumps."""
@@ -49,12 +49,12 @@ class DiscreteActuator(GroundMotion, ChoiceActuator):
         self.handler: Callable[[Body, int], None] | None = None
 
     def space(self) -> Discrete:
-        """One of ``size``."""
+        """Return the ``size`` choices."""
         return Discrete(self.size or len(self.table))
 
     def on_reset(self, agent: AgentView, view: WorldView) -> None:
-        """Look whether there is something to do for every choice."""
-        # not before: until now a script had time to set a handler
+        """Check that every choice has a row of the table, or that there is a handler."""
+        # not earlier: until now a script could set a handler
         if self.handler is None and (self.size or 0) > len(self.table):
             raise BlockError(
                 f"expected a row of the table for each of {self.size} choices, "
@@ -62,7 +62,7 @@ class DiscreteActuator(GroundMotion, ChoiceActuator):
             )
 
     def act(self, body: Body, action: tuple[float, ...]) -> None:
-        """Does what the table (or the handler) says."""
+        """Move the body by the table, or call the handler."""
         index = int(action[0])
         if self.handler is not None:
             self.handler(body, index)

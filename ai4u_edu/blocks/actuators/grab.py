@@ -1,4 +1,4 @@
-"""A hand."""
+"""An actuator that grabs a body."""
 
 import math
 from typing import Annotated
@@ -12,38 +12,37 @@ from ai4u_edu.world import Body, BodyView, WorldView
 
 
 class GrabActuator(Actuator):
-    """Takes hold of a movable body that the agent touches in front: [grip], 0..1.
+    """Grabs a movable body that the agent touches in front: [grip], 0..1.
 
-    Above 0.5 the hand closes, and it stays closed until the number is 0.5 or less; a decision that
-    says nothing of it leaves it as it is. What it holds moves as if it were glued on, and bumps
-    into walls for both. In front is what lies within ``angle`` / 2 to either side of the heading,
-    centre to centre; of several, the one nearest to the heading.
+    Above 0.5 the hand closes, and it stays closed until the number is 0.5 or less; a decision
+    without this action changes nothing. The held body moves with the agent as one rigid body, and
+    its collisions stop both. In front means within ``angle`` / 2 to either side of the heading,
+    centre to centre; of several bodies, the one nearest to the heading is taken.
 
-    The hand opens by itself when one of the two falls out of the world or is put somewhere else,
-    and when the agent jumps so high (or falls so low) that they are no longer side by side. It is
-    empty at a reset.
+    The hand opens by itself when one of the two falls out of the world or is moved to another
+    place, and when a jump or fall separates them in height. A reset opens it.
 
     Source: ours.
     """
 
     action_name: str = "grab"
     angle: Annotated[float, quantity("deg", gt=0, le=360)] = 90.0
-    """Whole angle, around the heading, that counts as in front."""
+    """Whole angle around the heading that counts as in front."""
 
     def space(self) -> Box:
-        """[grip]."""
+        """Return the range of the grip."""
         return Box(0.0, 1.0, (1,))
 
     def on_setup(self, agent: AgentView, view: WorldView) -> None:
-        """Remembers the world."""
+        """Store the world's view."""
         self._view = view
 
     def slots(self) -> tuple[str, ...]:
-        """The hand."""
+        """Return the name of the number."""
         return ("grip",)
 
     def act(self, body: Body, action: tuple[float, ...]) -> None:
-        """Closes the hand, or opens it."""
+        """Close or open the hand."""
         held = body.held
         if held is not None and (action[0] <= 0.5 or not _level(body, held)):
             body.release()
@@ -66,5 +65,5 @@ class GrabActuator(Actuator):
 
 
 def _level(one: BodyView, other: BodyView) -> bool:
-    """Whether two bodies are side by side, not one above the other."""
+    """Return True if two bodies overlap in height, so that one is not above the other."""
     return one.z < other.z + other.height and other.z < one.z + one.height

@@ -1,4 +1,4 @@
-"""From cell to cell."""
+"""An actuator that moves from cell to cell."""
 
 import math
 from typing import Annotated, ClassVar
@@ -18,15 +18,15 @@ STEPS: tuple[Cell, ...] = ((0, 0), (0, 1), (0, -1), (-1, 0), (1, 0))
 
 
 class GridMoveActuator(OnGrid, ChoiceActuator):
-    """Takes the agent to a neighbouring cell of a grid: one cell a decision, never less or more.
+    """Moves the agent to a neighbouring cell of a grid: exactly one cell per decision.
 
     - 0: stay.
-    - 1: right (column + 1), 2: left, 3: up (row - 1), 4: down; as DiscreteArrowController counts.
+    - 1: right (column + 1), 2: left, 3: up (row - 1), 4: down; as in DiscreteArrowController.
 
-    The agent looks where it goes, glides there evenly while the decision lasts, and ends exactly in
-    the cell's middle, whatever it bumped into. It can't leave the grid, nor enter a cell with a
-    body of the groups in ``blocked_by`` in it: then it only turns. Anything else is met: touched,
-    or pushed. Where there is no floor it falls, and in the air nothing moves it.
+    The agent turns to where it goes, moves there at an even speed during the decision, and ends
+    exactly in the centre of the cell, whatever it bumped into. It can't leave the grid or enter a
+    cell with a body of a group in ``blocked_by``: then it only turns. It touches or pushes any
+    other body. Without floor below it falls, and in the air nothing moves it.
 
     Action: Discrete(5), as an int. Source: ours, for the lessons on search and Q-learning of AI4U's
     grid world.
@@ -41,7 +41,7 @@ class GridMoveActuator(OnGrid, ChoiceActuator):
     looks_at: ClassVar[tuple[str, ...]] = ("bodies",)
 
     def space(self) -> Discrete:
-        """Stay, right, left, up or down."""
+        """Return the five choices: stay, right, left, up, down."""
         return Discrete(len(STEPS))
 
     def on_setup(self, agent: AgentView, view: WorldView) -> None:
@@ -52,11 +52,11 @@ class GridMoveActuator(OnGrid, ChoiceActuator):
         self._learnt = -1
 
     def on_reset(self, agent: AgentView, view: WorldView) -> None:
-        """Forgets where it was going."""
+        """Forget the path."""
         self._way = []
 
     def act(self, body: Body, action: tuple[float, ...]) -> None:
-        """Sets out, with the first tick of a decision."""
+        """Plan the path, in the first tick of a decision."""
         if self._way or not body.on_ground:
             return
         down, right = STEPS[int(action[0])]
@@ -66,12 +66,12 @@ class GridMoveActuator(OnGrid, ChoiceActuator):
         end = self._grid.centre_of((row, column) if self._blocked(cell) else cell)
         ticks = self._agent.brain.skip_frame + 1
         shares = [tick / ticks for tick in range(1, ticks + 1)]
-        # the end comes twice: once more after the last tick, in which something may have pushed
+        # the end comes twice: once more after the last tick, in which something may push the body
         self._way = [_between(start, end, share) for share in shares] + [end]
         self._go(body, math.atan2(-down, right) if down or right else None)
 
     def on_tick(self, body: Body, view: WorldView) -> None:
-        """Goes on."""
+        """Take the next step of the path."""
         if self._way:
             self._go(body)
 
@@ -94,7 +94,7 @@ class GridMoveActuator(OnGrid, ChoiceActuator):
         )
 
     def _learn(self) -> None:
-        """Look up what blocks the way, once for each build of the world."""
+        """Look up the bodies that block the way, once for each build of the world."""
         self._learnt = self._view.generation
         names = [name for tag in self.blocked_by for name in self._view.named(tag)]
         walls = [self._view[name] for name in dict.fromkeys(names)]

@@ -1,4 +1,4 @@
-"""What the actuators share that drive a body over the ground and let it jump."""
+"""The base of actuators that drive on the ground and jump."""
 
 import math
 from typing import Annotated
@@ -10,15 +10,15 @@ from ai4u_edu.world import Body
 Speeds = tuple[float, float, float]
 """(forward, left, turning) in a body's own frame: m/s, m/s, rad/s (counter-clockwise positive)."""
 
-SMALLEST = 0.001
-"""A number closer to 0 than this counts as 0."""
+DEFAULT_DEAD_ZONE = 0.001
+"""Numbers closer to 0 than this count as 0."""
 
 
 class GroundMotion(Actuator):
-    """A body that drives and jumps: how fast it does so at full power.
+    """The parameters of driving and jumping at full power.
 
-    Speeds are set, not pushed to: all zeros stop the body. It acts only on the ground; in the air
-    nothing steers. A jump of upward speed v rises v² / 2g high and lasts 2 v / g seconds.
+    It sets speeds directly: all zeros stop the body. It acts only on the ground; in the air the
+    agent can't steer. A jump of upward speed v rises v² / 2g high and lasts 2 v / g seconds.
     """
 
     abstract = True
@@ -39,38 +39,40 @@ class GroundMotion(Actuator):
         forward: float,
         turn: float,
         jump: float,
-        leap: float,
+        forward_jump: float,
         strafe: float = 0.0,
     ) -> None:
-        """Sets the speeds of a body that stands on the ground.
+        """Set the velocity of a body on the ground.
 
         Args:
-            body: what drives.
+            body: the body.
             forward: share of ``move_amount``; below 0 backward.
             turn: share of ``turn_amount``; above 0 to the right (clockwise seen from above).
             jump: share of ``jump_power``.
-            leap: share of ``jump_forward_power`` forward and of ``jump_power`` upward.
+            forward_jump: share of ``jump_forward_power`` forward and of ``jump_power`` upward.
             strafe: share of ``move_amount``; above 0 to the right.
         """
-        set_body_velocity(body, *self._speeds(forward, turn, leap, strafe))
-        if jump or leap:
-            body.jump((jump + leap) * self.jump_power)
+        set_body_velocity(body, *self._speeds(forward, turn, forward_jump, strafe))
+        if jump or forward_jump:
+            body.jump((jump + forward_jump) * self.jump_power)
 
-    def _speeds(self, forward: float, turn: float, leap: float, strafe: float) -> Speeds:
-        ahead = forward * self.move_amount + leap * self.jump_forward_power
+    def _speeds(self, forward: float, turn: float, forward_jump: float, strafe: float) -> Speeds:
+        ahead = forward * self.move_amount + forward_jump * self.jump_forward_power
         return ahead, -strafe * self.move_amount, -turn * self.turn_amount
 
 
 def set_body_velocity(body: Body, forward: float, left: float, turning: float) -> None:
-    """Sets a body's speeds in its own frame: m/s, m/s, rad/s (counter-clockwise positive)."""
+    """Set a body's velocity in its own frame: m/s, m/s, rad/s (counter-clockwise positive)."""
     heading = body.heading
     cos, sin = math.cos(heading), math.sin(heading)
     body.set_velocity(forward * cos - left * sin, forward * sin + left * cos)
     body.set_angular_velocity(turning)
 
 
-def apply_dead_zone(numbers: tuple[float, ...], dead_zone: float = SMALLEST) -> tuple[float, ...]:
-    """The numbers of an action, with 0 for those that are next to nothing.
+def apply_dead_zone(
+    numbers: tuple[float, ...], dead_zone: float = DEFAULT_DEAD_ZONE
+) -> tuple[float, ...]:
+    """Replace the numbers of an action that are close to 0 by 0.
 
     >>> apply_dead_zone((0.5, -0.0005))
     (0.5, 0.0)

@@ -1,4 +1,4 @@
-"""Puts a body at a random pose at each reset."""
+"""An actuator that moves its body to a random pose at each reset."""
 
 import math
 from typing import Annotated, Any
@@ -16,52 +16,52 @@ Pose = tuple[Metres, Metres, Degrees]
 
 
 class RespawnActuator(Actuator):
-    """Puts the agent at one of several poses at each reset, at rest, by the world's seed.
+    """Moves the agent to one of several poses at each reset, at rest, drawn from the world's seed.
 
-    It takes no action of its own. ``early`` is right nearly always: the agent is in its place
-    before it senses anything. Late, its first percept still shows the place where the scene puts
-    its body, as in an AI4U project that has ``early`` off.
+    It takes no action. ``early`` is nearly always right: the agent is at its pose before it senses
+    anything. With ``early`` off, the first percept still shows the position in the scene, as in an
+    AI4U project with ``early`` off.
 
     Source: AI4U's RBRespawnActuator.
 
-    Differs from AI4U: the places are ``poses``, there the children of the node respawnOptionsPath.
-    ``randomise_heading`` is off, in its CBRespawnActuator radomizeDirection is on. There early
-    means before the other blocks' reset; here the world is built anew before any block is reset,
-    and no block looks at the world until all are. flipWhenTurn has no place here.
+    Differs from AI4U: the places are ``poses``; there the children of the node respawnOptionsPath.
+    ``randomise_heading`` is off; in its CBRespawnActuator radomizeDirection is on. There, early
+    means before the other blocks' reset; here the world is rebuilt before any block is reset, and
+    no block reads the world until all are. flipWhenTurn doesn't exist here.
     """
 
     action_name: str = "respawn"
     is_output: bool = False
     poses: Annotated[list[Pose], Field(min_length=1)]
-    """Places to choose from: (x, y, heading) of each, in metres and degrees."""
+    """Poses to choose from: (x, y, heading) of each, in metres and degrees."""
     early: bool = True
     """True moves the body before the first reading of the episode, False after it."""
     randomise_heading: bool = False
-    """True draws the heading as well, out of all there are, in place of the pose's own."""
+    """True draws a random heading instead of the pose's own."""
 
     def __post_init__(self) -> None:
         super().__post_init__()
         self.last_selected = -1
-        """Which of the poses the last one was, counted from 0."""
+        """Index of the last chosen pose."""
         self._told_by: AgentView | None = None
 
     def space(self) -> Box:
-        """Nothing."""
+        """Return a space without numbers."""
         return Box(0.0, 1.0, (0,))
 
     def on_setup(self, agent: AgentView, view: WorldView) -> None:
-        """Listens for the beginning of the episode, if that is its moment."""
+        """Subscribe to the beginning of the episode if ``early`` is off."""
         if not self.early and self._told_by is not agent:
             agent.begin_of_episode.connect(self._on_begin)
             self._told_by = agent
 
     def on_reset(self, agent: AgentView, view: WorldView) -> None:
-        """Chooses a pose."""
+        """Move the body to a pose if ``early`` is on."""
         if self.early:
             self._put(agent, view)
 
     def act(self, body: Body, action: tuple[float, ...]) -> None:
-        """Does nothing."""
+        """Do nothing."""
 
     def _on_begin(self, agent: Any) -> None:
         if self.is_active and any(each is self for each in agent.actuators):  # still on the agent

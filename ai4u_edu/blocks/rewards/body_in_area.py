@@ -1,4 +1,4 @@
-"""Pays when some thing is where it should be."""
+"""A reward for a body in an area."""
 
 from ai4u_edu.base.errors import NameNotFoundError, suggest
 from ai4u_edu.base.parameters import Number
@@ -10,14 +10,14 @@ from ai4u_edu.world import BodyView, WorldView
 class BodyInAreaRewardFunc(RewardFunc):
     """Pays ``reward`` when the centre of a body lies in an area: a box pushed home, a ball in goal.
 
-    Whoever brought it there. With ``only_one_time`` once an episode, else for each decision after
-    which it lies there.
+    It pays whoever brought the body there: with ``only_one_time`` once an episode, else for each
+    decision after which the body lies there.
 
     Source: ours.
     """
 
     thing: str
-    """The body's name."""
+    """Name of the body."""
     area: str
     """Name of the area."""
     reward: Number = 1.0
@@ -26,16 +26,16 @@ class BodyInAreaRewardFunc(RewardFunc):
     """True pays once an episode, False for each decision after which the body lies there."""
 
     def on_setup(self, agent: AgentView, view: WorldView) -> None:
-        """Look body and area up."""
+        """Look up the body and the area."""
         _ = view[self.thing]
         check_area(self.area, view)
 
     def on_reset(self, agent: AgentView, view: WorldView) -> None:
-        """Forgets what was paid."""
+        """Allow the payment again."""
         self._paid = False
 
     def on_update(self, body: BodyView, view: WorldView) -> float:
-        """The reward, or 0."""
+        """Return the reward, or 0."""
         thing = view[self.thing]
         inside = not thing.fallen and view.areas[self.area].contains(*thing.position)
         self._inside = inside
@@ -45,11 +45,11 @@ class BodyInAreaRewardFunc(RewardFunc):
         return self.reward
 
     def holds(self, paid: float, body: BodyView, view: WorldView) -> bool:
-        """Tell whether the body lies in the area, however often that was paid already."""
+        """Return True if the body lies in the area, paid already or not."""
         return self._inside
 
 
 def check_area(name: str, view: WorldView) -> None:
-    """Raises NameNotFoundError, with a suggestion, unless an area has that name."""
+    """Raise a NameNotFoundError with a suggestion unless an area has that name."""
     if name not in view.areas:
         raise NameNotFoundError(f"no area is named {name!r}; {suggest(name, view.areas)}")

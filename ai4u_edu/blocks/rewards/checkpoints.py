@@ -1,4 +1,4 @@
-"""Pays for the places of a way, in their order."""
+"""A reward for touching targets in their order."""
 
 from typing import Annotated
 
@@ -11,16 +11,16 @@ from ai4u_edu.world import BodyView, WorldView
 
 
 class CheckpointsReward(RewardFunc):
-    """Pays ``reward`` for each target touched in its turn, and ``lap_reward`` for the whole way.
+    """Pays ``reward`` for each target touched in order, and ``lap_reward`` for the whole route.
 
-    The targets (bodies, or areas, which are touched with the agent's centre) are the places of a
-    way. Only the next one counts, and each counts once: going back and forth earns nothing, and a
-    short cut that leaves one out earns nothing any more. They are looked at after every tick, so
-    nobody is too fast for them.
+    The targets (bodies, or areas, which the agent touches with its centre) form a route. Only the
+    next one counts, and each counts once: going back and forth earns nothing, and a short cut that
+    leaves one out earns nothing more. Contacts are checked in every tick, so a fast agent does not
+    miss them.
 
-    With ``loop`` the way is a round: it begins with the target that is touched first, whichever
-    that is, goes on in order, and ends where it began. For one term that is paid for a whole round
-    alone, set ``reward`` to 0. Example: a lap of a track with four marks, which ends the episode =
+    With ``loop`` the route is a lap: it begins with whichever target is touched first, goes on in
+    order, and ends where it began. To pay only for whole laps, set ``reward`` to 0. Example: a lap
+    of a track with four marks, which ends the episode =
     ``CheckpointsReward(targets=["1", "2", "3", "4"], loop=True, reward=0, lap_reward=10,
     cause_episode_to_end=True)``.
 
@@ -28,13 +28,13 @@ class CheckpointsReward(RewardFunc):
     """
 
     targets: Annotated[list[str], Field(min_length=1)]
-    """Names of bodies or areas, in the order in which they are to be touched."""
+    """Names of bodies or areas, in the order in which they must be touched."""
     reward: Number = 1.0
-    """Amount for each target that is touched in its turn."""
+    """Amount for each target that is touched in order."""
     lap_reward: Number = 0.0
-    """Amount that the last target pays besides."""
+    """Amount that the last target pays in addition."""
     loop: bool = False
-    """True for a round that may begin at any target and ends where it began."""
+    """True for a lap that may begin at any target and ends where it began."""
 
     def on_setup(self, agent: AgentView, view: WorldView) -> None:
         """Look up the targets."""
@@ -42,14 +42,14 @@ class CheckpointsReward(RewardFunc):
             view.check_target(target)
 
     def on_reset(self, agent: AgentView, view: WorldView) -> None:
-        """Begins the way anew."""
+        """Start the route again."""
         self._under_way = not self.loop
         self._ahead = list(self.targets)
         self._due = 0.0
         self._is_done = self._finished = False
 
     def on_tick(self, body: BodyView, view: WorldView) -> None:
-        """Look whether the next one is touched."""
+        """Check if the next target is touched."""
         awaited = self._ahead[:1] if self._under_way else self._ahead
         for target in awaited:
             if view.touching(body, target):
@@ -58,13 +58,13 @@ class CheckpointsReward(RewardFunc):
                 break
 
     def on_update(self, body: BodyView, view: WorldView) -> float:
-        """What was earned in the decision."""
+        """Return the reward of the decision."""
         due, self._due = self._due, 0.0
         self._finished, self._is_done = self._is_done, False
         return due
 
     def holds(self, paid: float, body: BodyView, view: WorldView) -> bool:
-        """Tell whether the whole way was completed in this decision."""
+        """Return True if the whole route was completed in this decision."""
         return self._finished
 
     def _pass(self, target: str) -> None:

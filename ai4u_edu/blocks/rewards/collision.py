@@ -1,4 +1,4 @@
-"""Costs for every tick in contact."""
+"""A cost of contact."""
 
 from ai4u_edu.base.parameters import Number
 from ai4u_edu.blocks.agent_view import AgentView
@@ -9,14 +9,14 @@ from ai4u_edu.world import BodyView, WorldView
 class CollisionWithRewardFunc(RewardFunc):
     """Pays ``reward`` for each tick in which the agent touches a body of the group.
 
-    Two of them at once count once. With ``group=""`` any body counts; floors are no bodies. A
-    decision of five ticks, all of them along a wall, costs five times as much as one of one tick.
+    Touching two of them at once counts once. With ``group=""`` any body counts; floors are not
+    bodies. A decision of five ticks in contact costs five times as much as one of one tick.
 
     Source: AI4U's CollisionWithRewardFunc.
     """
 
     group: str = ""
-    """The tag of what is not to be touched; left out: anything."""
+    """Tag of the bodies that must not be touched; left out: any body."""
     reward: Number = -0.1
     """Amount for each tick in contact; below 0 for a cost."""
 
@@ -26,21 +26,21 @@ class CollisionWithRewardFunc(RewardFunc):
             view.check_group(self.group)
 
     def on_reset(self, agent: AgentView, view: WorldView) -> None:
-        """Forgets what was touched."""
+        """Forget past contacts."""
         self._ticks = 0
 
     def on_tick(self, body: BodyView, view: WorldView) -> None:
-        """Look whether there is contact."""
+        """Count the ticks in contact."""
         touched = view.contacts(body)
         if touched and (not self.group or any(self.group in view[name].tags for name in touched)):
             self._ticks += 1
 
     def on_update(self, body: BodyView, view: WorldView) -> float:
-        """The reward for all ticks of the decision."""
+        """Return the reward for all ticks of the decision."""
         ticks, self._ticks = self._ticks, 0
         self._touched = ticks > 0
         return ticks * self.reward
 
     def holds(self, paid: float, body: BodyView, view: WorldView) -> bool:
-        """Tell whether there was contact in any tick of the decision."""
+        """Return True if there was contact in any tick of the decision."""
         return self._touched

@@ -1,4 +1,4 @@
-"""Pays when several things are the case at once, or when any of them is."""
+"""Rewards that combine conditions by "and" and "or"."""
 
 from collections.abc import Sequence
 from typing import Annotated
@@ -13,19 +13,19 @@ from ai4u_edu.world import BodyView, WorldView
 
 
 class CombinedRewardFunc(RewardFunc):
-    """The base of AndRewardFunc and OrRewardFunc: children that are asked at every decision.
+    """The base of AndRewardFunc and OrRewardFunc: it evaluates its children at every decision.
 
-    Each child is asked whether it holds, whatever it pays: see its ``holds``.
+    A child counts if its ``holds`` returns True, whatever it pays.
     """
 
     abstract = True
 
     children: Annotated[list[RewardFunc], Field(min_length=1)]
-    """Reward functions and conditions that are asked; at least one."""
+    """Reward functions and conditions to combine; at least one."""
     reward: Number = 1.0
     """Amount for each decision after which it holds."""
     update_children: bool = False
-    """Whether what the children pay is paid as well, under this one's name."""
+    """True also pays what the children pay, under this one's name."""
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -36,30 +36,30 @@ class CombinedRewardFunc(RewardFunc):
         return [child for child in self.children if child.is_active]
 
     def on_setup(self, agent: AgentView, view: WorldView) -> None:
-        """Sets the children up that are active."""
+        """Set up the active children."""
         self._children = list(self.inner_blocks())
         for child in self._children:
             child.on_setup(agent, view)
 
     def on_reset(self, agent: AgentView, view: WorldView) -> None:
-        """Resets the children."""
+        """Reset the children."""
         self._held = False
         for child in self._children:
             child.on_reset(agent, view)
 
     @property
     def has_ticks(self) -> bool:
-        """Whether a child's on_tick is filled, or that of a class of one's own."""
+        """True if a child, or this class, overrides on_tick."""
         is_own = type(self).on_tick is not CombinedRewardFunc.on_tick
         return is_own or any(child.has_ticks for child in self.children)
 
     def on_tick(self, body: BodyView, view: WorldView) -> None:
-        """Passes the tick on."""
+        """Call the children's on_tick."""
         for child in self._children:
             child.on_tick(body, view)
 
     def on_update(self, body: BodyView, view: WorldView) -> float:
-        """The reward, where the children hold; and theirs, if they are to be paid."""
+        """Return the reward if the children hold; add theirs with ``update_children``."""
         held, extra = [], 0.0
         for child in self._children:
             paid = child.on_update(body, view)
@@ -69,47 +69,48 @@ class CombinedRewardFunc(RewardFunc):
         return self.reward * self._held + (extra if self.update_children else 0.0)
 
     def holds(self, paid: float, body: BodyView, view: WorldView) -> bool:
-        """Whether the children held: so one And can stand in another, whatever it pays."""
+        """Return True if the children held, so that one And can be a child of another."""
         return self._held
 
     def ends(self, paid: float) -> bool:
-        """Tell whether the children held, as in AI4U: whatever is paid for it, even nothing."""
+        """Return True if the children held, even if nothing is paid, as in AI4U."""
         return self._held
 
     def combine(self, held: list[bool]) -> bool:
-        """Whether all of it holds, from whether each child does."""
+        """Combine the children's results into one."""
         raise NotImplementedError  # And and Or have their own
 
 
 class AndRewardFunc(CombinedRewardFunc):
     """Pays ``reward`` for each decision after which all of its children hold.
 
-    A condition (EvalBoolValue and its like) holds where its property is as it should be. The other
-    reward functions hold whatever they pay: TouchRewardFunc where the agent touched its target in
-    the decision, DistanceToTargetRewardFunc within ``min_distance``, FallReward below its
-    threshold; each says so in its ``holds``. Only this one's ``cause_episode_to_end`` counts, not
-    the children's; it ends the episode where they hold, even with a reward of 0.
+    A condition (such as EvalBoolValue) holds if its property has the wanted value. Other reward
+    functions hold independently of what they pay: TouchRewardFunc if the agent touched its target
+    in the decision, DistanceToTargetRewardFunc within ``min_distance``, FallReward below its
+    threshold; see each one's ``holds``. Only this one's ``cause_episode_to_end`` counts, not the
+    children's; it ends the episode when they hold, even with a reward of 0.
 
-    Example: paid in the air above the goal = And(touch the goal, on_ground false).
+    Example: a reward in the air above the goal = And(touch the goal, on_ground false).
 
     Source: AI4U's AndRewardFunc.
     """
 
     def combine(self, held: list[bool]) -> bool:
-        """Whether all do; none at all do not."""
+        """Return True if there are children and all of them hold."""
         return bool(held) and all(held)
 
 
 class OrRewardFunc(CombinedRewardFunc):
-    """Pays ``reward`` for each decision after which any of its children holds, once however many.
+    """Pays ``reward`` for each decision after which at least one of its children holds.
 
-    When a child holds is the same as in AndRewardFunc. Only this one's ``cause_episode_to_end``
-    counts, not the children's; it ends the episode where one holds, even with a reward of 0.
+    A child holds under the same conditions as in AndRewardFunc. Only this one's
+    ``cause_episode_to_end`` counts, not the children's; it ends the episode when one holds, even
+    with a reward of 0.
     Example: an end with -10 = Or(touch a spike, energy at 0).
 
     Source: AI4U's ORRewardFunc.
     """
 
     def combine(self, held: list[bool]) -> bool:
-        """Whether one does."""
+        """Return True if a child holds."""
         return any(held)

@@ -1,4 +1,4 @@
-"""Pays for falling behind in height."""
+"""A reward, or cost, for falling below a reference body."""
 
 from ai4u_edu.base.parameters import Metres
 from ai4u_edu.blocks.agent_view import AgentView
@@ -9,10 +9,10 @@ from ai4u_edu.world import BodyView, WorldView
 class DynamicFallReward(FallReward):
     """Pays ``success_reward`` for each decision after which the agent is far below a reference.
 
-    Far is ``threshold`` metres below the reference body, wherever that is now: for worlds in which
-    the ground itself goes up or down. An agent that has fallen out of the world is below anything.
+    Far means more than ``threshold`` metres below the reference body's present height: for worlds
+    in which the ground itself moves up or down. An agent that fell out of the world also counts.
 
-    At most ``max_rewards`` times an episode; ``fail_reward`` for every other decision.
+    It pays at most ``max_rewards`` times an episode, and ``fail_reward`` for every other decision.
 
     Source: AI4U's DynamicFallReward.
     """
@@ -27,5 +27,5 @@ class DynamicFallReward(FallReward):
         _ = view[self.reference]
 
     def is_below(self, body: BodyView, view: WorldView) -> bool:
-        """Whether the agent is far below the reference."""
+        """Return True if the agent is far below the reference."""
         return body.fallen or body.z < view[self.reference].z - self.threshold

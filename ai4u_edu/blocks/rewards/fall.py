@@ -1,4 +1,4 @@
-"""Pays for falling."""
+"""A reward, or cost, for falling."""
 
 from typing import Annotated
 
@@ -13,12 +13,12 @@ from ai4u_edu.world import BodyView, WorldView
 class FallReward(RewardFunc):
     """Pays ``success_reward`` for each decision after which the agent is below ``threshold``.
 
-    At most ``max_rewards`` times an episode; ``fail_reward`` for every other decision.
+    It pays at most ``max_rewards`` times an episode, and ``fail_reward`` for every other decision.
 
     Source: AI4U's FallReward.
 
-    Differs from AI4U: axis and isLocal have no place here; bodies fall along the world's
-    z and never tip over.
+    Differs from AI4U: axis and isLocal don't exist here: bodies fall along the world's z axis and
+    never tip over.
     """
 
     threshold: Metres = 0.0
@@ -28,23 +28,23 @@ class FallReward(RewardFunc):
     fail_reward: Annotated[float, quantity("")] = 0.0
     """Amount for every other decision."""
     max_rewards: Annotated[int, Field(ge=1, le=MAX_COUNT)] = 1
-    """Most payments of success_reward in an episode."""
+    """Maximum number of payments of success_reward in an episode."""
 
     def on_reset(self, agent: AgentView, view: WorldView) -> None:
-        """Forgets what was paid."""
+        """Forget past payments."""
         self._paid = 0
 
     def on_update(self, body: BodyView, view: WorldView) -> float:
-        """The reward for having fallen, or for not."""
+        """Return the reward for a fall, or for none."""
         if self.is_below(body, view) and self._paid < self.max_rewards:
             self._paid += 1
             return self.success_reward
         return self.fail_reward
 
     def holds(self, paid: float, body: BodyView, view: WorldView) -> bool:
-        """Tell whether it is below, however often that was paid already."""
+        """Return True if the agent is below the threshold, paid already or not."""
         return self.is_below(body, view)
 
     def is_below(self, body: BodyView, view: WorldView) -> bool:
-        """Whether the agent is so low that it counts as fallen."""
+        """Return True if the agent counts as fallen."""
         return body.z < self.threshold

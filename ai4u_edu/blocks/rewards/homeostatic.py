@@ -1,4 +1,4 @@
-"""Pays for staying in balance."""
+"""A reward for keeping internal variables in their comfort zones."""
 
 from collections.abc import Sequence
 from typing import Annotated
@@ -14,26 +14,26 @@ from ai4u_edu.world import BodyView, WorldView
 
 
 class HomeostaticReward(RewardFunc):
-    """Keeps the agent's internal variables, and pays for every bit of discomfort that goes away.
+    """Has the agent's internal variables, and pays for every reduction of discomfort.
 
-    A variable's discomfort is 0 in its comfort zone; outside it is the distance to that zone as a
-    share of the variable's range. The agent's discomfort is the sum of all of them. A decision
-    earns ``reward`` times what the discomfort shrank by in it, and loses as much where it grew: so
-    hunger costs as it comes, and a meal pays it back. Over an episode all that is paid adds up to
-    ``reward`` times (discomfort at the start - discomfort at the end): going in circles earns
-    nothing.
+    A variable's discomfort is 0 in its comfort zone; outside, it is the distance to that zone as a
+    share of the variable's range. The agent's discomfort is the sum over all variables. A decision
+    earns ``reward`` times the decrease of discomfort in it, and loses as much for an increase: so
+    growing hunger costs, and a meal pays it back. Over an episode the payments add up to ``reward``
+    times (discomfort at the start - discomfort at the end): going in circles earns nothing.
 
-    Every tick the variables drift. A CollectActuator changes them when the agent finds something, a
-    script as ``reward.variable("energy").add_value(20)``; HomeostaticSensor reads them.
+    The variables drift in every tick. A CollectActuator changes them when the agent finds
+    something, a script with ``reward.variable("energy").add_value(20)``; a HomeostaticSensor reads
+    them.
 
     Source: ours, after Keramati and Gutkin, "Homeostatic reinforcement learning for integrating
     reward collection and physiological stability", eLife 3 (2014): reward as reduction of drive.
     """
 
     variables: Annotated[list[HomeostaticVariable], Field(min_length=1)]
-    """Internal variables of the agent; at least one, each of another name."""
+    """Internal variables of the agent; at least one, with different names."""
     reward: Number = 1.0
-    """Amount for a discomfort of 1 that goes away."""
+    """Amount for a decrease of discomfort by 1."""
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -46,7 +46,7 @@ class HomeostaticReward(RewardFunc):
                 )
 
     def variable(self, name: str) -> HomeostaticVariable:
-        """The variable of that name.
+        """Return the variable with a name.
 
         Raises:
             NameNotFoundError: there is none; the message suggests the nearest name.
@@ -57,7 +57,7 @@ class HomeostaticReward(RewardFunc):
         return known[name]
 
     def discomfort(self) -> float:
-        """How uncomfortable the agent is now: 0 where all variables are in their zones."""
+        """Return the present discomfort: 0 if all variables are in their comfort zones."""
         return sum(
             variable.discomfort() / (variable.range_max - variable.range_min)
             for variable in self.variables
@@ -68,31 +68,31 @@ class HomeostaticReward(RewardFunc):
         return self.variables
 
     def on_reset(self, agent: AgentView, view: WorldView) -> None:
-        """Puts the variables back."""
+        """Reset the variables."""
         for variable in self.variables:
             variable.on_reset(agent, view)
         self._before = self.discomfort()
 
     def on_tick(self, body: BodyView, view: WorldView) -> None:
-        """Lets the variables drift."""
+        """Let the variables drift."""
         for variable in self.variables:
             variable.drift(body, view.dt)
 
     def on_update(self, body: BodyView, view: WorldView) -> float:
-        """What the change of discomfort is worth."""
+        """Return the reward for the change of discomfort."""
         before, self._before = self._before, self.discomfort()
         return self.reward * (before - self._before)
 
     def holds(self, paid: float, body: BodyView, view: WorldView) -> bool:
-        """Tell whether the agent is in balance: every variable in its comfort zone."""
+        """Return True if every variable is in its comfort zone."""
         return all(variable.check() for variable in self.variables)
 
 
-def keeper_of(agent: AgentView, name: str) -> HomeostaticReward:
-    """The HomeostaticReward of that name that keeps an agent's variables.
+def find_homeostatic_reward(agent: AgentView, name: str) -> HomeostaticReward:
+    """Return the agent's HomeostaticReward with a name.
 
     Raises:
-        BlockError: there is none that is active; the message suggests the nearest name.
+        BlockError: there is no active one; the message suggests the nearest name.
     """
     keepers = {
         reward.name: reward

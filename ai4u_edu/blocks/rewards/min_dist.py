@@ -1,4 +1,4 @@
-"""Pays for coming closer than ever."""
+"""A reward for a new smallest distance to a target."""
 
 import math
 from typing import Annotated
@@ -12,8 +12,7 @@ from ai4u_edu.world import BodyView, WorldView
 class MinDistReward(RewardFunc):
     """Pays ``success_reward`` for a decision that brought the agent closer to the target than ever.
 
-    Closer than ever in this episode; every other decision costs ``step_reward``. The first one is
-    free.
+    "Ever" means in this episode; every other decision costs ``step_reward``. The first one is free.
 
     Source: AI4U's MinDistReward.
     """
@@ -30,11 +29,11 @@ class MinDistReward(RewardFunc):
         _ = view[self.target]
 
     def on_reset(self, agent: AgentView, view: WorldView) -> None:
-        """Forgets the best distance."""
+        """Forget the smallest distance."""
         self._best = math.inf
 
     def on_update(self, body: BodyView, view: WorldView) -> float:
-        """The reward for a new best, or the cost of a step."""
+        """Return the reward for a new smallest distance, or the cost of a step."""
         distance = body.distance(view[self.target])
         first = self._best == math.inf
         self._is_best = not first and distance < self._best
@@ -44,5 +43,5 @@ class MinDistReward(RewardFunc):
         return self.step_reward
 
     def holds(self, paid: float, body: BodyView, view: WorldView) -> bool:
-        """Tell whether this decision brought the agent closer than ever; the first one did not."""
+        """Return True if this decision gave a new smallest distance; the first one does not."""
         return self._is_best

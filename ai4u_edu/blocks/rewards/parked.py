@@ -1,4 +1,4 @@
-"""Pays for a good parking."""
+"""A reward for parking."""
 
 import math
 from typing import Annotated
@@ -9,18 +9,18 @@ from ai4u_edu.blocks.rewards.body_in_area import check_area
 from ai4u_edu.blocks.rewards.reward_func import RewardFunc
 from ai4u_edu.world import BodyView, WorldView
 
-ROUND = 2 * math.pi
+FULL_TURN_RAD = 2 * math.pi
 
 
 class ParkedRewardFunc(RewardFunc):
-    """Pays ``reward``, once an episode, when the agent stands in an area as a parked car should.
+    """Pays ``reward``, once an episode, when the agent is parked in an area.
 
-    That is: no part of its outline sticks out of the area; its heading is within
-    ``heading_tolerance_deg`` of the area's; and it is no faster than ``max_speed`` when the
-    decision is over. With ``either_way`` it may as well look the other way, as a car that was
+    Parked means: its whole outline is inside the area; its heading is within
+    ``heading_tolerance_deg`` of the area's; and its speed is at most ``max_speed`` when the
+    decision is over. With ``either_way`` it may also face the opposite way, like a car that was
     backed in.
 
-    The area should be a convex one (no ring): then nothing sticks out if no corner does.
+    The area should be convex (not a ring): only the corners of the outline are checked.
 
     Source: ours.
     """
@@ -34,32 +34,32 @@ class ParkedRewardFunc(RewardFunc):
     max_speed: Annotated[float, quantity("m/s", ge=0, le=100)] = 0.1
     """Largest speed of a car that counts as parked."""
     either_way: bool = True
-    """True also takes a car that looks the opposite way."""
+    """True also accepts the opposite heading."""
 
     def on_setup(self, agent: AgentView, view: WorldView) -> None:
         """Look up the area."""
         check_area(self.area, view)
 
     def on_reset(self, agent: AgentView, view: WorldView) -> None:
-        """Forgets what was paid."""
+        """Allow the payment again."""
         self._paid = False
 
     def on_update(self, body: BodyView, view: WorldView) -> float:
-        """The reward, or 0."""
+        """Return the reward, or 0."""
         if self._paid or not self._parked(body, view):
             return 0.0
         self._paid = True
         return self.reward
 
     def holds(self, paid: float, body: BodyView, view: WorldView) -> bool:
-        """Tell whether the agent stands as it should, paid already or not."""
+        """Return True if the agent is parked, paid already or not."""
         return self._parked(body, view)
 
     def _parked(self, body: BodyView, view: WorldView) -> bool:
         if not body.on_ground or math.hypot(*body.velocity) > self.max_speed:
             return False
         area = view.areas[self.area]
-        turn = ROUND / 2 if self.either_way else ROUND
+        turn = FULL_TURN_RAD / 2 if self.either_way else FULL_TURN_RAD
         askew = body.heading - math.radians(area.description.heading_deg)
         if abs(math.remainder(askew, turn)) > math.radians(self.heading_tolerance_deg):
             return False

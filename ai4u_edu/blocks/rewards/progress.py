@@ -1,4 +1,4 @@
-"""Pays for every metre towards a target."""
+"""A reward for every metre towards a target."""
 
 from ai4u_edu.base.parameters import Number
 from ai4u_edu.blocks.agent_view import AgentView
@@ -9,9 +9,8 @@ from ai4u_edu.world import BodyView, WorldView
 class ProgressReward(RewardFunc):
     """Pays ``reward`` for each metre by which a decision brought the agent closer to the target.
 
-    A decision that took it away costs as much, so going to and fro earns nothing: all that an
-    episode pays adds up to the way from where the agent was after its first decision, which is
-    free, to where it ended.
+    Moving away costs as much, so going back and forth earns nothing: an episode's payments add up
+    to the distance after the first decision (which is free) minus the distance at the end.
 
     Source: ours; after Ng, Harada and Russell, "Policy invariance under reward transformations"
     (1999): the distance is a potential.
@@ -27,15 +26,15 @@ class ProgressReward(RewardFunc):
         _ = view[self.target]
 
     def on_reset(self, agent: AgentView, view: WorldView) -> None:
-        """Forgets how far it was."""
+        """Forget the distance."""
         self._distance: float | None = None
 
     def on_update(self, body: BodyView, view: WorldView) -> float:
-        """What the way of this decision is worth."""
+        """Return the reward for the change of distance."""
         before, self._distance = self._distance, body.distance(view[self.target])
         self._came_closer = before is not None and self._distance < before
         return 0.0 if before is None else self.reward * (before - self._distance)
 
     def holds(self, paid: float, body: BodyView, view: WorldView) -> bool:
-        """Tell whether this decision brought the agent closer; the first one did not."""
+        """Return True if this decision brought the agent closer; the first one does not."""
         return self._came_closer

@@ -1,4 +1,4 @@
-"""What a reward function may look at by name: a property of a body, or a reading."""
+"""Properties that a reward function reads by name: of a body, of the agent, or a reading."""
 
 import math
 import re
@@ -13,7 +13,7 @@ from ai4u_edu.world import BodyView, WorldView
 
 Look = Callable[[BodyView, WorldView], float]
 
-OF_A_BODY: dict[str, Callable[[BodyView], float]] = {
+BODY_PROPERTIES: dict[str, Callable[[BodyView], float]] = {
     "x": lambda body: body.position[0],
     "y": lambda body: body.position[1],
     "z": lambda body: body.z,
@@ -24,33 +24,33 @@ OF_A_BODY: dict[str, Callable[[BodyView], float]] = {
     "on_ground": lambda body: body.on_ground,
     "fallen": lambda body: body.fallen,
 }
-"""The properties of a body by name; in metres, seconds, radians unless the name says otherwise."""
+"""Properties of a body by name; in metres, seconds, radians unless the name says otherwise."""
 
-STEPS = "steps"
-"""The one property of an agent: the decisions that it took before this one."""
+STEPS_PROPERTY = "steps"
+"""The only property of an agent: the number of decisions before this one."""
 
 
 def find_property(name: str, target: str, agent: AgentView, view: WorldView) -> Look:
-    """How to look at a property.
+    """Return a function that reads a property.
 
     Args:
-        name: out of :data:`OF_A_BODY`; ``steps``; or the perception key of one of the agent's
-            sensors, ``key[2]`` for its third number.
-        target: whose property it is, a body's name; empty for the agent's own.
-        agent: whose reading it is.
-        view: where the target is.
+        name: a key of :data:`BODY_PROPERTIES`; ``steps``; or the perception key of one of the
+            agent's sensors, ``key[2]`` for its third number.
+        target: name of the body; empty for the agent's own.
+        agent: the agent.
+        view: the world.
 
     Raises:
         BlockError: there is no such property.
     """
     if target:
         _ = view[target]
-    if name in OF_A_BODY:
-        look = OF_A_BODY[name]
+    if name in BODY_PROPERTIES:
+        look = BODY_PROPERTIES[name]
         return lambda body, view: look(view[target] if target else body)
     if target:
-        raise BlockError(f"property: a body has no {name!r}; {suggest(name, OF_A_BODY)}")
-    if name == STEPS:
+        raise BlockError(f"property: a body has no {name!r}; {suggest(name, BODY_PROPERTIES)}")
+    if name == STEPS_PROPERTY:
         return lambda *_: agent.steps
     keys = [sensor.perception_key for sensor in agent.sensors if sensor.is_active]
     match = re.fullmatch(r"(.+)\[(\d+)\]", name)
@@ -58,7 +58,7 @@ def find_property(name: str, target: str, agent: AgentView, view: WorldView) -> 
     if key not in keys:
         raise BlockError(
             f"property: no body, agent or sensor has a {key!r}; "
-            f"{suggest(key, [*OF_A_BODY, STEPS, *keys])}"
+            f"{suggest(key, [*BODY_PROPERTIES, STEPS_PROPERTY, *keys])}"
         )
     return lambda *_: _number(agent.percept[key], key, index)
 

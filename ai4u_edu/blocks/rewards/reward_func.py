@@ -1,4 +1,4 @@
-"""What every reward function has: a name, and the amount that it pays for each decision."""
+"""The base of reward functions: a name, and an amount for each decision."""
 
 from typing import Any
 
@@ -8,7 +8,7 @@ from ai4u_edu.world import BodyView, WorldView
 
 
 class RewardFunc(Block):
-    """The base of all reward functions: fill :meth:`on_update`.
+    """The base of all reward functions: override :meth:`on_update`.
 
     >>> from ai4u_edu import BasicAgent, CircleShape, ControlRequestor, LocalBrain, World
     >>> class StayNear(RewardFunc):
@@ -31,7 +31,7 @@ class RewardFunc(Block):
     """
 
     name: str = ""
-    """The term's name in the breakdown of rewards; left out: from the class's name."""
+    """Name of the term in the breakdown of rewards; left out: derived from the class's name."""
     cause_episode_to_end: bool = False
     """True ends the episode when this pays something; And and Or end it when they hold."""
     is_active: bool = True
@@ -40,47 +40,47 @@ class RewardFunc(Block):
     def __init_subclass__(cls, **options: Any) -> None:
         super().__init_subclass__(**options)
         if levels_up(cls, "on_update") < levels_up(cls, "holds"):
-            cls.holds = RewardFunc.holds  # type: ignore[method-assign]  # the other was for another
+            cls.holds = RewardFunc.holds  # type: ignore[method-assign]  # the inherited one fits the inherited on_update
 
     def __post_init__(self) -> None:
         self.name = self.name or default_name(type(self), "RewardFunc", "Reward", "Func")
 
     def on_update(self, body: BodyView, view: WorldView) -> float:
-        """What the decision that just ended is worth.
+        """Return the reward of the decision that just ended.
 
         Args:
             body: the agent's body.
-            view: the world, to be asked.
+            view: a read-only view of the world.
         """
         raise BlockError(
             f"{type(self).__name__} has no on_update(self, body, view): it must return a number"
         )
 
     def holds(self, paid: float, body: BodyView, view: WorldView) -> bool:
-        """Tell whether the thing it watches for is the case: And and Or ask, after on_update.
+        """Return True if its condition is met; AndRewardFunc and OrRewardFunc use it.
 
-        It should not depend on the amounts: a touch is a touch, even if it pays nothing. A class
-        of your own that leaves this out holds where it pays something.
+        It is called after on_update, and should not depend on the amounts: a touch that pays
+        nothing still is a touch. A class that doesn't override this holds when it pays something.
 
         Args:
-            paid: what on_update returned just now; by default it holds where that is not 0.
+            paid: the last result of on_update; by default it holds if that is not 0.
             body: the agent's body.
-            view: the world, to be asked.
+            view: a read-only view of the world.
         """
         return paid != 0.0
 
     def ends(self, paid: float) -> bool:
-        """Tell whether the decision that just ended ends the episode, if this may end it at all.
+        """Return True to end the episode; used only with ``cause_episode_to_end``.
 
         Args:
-            paid: what on_update returned just now; by default it ends where that is not 0.
+            paid: the last result of on_update; by default the episode ends if that is not 0.
         """
         return paid != 0.0
 
     @property
     def has_ticks(self) -> bool:
-        """Whether on_tick is filled; where none is, all ticks of a decision may pass at one go."""
+        """True if on_tick is overridden; only then is it called."""
         return type(self).on_tick is not RewardFunc.on_tick
 
     def on_tick(self, body: BodyView, view: WorldView) -> None:
-        """Called after every tick of a decision; only where a subclass fills it."""
+        """React to a tick; called after every tick of a decision if a subclass overrides it."""

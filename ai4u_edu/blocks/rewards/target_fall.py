@@ -1,4 +1,4 @@
-"""Pays when somebody else falls."""
+"""A reward for the fall of another body."""
 
 from typing import Annotated
 
@@ -11,16 +11,16 @@ from ai4u_edu.world import BodyView, WorldView
 class TargetFallReward(FallReward):
     """Pays ``success_reward`` for each decision after which the target is below ``threshold``.
 
-    As FallReward, but it is another body that falls: an opponent that was pushed out of a ring, a
-    box that went over the edge. What has left the world is below anything.
+    Like FallReward, for another body: an opponent that was pushed out of a ring, a box that fell
+    over the edge. A body that left the world also counts.
 
-    At most ``max_rewards`` times an episode; ``fail_reward`` for every other decision.
+    It pays at most ``max_rewards`` times an episode, and ``fail_reward`` for every other decision.
 
     Source: ours.
     """
 
     target: str
-    """The body's name."""
+    """Name of the body."""
     success_reward: Annotated[float, quantity("")] = 1.0
     """Amount for a decision after which the target is below the threshold."""
 
@@ -29,6 +29,6 @@ class TargetFallReward(FallReward):
         _ = view[self.target]
 
     def is_below(self, body: BodyView, view: WorldView) -> bool:
-        """Whether the target is so low that it counts as fallen."""
+        """Return True if the target counts as fallen."""
         target = view[self.target]
         return target.fallen or target.z < self.threshold

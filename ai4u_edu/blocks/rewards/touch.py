@@ -1,4 +1,4 @@
-"""Pays for touching."""
+"""A reward for touching a target."""
 
 import math
 from typing import Annotated
@@ -12,39 +12,38 @@ from ai4u_edu.world import BodyView, WorldView
 class TouchRewardFunc(RewardFunc):
     """Pays ``reward`` when the agent touches the target: a body, or an area (with its centre).
 
-    With ``only_one_time`` once an episode; else again and again while or whenever they touch, but
-    not before ``cool_down`` seconds have passed. A touch counts even if it began and ended in the
-    middle of a decision.
+    With ``only_one_time`` it pays once an episode; else at every decision with contact, at most
+    once in ``cool_down`` seconds. A touch that began and ended within a decision counts too.
 
-    An episode ends by ``cause_episode_to_end`` only where something is paid. With ``reward=0``, the
-    default, nothing ever is: give a reward, if ever so small, to a touch that is to end it.
+    ``cause_episode_to_end`` ends an episode only when something is paid. With ``reward=0``, the
+    default, this never happens: a touch that should end the episode needs a reward, however small.
 
     Source: AI4U's TouchRewardFunc.
 
     Differs from AI4U: ``cool_down`` is 0; there it is _collisionCheckInterval, 5 s (in 2D 0.2 s).
-    In place of the signal OnTouch, a handler of ``end_of_step`` looks at ``agent.reward_terms``.
+    Instead of the signal OnTouch, a handler of ``end_of_step`` can read ``agent.reward_terms``.
     """
 
     target: str
     """Name of the body or area to touch."""
     reward: Annotated[float, quantity("")] = 0.0
-    """Amount that is paid; with 0 the episode never ends by it."""
+    """Amount that is paid; with 0 it never ends the episode."""
     only_one_time: bool = True
-    """True pays once an episode, False whenever they touch."""
+    """True pays once an episode, False at every decision with contact."""
     cool_down: Seconds = 0.0
-    """Time after a payment in which nothing is paid; 0 pays at every decision in touch."""
+    """Time after a payment in which nothing is paid; 0 pays at every decision with contact."""
 
     def on_setup(self, agent: AgentView, view: WorldView) -> None:
         """Look up the target."""
         view.check_target(self.target)
 
     def on_reset(self, agent: AgentView, view: WorldView) -> None:
-        """Forgets what was paid."""
+        """Forget past payments."""
         self._since = view.ticks
         self._paid_at = -math.inf
 
     def on_update(self, body: BodyView, view: WorldView) -> float:
-        """The reward, or 0."""
+        """Return the reward, or 0."""
         touched = view.touched_after(body, self.target, self._since)
         self._since = view.ticks
         self._touched = touched
@@ -57,5 +56,5 @@ class TouchRewardFunc(RewardFunc):
         return self.reward
 
     def holds(self, paid: float, body: BodyView, view: WorldView) -> bool:
-        """Tell whether the agent touched the target in this decision, paid or not."""
+        """Return True if the agent touched the target in this decision, paid or not."""
         return self._touched

@@ -4,7 +4,7 @@ import numpy as np
 from gymnasium.spaces import Box
 
 from ai4u_edu.blocks.agent_view import AgentView
-from ai4u_edu.blocks.rewards.homeostatic import keeper_of
+from ai4u_edu.blocks.rewards.homeostatic import find_homeostatic_reward
 from ai4u_edu.blocks.sensors.sensor import Array, Sensor
 from ai4u_edu.world import BodyView, WorldView
 
@@ -23,7 +23,7 @@ class HomeostaticSensor(Sensor):
 
     def on_setup(self, agent: AgentView, view: WorldView) -> None:
         """Look up the source."""
-        self._variables = keeper_of(agent, self.source).variables
+        self._variables = find_homeostatic_reward(agent, self.source).variables
 
     def space(self) -> Box:
         """Return the range 0..1 for each variable."""

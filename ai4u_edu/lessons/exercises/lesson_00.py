@@ -16,7 +16,7 @@ ACTION = {
 
 
 def _turned(drive: Drive, heading: float) -> float:
-    """Degrees since the beginning, counter-clockwise, of a turn of less than a half."""
+    """Return the turn since the beginning, degrees counter-clockwise, of less than half a turn."""
     return math.degrees(math.remainder(drive.agent.body.heading - heading, math.tau))
 
 
@@ -27,7 +27,7 @@ def _turned(drive: Drive, heading: float) -> float:
     | {"backward": "Your robot drove backward. What happens if you take the minus sign away?"},
 )
 def goes(drive_it: Any) -> Done:
-    """The robot drives forward, wherever it begins."""
+    """Check that the robot drives forward, wherever it begins."""
     for drive in drives(SCENE, drive_it, seeds_of("00.1", 5), limit=STEPS):
         (x, y), (u, v) = drive.trail[0], drive.trail[-1]
         if u - x < -0.1:
@@ -48,7 +48,7 @@ def goes(drive_it: Any) -> Done:
     },
 )
 def turns_left(drive_it: Any) -> Done:
-    """The robot turns left on the spot."""
+    """Check that the robot turns left on the spot."""
     headings: list[float] = []
 
     def watch(drive: Drive) -> None:
@@ -79,7 +79,7 @@ def turns_left(drive_it: Any) -> Done:
     },
 )
 def is_mended(drive_it: Any) -> Done:
-    """The function runs, and drives a curve to the right."""
+    """Check that the function runs, and drives a curve to the right."""
     headings: list[float] = []
 
     def watch(drive: Drive) -> None:

@@ -16,7 +16,7 @@ DECISIONS_A_SECOND = 12
 
 
 def _number(made: Any, *given: float) -> int:
-    """What a student's function says for some numbers."""
+    """Return a student's function's result for some numbers."""
     a_function(made)
     found = made(*given)
     shown = ", ".join(f"{each:g}" for each in given)
@@ -41,7 +41,7 @@ def _robot(move: float, turn: float, brain: LocalBrain) -> BasicAgent:
 
 
 def _repeated(count: int, action: list[float], *, move: float, turn: float, size: float) -> Drive:
-    """A drive of so many times the same action, from the middle of a plate."""
+    """Repeat one action a number of times, from the middle of a plate."""
     edge = size / 2 - 1
     away = Variation(x=(-edge, edge), y=(edge - 1, edge))
     agent = _robot(move, turn, LocalBrain(controller=lambda _: {"move": action}))
@@ -60,7 +60,7 @@ def _repeated(count: int, action: list[float], *, move: float, turn: float, size
     },
 )
 def drives_so_far(made: Any) -> Done:
-    """``decisions_for(distance, speed)``."""
+    """Check ``decisions_for(distance, speed)``."""
     slow, fast = _number(made, 6, 2), _number(made, 6, 4)
     if slow == 0:
         raise NotYet("For 6 m at 2 m/s your function says 0 decisions.", hint="time")
@@ -92,7 +92,7 @@ def drives_so_far(made: Any) -> Done:
     },
 )
 def turns_a_quarter(made: Any) -> Done:
-    """``decisions_for_quarter(degrees_per_second)``."""
+    """Check ``decisions_for_quarter(degrees_per_second)``."""
     for index, speed in enumerate((120.0, 60.0, 90.0, 180.0, 45.0)):
         count = _number(made, speed)
         done = _repeated(count, [0, -1, 0, 0], move=1, turn=math.radians(speed), size=8)
@@ -119,7 +119,7 @@ def turns_a_quarter(made: Any) -> Done:
     },
 )
 def stops_in_time(drive_it: Any) -> Done:
-    """Drives up to 2 m from the box, and stands there."""
+    """Check that it drives up to 2 m from the box, and stops there."""
     somewhere = Variation(x=(3, 7), y=(0, 0.01))
     agent = _robot(3, 2, LocalBrain(controller=lambda _: {}))
     sim = ControlRequestor(plate(None, somewhere, size=16), [agent])

@@ -13,10 +13,10 @@ from ai4u_edu.lessons.worlds import forward, plate, put_in
 from ai4u_edu.world import Variation
 
 ASIDE = Variation(x=(-4, 4), y=(3, 4))
-"""Where a box is out of the way."""
+"""Places of a box that is out of the way."""
 BEHIND = Variation(places=((-3.0, 0.0),))
 STATUS = ("done", "id")
-"""What every agent senses."""
+"""Perception keys that every agent has."""
 
 
 @exercise(
@@ -32,7 +32,7 @@ STATUS = ("done", "id")
     },
 )
 def has_legs(agent: Any) -> Done:
-    """Drives at 2 m/s, and turns at 3 rad/s."""
+    """Check that it drives at 2 m/s, and turns at 3 rad/s."""
     if not put_in(agent, plate(None, ASIDE), forward()).agents[0].actuators:
         raise NotYet("Your agent has no actuator yet: it can't do anything.", hint="actuator")
     straight = _driven(agent, 1, 0, decisions=12)
@@ -69,7 +69,7 @@ def _driven(agent: Any, move: float, turn: float, decisions: int) -> Drive:
     },
 )
 def has_senses(agent: Any) -> Done:
-    """One reading is the bearing of the box, another one says whether it is touched."""
+    """Check that one reading is the box's bearing, and another one tells of its touch."""
     sim = put_in(agent, plate(), forward(0))
     if not sim.agents[0].sensors:
         raise NotYet("Your agent has no sensor yet: it knows nothing of the world.", hint="sensors")
@@ -88,7 +88,7 @@ def has_senses(agent: Any) -> Done:
 
 
 def _sees(done: Drive) -> bool:
-    """Whether a reading is the true bearing of the box."""
+    """Return True if a reading is the true bearing of the box."""
     angle = done.agent.body.bearing(done.sim.world["box"])
     true = np.array([np.sin(angle), np.cos(angle)])
     return any(
@@ -99,7 +99,7 @@ def _sees(done: Drive) -> bool:
 
 
 def _single(done: Drive) -> dict[str, float]:
-    """The readings of one number."""
+    """Return the readings of one number."""
     return {
         key: float(np.ravel(reading)[0])
         for key, reading in done.agent.percept.items()
@@ -120,7 +120,7 @@ def _single(done: Drive) -> dict[str, float]:
     },
 )
 def is_paid(agent: Any) -> Done:
-    """+10 for a touch, which ends the episode; -1 for a fall."""
+    """Check for +10 for a touch, which ends the episode, and -1 for a fall."""
     sim = put_in(agent, plate(None, None), forward())
     if not sim.agents[0].rewards:
         raise NotYet("Your agent has no reward function yet.", hint="rewards")
@@ -157,7 +157,7 @@ def _paid(done: Drive) -> float:
     },
 )
 def reaches_the_box(agent: Any) -> Done:
-    """Touches the box in 20 worlds."""
+    """Check that it touches the box in 20 worlds."""
     arrived = TouchRewardFunc(name="arrived", target="box", reward=1, cause_episode_to_end=True)
     put_in(agent, plate())
     seeds = seeds_of("02.4")
@@ -176,14 +176,14 @@ def reaches_the_box(agent: Any) -> Done:
 
 
 def _turn(done: Drive) -> tuple[float, float]:
-    """The sine of the box's bearing now, and how the robot turned last."""
+    """Return the sine of the box's bearing, and the robot's last turn."""
     body = done.agent.body
     last = next(iter(done.agent.last_action.values()), (0.0, 0.0))
     return float(np.sin(body.bearing(done.sim.world["box"]))), last[1] if len(last) > 1 else 0.0
 
 
 def _why(turns: list[tuple[float, float]]) -> str:
-    """The name of the hint that fits how a robot turned."""
+    """Return the name of the hint that fits how a robot turned."""
     pairs = [(sine, turn) for (sine, _), (_, turn) in pairwise(turns)]
     if len({turn for _, turn in pairs}) < 2:
         return "look"

@@ -26,13 +26,13 @@ from ai4u_edu.snapshot import capture_snapshot
 from ai4u_edu.world import BoxShape, CircleShape, World
 
 STATUS = ("done", "id")
-"""What every agent senses."""
+"""Perception keys that every agent has."""
 
 
 def _look(
     sensors: Sequence[Sensor], box: tuple[float, float], *, wall: bool = False
 ) -> ControlRequestor:
-    """A robot in the middle that looks to the right, and a box somewhere."""
+    """Return the percept of a robot in the middle that looks right, with a box somewhere."""
     world = World()
     world.add_floor("plate", BoxShape(size=(24, 24)))
     world.add_body("robot", CircleShape(radius=0.5), tags=("agent",))
@@ -71,7 +71,7 @@ def _same(one: Percept, other: Percept) -> bool:
     },
 )
 def finds_the_twin(twin: Any) -> Done:
-    """The other place of which the orientation is the same."""
+    """Check for the other place that has the same orientation."""
     a_function(twin)
     for x, y in ((3.0, 1.0), (2.0, -4.0), (-3.0, 2.5), (0.5, 3.0), (-4.0, -1.5)):
         given = twin(x, y)
@@ -114,7 +114,7 @@ def finds_the_twin(twin: Any) -> Done:
     },
 )
 def finds_by_turning(search: Any) -> Done:
-    """Gets to the box with one cosine."""
+    """Check that it gets to the box with one cosine."""
     arrived = TouchRewardFunc(name="arrived", target="box", reward=1, cause_episode_to_end=True)
     agent = BasicAgent(
         body="robot",
@@ -159,7 +159,7 @@ def finds_by_turning(search: Any) -> Done:
     },
 )
 def computes_the_angle(angle_to_box: Any) -> Done:
-    """Degrees, from a sine and a cosine."""
+    """Check the degrees computed from a sine and a cosine."""
     a_function(angle_to_box)
     found: list[tuple[float, float]] = []
     for angle in (20, 75, -35, -80, 110, 160, -100, -170):
@@ -181,7 +181,7 @@ def computes_the_angle(angle_to_box: Any) -> Done:
 
 
 def _why(found: list[tuple[float, float]]) -> str:
-    """The hint that fits how angles are wrong."""
+    """Return the hint that fits how angles are wrong."""
 
     def fits(wrong: Any) -> bool:
         return all(is_close(given, wrong(true), 0.5) for true, given in found)
@@ -206,7 +206,7 @@ def _why(found: list[tuple[float, float]]) -> str:
     },
 )
 def tells_apart(sensors: Any) -> Done:
-    """Three pairs of worlds, three different percepts."""
+    """Check that three pairs of worlds have different percepts."""
     if not isinstance(sensors, Sequence) or not all(isinstance(each, Sensor) for each in sensors):
         raise NotYet(f"Expected a list of sensors, got `{sensors!r}`.")
     for angle in (20.0, 35.0, 50.0):

@@ -14,11 +14,11 @@ from ai4u_edu.lessons.rollouts import Drive, as_brain, drive, seeds_of
 from ai4u_edu.world import BoxShape, CircleShape, World
 
 TOUCH = 1.0
-"""Metres from middle to middle at which vehicle and lamp touch, and a little more."""
+"""Distance of the centres at which vehicle and lamp touch, and a little more; metres."""
 
 
 def _vehicle(wires: Any, seed: int) -> ControlRequestor:
-    """A vehicle 4 to 6 m from a lamp, which it has somewhere before or beside it."""
+    """Make a vehicle 4 to 6 m from a lamp, which is in front of it or beside it."""
     chance = np.random.default_rng(seed)
     around, away = chance.uniform(-math.pi, math.pi), chance.uniform(4, 6)
     aside = math.radians(chance.uniform(20, 95)) * chance.choice([-1.0, 1.0])
@@ -46,7 +46,7 @@ def _vehicle(wires: Any, seed: int) -> ControlRequestor:
 
 
 def _drives(wires: Any, exercise_id: str, limit: int) -> Iterator[tuple[Drive, list[float]]]:
-    """Drives with the distances to the lamp on the way; metres, middle to middle."""
+    """Run episodes, with the distances of the centres to the lamp on the way; metres."""
     for seed in seeds_of(exercise_id, 12):
         sim = _vehicle(wires, seed)
         done = drive(sim, sim.agents[0], seed, limit)
@@ -54,7 +54,7 @@ def _drives(wires: Any, exercise_id: str, limit: int) -> Iterator[tuple[Drive, l
 
 
 def _aside(done: Drive) -> float:
-    """How far the lamp is from where the vehicle looks; degrees."""
+    """Return the angle between the vehicle's heading and the lamp; degrees."""
     return abs(math.degrees(done.agent.body.bearing(done.sim.world["lamp"])))
 
 
@@ -71,7 +71,7 @@ def _aside(done: Drive) -> float:
     },
 )
 def attacks(wires: Any) -> Done:
-    """Hits the lamp."""
+    """Check that it hits the lamp."""
     for done, away in _drives(wires, "04.1", 150):
         if done.moved < 0.2:
             raise done.not_yet("The vehicle stands still ({where}).", "begin")
@@ -86,12 +86,12 @@ def attacks(wires: Any) -> Done:
 
 
 def _turned(done: Drive) -> bool:
-    """Whether it ever turned."""
+    """Return True if it ever turned."""
     return bool(abs(done.agent.body.heading - _vehicle_heading(done)) > 0.05)
 
 
 def _vehicle_heading(done: Drive) -> float:
-    """Where it looked at the beginning; radians."""
+    """Return its heading at the beginning; radians."""
     return float(_vehicle(lambda _: {}, done.seed).world["vehicle"].heading)
 
 
@@ -107,7 +107,7 @@ def _vehicle_heading(done: Drive) -> float:
     },
 )
 def is_afraid(wires: Any) -> Done:
-    """Turns away, and comes to rest."""
+    """Check that it turns away, and comes to rest."""
     for done, away in _drives(wires, "04.2", 300):
         if len(done.trail) > 1 and max(math.dist(done.trail[0], each) for each in done.trail) < 0.2:
             raise done.not_yet("The vehicle stands still ({where}).", "begin")
@@ -140,7 +140,7 @@ def is_afraid(wires: Any) -> Done:
     },
 )
 def loves(wires: Any) -> Done:
-    """Comes, and stays 1 to 3 m before the lamp."""
+    """Check that it comes, and stays 1 to 3 m in front of the lamp."""
     for done, away in _drives(wires, "04.3", 240):
         if len(done.trail) > 1 and max(math.dist(done.trail[0], each) for each in done.trail) < 0.2:
             idle = not any(done.agent.last_action["wheels"])

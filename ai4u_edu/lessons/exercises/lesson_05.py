@@ -39,7 +39,7 @@ def _robot(brain: Brain, sensors: list[Sensor], *rewards: RewardFunc) -> BasicAg
 
 
 def _length(done: Drive) -> float:
-    """Of the way, metres."""
+    """Return the length of the trail, metres."""
     return sum(math.dist(here, there) for here, there in pairwise(done.trail))
 
 
@@ -59,7 +59,7 @@ def _length(done: Drive) -> float:
     },
 )
 def stays_on_the_plate(stroll: Any) -> Done:
-    """30 seconds and 15 metres without a fall."""
+    """Check for 30 seconds and 15 metres without a fall."""
     brain = as_brain(stroll)
     feelers = RayCastingSensor(
         perception_key="feelers",
@@ -110,7 +110,7 @@ def stays_on_the_plate(stroll: Any) -> Done:
     },
 )
 def patrols(patrol: Any) -> Done:
-    """Touches the posts in turn."""
+    """Check that it touches the posts in turn."""
     for seed in seeds_of("05.2", 8):
         world = World()
         world.add_floor("plate", BoxShape(size=(10, 10)))
@@ -157,7 +157,7 @@ def patrols(patrol: Any) -> Done:
     },
 )
 def gets_around(machine: Any) -> Done:
-    """Gets to the box behind the wall."""
+    """Check that it gets to the box behind the wall."""
     for seed in seeds_of("05.3", 10):
         world = World()
         world.add_floor("plate", BoxShape(size=(20, 20)))

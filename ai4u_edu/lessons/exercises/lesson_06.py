@@ -11,7 +11,7 @@ from ai4u_edu.lessons.rollouts import drive
 from ai4u_edu.world import BoxShape, CircleShape, World
 
 LAZY = 16
-"""With more than 18 the robot can fall; who is near that has understood."""
+"""Value of ``skip_frame`` that passes; with more than 18 the robot can fall."""
 
 
 def _runway(controller: Any, skip_frame: int, *, speed: float = 3, start: float = -9.0) -> Any:
@@ -53,7 +53,7 @@ def _go(_: Percept) -> dict[str, list[float]]:
     },
 )
 def computes_the_blind_way(blind_way: Any) -> Done:
-    """Metres from one decision to the next."""
+    """Check the metres from one decision to the next."""
     a_function(blind_way)
     for speed, skip_frame in ((2.0, 4), (3.0, 0), (1.0, 9), (4.0, 29), (2.5, 14)):
         sim = _runway(_go, skip_frame, speed=speed)
@@ -88,7 +88,7 @@ def _careful(percept: Percept) -> dict[str, list[float]]:
     },
 )
 def is_lazy(skip_frame: Any) -> Done:
-    """Never falls, and decides seldom."""
+    """Check that it never falls, and decides seldom."""
     if isinstance(skip_frame, bool) or not isinstance(skip_frame, int):
         raise NotYet(f"Expected a whole number, got `{skip_frame!r}`.")
     if not 0 <= skip_frame <= 600:
@@ -125,7 +125,7 @@ def is_lazy(skip_frame: Any) -> Done:
     },
 )
 def keeps_a_diary(diary: Any) -> Done:
-    """Begin, decisions, end."""
+    """Check for entries of the begin, the decisions and the end."""
     a_function(diary)
     for limit in (7, 3, 11):
         sim = _runway(_go, 4)

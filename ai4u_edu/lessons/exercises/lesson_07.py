@@ -37,7 +37,7 @@ def _linger(percept: Percept) -> Action:
 
 
 def _dancer() -> Callable[[Percept], Action]:
-    """To and fro before the box."""
+    """Drive to and fro in front of the box."""
     comes = True
 
     def dance(percept: Percept) -> Action:
@@ -57,15 +57,15 @@ TEMPERS: dict[str, Callable[[], Any]] = {
     "sleeper": lambda: lambda _: {"move": [0, 0, 0, 0]},
     "jumper": lambda: lambda _: {"move": [1, 0, 0, 0]},
 }
-"""What makes each temper's controller."""
+"""Factories of each temper's controller."""
 
 
 def tempers(name: str, rewards: Sequence[RewardFunc] = ()) -> ControlRequestor:
-    """A world in which a robot of that temper lives.
+    """Return a world in which a robot of that temper lives.
 
     Args:
         name: one of ``TEMPERS``.
-        rewards: what it is paid for.
+        rewards: its reward functions.
     """
     if name not in TEMPERS:
         raise NotYet(f"Expected one of {', '.join(TEMPERS)}; got `{name!r}`.")
@@ -80,11 +80,11 @@ def tempers(name: str, rewards: Sequence[RewardFunc] = ()) -> ControlRequestor:
 
 
 def contest(rewards: Sequence[RewardFunc], seeds: Sequence[int] = SEEDS) -> dict[str, float]:
-    """The mean return of each temper, over the same worlds.
+    """Return the mean return of each temper, over the same worlds.
 
     Args:
-        rewards: what all of them are paid for.
-        seeds: of the worlds.
+        rewards: the reward functions of all of them.
+        seeds: seeds of the worlds.
     """
     if not all(isinstance(each, RewardFunc) for each in rewards):
         raise NotYet(f"Expected a list of reward functions, got `{rewards!r}`.")
@@ -121,7 +121,7 @@ def _shown(found: Mapping[str, float]) -> str:
     },
 )
 def predicts(winners: Any, well_meant: Any) -> Done:
-    """The winner with each of three rewards."""
+    """Check the predicted winner with each of three rewards."""
     if not isinstance(winners, Mapping):
         raise NotYet(f"Expected a name for each reward, got `{winners!r}`.")
     if not isinstance(well_meant, Mapping) or not well_meant:
@@ -156,7 +156,7 @@ def _made(make: Any) -> list[RewardFunc]:
     },
 )
 def has_a_trail(make: Any) -> Done:
-    """The runner wins, and is paid on the way."""
+    """Check that the runner wins, and is rewarded on the way."""
     seeds = seeds_of("07.2", 5)
     found = contest(_made(make), seeds)
     others = max(paid for name, paid in found.items() if name not in ("runner", "stroller"))
@@ -188,7 +188,7 @@ def has_a_trail(make: Any) -> Done:
     },
 )
 def is_quick(make: Any) -> Done:
-    """Runner before stroller, jumper last."""
+    """Check that the runner beats the stroller, and the jumper is last."""
     found = contest(_made(make), seeds_of("07.3", 5))
     if found["runner"] <= found["stroller"] + 0.1:
         raise NotYet(f"Time costs nothing yet: {_shown(found)}.", hint="time")

@@ -30,23 +30,23 @@ if TYPE_CHECKING:
     from ai4u_edu.remote import Robot
 
 LIMIT = 300
-PATIENCE = 20_000
-"""Milliseconds for which the world waits for an action."""
-LAG = 3
-"""Decisions, of 1/12 s each."""
+RECEIVE_TIMEOUT_MS = 20_000
+"""Time for which the world waits for an action, milliseconds."""
+LAG_DECISIONS = 3
+"""Lag of the percepts, in decisions of 1/12 s each."""
 SCENES = ("box_chase", "line_follow", "parking")
 
 
 @contextmanager
 def served(sim: ControlRequestor) -> "Iterator[Robot]":
-    """A robot of a world that is served on this machine, in lockstep and as fast as it goes."""
+    """Yield a robot of a world served on this machine, in lockstep at full speed."""
     from ai4u_edu.remote import connect
     from ai4u_edu.runtime.runner import Runner
     from ai4u_edu.server import Rules, ServerThread, room_app
 
     runner = Runner(sim, time_scale=math.inf)
     # a machine that is busy with thirty students' checks may keep a script waiting
-    rules = Rules(receive_timeout=PATIENCE)
+    rules = Rules(receive_timeout=RECEIVE_TIMEOUT_MS)
     app = room_app(runner, viser_port=1, title="exercise", rules=rules)
     runner.start()
     try:
@@ -56,12 +56,12 @@ def served(sim: ControlRequestor) -> "Iterator[Robot]":
         runner.stop()
 
 
-def late(controller: Callable[[Any], Any], lag: int = LAG) -> ControlRequestor:
-    """A robot on a plate with a box, whose driver gets percepts that are some decisions old.
+def late(controller: Callable[[Any], Any], lag: int = LAG_DECISIONS) -> ControlRequestor:
+    """Return a robot on a plate with a box, whose driver gets old percepts.
 
     Args:
         controller: the driver.
-        lag: so many decisions.
+        lag: age of the percepts, in decisions.
     """
     seen: deque[Percept] = deque(maxlen=lag + 1)
 
@@ -85,7 +85,7 @@ def late(controller: Callable[[Any], Any], lag: int = LAG) -> ControlRequestor:
 
 
 def _short(name: str) -> ControlRequestor:
-    """A scene whose episodes end soon, whatever a script does."""
+    """Return a scene whose episodes end soon, whatever a script does."""
     plain = Scene.load(name).plain()
     plain["agents"][0]["max_steps_per_episode"] = LIMIT
     return Scene.loads(dumps(plain), name=name).build()  # JSON is YAML as well
@@ -102,7 +102,7 @@ def _short(name: str) -> ControlRequestor:
     },
 )
 def drives_from_afar(script: Any) -> Done:
-    """A script in three worlds that are served."""
+    """Check a script in three served worlds."""
     drive = a_function(script)
     sim = _short("box_chase")
     agent = sim.agents[0]
@@ -137,14 +137,14 @@ def drives_from_afar(script: Any) -> Done:
     },
 )
 def copes_with_lag(careful: Any) -> Done:
-    """Twenty worlds with percepts that are a quarter of a second old."""
+    """Check twenty worlds with percepts that are a quarter of a second old."""
     worlds = 20
     drive_late = a_function(careful)
     for done in drives(lambda: late(drive_late), None, seeds_of("08.2", worlds), limit=LIMIT):
         if not done.won:
             how = "fell" if done.fell else "did not get there in time"
             raise done.not_yet(
-                f"With percepts {LAG} decisions old the robot {how} ({{where}}).",
+                f"With percepts {LAG_DECISIONS} decisions old the robot {how} ({{where}}).",
                 "fast",
             )
     return Done(
@@ -163,7 +163,7 @@ def copes_with_lag(careful: Any) -> Done:
     },
 )
 def asks_the_robot(full_power: Any) -> str:
-    """Robots of three scenes."""
+    """Check the function with robots of three scenes."""
     ask = a_function(full_power)
     for name in SCENES:
         sim = _short(name)

@@ -20,31 +20,31 @@ if TYPE_CHECKING:
     Update = Callable[[float, float, float, float, float], float]
 
 CELLS, START, SLIP = 8, 2, 0.1
-"""Of the corridor; its first cell is a pit, its last one the goal."""
+"""Corridor: number of cells, first cell, probability of a slip; from a pit to the goal."""
 RATE, DISCOUNT, TRIES = 0.5, 0.9, 0.3
 SHORT, ENOUGH = 100, 2000
-"""With AI4U_FAST: decisions to learn from, and the number asked for from which that is forgiven."""
+"""With AI4U_FAST: decisions to learn from, and the requested number that counts as enough."""
 EPISODES, NEEDED, LIMIT = 100, 95, 200
 
 
 @dataclass(frozen=True)
 class Shortened:
-    """What :func:`learn` gives in tests: a finished network, as there is no time to train one."""
+    """Result of :func:`learn` in tests: a finished network, as there is no time to train one."""
 
     checks: "list[Check]"
     path: Path
 
 
 def learn(steps: int, seed: int = 0, *, quiet: bool = False) -> "Trained | Shortened":
-    """Trains SAC in the box chase, in the folder ``runs/sac-STEPS-SEED``.
+    """Train SAC in the box chase, in the folder ``runs/sac-STEPS-SEED``.
 
-    With ``AI4U_FAST=1`` it trains for an instant; who asked for enough steps gets the package's
-    network then.
+    With ``AI4U_FAST=1`` it trains for an instant, and returns the package's network if enough steps
+    were requested.
 
     Args:
         steps: decisions to learn from, at the most.
-        seed: of the network, the worlds and all chance.
-        quiet: whether to show nothing.
+        seed: seed of the network, the worlds and all random choices.
+        quiet: True shows nothing.
     """
     from ai4u_edu.blocks.brains.network import find_network
     from ai4u_edu.training import train
@@ -67,11 +67,11 @@ def learn(steps: int, seed: int = 0, *, quiet: bool = False) -> "Trained | Short
 
 
 def keep(trained: "Trained | Shortened", path: str | Path = "sac.onnx") -> Path:
-    """Writes the network that came out of a training into a file.
+    """Write a training's network into a file.
 
     Args:
-        trained: what :func:`learn` gave.
-        path: of the file.
+        trained: the result of :func:`learn`.
+        path: the file's path.
     """
     from ai4u_edu.training import export
 
@@ -81,17 +81,17 @@ def keep(trained: "Trained | Shortened", path: str | Path = "sac.onnx") -> Path:
 
 
 def corridor(update: "Update", episodes: int = 40, seed: int = 0) -> list[list[float]]:
-    """Lets a walker learn a corridor: a pit (-1) at its left end, the goal (+1) at its right end.
+    """Let a walker learn a corridor: a pit (-1) at its left end, the goal (+1) at its right end.
 
     One step in ten slips into the other direction.
 
     Args:
         update: the new value of a step, from (value, reward, best_next, rate, discount).
-        episodes: walks.
-        seed: of its chance.
+        episodes: number of walks.
+        seed: seed of its random choices.
 
     Returns:
-        What the better step in each cell is worth, after each walk.
+        The value of the better step in each cell, after each walk.
     """
     chance = np.random.default_rng(seed)
     values = np.zeros((CELLS, 2))
@@ -122,7 +122,7 @@ def corridor(update: "Update", episodes: int = 40, seed: int = 0) -> list[list[f
     },
 )
 def discounts(worth: Any) -> str:
-    """The discounted return of rewards."""
+    """Check the discounted return of rewards."""
     chance = np.random.default_rng(seeds_of("09.1", 1)[0])
     for length in (3, 1, 0, 6, 20):
         rewards = [float(each) for each in chance.integers(-5, 10, length)]
@@ -153,7 +153,7 @@ def discounts(worth: Any) -> str:
     },
 )
 def learns_a_step(update: Any) -> str:
-    """The update of a value, and a walker who learns by it."""
+    """Check the update of a value, and a walker that learns by it."""
     chance = np.random.default_rng(seeds_of("09.2", 1)[0])
     for _ in range(20):
         value, reward, best, rate, discount = (float(each) for each in chance.uniform(0.1, 0.9, 5))
@@ -189,7 +189,7 @@ def learns_a_step(update: Any) -> str:
     },
 )
 def has_learned(trained: Any) -> Done:
-    """95 of 100 worlds that it never saw."""
+    """Check for success in 95 of 100 unseen worlds."""
     from ai4u_edu.scenes import Scene
 
     if not isinstance(trained, Shortened):

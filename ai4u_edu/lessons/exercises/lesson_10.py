@@ -1,4 +1,4 @@
-"""Learn from yourself: a network that does what you showed it, and a race."""
+"""Learn from yourself: a network that imitates you, and a race."""
 
 from collections.abc import Callable, Mapping
 from functools import cache
@@ -18,12 +18,12 @@ if TYPE_CHECKING:
 
 ENOUGH = 5
 WORLDS, NEEDED, LIMIT = 40, 24, 300
-RACE = 300
+MAX_RACE_STEPS = 300
 """Steps after which a race is over."""
 
 
 def player(percept: Percept) -> dict[str, list[float]]:
-    """Drives when nobody else did: turns until it looks at the box, then goes."""
+    """Drive as the scripted player: turn until the box is ahead, then go."""
     cosine = percept["orientation"][0]
     return {"move": [1.0, 0, 0, 0] if cosine > 0.99 else [0, 0.2, 0, 0]}
 
@@ -47,13 +47,13 @@ def _shown(count: int) -> "tuple[Episode, ...]":
 
 
 def my_drives(folder: str | Path = "drives", count: int = ENOUGH) -> "list[Episode]":
-    """The last episodes of the box chase that you recorded; ends the world that is shown.
+    """Return the last episodes of the box chase that you recorded; end the world that is shown.
 
     If there are fewer than asked for, a scripted player drives the others, and it says so.
 
     Args:
-        folder: where ``show(..., record=folder)`` put them.
-        count: so many.
+        folder: the folder of ``show(..., record=folder)``.
+        count: number of episodes.
     """
     from ai4u_edu.lessons import stop
     from ai4u_edu.recording import Episode
@@ -71,12 +71,12 @@ def my_drives(folder: str | Path = "drives", count: int = ENOUGH) -> "list[Episo
 
 
 def best_network() -> str:
-    """The network of lesson 09, if you kept it; else the package's."""
+    """Return the network of lesson 09, if you kept it; else the package's."""
     return "sac.onnx" if Path("sac.onnx").is_file() else "zoo:box_chase"
 
 
 def track(blue: Any, purple: Any) -> ControlRequestor:
-    """The box chase for two: equally far from the box, one on each side of it.
+    """Return the box chase for two, equally far from the box, one on each side of it.
 
     Args:
         blue: drives the blue robot: a network's file, a function, a controller.
@@ -125,7 +125,7 @@ def _driver(who: Any, agent: BasicAgent) -> Brain:
     },
 )
 def chooses(good: Any) -> str:
-    """Those that reached the box, and no others."""
+    """Check that exactly the episodes that reached the box are chosen."""
     from ai4u_edu.training import demonstrate
 
     a_function(good)
@@ -176,7 +176,7 @@ def _straight_on(_percept: Percept) -> dict[str, list[float]]:
     },
 )
 def is_shown(cloned: Any) -> Done:
-    """60 of 100 worlds, by what it was shown."""
+    """Check for success in 60 of 100 worlds, from demonstrations."""
     path = getattr(cloned, "path", None)
     if not isinstance(path, Path) or not hasattr(cloned, "decisions"):
         raise NotYet(f"Expected what `clone(...)` returned, got `{cloned!r}`.")
@@ -221,7 +221,7 @@ def is_shown(cloned: Any) -> Done:
     },
 )
 def referees(race: Any) -> Done:
-    """Who won, in races of known drivers."""
+    """Check the referee in races of known drivers."""
     a_function(race)
     drivers: dict[str, Callable[..., Any]] = {
         "a good one": player,
@@ -255,15 +255,16 @@ def referees(race: Any) -> Done:
 
 
 def _patient(driver: Callable[..., Any], seed: int) -> Callable[[Percept], Any]:
-    """A driver who ends a race that a referee does not end."""
-    left = 5 * RACE
+    """Return a driver that ends a race that the referee does not end."""
+    left = 5 * MAX_RACE_STEPS
 
     def drive(percept: Percept) -> Any:
         nonlocal left
         left -= 1
         if left < 0:
             raise NotYet(
-                f"The race with seed {seed} was not over after {5 * RACE} decisions.", hint="time"
+                f"The race with seed {seed} was not over after {5 * MAX_RACE_STEPS} decisions.",
+                hint="time",
             )
         return driver(percept)
 
@@ -271,7 +272,7 @@ def _patient(driver: Callable[..., Any], seed: int) -> Callable[[Percept], Any]:
 
 
 def touched(agent: BasicAgent) -> bool:
-    """Whether a robot's last decision ended at the box."""
+    """Return True if a robot's last decision ended at the box."""
     return agent.reward_terms.get("touch", 0.0) > 0
 
 
@@ -279,7 +280,7 @@ def _result(sim: ControlRequestor, seed: int) -> tuple[str | None, Drive]:
     sim.reset(seed)
     first, second = sim.agents
     drive = Drive(sim, first, seed, [first.body.position])
-    while not (first.done or second.done) and drive.steps < RACE:
+    while not (first.done or second.done) and drive.steps < MAX_RACE_STEPS:
         sim.step()
         drive.trail.append(first.body.position)
     for agent, other in ((first, second), (second, first)):

@@ -1,4 +1,4 @@
-"""The network inside: what goes in, what comes out, and nothing but numbers in between."""
+"""The network inside: inputs, outputs, and nothing but numbers in between."""
 
 from collections.abc import Mapping, Sequence
 from itertools import pairwise
@@ -36,10 +36,10 @@ CLOSE = 1e-4
 
 
 def layers_of(path: str = ZOO) -> list[Layer]:
-    """The weights (outputs, inputs) and the biases (outputs,) of each layer of a network.
+    """Return the weights (outputs, inputs) and biases (outputs,) of each layer of a network.
 
     Args:
-        path: of a network such as PPO's: layers one after the other.
+        path: the file of a network such as PPO's: layers one after the other.
     """
     need("train", "onnx")
     import onnx
@@ -55,24 +55,24 @@ def layers_of(path: str = ZOO) -> list[Layer]:
 
 
 def inputs_of(percept: Mapping[str, Any], path: str = ZOO) -> Array:
-    """All that a network reads of a percept as one row of numbers, in its order."""
+    """Return a network's inputs from a percept as one row of numbers, in its order."""
     ports = NeuralNetController(model_path=path).network.inputs
     return np.concatenate([np.ravel(percept[port.name]) for port in ports]).astype(float)
 
 
 def first_percept(seed: int = 1) -> Percept:
-    """What the robot of the box chase senses first."""
+    """Return the first percept of the box chase's robot."""
     sim = Scene.load("box_chase").build()
     sim.reset(seed)
     return sim.agents[0].percept
 
 
 def decide(percept: Mapping[str, Any], **changes: Any) -> list[float]:
-    """What the network of the box chase does about a percept: forward, turn, jump, forward jump.
+    """Return the box chase network's action for a percept: forward, turn, jump, forward jump.
 
     Args:
-        percept: as the robot senses it.
-        changes: readings that are different, such as ``orientation=[-1, 0.2]``.
+        percept: the robot's percept.
+        changes: readings to replace, such as ``orientation=[-1, 0.2]``.
     """
     network = NeuralNetController(model_path=ZOO).network
     (action,) = network.decide({**percept, **changes}).values()
@@ -80,7 +80,7 @@ def decide(percept: Mapping[str, Any], **changes: Any) -> list[float]:
 
 
 def by_hand(weights: Any, bias: Any) -> ControlRequestor:
-    """A robot on a plate that is driven by two neurons: forward and turn.
+    """Return a robot on a plate that is driven by two neurons: forward and turn.
 
     Args:
         weights: two rows (forward, turn) of two numbers (sine, cosine of the direction to the box).
@@ -106,7 +106,7 @@ def by_hand(weights: Any, bias: Any) -> ControlRequestor:
 
 
 def put_to(sensors: Sequence[Sensor]) -> ControlRequestor:
-    """A robot on a plate with these sensors, driven by the network of the box chase."""
+    """Return a robot on a plate with these sensors, driven by the box chase's network."""
     agent = BasicAgent(
         body="robot",
         sensors=list(sensors),
@@ -143,7 +143,7 @@ def _array(given: Any, shape: tuple[int, ...], name: str) -> Array:
     },
 )
 def is_a_neuron(neuron: Any) -> str:
-    """One neuron's output."""
+    """Check one neuron's output."""
     chance = np.random.default_rng(seeds_of("11.1", 1)[0])
     for count in (2, 1, 5, 3, 8):
         inputs, weights = chance.normal(size=(2, count)).round(2).tolist()
@@ -180,7 +180,7 @@ def is_a_neuron(neuron: Any) -> str:
     },
 )
 def drives_by_hand(weights: Any, bias: Any) -> Done:
-    """Weights with which two neurons find the box."""
+    """Check weights with which two neurons find the box."""
     worlds = 20
     for done in drives(lambda: by_hand(weights, bias), None, seeds_of("11.2", worlds), limit=300):
         if not done.won:
@@ -203,7 +203,7 @@ def drives_by_hand(weights: Any, bias: Any) -> Done:
     },
 )
 def thinks(think: Any) -> Done:
-    """The whole network, and a robot that is driven by it."""
+    """Check the whole network, and a robot that is driven by it."""
     chance = np.random.default_rng(seeds_of("11.3", 1)[0])
     for sizes in ((3, 4, 2), (2, 1), (5, 6, 4, 3), (126, 8, 4)):
         layers = [
@@ -261,7 +261,7 @@ def _through(
     },
 )
 def fits(senses: Any) -> Done:
-    """Sensors with which the box chase's network finds the box."""
+    """Check sensors with which the box chase's network finds the box."""
     sensors = a_function(senses)()
     if not isinstance(sensors, list | tuple) or not all(isinstance(s, Sensor) for s in sensors):
         raise NotYet(f"Expected your function to return a list of sensors, got `{sensors!r}`.")

@@ -20,7 +20,7 @@ from ai4u_edu.lessons.rollouts import Drive, drives, seeds_of
     },
 )
 def catches_all(chase: Any) -> Done:
-    """All three runners, in nearly all rounds."""
+    """Check that it catches all three runners in nearly all rounds."""
     rounds, needed, won = 6, 5, 0
     reason: NotYet | None = None
     for played, done in enumerate(drives("tag", chase, seeds_of("12.1", rounds)), 1):
@@ -43,7 +43,7 @@ def catches_all(chase: Any) -> Done:
 
 
 def _looks_around(chase: Any, done: Drive) -> bool:
-    """Whether what it does depends on the other runners at all."""
+    """Return True if its actions depend on the other runners at all."""
     percept = dict(done.agent.percept)
     moved = {**percept, "runner 2": [0.1, 0.2, 0.0], "runner 3": [-0.1, -0.2, 0.0]}
     answers = [chase(each) for each in (percept, moved)] if callable(chase) else []
@@ -60,7 +60,7 @@ def _looks_around(chase: Any, done: Drive) -> bool:
     },
 )
 def wins_fights(fight: Any) -> Done:
-    """15 of 20 fights."""
+    """Check that it wins 15 of 20 fights."""
     fights, won = 20, 0
     reason: NotYet | None = None
     for played, done in enumerate(drives("sumo", fight, seeds_of("12.2", fights)), 1):
@@ -79,7 +79,7 @@ def wins_fights(fight: Any) -> Done:
 
 
 def _waits(done: Drive) -> bool:
-    """Whether it did not drive."""
+    """Return True if it did not drive."""
     return not any(done.agent.last_action.get("move", (0.0,))[:1])
 
 
@@ -92,7 +92,7 @@ def _waits(done: Drive) -> bool:
     },
 )
 def scores(strike: Any) -> Done:
-    """10 goals in 12 games that begin in front of the ball."""
+    """Check for 10 goals in 12 games that begin in front of the ball."""
     games, needed, won = 12, 10, 0
     reason: NotYet | None = None
     for played, done in enumerate(
@@ -111,7 +111,7 @@ def scores(strike: Any) -> Done:
 
 
 def _in_front(done: Drive) -> None:
-    """Puts the striker between the ball and the goal, at the beginning."""
+    """Put the striker between the ball and the goal, at the beginning."""
     if done.steps == 0:
         chance = np.random.default_rng(done.seed)
         x, y, heading = chance.uniform(1.5, 5), chance.uniform(-3.5, 3.5), chance.uniform(-3, 3)

@@ -20,15 +20,15 @@ from ai4u_edu.lessons.numeric import finite_number, is_close
 from ai4u_edu.lessons.rollouts import Drive, as_brain, drive, seeds_of
 from ai4u_edu.world import BoxShape, CircleShape, Variation, World
 
-MINUTE = 720
-"""Decisions."""
+DECISIONS_PER_MINUTE = 720
+"""Number of decisions in a minute."""
 LOW, HIGH = 0.4, 0.8
 """Ends of the comfort zone, as shares of the range."""
 ROOM = Variation(x=(-4, 4), y=(-4, 4), heading_deg=(-180, 180), clearance=0.3)
 
 
 def creature(controller: Any) -> ControlRequestor:
-    """A creature on a plate with food and water.
+    """Return a creature on a plate with food and water.
 
     Args:
         controller: a function, a controller or a brain; drives it.
@@ -67,7 +67,7 @@ def creature(controller: Any) -> ControlRequestor:
     ]
     agent = BasicAgent(
         body="creature",
-        max_steps_per_episode=MINUTE,
+        max_steps_per_episode=DECISIONS_PER_MINUTE,
         sensors=[
             HomeostaticSensor(perception_key="inside"),
             BearingSensor(target="food", perception_key="to food"),
@@ -117,7 +117,7 @@ def creature(controller: Any) -> ControlRequestor:
     },
 )
 def computes_comfort(seconds: Any) -> Done:
-    """Seconds until a level reaches 40."""
+    """Check the seconds until a level reaches 40."""
     a_function(seconds)
     for level, loss in ((60.0, 4.0), (80.0, 2.0), (45.0, 0.5), (100.0, 3.0), (30.0, 2.0)):
         found = finite_number(seconds(level, loss))
@@ -137,10 +137,16 @@ def computes_comfort(seconds: Any) -> Done:
 
 
 def _life(controller: Any, seed: int) -> tuple[Drive, float, int]:
-    """A life, the share of it in which both levels were in the zone, and which ran out (or -1)."""
+    """Return an episode, the share with both levels in the zone, and the empty level (or -1)."""
     sim = creature(controller)
     inside: list[tuple[float, ...]] = []
-    done = drive(sim, sim.agents[0], seed, MINUTE, lambda done: inside.append(_levels(done.agent)))
+    done = drive(
+        sim,
+        sim.agents[0],
+        seed,
+        DECISIONS_PER_MINUTE,
+        lambda done: inside.append(_levels(done.agent)),
+    )
     well = sum(all(LOW <= level <= HIGH for level in levels) for levels in inside) / len(inside)
     last = inside[-1]
     return done, well, last.index(min(last)) if done.agent.terminated else -1
@@ -161,7 +167,7 @@ def _levels(agent: BasicAgent) -> tuple[float, ...]:
     },
 )
 def stays_alive(live: Any) -> Done:
-    """A minute, in 8 worlds."""
+    """Check that it lives for a minute in 8 worlds."""
     for seed in seeds_of("13.2", 8):
         done, _, ran_out = _life(live, seed)
         if ran_out >= 0:
@@ -178,7 +184,7 @@ def stays_alive(live: Any) -> Done:
 
 
 def _goes_for_more(live: Any, done: Drive) -> bool:
-    """Whether what it does depends on its levels at all: then they are mixed up."""
+    """Return True if its actions depend on its levels at all: then they are mixed up."""
     if not callable(live):
         return False
     percept = dict(done.agent.percept)
@@ -199,7 +205,7 @@ def _goes_for_more(live: Any, done: Drive) -> bool:
     },
 )
 def lives_well(live: Any) -> Done:
-    """Both levels in the zone, for 70 of 100 decisions."""
+    """Check for both levels in the zone in 70 of 100 decisions."""
     shares = []
     for seed in seeds_of("13.3", 6):
         done, well, ran_out = _life(live, seed)

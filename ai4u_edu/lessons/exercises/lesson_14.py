@@ -17,7 +17,7 @@ B = TypeVar("B", bound=Block)
 
 
 def _made(cls: Any, kind: type[B], **parameters: Any) -> B:
-    """One of a student's blocks."""
+    """Make one of a student's blocks."""
     if not isinstance(cls, type) or not issubclass(cls, kind):
         raise NotYet(
             f"Expected a class that is a {kind.__name__}: `class ...({kind.__name__}):`. Got "
@@ -27,12 +27,12 @@ def _made(cls: Any, kind: type[B], **parameters: Any) -> B:
 
 
 def _always(name: str, *action: float) -> LocalBrain:
-    """A brain that always gives the same action."""
+    """Return a brain that always gives the same action."""
     return LocalBrain(controller=lambda _: {name: list(action)})
 
 
 def _examined(report: Report) -> None:
-    """Tells the first thing that the examiner found."""
+    """Raise NotYet with the checker's first finding."""
     if report.failed:
         raise NotYet(f"The examiner says: {report.failed[0]}")
 
@@ -59,7 +59,7 @@ def _world(box: tuple[float, float], heading_deg: float = 0.0) -> World:
     },
 )
 def senses_nearness(cls: Any) -> Done:
-    """1 at the target, 0 at the reach and beyond."""
+    """Check for 1 at the target, 0 at the reach and beyond."""
     for reach in (8.0, 5.0):
         for away in (2.0, 4.0, 3.3, 6.0, 12.0):
             sensor = _made(cls, Sensor, target="box", reach=reach)
@@ -105,7 +105,7 @@ def senses_nearness(cls: Any) -> Done:
     },
 )
 def pays_for_calm(cls: Any) -> Done:
-    """A cost for turning fast, to either side."""
+    """Check for a cost for turning fast, to either side."""
     for limit, cost in ((1.0, 0.1), (2.0, 0.5)):
         for turn in (0.0, 0.5, 3.0, -3.0, 1.5, -1.5):
             calm = _made(cls, RewardFunc, limit=limit, cost=cost)
@@ -142,7 +142,7 @@ def pays_for_calm(cls: Any) -> Done:
     },
 )
 def walks_sideways(cls: Any) -> Done:
-    """To its own left, whatever its heading."""
+    """Check that it walks to its own left, whatever its heading."""
     for heading in (0.0, 90.0, -140.0):
         for push in (1.0, -1.0, 0.5):
             crab = _made(cls, Actuator, newtons=10.0)
@@ -178,7 +178,7 @@ def walks_sideways(cls: Any) -> Done:
 
 
 def _pushed(cls: Any, newtons: float) -> float:
-    """How far a push takes the body; metres."""
+    """Return how far a push takes the body; metres."""
     crab = _made(cls, Actuator, newtons=newtons)
     brain = _always(crab.action_name, 1)
     agent = BasicAgent(body="robot", actuators=[crab], brains=[brain])

@@ -42,7 +42,7 @@ def _scene(text: Any) -> Scene:
     },
 )
 def is_complete(text: Any) -> Done:
-    """A scene that others can play."""
+    """Check for a scene that others can play."""
     scene = _scene(text)
     told = scene.description
     missing = [name for name in WANTED if len(getattr(told, name).strip()) < 8]
@@ -85,7 +85,7 @@ def is_complete(text: Any) -> Done:
     },
 )
 def is_solved(text: Any, solve: Any) -> Done:
-    """8 of 10 seeds."""
+    """Check for success on 8 of 10 seeds."""
     scene, won = _scene(text), 0
     if not scene.description.success:
         raise NotYet("The scene does not say what success is: see exercise 15.1.", hint="begin")
@@ -110,7 +110,7 @@ def is_solved(text: Any, solve: Any) -> Done:
     },
 )
 def is_no_chance(text: Any) -> Done:
-    """Random actions succeed in fewer than 3 of 10 episodes."""
+    """Check that random actions succeed in fewer than 3 of 10 episodes."""
     scene = _scene(text)
     if not scene.description.success:
         raise NotYet("The scene does not say what success is: see exercise 15.1.", hint="easy")
@@ -134,7 +134,7 @@ def is_no_chance(text: Any) -> Done:
 
 
 def _by_chance(agent: BasicAgent, seed: int) -> Any:
-    """A controller that gives any action."""
+    """Return a controller that gives random actions."""
     spaces = {each.action_name: each.space() for each in agent.actuators if each.is_output}
     for index, space in enumerate(spaces.values()):
         space.seed(seed + index)
