@@ -218,7 +218,7 @@ def test_a_single_agent_is_driven_in_lockstep_unless_the_world_forbids_it() -> N
     ("arguments", "complaint"),
     [
         ({"mode": "lockstp"}, "connect: mode: expected one of 'lockstep', 'realtime', got"),
-        ({"on_missing": "hodl"}, "connect: on_missing: expected one of '', 'hold', 'coast', 's"),
+        ({"on_missing": "hodl"}, "connect: on_missing: expected one of '', 'coast', 'hold', 's"),
         ({"agent": 7}, "connect: agent: expected text of up to 400 characters, got 7"),
         ({"keys": [7]}, "connect: keys: expected text of up to 400 characters, got 7"),
         ({"keys": 7}, "connect: keys: expected a list of up to 1024, got 7"),
