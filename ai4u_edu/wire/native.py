@@ -247,7 +247,7 @@ def _plain(value: Any) -> Any:
     for kind in (float, int, str):
         if isinstance(value, kind):
             return kind(value)
-    raise TypeError(f"expected numbers, text and bytes, got {shown(value)}")
+    raise TypeError(shown(value))
 
 
 _decoder: msgspec.msgpack.Decoder[Message] = msgspec.msgpack.Decoder(Message)

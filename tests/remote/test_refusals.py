@@ -223,7 +223,7 @@ def test_a_single_agent_is_driven_in_lockstep_unless_the_world_forbids_it() -> N
         ({"keys": [7]}, "connect: keys: expected text of up to 400 characters, got 7"),
         ({"keys": 7}, "connect: keys: expected a list of up to 1024, got 7"),
         ({"session": None}, "connect: session: expected text of up to 400 characters, got None"),
-        ({"token": object()}, "connect: expected text and names of keys, got can not serialize"),
+        ({"token": object()}, "connect: expected text and names of keys, got <object object"),
         ({"patience": float("nan")}, "patience: expected a number of seconds from 0 on, got nan"),
     ],
 )
