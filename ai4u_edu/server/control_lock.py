@@ -6,7 +6,7 @@ from concurrent.futures import Future
 from typing import Protocol
 
 from ai4u_edu.blocks import Keyboard
-from ai4u_edu.blocks.brains.controllers.keyboard import AT_REST, Stick
+from ai4u_edu.blocks.brains.controllers.keyboard import CENTERED, Stick
 
 
 class Driven(Protocol):
@@ -74,7 +74,7 @@ class Seat:
         return self._hand_to(None) if self.driver == page else None
 
     def hold(
-        self, page: int, codes: Collection[str], stick: Stick = AT_REST
+        self, page: int, codes: Collection[str], stick: Stick = CENTERED
     ) -> Future[None] | None:
         """A page holds these keys now; they count if it drives, or may begin to."""
         wants = any(stick) or (self._hands.are_called_by(codes) if self._hands else bool(codes))
