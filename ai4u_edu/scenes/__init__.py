@@ -1,4 +1,4 @@
-"""Scenes: worlds and agents in files."""
+"""Scenes: worlds and their agents as data and files."""
 
 from ai4u_edu.scenes.description import SceneDescription
 from ai4u_edu.scenes.scene import Scene

@@ -1,4 +1,4 @@
-"""What a scene file says."""
+"""The content of a scene file as data."""
 
 from collections.abc import Mapping, Sequence
 from typing import Annotated, Any
@@ -8,9 +8,9 @@ from pydantic import Field
 from ai4u_edu.agent import BasicAgent
 from ai4u_edu.agent.ledger import HANDLERS
 from ai4u_edu.base.errors import suggest
-from ai4u_edu.base.parameters import Name, Problem, quantity
+from ai4u_edu.base.parameters import DataPath, Name, Problem, quantity
 from ai4u_edu.blocks.rewards.combined import CombinedRewardFunc
-from ai4u_edu.scenes.serialization import Path, PlainDataError, make
+from ai4u_edu.scenes.serialization import PlainDataError, make
 from ai4u_edu.world import AreaDescription, BodyDescription, FloorDescription, WorldSettings
 from ai4u_edu.world.shapes import Description
 
@@ -18,34 +18,34 @@ Text = Annotated[str, Field(max_length=2000)]
 
 
 class SceneDescription(Description):
-    """A world and its agents, as data."""
+    """A world and its agents as data."""
 
     name: Name
     title: Text = ""
     goal: Text = ""
     controls: Text = ""
     rewards: Text = ""
-    """What is paid for what, in words."""
+    """The rewards in words."""
     success: Name | None = None
     """The reward term that is paid when the goal is reached."""
     time_scale: Annotated[float, quantity("1", gt=0, le=100)] = 1.0
     spread_decisions: bool = False
-    """Whether agents take turns in deciding: for many of them, so that no tick has all the work."""
+    """Spreads the decisions of many agents over ticks, so that no tick has all the work."""
     world: WorldSettings = WorldSettings()
     floors: tuple[FloorDescription, ...] = ()
     areas: tuple[AreaDescription, ...] = ()
     bodies: tuple[BodyDescription, ...] = ()
     agents: Annotated[tuple[Mapping[str, Any], ...], Field(min_length=1, max_length=64)]
-    """The parameters of each agent, blocks as mappings with a ``type``."""
+    """Parameters of each agent, blocks as mappings with a ``type``."""
 
     @property
     def things(self) -> tuple[FloorDescription | AreaDescription | BodyDescription, ...]:
-        """All that is in the world."""
+        """Everything that is in the world."""
         return (*self.floors, *self.areas, *self.bodies)
 
-    def where_is(self, name: str) -> Path:
-        """The path of the floor, area or body of that name; of several, the last one's."""
-        found: Path = ()
+    def where_is(self, name: str) -> DataPath:
+        """Return the path of the floor, area or body of that name; of several, the last one's."""
+        found: DataPath = ()
         for kind in ("floors", "areas", "bodies"):
             for index, thing in enumerate(getattr(self, kind)):
                 if thing.name == name:
@@ -54,10 +54,10 @@ class SceneDescription(Description):
 
 
 def make_agents(scene: SceneDescription) -> list[BasicAgent]:
-    """New agents with new blocks, as a scene says.
+    """Make a scene's agents with their blocks.
 
     Raises:
-        PlainDataError: some parameters are wrong; all of them are told.
+        PlainDataError: some parameters are wrong; it has all problems.
     """
     problems: list[Problem] = []
     agents = []
@@ -72,13 +72,13 @@ def make_agents(scene: SceneDescription) -> list[BasicAgent]:
 
 
 def check_success(success: str | None, agents: Sequence[BasicAgent]) -> None:
-    """Check that some reward function pays the term that says when the goal is reached.
+    """Check that some reward function pays the term that stands for reaching the goal.
 
-    What AndRewardFunc's and OrRewardFunc's children pay is booked under the parent's name; what
-    handlers pay with ``add_reward`` under :data:`HANDLERS`, or the name of a reward function.
+    Rewards of children of AndRewardFunc and OrRewardFunc are recorded under the parent's name;
+    rewards of handlers (``add_reward``) under :data:`HANDLERS` or a reward function's name.
 
     Raises:
-        PlainDataError: none does: no episode could ever succeed.
+        PlainDataError: none does, so that no episode could succeed.
     """
     terms = {reward.name for agent in agents for reward in agent.rewards}
     if success is None or success in terms or success == HANDLERS:

@@ -1,4 +1,4 @@
-"""A scene: a file in, a world with agents out."""
+"""Scenes: read from files, built into worlds with agents, written to files."""
 
 from pathlib import Path
 from typing import Any, Self
@@ -22,13 +22,13 @@ from ai4u_edu.world import World
 LIBRARY = Path(__file__).parent / "library"
 
 EPISODES = 20
-"""So many are set up when a file is read, where some of it is random: in each must be room."""
-MOST_TOLD = 20
-"""Mistakes of a file that are told at once."""
+"""Resets that are tried when a randomized scene is read: each must find room for everything."""
+MAX_ERRORS = 20
+"""Errors of a file in one message."""
 
 
 class Scene:
-    """A world and its agents as data; :meth:`build` makes them.
+    """A world and its agents as data; :meth:`build` makes the world.
 
     >>> scene = Scene.load("box_chase")
     >>> sim = scene.build(seed=1)
@@ -43,19 +43,19 @@ class Scene:
     ) -> None:
         self.description = description
         self.folder = folder
-        """Where its file is: paths in it begin there."""
+        """Folder of its file, to which paths in it are relative."""
         self.source = source
-        """The text that it was read from: its comments are kept when the scene is written."""
+        """The text that it was read from; its comments are kept when the scene is written."""
 
     @classmethod
     def load(cls, source: str | Path) -> Self:
-        """Reads a scene.
+        """Read a scene.
 
         Args:
-            source: a name out of the library, or the path of a YAML file.
+            source: a name in the library, or the path of a YAML file.
 
         Raises:
-            SceneError: there is none, or something in it is wrong; names file, path and line.
+            SceneError: it does not exist, or something in it is wrong; names file, path and line.
         """
         path = Path(source)
         if path.suffix not in {".yaml", ".yml"}:
@@ -66,7 +66,7 @@ class Scene:
                     "a file's name ends in .yaml"
                 )
         try:
-            text = path.read_text(encoding="utf-8-sig")  # some editors begin with a mark
+            text = path.read_text(encoding="utf-8-sig")  # a byte order mark is skipped
         except OSError as error:
             raise SceneError(f"{path}: can't be read: {error.strerror}") from None
         except UnicodeDecodeError as error:
@@ -75,7 +75,16 @@ class Scene:
 
     @classmethod
     def loads(cls, text: str, *, name: str = "scene", folder: Path | None = None) -> Self:
-        """Reads a scene from YAML text; ``name`` stands in messages, paths begin in ``folder``."""
+        """Read a scene from YAML text.
+
+        Args:
+            text: YAML.
+            name: of the file, for messages.
+            folder: folder to which paths in it are relative.
+
+        Raises:
+            SceneError: something in it is wrong; names file, path and line.
+        """
         file = YamlFile(text, name)
         try:
             description = SceneDescription.model_validate(file.data)
@@ -86,28 +95,30 @@ class Scene:
                     world.reset(seed)
         except ValidationError as error:
             problems = explain(error.errors(), SceneDescription)
-            raise _told(file, problems) from None
+            raise _scene_error(file, problems) from None
         except PlainDataError as error:
-            raise _told(file, error.problems) from None
+            raise _scene_error(file, error.problems) from None
         except WorldError as error:
-            raise _told(file, [Problem(description.where_is(error.thing), str(error))]) from None
+            raise _scene_error(
+                file, [Problem(description.where_is(error.thing), str(error))]
+            ) from None
         except AI4UError as error:
             path = path_of(error, description.agents)
             if not path:
                 raise SceneError(f"{name}: {error}") from None
-            raise _told(file, [Problem(path, str(error))]) from None
+            raise _scene_error(file, [Problem(path, str(error))]) from None
         return scene
 
     @staticmethod
     def names() -> list[str]:
-        """The names of all scenes in the library."""
+        """Return the names of all scenes in the library."""
         return sorted(path.stem for path in LIBRARY.glob("*.yaml"))
 
     def build(self, seed: int = 0) -> ControlRequestor:
-        """Makes the world and the agents, each time new ones.
+        """Make a new world with new agents.
 
         Raises:
-            AI4UError: something in the description is wrong; of its data, a PlainDataError.
+            AI4UError: something in the description is wrong; for its data a PlainDataError.
         """
         description = self.description
         world = World(seed=seed, **dict(description.world))
@@ -125,23 +136,22 @@ class Scene:
         )
 
     def plain(self) -> dict[str, Any]:
-        """The scene as plain data; what is as by default is left out."""
+        """Return the scene as plain data without default values."""
         plain = {"name": self.description.name} | self.description.model_dump(
             mode="json", exclude_defaults=True
         )
         return _with_types(plain, self.description)
 
     def dumps(self) -> str:
-        """The scene as YAML text.
+        """Return the scene as YAML text.
 
-        Of a scene that was read from a text, what did not change stays as it stands there, with
-        its comments.
+        Unchanged parts of a scene that was read from a text stay as they are there, with comments.
         """
         plain = self.plain()
         return _with_comments(self.source, plain) or write_yaml(plain)
 
     def save(self, path: str | Path) -> None:
-        """Writes the scene to a file; a file that was there is replaced whole, or not at all."""
+        """Write the scene to a file atomically."""
         write_atomically(Path(path), self.dumps())
 
     def __eq__(self, other: object) -> bool:
@@ -170,14 +180,19 @@ def _no_utf8(path: Path, error: UnicodeDecodeError) -> str:
 
 
 def _with_comments(source: str, plain: dict[str, Any]) -> str:
-    """Return a scene's text with other data in it; empty if that is not possible."""
+    """Return a scene's text with other data in it; empty if it can't be edited."""
     if not source:
         return ""
     try:
         before = _plain_of(source)
         text = source if before == plain else edited(source, before, plain)
         return text if _plain_of(text) == plain else ""
-    except (ValueError, LookupError, NotYamlError, YAMLError):  # written in a way that is too odd
+    except (
+        ValueError,
+        LookupError,
+        NotYamlError,
+        YAMLError,
+    ):  # unusual YAML, which can't be edited line by line
         return ""
 
 
@@ -186,7 +201,7 @@ def _plain_of(text: str) -> dict[str, Any]:
 
 
 def _with_types(plain: dict[str, Any], description: SceneDescription) -> dict[str, Any]:
-    """Puts back the shapes' types: they are defaults, but whoever reads needs them."""
+    """Put back the types of shapes: they are defaults, but needed for reading."""
     for key in ("floors", "areas", "bodies"):
         for entry, described in zip(plain.get(key, []), getattr(description, key), strict=False):
             shape = {"type": described.shape.type} | entry.get("shape", {})
@@ -194,9 +209,9 @@ def _with_types(plain: dict[str, Any], description: SceneDescription) -> dict[st
     return plain
 
 
-def _told(file: YamlFile, problems: "list[Problem] | tuple[Problem, ...]") -> SceneError:
-    told = problems[:MOST_TOLD]
-    lines = [f"{file.name}, line {file.line(each.path)}: {each}" for each in told]
-    if len(problems) > len(told):
-        lines.append(f"{file.name}: and {len(problems) - len(told)} more like these")
+def _scene_error(file: YamlFile, problems: "list[Problem] | tuple[Problem, ...]") -> SceneError:
+    shown = problems[:MAX_ERRORS]
+    lines = [f"{file.name}, line {file.line(each.path)}: {each}" for each in shown]
+    if len(problems) > len(shown):
+        lines.append(f"{file.name}: and {len(problems) - len(shown)} more like these")
     return SceneError("\n".join(lines))

@@ -1,4 +1,4 @@
-"""The JSON Schema of scene files, so that an editor completes and checks them."""
+"""JSON Schema of scene files, for completion and checks in editors."""
 
 from typing import Any
 
@@ -10,7 +10,7 @@ from ai4u_edu.scenes.serialization import KINDS, is_serializable
 
 
 def scene_schema() -> dict[str, Any]:
-    """The schema of a whole scene file (JSON Schema 2020-12)."""
+    """Return the schema of a whole scene file (JSON Schema 2020-12)."""
     schema = SceneDescription.model_json_schema()
     agent = BasicAgent.json_schema()
     definitions: dict[str, Any] = {**schema.pop("$defs", {}), **agent.pop("$defs", {})}

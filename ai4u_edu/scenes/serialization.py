@@ -1,4 +1,4 @@
-"""Blocks as plain data, as it stands in a scene file, and back."""
+"""Serialization of blocks to plain data as in a scene file, and back."""
 
 import inspect
 from collections.abc import Mapping, Sequence
@@ -7,26 +7,24 @@ from typing import Any, get_args
 from pydantic import ValidationError
 
 from ai4u_edu.base.errors import AI4UError, ParameterError, shown, suggest
-from ai4u_edu.base.parameters import MAX_HINTS, Problem, explain, listed
+from ai4u_edu.base.parameters import MAX_HINTS, DataPath, Problem, explain, listed
 from ai4u_edu.blocks import Actuator, Block, Brain, Controller, RewardFunc, ScriptController, Sensor
 from ai4u_edu.blocks.parameterized import Parameterized
-
-Path = tuple[str | int, ...]
 
 KINDS: tuple[type[Block], ...] = (Sensor, Actuator, RewardFunc, Brain, Controller)
 
 OWN = "a block of your own is known once its file is imported, or named with --blocks FILE.py"
-"""What to do about a type that is not built in."""
+"""Hint for a type that is not built in."""
 
 
 def is_serializable(cls: type[Block]) -> bool:
-    """Whether a scene file can name a class: not one that is only the base of others."""
-    # what holds a Python function can't be written down
+    """Return True if a scene file can name a class; abstract bases can't be named."""
+    # a ScriptController holds a Python function, which can't be serialized
     return cls not in (*KINDS, ScriptController) and not cls.__dict__.get("abstract")
 
 
 class PlainDataError(AI4UError):
-    """What is wrong with plain data: every problem, with its path."""
+    """All problems of plain data, with their paths."""
 
     def __init__(self, problems: Sequence[Problem]) -> None:
         super().__init__(listed(problems))
@@ -34,7 +32,7 @@ class PlainDataError(AI4UError):
 
 
 def to_plain(value: Any) -> Any:
-    """A block with its type and the parameters that are not as by default; lists, dicts alike."""
+    """Return a block as a mapping of its type and non-default parameters; lists, dicts alike."""
     if isinstance(value, Block):
         return {"type": type(value).__name__} | to_plain(value.given())
     if isinstance(value, Mapping):
@@ -44,16 +42,16 @@ def to_plain(value: Any) -> Any:
     return value
 
 
-def from_plain(kind: type[Block], data: Any, path: Path = ()) -> Block:
-    """Makes a block.
+def from_plain(kind: type[Block], data: Any, path: DataPath = ()) -> Block:
+    """Make a block from plain data.
 
     Args:
-        kind: what it has to be, such as :class:`Sensor`.
+        kind: the expected base class, such as :class:`Sensor`.
         data: a mapping with a ``type`` and parameters.
-        path: where the data stands, for messages.
+        path: of the data, for messages.
 
     Raises:
-        PlainDataError: it is no block, of no such type, or its parameters are wrong.
+        PlainDataError: the data are no block of that kind, or its parameters are wrong.
     """
     if not isinstance(data, Mapping):
         raise PlainDataError(
@@ -78,8 +76,8 @@ def from_plain(kind: type[Block], data: Any, path: Path = ()) -> Block:
     return made
 
 
-def make(cls: type[Parameterized], given: Mapping[str, Any], path: Path) -> Parameterized:
-    """Makes a declared thing from plain parameters, blocks among them."""
+def make(cls: type[Parameterized], given: Mapping[str, Any], path: DataPath) -> Parameterized:
+    """Make an object from plain parameters; some of them may be blocks."""
     problems: list[Problem] = []
     values: dict[str, Any] = {}
     fields = cls.parameters()
@@ -103,7 +101,7 @@ def make(cls: type[Parameterized], given: Mapping[str, Any], path: Path) -> Para
         raise PlainDataError([Problem(path, str(error))]) from None
 
 
-def _convert(kind: type[Block], value: Any, path: Path) -> Any:
+def _convert(kind: type[Block], value: Any, path: DataPath) -> Any:
     if not isinstance(value, list | tuple):
         return from_plain(kind, value, path)
     problems: list[Problem] = []
@@ -113,7 +111,7 @@ def _convert(kind: type[Block], value: Any, path: Path) -> Any:
             blocks.append(from_plain(kind, each, (*path, index)))
         except PlainDataError as error:
             problems += error.problems
-            if len(problems) >= MAX_HINTS:  # as many as anybody reads; each costs time
+            if len(problems) >= MAX_HINTS:  # more problems would not be shown, and each costs time
                 break
     if problems:
         raise PlainDataError(problems)
@@ -121,7 +119,7 @@ def _convert(kind: type[Block], value: Any, path: Path) -> Any:
 
 
 def _block_kind(annotation: Any) -> type[Block] | None:
-    """Which kind of block a parameter holds, alone or in a list; None if it holds none."""
+    """Return the kind of block that a parameter holds, alone or in a list, or None."""
     if inspect.isclass(annotation) and issubclass(annotation, Block):
         return annotation
     for part in get_args(annotation):

@@ -6,7 +6,7 @@ import socket
 
 from ai4u_edu.base.errors import AI4UError
 
-EVERYWHERE = {"": "127.0.0.1", "0.0.0.0": "127.0.0.1", "::": "::1"}  # noqa: S104 - read, not bound
+WILDCARD_HOSTS = {"": "127.0.0.1", "0.0.0.0": "127.0.0.1", "::": "::1"}  # noqa: S104 - read, not bound
 """What stands for all addresses of this machine, and one of them for the machine itself."""
 
 
@@ -54,7 +54,7 @@ def listen(host: str, port: int) -> socket.socket:
 
 def url_of(host: str, listener: socket.socket) -> str:
     """Where a browser on this machine finds it."""
-    host = EVERYWHERE.get(host, host)
+    host = WILDCARD_HOSTS.get(host, host)
     shown = f"[{host}]" if ":" in host else host
     return f"http://{shown}:{listener.getsockname()[1]}/"
 

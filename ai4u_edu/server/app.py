@@ -14,14 +14,14 @@ from starlette.types import Scope
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.server.api import Health, SnapshotView
 from ai4u_edu.server.attempts import Attempts, LimitScripts
-from ai4u_edu.server.host_origin import LOOPBACK, Door
+from ai4u_edu.server.host_origin import LOOPBACK, HostOriginCheck
 from ai4u_edu.server.input import Inputs
 from ai4u_edu.server.openapi import openapi
 from ai4u_edu.server.page import Page
 from ai4u_edu.server.past import Past
 from ai4u_edu.server.proxy import ViserProxy
 from ai4u_edu.server.scripts import RemoteSockets, Rules
-from ai4u_edu.server.token_auth import Guard
+from ai4u_edu.server.token_auth import TokenAuth
 from ai4u_edu.snapshot import Snapshot
 from ai4u_edu.wire.native import PROBLEMS
 
@@ -52,8 +52,8 @@ def room_app(
     called = title if callable(title) else partial(str, title)
     page = Page(called)
     attempts = Attempts()
-    guard = [Middleware(Guard, token=rules.token, attempts=attempts)]
-    page_guard = [Middleware(Guard, token=rules.token, attempts=attempts, is_page=True)]
+    guard = [Middleware(TokenAuth, token=rules.token, attempts=attempts)]
+    page_guard = [Middleware(TokenAuth, token=rules.token, attempts=attempts, is_page=True)]
     script_guard = [Middleware(LimitScripts, attempts=attempts, code=PROBLEMS["bad_token"])]
     past = Past(runner)
     document = openapi()
@@ -90,7 +90,9 @@ def room_app(
                 "/ws/remote", RemoteSockets(runner, called, rules), middleware=script_guard
             ),
         ],
-        middleware=[Middleware(Door, allowed_hosts=allowed_hosts, proxy_hosts=proxy_hosts)],
+        middleware=[
+            Middleware(HostOriginCheck, allowed_hosts=allowed_hosts, proxy_hosts=proxy_hosts)
+        ],
     )
 
 

@@ -12,10 +12,10 @@ from asyncio import BaseTransport, Transport
 from collections.abc import Hashable
 from typing import Any, cast
 
-PER_ADDRESS = 120
+MAX_PER_ADDRESS = 120
 """Connections from one address. Each page has two, and a few more while it loads."""
-MOST_CONNECTIONS = 1000
-FEWEST_CONNECTIONS = 16
+MAX_CONNECTIONS = 1000
+MIN_CONNECTIONS = 16
 RESERVED_DESCRIPTORS = 128
 """File descriptors that are kept for everything else: files, viser, scripts."""
 DESCRIPTORS_EACH = 3
@@ -38,8 +38,8 @@ class Connections:
             it may stand for any number of others.
     """
 
-    def __init__(self, most: int | None = None, per_address: int = PER_ADDRESS) -> None:
-        self.most = most or most_connections()
+    def __init__(self, most: int | None = None, per_address: int = MAX_PER_ADDRESS) -> None:
+        self.most = most or max_connections()
         self.per_address = per_address
         self.evicting = 0
         """Connections that were told to end, and have not yet."""
@@ -148,17 +148,17 @@ def address_of(peer: Any) -> str:
     return str(address)
 
 
-def most_connections() -> int:
+def max_connections() -> int:
     """Return how many connections the process's limit of descriptors allows."""
     if sys.platform == "win32":
-        return MOST_CONNECTIONS
+        return MAX_CONNECTIONS
     import resource
 
     soft, _ = resource.getrlimit(resource.RLIMIT_NOFILE)
     if soft == resource.RLIM_INFINITY:
-        return MOST_CONNECTIONS
+        return MAX_CONNECTIONS
     allowed = (soft - RESERVED_DESCRIPTORS) // DESCRIPTORS_EACH
-    return max(FEWEST_CONNECTIONS, min(MOST_CONNECTIONS, allowed))
+    return max(MIN_CONNECTIONS, min(MAX_CONNECTIONS, allowed))
 
 
 def raise_descriptor_limit() -> None:

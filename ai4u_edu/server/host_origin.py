@@ -20,10 +20,10 @@ from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 LOOPBACK = ("localhost", "127.0.0.1", "[::1]")
 """The names of this machine, for itself."""
-ADDRESSES = "<any address>"
+ANY_ADDRESS = "<any address>"
 """Among the allowed hosts: every IP address. No page can have one of those as its own name."""
 
-LONGEST_SHOWN = 200
+MAX_SHOWN_CHARS = 200
 """Characters of a header that a refusal repeats."""
 
 _PORTS = {"http": 80, "https": 443}
@@ -37,14 +37,14 @@ def hosts_for(bound: str) -> tuple[str, ...]:
 
     >>> hosts_for("127.0.0.1")
     ('localhost', '127.0.0.1', '[::1]')
-    >>> ADDRESSES in hosts_for("0.0.0.0")
+    >>> ANY_ADDRESS in hosts_for("0.0.0.0")
     True
     """
     shown = (f"[{bound}]" if ":" in bound else bound).lower()
     if is_loopback(bound):
         return LOOPBACK if shown in LOOPBACK else (*LOOPBACK, shown)
     name = socket.gethostname().lower()
-    return (*LOOPBACK, ADDRESSES, name, f"{name}.local", shown)
+    return (*LOOPBACK, ANY_ADDRESS, name, f"{name}.local", shown)
 
 
 def is_loopback(bound: str) -> bool:
@@ -60,12 +60,12 @@ def is_loopback(bound: str) -> bool:
     return all(ipaddress.ip_address(each.partition("%")[0]).is_loopback for each in found)
 
 
-class Door:
+class HostOriginCheck:
     """Turns away whoever should not come in; an ASGI middleware.
 
     Args:
         app: what is behind the door.
-        allowed_hosts: names (without port) under which we may be asked for, :data:`ADDRESSES`, or
+        allowed_hosts: names (without port) under which we may be asked for, :data:`ANY_ADDRESS`, or
             ``"*"`` for any.
         proxy_hosts: more such names, under which a proxy in front gives out the page. It may have
             changed the ``Host``, and ended TLS: so pages of these names count as ours, at any port.
@@ -104,7 +104,7 @@ class Door:
     def refusal(self, scope: Scope) -> str:
         """Why a request is turned away; empty if it is not.
 
-        >>> door = Door(lambda *_: None)
+        >>> door = HostOriginCheck(lambda *_: None)
         >>> door.refusal({"type": "http", "headers": [(b"host", b"localhost:8080")]})
         ''
         >>> door.refusal({"type": "http", "headers": [(b"host", b"evil.example")]})
@@ -138,7 +138,7 @@ with --allow-host NAME"
     def _knows(self, name: str) -> bool:
         if "*" in self._hosts or name in self._hosts:
             return True
-        if ADDRESSES not in self._hosts:
+        if ANY_ADDRESS not in self._hosts:
             return False
         try:
             ipaddress.ip_address(name.strip("[]"))
@@ -178,4 +178,4 @@ def _with_port(place: str, scheme: str) -> str:
 
 
 def _cut(text: str) -> str:
-    return text if len(text) <= LONGEST_SHOWN else f"{text[:LONGEST_SHOWN]}..."
+    return text if len(text) <= MAX_SHOWN_CHARS else f"{text[:MAX_SHOWN_CHARS]}..."

@@ -16,11 +16,11 @@ from websockets.typing import Subprotocol
 
 from ai4u_edu.base.log_limit import log_limited
 from ai4u_edu.server import page_messages
-from ai4u_edu.server.rate import Rate
+from ai4u_edu.server.rate_limit import RateLimit
 from ai4u_edu.server.token_auth import with_token
-from ai4u_edu.server.viser_lockdown import KNOCK, KNOCK_HEADER
+from ai4u_edu.server.viser_lockdown import PROXY_SECRET, PROXY_SECRET_HEADER
 
-UPWARD = 500
+MAX_MESSAGES_PER_S = 500
 """Messages a second that viser gets from one page; a page that sends more is slowed down. Dragging
 something sends about a hundred."""
 MAX_UPWARD_BYTES = 2**20
@@ -76,7 +76,7 @@ class ViserProxy:
                     PAGE_HEADER: with_token(page_address(scope), self._token),
                     AGENT_HEADER: page_agent(scope),
                     DARK_HEADER: "1" if HTTPConnection(scope).cookies.get(DARK_COOKIE) else "",
-                    KNOCK_HEADER: KNOCK,
+                    PROXY_SECRET_HEADER: PROXY_SECRET,
                 },
                 subprotocols=_subprotocols(scope["subprotocols"]) or None,
                 compression=None,  # viser compresses by itself
@@ -149,7 +149,7 @@ async def _downward(viser: ClientConnection, page: WebSocket) -> None:
 
 async def _upward(page: WebSocket, viser: ClientConnection) -> None:
     """Hand the messages of a page on to viser, as far as a page may send them."""
-    rate, code, reason = Rate(UPWARD), 1000, ""
+    rate, code, reason = RateLimit(MAX_MESSAGES_PER_S), 1000, ""
     with suppress(ConnectionClosed):
         while (message := await page.receive())["type"] == "websocket.receive":
             frame = message.get("bytes")

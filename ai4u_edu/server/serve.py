@@ -13,7 +13,7 @@ from starlette.types import ASGIApp
 
 from ai4u_edu.base.log_limit import limited_logs
 from ai4u_edu.server.address import listen, url_of
-from ai4u_edu.server.connections import PER_ADDRESS, Connections, raise_descriptor_limit
+from ai4u_edu.server.connections import MAX_PER_ADDRESS, Connections, raise_descriptor_limit
 from ai4u_edu.server.frames import FramesProtocol
 from ai4u_edu.server.listener import Listener
 from ai4u_edu.server.requests import RequestProtocol, ServerConfig
@@ -33,7 +33,7 @@ def serve(
     port: int,
     on_ready: Callable[[str], object] | None = None,
     *,
-    per_address: int = PER_ADDRESS,
+    per_address: int = MAX_PER_ADDRESS,
 ) -> None:
     """Serves until Ctrl-C or SIGTERM, in this thread; returns when all is closed.
 
@@ -65,7 +65,7 @@ class ServerThread:
         host: str = "127.0.0.1",
         port: int = 0,
         *,
-        per_address: int = PER_ADDRESS,
+        per_address: int = MAX_PER_ADDRESS,
     ) -> None:
         self._listener = listen(host, port)
         self.url = url_of(host, self._listener)

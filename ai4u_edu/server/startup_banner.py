@@ -3,14 +3,14 @@
 import socket
 from urllib.parse import urlsplit
 
-from ai4u_edu.server.address import EVERYWHERE
+from ai4u_edu.server.address import WILDCARD_HOSTS
 from ai4u_edu.server.host_origin import is_loopback
 from ai4u_edu.server.token_auth import with_token
 
 _ELSEWHERE = ("192.0.2.1", 9)  # set aside for documentation: there is never anybody
 
 
-def announcement(title: str, host: str, url: str, token: str) -> str:
+def startup_banner(title: str, host: str, url: str, token: str) -> str:
     """The addresses of a room, and who can reach it.
 
     Args:
@@ -19,16 +19,16 @@ def announcement(title: str, host: str, url: str, token: str) -> str:
         url: the page's address, on this machine.
         token: the room's; empty for none.
 
-    >>> print(announcement("Box chase", "127.0.0.1", "http://127.0.0.1:8080/", ""))
+    >>> print(startup_banner("Box chase", "127.0.0.1", "http://127.0.0.1:8080/", ""))
     Box chase is served at http://127.0.0.1:8080/  (Ctrl-C ends it)
-    >>> print(announcement("Maze", "10.0.0.5", "http://10.0.0.5:8080/", "sesame sesame"))
+    >>> print(startup_banner("Maze", "10.0.0.5", "http://10.0.0.5:8080/", "sesame sesame"))
     Maze is served at http://10.0.0.5:8080/?token=sesame%20sesame  (Ctrl-C ends it)
     Other machines can reach it. Page, API and scripts are asked for the token in this address:
     give it only to those who may drive.
     """
     lines = [f"{title} is served at {with_token(url, token)}  (Ctrl-C ends it)"]
     if not is_loopback(host):
-        if host in EVERYWHERE:
+        if host in WILDCARD_HOSTS:
             others = f"http://{own_address()}:{urlsplit(url).port}/"
             lines.append(f"from other machines: {with_token(others, token)}")
         lines.append(

@@ -20,7 +20,7 @@ from ai4u_edu.base.errors import SetupError
 from ai4u_edu.server.attempts import TOO_MANY, Attempts, Verdict, client_address, too_many
 from ai4u_edu.server.host_origin import is_loopback
 
-SHORTEST = 8
+MIN_TOKEN_CHARS = 8
 """Characters of a token that somebody chooses."""
 WHY = (
     "expected this world's token, got {got}; open the address with ?token=... that its terminal "
@@ -43,8 +43,10 @@ def token_for(host: str, wanted: str = "") -> str:
     >>> len(token_for("0.0.0.0"))
     32
     """
-    if wanted and len(wanted) < SHORTEST:
-        raise SetupError(f"--token: expected at least {SHORTEST} characters, got {len(wanted)}")
+    if wanted and len(wanted) < MIN_TOKEN_CHARS:
+        raise SetupError(
+            f"--token: expected at least {MIN_TOKEN_CHARS} characters, got {len(wanted)}"
+        )
     return wanted or ("" if is_loopback(host) else token_urlsafe(24))
 
 
@@ -57,12 +59,12 @@ def with_token(url: str, token: str) -> str:
     return f"{url.rstrip('/')}/?token={quote(token, safe='')}" if token else url
 
 
-def same(secret: str, other: str) -> bool:
+def is_same_secret(secret: str, other: str) -> bool:
     """Whether two secrets are the same; takes as long whatever they are."""
     return compare_digest(secret.encode(), other.encode())
 
 
-class Guard:
+class TokenAuth:
     """Lets in who knows the token; an ASGI middleware around one route.
 
     Args:
@@ -111,13 +113,13 @@ class Guard:
         return _says_token(given) or self._cookie in given.cookies
 
     def _is_in_address(self, given: HTTPConnection) -> bool:
-        return same(self._token, given.query_params.get("token", ""))
+        return is_same_secret(self._token, given.query_params.get("token", ""))
 
     def _is_known(self, given: HTTPConnection) -> bool:
         return (
             self._is_in_address(given)
-            or same(self._value, given.cookies.get(self._cookie, ""))
-            or same(f"Bearer {self._token}", given.headers.get("authorization", ""))
+            or is_same_secret(self._value, given.cookies.get(self._cookie, ""))
+            or is_same_secret(f"Bearer {self._token}", given.headers.get("authorization", ""))
         )
 
     def _without_token(self, given: HTTPConnection) -> Response:

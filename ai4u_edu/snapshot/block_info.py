@@ -1,4 +1,4 @@
-"""What is known of an agent's readings and actions beforehand: names, units, ranges."""
+"""Names, units and ranges of an agent's readings and actions."""
 
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
@@ -24,86 +24,86 @@ from ai4u_edu.blocks import (
     SpotPicture,
 )
 
-LEAST_SEEN = {"cosine": -1.0, "distance": 0.0}
-"""The least that an OrientationSensor reads of a target that it sees."""
+MIN_VISIBLE = {"cosine": -1.0, "distance": 0.0}
+"""Least readings of an OrientationSensor for a visible target."""
 
 Floats = npt.NDArray[np.float64]
 
 
 class Window(NamedTuple):
-    """The piece of the world that a picture from above shows."""
+    """The part of the world that a picture from above shows."""
 
     size: tuple[float, float]
-    """Metres: along the heading and across it, or along x and y if it stays where it is."""
+    """Metres, along and across the heading; along x and y for a fixed window."""
     centre: tuple[float, float] | None
-    """Where it stays; None if it goes and turns with the agent."""
+    """Centre of a fixed window (m); None if the window moves and turns with the agent."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class SensorInfo:
-    """One sensor's part of the percept."""
+    """Description of one sensor's part of the percept."""
 
     key: str
     """Its perception key."""
     block: str
     """The sensor's class."""
     unit: str
-    """Of a raw reading; empty if it is normalised, or has none."""
+    """Unit of a reading; empty if it is normalized, or has none."""
     slots: tuple[str, ...]
-    """What the numbers of one reading are called; empty if they have no names."""
+    """Names of one reading's numbers; empty if they have none."""
     low: Floats
-    """The least that each number of one reading can be, in the percept."""
+    """Lower bound of each number of one reading."""
     high: Floats
-    """The most."""
+    """Upper bound of each number of one reading."""
     stack: int
-    """So many readings are shown together, oldest first."""
+    """Number of stacked readings, oldest first."""
     targets: tuple[str, ...]
-    """The bodies and areas that it is about, by name."""
+    """Names of the bodies and areas that it reads."""
     groups: tuple[str, ...]
-    """The groups (tags) that it is about."""
+    """Groups (tags) that it reads."""
     legend: Legend | None
-    """How the reading is seen as a picture, if it is one."""
+    """Colours for showing the reading as a picture, if it is one."""
     window: Window | None
-    """What that picture shows of the world, if it is one from above."""
+    """The part of the world that the picture shows, if it is one from above."""
     eye: tuple[float, float, float] | None
-    """Where its eye sits on the body, if it has one: (forward, left, up), metres."""
+    """Position of a ray sensor's origin on the body: (forward, left, up), metres."""
 
 
 class Component(NamedTuple):
     """One number of an action."""
 
     name: str
-    """Empty if it has none."""
+    """Name; empty if it has none."""
     low: float
     high: float
 
 
 @dataclass(frozen=True, slots=True)
 class ActuatorInfo:
-    """One actuator's part of the action."""
+    """Description of one actuator's part of the action."""
 
     name: str
     block: str
     """The actuator's class."""
     components: tuple[Component, ...]
     is_choice: bool
-    """Whether the number is one of several choices."""
+    """True if the number is one of several discrete choices."""
 
 
 class BlockInfo(NamedTuple):
-    """What is known of an agent as long as it has these blocks."""
+    """Descriptions of an agent's sensors and actuators."""
 
     sensor_infos: tuple[SensorInfo, ...]
     actuator_infos: tuple[ActuatorInfo, ...]
     legends: Mapping[str, Legend]
-    """How readings are seen as pictures, by perception key."""
+    """Colours for showing readings as pictures, by perception key."""
 
 
 class RayPictures(Mapping[str, RayPicture]):
-    """The rays of one percept by perception key; each picture is made when it is looked at.
+    """Lazily made pictures of the rays of one percept, by perception key.
 
     Args:
-        makers: of each picture.
+        makers: functions that make the pictures.
     """
 
     def __init__(self, makers: Mapping[str, Callable[[], RayPicture]]) -> None:
@@ -127,7 +127,7 @@ class RayPictures(Mapping[str, RayPicture]):
 
 
 class SensorPictures(NamedTuple):
-    """What sensors looked at for one percept, by perception key."""
+    """Pictures of what sensors read for one percept, by perception key."""
 
     rays: Mapping[str, RayPicture]
     spots: dict[str, SpotPicture]
@@ -140,7 +140,7 @@ _picture_cache: "WeakKeyDictionary[BoundBlocks, tuple[Percept, SensorPictures]]"
 
 
 def block_info_of(agent: BasicAgent) -> BlockInfo:
-    """What is known of an agent's readings and actions; worked out once for its blocks."""
+    """Return the description of an agent's blocks; cached until they are rebound."""
     bound = agent.bound_blocks
     known = _info_cache.get(bound)
     if known is None:
@@ -154,7 +154,7 @@ def block_info_of(agent: BasicAgent) -> BlockInfo:
 
 
 def sensor_pictures_of(agent: BasicAgent) -> SensorPictures:
-    """What an agent's sensors looked at; worked out once for each percept."""
+    """Return pictures of an agent's present percept; cached for each percept."""
     bound, percept = agent.bound_blocks, agent.percept
     known = _picture_cache.get(bound)
     if known is None or known[0] is not percept:
@@ -179,7 +179,7 @@ def _sense(sensor: Sensor) -> SensorInfo:
         key=sensor.perception_key,
         block=type(sensor).__name__,
         unit="" if sensor.normalized else sensor.unit,
-        # a student's own names may not fit; then the numbers go by their place
+        # names of the wrong number, from a student's sensor, are ignored
         slots=slots if len(slots) == len(low) else (),
         low=low,
         high=high,
@@ -193,7 +193,7 @@ def _sense(sensor: Sensor) -> SensorInfo:
 
 
 def _range(sensor: Sensor) -> tuple[Floats, Floats]:
-    """The ends of each number's range, of one reading."""
+    """Return the lower and upper bounds of one reading's numbers."""
     space = sensor.observation_space()
     if not isinstance(space, spaces.Box):
         high = float(space.n - 1) if isinstance(space, spaces.Discrete) else 1.0
@@ -201,8 +201,8 @@ def _range(sensor: Sensor) -> tuple[Floats, Floats]:
     count = space.low.size // sensor.stacked_observations
     ends: tuple[Any, Any] = (space.low, space.high)
     low, high_each = (each.ravel()[:count].astype(np.float64) for each in ends)
-    if isinstance(sensor, OrientationSensor):  # its lowest numbers say "not to be seen"
-        low = np.array([LEAST_SEEN[slot] for slot in sensor.slots()])
+    if isinstance(sensor, OrientationSensor):  # its lowest values mean "not visible"
+        low = np.array([MIN_VISIBLE[slot] for slot in sensor.slots()])
     return low, high_each
 
 

@@ -34,16 +34,17 @@ def capture_snapshot(
     error: str = "",
     slow_tick: SlowTick | None = None,
 ) -> Snapshot:
-    """Everything as it is now.
+    """Capture the present state of a world and its agents.
 
     Args:
         sim: the world and its agents.
-        static_scene: what :func:`capture_static_scene` gave, if nothing was built since.
-        paused: whether the time stands still.
-        time_scale: how fast it should run.
-        real_time_factor: how fast it ran lately.
-        error: what stopped the world.
-        slow_tick: one that took too long, lately.
+        static_scene: an earlier result of :func:`capture_static_scene`, to share it if nothing was
+            built since.
+        paused: True if the world is paused.
+        time_scale: wanted speed; 1 is real time.
+        real_time_factor: measured speed.
+        error: the error that stopped the world.
+        slow_tick: a recent tick that took too long.
     """
     world = sim.world
     return Snapshot(
@@ -63,7 +64,7 @@ def capture_snapshot(
 
 
 def capture_static_scene(sim: ControlRequestor) -> StaticScene:
-    """What does not move in a world."""
+    """Capture the parts of a world that do not change during an episode."""
     world = sim.world
     return StaticScene(
         settings=world.settings,
@@ -82,7 +83,7 @@ def capture_static_scene(sim: ControlRequestor) -> StaticScene:
 
 
 def capture_bodies(sim: ControlRequestor) -> tuple[BodyState, ...]:
-    """Where all bodies are now."""
+    """Capture the poses and velocities of all bodies."""
     states = []
     for body in sim.world.bodies.values():
         x, y = body.position
@@ -106,12 +107,12 @@ def capture_bodies(sim: ControlRequestor) -> tuple[BodyState, ...]:
 
 
 def capture_agent(agent: BasicAgent, success: str = "", phase: Phase = NOWHERE) -> AgentState:
-    """What an agent sensed, did and got in its last decision.
+    """Capture the percept, action and reward of an agent's last decision.
 
     Args:
-        agent: which.
+        agent: the agent.
         success: the reward term that is paid when the goal is reached.
-        phase: how far it is in its decision.
+        phase: the agent's progress in its present decision.
     """
     ledger, info, pictures = agent.ledger, block_info_of(agent), sensor_pictures_of(agent)
     reward, terms = ledger.finished
@@ -149,13 +150,13 @@ def capture_agent(agent: BasicAgent, success: str = "", phase: Phase = NOWHERE) 
 def _fell(agent: BasicAgent) -> bool:
     if not agent.terminated:
         return False
-    low = agent.body.fallen and not agent.body.on_ground  # who was only taken away stood there
+    low = agent.body.fallen and not agent.body.on_ground  # a body that was removed is on ground
     ends = [
         reward
         for reward in agent.bound_blocks.rewards
         if reward.cause_episode_to_end and agent.ledger.terms.get(reward.name)
     ]
-    # after another end a body may yet roll over the edge
+    # if the episode ended for another reason, a fall afterwards does not count
     return any(_is_for_falling(reward, low=low) for reward in ends) if ends else low
 
 

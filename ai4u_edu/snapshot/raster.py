@@ -1,4 +1,4 @@
-"""A snapshot as a picture, without a browser: from straight above, antialiased."""
+"""Rendering of a snapshot from above, without a browser."""
 
 import math
 from collections.abc import Iterable, Sequence
@@ -13,29 +13,29 @@ from ai4u_edu.world import BodyDescription, CircleShape, RegionDescription, Ring
 
 Points = npt.NDArray[np.float64]
 
-FINER = 2
-"""Everything is drawn this many times larger and then made smaller: that smooths the edges."""
+SUPERSAMPLING = 2
+"""Factor by which everything is drawn larger and then reduced, for antialiasing."""
 MARGIN_M = 0.75
-"""Void shown around the arena, metres."""
-SHADOW = (0.12, -0.12)
-"""Where a body's shadow falls for each metre of height, metres."""
+"""Width of the void around the arena."""
+SHADOW_OFFSET_M = (0.12, -0.12)
+"""Offset of a body's shadow for each metre of height."""
 
 
 def draw_snapshot(snapshot: Snapshot, *, longest: int = 480) -> npt.NDArray[np.uint8]:
-    """The world from above; +x to the right, +y up.
+    """Draw a snapshot from above; +x to the right, +y up.
 
     Args:
-        snapshot: what is drawn.
+        snapshot: the snapshot to draw.
         longest: pixels of the longer side.
 
     Returns:
         (height, width, 3) uint8.
     """
-    return _Canvas(snapshot.static_scene, longest).paint(snapshot)
+    return _Canvas(snapshot.static_scene, longest).draw(snapshot)
 
 
 class _Canvas:
-    """A picture of one static scene under way; lengths in metres come in, pixels go out."""
+    """An image that is being drawn; converts metres to pixels."""
 
     def __init__(self, static_scene: StaticScene, longest: int) -> None:
         self.static_scene = static_scene
@@ -43,12 +43,14 @@ class _Canvas:
         wide, tall = right - left + 2 * MARGIN_M, high - low + 2 * MARGIN_M
         scale = longest / max(wide, tall)
         self.size = round(wide * scale), round(tall * scale)
-        self.scale = scale * FINER
+        self.scale = scale * SUPERSAMPLING
         self.origin = left - MARGIN_M, high + MARGIN_M
-        self.image = Image.new("RGB", (self.size[0] * FINER, self.size[1] * FINER), theme.VOID)
+        self.image = Image.new(
+            "RGB", (self.size[0] * SUPERSAMPLING, self.size[1] * SUPERSAMPLING), theme.VOID
+        )
         self.pen = ImageDraw.Draw(self.image)
 
-    def paint(self, snapshot: Snapshot) -> npt.NDArray[np.uint8]:
+    def draw(self, snapshot: Snapshot) -> npt.NDArray[np.uint8]:
         for floor in sorted(self.static_scene.floors, key=lambda floor: floor.top):
             self._region(floor, theme.floor_colour(floor), theme.FLOOR_EDGE)
         if not self.static_scene.floors:
@@ -63,7 +65,7 @@ class _Canvas:
                 self._body(described[state.name], state)
         for agent in snapshot.agents:
             self._spots(agent.spots.values())
-        smooth = self.image.reduce(FINER)
+        smooth = self.image.reduce(SUPERSAMPLING)
         return np.asarray(smooth, np.uint8)
 
     def _region(self, region: RegionDescription, fill: theme.Rgb, edge: theme.Rgb) -> None:
@@ -76,19 +78,19 @@ class _Canvas:
 
     def _body(self, body: BodyDescription, state: BodyState) -> None:
         colour = theme.body_colour(body, body.name in self.static_scene.agent_of)
-        if state.z < 0:  # it falls: the deeper, the darker
+        if state.z < 0:  # falling: the deeper, the darker
             colour = theme.mix_colours(colour, theme.VOID, min(1.0, -state.z / 2))
         outline = _placed(body.shape.outline(), state.x, state.y, state.heading)
         lift = max(0.0, state.z) + 0.4
         if state.z >= 0:
             shade = theme.mix_colours(theme.FLOOR, theme.VOID, 0.35)
-            self._polygon(outline + np.multiply(SHADOW, lift), shade, None)
+            self._polygon(outline + np.multiply(SHADOW_OFFSET_M, lift), shade, None)
         self._polygon(outline, colour, theme.mix_colours(colour, (0, 0, 0), 0.45))
         if body.name in self.static_scene.agent_of:
             self._front(body, state)
 
     def _front(self, body: BodyDescription, state: BodyState) -> None:
-        """A light wedge that shows where an agent looks."""
+        """Draw a wedge that shows an agent's heading."""
         reach = body.shape.radius if isinstance(body.shape, CircleShape) else body.shape.reach * 0.7
         wedge = [(reach * 0.95, 0.0), (reach * 0.15, reach * 0.5), (reach * 0.15, -reach * 0.5)]
         self._polygon(_placed(wedge, state.x, state.y, state.heading), (255, 255, 255), None)
@@ -110,7 +112,7 @@ class _Canvas:
                 self.pen.ellipse(disc, fill=theme.SPOT_LIT if lit else theme.SPOT_UNLIT)
 
     def _polygon(self, points: Points, fill: theme.Rgb, edge: theme.Rgb | None) -> None:
-        self.pen.polygon(self._pixels(points), fill=fill, outline=edge, width=FINER)
+        self.pen.polygon(self._pixels(points), fill=fill, outline=edge, width=SUPERSAMPLING)
 
     def _pixels(self, points: Points) -> list[tuple[float, float]]:
         left, top = self.origin

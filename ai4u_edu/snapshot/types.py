@@ -1,4 +1,4 @@
-"""Snapshot types: the frozen state of a world that the page, the API and the recorder read."""
+"""Types of snapshots: the state of a world at one tick, for the page, the API and the recorder."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -18,15 +18,15 @@ from ai4u_edu.snapshot.block_info import ActuatorInfo, SensorInfo
 from ai4u_edu.world import AreaDescription, BodyDescription, FloorDescription, WorldSettings
 
 NOWHERE = Phase()
-"""Before the first decision."""
+"""Phase before the first decision."""
 EMPTY: Mapping[str, Any] = MappingProxyType({})
 
 
 @dataclass(frozen=True, slots=True)
 class StaticScene:
-    """What does not move in an episode; the same object until something is built anew.
+    """The parts of a world that do not change during an episode; shared between snapshots.
 
-    What a scene leaves to chance stands here as it was drawn.
+    Randomized values are those of the present episode.
     """
 
     settings: WorldSettings
@@ -34,30 +34,30 @@ class StaticScene:
     areas: tuple[AreaDescription, ...]
     bodies: tuple[BodyDescription, ...]
     agent_of: dict[str, str]
-    """The agent's id, by the name of its body."""
+    """Ids of agents by the names of their bodies."""
     bounds: tuple[tuple[float, float], tuple[float, float]]
     """A rectangle around everything in all episodes: ((left, low), (right, high)), metres."""
     goal: str = ""
-    """What is to be done, in words."""
+    """The goal in words."""
     success: str = ""
-    """The reward term that is paid when it is done; empty if there is none."""
+    """The reward term that is paid when the goal is reached; empty if there is none."""
 
 
 class Need(NamedTuple):
-    """Something that an agent has to keep in balance, as it is now."""
+    """The present level of a homeostatic variable."""
 
     name: str
     level: float
     range: tuple[float, float]
     comfort: tuple[float, float]
-    """The ends of the zone in which the agent feels well."""
+    """Bounds of the comfort zone."""
 
 
 class BodyState(NamedTuple):
-    """Where a body is: metres, radians, m/s, rad/s, in the world's frame.
+    """Pose and velocity of a body: metres, radians, m/s, rad/s, in the world's frame.
 
-    A named tuple, as :class:`AgentState`: for a crowd there are thousands a second, and a frozen
-    dataclass takes several times as long to make.
+    Like :class:`AgentState` a named tuple, since a frozen dataclass takes several times as long to
+    make and many bodies need thousands a second.
     """
 
     name: str
@@ -74,7 +74,7 @@ class BodyState(NamedTuple):
 
 
 class AgentState(NamedTuple):
-    """What an agent sensed, did and got in its last decision."""
+    """Percept, action and reward of an agent's last decision."""
 
     id: str
     body: str
@@ -82,11 +82,11 @@ class AgentState(NamedTuple):
     percept: Percept
     action: dict[str, tuple[float, ...]]
     clipped: int
-    """How many numbers of actions were out of range, and cut, so far."""
+    """Numbers of actions so far that were out of range and clipped."""
     reward: float
-    """Of the last decision that is over; while the next one is under way, still of that one."""
+    """Reward of the last finished decision."""
     reward_terms: dict[str, float]
-    """The same by name."""
+    """Its terms by name."""
     episode_reward: float
     episode_terms: dict[str, float]
     steps: int
@@ -95,28 +95,28 @@ class AgentState(NamedTuple):
     paused: bool
     held_keys: frozenset[str]
     rays: Mapping[str, RayPicture]
-    """The rays of the last reading, by perception key."""
+    """Rays of the last reading, by perception key."""
     remote: RemoteStatus | None = None
-    """How it stands with the script that drives, if it is one's turn."""
+    """Status of the remote script, if one drives."""
     episode: int = 1
-    """How many episodes the agent has begun, those that it began alone too."""
+    """Episodes that the agent has begun, alone or with the world."""
     succeeded: bool = False
-    """Whether it was paid in this episode for reaching the scene's goal."""
+    """True if it was paid in this episode for reaching the scene's goal."""
     fell: bool = False
-    """Whether its episode ended because it fell."""
+    """True if its episode ended because it fell."""
     needs: tuple[Need, ...] = ()
     spots: Mapping[str, SpotPicture] = EMPTY
-    """The places that sensors looked at in their last reading, by perception key."""
+    """Points that sensors read in their last reading, by perception key."""
     legends: Mapping[str, Legend] = EMPTY
-    """How readings are seen as pictures, by perception key."""
+    """Colours for showing readings as pictures, by perception key."""
     phase: Phase = NOWHERE
-    """How far it is in its decision."""
+    """Progress in its present decision."""
     history: tuple[Entry, ...] = ()
-    """What its latest decisions were paid, if somebody wants to know."""
+    """Rewards of its latest decisions, if the ledger keeps them."""
     sensor_infos: tuple[SensorInfo, ...] = ()
-    """What is known of its readings: the same object as long as it has these blocks."""
+    """Descriptions of its sensors; the same object until its blocks are rebound."""
     actuator_infos: tuple[ActuatorInfo, ...] = ()
-    """What is known of its actions, likewise."""
+    """Descriptions of its actuators, likewise."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -125,29 +125,29 @@ class SlowTick:
 
     seconds: float
     contacts: int
-    """How many pairs of bodies touched, about."""
+    """Approximate number of touching pairs of bodies."""
 
 
 @dataclass(frozen=True, slots=True)
 class Snapshot:
-    """Everything at one tick."""
+    """State of a world and its agents at one tick."""
 
     static_scene: StaticScene
     tick: int
     time: float
-    """Seconds of the world's time since the reset."""
+    """World time (s) since the reset."""
     seed: int
     episode: int
     paused: bool
     time_scale: float
-    """How fast the time should run; 1 is real time."""
+    """Wanted speed; 1 is real time."""
     real_time_factor: float
-    """How fast it ran lately."""
+    """Measured speed."""
     error: str
-    """What stopped the world, in a sentence; empty while all is well."""
+    """Sentence about the error that stopped the world; empty if none did."""
     bodies: tuple[BodyState, ...]
     agents: tuple[AgentState, ...]
     slow_tick: SlowTick | None = None
-    """The slowest tick of the last seconds, if one took too long."""
+    """Slowest tick of the last seconds, if it took too long."""
     past: str = ""
-    """Which moment of the past it is, in words; empty for now."""
+    """Label of a moment of the past; empty for the present."""

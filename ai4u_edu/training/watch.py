@@ -84,10 +84,10 @@ def show(folder: Path, port: int, *, open_page: bool) -> None:
     from ai4u_edu.runtime.runner import Runner
     from ai4u_edu.server import (
         PortTakenError,
+        lock_viser_port,
         open_on_desktop,
         room_app,
         serve,
-        shut_side_door,
     )
     from ai4u_edu.training.algorithms import load_model
     from ai4u_edu.training.policies import driver_of
@@ -106,7 +106,7 @@ def show(folder: Path, port: int, *, open_page: bool) -> None:
     title = f"{scene.description.title or scene.description.name}, learning"
     runner = Runner(sim)
     viewer = Viewer(runner, title=title)
-    shut_side_door(viewer.server)
+    lock_viser_port(viewer.server)
     room = room_app(runner, viser_port=viewer.port, title=title)
 
     def ready(url: str) -> None:

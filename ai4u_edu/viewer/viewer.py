@@ -17,7 +17,7 @@ from ai4u_edu.viewer.panel.agent_tab import AgentTab
 from ai4u_edu.viewer.panel.blocks_tab import blocks_tab
 from ai4u_edu.viewer.panel.controls import Controls
 from ai4u_edu.viewer.panel.page_controls import PageControls
-from ai4u_edu.viewer.panel.reward_table import REMEMBERED
+from ai4u_edu.viewer.panel.reward_table import MAX_PLOTTED_DECISIONS
 from ai4u_edu.viewer.panel.tabs import TabKind, Tabs
 from ai4u_edu.viewer.panel.world_tab import world_tab
 from ai4u_edu.viewer.replay.ghosts import Ghosts
@@ -171,7 +171,7 @@ class Viewer:
 
     def _draw(self, snapshot: Snapshot) -> None:
         for agent in self.runner.sim.agents:
-            agent.ledger.keep_history(REMEMBERED)
+            agent.ledger.keep_history(MAX_PLOTTED_DECISIONS)
         with self.server.atomic():
             if snapshot.static_scene is not self._static_scene:
                 self._static_scene = snapshot.static_scene

@@ -1,4 +1,4 @@
-"""Networks that come with the package, one a scene: ``ai4u-edu play SCENE --brain zoo``.
+"""Trained networks in the package, one for each scene: ``ai4u-edu play SCENE --brain zoo``.
 
 Each was made by ``python -m ai4u_edu.training.zoo``, which trains, evaluates and exports.
 """
@@ -9,10 +9,10 @@ FOLDER = Path(__file__).parent
 
 
 def names() -> list[str]:
-    """The scenes for which there is a network."""
+    """Return the names of the scenes that have a network."""
     return sorted(path.stem for path in FOLDER.glob("*.onnx"))
 
 
 def network_of(scene: str) -> Path:
-    """Where a scene's network is, or would be."""
+    """Return the path of a scene's network, which need not exist."""
     return FOLDER / f"{scene}.onnx"

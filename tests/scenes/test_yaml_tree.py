@@ -12,7 +12,7 @@ from ruamel.yaml import YAML
 from ai4u_edu.base.errors import SceneError
 from ai4u_edu.scenes import Scene
 from ai4u_edu.scenes.yaml.file import MAX_SCENE_CHARS, YamlFile
-from ai4u_edu.scenes.yaml.tree import IS_QUICK, read_tree
+from ai4u_edu.scenes.yaml.tree import HAS_LIBYAML, read_tree
 
 PLAIN = (
     "true True TRUE false False FALSE null Null NULL ~ yes no on off y n tRUE nil 1 -1 +1 007 "
@@ -49,7 +49,7 @@ def test_every_entry_has_its_line() -> None:
 
 
 def test_it_is_read_in_c() -> None:
-    assert IS_QUICK
+    assert HAS_LIBYAML
     assert yaml.__with_libyaml__
 
 

@@ -12,7 +12,7 @@ import httpx
 import pytest
 
 from ai4u_edu.server import connections as limits
-from ai4u_edu.server.connections import MAX_EVICTING, PER_ADDRESS, Connections, most_connections
+from ai4u_edu.server.connections import MAX_EVICTING, MAX_PER_ADDRESS, Connections, max_connections
 from tests.server.rooms import UPGRADE, Page, Room, raw_request, served, until
 
 
@@ -39,7 +39,7 @@ def connect(connections: Connections, peer: tuple[str, int], *, idle: bool = Tru
 
 def test_an_address_has_so_many_connections_and_others_have_theirs() -> None:
     connections = Connections(most=500)
-    for port in range(PER_ADDRESS):
+    for port in range(MAX_PER_ADDRESS):
         connect(connections, ("10.0.0.7", port), idle=False)
     assert connections.admit(("10.0.0.7", 5000)) == (
         "expected at most 120 connections from one address, got another one from 10.0.0.7; close "
@@ -92,7 +92,7 @@ def test_the_limit_leaves_descriptors_for_everything_else(monkeypatch: pytest.Mo
     resource = pytest.importorskip("resource")
     for soft, expected in ((1024, 298), (256, 42), (10, 16), (10**6, 1000), (-1, 1000)):
         monkeypatch.setattr(resource, "getrlimit", lambda _, soft=soft: (soft, soft))
-        assert most_connections() == expected
+        assert max_connections() == expected
 
 
 @contextmanager
@@ -108,7 +108,7 @@ def crowd(room: Room, count: int) -> Iterator[list[socket.socket]]:
 @pytest.fixture
 def small(monkeypatch: pytest.MonkeyPatch) -> Iterator[Room]:
     """A room with 20 connections."""
-    monkeypatch.setattr(limits, "most_connections", lambda: 20)
+    monkeypatch.setattr(limits, "max_connections", lambda: 20)
     with served() as room:
         yield room
 

@@ -4,7 +4,6 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 import pytest
-from viser import GuiHtmlHandle
 
 from ai4u_edu import BasicAgent, CircleShape, ControlRequestor, LocalBrain, World
 from ai4u_edu.runtime.runner import Runner
@@ -38,9 +37,9 @@ def crowded(crowd: Runner) -> Iterator[Viewer]:
 def text_of(viewer: Viewer) -> str:
     """All HTML in the tab of the only page."""
     (tab,) = tabs_of(viewer, AgentTab)
-    html = [tab._legend, tab._state, tab._decision, tab._inside, *tab._senses._inside]
-    html += [tab._also, tab._action, tab._ledger]
-    return "".join(each.content for each in html if isinstance(each, GuiHtmlHandle))
+    html = [tab._legend, tab._state, tab._decision, tab._needs, *tab.sensors.readings.values()]
+    html += [tab._one_value_sensors, tab._action, tab._rewards]
+    return "".join(each.content for each in html)
 
 
 def test_an_agent_has_its_senses_action_and_reward(viewer: Viewer) -> None:
@@ -58,7 +57,7 @@ def test_an_agent_has_its_senses_action_and_reward(viewer: Viewer) -> None:
         "done",
     ):
         assert expected in text
-    assert list(tab._senses._buttons) == ["fan"]
+    assert list(tab.sensors.buttons) == ["fan"]
 
 
 def test_a_page_that_is_gone_has_no_tabs(viewer: Viewer) -> None:
@@ -147,7 +146,7 @@ def test_a_sensor_is_shown_and_hidden_by_its_button(viewer: Viewer, runner: Runn
         shown(viewer)
         (tab,) = tabs_of(viewer, AgentTab)
         (viewer_client,) = viewer._viewer_clients.values()
-        button = tab._senses._buttons["fan"]
+        button = tab.sensors.buttons["fan"]
         assert button.icon == SHOWN
         here.press(button)
         until(lambda: not viewer_client.lights("fan", by_itself=True))

@@ -57,7 +57,7 @@ def test_lists_of_blocks_and_of_who_may_drive(viewer: Viewer) -> None:
         assert "Program: TrainController" not in tab.driver.options  # by itself it does nothing
         assert any(line.startswith("RayCastingSensor: Codes and") for line in tab.new.options)
         assert tab._form is None  # made when it is asked for
-        assert not tab.deeds.visible
+        assert not tab.block_actions.visible
 
 
 def test_a_form_is_filled_in_and_handed_in(viewer: Viewer, shop: Shop) -> None:
@@ -68,7 +68,7 @@ def test_a_form_is_filled_in_and_handed_in(viewer: Viewer, shop: Shop) -> None:
         applied(viewer, here, tab, noise="0,5", target="wall")
         until(lambda: shop.agent.sensors[0].target == "wall")
         assert shop.agent.sensors[0].noise == 0.5
-        seen(viewer, lambda: "it applies at the next decision" in tab._said.content)
+        seen(viewer, lambda: "it applies at the next decision" in tab._status.content)
         assert tab._form is form  # the same boxes
         assert form.boxes["noise"].value == "0.5"
 
@@ -78,16 +78,16 @@ def test_what_is_wrong_stands_beside_its_field(viewer: Viewer, shop: Shop) -> No
         tab = tab_of(viewer)
         form = chosen(viewer, here, tab, "1 BearingSensor")
         applied(viewer, here, tab, noise="-1", delay=-2)
-        seen(viewer, lambda: len(form._complaints) == 2)
-        assert "expected at least 0, got -1" in form._complaints["noise"].content
-        assert "delay (decisions): expected at least 0, got -2" in form._told.content
-        for name, complaint in form._complaints.items():
+        seen(viewer, lambda: len(form.problem_texts) == 2)
+        assert "expected at least 0, got -1" in form.problem_texts["noise"].content
+        assert "delay (decisions): expected at least 0, got -2" in form.message.content
+        for name, complaint in form.problem_texts.items():
             place = [field.name for field in form.fields].index(name)
             assert complaint.order == place + 0.5
         assert shop.editor.undo_label == ""
         applied(viewer, here, tab, noise="0.1", delay=0)
-        seen(viewer, lambda: not form._complaints)
-        assert "it applies" in form._told.content
+        seen(viewer, lambda: not form.problem_texts)
+        assert "it applies" in form.message.content
 
 
 def test_what_can_not_be_read_is_not_handed_in(viewer: Viewer, shop: Shop) -> None:
@@ -96,10 +96,10 @@ def test_what_can_not_be_read_is_not_handed_in(viewer: Viewer, shop: Shop) -> No
         here.change(tab.kind, "Brains")
         seen(viewer, lambda: "1.controller ReplayController" in tab.block.options)
         form = chosen(viewer, here, tab, "1.controller ReplayController")
-        assert not tab.deeds.visible
+        assert not tab.block_actions.visible
         applied(viewer, here, tab, actions="[{move: [1, 0")
-        seen(viewer, lambda: "actions" in form._complaints)
-        assert "for a list" in form._complaints["actions"].content
+        seen(viewer, lambda: "actions" in form.problem_texts)
+        assert "for a list" in form.problem_texts["actions"].content
         applied(viewer, here, tab, actions="[{move: [0, 1, 0, 0]}]")
         until(lambda: shop.agent.brain.controller.actions == [{"move": [0, 1, 0, 0]}])
 
@@ -110,17 +110,17 @@ def test_deeds(viewer: Viewer, shop: Shop) -> None:
         here.change(tab.kind, "Rewards")
         seen(viewer, lambda: "2 ProgressReward" in tab.block.options)
         chosen(viewer, here, tab, "2 ProgressReward")
-        here.change(tab.deeds, "Up")
+        here.change(tab.block_actions, "Up")
         until(lambda: type(shop.agent.rewards[0]).__name__ == "ProgressReward")
         seen(viewer, lambda: tab.block.value == "1 ProgressReward")  # it is still looked at
-        here.change(tab.deeds, "Off")
+        here.change(tab.block_actions, "Off")
         seen(viewer, lambda: tab.block.value == "1 ProgressReward (off)")
-        assert tab.deeds.options[0] == "On"
-        here.change(tab.deeds, "Remove")
+        assert tab.block_actions.options[0] == "On"
+        here.change(tab.block_actions, "Remove")
         until(lambda: len(shop.agent.rewards) == 1)
         here.change(tab.changes, "Undo")
         until(lambda: len(shop.agent.rewards) == 2)
-        seen(viewer, lambda: "redo: remove ProgressReward" in tab._said.content)
+        seen(viewer, lambda: "redo: remove ProgressReward" in tab._status.content)
 
 
 def test_a_controller_has_no_place_in_a_list(
@@ -132,8 +132,8 @@ def test_a_controller_has_no_place_in_a_list(
         seen(viewer, lambda: "1.controller ReplayController" in tab.block.options)
         chosen(viewer, here, tab, "1.controller ReplayController")
         before = shop.editor.state
-        for word in tab.deeds.options:
-            here.change(tab.deeds, word)
+        for word in tab.block_actions.options:
+            here.change(tab.block_actions, word)
         here.change(tab.kind, "Rewards")  # after it, those were heard
         seen(viewer, lambda: "1 TouchRewardFunc" in tab.block.options)
         assert shop.editor.state == before
@@ -159,14 +159,14 @@ def test_a_page_can_send_what_it_likes(viewer: Viewer, shop: Shop) -> None:
     with page(viewer) as here:
         tab = tab_of(viewer)
         before = shop.editor.state
-        for handle in (tab.block, tab.new, tab.driver, tab.kind, tab.changes, tab.deeds):
+        for handle in (tab.block, tab.new, tab.driver, tab.kind, tab.changes, tab.block_actions):
             here.change(handle, "nonsense")
         here.change(tab.add, True)
         form = chosen(viewer, here, tab, "1 BearingSensor")
         here.change(form.boxes["target"], "<script>")  # is none of its choices
         applied(viewer, here, tab, noise="<script>")
-        seen(viewer, lambda: "noise" in form._complaints)
-        assert "&lt;script&gt;" in form._complaints["noise"].content
+        seen(viewer, lambda: "noise" in form.problem_texts)
+        assert "&lt;script&gt;" in form.problem_texts["noise"].content
         assert form.boxes["target"].value == "box"
         assert shop.editor.state == before
 
@@ -180,7 +180,7 @@ def test_two_pages_have_a_form_each_and_see_each_others_changes(viewer: Viewer, 
         assert form is not other
         applied(viewer, mine, one, noise="0.25")
         seen(viewer, lambda: other.boxes["noise"].value == "0.25")
-        assert "undo: change BearingSensor" in two._said.content
+        assert "undo: change BearingSensor" in two._status.content
 
 
 def test_another_scene_has_other_lists(viewer: Viewer, shop: Shop) -> None:
@@ -201,10 +201,10 @@ def test_what_was_left_is_offered(viewer: Viewer, shop: Shop, tmp_path: Any) -> 
     shop.editor.recovery.unsaved = Unsaved(tmp_path / "x", text, None, 0.0)
     with page(viewer) as here:
         tab = tab_of(viewer)
-        assert tab._offer.visible
-        here.change(tab._offered, "Bring it back")
+        assert tab._unsaved_text.visible
+        here.change(tab._unsaved_actions, "Bring it back")
         until(lambda: shop.world["box"].position == (3, 3))
-        seen(viewer, lambda: not tab._offer.visible)
+        seen(viewer, lambda: not tab._unsaved_text.visible)
 
 
 def test_an_agents_own_settings_have_a_form(viewer: Viewer, shop: Shop) -> None:
@@ -219,16 +219,18 @@ def test_an_agents_own_settings_have_a_form(viewer: Viewer, shop: Shop) -> None:
         until(lambda: shop.agent.brain.skip_frame == 3)
         assert shop.agent.max_steps_per_episode == 50
         assert shop.agent.brain.repeat_action is False
-        seen(viewer, lambda: "change agent 0: it applies at the next decision" in tab._said.content)
+        seen(
+            viewer, lambda: "change agent 0: it applies at the next decision" in tab._status.content
+        )
         hand_in(here, form, skip_frame=-2)
-        seen(viewer, lambda: "skip frame: expected at least 0, got -2" in form._told.content)
+        seen(viewer, lambda: "skip frame: expected at least 0, got -2" in form.message.content)
         assert shop.agent.brain.skip_frame == 3
         here.change(tab.changes, "Undo")
         seen(viewer, lambda: form.boxes["skip_frame"].value == 0)
         assert tab.settings.form is form
         assert shop.agent.brain.skip_frame == 0
         hand_in(here, form, priority=2)
-        seen(viewer, lambda: "it applies at the next reset" in tab._said.content)
+        seen(viewer, lambda: "it applies at the next reset" in tab._status.content)
         here.press(tab.settings.button)
         seen(viewer, lambda: tab.settings.form is None)
 

@@ -8,7 +8,7 @@ import pytest
 from ai4u_edu.agent.decision_cycle import Phase
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.snapshot import capture_snapshot
-from ai4u_edu.viewer.panel.decision import MOST_TICKS, decision
+from ai4u_edu.viewer.panel.decision import MAX_TICKS, decision
 from tests.builders import small_sim
 
 
@@ -56,7 +56,7 @@ def test_only_what_is_slow_can_be_followed(runner: Runner, speed: float, visible
 
 def test_long_decisions_are_drawn_in_part(runner: Runner) -> None:
     html = strip(runner, Phase(0, 100, True))
-    assert len(ticks(html)) == MOST_TICKS
+    assert len(ticks(html)) == MAX_TICKS
     assert "100" in html
 
 

@@ -38,5 +38,5 @@ def test_what_an_agent_needs_stands_in_its_panel() -> None:
     assert agent.needs[0].level < 60
     assert agent.needs[0].comfort == (40.0, 80.0)
     snapshot = capture_snapshot(sim)
-    assert "energy" in AgentHtml.of(agent, snapshot, {}).inside
-    assert not AgentHtml.of(agent._replace(needs=()), snapshot, {}).inside
+    assert "energy" in AgentHtml.of(agent, snapshot, {}).needs
+    assert not AgentHtml.of(agent._replace(needs=()), snapshot, {}).needs

@@ -6,7 +6,7 @@ import numpy as np
 
 from ai4u_edu.blocks import ChannelLegend, CodeLegend, GridSensor, LocalGridSensor, RayCastingSensor
 from ai4u_edu.snapshot.theme import UNKNOWN_GROUP, VOID
-from ai4u_edu.viewer.panel.pictures import MOST_CELLS, pictures
+from ai4u_edu.viewer.panel.pictures import MAX_CELLS_PER_SIDE, pictures
 
 COLOURS = {"wall": (1, 2, 3), "dirty": (4, 5, 6)}
 
@@ -74,7 +74,7 @@ def test_a_huge_picture_is_drawn_in_part() -> None:
     rng = np.random.default_rng(1)
     reading = rng.integers(0, 2, (512, 512, 1)).astype(np.uint8)
     svg = pictures(reading, ChannelLegend(("wall",)), COLOURS)
-    assert max(max(cell) for cell in cells(svg)["(1, 2, 3)"]) < MOST_CELLS
+    assert max(max(cell) for cell in cells(svg)["(1, 2, 3)"]) < MAX_CELLS_PER_SIDE
     assert len(svg) < 60_000
 
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from ai4u_edu.snapshot.block_info import ActuatorInfo, Component, block_info_of
-from ai4u_edu.viewer.panel.readings import BARS, IN_FULL, action, reading, rewards
+from ai4u_edu.viewer.panel.readings import BAR_CHARS, MAX_LISTED_NUMBERS, action, reading, rewards
 from tests.builders import small_sim
 
 EVIL = "<script>alert('&')</script>"
@@ -51,16 +51,18 @@ def test_long_text_is_cut() -> None:
 
 
 def test_long_arrays_are_bars_of_their_size() -> None:
-    assert bars(reading(np.linspace(0, 1, 16))) == [["".join(f"{bar}{bar}" for bar in BARS)]]
+    assert bars(reading(np.linspace(0, 1, 16))) == [["".join(f"{bar}{bar}" for bar in BAR_CHARS)]]
 
 
 def test_bars_of_small_numbers_mean_the_same_at_any_time() -> None:
-    assert bars(reading(np.full(IN_FULL + 1, 0.5))) == [[BARS[4] * (IN_FULL + 1)]]
+    assert bars(reading(np.full(MAX_LISTED_NUMBERS + 1, 0.5))) == [
+        [BAR_CHARS[4] * (MAX_LISTED_NUMBERS + 1)]
+    ]
 
 
 def test_bars_reach_from_the_lowest_to_the_highest_number() -> None:
     ((row,),) = bars(reading(np.array([-4.0, 4.0] * 5)))
-    assert row == (BARS[0] + BARS[-1]) * 5
+    assert row == (BAR_CHARS[0] + BAR_CHARS[-1]) * 5
 
 
 def test_arrays_are_laid_out_as_they_are() -> None:

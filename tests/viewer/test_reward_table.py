@@ -5,7 +5,7 @@ from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.snapshot import capture_snapshot
 from ai4u_edu.viewer.panel.plot import INCREMENTS
 from ai4u_edu.viewer.panel.readings import rewards
-from ai4u_edu.viewer.panel.reward_table import LAST, curves, reward_table
+from ai4u_edu.viewer.panel.reward_table import MAX_LISTED_DECISIONS, curves, reward_table
 from tests.builders import small_sim
 
 
@@ -13,7 +13,7 @@ def test_the_latest_decisions_in_which_something_was_paid(runner: Runner) -> Non
     entries = [Entry(step, {"a<b": float(step % 2), "c": -0.001}, 1.0) for step in range(1, 10)]
     idle = [Entry(10, {"a<b": 0.0}, 1.0)]
     html = reward_table(runner.latest.agents[0]._replace(history=(*entries, *idle)))
-    assert html.count("<th>decision ") == LAST
+    assert html.count("<th>decision ") == MAX_LISTED_DECISIONS
     assert html.index("decision 9") < html.index("decision 8")
     assert "decision 10" not in html
     assert "decision 3" not in html

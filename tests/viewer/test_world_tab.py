@@ -16,8 +16,8 @@ from ai4u_edu.snapshot import capture_snapshot
 from ai4u_edu.viewer import Viewer
 from ai4u_edu.viewer.panel.add_menu import BODY_TEMPLATES, free_position
 from ai4u_edu.viewer.panel.body_form import BodyForm
-from ai4u_edu.viewer.panel.gallery_pictures import cards, cards_of
-from ai4u_edu.viewer.panel.world_tab import NOTHING, WorldTab
+from ai4u_edu.viewer.panel.scene_cards import library_cards, stored_cards
+from ai4u_edu.viewer.panel.world_tab import NO_BODY, WorldTab
 from tests.editing.shops import TEXT, Shop
 from tests.viewer.pages import Page, page, seen, shown, tabs_of, until
 
@@ -36,7 +36,7 @@ def tab_of(viewer: Viewer, number: int = 0) -> WorldTab:
 
 def moving(viewer: Viewer, here: Page, tab: WorldTab) -> None:
     """Switches the handles on."""
-    here.change(tab.moves, True)
+    here.change(tab.drag_enabled, True)
     seen(viewer, lambda: tab.handles.node)
 
 
@@ -72,7 +72,7 @@ def drag(
 
 
 def chosen(viewer: Viewer, here: Page, tab: WorldTab, name: str) -> BodyForm:
-    here.change(tab.thing, name)
+    here.change(tab.body_list, name)
     seen(viewer, lambda: tab._form is not None and tab._form.body.name == name)
     assert tab._form is not None
     return tab._form
@@ -111,7 +111,7 @@ def test_there_are_no_handles_until_they_are_asked_for(viewer: Viewer, shop: Sho
         tab = tab_of(viewer)
         assert tab.handles.node == ""
         moving(viewer, here, tab)
-        here.change(tab.moves, False)
+        here.change(tab.drag_enabled, False)
         seen(viewer, lambda: tab.handles.node == "")
 
 
@@ -124,10 +124,10 @@ def test_a_wall_is_dragged_while_the_time_stands_still(viewer: Viewer, shop: Sho
         # it was taken up off its centre, and keeps to that
         until(lambda: shop.editor.undo_label == "move wall")
         assert shop.world["wall"].position == pytest.approx((-2, -2.5))
-        seen(viewer, lambda: "move wall: it applies at once" in tab.said.content)
+        seen(viewer, lambda: "move wall: it applies at once" in tab.status.content)
         described = shop.editor.state.description.bodies[wall]
         assert described.position == pytest.approx((-2, -2.5))
-        assert tab.thing.value == "wall"
+        assert tab.body_list.value == "wall"
         here.change(tab.changes, "Undo")
         until(lambda: shop.world["wall"].position == (-4, 0))
 
@@ -137,7 +137,7 @@ def test_where_it_can_not_stand_it_goes_back(viewer: Viewer, shop: Shop) -> None
         tab = tab_of(viewer)
         moving(viewer, here, tab)
         drag(here, tab, tab.handles.node, index(shop, "wall"), (-4, 0), (-2, 0), (4, 0))
-        seen(viewer, lambda: "overlap" in tab.said.content)
+        seen(viewer, lambda: "overlap" in tab.status.content)
         assert shop.world["wall"].position == (-4, 0)
         assert shop.editor.undo_label == ""
 
@@ -161,10 +161,10 @@ def test_a_click_chooses(viewer: Viewer, shop: Shop) -> None:
         moving(viewer, here, tab)
         owner = tab._viewer_client.client.scene._owner_id
         here.click(tab.handles.node, index(shop, "box"), owner=owner)
-        seen(viewer, lambda: tab.thing.value == "box")
+        seen(viewer, lambda: tab.body_list.value == "box")
         assert tab._form is not None
         here.click(tab.handles.node, 77, owner=owner)
-        here.change(tab.thing, NOTHING)
+        here.change(tab.body_list, NO_BODY)
         seen(viewer, lambda: tab._form is None and tab.handles.knob is None)
 
 
@@ -179,9 +179,9 @@ def test_a_page_can_drag_what_it_likes(viewer: Viewer, shop: Shop) -> None:
         drag(here, tab, tab.handles.node, 2, (float("nan"), 0), (1, 1))
         drag(here, tab, tab.handles.node, 2, (0, 0), (1e12, 1), (1, -1e300))
         until(lambda: tab.handles.drag is None)
-        for handle in (tab.thing, tab.new, tab.scene, tab.changes, tab.offered):
+        for handle in (tab.body_list, tab.new, tab.scene, tab.changes, tab.unsaved_actions):
             here.change(handle, "nonsense")
-        here.change(tab.moves, False)
+        here.change(tab.drag_enabled, False)
         seen(viewer, lambda: tab.handles.node == "")
         shop.runner.submit(lambda: None).result(5)  # all that was asked for before is done
         assert shop.editor.state == before
@@ -207,8 +207,8 @@ def test_escape_puts_back_what_is_held(viewer: Viewer, shop: Shop) -> None:
         here.say("CommandTriggerMessage", uuid=escape._impl.uuid)  # nothing is held
         here.change(tab.changes, "Undo")
         until(lambda: shop.world["wall"].position == (-4, 0))
-        assert shop.editor.undo_label == ""
-        here.change(tab.moves, False)
+        until(lambda: shop.editor.undo_label == "")
+        here.change(tab.drag_enabled, False)
         seen(viewer, lambda: tab.handles.escape is None)
 
 
@@ -233,7 +233,7 @@ def test_what_is_held_while_the_handles_go_is_let_go_of(viewer: Viewer, shop: Sh
         node, wall = tab.handles.node, index(shop, "wall")
         drag(here, tab, node, wall, (-4, 0), (-3, 1), lets_go=False)
         seen(viewer, lambda: shop.world["wall"].position == (-3, 1))
-        here.change(tab.moves, False)
+        here.change(tab.drag_enabled, False)
         seen(viewer, lambda: tab.handles.node == "")
         until(lambda: shop.editor.undo_label == "move wall")
         assert tab.handles.drag is None
@@ -293,7 +293,7 @@ def test_a_thing_comes_where_the_page_looks(viewer: Viewer, shop: Shop) -> None:
         here.report_camera(position=(50.0, 0.0, 30.0))
         until(lambda: camera.look_at[0] == 50)
         here.change(tab.new, "Disc")
-        seen(viewer, lambda: "there is no room" in tab.said.content)
+        seen(viewer, lambda: "there is no room" in tab.status.content)
 
 
 def test_the_body_of_an_agent_stays(viewer: Viewer, shop: Shop) -> None:
@@ -301,7 +301,7 @@ def test_the_body_of_an_agent_stays(viewer: Viewer, shop: Shop) -> None:
         tab = tab_of(viewer)
         chosen(viewer, here, tab, "robot")
         here.press(tab.delete)
-        seen(viewer, lambda: "an agent needs its body" in tab.said.content)
+        seen(viewer, lambda: "an agent needs its body" in tab.status.content)
         assert "robot" in shop.world.bodies
 
 
@@ -310,11 +310,11 @@ def test_a_form_changes_place_size_and_looks(viewer: Viewer, shop: Shop) -> None
         tab = tab_of(viewer)
         form = chosen(viewer, here, tab, "wall")
         applied(here, form, x="-3,5", heading_deg="90")
-        seen(viewer, lambda: "move wall: it applies at once" in tab.said.content)
+        seen(viewer, lambda: "move wall: it applies at once" in tab.status.content)
         assert shop.world["wall"].position == (-3.5, 0)
         seen(viewer, lambda: form.boxes["x"].value == "-3.5")
         applied(here, form, length="0.5", width="3", colour="blue", label="gate", y="1")
-        seen(viewer, lambda: "change wall: it applies at once" in tab.said.content)
+        seen(viewer, lambda: "change wall: it applies at once" in tab.status.content)
         wall = shop.editor.state.description.bodies[index(shop, "wall")]
         assert wall.shape.model_dump() == {"type": "box", "size": (0.5, 3)}
         assert (wall.colour, wall.label, wall.position) == ("blue", "gate", (-3.5, 1))
@@ -329,17 +329,17 @@ def test_what_is_wrong_is_said_with_its_label(viewer: Viewer, shop: Shop) -> Non
         tab = tab_of(viewer)
         form = chosen(viewer, here, tab, "wall")
         applied(here, form, length="-1")
-        seen(viewer, lambda: "length (m): expected more than 0, got -1" in form._told.content)
+        seen(viewer, lambda: "length (m): expected more than 0, got -1" in form.message.content)
         applied(here, form, length="0.4", x="left")
-        seen(viewer, lambda: "x (m): expected a number" in form._told.content)
-        assert "&#x27;left&#x27;" in form._told.content
+        seen(viewer, lambda: "x (m): expected a number" in form.message.content)
+        assert "&#x27;left&#x27;" in form.message.content
         assert shop.editor.undo_label == ""
         applied(here, form, x="-4.5")
-        seen(viewer, lambda: not form._told.content)
+        seen(viewer, lambda: not form.message.content)
 
 
 def test_the_gallery_has_a_picture_of_every_scene() -> None:
-    found = cards()
+    found = library_cards()
     assert sorted(card.name for card in found) == Scene.names()
     assert max(len(card.png) for card in found) < 10_000
     assert len({card.png for card in found}) == len(found)
@@ -357,8 +357,8 @@ def test_a_scene_is_opened_from_the_gallery(viewer: Viewer, shop: Shop) -> None:
         here.press(tab.gallery.buttons["maze"])
         until(lambda: "exit" in shop.world.bodies)
         assert not tab.gallery.buttons
-        seen(viewer, lambda: "exit" in tab.thing.options)
-        assert "<b>Maze</b>" in tab.said.content
+        seen(viewer, lambda: "exit" in tab.body_list.options)
+        assert "<b>Maze</b>" in tab.status.content
         here.change(tab.changes, "Undo")
         until(lambda: "box" in shop.world.bodies)
 
@@ -382,11 +382,11 @@ def test_a_scene_is_saved_by_name_and_chosen_again(
         for name, told in (("../mine", "expected a name of letters"), ("", "expected a name, got")):
             here.change(window.name, name)
             here.press(window.save)
-            until(lambda told=told: told in window.told.content)  # type: ignore[misc]
+            until(lambda told=told: told in window.message.content)  # type: ignore[misc]
         here.change(window.name, "Mine")
         here.press(window.save)
         until(lambda: not window.is_open)
-        seen(viewer, lambda: "saved as &#x27;Mine&#x27;" in tab.said.content)
+        seen(viewer, lambda: "saved as &#x27;Mine&#x27;" in tab.status.content)
         assert not shop.editor.recovery.unsaved
         assert shop.editor.scene_store.load("Mine") == shop.editor.scene
         shop.editor.remove_body("wall").result(5)
@@ -407,10 +407,10 @@ def test_a_scene_is_saved_by_name_and_chosen_again(
         until(lambda: window.save.label == "Replace it")
         here.change(window.name, "other")
         here.press(window.save)  # it is asked about each
-        until(lambda: "&#x27;other&#x27; is there already" in window.told.content)
+        until(lambda: "&#x27;other&#x27; is there already" in window.message.content)
         here.change(window.name, "mine")
         here.press(window.save)
-        until(lambda: "&#x27;Mine&#x27; is there already" in window.told.content)
+        until(lambda: "&#x27;Mine&#x27; is there already" in window.message.content)
         here.press(window.save)
         until(lambda: not window.is_open)
         assert "wall" not in shop.editor.scene_store.load("Mine").dumps()
@@ -418,7 +418,7 @@ def test_a_scene_is_saved_by_name_and_chosen_again(
         until(lambda: "disc" in shop.world.bodies)
         here.change(tab.scene, "Choose a scene")
         until(lambda: len(tab.gallery.buttons) == len(Scene.names()))
-        here.press(tab.gallery.kept["Mine"])
+        here.press(tab.gallery.stored_buttons["Mine"])
         until(lambda: "disc" not in shop.world.bodies)
 
 
@@ -432,17 +432,17 @@ def test_the_scenes_own_settings_have_a_form(viewer: Viewer, shop: Shop) -> None
         for name, value in {"gravity": "1,6", "title": "On the <moon>"}.items():
             here.change(form.boxes[name], value)
         here.press(form.apply)
-        seen(viewer, lambda: "it applies at the next reset" in tab.said.content)
-        assert "On the &lt;moon&gt;" in tab.said.content
-        assert "waits for the next reset" in tab.said.content
+        seen(viewer, lambda: "it applies at the next reset" in tab.status.content)
+        assert "On the &lt;moon&gt;" in tab.status.content
+        assert "waits for the next reset" in tab.status.content
         assert form.boxes["gravity"].value == "1.6"
         assert shop.world.settings.gravity == 9.81
         shop.runner.reset(3).result(5)
-        seen(viewer, lambda: "waits for" not in tab.said.content)
+        seen(viewer, lambda: "waits for" not in tab.status.content)
         assert shop.world.settings.gravity == 1.6
         here.change(form.boxes["damping"], "2")
         here.press(form.apply)
-        seen(viewer, lambda: "damping: expected at most 1, got 2" in form._told.content)
+        seen(viewer, lambda: "damping: expected at most 1, got 2" in form.message.content)
         here.change(tab.changes, "Undo")
         seen(viewer, lambda: form.boxes["gravity"].value == "9.81")
 
@@ -451,13 +451,13 @@ def test_what_is_kept_can_be_spoilt_from_outside(tmp_path: Path) -> None:
     store = SceneStore(tmp_path)
     store.save("good", Scene.loads(TEXT))
     (tmp_path / "bad.yaml").write_text("name: <b>")
-    bad, good = cards_of(store)
+    bad, good = stored_cards(store)
     assert good.png
     assert good.title == "good"
     assert "can&#x27;t be read: bad.yaml, line" in bad.html
     assert "<img" not in bad.html
     store.save("good", Scene.load("maze"), over=True)
-    assert cards_of(store)[1].goal == Scene.load("maze").description.goal
+    assert stored_cards(store)[1].goal == Scene.load("maze").description.goal
 
 
 def test_a_scene_file_is_opened(viewer: Viewer, shop: Shop) -> None:
@@ -481,8 +481,8 @@ def test_what_is_no_scene_is_refused(viewer: Viewer, shop: Shop, content: bytes,
         tab = tab_of(viewer)
         before = shop.editor.state
         upload(tab, here, "mine.yaml", content)
-        seen(viewer, lambda: told in tab.said.content)
-        assert 'role="alert"' in tab.said.content
+        seen(viewer, lambda: told in tab.status.content)
+        assert 'role="alert"' in tab.status.content
         assert shop.editor.state == before
 
 
@@ -493,15 +493,15 @@ def test_what_was_left_is_offered_and_can_be_thrown_away(
     shop.editor.recovery.unsaved = Unsaved(tmp_path / "x", text, None, time.time())
     with page(viewer) as here:
         tab = tab_of(viewer)
-        assert tab.offered.visible
-        here.change(tab.offered, "Discard")
-        seen(viewer, lambda: not tab.offered.visible)
+        assert tab.unsaved_actions.visible
+        here.change(tab.unsaved_actions, "Discard")
+        seen(viewer, lambda: not tab.unsaved_actions.visible)
         assert shop.world["box"].position == (4, 0)
         shop.editor.recovery.unsaved = Unsaved(tmp_path / "x", text, None, time.time())
-        seen(viewer, lambda: tab.offered.visible)
-        here.change(tab.offered, "Restore")
+        seen(viewer, lambda: tab.unsaved_actions.visible)
+        here.change(tab.unsaved_actions, "Restore")
         until(lambda: shop.world["box"].position == (3, 3))
-        seen(viewer, lambda: not tab.offered.visible)
+        seen(viewer, lambda: not tab.unsaved_actions.visible)
 
 
 def test_room_is_found_beside_what_there_is_and_never_over_the_void() -> None:

@@ -1,9 +1,12 @@
-"""Changes to a YAML text that leave everything else in it as it stands, comments too.
+"""Edits of a YAML text that keep its layout and comments.
 
-A text is edited line by line. Entries of block mappings and block lists that did not change keep
-their lines, and the comments above them; an entry that changed is written anew, and keeps the
-comments above it and behind it; one that is gone takes its own comments along. Lists' entries are
-known again by their name or id.
+The text is edited line by line. Unchanged entries of block mappings and block lists keep their
+lines and the comments above them. A changed entry is written again, and keeps the comments above
+and behind it. A removed entry's comments are removed with it. Entries of lists are matched by their
+name or id.
+
+ruamel.yaml's round trip can't do this: it attaches a comment to the entry before it, so removing an
+entry removes the next one's comment, and it changes the layout of half of the library's files.
 """
 
 from collections.abc import Mapping, Sequence
@@ -18,23 +21,23 @@ _Loader: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 _Node = Any  # PyYAML's types say little of what a node has
 
 NAMES = ("name", "id", "perception_key", "action_name", "type")
-"""The first of these that an entry of a list has tells it from the others."""
+"""Keys that identify an entry of a list; the first one that it has counts."""
 
 
 @dataclass
 class _Entry:
-    """One entry of a block mapping or a block list, in lines counted from 0 on."""
+    """One entry of a block mapping or a block list; lines count from 0."""
 
     key: str
-    """Empty in a list."""
+    """Key; empty in a list."""
     value: _Node
     column: int
-    """Where its key begins, or its dash."""
+    """Column of its key, or of its dash."""
     first: int
     last: int
-    """The last line that holds something of it."""
+    """Its last line."""
     comments: int
-    """The first of the comment lines right above it."""
+    """First line of the comments directly above it."""
 
 
 def edited(text: str, before: Mapping[str, Any], after: Mapping[str, Any]) -> str:
@@ -42,11 +45,11 @@ def edited(text: str, before: Mapping[str, Any], after: Mapping[str, Any]) -> st
 
     Args:
         text: YAML: a block mapping.
-        before: the data that it stands for; what is as by default may be left out.
-        after: the data that it has to stand for, in the same form.
+        before: its data; default values may be left out.
+        after: the new data, in the same form.
 
     Raises:
-        ValueError: it is no such text.
+        ValueError: the text is no block mapping, or does not have the data.
 
     >>> edited("# my world\nname: a  # short\nx: 1\n", {"name": "a", "x": 1}, {"name": "b"})
     '# my world\nname: b  # short\n'
@@ -69,17 +72,17 @@ class _Edit:
     def mapping(
         self, node: _Node, before: Mapping[str, Any], after: Mapping[str, Any], start: int
     ) -> list[str]:
-        """The lines of a block mapping that stands for other data; from line ``start`` on."""
+        """Return the lines of a block mapping, which begins at line ``start``, with other data."""
         entries = self.entries(node, start)
         column = entries[0].column
         found: list[list[str]] = []
         for entry in entries:
             name = entry.key
             if name not in after:
-                if name not in before:  # written out, and still as by default
-                    found.append(self._as_it_is(entry))
+                if name not in before:  # a default value that is written out
+                    found.append(self._unchanged(entry))
             elif name in before and before[name] == after[name]:
-                found.append(self._as_it_is(entry))
+                found.append(self._unchanged(entry))
             else:
                 found.append(self._changed(entry, before.get(name), after[name]))
             if found and entry is not entries[-1]:
@@ -93,21 +96,21 @@ class _Edit:
     def sequence(
         self, node: _Node, before: Sequence[Any], after: Sequence[Any], start: int
     ) -> list[str]:
-        """The lines of a block list that stands for other data; from line ``start`` on."""
+        """Return the lines of a block list, which begins at line ``start``, with other data."""
         entries = self.entries(node, start)
         if len(entries) != len(before):
             raise ValueError("expected the data that stand in the text")
         left = list(range(len(entries)))
         found: list[str] = []
         for value in after:
-            index = _same(value, before, left)
+            index = _matching(value, before, left)
             if index is None:
                 found += _dumped([value], entries[0].column)
                 continue
             left.remove(index)
             entry = entries[index]
             if before[index] == value:
-                found += self._as_it_is(entry)
+                found += self._unchanged(entry)
             else:
                 found += self._changed_item(entry, before[index], value)
             if entry is not entries[-1]:
@@ -115,7 +118,7 @@ class _Edit:
         return found
 
     def entries(self, node: _Node, start: int) -> list[_Entry]:
-        """The entries of a block mapping or list."""
+        """Return the entries of a block mapping or list."""
         found: list[_Entry] = []
         is_mapping = isinstance(node, yaml.MappingNode)
         end = start - 1
@@ -125,7 +128,7 @@ class _Edit:
             first, column = mark.line, mark.column
             if not is_mapping:
                 column = node.start_mark.column
-                # the dash may stand on a line of its own
+                # the dash may be alone on its line
                 while not self.lines[first][column:].startswith("-"):
                     first -= 1
             last = max(_last_line(value), key.end_mark.line if is_mapping else first)
@@ -143,24 +146,24 @@ class _Edit:
         return found
 
     def _comments(self, first: int, end: int, column: int) -> int:
-        """The first of the lines above an entry that are comments, or empty, and belong to it."""
+        """Return the first line of the comments and empty lines that belong to an entry."""
         line = first
         while line - 1 > end:
             text = self.lines[line - 1]
             if not _is_comment(text):
-                break  # such as the mark that begins a document
+                break  # such as the `---` before a document
             if text.strip() and len(text) - len(text.lstrip()) > column:
-                break  # further to the right: it belongs to what stands above
+                break  # indented further: it belongs to the entry above
             line -= 1
         return line
 
-    def _as_it_is(self, entry: _Entry) -> list[str]:
+    def _unchanged(self, entry: _Entry) -> list[str]:
         return self.lines[entry.comments : entry.last + 1]
 
     def _after(self, entry: _Entry) -> list[str]:
-        """Comments below an entry that are further to the right: they belong to it.
+        """Return the comments below an entry that are indented further, and so belong to it.
 
-        Those of the last entry belong to what it is in.
+        Such comments below the last entry belong to the parent.
         """
         found = []
         for text in self.lines[entry.last + 1 :]:
@@ -171,7 +174,7 @@ class _Edit:
         return found
 
     def _changed(self, entry: _Entry, before: Any, after: Any) -> list[str]:
-        """An entry of a mapping with another value."""
+        """Return the lines of a mapping's entry with another value."""
         above = self.lines[entry.comments : entry.first]
         inner = self._inside(entry.value, before, after, entry.first + 1)
         if inner:
@@ -185,7 +188,7 @@ class _Edit:
         return [*above, *new]
 
     def _changed_item(self, entry: _Entry, before: Any, after: Any) -> list[str]:
-        """An entry of a list with another value."""
+        """Return the lines of a list's entry with another value."""
         above = self.lines[entry.comments : entry.first]
         is_mapping = _is_block(entry.value, yaml.MappingNode)
         if is_mapping and isinstance(before, Mapping) and isinstance(after, Mapping) and after:
@@ -206,7 +209,7 @@ class _Edit:
         return [*above, *new]
 
     def _inside(self, node: _Node, before: Any, after: Any, start: int) -> list[str] | None:
-        """The lines of a block inside of an entry, edited; None if it has to be written anew."""
+        """Return the edited lines of a nested block; None if it has to be written again."""
         both = (before, after)
         if _is_block(node, yaml.MappingNode) and all(isinstance(each, Mapping) for each in both):
             return self.mapping(node, before, after, start) if after else None
@@ -216,20 +219,20 @@ class _Edit:
         return None
 
     def _behind(self, entry: _Entry) -> str:
-        """The comment behind an entry, on its last line."""
+        """Return the comment behind an entry, on its last line."""
         line, mark = self.lines[entry.last], entry.value.end_mark
         rest = line[mark.column :] if mark.line == entry.last else ""
         return rest if rest.strip().startswith("#") else ""
 
 
 def _last_line(node: _Node) -> int:
-    """The last line that holds something of a value."""
+    """Return the last line of a value."""
     if node.value and _is_block(node, yaml.MappingNode):
         return max(_last_line(value) for _, value in node.value)
     if node.value and _is_block(node, yaml.SequenceNode):
         return max(_last_line(value) for value in node.value)
     mark = node.end_mark
-    # a text of several lines (| or >) ends where the next line begins
+    # a block scalar (| or >) ends at the begin of the next line
     return int(mark.line if mark.column or mark.line == node.start_mark.line else mark.line - 1)
 
 
@@ -242,8 +245,8 @@ def _is_comment(line: str) -> bool:
     return not line.strip() or line.lstrip().startswith("#")
 
 
-def _same(value: Any, before: Sequence[Any], left: Sequence[int]) -> int | None:
-    """Which of the entries that are left is the same thing as a value, if one is."""
+def _matching(value: Any, before: Sequence[Any], left: Sequence[int]) -> int | None:
+    """Return the index of the remaining entry that matches a value; None if none does."""
     for index in left:
         if before[index] == value:
             return index
@@ -254,7 +257,7 @@ def _same(value: Any, before: Sequence[Any], left: Sequence[int]) -> int | None:
         if not isinstance(other, Mapping):
             continue
         names = [name for name in NAMES if name in value or name in other]
-        # where nothing has a name, they are taken in turn
+        # entries without any of the keys are matched in order
         if not names or value.get(names[0]) == other.get(names[0]):
             return index
     return None

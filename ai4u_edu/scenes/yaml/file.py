@@ -1,4 +1,4 @@
-"""YAML text to plain data, with the line of everything, and plain data to YAML text."""
+"""YAML text to plain data with line numbers, and plain data to YAML text."""
 
 import io
 import re
@@ -10,18 +10,17 @@ from ruamel.yaml.comments import CommentedMap, CommentedSeq
 from ruamel.yaml.scalarstring import DoubleQuotedScalarString
 
 from ai4u_edu.base.errors import SceneError
+from ai4u_edu.base.parameters import DataPath
 from ai4u_edu.scenes.yaml.messages import shown
-from ai4u_edu.scenes.yaml.tree import IS_QUICK, NotYamlError, read_tree
+from ai4u_edu.scenes.yaml.tree import HAS_LIBYAML, NotYamlError, read_tree
 
-MAX_SCENE_CHARS = 300_000 if IS_QUICK else 50_000
-"""Characters that a scene file may have: what is read in a second, whatever it is. With 500 bodies
-it has 60,000."""
+MAX_SCENE_CHARS = 300_000 if HAS_LIBYAML else 50_000
+"""Size of a scene file: any text of that size is read within a second. One with 500 bodies has
+60,000."""
 EXPECTED = "lines such as name: ..., bodies: ..., agents: ..."
 """The first keys of a scene file, for messages."""
-UNFOLDED = 1_000_000
-"""Characters of a line that never ends."""
-
-Path = tuple[str | int, ...]
+MAX_LINE_CHARS = 1_000_000
+"""Line width at which ruamel never folds a text."""
 
 
 class YamlFile:
@@ -30,7 +29,7 @@ class YamlFile:
     Args:
         text: YAML.
         name: of the file, for messages.
-        expected: what stands in such a file, for messages.
+        expected: the expected content, for messages.
 
     Raises:
         SceneError: it can't be read; the message names the line.
@@ -59,8 +58,8 @@ class YamlFile:
             raise SceneError(f"{name}: expected {expected}, got {_kind(self._tree.data, text)}")
         self.data: dict[str, Any] = self._tree.data
 
-    def line(self, path: Path) -> int:
-        """The line (from 1 on) of what stands at a path, or of the nearest thing above it."""
+    def line(self, path: DataPath) -> int:
+        """Return the line (from 1) of the value at a path, or of its nearest parent."""
         node, line = self._tree, 1
         for part in path:
             if part not in node.parts:
@@ -83,11 +82,11 @@ def _kind(data: Any, text: str) -> str:
 
 
 def write_yaml(data: dict[str, Any] | list[Any]) -> str:
-    """Plain data as YAML: short lists and mappings on one line, but for the whole."""
+    """Return plain data as YAML; short lists and mappings are on one line."""
     yaml = YAML(typ="rt", pure=True)
     yaml.default_flow_style = None
-    # where a line ends, ruamel loses some of what is odd in a text
-    yaml.width = UNFOLDED if _is_odd(data) else 100
+    # where it folds lines, ruamel loses some special characters
+    yaml.width = MAX_LINE_CHARS if _has_special_text(data) else 100
     yaml.indent(mapping=2, sequence=4, offset=2)
     out = io.StringIO()
     quoted = _quoted(data)
@@ -97,16 +96,18 @@ def write_yaml(data: dict[str, Any] | list[Any]) -> str:
     return textwrap.dedent(out.getvalue())
 
 
-_USUAL = re.compile(r"[\w(+.,!?<-]?\w([\w(),.;!?+*/<>=%&-]| (?! ))*")
+_PLAIN_TEXT = re.compile(r"[\w(+.,!?<-]?\w([\w(),.;!?+*/<>=%&-]| (?! ))*")
 
 
-def _is_odd(data: Any) -> bool:
-    """Whether a text in it is more than words."""
+def _has_special_text(data: Any) -> bool:
+    """Return True if some text in the data has special characters."""
     if isinstance(data, dict):
-        return any(_is_odd(key) or _is_odd(value) for key, value in data.items())
+        return any(
+            _has_special_text(key) or _has_special_text(value) for key, value in data.items()
+        )
     if isinstance(data, list):
-        return any(map(_is_odd, data))
-    return isinstance(data, str) and not _USUAL.fullmatch(data)
+        return any(map(_has_special_text, data))
+    return isinstance(data, str) and not _PLAIN_TEXT.fullmatch(data)
 
 
 def _quoted(data: Any) -> Any:
@@ -114,5 +115,5 @@ def _quoted(data: Any) -> Any:
         return {_quoted(key): _quoted(value) for key, value in data.items()}
     if isinstance(data, list):
         return [_quoted(value) for value in data]
-    odd = isinstance(data, str) and _is_odd(data)
-    return DoubleQuotedScalarString(data) if odd else data
+    is_special = isinstance(data, str) and _has_special_text(data)
+    return DoubleQuotedScalarString(data) if is_special else data

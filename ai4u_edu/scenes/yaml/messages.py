@@ -1,8 +1,8 @@
-"""Faults of YAML text, in words for somebody who has never read YAML's grammar.
+"""Messages about syntax errors in YAML, for people who do not know its grammar.
 
-The parser says what it had expected next ("did not find expected key"). The text around that place
-says what was meant: a tab, a missing colon, a quote that nobody closed. libyaml and PyYAML's own
-parser word their findings differently, so only what both say is looked at.
+The parser reports what it expected next ("did not find expected key"). The text around that place
+shows the cause: a tab, a missing colon, an unclosed quote. libyaml and PyYAML's own parser report
+errors in different words, so only words that both use are looked for.
 """
 
 from typing import Any, NamedTuple
@@ -10,31 +10,31 @@ from typing import Any, NamedTuple
 import yaml
 
 MAX_SHOWN_CHARS = 76
-"""Characters of a line that are shown."""
+"""Characters of a line in a message."""
 
 
 class Fault(NamedTuple):
-    """Something wrong in a text."""
+    """A syntax error in a text."""
 
     line: int
-    """From 1 on; 0 if it is nowhere in particular."""
+    """Line, from 1; 0 if unknown."""
     column: int
-    """From 1 on; 0 for the whole line."""
+    """Column, from 1; 0 for the whole line."""
     words: str
 
 
 class _Place(NamedTuple):
     line: int
     column: int
-    """Both from 0 on, as the parser counts."""
+    """Column, like the line from 0, as the parser counts."""
 
 
 def fault_of(error: yaml.YAMLError | ValueError, text: str) -> Fault:
-    """Return what is wrong, and where.
+    """Return the message and the place of a syntax error.
 
     Args:
         error: raised by the parser.
-        text: that it read.
+        text: the parsed text.
     """
     if isinstance(error, UnicodeEncodeError):
         return Fault(*_at(text, error.start), "expected text, got half of a character")
@@ -54,7 +54,7 @@ def fault_of(error: yaml.YAMLError | ValueError, text: str) -> Fault:
 
 
 def shown(text: str, line: int, column: int) -> str:
-    """Return a line of a text, and below it a sign that points to a column."""
+    """Return a line of a text, and below it a caret that points to a column."""
     lines = text.split("\n")
     if not 1 <= line <= len(lines):
         return ""
@@ -89,7 +89,7 @@ def _explained(error: yaml.MarkedYAMLError, here: _Place, start: _Place, lines: 
         sign = _char(lines, start)
         return _fault(start, f"a value can't begin with {sign}; put it in quotes")
     if "block mapping" in context or "block collection" in context:
-        return _out_of_line(here, start, lines, is_list="collection" in context)
+        return _misaligned(here, start, lines, is_list="collection" in context)
     if "node content" in problem or "block node" in context:
         if not char:
             opened = _last_opened(lines)
@@ -103,7 +103,7 @@ def _explained(error: yaml.MarkedYAMLError, here: _Place, start: _Place, lines: 
 
 
 def _last_opened(lines: list[str]) -> _Place | None:
-    """The last bracket that nothing closes; text in quotes is not told apart."""
+    """Return the last unclosed bracket; brackets in quotes are counted too."""
     opened: list[_Place] = []
     for number, line in enumerate(lines):
         for column, char in enumerate(line):
@@ -141,7 +141,7 @@ def _one_colon_too_many(here: _Place, lines: list[str]) -> Fault:
     return _fault(here, "no colon was expected here; put the value in quotes")
 
 
-def _out_of_line(here: _Place, start: _Place, lines: list[str], *, is_list: bool) -> Fault:
+def _misaligned(here: _Place, start: _Place, lines: list[str], *, is_list: bool) -> Fault:
     line = lines[here.line] if here.line < len(lines) else ""
     before = line[: here.column].strip()
     if before and before != "-":

@@ -1,4 +1,4 @@
-"""YAML's events to plain data and the line of everything; in C where there is libyaml."""
+"""Parser of YAML events to plain data with line numbers; uses libyaml (C) where available."""
 
 import re
 from collections.abc import Callable, Iterator
@@ -9,20 +9,20 @@ import yaml
 from ai4u_edu.scenes.yaml.messages import fault_of
 
 MAX_DEPTH = 24
-LONGEST = 100
-"""Characters of a number."""
+MAX_NUMBER_CHARS = 100
+"""Length of a number."""
 
 _Event = Any  # PyYAML's types say nothing of what an event has
 _Loader: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
-IS_QUICK = _Loader is not yaml.SafeLoader
-"""Whether libyaml is there, as it is wherever PyYAML did not have to be built."""
+HAS_LIBYAML = _Loader is not yaml.SafeLoader
+"""True if PyYAML has libyaml, as all its wheels have."""
 
 
-def _endless(text: str) -> float:
+def _inf_or_nan(text: str) -> float:
     return float(text.replace(".", ""))
 
 
-# what YAML 1.2 takes for something else than a text
+# scalars that are no text in YAML 1.2
 _SPECIAL = re.compile(r"[-+.0-9~tTfFnN]")
 _WORDS = {
     **dict.fromkeys(("true", "True", "TRUE"), True),
@@ -37,31 +37,31 @@ _NUMBERS: tuple[tuple[re.Pattern[str], Callable[[str], int | float]], ...] = (
     (re.compile(r"[-+]?0b[01]+"), lambda text: int(text, 2)),
     (
         re.compile(r"[-+]?\.(inf|Inf|INF)|\.(nan|NaN|NAN)"),
-        _endless,
+        _inf_or_nan,
     ),
 )
 
 
 class Tree(NamedTuple):
-    """A value and where it stands."""
+    """A value with its line."""
 
     data: Any
     """Mappings, lists, texts, numbers, booleans and None."""
     line: int
-    """From 1 on: of a mapping's entry its key's."""
+    """Line, from 1; of an entry of a mapping its key's."""
     parts: "dict[str | int, Tree]"
-    """What is in it, by key or by place."""
+    """Entries of a mapping by key, or of a list by index."""
 
 
 _NONE: "dict[str | int, Tree]" = {}
 
 
 class NotYamlError(Exception):
-    """It can't be read.
+    """A text that can't be read.
 
     Attributes:
-        line: from 1 on; 0 if it has none.
-        column: from 1 on; 0 for the whole line.
+        line: from 1; 0 if unknown.
+        column: from 1; 0 for the whole line.
     """
 
     def __init__(self, line: int, text: str, column: int = 0) -> None:
@@ -70,10 +70,10 @@ class NotYamlError(Exception):
 
 
 def read_tree(text: str) -> Tree:
-    """Reads a document.
+    """Parse a document.
 
     Raises:
-        NotYamlError: it is not YAML, or uses what a scene does not need.
+        NotYamlError: it is not YAML, or uses features that scenes do not need.
 
     >>> read_tree("a: [1, x]").data
     {'a': [1, 'x']}
@@ -100,7 +100,7 @@ def _document(events: Iterator[_Event]) -> Tree:
 
 def _tree(event: _Event, events: Iterator[_Event], depth: int, line: int = 0) -> Tree:
     line = line or event.start_mark.line + 1
-    # aliases blow a small file up to a huge one, tags ask for objects; a scene needs neither
+    # aliases can expand a small file to a huge one, and tags make objects; scenes need neither
     if isinstance(event, yaml.AliasEvent) or event.anchor is not None or event.tag is not None:
         raise NotYamlError(
             line,
@@ -137,13 +137,15 @@ def _column(event: _Event) -> int:
 
 
 def _value(text: str, line: int) -> Any:
-    """What a text without quotes stands for."""
+    """Return the value of an unquoted scalar."""
     if text in _WORDS:
         return _WORDS[text]
     if _SPECIAL.match(text):
         for pattern, number in _NUMBERS:
             if pattern.fullmatch(text):
-                if len(text) > LONGEST:
-                    raise NotYamlError(line, f"expected numbers of at most {LONGEST} characters")
+                if len(text) > MAX_NUMBER_CHARS:
+                    raise NotYamlError(
+                        line, f"expected numbers of at most {MAX_NUMBER_CHARS} characters"
+                    )
                 return number(text.replace("_", ""))
     return text

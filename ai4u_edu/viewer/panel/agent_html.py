@@ -1,4 +1,4 @@
-"""An agent as HTML for its tab; whatever a scene can name is escaped."""
+"""An agent as HTML for its tab. Names from the scene are escaped."""
 
 from collections.abc import Collection, Mapping
 from html import escape
@@ -15,24 +15,23 @@ from ai4u_edu.viewer.panel.senses import sense_html
 from ai4u_edu.viewer.scene.labels import script_problem
 from ai4u_edu.viewer.scene.sense_overlay import is_drawable
 
-SIMPLE = {"DoneSensor", "TruncatedSensor", "IDSensor", "StepSensor"}
-"""Sensors whose reading is one word or number that needs no explanation."""
+ONE_VALUE_SENSORS = {"DoneSensor", "TruncatedSensor", "IDSensor", "StepSensor"}
+"""Sensors whose reading is one self-explanatory word or number; they share a line."""
 
 
 class AgentHtml(NamedTuple):
     """The parts of an agent's tab, from top to bottom; each is sent only if it has changed."""
 
-    everybody: str
+    overview: str
     """All agents, if there are several."""
     state: str
     decision: str
-    inside: str
-    senses: dict[str, str]
-    """By perception key."""
-    also: str
-    """What it knows of its own episode."""
+    needs: str
+    sensors: dict[str, str]
+    """Each sensor's reading, by perception key."""
+    one_value_sensors: str
     action: str
-    ledger: str
+    rewards: str
 
     @classmethod
     def of(
@@ -40,47 +39,47 @@ class AgentHtml(NamedTuple):
         agent: AgentState,
         snapshot: Snapshot,
         colours: Mapping[str, Rgb],
-        lit: Collection[str] = (),
+        shown: Collection[str] = (),
     ) -> "AgentHtml":
-        """An agent as it is.
+        """Render an agent.
 
         Args:
-            agent: which.
-            snapshot: where it is in.
-            colours: of the groups that it can see.
-            lit: the keys of the sensors that are shown in the scene.
+            agent: the agent's state.
+            snapshot: the snapshot that contains it.
+            colours: colours by group.
+            shown: keys of the sensors that are drawn in the scene.
         """
         percept = agent.percept
-        senses = {
+        sensors = {
             sense.key: sense_html(
                 sense,
                 percept[sense.key],
                 colours,
                 agent.rays.get(sense.key),
-                lit=sense.key in lit,
+                lit=sense.key in shown,
                 named=not is_drawable(sense, agent),
             )
             for sense in agent.sensor_infos
-            if sense.block not in SIMPLE
+            if sense.block not in ONE_VALUE_SENSORS
         }
         return cls(
-            everybody=overview(snapshot, agent.id) if len(snapshot.agents) > 1 else "",
+            overview=overview(snapshot, agent.id) if len(snapshot.agents) > 1 else "",
             state=state(agent),
             decision=decision(agent, snapshot),
-            inside=needs(agent.needs),
-            senses=senses,
-            also=_also(agent),
+            needs=needs(agent.needs),
+            sensors=sensors,
+            one_value_sensors=_one_value_sensors(agent),
             action=action(agent.action, agent.actuator_infos),
-            ledger=reward_table(agent),
+            rewards=reward_table(agent),
         )
 
 
 class AgentHtmlCache:
-    """Writes each agent once for all pages that look at it, and not once for each page."""
+    """A cache of the current snapshot's HTML: pages that show the same agent share it."""
 
     def __init__(self) -> None:
         self._snapshot: Snapshot | None = None
-        self._written: dict[tuple[str, frozenset[str]], AgentHtml] = {}
+        self._html: dict[tuple[str, frozenset[str]], AgentHtml] = {}
         self._curves: dict[str, Curves] = {}
 
     def html(
@@ -88,35 +87,35 @@ class AgentHtmlCache:
         agent: AgentState,
         snapshot: Snapshot,
         colours: Mapping[str, Rgb],
-        lit: Collection[str] = (),
+        shown: Collection[str] = (),
     ) -> AgentHtml:
-        """As :meth:`AgentHtml.of`."""
+        """Return :meth:`AgentHtml.of` for these arguments."""
         if snapshot is not self._snapshot:
-            self._snapshot, self._written, self._curves = snapshot, {}, {}
-        key = agent.id, frozenset(lit)
-        if key not in self._written:
-            self._written[key] = AgentHtml.of(agent, snapshot, colours, lit)
-        return self._written[key]
+            self._snapshot, self._html, self._curves = snapshot, {}, {}
+        key = agent.id, frozenset(shown)
+        if key not in self._html:
+            self._html[key] = AgentHtml.of(agent, snapshot, colours, shown)
+        return self._html[key]
 
     def curves(self, agent: AgentState) -> Curves:
-        """The agent's rewards, of the snapshot that was written last."""
+        """Return the curves of the agent's rewards, in the snapshot that was rendered last."""
         if agent.id not in self._curves:
             self._curves[agent.id] = curves(agent.history)
         return self._curves[agent.id]
 
 
-def _also(agent: AgentState) -> str:
-    """The simplest readings, in a line."""
-    told = [
+def _one_value_sensors(agent: AgentState) -> str:
+    """Return a line with the readings of :data:`ONE_VALUE_SENSORS`."""
+    readings = [
         f"<span><small>{escape(sense.key)}</small> {reading(agent.percept[sense.key])}</span>"
         for sense in agent.sensor_infos
-        if sense.block in SIMPLE
+        if sense.block in ONE_VALUE_SENSORS
     ]
-    return block(*told) if told else ""
+    return block(*readings) if readings else ""
 
 
 def title(agent_id: str, body: str) -> str:
-    """What an agent is called.
+    """Return an agent's name for people.
 
     >>> title("0", "robot"), title("runner_1", "runner 1")
     ('Agent 0: robot', 'runner 1')
@@ -126,7 +125,7 @@ def title(agent_id: str, body: str) -> str:
 
 
 def state(agent: AgentState) -> str:
-    """Who decides for an agent, and how far it is."""
+    """Return an agent's name, its brain, and the state of its episode."""
     words = [heading(title(agent.id, agent.body)), f"<small>Brain</small> {escape(agent.brain)}"]
     end = ending(agent)
     if end:
@@ -139,7 +138,7 @@ def state(agent: AgentState) -> str:
 
 
 def ending(agent: AgentState) -> str:
-    """How an agent's episode has ended, in a few words; empty while it goes on."""
+    """Return in a few words how an agent's episode ended; empty while it runs."""
     done = agent.terminated or agent.truncated
     if done and agent.succeeded:
         return "reached the goal"
@@ -151,7 +150,7 @@ def ending(agent: AgentState) -> str:
 
 
 def overview(snapshot: Snapshot, chosen: str) -> str:
-    """A row for each of several agents: its step, its reward, and how it ended."""
+    """Return a table with each agent's step, reward and the end of its episode."""
     described = {body.name: body for body in snapshot.static_scene.bodies}
     alone = len({agent.episode for agent in snapshot.agents}) > 1
     head = ["", *(["episode"] if alone else []), "step", "reward", ""]

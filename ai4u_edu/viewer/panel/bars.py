@@ -1,4 +1,4 @@
-"""Numbers as bars in the panel: how far along its range each one is."""
+"""Numbers as text and bars for the panel, as HTML."""
 
 from collections.abc import Iterable, Sequence
 from html import escape
@@ -9,12 +9,14 @@ import numpy.typing as npt
 from ai4u_edu.snapshot.theme import Rgb
 
 Floats = npt.NDArray[np.float64]
-GAP = 0.15
-"""Between two bars of a strip, as a share of a bar's width."""
+BAR_GAP = 0.15
+"""Gap between two bars of a strip, as a share of a bar's pitch."""
+MIN_BAR_HEIGHT = 0.03
+"""Height of a bar of zero, as a share of the strip's height, so that it is visible."""
 
 
 def number(value: float) -> str:
-    """A number as it stands in the panel.
+    """Format a number for the panel.
 
     >>> [number(x) for x in (0.5, -0.25, 12.3456, 1234.5, 3, -0.0001, 1e9)]
     ['0.50', '-0.25', '12.35', '1234', '3', '0.00', '1.00e+09']
@@ -27,7 +29,7 @@ def number(value: float) -> str:
 
 
 def amount(value: float) -> str:
-    """What was paid: like :func:`number`, but what is small doesn't vanish.
+    """Format a reward: like :func:`number`, but small amounts keep two significant digits.
 
     >>> [amount(x) for x in (100.0, -0.5, -0.0012, 0.0)]
     ['100.00', '-0.50', '-0.0012', '0.00']
@@ -36,7 +38,7 @@ def amount(value: float) -> str:
 
 
 def share(value: float, low: float, high: float) -> float:
-    """Where a value is in its range: 0 at the lower end, 1 at the upper one.
+    """Return a value's position in its range, clipped to 0 (lower end) .. 1 (upper end).
 
     >>> share(5, 0, 20), share(-3, -1, 1), share(1, 1, 1)
     (0.25, 0.0, 0.0)
@@ -45,29 +47,29 @@ def share(value: float, low: float, high: float) -> float:
 
 
 def bar(value: float, low: float, high: float) -> str:
-    """A bar from zero (or from the end of the range that is nearest to it) to a value.
+    """Return a bar from zero (or the end of the range nearest to it) to a value.
 
-    Of a range that has no end there is no bar.
+    An unbounded range has no bar.
     """
     if not (np.isfinite(low) and np.isfinite(high)):
         return "<div></div>"
-    zero, there = share(0.0, low, high), share(value, low, high)
-    left, width = 100 * min(zero, there), 100 * abs(there - zero)
+    zero, end = share(0.0, low, high), share(value, low, high)
+    left, width = 100 * min(zero, end), 100 * abs(end - zero)
     middle = f'<u class="zero" style="left:{100 * zero:.0f}%"></u>' if low < 0 < high else ""
     return f'<div class="bar"><s style="left:{left:.1f}%;width:{width:.1f}%"></s>{middle}</div>'
 
 
 def bars(rows: Iterable[tuple[str, float, float, float, str]]) -> str:
-    """A line for each (name, value, low, high, unit)."""
+    """Return a line for each (name, value, low, high, unit)."""
     lines = [
-        f"<span>{escape(name)}</span>{bar(value, low, high)}<b>{_told(value, low, unit)}</b>"
+        f"<span>{escape(name)}</span>{bar(value, low, high)}<b>{_value_text(value, low, unit)}</b>"
         for name, value, low, high, unit in rows
     ]
     return f'<div class="bars">{"".join(lines)}</div>'
 
 
-def _told(value: float, low: float, unit: str) -> str:
-    if value < low - 1e-4 * (1 + abs(low)):  # a number that stands for nothing
+def _value_text(value: float, low: float, unit: str) -> str:
+    if value < low - 1e-4 * (1 + abs(low)):  # a sentinel below the range, for "no reading"
         return f"<small>({number(value)})</small>"
     return f"{number(value)}{f' <small>{escape(unit)}</small>' if unit else ''}"
 
@@ -79,23 +81,24 @@ def strip(
     colours: Sequence[Rgb] | None = None,
     kind: str = "strip",
 ) -> str:
-    """Many numbers as upright bars side by side, each in its own range, from zero on.
+    """Return many numbers as vertical bars side by side, each in its own range, from zero.
 
     Args:
         values: (n,).
-        low: the lower end of each one's range.
-        high: the upper ends.
-        colours: of the bars; left out, all look alike.
+        low: (n,) lower ends of the ranges.
+        high: (n,) upper ends of the ranges.
+        colours: the bars' colours; left out, all have the same one.
         kind: CSS classes.
     """
     span = np.maximum(high - low, 1e-9)
     zeros, tips = (np.clip((each - low) / span, 0, 1) for each in (np.zeros(len(values)), values))
-    # a hair at least, so that one sees that there is a number, and that it is zero
-    tops, heights = 1 - np.maximum(zeros, tips), np.maximum(np.abs(tips - zeros), 0.03)
+    tops = 1 - np.maximum(zeros, tips)
+    heights = np.maximum(np.abs(tips - zeros), MIN_BAR_HEIGHT)
     groups: dict[Rgb | None, list[str]] = {}
     for place, (top, height) in enumerate(zip(tops.tolist(), heights.tolist(), strict=True)):
-        x = place + GAP / 2
-        path = f"M{x:.2f} {min(top, 0.97):.2f}h{1 - GAP}v{height:.2f}h-{1 - GAP}z"
+        x = place + BAR_GAP / 2
+        y, width = min(top, 1 - MIN_BAR_HEIGHT), 1 - BAR_GAP
+        path = f"M{x:.2f} {y:.2f}h{width}v{height:.2f}h-{width}z"
         groups.setdefault(colours[place] if colours else None, []).append(path)
     paths = "".join(
         f'<path d="{"".join(each)}"' + (f' fill="rgb{colour}"/>' if colour else "/>")

@@ -1,4 +1,4 @@
-"""The form of one block, on one page."""
+"""The form for one block's parameters, on one page."""
 
 from collections.abc import Callable, Coroutine
 from html import escape
@@ -13,14 +13,14 @@ from ai4u_edu.viewer.panel.field_form import FieldForm
 
 
 class BlockForm(FieldForm):
-    """The parameters of one block.
+    """The form for one block's parameters.
 
     Args:
-        client: the page; the form comes to stand where its ``gui`` is.
-        block: as data.
-        path: of the block in its agent.
-        names: what there is in the scene.
-        on_apply: called when the form is handed in.
+        client: the page; the form is added to the current container of its ``gui``.
+        block: the block, as plain data.
+        path: the block's path in its agent.
+        names: names in the scene, for choices.
+        on_apply: called when the form is submitted.
     """
 
     def __init__(
@@ -37,13 +37,13 @@ class BlockForm(FieldForm):
         )
         super().__init__(client, heading, block_form(block, names), on_apply)
 
-    def takes(self, block: Plain | None, path: BlockPath | None) -> bool:
-        """Shows a block as it is now, if it is still the one whose form this is."""
+    def show_block(self, block: Plain | None, path: BlockPath | None) -> bool:
+        """Show a block's current values; return False if the block needs another form."""
         if block is None or path != self._path or block["type"] != self._block["type"]:
             return False
         if block == self._block:
             return True
-        if not self.shows(block_form(block, self._names)):
+        if not self.show_fields(block_form(block, self._names)):
             return False
         self._block = block
         return True

@@ -1,4 +1,4 @@
-"""What stands in the lists of the tab for blocks."""
+"""Labels in the "Blocks" tab."""
 
 from html import escape
 
@@ -17,17 +17,17 @@ KINDS = {
     "Brains": "brains",
 }
 BARE = '<div class="ai4u mark bare"></div>'
-"""Before a group of buttons that needs no label: they get all of the width."""
+"""Marker before a button group that hides its label, so that the buttons use the full width."""
 NO_BLOCK = "choose a block"
 ADD = "choose what to add"
 WAITS = "Something waits for the next reset."
-LONGEST = 72
-"""Characters of a line in a list."""
+MAX_LINE_CHARS = 72
+"""Longest line in a dropdown."""
 
 
-def titles(agent: Plain, kind: str) -> dict[str, BlockPath]:
-    """The blocks of a kind as lines of a list, each with its path; parts of a block below it."""
-    found = {}
+def block_lines(agent: Plain, kind: str) -> dict[str, BlockPath]:
+    """Return the paths of a kind's blocks and of their parts, by their lines in the dropdown."""
+    paths = {}
     for path in block_paths(agent, kind):
         block = block_at(agent, path)
         number = ".".join(str(part + 1) for part in path if isinstance(part, int))
@@ -37,37 +37,40 @@ def titles(agent: Plain, kind: str) -> dict[str, BlockPath]:
         off = "" if not isinstance(path[-1], int) or is_enabled(path, block) else " (off)"
         part = "" if isinstance(path[-1], int) else f".{path[-1]}"
         line = " ".join(filter(None, (f"{number}{part}", str(name), str(block["type"]))))
-        found[_short(line) + off] = path
-    return found
+        paths[_short(line) + off] = path
+    return paths
 
 
-def menu(kind: str) -> dict[str, str]:
-    """All types of a kind, each with a line that says what it is."""
+def type_labels(kind: str) -> dict[str, str]:
+    """Return the type names of a kind's blocks, by their lines in the dropdown."""
     lines = {cls.__name__: summary(cls).split(" Source:")[0] for cls in types_of(kind)}
     return {_short(f"{name}: {line}"): name for name, line in lines.items()}
 
 
-def marked(kind: str) -> str:
-    """Marks the button of the kind that is chosen; viser's buttons can't be marked."""
-    place = 1 + list(KINDS.values()).index(kind)
-    return f'<div class="ai4u mark bare" data-on="{place}"></div>'
+def selected_button_mark(position: int) -> str:
+    """Return HTML before a button group that highlights one of its buttons, counted from 1.
+
+    viser's buttons have no selected state; the style sheet uses the marker's ``data-on``.
+    """
+    return f'<div class="ai4u mark bare" data-on="{position}"></div>'
 
 
-def said(editor: SceneEditor, agent: AgentState, message: str) -> str:
-    """What happened last, and what could be taken back, as HTML."""
+def undo_line(editor: SceneEditor) -> str:
+    """Return the changes that undo and redo would apply, as HTML; empty if there are none."""
+    labels = (("undo", editor.undo_label), ("redo", editor.redo_label))
+    steps = " · ".join(f"{word}: {escape(label)}" for word, label in labels if label)
+    return f"<small>{steps}</small>" if steps else ""
+
+
+def edit_status(editor: SceneEditor, agent: AgentState, message: str) -> str:
+    """Return the agent's name, the last message, and the undoable changes, as HTML."""
     lines = [f"<b>{escape(title(agent.id, agent.body))}</b>"]
     if message:
         lines.append(f'<span role="status" style="white-space: normal">{escape(message)}</span>')
     if editor.waits_for_reset:
         lines.append(f"<small>{WAITS}</small>")
-    back, forth = editor.undo_label, editor.redo_label
-    if back or forth:
-        told = " · ".join(
-            f"{word}: {escape(label)}" for word, label in (("undo", back), ("redo", forth)) if label
-        )
-        lines.append(f"<small>{told}</small>")
-    return paragraph("<br>".join(lines))
+    return paragraph("<br>".join(filter(None, (*lines, undo_line(editor)))))
 
 
 def _short(text: str) -> str:
-    return text if len(text) <= LONGEST else text[: LONGEST - 1] + "…"
+    return text if len(text) <= MAX_LINE_CHARS else text[: MAX_LINE_CHARS - 1] + "…"

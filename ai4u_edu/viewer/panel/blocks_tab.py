@@ -1,4 +1,4 @@
-"""The tab in which a page changes the agent that it looks at: its blocks, and who drives."""
+"""The "Blocks" tab: changes the blocks and the driver of the agent that a page shows."""
 
 from concurrent.futures import Future
 from html import escape
@@ -23,14 +23,15 @@ from ai4u_edu.viewer.panel.block_labels import (
     BARE,
     KINDS,
     NO_BLOCK,
-    marked,
-    menu,
-    said,
-    titles,
+    block_lines,
+    edit_status,
+    selected_button_mark,
+    type_labels,
 )
 from ai4u_edu.viewer.panel.notify import notify_stall
 from ai4u_edu.viewer.panel.settings_form import SettingsForm
 from ai4u_edu.viewer.panel.tabs import TabKind
+from ai4u_edu.viewer.panel.widgets import set_options, set_value
 from ai4u_edu.viewer.viewer_client import ViewerClient
 
 UNDO, REDO = "Undo", "Redo"
@@ -39,47 +40,52 @@ BRING_BACK, FORGET = "Bring it back", "Forget it"
 
 
 class BlocksTab:
-    """One page's hands on the agent that it looks at.
+    """The "Blocks" tab of one page.
 
-    A form is made when somebody chooses a block: until then the tab is a few lists.
+    A block's form is created when the block is chosen.
+
+    viser's event loop calls the event handlers, the viewer's thread calls :meth:`draw`, and the
+    world's thread completes the changes. They share plain attributes, each replaced as a whole.
 
     Args:
         viewer_client: the page.
-        editor: carries out what is asked for.
+        editor: applies the changes.
     """
 
     def __init__(self, viewer_client: ViewerClient, editor: SceneEditor) -> None:
         gui = viewer_client.client.gui
         self._viewer_client, self._editor = viewer_client, editor
         self._kind, self._path, self._form = "sensors", None, None
-        self._seen: tuple[object, ...] = ()
+        self._shown: tuple[object, ...] = ()
         self._message, self._problems, self._agent = "", None, viewer_client.agent
-        self._offer = gui.add_html("", visible=False)
-        self._offered = gui.add_button_group("", (BRING_BACK, FORGET), visible=False)
-        self._said = gui.add_html("")
+        self._unsaved_text = gui.add_html("", visible=False)
+        self._unsaved_actions = gui.add_button_group("", (BRING_BACK, FORGET), visible=False)
+        self._status = gui.add_html("")
         gui.add_html(BARE)
         self.changes = gui.add_button_group("Changes", (UNDO, REDO))
         self.driver = gui.add_dropdown("Driven by", ("",))
         self.settings = SettingsForm(
             viewer_client.client, "Agent's settings", self._settings, self._on_settings
         )
-        self._mark = gui.add_html(marked(self._kind))
+        self._kind_mark = gui.add_html(_kind_mark(self._kind))
         self.kind = gui.add_button_group("Blocks", tuple(KINDS))
         self.new = gui.add_dropdown("New", (ADD,))
         self.add = gui.add_button("Add", disabled=True)
         self.block = gui.add_dropdown("Block", (NO_BLOCK,))
-        self._bare = gui.add_html(BARE, visible=False)
-        self.deeds = gui.add_button_group("This block", (OFF, UP, DOWN, REMOVE), visible=False)
-        self._place = gui.add_folder(None)
-        self._types: dict[str, str] = {}
+        self._actions_mark = gui.add_html(BARE, visible=False)
+        self.block_actions = gui.add_button_group(
+            "This block", (OFF, UP, DOWN, REMOVE), visible=False
+        )
+        self._form_folder = gui.add_folder(None)
+        self._type_names: dict[str, str] = {}
         self._paths: dict[str, BlockPath] = {}
         self._drivers: dict[str, str] = {}
-        self._offered.on_click(self._on_offer)
+        self._unsaved_actions.on_click(self._on_unsaved)
         self.changes.on_click(self._on_changes)
         self.driver.on_update(self._on_driver)
         self.kind.on_click(self._on_kind)
         self.block.on_update(self._on_block)
-        self.deeds.on_click(self._on_deed)
+        self.block_actions.on_click(self._on_block_action)
         self.new.on_update(self._on_new)
         self.add.on_click(self._on_add)
 
@@ -88,7 +94,7 @@ class BlocksTab:
     _problems: tuple[Problem, ...] | None
 
     def draw(self, snapshot: Snapshot) -> None:
-        """Shows what there is to change, when that is other than before."""
+        """Show the agent's blocks, if they have changed."""
         editor, agent = self._editor, self._viewer_client.agent
         if not any(each.id == agent for each in snapshot.agents):
             return
@@ -96,74 +102,80 @@ class BlocksTab:
             self._agent, self._path = agent, None
         brains = next(each.brain for each in snapshot.agents if each.id == agent)
         seen = (editor.version, agent, self._kind, self._path, brains)
-        if seen != self._seen:
+        if seen != self._shown:
             try:
                 self._show(agent)
             except AI4UError:
-                return  # another scene has just come: what is shown and what is wanted differ
-            self._seen = seen
+                return  # the editor has another scene already; wait for its snapshot
+            self._shown = seen
         self.settings.draw(agent, editor.version)
         if self._problems is not None and self._form is not None:
             problems, self._problems = self._problems, None
             self._form.explain(problems)
             if not problems:
-                self._form.tell(self._message)
-        html = said(
+                self._form.show_message(self._message)
+        html = edit_status(
             editor, next(each for each in snapshot.agents if each.id == agent), self._message
         )
-        if self._said.content != html:
-            self._said.content = html
-        self._show_offer()
+        if self._status.content != html:
+            self._status.content = html
+        self._show_unsaved()
 
-    # -- what is shown ---------------------------------------------------------------------------
+    # -- drawing; on the viewer's thread ---------------------------------------------------------
 
     def _show(self, agent_id: str) -> None:
         state = self._editor.state
         agent = state.agent(agent_id)
-        self._mark.content = marked(self._kind)
-        self._paths = titles(agent, self._kind)
+        self._kind_mark.content = _kind_mark(self._kind)
+        self._paths = block_lines(agent, self._kind)
         if self._path not in self._paths.values():
             self._path = None
         chosen = next((t for t, path in self._paths.items() if path == self._path), NO_BLOCK)
-        _choose(self.block, (NO_BLOCK, *self._paths), chosen)
-        self._types = menu(self._kind)
-        _choose(self.new, (ADD, *self._types), ADD if self.new.value not in self._types else None)
-        self.add.disabled = self.new.value not in self._types
+        set_options(self.block, (NO_BLOCK, *self._paths))
+        set_value(self.block, chosen)
+        self._type_names = type_labels(self._kind)
+        set_options(self.new, (ADD, *self._type_names))
+        if self.new.value not in self._type_names:
+            set_value(self.new, ADD)
+        self.add.disabled = self.new.value not in self._type_names
         offered = self._editor.drivers(agent_id)
         self._drivers = {each.title: each.name for each in reversed(offered)}
         drives = self._editor.driver_of(agent_id)
         title = next((t for t, name in self._drivers.items() if name == drives), "somebody else")
         names = tuple(dict.fromkeys((*(each.title for each in offered), title)))
-        _choose(self.driver, names, title)
+        set_options(self.driver, names)
+        set_value(self.driver, title)
         self._show_form(state, agent, agent_id)
 
     def _show_form(self, state: Any, agent: Any, agent_id: str) -> None:
         path = self._path
         block = None if path is None else block_at(agent, path)
-        if self._form is not None and not self._form.takes(block, path):
+        if self._form is not None and not self._form.show_block(block, path):
             self._form.remove()
             self._form = None
         if block is not None and path is not None:
             if self._form is None:
-                with self._place:
+                with self._form_folder:
                     names = SceneNames(state, agent_id)
                     client = self._viewer_client.client
                     self._form = BlockForm(client, block, path, names, self._on_apply)
-            self.deeds.options = (OFF if is_enabled(path, block) else ON, UP, DOWN, REMOVE)
-        self._bare.visible = self.deeds.visible = path is not None and isinstance(path[-1], int)
+            self.block_actions.options = (OFF if is_enabled(path, block) else ON, UP, DOWN, REMOVE)
+        self._actions_mark.visible = self.block_actions.visible = path is not None and isinstance(
+            path[-1], int
+        )
 
-    def _show_offer(self) -> None:
+    def _show_unsaved(self) -> None:
         unsaved = self._editor.recovery.unsaved
-        if (unsaved is not None) != self._offer.visible:
-            self._offer.visible = self._offered.visible = unsaved is not None
+        if (unsaved is not None) != self._unsaved_text.visible:
+            self._unsaved_text.visible = self._unsaved_actions.visible = unsaved is not None
         if unsaved is not None:
             told = f"<b>An unsaved scene from {escape(unsaved.when)} is there.</b>"
-            self._offer.content = f'<div class="ai4u">{told}</div>'
+            self._unsaved_text.content = f'<div class="ai4u">{told}</div>'
 
     def _settings(self) -> list[Field]:
         return agent_form(self._editor.state.agent(self._viewer_client.agent))
 
-    # -- what people ask for; in viser's loop, one after the other -------------------------------
+    # -- events; in viser's event loop, one after the other --------------------------------------
 
     async def _on_apply(self, _event: Any) -> None:
         form, path = self._form, self._path
@@ -174,46 +186,48 @@ class BlocksTab:
         except ChangeError as error:
             self._problems = error.problems
             return
-        self._ask(self._editor.change_block(self._viewer_client.agent, path, values), of_form=True)
+        self._follow_change(
+            self._editor.change_block(self._viewer_client.agent, path, values), of_form=True
+        )
 
     def _on_settings(self, values: dict[str, Any]) -> "Future[ChangeResult]":
         future = self._editor.change_agent(self._viewer_client.agent, values)
-        self._ask(future)
+        self._follow_change(future)
         return future
 
-    async def _on_deed(self, event: GuiEvent[GuiButtonGroupHandle]) -> None:
+    async def _on_block_action(self, event: GuiEvent[GuiButtonGroupHandle]) -> None:
         agent, path = self._viewer_client.agent, self._path
         if path is None or not isinstance(path[-1], int):
-            return  # a controller belongs to its brain: it has no place in a list
+            return  # a part of a block, such as a brain's controller, is in no list
         match event.target.value:
             case "On" | "Off" as word:
-                self._ask(self._editor.switch_block(agent, path, word == ON))
+                self._follow_change(self._editor.switch_block(agent, path, word == ON))
             case "Up" | "Down" as word:
                 by = -1 if word == UP else 1
                 *above, index = path
                 future = self._editor.move_block(agent, path, by)
-                self._ask(future, (*above, max(0, int(index) + by)))
+                self._follow_change(future, (*above, max(0, int(index) + by)))
             case "Remove":
-                self._ask(self._editor.remove_block(agent, path))
+                self._follow_change(self._editor.remove_block(agent, path))
 
     async def _on_add(self, _event: GuiEvent[GuiButtonHandle]) -> None:
-        name, agent, state = self._types.get(self.new.value), self._viewer_client.agent, None
+        name, agent, state = self._type_names.get(self.new.value), self._viewer_client.agent, None
         if name is None:
             return
         state = self._editor.state
         where, count = (self._kind,), len(state.agent(agent).get(self._kind, ()))
         future = self._editor.add_block(agent, where, suggest_block(state, agent, name))
-        self._ask(future, (*where, count))
+        self._follow_change(future, (*where, count))
 
     async def _on_changes(self, event: GuiEvent[GuiButtonGroupHandle]) -> None:
         undoes = event.target.value == UNDO
-        self._ask(self._editor.undo() if undoes else self._editor.redo())
+        self._follow_change(self._editor.undo() if undoes else self._editor.redo())
 
     async def _on_driver(self, event: GuiEvent[GuiDropdownHandle[str]]) -> None:
         name = self._drivers.get(event.target.value)
         if event.client is not None and name is not None:
-            self._seen = ()  # if it can't be, the list shows again who drives
-            self._ask(self._editor.set_driver(self._viewer_client.agent, name))
+            self._shown = ()  # if the change fails, the dropdown shows the current driver again
+            self._follow_change(self._editor.set_driver(self._viewer_client.agent, name))
 
     async def _on_kind(self, event: GuiEvent[GuiButtonGroupHandle]) -> None:
         self._kind = KINDS.get(event.target.value, self._kind)
@@ -223,49 +237,52 @@ class BlocksTab:
             self._path = self._paths.get(event.target.value)
 
     async def _on_new(self, event: GuiEvent[GuiDropdownHandle[str]]) -> None:
-        self.add.disabled = event.target.value not in self._types
+        self.add.disabled = event.target.value not in self._type_names
 
-    async def _on_offer(self, event: GuiEvent[GuiButtonGroupHandle]) -> None:
+    async def _on_unsaved(self, event: GuiEvent[GuiButtonGroupHandle]) -> None:
         if event.target.value == BRING_BACK:
-            self._ask(self._editor.recovery.restore())
+            self._follow_change(self._editor.recovery.restore())
         else:
             self._editor.recovery.discard()
 
-    def _ask(
+    def _follow_change(
         self,
         future: "Future[ChangeResult]",
         then: BlockPath | None = None,
         *,
         of_form: bool = False,
     ) -> None:
-        """Says when it applies, or what is wrong; ``then`` is the block that is looked at then."""
+        """Show the result of a change.
+
+        Args:
+            future: the change's result.
+            then: path of the block to show after success.
+            of_form: True if problems belong into the block's form.
+        """
         notify_stall(self._viewer_client.client, self._editor.stall, future)
 
-        def tell(done: "Future[ChangeResult]") -> None:
+        def on_done(done: "Future[ChangeResult]") -> None:
             error = None if done.cancelled() else done.exception()
             if error is None and not done.cancelled():
-                outcome = done.result()
-                self._message = f"{outcome.label}: {outcome}" if outcome.label else str(outcome)
+                result = done.result()
+                self._message = f"{result.label}: {result}" if result.label else str(result)
                 self._problems = ()
                 self._path = then or self._path
             elif isinstance(error, ChangeError) and of_form:
                 self._message, self._problems = (
-                    "That can't be; see what is said below.",
+                    "That can't be; see what is edit_status below.",
                     error.problems,
                 )
             elif error is not None:
                 self._message = message_of(error)
 
-        future.add_done_callback(tell)
+        future.add_done_callback(on_done)
 
 
-def _choose(handle: GuiDropdownHandle[str], options: tuple[str, ...], value: str | None) -> None:
-    if handle.options != options:
-        handle.options = options
-    if value is not None and handle.value != value:
-        handle.value = value  # type: ignore[misc]  # a method parts getter from setter
+def _kind_mark(kind: str) -> str:
+    return selected_button_mark(1 + list(KINDS.values()).index(kind))
 
 
 def blocks_tab(editor: SceneEditor) -> TabKind:
-    """The tab for blocks and drivers."""
+    """Return the "Blocks" tab."""
     return TabKind("Blocks", lambda viewer_client: BlocksTab(viewer_client, editor))

@@ -1,4 +1,4 @@
-"""The form of one body, on one page."""
+"""The form for one body, on one page."""
 
 import math
 from collections.abc import Callable, Coroutine, Iterable, Mapping
@@ -19,17 +19,18 @@ KINDS = {
     "dynamic": "can be pushed",
     "kinematic": "moves, can't be pushed",
 }
-PLACE = ("x", "y", "heading_deg")
+"""Labels of the kinds of bodies."""
+POSE_FIELDS = ("x", "y", "heading_deg")
 Box = GuiDropdownHandle[str] | GuiTextHandle
 
 
 class BodyForm:
-    """A box for each thing about a body that a person changes mostly; the file has the rest.
+    """A form with a body's most used properties; the others are changed in the scene file.
 
     Args:
-        client: the page; the form comes to stand where its ``gui`` is.
-        body: as the scene describes it.
-        on_apply: called when the form is handed in.
+        client: the page; the form is added to the current container of its ``gui``.
+        body: the body's description in the scene.
+        on_apply: called when the form is submitted.
     """
 
     def __init__(
@@ -52,79 +53,79 @@ class BodyForm:
                     )
                 else:
                     self.boxes[field.name] = gui.add_text(field.label, field.shown)
-            self._told = gui.add_html("")
+            self.message = gui.add_html("")
             self.apply = gui.add_button("Apply", color="blue")
         self.apply.on_click(on_apply)
 
-    def takes(self, body: BodyDescription | None, *, anew: bool) -> bool:
-        """Shows a body as it is now, if it is still the one whose form this is.
+    def show_body(self, body: BodyDescription | None, *, overwrite: bool) -> bool:
+        """Show a body's current values; return False if the body needs another form.
 
         Args:
-            body: the one that is to be shown.
-            anew: whether all that a person wrote was handed in; else what is in the boxes stays,
-                but for what has changed meanwhile.
+            body: the body to show.
+            overwrite: True after the form was applied; else boxes keep what a person has typed,
+                unless the body's value has changed.
         """
         if body is None or body.name != self.body.name:
             return False
-        if body == self.body and not anew:
+        if body == self.body and not overwrite:
             return True
-        others = fields(body)
-        if [each.name for each in others] != [each.name for each in self.fields]:
+        new_fields = fields(body)
+        if [each.name for each in new_fields] != [each.name for each in self.fields]:
             return False
-        for old, new in zip(self.fields, others, strict=True):
+        for old, new in zip(self.fields, new_fields, strict=True):
             box: Any = self.boxes[new.name]
-            if anew or old.value != new.value:
+            if overwrite or old.value != new.value:
                 box.value = new.shown
-        self.body, self.fields = body, others
+        self.body, self.fields = body, new_fields
         self.explain(())
         return True
 
     def changes(self) -> tuple[dict[str, Any], dict[str, Any]]:
-        """What a person has made other than it was.
+        """Read the values that differ from the body's.
 
         Returns:
-            Where it is to be, as arguments of ``move_body``, {} if it is to stay there; and all of
-            the rest, as fields of its description.
+            The new pose as arguments of ``move_body``, {} if it is unchanged; and all other
+            changes, as fields of the body's description.
 
         Raises:
-            ChangeError: some of it can't be read at all.
+            ChangeError: a box has an invalid value.
         """
         values: dict[str, Any] = {}
         for field in self.fields:
-            said = self.boxes[field.name].value
-            if said != field.shown:
-                values[field.name] = _read(field, said)
-        place = {name: values.pop(name) for name in PLACE if name in values}
-        if place:
+            text = self.boxes[field.name].value
+            if text != field.shown:
+                values[field.name] = _read(field, text)
+        pose = {name: values.pop(name) for name in POSE_FIELDS if name in values}
+        if pose:
             (x, y), heading = self.body.position, self.body.heading_deg
-            place = {"x": x, "y": y, "heading_deg": heading} | place
+            pose = {"x": x, "y": y, "heading_deg": heading} | pose
         lengths = {name: values.pop(name) for name in _lengths(self.body) if name in values}
         if lengths:
-            values["shape"] = _shaped(self.body, lengths)
-        return place, values
+            values["shape"] = _resized_shape(self.body, lengths)
+        return pose, values
 
     def explain(self, problems: Iterable[Problem]) -> None:
-        """Says what is wrong, above the button, each with the label of its box."""
-        text = "; ".join(self._worded(problem) for problem in problems)
-        told = f'<strong role="alert">{escape(text)}</strong>'
-        self._told.content = paragraph(told) if text else ""
+        """Show problems above the button, each with the label of its box."""
+        text = "; ".join(self._describe(problem) for problem in problems)
+        html = f'<strong role="alert">{escape(text)}</strong>'
+        self.message.content = paragraph(html) if text else ""
 
     def remove(self) -> None:
-        """Takes it off the page."""
+        """Remove the form from the page."""
         self._form.remove()
 
-    def _worded(self, problem: Problem) -> str:
+    def _describe(self, problem: Problem) -> str:
         lengths = tuple(_lengths(self.body))
         path = [part for part in problem.path if part not in {"shape", self.body.shape.type}]
         name = str(path[0]) if path else ""
         if name in {"size", "position"} and len(path) > 1:
-            name = (lengths if name == "size" else PLACE)[int(path[1])]
+            name = (lengths if name == "size" else POSE_FIELDS)[int(path[1])]
         label = next((each.label for each in self.fields if each.name == name), "")
         return f"{label}: {problem.text}" if label else str(problem)
 
 
 def fields(body: BodyDescription) -> list[Field]:
-    """What can be changed of a body, and how it is now."""
+    """Return the fields of a body's form, with their current values."""
     colours = (NONE_LABEL, *PALETTE)
     if body.colour is not None and body.colour not in PALETTE:
         colours = (*colours, body.colour)
@@ -144,20 +145,20 @@ def fields(body: BodyDescription) -> list[Field]:
     ]
 
 
-def _read(field: Field, said: str) -> Any:
-    """What a box says, as plain data."""
+def _read(field: Field, text: str) -> Any:
+    """Return the value of a box as plain data."""
     if field.name == "kind":
-        return next((kind for kind, words in KINDS.items() if words == said), said)
-    value = field.read(said)
-    if field.name in PLACE and not isinstance(value, int | float):
-        raise ChangeError([Problem((field.name,), f"expected a number, got {said!r}")])
-    if field.name in PLACE and not math.isfinite(value):
-        raise ChangeError([Problem((field.name,), f"expected a finite number, got {said!r}")])
+        return next((kind for kind, words in KINDS.items() if words == text), text)
+    value = field.read(text)
+    if field.name in POSE_FIELDS and not isinstance(value, int | float):
+        raise ChangeError([Problem((field.name,), f"expected a number, got {text!r}")])
+    if field.name in POSE_FIELDS and not math.isfinite(value):
+        raise ChangeError([Problem((field.name,), f"expected a finite number, got {text!r}")])
     return value
 
 
 def _lengths(body: BodyDescription) -> Mapping[str, float]:
-    """How large a body is from above; nothing where that takes more than a few numbers."""
+    """Return the lengths that describe a body's outline; empty for shapes with many corners."""
     match body.shape:
         case BoxShape(size=(length, width)):
             return {"length": length, "width": width}
@@ -170,7 +171,7 @@ def _lengths(body: BodyDescription) -> Mapping[str, float]:
     return {}
 
 
-def _shaped(body: BodyDescription, lengths: Mapping[str, Any]) -> dict[str, Any]:
+def _resized_shape(body: BodyDescription, lengths: Mapping[str, Any]) -> dict[str, Any]:
     plain: dict[str, Any] = body.shape.model_dump(mode="json")
     if isinstance(body.shape, BoxShape):
         both: Mapping[str, Any] = {**_lengths(body), **lengths}

@@ -1,9 +1,9 @@
-"""The main panel: what the time does, and what a person can ask of it; the same on all pages."""
+"""The main panel: state of the simulation, time control and seed; the same on all pages."""
 
 import asyncio
-from typing import Any, TypeVar
+from typing import Any
 
-from viser import GuiButtonGroupHandle, GuiDropdownHandle, GuiEvent, GuiInputHandle
+from viser import GuiButtonGroupHandle, GuiDropdownHandle, GuiEvent
 
 from ai4u_edu.base.limits import MAX_EXACT_INT
 from ai4u_edu.runtime.runner import Runner
@@ -12,24 +12,24 @@ from ai4u_edu.viewer.backend.local_server import LocalServer
 from ai4u_edu.viewer.panel.notify import notify_failure
 from ai4u_edu.viewer.panel.status import goal, speed_name, status
 from ai4u_edu.viewer.panel.style import STYLE
+from ai4u_edu.viewer.panel.widgets import set_value
 from ai4u_edu.viewer.viewer_client import ViewerClients
 
-T = TypeVar("T")
 SPEEDS = {speed_name(speed): speed for speed in (0.1, 0.25, 0.5, 1.0, 2.0, 4.0, 10.0, float("inf"))}
-"""What can be chosen; 1 is real time."""
-RUNNING = ("Pause", "Tick", "Decision", "Reset")
-PAUSED = ("Resume", *RUNNING[1:])
-LATE = 0.15
-"""Seconds by which the last digit may come after the Enter: pages send numbers not so often."""
+"""Time scales by their label; 1 is real time."""
+RUNNING_BUTTONS = ("Pause", "Tick", "Decision", "Reset")
+PAUSED_BUTTONS = ("Resume", *RUNNING_BUTTONS[1:])
+NUMBER_DELAY_S = 0.15
+"""Time (s) by which a typed number may arrive after the Enter key: viser throttles number boxes."""
 
 
 class Controls:
-    """Shows the state of the time; hands on to the runner what people ask for.
+    """The widgets of the main panel, which show the runner's state and send it commands.
 
     Args:
-        server: viser's.
-        runner: gets the commands.
-        viewer_clients: know which agent a page looks at.
+        server: viser's server.
+        runner: receives the commands.
+        viewer_clients: the pages; they know which agent each one shows.
     """
 
     def __init__(self, server: LocalServer, runner: Runner, viewer_clients: ViewerClients) -> None:
@@ -39,12 +39,12 @@ class Controls:
         gui.add_html(STYLE)
         self._goal = gui.add_html("")
         self._status = gui.add_html("")
-        self._time = gui.add_button_group("Time", RUNNING)
+        self._time = gui.add_button_group("Time", RUNNING_BUTTONS)
         self._speed = gui.add_dropdown("Speed", tuple(SPEEDS))
         self._form = gui.add_form(None)
         with self._form:
             hint = "Enter begins an episode with this seed"
-            # as far as browsers count exactly: beyond, the page would show another number
+            # JavaScript rounds larger integers, so the page would show another number
             limit = MAX_EXACT_INT
             self._seed = gui.add_number("Seed", 0, min=0, max=limit, step=1, hint=hint)
         self._time.on_click(self._on_time)
@@ -52,27 +52,28 @@ class Controls:
         self._form.on_submit(self._on_seed)
 
     def build(self, static_scene: StaticScene) -> None:
-        """Tells the goal of a static_scene."""
+        """Show the scene's goal."""
         self._goal.content = goal(static_scene)
 
     def draw(self, snapshot: Snapshot) -> None:
-        """Shows what the time does."""
+        """Show the state of the simulation."""
         self._status.content = status(snapshot, self._runner.stall)
-        self._time.options = PAUSED if snapshot.paused else RUNNING
-        # only when they change: somebody may be choosing another one just now
+        self._time.options = PAUSED_BUTTONS if snapshot.paused else RUNNING_BUTTONS
+        # only after a change: a person may be choosing another value just now
         if snapshot.time_scale != self._scale_shown:
             self._scale_shown = snapshot.time_scale
             name = speed_name(snapshot.time_scale)
             self._speed.options = tuple(dict.fromkeys([*SPEEDS, name]))
-            _show(self._speed, name)
+            set_value(self._speed, name)
         if snapshot.seed != self._seed_shown:
             self._seed_shown = snapshot.seed
             is_exact = snapshot.seed <= MAX_EXACT_INT
             self._seed.label = "Seed" if is_exact else f"Seed (now {snapshot.seed})"
             if is_exact:
-                _show(self._seed, snapshot.seed)
+                set_value(self._seed, snapshot.seed)
 
-    # these run in viser's event loop, one after the other: a click is never taken for the next one
+    # coroutines, because viser runs them in its event loop one after the other, so clicks keep
+    # their order
 
     async def _on_time(self, event: GuiEvent[GuiButtonGroupHandle]) -> None:
         runner, client = self._runner, event.client
@@ -101,9 +102,5 @@ class Controls:
             notify_failure(event.client, self._runner, self._runner.scale_time(speed))
 
     async def _on_seed(self, event: GuiEvent[Any]) -> None:
-        await asyncio.sleep(LATE)
+        await asyncio.sleep(NUMBER_DELAY_S)
         notify_failure(event.client, self._runner, self._runner.reset(int(self._seed.value)))
-
-
-def _show(handle: GuiInputHandle[T], value: T) -> None:
-    handle.value = value  # type: ignore[misc]  # a method parts its getter from its setter

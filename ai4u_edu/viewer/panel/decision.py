@@ -3,22 +3,22 @@
 from ai4u_edu.snapshot import AgentState, Snapshot
 from ai4u_edu.viewer.panel.readings import block
 
-MOST_TICKS = 24
-"""So many ticks are drawn at most; of more only the first ones."""
-SLOW = 0.25
-"""Up to this speed one can see where in its decision an agent is."""
+MAX_TICKS = 24
+"""Most ticks that are drawn; of longer decisions only the first ones."""
+MAX_VISIBLE_SPEED = 0.25
+"""Largest time scale at which the current tick is marked; faster, nobody could follow."""
 
 
 def decision(agent: AgentState, snapshot: Snapshot) -> str:
-    """How an agent's decision goes; and where in it the world is, if that can be followed."""
+    """Return the parts of an agent's decision as HTML, with the current one marked when slow."""
     tick, ticks, repeats = agent.phase
-    visible = snapshot.paused or snapshot.time_scale <= SLOW
+    visible = snapshot.paused or snapshot.time_scale <= MAX_VISIBLE_SPEED
     is_over = tick >= ticks or not tick
     acts = "".join(
         _tick(number, tick if visible else -1, acts=repeats or number == 1)
-        for number in range(1, min(ticks, MOST_TICKS) + 1)
+        for number in range(1, min(ticks, MAX_TICKS) + 1)
     )
-    rest = f"&hellip;{ticks}" if ticks > MOST_TICKS else ""
+    rest = f"&hellip;{ticks}" if ticks > MAX_TICKS else ""
     parts = [
         ("", "sense", visible and is_over),
         ("", "decide", False),
@@ -28,26 +28,28 @@ def decision(agent: AgentState, snapshot: Snapshot) -> str:
     strip = "".join(
         f'<span class="{kind}{" now" if now else ""}">{text}</span>' for kind, text, now in parts
     )
-    return block(f'<div class="decision">{strip}</div>', f"<small>{_said(agent, snapshot)}</small>")
+    return block(
+        f'<div class="decision">{strip}</div>', f"<small>{_caption(agent, snapshot)}</small>"
+    )
 
 
-def _tick(number: int, present: int, *, acts: bool) -> str:
+def _tick(number: int, current: int, *, acts: bool) -> str:
     kinds = [
         *(["coasts"] if not acts else []),
-        *(["done"] if number <= present else []),
-        *(["now"] if number == present else []),
+        *(["done"] if number <= current else []),
+        *(["now"] if number == current else []),
     ]
     return f'<em class="{" ".join(kinds)}"></em>' if kinds else "<em></em>"
 
 
-def _said(agent: AgentState, snapshot: Snapshot) -> str:
-    """The same in words."""
+def _caption(agent: AgentState, snapshot: Snapshot) -> str:
+    """Return the decision in words."""
     tick, ticks, repeats = agent.phase
     seconds = ticks / snapshot.static_scene.settings.ticks_per_second
-    many = f"{ticks} ticks" if ticks > 1 else "1 tick"
+    count = f"{ticks} ticks" if ticks > 1 else "1 tick"
     how = "" if ticks == 1 else "; it acts at each" if repeats else "; it acts at the first only"
-    if not (snapshot.paused or snapshot.time_scale <= SLOW):
-        return f"{many}, {seconds:.2g} s{how}. Slow down to watch."
+    if not (snapshot.paused or snapshot.time_scale <= MAX_VISIBLE_SPEED):
+        return f"{count}, {seconds:.2g} s{how}. Slow down to watch."
     if 0 < tick < ticks:
         return f"Tick {tick} of {ticks}{how}."
     return f"{'Rewarded, and sensed' if tick else 'Sensed'}: decides next."

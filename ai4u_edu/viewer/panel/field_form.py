@@ -1,4 +1,4 @@
-"""A form with a box for each parameter, on one page."""
+"""A form with a box for each parameter of something, on one page."""
 
 from collections.abc import Callable, Coroutine, Iterable
 from html import escape
@@ -21,18 +21,18 @@ from ai4u_edu.viewer.panel.readings import block as paragraph
 
 Box = GuiCheckboxHandle | GuiDropdownHandle[str] | GuiNumberHandle[int] | GuiTextHandle
 
-LINE = 28
-"""Characters that fit into a box; longer text gets several lines."""
+MAX_BOX_CHARS = 28
+"""Longest text that fits into a box of one line."""
 
 
 class FieldForm:
-    """A box for each parameter; what is wrong stands right below the box that it is about.
+    """A form with a box for each parameter; a problem is shown right below its box.
 
     Args:
-        client: the page; the form comes to stand where its ``gui`` is.
-        heading: what stands above, as HTML.
+        client: the page; the form is added to the current container of its ``gui``.
+        heading: HTML above the boxes.
         fields: the parameters.
-        on_apply: called when the form is handed in.
+        on_apply: called when the form is submitted.
     """
 
     def __init__(
@@ -45,58 +45,58 @@ class FieldForm:
         self._gui = client.gui
         self.fields = fields
         self.boxes: dict[str, Box] = {}
-        self._complaints: dict[str, GuiHtmlHandle] = {}
+        self.problem_texts: dict[str, GuiHtmlHandle] = {}
         self._form = self._gui.add_form(None)
         self._form.on_submit(on_apply)
         self._more: GuiFolderHandle | None = None
         with self._form:
             if heading:
                 self._gui.add_html(paragraph(heading), order=-1.0)
-            for place, field in enumerate(self.fields):
+            for index, field in enumerate(self.fields):
                 if not field.is_common:
-                    self.boxes[field.name] = self._box(field, place)
+                    self.boxes[field.name] = self._box(field, index)
             if any(field.is_common for field in self.fields):
                 more = self._gui.add_folder("More", expand_by_default=False, order=1000.0)
                 self._more = more
                 with more:
-                    for place, field in enumerate(self.fields):
+                    for index, field in enumerate(self.fields):
                         if field.is_common:
-                            self.boxes[field.name] = self._box(field, place)
-            self._told = self._gui.add_html("", order=1999.0)
+                            self.boxes[field.name] = self._box(field, index)
+            self.message = self._gui.add_html("", order=1999.0)
             self.apply = self._gui.add_button("Apply", order=2000.0, color="blue")
         self.apply.on_click(on_apply)
 
-    def shows(self, fields: list[Field]) -> bool:
-        """Shows the parameters as they are now, if they are still those whose form this is."""
+    def show_fields(self, fields: list[Field]) -> bool:
+        """Show the parameters' current values; return False if they need another form."""
         if fields == self.fields:
             return True
-        if [_sort_of(each) for each in fields] != [_sort_of(each) for each in self.fields]:
+        if [_box_key(each) for each in fields] != [_box_key(each) for each in self.fields]:
             return False
         self.fields = fields
         for field in fields:
             box: Any = self.boxes[field.name]
-            box.value = _of_its_kind(field, box.value)
+            box.value = _box_value(field, box.value)
         self.explain(())
         return True
 
-    def tell(self, text: str) -> None:
-        """Says something above the button."""
-        self._told.content = paragraph(f"<small>{escape(text)}</small>") if text else ""
+    def show_message(self, text: str) -> None:
+        """Show a message above the button."""
+        self.message.content = paragraph(f"<small>{escape(text)}</small>") if text else ""
 
     def changes(self) -> dict[str, Any]:
-        """What a person has written that is other than it was, as plain data.
+        """Read the values that differ from the parameters', as plain data.
 
         Raises:
-            ChangeError: some of it can't be read at all.
+            ChangeError: a box has an invalid value.
         """
         values: dict[str, Any] = {}
         problems: list[Problem] = []
         for field in self.fields:
-            said = self.boxes[field.name].value
-            if said == (bool(field.value) if field.kind == "switch" else field.shown):
+            entered = self.boxes[field.name].value
+            if entered == (bool(field.value) if field.kind == "switch" else field.shown):
                 continue
             try:
-                value = field.read(said)
+                value = field.read(entered)
             except ChangeError as error:
                 problems += error.problems
                 continue
@@ -107,46 +107,46 @@ class FieldForm:
         return values
 
     def explain(self, problems: Iterable[Problem]) -> None:
-        """Says what is wrong, each beside its box; above the button what belongs to none."""
-        told: dict[str, list[str]] = {}
+        """Show each problem below its box, and all of them above the button."""
+        texts: dict[str, list[str]] = {}
         rest = []
         for problem in problems:
             name = str(problem.path[0]) if problem.path else ""
             if name in self.boxes:
                 inside = dotted(problem.path[1:])
-                told.setdefault(name, []).append(
+                texts.setdefault(name, []).append(
                     f"{inside}: {problem.text}" if inside else problem.text
                 )
             else:
                 rest.append(str(problem))
-        for name in self._complaints.keys() - told.keys():
-            self._complaints.pop(name).remove()
-        for place, field in enumerate(self.fields):
-            if field.name in told:
-                self._complain(field, place, "; ".join(told[field.name]))
-        # said again here: the box may be out of sight, or folded away
-        wrong = [
-            f"{field.label}: {'; '.join(told[field.name])}"
+        for name in self.problem_texts.keys() - texts.keys():
+            self.problem_texts.pop(name).remove()
+        for index, field in enumerate(self.fields):
+            if field.name in texts:
+                self._show_problem(field, index, "; ".join(texts[field.name]))
+        # again above the button: the box may be scrolled away or in the folded part
+        labelled = [
+            f"{field.label}: {'; '.join(texts[field.name])}"
             for field in self.fields
-            if field.name in told
+            if field.name in texts
         ]
-        text = "; ".join((*rest, *wrong))
-        self._told.content = paragraph(f"<strong>{escape(text)}</strong>") if text else ""
+        text = "; ".join((*rest, *labelled))
+        self.message.content = paragraph(f"<strong>{escape(text)}</strong>") if text else ""
 
     def remove(self) -> None:
-        """Takes it off the page."""
+        """Remove the form from the page."""
         self._form.remove()
 
-    def _complain(self, field: Field, place: int, text: str) -> None:
+    def _show_problem(self, field: Field, index: int, text: str) -> None:
         html = paragraph(f'<strong role="alert">{escape(text)}</strong>')
-        if field.name in self._complaints:
-            self._complaints[field.name].content = html
+        if field.name in self.problem_texts:
+            self.problem_texts[field.name].content = html
             return
         with self._more if field.is_common and self._more else self._form:
-            self._complaints[field.name] = self._gui.add_html(html, order=place + 0.5)
+            self.problem_texts[field.name] = self._gui.add_html(html, order=index + 0.5)
 
-    def _box(self, field: Field, place: int) -> Box:
-        gui, order = self._gui, float(place)
+    def _box(self, field: Field, index: int) -> Box:
+        gui, order = self._gui, float(index)
         hint = field.hint or None
         match field.kind:
             case "switch":
@@ -161,23 +161,23 @@ class FieldForm:
                     field.label, choices, initial_value=shown, hint=hint, order=order
                 )
             case "whole" if isinstance(field.value, int):
-                # without its bounds: the box would cut what is out of range, without a word
+                # without its bounds: the box would clip values that are out of range silently
                 return gui.add_number(field.label, field.value, step=1, hint=hint, order=order)
             case _:
-                # a box for numbers would round what has more digits than the value before
-                is_long = field.kind == "text" and len(field.shown) > LINE
+                # a number box would round to the number of digits of the previous value
+                is_long = field.kind == "text" and len(field.shown) > MAX_BOX_CHARS
                 return gui.add_text(
                     field.label, field.shown, multiline=is_long, hint=hint, order=order
                 )
 
 
-def _sort_of(field: Field) -> tuple[object, ...]:
-    """What a box is made for; only its value can change."""
+def _box_key(field: Field) -> tuple[object, ...]:
+    """Return all properties of a field, except the value, that its box depends on."""
     return field.name, field.kind, field.choices, field.value is None
 
 
-def _of_its_kind(field: Field, before: Any) -> Any:
-    """A field's value as its box takes it."""
+def _box_value(field: Field, before: Any) -> Any:
+    """Return a field's value in the type of its box."""
     if field.kind == "switch":
         return bool(field.value)
     return field.value if isinstance(before, int) else field.shown

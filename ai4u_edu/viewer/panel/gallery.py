@@ -1,4 +1,4 @@
-"""A window in which one page chooses another scene, by its picture."""
+"""A modal window in which a page chooses another scene by its picture."""
 
 import asyncio
 from collections.abc import Awaitable, Callable
@@ -10,20 +10,20 @@ from viser._gui_handles import GuiModalHandle
 
 from ai4u_edu.editing.scene_store import SceneStore
 from ai4u_edu.scenes import Scene
-from ai4u_edu.viewer.panel.gallery_pictures import STYLE, Card, cards, cards_of
 from ai4u_edu.viewer.panel.readings import block
+from ai4u_edu.viewer.panel.scene_cards import STYLE, Card, library_cards, stored_cards
 
 Load = Callable[[], Scene]
 
 
 class Gallery:
-    """Shows the library's scenes, and those that were kept in a store.
+    """The scenes of the library and of a store, as pictures with buttons.
 
-    It is made when somebody asks for it, so that pages cost nothing.
+    It is created at each opening, so a closed gallery costs a page nothing.
 
     Args:
         client: the page.
-        on_choose: called in viser's loop with what reads the scene that was clicked on.
+        on_choose: called in viser's event loop with a function that loads the chosen scene.
     """
 
     def __init__(self, client: ClientHandle, on_choose: Callable[[Load], Awaitable[None]]) -> None:
@@ -31,38 +31,39 @@ class Gallery:
         self._window: GuiModalHandle | None = None
         self._is_opening = False
         self.buttons: dict[str, GuiButtonHandle] = {}
-        """Of the library's scenes, by name."""
-        self.kept: dict[str, GuiButtonHandle] = {}
-        """Of the store's."""
+        """Buttons of the library's scenes, by name."""
+        self.stored_buttons: dict[str, GuiButtonHandle] = {}
+        """Buttons of the store's scenes, by name."""
 
     async def open(self, store: SceneStore | None) -> None:
-        """Shows the window."""
+        """Show the window."""
         if self._window is None and not self._is_opening:
             self._is_opening = True
             try:
-                kept = await asyncio.to_thread(cards_of, store) if store is not None else []
-                self._show(await asyncio.to_thread(cards), kept, store)
+                stored = await asyncio.to_thread(stored_cards, store) if store is not None else []
+                self._show(await asyncio.to_thread(library_cards), stored, store)
             finally:
                 self._is_opening = False
 
     def close(self) -> None:
-        """Takes it away."""
+        """Close the window."""
         window, self._window = self._window, None
-        self.buttons, self.kept = {}, {}
+        self.buttons, self.stored_buttons = {}, {}
         if window is not None:
             window.close()
 
-    def _show(self, found: list[Card], kept: list[Card], store: SceneStore | None) -> None:
+    def _show(self, library: list[Card], stored: list[Card], store: SceneStore | None) -> None:
         gui = self._client.gui
         with self._client.atomic(), gui.add_modal("Choose a scene") as self._window:
             gui.add_button("Stay here").on_click(self._on_close)
             gui.add_html(STYLE)
-            if store is not None and kept:
+            if store is not None and stored:
                 gui.add_html(block("<b>Saved here</b>"))
-                for each in kept:
-                    self.kept[each.name] = self._add(each, partial(store.load, each.name))
+                for each in stored:
+                    load = partial(store.load, each.name)
+                    self.stored_buttons[each.name] = self._add(each, load)
                 gui.add_html(block("<b>The library</b>"))
-            for each in found:
+            for each in library:
                 self.buttons[each.name] = self._add(each, partial(Scene.load, each.name))
 
     def _add(self, card: Card, load: Load) -> GuiButtonHandle:

@@ -1,8 +1,9 @@
-"""What each page chooses for itself: where its camera is, whether it is dark."""
+"""Settings of each page: its camera and its color scheme."""
 
 from viser import GuiButtonGroupHandle, GuiCheckboxHandle, GuiEvent
 
 from ai4u_edu.snapshot import Snapshot, StaticScene
+from ai4u_edu.viewer.panel.block_labels import selected_button_mark
 from ai4u_edu.viewer.scene.view import Mode
 from ai4u_edu.viewer.viewer_client import ViewerClient, ViewerClients
 
@@ -10,17 +11,17 @@ MODES = tuple(mode.value for mode in Mode)
 
 
 class PageControls:
-    """In the main panel of each page, below what is the same for all."""
+    """The widgets of each page's own settings, in the main panel below the shared ones."""
 
     def __init__(self, viewer_clients: ViewerClients) -> None:
         self._viewer_clients = viewer_clients
         self._pages: dict[int, _Page] = {}
 
     def build(self, static_scene: StaticScene) -> None:
-        """Nothing: pages stay when a static scene is built anew."""
+        """Do nothing: the settings don't depend on the scene."""
 
     def draw(self, _snapshot: Snapshot) -> None:
-        """Gives pages that have come their controls."""
+        """Add widgets to new pages, and forget closed ones."""
         for gone in self._pages.keys() - self._viewer_clients.keys():
             del self._pages[gone]
         for new in self._viewer_clients.keys() - self._pages.keys():
@@ -33,13 +34,13 @@ class _Page:
         self._viewer_client = viewer_client
         self._mark = gui.add_html("")
         self.camera = gui.add_button_group("Camera", MODES)
-        # the page remembers what is chosen here, by the box's name
+        # web/dark.js finds this box by its label, to store the choice in the browser
         self.dark = gui.add_checkbox("Dark", initial_value=viewer_client.is_dark)
         self.camera.on_click(self._on_camera)
         self.dark.on_update(self._on_dark)
         self._show_mode()
         if viewer_client.is_dark:
-            self._dress(dark=True)
+            self._set_theme(dark=True)
 
     async def _on_camera(self, event: GuiEvent[GuiButtonGroupHandle]) -> None:
         if event.target.value in MODES:
@@ -47,14 +48,14 @@ class _Page:
             self._show_mode()
 
     async def _on_dark(self, event: GuiEvent[GuiCheckboxHandle]) -> None:
-        self._dress(dark=bool(event.target.value))
+        self._set_theme(dark=bool(event.target.value))
 
-    def _dress(self, *, dark: bool) -> None:
+    def _set_theme(self, *, dark: bool) -> None:
         self._viewer_client.client.gui.configure_theme(
             show_logo=False, show_share_button=False, dark_mode=dark
         )
 
     def _show_mode(self) -> None:
-        """Marks the button of the camera that is on; viser's buttons can't be marked."""
-        place = 1 + MODES.index(self._viewer_client.view.mode)
-        self._mark.content = f'<div class="ai4u mark bare" data-on="{place}"></div>'
+        """Highlight the button of the current camera mode."""
+        position = 1 + MODES.index(self._viewer_client.view.mode)
+        self._mark.content = selected_button_mark(position)

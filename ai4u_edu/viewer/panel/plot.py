@@ -1,4 +1,4 @@
-"""The reward as curves: what each decision was paid, and the episode's sum."""
+"""The plot of rewards: each decision's reward, and the episode's sum."""
 
 import time
 from collections.abc import Callable, Sequence
@@ -8,28 +8,28 @@ from viser import GuiApi, uplot
 from ai4u_edu.agent import Entry
 from ai4u_edu.viewer.panel.reward_table import Curves, curves
 
-PERIOD = 0.4
-"""Seconds between two pictures at least."""
+MIN_REDRAW_S = 0.4
+"""Shortest time (s) between two drawings."""
 BLUE, ORANGE = "#2b8cc4", "#d55e00"
-"""Both can be told from a light and from a dark ground."""
+"""Line colours, readable on light and dark backgrounds."""
 FONT = "11px sans-serif"
-NONE = uplot.Axis_Grid(show=False)
+NO_GRID = uplot.Axis_Grid(show=False)
 INCREMENTS = tuple(
     float(f"{digit}e{power}") for power in range(-3, 16) for digit in ("1", "2", "5")
 )
-"""Steps between two numbers of an axis: uPlot rounds them to three digits after the point, so finer
-ones would print the same number twice."""
+"""Steps between the labels of an axis, none below 0.001: uPlot rounds labels to three decimals, so
+finer steps would repeat a label."""
 
 
 class RewardPlot:
-    """A plot in the panel of one page.
+    """The plot in the panel of one page.
 
     Args:
-        gui: the page's.
+        gui: the page's GUI.
     """
 
     def __init__(self, gui: GuiApi) -> None:
-        self._drawn: Entry | None = None
+        self._drawn_entry: Entry | None = None
         self._drawn_at = 0.0
         self._plot = gui.add_uplot(
             curves(()),
@@ -48,7 +48,7 @@ class RewardPlot:
                     side=1,
                     stroke=ORANGE,
                     font=FONT,
-                    grid=NONE,
+                    grid=NO_GRID,
                     incrs=INCREMENTS,
                 ),
             ),
@@ -56,15 +56,15 @@ class RewardPlot:
             padding=(8, 0, 0, 0),
         )
 
-    def draw(self, history: Sequence[Entry], drawn: Callable[[], Curves]) -> None:
-        """Draws the latest decisions, if there are others than before and it is time again.
+    def draw(self, history: Sequence[Entry], get_curves: Callable[[], Curves]) -> None:
+        """Draw the latest decisions, if there are new ones, at most every :data:`MIN_REDRAW_S`.
 
         Args:
-            history: of the agent.
-            drawn: gives its curves.
+            history: the agent's rewards.
+            get_curves: returns the curves of that history.
         """
         last, now = history[-1] if history else None, time.monotonic()
-        if last is self._drawn or now - self._drawn_at < PERIOD:
+        if last is self._drawn_entry or now - self._drawn_at < MIN_REDRAW_S:
             return
-        self._drawn, self._drawn_at = last, now
-        self._plot.data = drawn()
+        self._drawn_entry, self._drawn_at = last, now
+        self._plot.data = get_curves()

@@ -1,4 +1,4 @@
-"""Readings, actions and rewards as HTML for the panel; whatever a scene can name is escaped."""
+"""Readings, actions and rewards as HTML for the panel. Names from the scene are escaped."""
 
 from collections.abc import Iterable, Mapping, Sequence
 from html import escape
@@ -10,25 +10,26 @@ import numpy.typing as npt
 from ai4u_edu.snapshot.block_info import ActuatorInfo
 from ai4u_edu.viewer.panel.bars import amount, bars, number
 
-IN_FULL = 8
-"""Arrays of at most so many numbers are shown in full; longer ones as bars."""
-MOST_ROWS, MOST_COLUMNS, MOST_TABLES = 16, 40, 16
-LONGEST_TEXT = 200
-BARS = "▁▂▃▄▅▆▇█"
+MAX_LISTED_NUMBERS = 8
+"""Longest array whose numbers are listed; longer ones are drawn as bars."""
+MAX_ROWS, MAX_COLUMNS, MAX_TABLES = 16, 40, 16
+"""Most rows, columns and tables of bars that are drawn of an array."""
+MAX_TEXT_CHARS = 200
+BAR_CHARS = "▁▂▃▄▅▆▇█"
 
 
 def block(*parts: str, kind: str = "") -> str:
-    """Pieces of HTML as one part of the panel."""
+    """Join pieces of HTML into one part of the panel, with our styles."""
     return f'<div class="ai4u{f" {kind}" if kind else ""}">{"".join(parts)}</div>'
 
 
 def heading(text: str) -> str:
-    """A heading above a table."""
+    """Return a heading."""
     return f"<p>{escape(text)}</p>"
 
 
 def table(rows: Iterable[Sequence[str]]) -> str:
-    """Rows of HTML cells; each row's first cell is a name."""
+    """Return a table of HTML cells; each row's first cell is its heading."""
     lines = [
         f"<tr><th>{name}</th>{''.join(f'<td>{cell}</td>' for cell in cells)}</tr>"
         for name, *cells in rows
@@ -37,11 +38,11 @@ def table(rows: Iterable[Sequence[str]]) -> str:
 
 
 def action(numbers: Mapping[str, Sequence[float]], controls: Iterable[ActuatorInfo] = ()) -> str:
-    """What an agent does, each component by its name.
+    """Return an agent's action, with the names of its components.
 
     Args:
-        numbers: the action.
-        controls: what is known of it beforehand.
+        numbers: the action, by name.
+        controls: descriptions of the actuators.
     """
     known = {control.name: control for control in controls}
     parts = [
@@ -52,7 +53,7 @@ def action(numbers: Mapping[str, Sequence[float]], controls: Iterable[ActuatorIn
 
 
 def rewards(now: Mapping[str, float], so_far: Mapping[str, float]) -> str:
-    """What an agent got by term: in this decision and in this episode so far."""
+    """Return a table of rewards by term: of this decision, and of the episode so far."""
     names = dict.fromkeys([*so_far, *now])
     rows = [
         (escape(name), amount(now.get(name, 0.0)), amount(so_far.get(name, 0.0))) for name in names
@@ -63,17 +64,17 @@ def rewards(now: Mapping[str, float], so_far: Mapping[str, float]) -> str:
 
 
 def reading(value: Any) -> str:
-    """One reading as HTML, in a line or as bars."""
+    """Return one reading as HTML, in a line or as bars."""
     if isinstance(value, str):
-        return escape(value[:LONGEST_TEXT])
+        return escape(value[:MAX_TEXT_CHARS])
     if isinstance(value, tuple):
-        return escape(", ".join(value)[:LONGEST_TEXT])
+        return escape(", ".join(value)[:MAX_TEXT_CHARS])
     if isinstance(value, bool | np.bool_):
         return "yes" if value else "no"
     array = np.asarray(value)
     if array.dtype == np.bool_:
         array = array.astype(np.int64)
-    if array.size <= IN_FULL:
+    if array.size <= MAX_LISTED_NUMBERS:
         return "&ensp;".join(number(each) for each in array.ravel().tolist())
     return _bars(array)
 
@@ -96,17 +97,17 @@ def _components(values: Sequence[float], control: ActuatorInfo | None) -> str:
 
 
 def _bars(array: npt.NDArray[Any]) -> str:
-    """A bar for each number: rows as the last axis runs, tables as the last two run."""
+    """Draw a bar for each number: the last axis is a row, the last two are a table."""
     low, high = min(0.0, float(array.min())), max(float(array.max()), float(array.min()) + 1e-9)
     if low == 0.0 and high <= 1.0:
-        high = 1.0  # most readings are normalised: so their bars mean the same at any time
-    steps = (array - low) / (high - low) * (len(BARS) - 1)
-    bars = np.array(list(BARS))[np.clip(steps.round().astype(np.int64), 0, len(BARS) - 1)]
+        high = 1.0  # most readings are normalised to 0..1, which gives all of them one scale
+    steps = (array - low) / (high - low) * (len(BAR_CHARS) - 1)
+    bars = np.array(list(BAR_CHARS))[np.clip(steps.round().astype(np.int64), 0, len(BAR_CHARS) - 1)]
     if array.ndim == 1:
-        tables = [[bars[i : i + MOST_COLUMNS] for i in range(0, array.size, MOST_COLUMNS)]]
+        tables = [[bars[i : i + MAX_COLUMNS] for i in range(0, array.size, MAX_COLUMNS)]]
     else:
         tables = list(bars.reshape(-1, *array.shape[-2:]))
-    shown = [[row[:MOST_COLUMNS] for row in table[:MOST_ROWS]] for table in tables[:MOST_TABLES]]
+    shown = [[row[:MAX_COLUMNS] for row in table[:MAX_ROWS]] for table in tables[:MAX_TABLES]]
     cut = "" if sum(len(row) for table in shown for row in table) == array.size else ", in part"
     shape = " x ".join(map(str, array.shape))
     caption = f"<small>{shape}{cut}, {number(low)} to {number(high)}</small><br>"

@@ -1,4 +1,4 @@
-"""The lines that drive an agent from a notebook, in its tab, ready to be copied."""
+"""Python code that drives an agent from a notebook, shown in the agent's tab."""
 
 from keyword import iskeyword
 
@@ -8,16 +8,16 @@ from ai4u_edu.agent import BasicAgent
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.viewer.viewer_client import ViewerClient
 
-HERE = "http://127.0.0.1:8080"
-"""The address in the lines, if nobody knows by which one the page was reached."""
+DEFAULT_ADDRESS = "http://127.0.0.1:8080"
+"""Address in the code if the page's own address is unknown."""
 
 
 class RemoteLines:
-    """A folder with the lines for the agent that a page looks at.
+    """A folder with the code for the agent that a page shows.
 
     Args:
         viewer_client: the page.
-        runner: whose agents can be driven.
+        runner: the runner of the agent's world.
     """
 
     def __init__(self, viewer_client: ViewerClient, runner: Runner) -> None:
@@ -28,18 +28,18 @@ class RemoteLines:
             self.lines: GuiMarkdownHandle = gui.add_markdown("")
 
     def draw(self) -> None:
-        """Writes the lines anew, if the page looks at another agent."""
+        """Write the code again, if the page shows another agent."""
         wanted = self._viewer_client.agent
         agent = next((each for each in self._runner.sim.agents if each.id == wanted), None)
         if agent is not None and agent is not self._agent:
             self._agent = agent
-            self.lines.content = lines(self._viewer_client.address or HERE, agent)
+            self.lines.content = lines(self._viewer_client.address or DEFAULT_ADDRESS, agent)
 
 
 def lines(address: str, agent: BasicAgent) -> str:
-    """What is to be pasted into a notebook, as markdown.
+    """Return the code, with instructions, as markdown.
 
-    Names stand in it as Python writes them, so that none can end the line, or the code.
+    Names are inserted by ``repr``, so a hostile name can't inject code.
     """
     example = {
         name: [1] + [0] * (len(actuator.limits()[0]) - 1)

@@ -1,4 +1,4 @@
-"""The reward ledger in the panel: which term paid what, at which decision."""
+"""Rewards by term and decision, as tables and curves for the panel."""
 
 from collections.abc import Sequence
 from html import escape
@@ -11,17 +11,17 @@ from ai4u_edu.snapshot import AgentState
 from ai4u_edu.viewer.panel.bars import amount
 from ai4u_edu.viewer.panel.readings import block, heading, rewards, table
 
-REMEMBERED = 240
-"""So many decisions are kept for the page."""
+MAX_PLOTTED_DECISIONS = 240
+"""Number of decisions that an agent's history keeps for the page."""
 MINUS = "\u2212"
 Curves = tuple[npt.NDArray[np.float64], ...]
-LAST = 6
-"""So many of them stand in the table; one in which nothing was paid says nothing."""
+MAX_LISTED_DECISIONS = 6
+"""Most decisions in the table of the latest rewards; those without a reward are left out."""
 
 
 def reward_table(agent: AgentState) -> str:
-    """This decision and this episode by term, and the latest decisions in which something was."""
-    paid = [entry for entry in agent.history if any(entry.terms.values())][-LAST:]
+    """Return rewards by term, of this decision and episode, and the latest rewarded decisions."""
+    paid = [entry for entry in agent.history if any(entry.terms.values())][-MAX_LISTED_DECISIONS:]
     rows = [
         (f"decision {entry.step}", _terms(entry), f"<b>{signed(entry.total)}</b>")
         for entry in reversed(paid)
@@ -31,7 +31,7 @@ def reward_table(agent: AgentState) -> str:
 
 
 def signed(paid: float) -> str:
-    """An amount with its sign.
+    """Format a reward with its sign.
 
     >>> signed(100.0), signed(-0.5), signed(0.0)
     ('+100.00', '\u22120.50', '0.00')
@@ -41,9 +41,9 @@ def signed(paid: float) -> str:
 
 
 def curves(history: Sequence[Entry]) -> Curves:
-    """What is plotted: the decisions' numbers, what each was paid, and the episode's sum so far.
+    """Return the plotted columns: decision numbers, rewards, and sums of the episode so far.
 
-    An empty history is a single point at zero, since a plot needs one.
+    An empty history gives a single point at zero, because a plot needs one.
     """
     if not history:
         return (np.zeros(1), np.zeros(1), np.zeros(1))

@@ -1,4 +1,4 @@
-"""A window in which one page keeps the scene under a name."""
+"""A modal window in which a page saves the scene under a name."""
 
 import asyncio
 from collections.abc import Callable
@@ -17,13 +17,13 @@ SAVE, REPLACE = "Save", "Replace it"
 
 
 class SaveWindow:
-    """Asks for a name, and once more before it replaces what has that name.
+    """A form for the name; replacing a scene of that name takes a confirmation.
 
     Args:
         client: the page.
-        store: where scenes are kept.
-        scene: gives the one that is to be kept.
-        on_saved: called with the name, in viser's loop.
+        store: the store that the scene is saved to.
+        scene: returns the scene to save.
+        on_saved: called with the name, in viser's event loop.
     """
 
     def __init__(
@@ -39,22 +39,22 @@ class SaveWindow:
         self._taken, self._is_saving = "", False
         self.name: GuiTextHandle
         self.save: GuiButtonHandle
-        self.told: GuiHtmlHandle
+        self.message: GuiHtmlHandle
 
     @property
     def is_open(self) -> bool:
-        """Whether it is there."""
+        """True while the window is shown."""
         return self._window is not None
 
     def open(self, name: str) -> None:
-        """Shows it, with a name that a person may keep."""
+        """Show the window with a suggested name."""
         if self._window is not None:
             return
         self._taken, gui = "", self._client.gui
         with self._client.atomic(), gui.add_modal("Save the scene") as self._window:
             with gui.add_form(None) as form:
                 self.name = gui.add_text("Name", name)
-                self.told = gui.add_html("")
+                self.message = gui.add_html("")
                 self.save = gui.add_button(SAVE, color="blue")
             cancel = gui.add_button("Cancel")
         form.on_submit(self._on_save)
@@ -62,35 +62,35 @@ class SaveWindow:
         cancel.on_click(self._on_cancel)
 
     def close(self) -> None:
-        """Takes it away."""
+        """Close the window."""
         window, self._window = self._window, None
         if window is not None:
             window.close()
 
     async def _on_save(self, _event: Any) -> None:
         if self._is_saving or self._window is None:
-            return  # a double click
+            return  # the second click of a double click
         name, scene = self.name.value, self._scene()
         over = bool(self._taken) and self._taken == name
         self._is_saving = True
         try:
-            kept = await asyncio.to_thread(self._store.save, name, scene, over=over)
+            saved_name = await asyncio.to_thread(self._store.save, name, scene, over=over)
         except SceneExistsError as error:
             self._taken = name
-            self._tell(f"{error}; press “{REPLACE}”, or choose another name", REPLACE)
+            self._show_error(f"{error}; press “{REPLACE}”, or choose another name", REPLACE)
         except AI4UError as error:
             self._taken = ""
-            self._tell(str(error), SAVE)
+            self._show_error(str(error), SAVE)
         else:
             self.close()
-            self._on_saved(kept)
+            self._on_saved(saved_name)
         finally:
             self._is_saving = False
 
-    def _tell(self, text: str, word: str) -> None:
-        self.told.content = block(f'<strong role="alert">{escape(text)}</strong>')
-        if self.save.label != word:
-            self.save.label = word
+    def _show_error(self, text: str, label: str) -> None:
+        self.message.content = block(f'<strong role="alert">{escape(text)}</strong>')
+        if self.save.label != label:
+            self.save.label = label
 
     async def _on_cancel(self, _event: Any) -> None:
         if not self._is_saving:

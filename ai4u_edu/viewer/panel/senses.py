@@ -1,4 +1,4 @@
-"""What the brain sees: each sensor's reading as HTML for the panel, number by number."""
+"""Sensor readings as HTML for the panel, with names, units and ranges of their numbers."""
 
 from collections.abc import Mapping
 from html import escape
@@ -11,17 +11,15 @@ from ai4u_edu.blocks import RayPicture
 from ai4u_edu.snapshot.block_info import SensorInfo
 from ai4u_edu.snapshot.theme import RAY_MISS, UNKNOWN_GROUP, Rgb
 from ai4u_edu.viewer.panel.bars import bars, number, strip
-from ai4u_edu.viewer.panel.pictures import pictures
+from ai4u_edu.viewer.panel.pictures import MAX_OLDER_READINGS, pictures
 from ai4u_edu.viewer.panel.readings import block, reading
 
-ONE_BY_ONE = 8
-"""So many numbers without names stand one below the other; more are bars side by side."""
-MOST_LINES = 16
-"""So many with names do."""
-MOST_BARS = 256
-"""So many bars are drawn; of a longer reading only the first ones."""
-OLDER = 4
-"""Of stacked readings so many older ones are drawn at most: the latest of them."""
+MAX_UNNAMED_LINES = 8
+"""Longest reading without names that gets a line for each number; longer ones are strips."""
+MAX_NAMED_LINES = 16
+"""Longest reading with names that gets a line for each number."""
+MAX_BARS = 256
+"""Most bars of a strip; of a longer reading only the first numbers are drawn."""
 
 
 def sense_html(
@@ -33,15 +31,15 @@ def sense_html(
     lit: bool = False,
     named: bool = True,
 ) -> str:
-    """A reading, with the names, units and ranges of its numbers.
+    """Return a reading, with the names, units and ranges of its numbers.
 
     Args:
-        sense: what is known of it beforehand.
-        value: what stands in the percept.
-        colours: of the groups.
-        rays: what its rays met, if it has some.
-        lit: whether it is shown in the scene.
-        named: whether its name stands above it; not if there is a button with it.
+        sense: description of the sensor.
+        value: its reading in the percept.
+        colours: colours by group.
+        rays: the sensor's rays, if it has some.
+        lit: True if the sensor is drawn in the scene.
+        named: True to print the sensor's name; False if a button above shows it.
     """
     name = f"<b>{escape(sense.key)}</b> " if named else ""
     return block(
@@ -60,7 +58,7 @@ def _drawn(
     if array.dtype.kind not in "fiu" or array.size != sense.stack * len(sense.low):
         return f"<div>{reading(value)}</div>"
     rows = array.reshape(sense.stack, -1).astype(np.float64)
-    if len(sense.low) <= (MOST_LINES if sense.slots else ONE_BY_ONE):
+    if len(sense.low) <= (MAX_NAMED_LINES if sense.slots else MAX_UNNAMED_LINES):
         return _lines(sense, rows)
     if array.ndim <= 2:
         return _strips(sense, rows, colours, rays)
@@ -68,7 +66,7 @@ def _drawn(
 
 
 def _lines(sense: SensorInfo, rows: npt.NDArray[np.float64]) -> str:
-    """A line a number; with its older values below it, oldest first."""
+    """Return a line for each number, and a strip of its older values, oldest first."""
     count = len(sense.low)
     names = sense.slots or tuple(map(str, range(count)) if count > 1 else ("value",))
     units = sense.unit.split(", ")
@@ -77,7 +75,6 @@ def _lines(sense: SensorInfo, rows: npt.NDArray[np.float64]) -> str:
     html = bars(zip(names, rows[-1].tolist(), low, high, units, strict=True))
     if sense.stack == 1:
         return html
-    # each number's past: a strip of its own, the latest at the right
     older = [
         f"<span>{escape(name)}</span>{_strip(rows[:, i], low[i], high[i])}<b></b>"
         for i, name in enumerate(names)
@@ -97,27 +94,32 @@ def _strips(
     colours: Mapping[str, Rgb],
     rays: RayPicture | None,
 ) -> str:
-    """Bars side by side; older readings above, smaller."""
-    shown = slice(0, MOST_BARS)
+    """Return bars side by side, with smaller strips of the older readings above."""
+    shown = slice(0, MAX_BARS)
     low, high = sense.low[shown], sense.high[shown]
-    cut = f", the first {MOST_BARS} of {rows.shape[1]}" if rows.shape[1] > MOST_BARS else ""
-    older = [strip(row[shown], low, high, kind="strip old") for row in rows[:-1][-OLDER:]]
+    cut = f", the first {MAX_BARS} of {rows.shape[1]}" if rows.shape[1] > MAX_BARS else ""
+    older = [
+        strip(row[shown], low, high, kind="strip old") for row in rows[:-1][-MAX_OLDER_READINGS:]
+    ]
     latest = rows[-1][shown]
-    met = None if rays is None else _met(rays, colours)
-    if met is not None and len(latest) == 2 * len(met):  # what each ray met, and how far away
+    hit_colours = None if rays is None else _hit_colours(rays, colours)
+    if hit_colours is not None and len(latest) == 2 * len(
+        hit_colours
+    ):  # pairs of group and distance
         drawn = "".join(
-            f"{strip(latest[each::2], low[each::2], high[each::2], met)}<small>{what}</small>"
-            for each, what in enumerate(("what each ray met", "how far away it is"))
+            f"{strip(latest[i::2], low[i::2], high[i::2], hit_colours)}<small>{caption}</small>"
+            for i, caption in enumerate(("what each ray met", "how far away it is"))
         )
     else:
-        drawn = strip(latest, low, high, met if met and len(met) == len(latest) else None)
-    way = "; the rightmost ray comes first" if rays is not None else ""
+        fits = hit_colours is not None and len(hit_colours) == len(latest)
+        drawn = strip(latest, low, high, hit_colours if fits else None)
+    order = "; the rightmost ray comes first" if rays is not None else ""
     ends = f"{number(float(low.min()))} to {number(float(high.max()))} {escape(sense.unit)}"
-    return f"{''.join(older)}{drawn}<br><small>{ends.strip()}{way}{cut}</small>"
+    return f"{''.join(older)}{drawn}<br><small>{ends.strip()}{order}{cut}</small>"
 
 
-def _met(rays: RayPicture, colours: Mapping[str, Rgb]) -> list[Rgb]:
-    """The colours of what each ray met."""
+def _hit_colours(rays: RayPicture, colours: Mapping[str, Rgb]) -> list[Rgb]:
+    """Return the colour of the group that each ray hit."""
     known = {"": RAY_MISS, "?": UNKNOWN_GROUP} | dict(colours)
     return [known.get(group, UNKNOWN_GROUP) for group in rays.groups]
 

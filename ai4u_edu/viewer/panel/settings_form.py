@@ -1,4 +1,4 @@
-"""A button that opens a form for settings, on one page; and what becomes of it."""
+"""A button that unfolds a form for settings, on one page."""
 
 from collections.abc import Callable, Iterable
 from concurrent.futures import Future
@@ -15,17 +15,17 @@ from ai4u_edu.viewer.panel.readings import block
 
 OPEN, CLOSE = "▸", "▾"
 FOLD = block(kind="fold mark")
-"""Before a button that opens something: it is not to look like one that does something."""
+"""Marker before a button that unfolds something, which the style sheet draws differently."""
 
 
 class SettingsForm:
-    """Made when somebody asks for it: until then it is a button.
+    """A folded form for settings; the form is created when it is unfolded.
 
     Args:
-        client: the page; it comes to stand where its ``gui`` is.
-        name: on the button.
-        fields: the settings as they are now.
-        on_values: called with what a person has made other than it was, in viser's loop.
+        client: the page; the form is added to the current container of its ``gui``.
+        name: label of the button.
+        fields: returns the settings with their current values.
+        on_values: called with the changed values, in viser's event loop.
     """
 
     def __init__(
@@ -43,35 +43,35 @@ class SettingsForm:
         self.form: FieldForm | None = None
         client.gui.add_html(FOLD)
         self.button: GuiButtonHandle = client.gui.add_button(f"{OPEN} {name}")
-        self._place = client.gui.add_folder(None)
+        self._folder = client.gui.add_folder(None)
         self.button.on_click(self._on_button)
 
-    def draw(self, whose: object, version: object) -> None:
-        """Shows the form, or no longer.
+    def draw(self, owner: object, version: object) -> None:
+        """Show the form while it is unfolded.
 
         Args:
-            whose: settings they are; those of another have a form of their own.
-            version: another one where they may be other than before.
+            owner: identifies the thing that has the settings; another one needs another form.
+            version: changes whenever the settings may have changed.
         """
-        wanted = (whose, version) if self._is_open else None
+        wanted = (owner, version) if self._is_open else None
         if wanted != self._shown:
-            self._build(whose)
+            self._build(owner)
             self._shown = wanted
         if self._problems is not None and self.form is not None:
             problems, self._problems = self._problems, None
             self.form.explain(problems)
 
-    def _build(self, whose: object) -> None:
+    def _build(self, owner: object) -> None:
         try:
             fields = self._fields() if self._is_open else None
         except AI4UError:
-            fields = None  # another scene has just come
-        same = self._shown is not None and self._shown[0] == whose
-        if self.form is not None and not (same and fields and self.form.shows(fields)):
+            fields = None  # the editor has another scene already
+        same = self._shown is not None and self._shown[0] == owner
+        if self.form is not None and not (same and fields and self.form.show_fields(fields)):
             self.form.remove()
             self.form = None
         if fields is not None and self.form is None:
-            with self._place:
+            with self._folder:
                 self.form = FieldForm(self._client, "", fields, self._on_apply)
 
     async def _on_button(self, _event: GuiEvent[GuiButtonHandle]) -> None:
@@ -86,17 +86,17 @@ class SettingsForm:
         except ChangeError as error:
             self._problems = error.problems
             return
-        self._on_values(values).add_done_callback(self._tell)
+        self._on_values(values).add_done_callback(self._on_done)
 
-    def _tell(self, done: "Future[ChangeResult]") -> None:
+    def _on_done(self, done: "Future[ChangeResult]") -> None:
         error = None if done.cancelled() else done.exception()
         if isinstance(error, ChangeError):
-            self._problems = tuple(_in_the_form(error.problems))
+            self._problems = tuple(_problems_in_form(error.problems))
         elif error is None:
             self._problems = ()
 
 
-def _in_the_form(problems: Iterable[Problem]) -> Iterable[Problem]:
-    """A brain's parameter stands in the form as if it were the agent's own."""
+def _problems_in_form(problems: Iterable[Problem]) -> Iterable[Problem]:
+    """Move problems of a brain's parameters to the agent's form, which shows them as its own."""
     for path, text in problems:
         yield Problem(path[-1:] if path[:1] == ("brains",) else path, text)

@@ -1,4 +1,4 @@
-"""What the time does, and what the colours mean, as HTML for the panel."""
+"""The state of the simulation, and the legend of colours, as HTML for the panel."""
 
 from html import escape
 
@@ -8,16 +8,16 @@ from ai4u_edu.snapshot.theme import RAY_MISS, UNKNOWN_GROUP, group_colours
 from ai4u_edu.viewer.panel.bars import number
 from ai4u_edu.viewer.panel.readings import block
 
-MOST_GROUPS = 12
-"""So many groups are explained at most."""
-BEHIND = 0.9
-"""What runs at less than this share of the speed it should have can't keep up."""
-MANY_CONTACTS = 6
-"""So many contacts a body has at most where bodies lie beside each other."""
+MAX_LEGEND_GROUPS = 12
+"""Most groups in the legend."""
+MIN_SPEED_SHARE = 0.9
+"""Share of the wanted speed below which the status says that the world can't keep up."""
+MAX_USUAL_CONTACTS = 6
+"""Contacts for each body above which bodies must overlap; side by side they have fewer."""
 
 
 def speed_name(speed: float) -> str:
-    """What a time scale is called.
+    """Return the label of a time scale.
 
     >>> speed_name(0.25), speed_name(float("inf"))
     ('0.25x', 'as fast as it goes')
@@ -26,8 +26,8 @@ def speed_name(speed: float) -> str:
 
 
 def legend(static_scene: StaticScene) -> str:
-    """The colours of groups, and so of what rays met."""
-    groups = dict(tuple(group_colours(static_scene).items())[:MOST_GROUPS])
+    """Return the legend of the groups' colours, which rays have too."""
+    groups = dict(tuple(group_colours(static_scene).items())[:MAX_LEGEND_GROUPS])
     groups |= {"other": UNKNOWN_GROUP, "nothing": RAY_MISS}
     dots = [
         f'<span><i style="background: rgb{colour}"></i>{escape(group)}</span> '
@@ -44,25 +44,25 @@ def status(snapshot: Snapshot, stall: Stall | None = None) -> str:
         stall: what keeps the world from going on, if anything does: then no snapshots come.
     """
     agents = snapshot.agents
-    # of several each has its own steps, and they stand in the agents' panel
+    # several agents have steps of their own, which their tab shows
     steps = f"<span><small>step</small> {agents[0].steps}</span>" if len(agents) == 1 else ""
     place = (
         f"<span><small>Episode</small> {snapshot.episode}</span>{steps}"
         f"<span><small>time</small> {number(snapshot.time)} s</span>"
     )
-    pace = _pace(snapshot) if stall is None else f"<strong>{escape(str(stall))}</strong>"
-    return block(place, pace, *map(_script, agents), kind="status bare")
+    speed = _speed(snapshot) if stall is None else f"<strong>{escape(str(stall))}</strong>"
+    return block(place, speed, *map(_script, agents), kind="status bare")
 
 
 def goal(static_scene: StaticScene) -> str:
-    """What is to be done."""
+    """Return the scene's goal; empty if it has none."""
     return (
         block(f'<div class="goal">{escape(static_scene.goal)}</div>') if static_scene.goal else ""
     )
 
 
 def _script(agent: AgentState) -> str:
-    """How it stands with the script that drives an agent."""
+    """Return the state of the script that drives an agent; empty without a remote brain."""
     remote = agent.remote
     if remote is None:
         return ""
@@ -73,18 +73,18 @@ def _script(agent: AgentState) -> str:
         "refused": remote.refused,
         "clipped": remote.clipped,
     }
-    told = ", ".join(f"{count} {name}" for name, count in counts.items() if count)
-    here = remote.state == "connected"
-    state = remote.state if here else f"<strong>{remote.state}</strong>"
+    totals = ", ".join(f"{count} {name}" for name, count in counts.items() if count)
+    is_connected = remote.state == "connected"
+    state = remote.state if is_connected else f"<strong>{remote.state}</strong>"
     lines = (
         f"<small>Script of agent {escape(agent.id)}:</small> {state}",
         f"<small>{escape(remote.reason)}</small>" if remote.reason else "",
-        f"<small>{told}</small>" if told else "",
+        f"<small>{totals}</small>" if totals else "",
     )
     return "".join(f"<br>{line}" for line in lines if line)
 
 
-def _pace(snapshot: Snapshot) -> str:
+def _speed(snapshot: Snapshot) -> str:
     if snapshot.error:
         return f"<strong>Stopped: {escape(snapshot.error)}</strong>"
     if snapshot.past:
@@ -92,18 +92,18 @@ def _pace(snapshot: Snapshot) -> str:
     if snapshot.paused:
         return "<strong>Paused</strong>"
     factor = snapshot.real_time_factor
-    speed = f"<small>runs at</small> {factor:.1f}x{_slow(snapshot)}"
+    speed = f"<small>runs at</small> {factor:.1f}x{_slow_tick(snapshot)}"
     wanted = snapshot.time_scale
-    if wanted != float("inf") and factor < BEHIND * wanted:
+    if wanted != float("inf") and factor < MIN_SPEED_SHARE * wanted:
         return f"{speed} <strong>(can't keep up with {speed_name(wanted)})</strong>"
     return speed
 
 
-def _slow(snapshot: Snapshot) -> str:
-    """What is said of a tick that took too long."""
+def _slow_tick(snapshot: Snapshot) -> str:
+    """Return a warning about a slow tick; empty if there was none."""
     slow = snapshot.slow_tick
     if slow is None:
         return ""
-    many = slow.contacts > len(snapshot.bodies) * MANY_CONTACTS
+    many = slow.contacts > len(snapshot.bodies) * MAX_USUAL_CONTACTS
     why = f" with {slow.contacts} contacts: move bodies out of each other" if many else ""
     return f"<br><strong>a tick took {1000 * slow.seconds:.0f} ms{why}</strong>"

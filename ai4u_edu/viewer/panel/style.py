@@ -1,11 +1,12 @@
-"""How the HTML in the panel looks, and what viser's own widgets need of ours beside it.
+"""CSS for the HTML in the panel, and for viser's widgets.
 
-Text keeps a contrast of 4.5 or more on its ground, light and dark; what colours say is said by form
-or by words as well.
+Text has a contrast of 4.5 or more to its background, light and dark. Shapes or words repeat what
+colours say. Empty ``.ai4u.mark`` elements select the widget after them: viser's widgets can't be
+given classes of their own.
 """
 
-MOST_OF_THE_TIME = "25em"
-"""So high the upper panel is at most: the tabs below it get the rest."""
+MAX_MAIN_PANEL_HEIGHT = "25em"
+"""Largest height of the main panel; the tabs below it get the rest."""
 
 _COLOURS = """
 :root[data-mantine-color-scheme=light] {--mantine-color-dimmed: #566270;
@@ -75,7 +76,7 @@ _DECISION = """
 
 _WIDGETS = f"""
 [data-dock-scroll] > :first-child:not(:only-child):has(.ai4u.status)
-  {{max-height: {MOST_OF_THE_TIME} !important}}
+  {{max-height: {MAX_MAIN_PANEL_HEIGHT} !important}}
 [data-dock-scroll] > :first-child:has(.ai4u.status) ~ :last-child {{flex-grow: 1 !important}}
 .ai4u.mark {{display: none}}
 div:has(> .ai4u.bare) + div > div > div:first-child {{display: none}}
@@ -101,4 +102,4 @@ div:has(+ div > .ai4u.sense) > button .mantine-Button-inner {{justify-content: f
 """
 
 STYLE = f"<style>{_COLOURS}{_TEXT}{_BARS}{_DECISION}{_WIDGETS}</style>"
-"""For the panel, once a page."""
+"""The style element, added once to each page's panel."""

@@ -1,4 +1,4 @@
-"""The tabs of each page's panel; whoever has something to show there adds one."""
+"""The tabs of each page's panel."""
 
 from collections.abc import Callable, Sequence
 from typing import NamedTuple, Protocol
@@ -12,21 +12,21 @@ from ai4u_edu.viewer.viewer_client import ViewerClient, ViewerClients
 
 
 class Tab(Protocol):
-    """What stands under one tab of one page.
+    """The content of one tab on one page.
 
-    viser doesn't tell which tab is open, and sends a value only if it has changed: a tab costs
-    nothing where it sets what it shows only when that is another than before.
+    viser does not report which tab is open, so all tabs are drawn. It sends only changed values, so
+    an unchanged tab costs no messages.
     """
 
     def draw(self, snapshot: Snapshot) -> None:
-        """Shows a snapshot; called some times a second, and at once on a new static_scene."""
+        """Show a snapshot; called several times a second, and at once for a new static scene."""
 
 
 class TabKind(NamedTuple):
     """A tab that every page has."""
 
     title: str
-    """One short word."""
+    """The tab's label, one short word."""
     open: Callable[[ViewerClient], Tab]
     """Fill the tab of one page. Called inside the tab's GUI container, so whatever is added to
     ``viewer_client.client.gui`` lands in the tab."""
@@ -38,7 +38,7 @@ class Tabs:
     Args:
         viewer_clients: the pages.
         kinds: the tabs, from left to right.
-        complaints: gets to know what went wrong; the other tabs are drawn all the same.
+        complaints: logs errors of a tab; the other tabs are drawn nevertheless.
     """
 
     def __init__(
@@ -54,10 +54,10 @@ class Tabs:
         self._pages: dict[int, _Page] = {}
 
     def build(self, static_scene: StaticScene) -> None:
-        """Nothing: a tab finds the static scene in the snapshot."""
+        """Do nothing: tabs find the static scene in the snapshot."""
 
     def draw(self, snapshot: Snapshot) -> None:
-        """Shows a snapshot in all tabs of all pages, new ones too."""
+        """Show a snapshot in all tabs of the pages whose turn it is; add tabs to new pages."""
         for gone in self._pages.keys() - self._viewer_clients.keys():
             del self._pages[gone]
         for new in self._viewer_clients.keys() - self._pages.keys():

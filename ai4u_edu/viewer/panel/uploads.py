@@ -1,8 +1,8 @@
-"""Files that a page sends: no larger than they may be, and no more than one at a time.
+"""Limits for uploaded files: their size, one at a time, and a timeout.
 
-viser puts together whatever a page sends, however large, and waits for the rest as long as the page
-is there. Here what is too large is refused before its first byte is kept, and what is not finished
-is dropped after a while.
+viser assembles files of any size, and waits for missing parts as long as the page is connected.
+Here a file that is too large is refused before its first part, and an unfinished one is dropped
+after :data:`UPLOAD_IDLE_S`.
 """
 
 import asyncio
@@ -14,17 +14,17 @@ from viser._messages import FileTransferPart, FileTransferStartUpload
 from viser.infra import ClientId
 
 MAX_PARTS = 1000
-"""Parts of a file; the page makes them of 512 KiB."""
+"""Most parts of a file; the page sends parts of 512 KiB."""
 UPLOAD_IDLE_S = 30.0
-"""A file whose next part does not come within this time is dropped."""
+"""Time (s) without a new part after which a file is dropped."""
 
 
 def limit_uploads(client: ClientHandle, largest: int) -> None:
-    """Has a page send no file that is larger than so many bytes; called again, the largest counts.
+    """Limit the size of files that a page uploads; of several calls, the largest limit holds.
 
     Args:
         client: the page.
-        largest: bytes.
+        largest: largest size in bytes.
     """
     known = getattr(client.gui, "_ai4u_limit", None)
     if isinstance(known, _Limit):
@@ -34,7 +34,7 @@ def limit_uploads(client: ClientHandle, largest: int) -> None:
 
 
 def take_file(event: GuiEvent[Any]) -> UploadedFile:
-    """Return the file that was sent; its button keeps it no longer."""
+    """Return the uploaded file, and release the button's reference to it."""
     state = event.target._impl
     file: UploadedFile = state.value
     state.value = UploadedFile("", b"")
@@ -42,7 +42,7 @@ def take_file(event: GuiEvent[Any]) -> UploadedFile:
 
 
 class _Limit:
-    """Stands before viser's two handlers."""
+    """Checks in front of viser's two upload handlers; viser's event loop calls it."""
 
     def __init__(self, client: ClientHandle, largest: int) -> None:
         self.largest = largest
@@ -56,37 +56,37 @@ class _Limit:
         socket.register_handler(FileTransferPart, self._part)
 
     def _start(self, client_id: ClientId, message: FileTransferStartUpload) -> None:
-        under_way = self._gui._current_file_upload_states
+        uploads = self._gui._current_file_upload_states
         if not 0 <= message.size_bytes <= self.largest:
             self._refuse(f"expected at most {self.largest // 2**20} MB")
         elif not 0 <= message.part_count <= MAX_PARTS:
             self._refuse(f"expected at most {MAX_PARTS} parts")
         elif not message.part_count and message.size_bytes:
             self._refuse("it is smaller than it said")
-        elif under_way:
-            under_way.clear()
+        elif uploads:
+            uploads.clear()
             self._refuse("expected one file at a time")
         else:
             self._gui._handle_file_transfer_start(client_id, message)
-        self._watch()
+        self._restart_timer()
 
     def _part(self, client_id: ClientId, message: FileTransferPart) -> None:
-        under_way = self._gui._current_file_upload_states
-        state = under_way.get(message.transfer_uuid)
+        uploads = self._gui._current_file_upload_states
+        state = uploads.get(message.transfer_uuid)
         if state is None:
             return
         size, parts = state["transferred_bytes"] + len(message.content), state["parts"]
         is_last = message.part_index not in parts and len(parts) + 1 == state["part_count"]
         if size > state["total_bytes"] or (is_last and size < state["total_bytes"]):
-            del under_way[message.transfer_uuid]
+            del uploads[message.transfer_uuid]
             more = size > state["total_bytes"]
             self._refuse(f"it is {'larger' if more else 'smaller'} than it said")
         else:
             self._gui._handle_file_transfer_part(client_id, message)
-        self._watch()
+        self._restart_timer()
 
-    def _watch(self) -> None:
-        """Wait for the next part, if one has to come, for a while only."""
+    def _restart_timer(self) -> None:
+        """Restart the timeout for the next part, if one is missing."""
         if self._timer is not None:
             self._timer.cancel()
             self._timer = None

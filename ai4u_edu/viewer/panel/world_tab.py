@@ -1,4 +1,4 @@
-"""The tab in which a page changes the world: another scene, other things, elsewhere."""
+"""The "World" tab: opens, saves and changes scenes, and edits bodies."""
 
 import asyncio
 from concurrent.futures import Future
@@ -25,7 +25,7 @@ from ai4u_edu.scenes.yaml.file import MAX_SCENE_CHARS
 from ai4u_edu.snapshot import Snapshot
 from ai4u_edu.viewer.backend.reporting import reporting
 from ai4u_edu.viewer.panel.add_menu import BODY_TEMPLATES, free_position, ground_at_center
-from ai4u_edu.viewer.panel.block_labels import WAITS
+from ai4u_edu.viewer.panel.block_labels import WAITS, undo_line
 from ai4u_edu.viewer.panel.body_form import BodyForm
 from ai4u_edu.viewer.panel.gallery import Gallery, Load
 from ai4u_edu.viewer.panel.notify import notify_stall
@@ -34,6 +34,7 @@ from ai4u_edu.viewer.panel.save_window import SaveWindow
 from ai4u_edu.viewer.panel.settings_form import SettingsForm
 from ai4u_edu.viewer.panel.tabs import TabKind
 from ai4u_edu.viewer.panel.uploads import limit_uploads, take_file
+from ai4u_edu.viewer.panel.widgets import set_options, set_value
 from ai4u_edu.viewer.scene.handles import Handles
 from ai4u_edu.viewer.viewer_client import ViewerClient
 from ai4u_edu.world import BodyDescription
@@ -41,18 +42,21 @@ from ai4u_edu.world import BodyDescription
 UNDO, REDO = "Undo", "Redo"
 CHOOSE, SAVE, DOWNLOAD = "Choose a scene", "Save", "Download"
 RESTORE, DISCARD = "Restore", "Discard"
-NOTHING = "choose one, or click on it"
+NO_BODY = "choose one, or click on it"
 BARE = block(kind="mark bare")
-HINT = "Switch on <b>Move things</b>, then drag with the mouse what you like in the picture."
-MOVING = "Drag anything in the picture; Escape puts it back. Click on it, and a knob turns it."
+HINT_OFF = "Switch on <b>Move things</b>, then drag with the mouse what you like in the picture."
+HINT_ON = "Drag anything in the picture; Escape puts it back. Click on it, and a knob turns it."
 
 
 class WorldTab:
-    """One page's hands on the world.
+    """The "World" tab of one page.
+
+    viser's event loop calls the event handlers, the viewer's thread calls :meth:`draw`, and the
+    world's thread completes the changes. They share plain attributes, each replaced as a whole.
 
     Args:
         viewer_client: the page.
-        editor: carries out what is asked for.
+        editor: applies the changes.
     """
 
     def __init__(self, viewer_client: ViewerClient, editor: SceneEditor) -> None:
@@ -62,19 +66,19 @@ class WorldTab:
         self._problems: tuple[Problem, ...] | None = None
         self._form: BodyForm | None = None
         self._is_applied = False
-        self._seen: tuple[object, ...] = ()
+        self._shown: tuple[object, ...] = ()
         self._latest: Snapshot | None = None
         self.gallery = Gallery(viewer_client.client, self._open)
         self.saving: SaveWindow | None = None
-        """There if scenes can be kept here."""
+        """The window to save the scene; None without a store."""
         if editor.scene_store is not None:
             client, store = viewer_client.client, editor.scene_store
             self.saving = SaveWindow(client, store, lambda: editor.scene, self._on_saved)
-        self.handles = Handles(viewer_client, editor, self._choose, self._ask)
-        self._offer = gui.add_html("", visible=False)
-        self._bare = gui.add_html(BARE, visible=False)
-        self.offered = gui.add_button_group("Unsaved", (RESTORE, DISCARD), visible=False)
-        self.said = gui.add_html("")
+        self.handles = Handles(viewer_client, editor, self._choose_body, self._follow_change)
+        self._unsaved_text = gui.add_html("", visible=False)
+        self._unsaved_mark = gui.add_html(BARE, visible=False)
+        self.unsaved_actions = gui.add_button_group("Unsaved", (RESTORE, DISCARD), visible=False)
+        self.status = gui.add_html("")
         gui.add_html(BARE)
         words = (CHOOSE, DOWNLOAD) if self.saving is None else (CHOOSE, SAVE, DOWNLOAD)
         self.scene = gui.add_button_group("Scene", words)
@@ -83,108 +87,101 @@ class WorldTab:
         self.settings = SettingsForm(
             viewer_client.client, "Scene's settings", self._settings, self._on_settings
         )
-        self.moves = gui.add_checkbox("Move things", False)
-        self._hint = gui.add_html(block(f"<small>{HINT}</small>"))
-        self.thing = gui.add_dropdown("Thing", (NOTHING,))
+        self.drag_enabled = gui.add_checkbox("Move things", False)
+        self._hint = gui.add_html(block(f"<small>{HINT_OFF}</small>"))
+        self.body_list = gui.add_dropdown("Thing", (NO_BODY,))
         self.new = gui.add_button_group("Add", tuple(BODY_TEMPLATES))
-        self._place = gui.add_folder(None)
+        self._form_folder = gui.add_folder(None)
         self.delete = gui.add_button("Delete", visible=False)
         self.upload = gui.add_upload_button("Open a scene file", hint="A .yaml file")
         limit_uploads(viewer_client.client, 4 * MAX_SCENE_CHARS)  # no character takes more bytes
-        self.offered.on_click(self._on_offer)
+        self.unsaved_actions.on_click(self._on_unsaved)
         self.scene.on_click(self._on_scene)
         self.changes.on_click(self._on_changes)
-        self.moves.on_update(self._on_moves)
-        self.thing.on_update(self._on_thing)
+        self.drag_enabled.on_update(self._on_drag_enabled)
+        self.body_list.on_update(self._on_body)
         self.new.on_click(self._on_new)
         self.delete.on_click(self._on_delete)
         self.upload.on_upload(reporting(self._on_upload))
 
     def draw(self, snapshot: Snapshot) -> None:
-        """Shows what there is to change, when that is other than before."""
+        """Show the scene and its bodies, if they have changed."""
         editor, self._latest = self._editor, snapshot
-        self.handles.draw(snapshot, self._chosen, on=self.moves.value)
+        self.handles.draw(snapshot, self._chosen, on=self.drag_enabled.value)
         unsaved = editor.recovery.unsaved
         self.settings.draw("scene", editor.version)
         waits, autosave = editor.waits_for_reset, editor.recovery.autosave
         problem = autosave.problem if autosave is not None else ""
-        seen = (editor.version, self._chosen, self._message, unsaved, waits, problem)
+        state = (editor.version, self._chosen, self._message, unsaved, waits, problem)
         if self._is_applied:
-            self._seen = ()
-        if seen != self._seen:
-            self._seen = seen
+            self._shown = ()
+        if state != self._shown:
+            self._shown = state
             self._show(problem)
-            is_offered = unsaved is not None
-            for handle in (self._offer, self._bare, self.offered):
-                handle.visible = is_offered
+            for handle in (self._unsaved_text, self._unsaved_mark, self.unsaved_actions):
+                handle.visible = unsaved is not None
             if unsaved is not None:
-                told = f"<b>A scene from {escape(unsaved.when)} was never saved.</b>"
-                self._offer.content = block(told)
+                text = f"<b>A scene from {escape(unsaved.when)} was never saved.</b>"
+                self._unsaved_text.content = block(text)
         if self._problems is not None:
             problems, self._problems = self._problems, None
             if self._form is not None:
                 self._form.explain(problems)
 
-    # -- what is shown ---------------------------------------------------------------------------
+    # -- drawing; on the viewer's thread ---------------------------------------------------------
 
     def _show(self, problem: str) -> None:
         editor, description = self._editor, self._editor.state.description
         bodies = {body.name: body for body in description.bodies}
-        options = (NOTHING, *bodies)
-        if self.thing.options != options:
-            self.thing.options = options
-        value = self._chosen if self._chosen in bodies else NOTHING
-        if self.thing.value != value:
-            self.thing.value = value  # type: ignore[misc]  # a method parts getter from setter
+        set_options(self.body_list, (NO_BODY, *bodies))
+        set_value(self.body_list, self._chosen if self._chosen in bodies else NO_BODY)
         self._show_form(bodies.get(self._chosen))
-        back, forth = editor.undo_label, editor.redo_label
-        steps = [
-            f"{word}: {escape(label)}" for word, label in (("undo", back), ("redo", forth)) if label
-        ]
-        word = "alert" if self._is_wrong else "status"
+        role = "alert" if self._is_wrong else "status"
         style = "white-space: normal"
-        told = escape(self._message).replace("\n", "<br>")
+        message = escape(self._message).replace("\n", "<br>")
         lines = [
             f"<b>{escape(editor.title)}</b>",
-            told and f'<span role="{word}" style="{style}">{told}</span>',
+            message and f'<span role="{role}" style="{style}">{message}</span>',
             f"<small>{WAITS}</small>" if editor.waits_for_reset else "",
             problem and f'<small role="alert" style="{style}">{escape(problem)}</small>',
-            f"<small>{' · '.join(steps)}</small>" if steps else "",
+            undo_line(editor),
         ]
-        self.said.content = block("<br>".join(line for line in lines if line))
+        self.status.content = block("<br>".join(line for line in lines if line))
 
     def _show_form(self, body: BodyDescription | None) -> None:
-        anew, self._is_applied = self._is_applied, False
-        if self._form is not None and not self._form.takes(body, anew=anew):
+        overwrite, self._is_applied = self._is_applied, False
+        if self._form is not None and not self._form.show_body(body, overwrite=overwrite):
             self._form.remove()
             self._form = None
         if body is not None and self._form is None:
-            with self._place:
+            with self._form_folder:
                 self._form = BodyForm(self._viewer_client.client, body, self._on_apply)
         self.delete.visible = body is not None
         if body is not None:
             self.delete.label = f"Delete {body.name}"
 
-    def _choose(self, name: str) -> None:
+    def _choose_body(self, name: str) -> None:
         self._chosen = name
 
     def _settings(self) -> list[Field]:
         return scene_form(self._editor.state.description)
 
-    # -- what people ask for; in viser's loop, one after the other -------------------------------
+    # -- events; in viser's event loop, one after the other --------------------------------------
 
     async def _open(self, load: Load) -> None:
         try:
             scene = await asyncio.to_thread(load)
         except AI4UError as error:
-            self._tell(str(error), is_wrong=True)
+            self._show_message(str(error), is_wrong=True)
             return
         self._chosen = ""
-        self._ask(self._editor.open(scene))
+        self._follow_change(self._editor.open(scene))
 
     def _on_saved(self, name: str) -> None:
         self._editor.recovery.mark_saved()
-        self._tell(f"the scene is saved as {name!r}; it is among the scenes that you can choose")
+        self._show_message(
+            f"the scene is saved as {name!r}; it is among the scenes that you can choose"
+        )
 
     async def _on_scene(self, event: GuiEvent[GuiButtonGroupHandle]) -> None:
         if event.target.value == CHOOSE:
@@ -197,38 +194,41 @@ class WorldTab:
                 f"{_file_name(scene)}.yaml", scene.dumps().encode(), save_immediately=True
             )
             self._editor.recovery.mark_saved()
-            self._tell("the scene's file is among your downloads")
+            self._show_message("the scene's file is among your downloads")
 
     async def _on_changes(self, event: GuiEvent[GuiButtonGroupHandle]) -> None:
         undoes = event.target.value == UNDO
-        self._ask(self._editor.undo() if undoes else self._editor.redo())
+        self._follow_change(self._editor.undo() if undoes else self._editor.redo())
 
-    async def _on_moves(self, event: GuiEvent[GuiCheckboxHandle]) -> None:
-        words = MOVING if event.target.value else HINT
-        self._hint.content = block(f"<small>{words}</small>")
+    async def _on_drag_enabled(self, event: GuiEvent[GuiCheckboxHandle]) -> None:
+        hint = HINT_ON if event.target.value else HINT_OFF
+        self._hint.content = block(f"<small>{hint}</small>")
 
-    async def _on_thing(self, event: GuiEvent[GuiDropdownHandle[str]]) -> None:
+    async def _on_body(self, event: GuiEvent[GuiDropdownHandle[str]]) -> None:
         if event.client is not None:
             name = event.target.value
-            self._chosen = "" if name == NOTHING else name
+            self._chosen = "" if name == NO_BODY else name
 
     async def _on_new(self, event: GuiEvent[GuiButtonGroupHandle]) -> None:
-        thing, snapshot = BODY_TEMPLATES.get(event.target.value), self._latest
-        if thing is None or snapshot is None:
+        template, snapshot = BODY_TEMPLATES.get(event.target.value), self._latest
+        if template is None or snapshot is None:
             return
         camera = self._viewer_client.client.camera
-        place = free_position(snapshot, thing, *ground_at_center(camera.position, camera.look_at))
-        if place is None:
-            self._tell("there is no room for it around the middle of the picture", is_wrong=True)
+        center = ground_at_center(camera.position, camera.look_at)
+        position = free_position(snapshot, template, *center)
+        if position is None:
+            self._show_message(
+                "there is no room for it around the middle of the picture", is_wrong=True
+            )
             return
-        name = self._editor.free_name(thing["name"])
-        # it is put where there is room; mostly it is to be elsewhere
-        self.moves.value = True  # type: ignore[misc]
-        self._ask(self._editor.add_body(thing | {"name": name, "position": place}), name)
+        name = self._editor.free_name(template["name"])
+        set_value(self.drag_enabled, True)  # because most new bodies are dragged next
+        change = self._editor.add_body(template | {"name": name, "position": position})
+        self._follow_change(change, name)
 
     def _on_settings(self, values: dict[str, Any]) -> "Future[ChangeResult]":
         future = self._editor.change_settings(values)
-        self._ask(future)
+        self._follow_change(future)
         return future
 
     async def _on_apply(self, _event: Any) -> None:
@@ -236,67 +236,73 @@ class WorldTab:
         if form is None:
             return
         try:
-            place, values = form.changes()
+            pose, values = form.changes()
         except ChangeError as error:
             self._problems = error.problems
             return
         name = form.body.name
-        if not values and place:
-            future = self._editor.move_body(name, **place)
+        if not values and pose:
+            future = self._editor.move_body(name, **pose)
         else:
-            if place:
-                values["position"] = (place["x"], place["y"])
-                values["heading_deg"] = place["heading_deg"]
+            if pose:
+                values["position"] = (pose["x"], pose["y"])
+                values["heading_deg"] = pose["heading_deg"]
             future = self._editor.change_body(name, values)
-        self._ask(future, of_form=True)
+        self._follow_change(future, of_form=True)
 
     async def _on_delete(self, _event: GuiEvent[GuiButtonHandle]) -> None:
         if self._chosen:
-            self._ask(self._editor.remove_body(self._chosen))
+            self._follow_change(self._editor.remove_body(self._chosen))
 
     async def _on_upload(self, event: GuiEvent[GuiUploadButtonHandle]) -> None:
         file = take_file(event)
         try:
             text = file.content.decode()
         except UnicodeDecodeError:
-            self._tell(f"{file.name[:80]}: expected a text file, YAML", is_wrong=True)
+            self._show_message(f"{file.name[:80]}: expected a text file, YAML", is_wrong=True)
             return
         self._chosen = ""
-        self._ask(await asyncio.to_thread(self._editor.load, text, file.name[:80]))
+        self._follow_change(await asyncio.to_thread(self._editor.load, text, file.name[:80]))
 
-    async def _on_offer(self, event: GuiEvent[GuiButtonGroupHandle]) -> None:
+    async def _on_unsaved(self, event: GuiEvent[GuiButtonGroupHandle]) -> None:
         if event.target.value == RESTORE:
-            self._ask(self._editor.recovery.restore())
+            self._follow_change(self._editor.recovery.restore())
         elif event.target.value == DISCARD:
             self._editor.recovery.discard()
 
-    def _tell(self, message: str, *, is_wrong: bool = False) -> None:
+    def _show_message(self, message: str, *, is_wrong: bool = False) -> None:
         self._message, self._is_wrong = message, is_wrong
         if is_wrong:
             client = self._viewer_client.client
             client.add_notification("That didn't work", message, auto_close_seconds=8.0)
 
-    def _ask(
+    def _follow_change(
         self, future: "Future[ChangeResult]", then: str | None = None, *, of_form: bool = False
     ) -> None:
-        """Says when it applies, or what is wrong; ``then`` is the body that is chosen then."""
+        """Show the result of a change.
+
+        Args:
+            future: the change's result.
+            then: name of the body to choose after success.
+            of_form: True if problems belong into the body's form.
+        """
         notify_stall(self._viewer_client.client, self._editor.stall, future)
 
-        def tell(done: "Future[ChangeResult]") -> None:
+        def on_done(done: "Future[ChangeResult]") -> None:
             if done.cancelled():
                 return
             error = done.exception()
             if error is None:
-                outcome = done.result()
+                result = done.result()
                 self._chosen = self._chosen if then is None else then
                 self._problems, self._is_applied = (), self._is_applied or of_form
-                self._tell(f"{outcome.label}: {outcome}" if outcome.label else str(outcome))
+                self._show_message(f"{result.label}: {result}" if result.label else str(result))
             else:
                 if of_form and isinstance(error, ChangeError):
                     self._problems = error.problems
-                self._tell(message_of(error), is_wrong=True)
+                self._show_message(message_of(error), is_wrong=True)
 
-        future.add_done_callback(tell)
+        future.add_done_callback(on_done)
 
 
 def _file_name(scene: Scene) -> str:
@@ -305,5 +311,5 @@ def _file_name(scene: Scene) -> str:
 
 
 def world_tab(editor: SceneEditor) -> TabKind:
-    """The tab for the world."""
+    """Return the "World" tab."""
     return TabKind("World", lambda viewer_client: WorldTab(viewer_client, editor))

@@ -45,7 +45,7 @@ class SteeringController(Controller):
     """Forward number at full speed, as a share of full power."""
     whim: Annotated[float, quantity("1", ge=0, le=1)] = 0.2
     """Random variation, from the world's seed: of its direction (by up to 40 degrees at
-    1), of its speed, and of backing off for half a second (on average every 10 / whim decisions)."""
+    1), speed, and backing off for half a second (on average every 10 / whim decisions)."""
     head_start: Count = 0
     """Number of decisions at the start for which it stands still."""
 

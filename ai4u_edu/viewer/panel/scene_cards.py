@@ -1,4 +1,4 @@
-"""Scenes as pictures, to choose one by what it looks like."""
+"""Cards of scenes for the gallery: a picture from above, title and goal."""
 
 import base64
 import io
@@ -14,24 +14,24 @@ from ai4u_edu.scenes import Scene
 from ai4u_edu.snapshot import capture_snapshot
 from ai4u_edu.snapshot.raster import draw_snapshot
 
-LONGEST = 144
-"""Pixels of a picture's longer side: twice what is shown, for sharp screens."""
-COLOURS = 32
-"""In a picture: there are few in a scene, and so a file has two kB or three."""
+PICTURE_SIZE_PX = 144
+"""Longer side of a picture: twice its size on the page, for high-resolution screens."""
+PALETTE_SIZE = 32
+"""Number of colours in a picture: scenes have few, so a file takes 2 or 3 kB."""
 
 
 class Card(NamedTuple):
-    """A scene, of the library or of a store."""
+    """A scene of the library or of a store."""
 
     name: str
     title: str
     goal: str
     png: bytes
-    """What it looks like from above when an episode begins."""
+    """The scene from above at the start of an episode; empty if it can't be read."""
 
     @property
     def html(self) -> str:
-        """The picture, and the words beside it; a button comes to lie over it."""
+        """The picture with the texts beside it; the style sheet lays the next button over it."""
         source = f"data:image/png;base64,{base64.b64encode(self.png).decode()}"
         image = f'<img src="{source}" alt="">' if self.png else ""
         return (
@@ -53,36 +53,36 @@ div:has(> .ai4u.card) + div button {height: 68px !important; padding: 0;
 div:has(> .ai4u.card) + div button:hover, div:has(> .ai4u.card) + div button:focus-visible
   {background: none; border-color: var(--mantine-primary-color-filled)}
 </style>"""
-"""Lays the button that follows a card over it, so that the picture is what is clicked on."""
+"""Styles that lay the button after a card over it, so that the picture can be clicked."""
 
 
 @cache
 def card(name: str) -> Card:
-    """A scene of the library; drawn once, which takes a moment."""
+    """Return the card of a library scene; cached, because drawing takes a moment."""
     scene = Scene.load(name)
     return _card(name, scene.description.title or name, scene)
 
 
-def cards() -> list[Card]:
-    """All scenes of the library, by title."""
+def library_cards() -> list[Card]:
+    """Return the cards of all library scenes, sorted by title."""
     return sorted((card(name) for name in Scene.names()), key=lambda each: each.title.lower())
 
 
-def cards_of(store: SceneStore) -> list[Card]:
-    """All scenes of a store, by name; one that can't be read says why."""
-    return [_kept(store, name, _stamp(store, name)) for name in store.names()]
+def stored_cards(store: SceneStore) -> list[Card]:
+    """Return the cards of all scenes in a store; the card of an unreadable scene says why."""
+    return [_stored_card(store, name, _modified_at(store, name)) for name in store.names()]
 
 
 @lru_cache(MAX_SCENES)
-def _kept(store: SceneStore, name: str, _stamp: float) -> Card:
+def _stored_card(store: SceneStore, name: str, _modified_at: float) -> Card:
     try:
         return _card(name, name, store.load(name))
     except AI4UError as error:
         return Card(name, name, f"can't be read: {error}", b"")
 
 
-def _stamp(store: SceneStore, name: str) -> float:
-    """When a scene was kept; it may have been taken away meanwhile."""
+def _modified_at(store: SceneStore, name: str) -> float:
+    """Return a stored scene's modification time; 0 if it was deleted meanwhile."""
     file = store.file(name)
     return file.stat().st_mtime if file is not None else 0.0
 
@@ -90,7 +90,7 @@ def _stamp(store: SceneStore, name: str) -> float:
 def _card(name: str, title: str, scene: Scene) -> Card:
     sim = scene.build()
     sim.reset(1)
-    picture = Image.fromarray(draw_snapshot(capture_snapshot(sim), longest=LONGEST))
+    picture = Image.fromarray(draw_snapshot(capture_snapshot(sim), longest=PICTURE_SIZE_PX))
     out = io.BytesIO()
-    picture.quantize(COLOURS).save(out, "PNG", optimize=True)
+    picture.quantize(PALETTE_SIZE).save(out, "PNG", optimize=True)
     return Card(name, title, scene.description.goal, out.getvalue())
