@@ -10,7 +10,7 @@ from ai4u_edu import CircleShape, ControlRequestor, RBMoveActuator, WASDRBMoveCo
 from ai4u_edu.server import lock_viser_port
 from tests.browser.theatre import SPEED, TURN, Theatre
 from tests.builders import small_sim
-from tests.playing import browser
+from tests.chromium import browser
 from tests.server.rooms import served
 
 

@@ -13,6 +13,8 @@ from ai4u_edu.server.human_override import RESTART, HumanOverride
 from ai4u_edu.server.key_labels import key_labels, usable_keys
 from ai4u_edu.snapshot import BodyState, capture_bodies
 
+pytestmark = pytest.mark.slow
+
 PATIENCE = 6
 """Decisions."""
 
