@@ -1,10 +1,8 @@
-"""A served scene in a process of its own, and a browser to look at it; for scripts."""
+"""A served scene in a process of its own."""
 
 import contextlib
 import json
-import os
 import re
-import shutil
 import subprocess
 import sys
 import threading
@@ -15,25 +13,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import Any
 
-from playwright.sync_api import Browser, sync_playwright
-
-FLAGS = [
-    "--no-sandbox",
-    # viser draws with WebGL; there may be no graphics card here
-    "--use-angle=swiftshader",
-    "--enable-unsafe-swiftshader",
-    "--ignore-gpu-blocklist",
-    # Debian's has a graphics card paint all text and buttons, even one that is software: twice the
-    # work of what a browser without a card does by itself
-    "--disable-gpu-rasterization",
-    "--disable-quic",
-    "--no-first-run",
-    "--disable-background-networking",
-    "--disable-component-update",
-    "--disable-sync",
-    # newer ones guard this machine against foreign pages; here it is we who have to
-    "--disable-features=LocalNetworkAccessChecks,LocalNetworkAccessChecksWebSockets",
-]
+from websockets.sync.client import connect
+from websockets.typing import Origin
 
 
 @dataclass
@@ -52,6 +33,18 @@ class Played:
     def health(self) -> dict[str, Any]:
         """What ``/healthz`` answers, whatever its status."""
         return self._get("healthz")
+
+    def restart(self, seed: int) -> None:
+        """Begin a new episode of the scene, and let the world run."""
+        episode = self.snapshot()["episode"]
+        url = self.url.replace("http", "ws", 1) + "ws/input"
+        with connect(url, origin=Origin(self.url.rstrip("/")), proxy=None) as page:
+            page.send(json.dumps({"type": "command", "name": "resume"}))
+            page.send(json.dumps({"type": "command", "name": "reset", "seed": seed}))
+            deadline = time.monotonic() + 20
+            while (now := self.snapshot())["episode"] == episode or now["paused"]:
+                assert time.monotonic() < deadline, f"no new episode: {now}"
+                time.sleep(0.02)
 
     def _get(self, path: str) -> dict[str, Any]:
         try:
@@ -93,13 +86,3 @@ def _url(process: subprocess.Popen[str], told: list[str]) -> str:
             return found[0].rstrip("/") + "/"
         time.sleep(0.05)
     raise RuntimeError("the scene was not served: " + "".join(told))
-
-
-@contextlib.contextmanager
-def browser() -> Iterator[Browser]:
-    """Headless Chromium."""
-    path = os.environ.get("AI4U_CHROMIUM") or shutil.which("chromium")
-    with sync_playwright() as playwright:
-        chromium = playwright.chromium.launch(executable_path=path, args=FLAGS)
-        yield chromium
-        chromium.close()

@@ -6,7 +6,8 @@ from pathlib import Path
 
 from playwright.sync_api import Page
 
-from tests.playing import browser, played
+from tests.chromium import browser
+from tests.playing import played
 
 PICTURES = Path(__file__).parent / "pictures"
 

@@ -24,7 +24,8 @@ from websockets.typing import Origin
 from ai4u_edu.base.errors import AI4UError
 from ai4u_edu.remote import RemoteError, connect
 from tests.attacks.panel import Panel
-from tests.playing import Played, browser, played
+from tests.chromium import browser
+from tests.playing import Played, played
 
 KEYS = ["KeyW", "KeyS", "KeyA", "KeyD", "Space", "KeyJ", "ArrowUp", "ArrowLeft"]
 GROWTH = 1.05

@@ -32,6 +32,8 @@ from ai4u_edu.viewer import Viewer
 from tests.viewer.pages import page, shown
 from tests.viewer.test_agent_tab import text_of
 
+pytestmark = pytest.mark.slow
+
 HERE = Path(__file__).parent / "newcomer"
 
 
@@ -120,7 +122,7 @@ def test_all_of_it_appears_in_the_viewer(sim: ai4u_edu.ControlRequestor) -> None
         texts = [
             label.handle.text
             for part in viewer._parts
-            for label in getattr(part._part, "_labels", ())
+            for label in getattr(part.part, "_labels", ())
         ]
         assert sorted(texts) == ["cheese", "mouse"]
     finally:

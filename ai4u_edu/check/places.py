@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from ai4u_edu.agent import BasicAgent
 from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.blocks import RespawnActuator
-from ai4u_edu.world.overlap import in_the_way
+from ai4u_edu.world.overlap import find_overlap
 
 
 def implausible_places(sim: ControlRequestor, seed: int) -> list[str]:
@@ -55,6 +55,6 @@ def _poses_of(sim: ControlRequestor, agent: BasicAgent, actuator: RespawnActuato
             yield f"{where} lies over the void"
             continue
         body.move_to(x, y, heading=math.radians(heading_deg))
-        other = in_the_way(sim.world, body)
+        other = find_overlap(sim.world, body)
         if other is not None:
             yield f"{where} lies in body {other.name!r}"

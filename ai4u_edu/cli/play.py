@@ -122,7 +122,7 @@ def serve_scene(settings: PlaySettings) -> None:
     from ai4u_edu.runtime.process_tuning import tuned_process
     from ai4u_edu.runtime.runner import Runner
     from ai4u_edu.scenes import Scene
-    from ai4u_edu.server import hosts_for, room_app, serve, shut_side_door
+    from ai4u_edu.server import hosts_for, lock_viser_port, room_app, serve
     from ai4u_edu.server.process_exit import HAS_SERVED
     from ai4u_edu.viewer import Viewer
 
@@ -152,7 +152,7 @@ def serve_scene(settings: PlaySettings) -> None:
     viewer = Viewer(runner, title=title, editor=editor)
     if ghost is not None and settings.ghost is not None:
         viewer.ghosts.race(ghost, settings.ghost.name)
-    shut_side_door(viewer.server)
+    lock_viser_port(viewer.server)
     room = room_app(
         runner,
         viser_port=viewer.port,
@@ -210,10 +210,10 @@ def _announcer(
     settings: PlaySettings, title: str, editor: "SceneEditor", unsaved: "list[Unsaved]"
 ) -> Callable[[str], None]:
     from ai4u_edu.editing.unsaved import format_unsaved
-    from ai4u_edu.server import announcement, open_on_desktop, with_token
+    from ai4u_edu.server import open_on_desktop, startup_banner, with_token
 
     def announce(url: str) -> None:
-        typer.echo(announcement(title, settings.host, url, settings.rules.token))
+        typer.echo(startup_banner(title, settings.host, url, settings.rules.token))
         if editor.recovery.unsaved is not None:
             when = editor.recovery.unsaved.when
             typer.echo(f"an unsaved scene from {when} is there: ai4u-edu play --restore")

@@ -5,7 +5,7 @@ from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.base.errors import AI4UError
 from ai4u_edu.blocks import Percept
 from ai4u_edu.runtime.runner import Runner
-from ai4u_edu.server import ServerThread, open_on_desktop, room_app, shut_side_door
+from ai4u_edu.server import ServerThread, lock_viser_port, open_on_desktop, room_app
 from ai4u_edu.viewer import Viewer
 
 
@@ -22,7 +22,7 @@ class LivePage:
     def __init__(self, sim: ControlRequestor, title: str) -> None:
         self._runner = Runner(sim)
         self._viewer = Viewer(self._runner, title=title)
-        shut_side_door(self._viewer.server)
+        lock_viser_port(self._viewer.server)
         self._viewer.start()
         room = room_app(self._runner, viser_port=self._viewer.port, title=title)
         self._server = ServerThread(room).start()

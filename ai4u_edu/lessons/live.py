@@ -39,7 +39,7 @@ class Live:
         self, sim: ControlRequestor, recorder: Recorder, title: str, seed: int | None = None
     ) -> None:
         # loaded when a world is shown: exercises can be checked without a page
-        from ai4u_edu.server import Rules, ServerThread, room_app, shut_side_door, with_token
+        from ai4u_edu.server import Rules, ServerThread, lock_viser_port, room_app, with_token
         from ai4u_edu.viewer import Viewer
 
         self.sim = sim
@@ -47,7 +47,7 @@ class Live:
         self.recorder = recorder
         self.runner = Runner(sim, seed=seed, recorder=recorder)
         self._viewer = Viewer(self.runner, title=title)
-        shut_side_door(self._viewer.server)
+        lock_viser_port(self._viewer.server)
         room = room_app(
             self.runner,
             viser_port=self._viewer.port,

@@ -6,8 +6,8 @@ import time
 from collections import deque
 from collections.abc import Callable
 
-from ai4u_edu.runtime.snapshot_publisher import FEW_TICKS
-
+LATENESS_SMOOTHING = 1 / 16
+"""Weight of the last tick in the moving average of lateness."""
 MAX_LAG_S = 0.25
 """A world that is further behind than this gives up catching up."""
 PROMPT_SLEEP_S = 0.05
@@ -50,7 +50,7 @@ class TickSchedule:
             return
         self.due = max(self.due + period, now - MAX_LAG_S)
         late = max(now - self.due, 0.0) if period else 0.0  # as fast as it goes is never late
-        self.lateness += FEW_TICKS * (late - self.lateness)
+        self.lateness += LATENESS_SMOOTHING * (late - self.lateness)
 
     def sleep(self, wake: threading.Event, listen: Callable[[], bool]) -> None:
         """Sleep until the next tick is due.

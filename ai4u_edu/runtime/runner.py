@@ -22,8 +22,9 @@ from ai4u_edu.recording import Recorder, Replay
 from ai4u_edu.recording.scene_export import without_unknown_brains
 from ai4u_edu.runtime.clock import TickSchedule
 from ai4u_edu.runtime.command_queue import CommandQueue, QueuedCommand
+from ai4u_edu.runtime.frame_budget import FrameBudget
 from ai4u_edu.runtime.slow_ticks import SlowTicks
-from ai4u_edu.runtime.snapshot_publisher import Publisher
+from ai4u_edu.runtime.snapshot_publisher import SnapshotPublisher
 from ai4u_edu.runtime.stall_monitor import Stall, StallMonitor
 from ai4u_edu.scenes import Scene
 from ai4u_edu.snapshot import Snapshot, StaticScene, capture_snapshot, capture_static_scene
@@ -101,7 +102,8 @@ class Runner:
         self._past: Snapshot | None = None
         self._generation = -1
         self._static_scene: StaticScene
-        self._publisher = Publisher(self._picture(), clock)
+        self.frame_budget = FrameBudget()
+        self._publisher = SnapshotPublisher(self._picture(), self.frame_budget, clock)
 
     # -- for those who look ----------------------------------------------------------------------
 
@@ -423,14 +425,8 @@ class Runner:
         if not self.sim.waiting_for_brain:  # a world that waits for a script is not slow
             self._schedule.ticked += ticks
             self._slow.note((ended - began) / ticks, self.sim.world.count_contacts)
-        self._show(ended, ended - began)
-
-    def _show(self, now: float, took: float) -> None:
-        """Publishes how it looks after a tick, if there is time for that, or something is wrong."""
-        period = self._period
-        next_due = self._schedule.due + period
-        is_due = self._publisher.is_due(now, took=took, next_due=next_due, period=period)
-        if is_due or self.error:
+        next_tick_at = self._schedule.due + self._period
+        if self.error or self.frame_budget.is_snapshot_due(ended, next_tick_at):
             self._publish()
 
     def _keep_time(self) -> None:

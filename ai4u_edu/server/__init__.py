@@ -1,4 +1,7 @@
-"""One port for everything: the page, viser behind it, the keys, and an API to look."""
+"""One port for everything: the page, viser behind it, the keyboard, and a read-only API."""
+
+import warnings
+from typing import Any
 
 from ai4u_edu.server.address import AddressError, PortTakenError
 from ai4u_edu.server.app import RoomMount, room_app
@@ -6,9 +9,9 @@ from ai4u_edu.server.desktop import open_on_desktop
 from ai4u_edu.server.host_origin import LOOPBACK, hosts_for
 from ai4u_edu.server.scripts import Rules
 from ai4u_edu.server.serve import ServerThread, serve
-from ai4u_edu.server.startup_banner import announcement
+from ai4u_edu.server.startup_banner import startup_banner
 from ai4u_edu.server.token_auth import token_for, with_token
-from ai4u_edu.server.viser_lockdown import shut_side_door
+from ai4u_edu.server.viser_lockdown import lock_viser_port
 
 __all__ = [
     "LOOPBACK",
@@ -17,12 +20,22 @@ __all__ = [
     "RoomMount",
     "Rules",
     "ServerThread",
-    "announcement",
     "hosts_for",
+    "lock_viser_port",
     "open_on_desktop",
     "room_app",
     "serve",
-    "shut_side_door",
+    "startup_banner",
     "token_for",
     "with_token",
 ]
+
+_RENAMED = {"announcement": startup_banner, "shut_side_door": lock_viser_port}
+
+
+def __getattr__(name: str) -> Any:
+    if name in _RENAMED:
+        now = _RENAMED[name]
+        warnings.warn(f"use {__name__}.{now.__name__}", DeprecationWarning, stacklevel=2)
+        return now
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

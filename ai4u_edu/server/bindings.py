@@ -1,4 +1,4 @@
-"""Which keys a brain listens to, and which brain would."""
+"""The keys that a brain listens to, and a brain for an agent whose own listens to none."""
 
 import re
 from collections.abc import Iterable
@@ -37,21 +37,20 @@ WASD = {
     "down": ["KeyS", "ArrowDown"],
     "right": ["KeyD", "ArrowRight"],
 }
-"""The keys with which one chooses where nobody said others."""
+"""Default keys of a controller with discrete choices."""
 
 
 def keys_of(agent: BasicAgent, brain: Brain | None = None) -> dict[str, list[str]]:
-    """The keys of each thing that an agent can be told to do; empty if it listens to none.
+    """Return the key codes of each action; empty if the brain listens to no keys.
 
-    A controller that is driven by keys declares them as parameters, as WASDRBMoveController does:
-    lists of codes. Several such lists may stand in one parameter.
+    A controller declares its keys as parameters that are lists of codes, as WASDRBMoveController
+    does. One parameter may hold several such lists.
 
     Args:
-        agent: which.
-        brain: that it would have; left out, the one that it has.
-
+        agent: the agent to drive.
+        brain: the brain to ask; left out, the one that drives the agent now.
     """
-    controller = getattr(brain or acting(agent.brain), "controller", None)
+    controller = getattr(brain or active_brain(agent.brain), "controller", None)
     if not isinstance(controller, Controller):
         return {}
     found: dict[str, list[str]] = {}
@@ -62,23 +61,23 @@ def keys_of(agent: BasicAgent, brain: Brain | None = None) -> dict[str, list[str
     return found
 
 
-def acting(brain: Brain) -> Brain:
-    """The brain that decides: in place of a script elsewhere it may be a person's."""
-    hand = brain.override if isinstance(brain, RemoteBrain) else None
-    return hand or brain
+def active_brain(brain: Brain) -> Brain:
+    """Return the brain that decides: a person may override a script on another machine."""
+    override = brain.override if isinstance(brain, RemoteBrain) else None
+    return override or brain
 
 
-def takes_a_stick(brain: Brain) -> bool:
-    """Whether a brain listens to a stick too, and not to keys alone."""
+def has_stick(brain: Brain) -> bool:
+    """Return True if a brain listens to a stick as well as to keys."""
     controller = getattr(brain, "controller", None)
     return isinstance(controller, WASDRBMoveController | ArrowController)
 
 
 def keyboard_brain(agent: BasicAgent) -> Brain | None:
-    """With what a person could drive an agent that something else drives now.
+    """Return a brain with which a person could drive an agent that something else drives now.
 
-    One of its brains that lies ready for that, or one that is made to fit its body, in the rhythm
-    of the brain that it has. None if keys can't move it.
+    It is another brain of the agent that listens to keys, or a new one for an actuator of its body,
+    with the skip_frame of the present brain. None if keys can't move the agent.
     """
     now = agent.brain
     for brain in agent.brains:
@@ -107,8 +106,8 @@ def _controller_for(name: str, actuator: Actuator) -> Controller | None:
             return None
 
 
-def choose(sim: ControlRequestor, agent_id: str | None) -> BasicAgent:
-    """The agent that a page is about: the one it asks for, else the first that listens to keys.
+def choose_agent(sim: ControlRequestor, agent_id: str | None) -> BasicAgent:
+    """Return the agent that a page asks for; without a wish, the first that listens to keys.
 
     Raises:
         NameNotFoundError: there is no such agent.

@@ -1,4 +1,4 @@
-"""Who drives an agent."""
+"""Lock on an agent's keyboard: at most one page drives it."""
 
 import asyncio
 from collections.abc import Collection
@@ -6,91 +6,99 @@ from concurrent.futures import Future
 from typing import Protocol
 
 from ai4u_edu.blocks import Keyboard
-from ai4u_edu.blocks.brains.controllers.keyboard import AT_REST, Stick
+from ai4u_edu.blocks.brains.controllers.keyboard import CENTERED, Stick
 
 
-class Driven(Protocol):
-    """A driver that is no mere keyboard: see :mod:`ai4u_edu.server.human_override`."""
+class Override(Protocol):
+    """Replacement of an agent's brain while a person drives.
 
-    def are_called_by(self, codes: Collection[str]) -> bool:
-        """Whether keys mean that somebody wants to drive."""
+    See :class:`ai4u_edu.server.human_override.HumanOverride`.
+    """
 
-    def take(self) -> Future[None] | None:
-        """Has it listen to the keyboard."""
+    def is_requested_by(self, codes: Collection[str]) -> bool:
+        """Return True if one of these keys asks for control."""
 
-    def let_go(self) -> Future[None] | None:
-        """Nobody is at the keyboard any more."""
+    def begin(self) -> Future[None] | None:
+        """Make the agent listen to the keyboard."""
+
+    def end(self) -> Future[None] | None:
+        """Give the agent its own brain back."""
 
 
-class Seat:
-    """One seat before an agent's keyboard, and the pages that may want it.
+class ControlLock:
+    """Lock on an agent's keyboard, and the pages that may acquire it.
 
-    Whoever presses a key while it is free takes it; only that page's keys count then, until
-    another one takes the seat over, the page lets go or is gone.
+    The first page to press a key while the lock is free acquires it. Only its keys count until
+    another page takes over, or it releases the lock or disconnects. Belongs to the server's loop.
 
-    >>> seat = Seat(Keyboard())
+    Methods that return a future have started something in the runner's thread.
+
+    >>> lock = ControlLock(Keyboard())
     >>> for page in (1, 2):
-    ...     _ = seat.enter(page)
-    >>> seat.hold(1, ["KeyW"]); seat.hold(2, ["KeyS"])
-    >>> seat.driver, sorted(seat.keyboard.held())
+    ...     _ = lock.add_page(page)
+    >>> lock.hold_keys(1, ["KeyW"]); lock.hold_keys(2, ["KeyS"])
+    >>> lock.driver, sorted(lock.keyboard.held())
     (1, ['KeyW'])
-    >>> seat.take(2)
-    >>> seat.driver, sorted(seat.keyboard.held())
+    >>> lock.acquire(2)
+    >>> lock.driver, sorted(lock.keyboard.held())
     (2, [])
     """
 
-    def __init__(self, keyboard: Keyboard, hands: Driven | None = None) -> None:
+    def __init__(self, keyboard: Keyboard, override: Override | None = None) -> None:
         self.keyboard = keyboard
-        self._hands = hands
+        self._override = override
         self.driver: int | None = None
+        """Number of the page that holds the lock; None while it is free."""
         self._changed: dict[int, asyncio.Event] = {}
 
     @property
-    def pages(self) -> int:
-        """How many pages look at the agent."""
+    def page_count(self) -> int:
+        """Number of pages that show the agent."""
         return len(self._changed)
 
-    def enter(self, page: int) -> asyncio.Event:
-        """A page has come; the event tells it that something about the seat has changed."""
+    def add_page(self, page: int) -> asyncio.Event:
+        """Add a page, and return an event that is set whenever the lock changes."""
         self._changed[page] = asyncio.Event()
-        self._tell()
+        self._notify()
         return self._changed[page]
 
-    def leave(self, page: int) -> None:
-        """A page is gone; if it drove, its keys are let go and the seat is free."""
+    def remove_page(self, page: int) -> None:
+        """Remove a page; release the lock if the page held it."""
         del self._changed[page]
         if self.driver == page:
-            self._hand_to(None)
-        self._tell()
+            self._set_driver(None)
+        self._notify()
 
-    def take(self, page: int) -> Future[None] | None:
-        """A page wants the seat, and gets it; something may have to be waited for."""
+    def acquire(self, page: int) -> Future[None] | None:
+        """Give a page the lock, also if another page holds it."""
         if self.driver != page:
-            self._hand_to(page)
-        return self._hands.take() if self._hands else None
+            self._set_driver(page)
+        return self._override.begin() if self._override else None
 
-    def let_go(self, page: int) -> Future[None] | None:
-        """A page doesn't want the seat any more; something may have to be waited for."""
-        return self._hand_to(None) if self.driver == page else None
+    def release(self, page: int) -> Future[None] | None:
+        """Release the lock, if the page holds it."""
+        return self._set_driver(None) if self.driver == page else None
 
-    def hold(
-        self, page: int, codes: Collection[str], stick: Stick = AT_REST
+    def hold_keys(
+        self, page: int, codes: Collection[str], stick: Stick = CENTERED
     ) -> Future[None] | None:
-        """A page holds these keys now; they count if it drives, or may begin to."""
-        wants = any(stick) or (self._hands.are_called_by(codes) if self._hands else bool(codes))
-        if self.driver is None and wants:
-            self._hand_to(page)
+        """Set the keys that a page holds; they count if it has the lock, or can acquire it."""
+        is_request = any(stick) or (
+            self._override.is_requested_by(codes) if self._override else bool(codes)
+        )
+        if self.driver is None and is_request:
+            self._set_driver(page)
         if self.driver != page:
             return None
         self.keyboard.hold(codes, stick)
-        return self._hands.take() if self._hands and wants else None
+        return self._override.begin() if self._override and is_request else None
 
-    def _hand_to(self, page: int | None) -> Future[None] | None:
+    def _set_driver(self, page: int | None) -> Future[None] | None:
         self.keyboard.release()
         self.driver = page
-        self._tell()
-        return self._hands.let_go() if self._hands and page is None else None
+        self._notify()
+        return self._override.end() if self._override and page is None else None
 
-    def _tell(self) -> None:
+    def _notify(self) -> None:
         for event in self._changed.values():
             event.set()

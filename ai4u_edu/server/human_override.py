@@ -1,4 +1,4 @@
-"""Takes an agent out of its brain's hands, and gives it back."""
+"""Override of an agent's brain by a person at the keyboard."""
 
 from collections.abc import Collection
 from concurrent.futures import Future
@@ -7,122 +7,128 @@ from ai4u_edu.agent import BasicAgent
 from ai4u_edu.blocks import Brain, NeuralNetController, ReplayController, ScriptController
 from ai4u_edu.blocks.brains.remote import RemoteBrain
 from ai4u_edu.runtime.runner import Runner
-from ai4u_edu.server.bindings import acting, keyboard_brain, keys_of
+from ai4u_edu.server.bindings import active_brain, keyboard_brain, keys_of
 
 RESTART = "restart"
-"""What a person may ask for without driving."""
+"""Action that a person may trigger without taking control."""
 
-KINDS = {
+DRIVERS = {
     NeuralNetController: "A network",
     ReplayController: "A recording",
     ScriptController: "A script",
 }
 
 
-class Hands:
-    """An agent whose brain gives way to a person, and comes back when that one lets go.
+class HumanOverride:
+    """Replacement of an agent's brain by one that listens to the keyboard, until it is ended.
 
-    Where the brain listens to keys itself there is nothing to do. A script on another machine keeps
-    its place and goes on seeing what happens; only its actions are ignored meanwhile.
+    There is nothing to replace if the brain listens to keys itself. A script on another machine
+    stays connected and keeps receiving percepts; its actions are ignored meanwhile.
+
+    The event loop calls all public methods; brains are replaced in the runner's thread.
 
     Args:
-        runner: changes brains, between two decisions.
-        agent: which.
+        runner: replaces brains between two decisions.
+        agent: the agent to drive.
     """
 
     def __init__(self, runner: Runner, agent: BasicAgent) -> None:
         self._runner = runner
         self._agent = agent
-        self._ours: Brain | None = None
-        self._before: Brain | None = None
-        self._is_made = False
-        self._spare: tuple[Brain, Brain | None] | None = None
-        self._under_way: Future[None] | None = None
-        self._giving_back: Future[None] | None = None
+        self._replacement: Brain | None = None
+        self._original: Brain | None = None
+        self._is_new = False
+        self._cached: tuple[Brain, Brain | None] | None = None
+        self._beginning: Future[None] | None = None
+        self._ending: Future[None] | None = None
 
     @property
     def brain(self) -> Brain:
-        """The brain whose keys a page should know: the agent's, or the one that would take over."""
+        """The brain whose keys a page shows: the agent's, or the one that would replace it."""
         agent = self._agent
-        return acting(agent.brain) if keys_of(agent) else self._reserve() or agent.brain
+        return active_brain(agent.brain) if keys_of(agent) else self._candidate() or agent.brain
 
     @property
-    def others(self) -> str:
-        """Who drives in place of a person, in words; empty if a person may just do it."""
+    def current_driver(self) -> str:
+        """Title of the driver that a person would replace; empty if a person drives directly."""
         agent = self._agent
-        return "" if keys_of(agent) else who(agent.brain)
+        return "" if keys_of(agent) else driver_title(agent.brain)
 
     @property
-    def instead(self) -> str:
-        """Who would go on if the person let go, in words; empty if nobody would."""
-        before = self._before
-        return "" if before is None or acting(self._agent.brain) is not self._ours else who(before)
+    def next_driver(self) -> str:
+        """Title of the driver that continues when the override ends; empty if there is none."""
+        original = self._original
+        if original is None or active_brain(self._agent.brain) is not self._replacement:
+            return ""
+        return driver_title(original)
 
-    def are_called_by(self, codes: Collection[str]) -> bool:
-        """Whether keys mean that somebody wants to drive; to restart one doesn't have to."""
-        if not self.others or self._reserve() is None:
+    def is_requested_by(self, codes: Collection[str]) -> bool:
+        """Return True if one of these keys asks for control; the key to restart does not."""
+        if not self.current_driver or self._candidate() is None:
             return bool(codes)
-        means = keys_of(self._agent, self._reserve()).items()
-        return any(code in codes for action, keys in means if action != RESTART for code in keys)
+        actions = keys_of(self._agent, self._candidate()).items()
+        return any(code in codes for action, keys in actions if action != RESTART for code in keys)
 
-    def take(self) -> Future[None] | None:
-        """Gives the agent a brain that listens to the keys; None if that isn't needed."""
-        waits = self._under_way is not None and not self._under_way.done()
-        if waits or not self.others or self._reserve() is None:
+    def begin(self) -> Future[None] | None:
+        """Give the agent a brain that listens to the keys; None if it needs none."""
+        is_beginning = self._beginning is not None and not self._beginning.done()
+        if is_beginning or not self.current_driver or self._candidate() is None:
             return None
-        self._under_way = self._runner.submit(self._take)
-        return self._under_way
+        self._beginning = self._runner.submit(self._begin)
+        return self._beginning
 
-    def let_go(self) -> Future[None] | None:
-        """Gives it back the brain that it had; None if that isn't needed."""
-        if self._before is None and (self._under_way is None or self._under_way.done()):
+    def end(self) -> Future[None] | None:
+        """Give the agent its own brain back; None if it has it."""
+        if self._original is None and (self._beginning is None or self._beginning.done()):
             return None
-        if self._giving_back is None or self._giving_back.done():
-            self._giving_back = self._runner.submit(self._give_back)
-        return self._giving_back
+        if self._ending is None or self._ending.done():
+            self._ending = self._runner.submit(self._end)
+        return self._ending
 
-    def _reserve(self) -> Brain | None:
-        """The brain with which a person could take over."""
+    def _candidate(self) -> Brain | None:
+        """Return the brain with which a person could take over, made once for each brain."""
         now = self._agent.brain
-        if self._spare is None or self._spare[0] is not now:
-            self._spare = now, keyboard_brain(self._agent)
-        return self._spare[1]
+        if self._cached is None or self._cached[0] is not now:
+            self._cached = now, keyboard_brain(self._agent)
+        return self._cached[1]
 
-    # in the runner's thread; meanwhile everything may have changed
+    # in the runner's thread; everything may have changed since the call was submitted
 
-    def _take(self) -> None:
-        agent, spare = self._agent, self._reserve()
-        if keys_of(agent) or spare is None or not self._is_here():
+    def _begin(self) -> None:
+        agent, replacement = self._agent, self._candidate()
+        if keys_of(agent) or replacement is None or not self._is_in_world():
             return
-        before = agent.brain
-        self._is_made = not any(spare is brain for brain in agent.brains)
-        if isinstance(before, RemoteBrain):
-            before.begin_override(spare)
+        original = agent.brain
+        self._is_new = not any(replacement is brain for brain in agent.brains)
+        if isinstance(original, RemoteBrain):
+            original.begin_override(replacement)
         else:
-            agent.use_brain(spare)
-        self._before, self._ours = before, spare
+            agent.use_brain(replacement)
+        self._original, self._replacement = original, replacement
 
-    def _give_back(self) -> None:
-        agent, before, ours = self._agent, self._before, self._ours
-        self._before = self._ours = None
-        if before is None or acting(agent.brain) is not ours or not self._is_here():
+    def _end(self) -> None:
+        agent, original, replacement = self._agent, self._original, self._replacement
+        self._original = self._replacement = None
+        if original is None or active_brain(agent.brain) is not replacement:
+            return
+        if not self._is_in_world():
             return
         agent.keyboard.release()
-        if isinstance(before, RemoteBrain):
-            before.end_override()
+        if isinstance(original, RemoteBrain):
+            original.end_override()
         else:
-            agent.use_brain(before)
-        if self._is_made:
-            agent.brains[:] = [brain for brain in agent.brains if brain is not ours]
+            agent.use_brain(original)
+        if self._is_new:
+            agent.brains[:] = [brain for brain in agent.brains if brain is not replacement]
 
-    def _is_here(self) -> bool:
+    def _is_in_world(self) -> bool:
         return any(agent is self._agent for agent in self._runner.sim.agents)
 
 
-def who(brain: Brain) -> str:
-    """What drives, as one calls it at the beginning of a sentence."""
+def driver_title(brain: Brain) -> str:
+    """Return a brain's title for people, as the beginning of a sentence."""
     if isinstance(brain, RemoteBrain):
         return "A script elsewhere"
     controller = getattr(brain, "controller", brain)
-    kinds = (name for kind, name in KINDS.items() if isinstance(controller, kind))
-    return next(kinds, type(controller).__name__)
+    titles = (title for kind, title in DRIVERS.items() if isinstance(controller, kind))
+    return next(titles, type(controller).__name__)

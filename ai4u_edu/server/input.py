@@ -1,4 +1,4 @@
-"""The input socket: a page's keys, its wish to drive or not to, and a few commands."""
+"""The input socket: a page sends its keys, requests control, and a few commands."""
 
 import asyncio
 import json
@@ -16,87 +16,89 @@ from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.base.errors import NameNotFoundError
 from ai4u_edu.blocks.brains.controllers.keyboard import Stick
 from ai4u_edu.runtime.runner import Runner
-from ai4u_edu.server import messages
-from ai4u_edu.server import page_events as news
-from ai4u_edu.server.bindings import choose
-from ai4u_edu.server.control_lock import Seat
-from ai4u_edu.server.human_override import Hands
-from ai4u_edu.server.rate import Rate
+from ai4u_edu.server import messages, page_events
+from ai4u_edu.server.bindings import choose_agent
+from ai4u_edu.server.control_lock import ControlLock
+from ai4u_edu.server.human_override import HumanOverride
+from ai4u_edu.server.rate_limit import RateLimit
 
-LARGEST = 4096
-"""Bytes of a message."""
-PER_SECOND = 200
-"""Messages from one page; it sends ten and what the fingers add."""
-MISTAKES = 5
-"""Malformed messages in a row after which a page is not listened to any more."""
-LOOK = 0.2
-"""How often it is looked (s) whether a page has to be told something."""
-ORDERS = 4
+MAX_MESSAGE_BYTES = 4096
+MAX_MESSAGES_PER_S = 200
+"""Rate limit of one page; it sends ten a second, and one for each change of the keys."""
+MAX_MISTAKES = 5
+"""Malformed messages in a row after which the connection is closed."""
+POLL_S = 0.2
+"""Period at which the state is compared with what the page knows."""
+MAX_PENDING_COMMANDS = 4
 """Commands of one page that may wait for the runner."""
-MAX_COMPLAINT_CHARS = 2000
-"""Characters of what a page is told about a message of its own, which may be repeated in it."""
+MAX_ERROR_CHARS = 2000
+"""Length of an error that is sent to a page; it may repeat the page's own message."""
 MAX_AWAITED = 50
-"""Of so many things that a page has asked for it is told if they could not be done."""
-ANOTHER = "another world"
-"""Why a page's socket is closed (1012) when another world has taken this one's place."""
-AFTER_ANOTHER = "after_another"
-"""With this in its address a page comes back: it takes any agent if its own is not there."""
+"""Requests of one page that may be under way; a page is not told of errors in any beyond."""
+WORLD_REPLACED = "another world"
+"""Reason of the close (1012) when another world has replaced this one; the page reconnects."""
+RECONNECT_PARAM = "after_another"
+"""Query parameter of a page that reconnects: it takes any agent if its own does not exist."""
 
 
 class Inputs:
-    """The input sockets of a room; an ASGI app.
+    """The input sockets of a world; an ASGI app.
 
     Args:
-        runner: whose agents are driven.
-        title: tells what the scene is called now.
+        runner: runs the world whose agents are driven.
+        title: returns the scene's present title.
     """
 
     def __init__(self, runner: Runner, title: Callable[[], str] = str) -> None:
         self._runner, self._title = runner, title
-        self._places: dict[str, _Place] = {}
+        self._controls: dict[str, _Controls] = {}
         self._numbers = count(1)
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
-        """One page's socket, from its beginning to its end."""
+        """Serve one page's socket until it is closed."""
         socket = WebSocket(scope, receive, send)
         await socket.accept()
         with suppress(WebSocketDisconnect):
             sim, wanted = self._runner.sim, socket.query_params.get("agent")
             try:
-                agent = choose(sim, wanted)
+                agent = choose_agent(sim, wanted)
             except NameNotFoundError as error:
-                if AFTER_ANOTHER not in socket.query_params:
-                    await socket.send_json(news.error(str(error)))
+                if RECONNECT_PARAM not in socket.query_params:
+                    await socket.send_json(page_events.error_event(str(error)))
                     await socket.close(1008, "there is no such agent")
                     return
-                agent = choose(sim, None)
-            place, number = self._place(agent), next(self._numbers)
-            await _Page(socket, self._runner, sim, place, number, self._title).talk()
+                agent = choose_agent(sim, None)
+            controls, number = self._controls_of(agent), next(self._numbers)
+            await _Page(socket, self._runner, sim, controls, number, self._title).serve()
 
-    def _place(self, agent: BasicAgent) -> "_Place":
-        """An agent's place; in another world the agent of the same id has another one."""
-        place = self._places.get(agent.id)
-        if place is None or place.agent is not agent:
-            hands = Hands(self._runner, agent)
-            place = self._places[agent.id] = _Place(agent, Seat(agent.keyboard, hands), hands)
-        return place
+    def _controls_of(self, agent: BasicAgent) -> "_Controls":
+        """Return an agent's lock and override; those of an agent in an earlier world are replaced.
+
+        Agents of two worlds may have the same id.
+        """
+        controls = self._controls.get(agent.id)
+        if controls is None or controls.agent is not agent:
+            override = HumanOverride(self._runner, agent)
+            lock = ControlLock(agent.keyboard, override)
+            controls = self._controls[agent.id] = _Controls(agent, lock, override)
+        return controls
 
 
-class _Place(NamedTuple):
+class _Controls(NamedTuple):
     agent: BasicAgent
-    seat: Seat
-    hands: Hands
+    lock: ControlLock
+    override: HumanOverride
 
 
 class _Page:
-    """One page at its agent's place."""
+    """One page's connection."""
 
     def __init__(
         self,
         socket: WebSocket,
         runner: Runner,
         sim: ControlRequestor,
-        place: _Place,
+        controls: _Controls,
         number: int,
         title: Callable[[], str],
     ) -> None:
@@ -104,115 +106,116 @@ class _Page:
         self._socket = socket
         self._runner = runner
         self._sim = sim
-        self._agent, self._seat, self._hands = place
+        self._agent, self._lock, self._override = controls
         self._number = number
-        self._orders: set[asyncio.Task[None]] = set()
+        self._requests: set[asyncio.Task[None]] = set()
 
-    async def talk(self) -> None:
-        changed = self._seat.enter(self._number)
-        telling = asyncio.create_task(self._tell(changed))
+    async def serve(self) -> None:
+        changed = self._lock.add_page(self._number)
+        sending = asyncio.create_task(self._send_events(changed))
         try:
-            await self._listen()
+            await self._receive()
         finally:
-            self._seat.leave(self._number)
-            for task in (telling, *self._orders):
+            self._lock.remove_page(self._number)
+            for task in (sending, *self._requests):
                 task.cancel()
             with suppress(asyncio.CancelledError, WebSocketDisconnect):
-                await telling
+                await sending
 
-    async def _listen(self) -> None:
-        rate, mistakes = Rate(PER_SECOND), 0
+    async def _receive(self) -> None:
+        limit, mistakes = RateLimit(MAX_MESSAGES_PER_S), 0
         while True:
             frame = await self._socket.receive()
             if frame["type"] != "websocket.receive":
                 return
-            if rate.take():
-                await self._end(1008, f"expected at most {PER_SECOND} messages a second")
+            if limit.take():
+                await self._close(1008, f"expected at most {MAX_MESSAGES_PER_S} messages a second")
                 return
-            said = frame.get("text") or frame.get("bytes") or ""
-            if len(said) > LARGEST:
-                await self._complain(f"expected at most {LARGEST} bytes, got {len(said)}")
-                await self._end(1009, f"expected at most {LARGEST} bytes in a message")
+            data = frame.get("text") or frame.get("bytes") or ""
+            if len(data) > MAX_MESSAGE_BYTES:
+                expected = f"expected at most {MAX_MESSAGE_BYTES} bytes"
+                await self._send_error(f"{expected}, got {len(data)}")
+                await self._close(1009, f"{expected} in a message")
                 return
             try:
-                message = messages.read(said)
+                message = messages.read(data)
             except ValueError as error:
                 mistakes += 1
-                await self._complain(str(error))
-                if mistakes >= MISTAKES:
-                    await self._end(1008, f"{MISTAKES} malformed messages in a row")
+                await self._send_error(str(error))
+                if mistakes >= MAX_MISTAKES:
+                    await self._close(1008, f"{MAX_MISTAKES} malformed messages in a row")
                     return
                 continue
             mistakes = 0
             if self._runner.sim is not self._sim:
-                continue  # it is about to be told
-            self._obey(message)
+                continue  # the other task is about to close the connection
+            self._handle(message)
 
-    def _obey(self, message: messages.Message) -> None:
+    def _handle(self, message: messages.Message) -> None:
         match message:
             case messages.Keys(held=held, stick=stick):
                 pushed = Stick(stick.forward, stick.turn)
-                self._await(self._seat.hold(self._number, held, pushed))
+                self._await(self._lock.hold_keys(self._number, held, pushed))
             case messages.Take():
-                self._await(self._seat.take(self._number))
-            case messages.LetGo():
-                self._await(self._seat.let_go(self._number))
-            case messages.Order(name="reset", seed=seed):
-                self._order(lambda: self._runner.reset(seed))
-            case messages.Order(name="pause"):
-                self._order(self._runner.pause)
-            case messages.Order(name="resume"):
-                self._order(self._runner.resume)
+                self._await(self._lock.acquire(self._number))
+            case messages.Release():
+                self._await(self._lock.release(self._number))
+            case messages.Command(name="reset", seed=seed):
+                self._command(lambda: self._runner.reset(seed))
+            case messages.Command(name="pause"):
+                self._command(self._runner.pause)
+            case messages.Command(name="resume"):
+                self._command(self._runner.resume)
 
-    def _order(self, order: Callable[[], "Future[None]"]) -> None:
-        if len(self._orders) < ORDERS:
-            self._await(order())
+    def _command(self, command: Callable[[], "Future[None]"]) -> None:
+        if len(self._requests) < MAX_PENDING_COMMANDS:
+            self._await(command())
 
     def _await(self, future: "Future[None] | None") -> None:
-        if future is not None and len(self._orders) < MAX_AWAITED:
-            task = asyncio.create_task(self._carry_out(future))
-            self._orders.add(task)
-            task.add_done_callback(self._orders.discard)
+        """Report an error of a future to the page; keys that come meanwhile must not wait."""
+        if future is not None and len(self._requests) < MAX_AWAITED:
+            task = asyncio.create_task(self._report(future))
+            self._requests.add(task)
+            task.add_done_callback(self._requests.discard)
 
-    async def _carry_out(self, future: "Future[None]") -> None:
-        # keys that come meanwhile must not wait for the runner
+    async def _report(self, future: "Future[None]") -> None:
         with suppress(WebSocketDisconnect):
             try:
-                # shielded: what was asked for is done, also if the page leaves meanwhile
+                # shielded: the runner does what was asked for, also if the page leaves meanwhile
                 await asyncio.shield(asyncio.wrap_future(future))
             except Exception as error:  # a student's block may raise anything in a reset
-                await self._complain(f"{type(error).__name__}: {error}")
+                await self._send_error(f"{type(error).__name__}: {error}")
 
-    async def _complain(self, text: str) -> None:
-        await self._say(json.dumps(news.error(text[:MAX_COMPLAINT_CHARS])))
+    async def _send_error(self, text: str) -> None:
+        await self._send(json.dumps(page_events.error_event(text[:MAX_ERROR_CHARS])))
 
-    async def _end(self, code: int, reason: str) -> None:
-        # while too much is said, the world may become another one: either task ends it, not both
+    async def _close(self, code: int, reason: str) -> None:
+        # both tasks may want to close at once: a page floods while its world is replaced
         if self._socket.application_state is WebSocketState.CONNECTED:
             await self._socket.close(code, reason)
 
-    async def _say(self, text: str) -> None:
-        # whoever tells the news may wake up when the connection has just been closed from here
+    async def _send(self, text: str) -> None:
+        # the task that sends events may wake up just after the other one has closed the socket
         if self._socket.application_state is WebSocketState.CONNECTED:
             await self._socket.send_text(text)
 
-    async def _tell(self, changed: asyncio.Event) -> None:
-        told: dict[str, str] = {}
+    async def _send_events(self, changed: asyncio.Event) -> None:
+        sent: dict[str, str] = {}
         while self._runner.sim is self._sim:
             changed.clear()
-            for frame in (
-                news.hello(self._agent, self._number, self._hands),
-                news.seating(self._seat),
-                news.state(self._runner.latest, self._agent.id, self._title()),
+            for event in (
+                page_events.hello_event(self._agent, self._number, self._override),
+                page_events.lock_event(self._lock),
+                page_events.state_event(self._runner.latest, self._agent.id, self._title()),
             ):
-                if frame is None:
+                if event is None:
                     continue
-                text = json.dumps(frame)
-                if told.get(frame["type"]) != text:
-                    told[frame["type"]] = text
-                    await self._say(text)
+                text = json.dumps(event)
+                if sent.get(event["type"]) != text:
+                    sent[event["type"]] = text
+                    await self._send(text)
             # before Python 3.12 a wait_for whose event has just come forgets that it was cancelled
             with suppress(TimeoutError):
-                async with asyncio.timeout(LOOK):
+                async with asyncio.timeout(POLL_S):
                     await changed.wait()
-        await self._end(1012, ANOTHER)
+        await self._close(1012, WORLD_REPLACED)

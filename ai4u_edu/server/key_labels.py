@@ -1,4 +1,4 @@
-"""What the keys on the screen are for: only those that do something, and what they do."""
+"""Labels of the keys on the screen, and the keys that have an effect at all."""
 
 from ai4u_edu.agent import BasicAgent
 from ai4u_edu.blocks import (
@@ -19,31 +19,31 @@ MOTIONS = {
     (0, 0, 1): "jump",
     (1, 0, 1): "leap",
 }
-"""What a motion is called, by the signs of (forward, turn, jump of either kind)."""
+"""Label of a motion, by the signs of (forward, turn, jump of either kind)."""
 
 JUMPS = ("jump", "jump_forward")
-FEWEST = 4
-"""An actuator of fewer numbers has none for a jump."""
-
+MIN_JUMP_NUMBERS = 4
+"""Size of an actuator's smallest action that includes jumps."""
 
 CHOICES = ("right", "left", "up", "down", "accept")
-"""What a DiscreteArrowController's choices are called, from 1 on."""
+"""Names of a DiscreteArrowController's choices, from 1 on."""
 
 
-def useful_keys(agent: BasicAgent, brain: Brain | None = None) -> dict[str, list[str]]:
-    """The keys of an agent, without those for what its body can't do.
+def usable_keys(agent: BasicAgent, brain: Brain | None = None) -> dict[str, list[str]]:
+    """Return an agent's keys without those for actions that its body can't do.
 
     Args:
-        agent: which.
-        brain: that it would have; left out, the one that it has.
+        agent: the agent to drive.
+        brain: the brain to ask; left out, the agent's own.
     """
     brain = brain or agent.brain
-    idle = _idle(agent, brain)
-    return {action: codes for action, codes in keys_of(agent, brain).items() if action not in idle}
+    useless = _useless_actions(agent, brain)
+    keys = keys_of(agent, brain)
+    return {action: codes for action, codes in keys.items() if action not in useless}
 
 
-def captions(agent: BasicAgent, brain: Brain | None = None) -> dict[str, str]:
-    """What keys do in this scene, where it isn't what they are called."""
+def key_labels(agent: BasicAgent, brain: Brain | None = None) -> dict[str, str]:
+    """Return the labels of actions that do something else in this scene than their name says."""
     brain = brain or agent.brain
     actuator = _actuator(agent, brain)
     controller = getattr(brain, "controller", None)
@@ -60,15 +60,17 @@ def captions(agent: BasicAgent, brain: Brain | None = None) -> dict[str, str]:
     return names
 
 
-def _idle(agent: BasicAgent, brain: Brain) -> set[str]:
-    """What an agent's controller knows and its body can't do."""
+def _useless_actions(agent: BasicAgent, brain: Brain) -> set[str]:
+    """Return the actions that the controller knows and the body can't do."""
     controller, actuator = getattr(brain, "controller", None), _actuator(agent, brain)
     if isinstance(actuator, Actuator) and isinstance(controller, DiscreteArrowController):
         return set(CHOICES[int(actuator.limits()[1][0]) :])
     if actuator is None or not isinstance(controller, WASDRBMoveController | ArrowController):
         return set()
     numbers = len(actuator.limits()[0])
-    parts = getattr(controller, "components", None) or (JUMPS if numbers >= FEWEST else ())
+    parts = getattr(controller, "components", None) or (
+        JUMPS if numbers >= MIN_JUMP_NUMBERS else ()
+    )
     jump = getattr(actuator, "jump_power", 1.0)
     leap = jump or getattr(actuator, "jump_forward_power", 1.0)
     can = {"jump": jump and "jump" in parts, "jump_forward": leap and "jump_forward" in parts}
@@ -76,7 +78,7 @@ def _idle(agent: BasicAgent, brain: Brain) -> set[str]:
 
 
 def _actuator(agent: BasicAgent, brain: Brain) -> Actuator | None:
-    """The actuator that a brain's controller drives."""
+    """Return the actuator that a brain's controller drives."""
     controller = getattr(brain, "controller", None)
     return agent.bound_blocks.actuators.get(getattr(controller, "actuator_name", ""))
 

@@ -1,4 +1,4 @@
-"""What a page may say: its keys and its stick, its wish to drive or not to, a command."""
+"""The messages from a page to the input socket."""
 
 from typing import Annotated, Literal
 
@@ -8,68 +8,73 @@ from ai4u_edu.base.parameters import explain, listed
 
 CODE = r"^[A-Za-z0-9]{1,24}$"
 Code = Annotated[str, Field(pattern=CODE)]
-"""A place on the keyboard, as ``KeyboardEvent.code`` has it."""
+"""Physical key, as in the browser's ``KeyboardEvent.code``."""
 
 
-class _Said(BaseModel):
+class _Message(BaseModel):
     model_config = ConfigDict(extra="forbid", strict=True)
 
 
-Push = Annotated[float, Field(ge=-1, le=1, allow_inf_nan=False)]
-"""How far a stick is pushed in one direction."""
+Deflection = Annotated[float, Field(ge=-1, le=1, allow_inf_nan=False)]
+"""Deflection of a stick along one axis, from -1 to 1."""
 
 
-class Pushed(_Said):
-    """A stick, on the screen or of a gamepad; ahead and to the right are positive."""
+class StickPosition(_Message):
+    """Position of a stick on the screen or a gamepad; ahead and to the right are positive."""
 
-    forward: Push = 0.0
-    turn: Push = 0.0
+    forward: Deflection = 0.0
+    turn: Deflection = 0.0
 
 
-class Keys(_Said):
-    """All keys that are held now, and how far a stick is pushed.
+class Keys(_Message):
+    """All keys that are held now, and the position of the stick.
 
-    Said at each change, and ten times a second while any is.
+    A page sends it at each change, and ten times a second while any key is held.
     """
 
     type: Literal["keys"]
     held: Annotated[list[Code], Field(max_length=16)]
-    stick: Pushed = Pushed()
+    stick: StickPosition = StickPosition()
 
 
-class Take(_Said):
-    """The page wants to drive."""
+class Take(_Message):
+    """Request for control."""
 
     type: Literal["take"]
 
 
-class LetGo(_Said):
-    """The page doesn't want to drive any more."""
+class Release(_Message):
+    """Release of control."""
 
     type: Literal["let_go"]
 
 
-class Order(_Said):
-    """Something for the runner."""
+class Command(_Message):
+    """Command for the runner."""
 
     type: Literal["command"]
     name: Literal["reset", "pause", "resume"]
     seed: Annotated[int, Field(ge=0, lt=2**53)] | None = None
 
 
-Message = Keys | Take | LetGo | Order
-_KINDS: dict[str, type[_Said]] = {"keys": Keys, "take": Take, "let_go": LetGo, "command": Order}
+Message = Keys | Take | Release | Command
+_KINDS: dict[str, type[_Message]] = {
+    "keys": Keys,
+    "take": Take,
+    "let_go": Release,
+    "command": Command,
+}
 _READER: TypeAdapter[Message] = TypeAdapter(Annotated[Message, Field(discriminator="type")])
 
 
 def read(text: str | bytes) -> Message:
-    """A message out of its JSON.
+    """Return the message in a JSON text.
 
     Raises:
-        ValueError: it is none; the text says what was expected.
+        ValueError: it is no such message; the text says what was expected.
 
     >>> read('{"type": "keys", "held": ["KeyW"]}')
-    Keys(type='keys', held=['KeyW'], stick=Pushed(forward=0.0, turn=0.0))
+    Keys(type='keys', held=['KeyW'], stick=StickPosition(forward=0.0, turn=0.0))
     >>> read('{"type": "kyes"}')
     Traceback (most recent call last):
     ...

@@ -1,42 +1,48 @@
-"""What a page is told: who it is, who drives, how its agent is."""
+"""The messages from the input socket to a page."""
 
 from typing import Any
 
 from ai4u_edu.agent import BasicAgent
 from ai4u_edu.server.api import finite
-from ai4u_edu.server.bindings import takes_a_stick
-from ai4u_edu.server.control_lock import Seat
-from ai4u_edu.server.human_override import Hands
-from ai4u_edu.server.key_labels import captions, useful_keys
+from ai4u_edu.server.bindings import has_stick
+from ai4u_edu.server.control_lock import ControlLock
+from ai4u_edu.server.human_override import HumanOverride
+from ai4u_edu.server.key_labels import key_labels, usable_keys
 from ai4u_edu.snapshot import AgentState, Snapshot
 
-Frame = dict[str, Any]
+Event = dict[str, Any]
 
 
-def hello(agent: BasicAgent, number: int, hands: Hands) -> Frame:
-    """Which page it is, which agent it is about, and what that one listens to, or would."""
-    brain = hands.brain
+def hello_event(agent: BasicAgent, number: int, override: HumanOverride) -> Event:
+    """Return the page's number, its agent, and the keys that drive the agent.
+
+    Args:
+        agent: the page's agent.
+        number: the page's number.
+        override: the agent's.
+    """
+    brain = override.brain
     return {
         "type": "hello",
         "you": number,
         "agent": agent.id,
         "name": agent.body_name,
         "brain": agent.brain.title(),
-        "keys": useful_keys(agent, brain),
-        "captions": captions(agent, brain),
-        "stick": takes_a_stick(brain),
-        "others": hands.others,
-        "instead": hands.instead,
+        "keys": usable_keys(agent, brain),
+        "captions": key_labels(agent, brain),
+        "stick": has_stick(brain),
+        "others": override.current_driver,
+        "instead": override.next_driver,
     }
 
 
-def seating(seat: Seat) -> Frame:
-    """Who drives."""
-    return {"type": "seat", "driver": seat.driver, "pages": seat.pages}
+def lock_event(lock: ControlLock) -> Event:
+    """Return the number of the page that drives, and of all pages at this agent."""
+    return {"type": "seat", "driver": lock.driver, "pages": lock.page_count}
 
 
-def state(picture: Snapshot, agent_id: str, title: str = "") -> Frame | None:
-    """How the world and the agent are, as far as the page speaks of it; None in another world."""
+def state_event(picture: Snapshot, agent_id: str, title: str = "") -> Event | None:
+    """Return the state of the world and the agent; None if the world has no such agent."""
     agent = next((agent for agent in picture.agents if agent.id == agent_id), None)
     if agent is None:
         return None
@@ -60,7 +66,7 @@ def state(picture: Snapshot, agent_id: str, title: str = "") -> Frame | None:
 
 
 def outcome(picture: Snapshot, agent: AgentState) -> str:
-    """How an agent's episode has ended, in a word that the page knows; empty while it goes on."""
+    """Return the end of an agent's episode in a word that the page knows; empty before it."""
     if not (agent.terminated or agent.truncated):
         return ""
     others = [other for other in picture.agents if other.id != agent.id]
@@ -77,6 +83,6 @@ def outcome(picture: Snapshot, agent: AgentState) -> str:
     return "goal" if agent.episode_reward > 0 and not picture.static_scene.success else "over"
 
 
-def error(text: str) -> Frame:
-    """What it, or the world, could not do."""
+def error_event(text: str) -> Event:
+    """Return an error in words: of the page's message, or of the world."""
     return {"type": "error", "text": text}

@@ -1,37 +1,32 @@
-"""viser's own port: only the proxy may use it."""
+"""Access control for viser's own port: only the proxy may connect.
+
+viser accepts anybody who finds its port: pages from elsewhere, and programs of other users of this
+machine, who were never asked for a token.
+"""
 
 from secrets import token_urlsafe
 from typing import TYPE_CHECKING
 
-from ai4u_edu.server.token_auth import same
+from ai4u_edu.server.token_auth import is_same_secret
 
 if TYPE_CHECKING:
     from viser import ViserServer
     from viser.infra import WebsockClientConnection
 
-KNOCK_HEADER = "X-AI4U-Edu-Knock"
-KNOCK = token_urlsafe(24)
-"""What the proxy says in this header; known in this process alone."""
+PROXY_SECRET_HEADER = "X-AI4U-Edu-Proxy"  # noqa: S105 - the header's name
+PROXY_SECRET = token_urlsafe(24)
+"""The proxy's authentication towards viser; known in this process alone."""
 
 
-def shut_side_door(viser_server: "ViserServer") -> None:
-    """Has a viser refuse whoever comes around the proxy, and forget how to open tunnels.
-
-    viser accepts anybody who finds its port: pages from elsewhere, and programs of others who work
-    on this machine and were never asked for a token.
-    """
-    from viser import _messages
-
+def lock_viser_port(viser_server: "ViserServer") -> None:
+    """Make a viser server close every connection that does not come from the proxy."""
     web = viser_server._websock_server
-    for kind in (_messages.ShareUrlRequest, _messages.ShareUrlDisconnect):
-        if kind in web._incoming_handlers:
-            web.unregister_handler(kind)
 
     async def refuse_others(client: "WebsockClientConnection") -> None:
         connection = web._live_connections[client.client_id]
         request = connection.request
-        knock = "" if request is None else request.headers.get(KNOCK_HEADER, "")
-        if not same(KNOCK, knock):
+        secret = "" if request is None else request.headers.get(PROXY_SECRET_HEADER, "")
+        if not is_same_secret(PROXY_SECRET, secret):
             await connection.close(1008, "this is the viewer's inner port; use the page's own")
 
-    web._client_connect_cb.insert(0, refuse_others)  # before viser sends anything
+    web.on_client_connect(refuse_others)  # viser sends nothing before these callbacks have returned

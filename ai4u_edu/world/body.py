@@ -1,4 +1,4 @@
-"""A body that lives in a world: what can be asked of it, and how it is moved."""
+"""Bodies of a world: read access for sensors and rewards, and the methods that move them."""
 
 import math
 from typing import TYPE_CHECKING, Any, NoReturn
@@ -15,14 +15,14 @@ if TYPE_CHECKING:
 
 TAU = 2 * math.pi
 
-# looked up once: these are asked several times a tick
+# looked up once: they are called several times a tick
 _position, _angle, _apply_force = MOTION.position, MOTION.angle, MOTION.apply_force
 _set_velocity, _set_angular_velocity = MOTION.set_velocity, MOTION.set_angular_velocity
 _CENTRE = MOTION.vector()
 
 
 class BodyView:
-    """A body as a sensor or a reward sees it: to be asked, not to be moved.
+    """A body as sensors and reward functions see it: read-only.
 
     World frame: x right, y up on the screen, z towards the viewer; metres, seconds, radians;
     heading 0 looks along +x and grows counter-clockwise.
@@ -31,9 +31,9 @@ class BodyView:
     def __init__(self, world: "World", description: BodyDescription) -> None:
         self._world = world
         self.description = description
-        """What was said of it: by a scene file, or when it was added."""
+        """The body as described by a scene file or when it was added."""
         self.sampled = description
-        """What holds in this episode: the description, with what is random in it drawn."""
+        """The description with its random values sampled for this episode."""
         self.name = description.name
         self.tags = description.tags
         self.height = description.height
@@ -42,9 +42,9 @@ class BodyView:
         self.vz = 0.0
         """Upward speed, m/s."""
         self.on_ground = True
-        """Whether it stands on a floor or on another body."""
+        """True if it stands on a floor or on another body."""
         self.fallen = False
-        """Whether it is out of the world: it fell below the fall threshold, or had to leave."""
+        """True if it is out of the world: it fell below the fall threshold, or was taken out."""
         self._pm = pymunk.Body()
         self._shapes: tuple[pymunk.Shape, ...] = ()
 
@@ -59,7 +59,7 @@ class BodyView:
 
     @property
     def moves(self) -> bool:
-        """Whether forces, and falling, can move it."""
+        """True if forces and falling can move it."""
         return self.description.kind == "dynamic"
 
     @property
@@ -70,43 +70,43 @@ class BodyView:
 
     @property
     def heading(self) -> float:
-        """Radians, in [-pi, pi)."""
+        """Heading in radians, in [-pi, pi)."""
         return (_angle(self._handle) + math.pi) % TAU - math.pi
 
     @property
     def velocity(self) -> tuple[float, float]:
-        """(vx, vy) in the world's frame, m/s."""
+        """Velocity (vx, vy) in the world's frame, m/s."""
         return self._pm.velocity
 
     @property
     def angular_velocity(self) -> float:
-        """Radians per second, counter-clockwise positive."""
+        """Turning speed in radians per second, counter-clockwise positive."""
         return self._pm.angular_velocity
 
     @property
     def pose(self) -> tuple[float, float, float, float]:
-        """(x, y, z, heading)."""
+        """Pose (x, y, z, heading) in metres and radians."""
         place = _position(self._handle)
         return place.x, place.y, self.z, self.heading
 
     @property
     def held(self) -> "BodyView | None":
-        """The body that this one holds."""
-        return held_by(self._world, self)
+        """The body that this one holds; None if it holds none."""
+        return held_by(self._world._physics, self)
 
     def distance(self, other: "BodyView") -> float:
-        """Metres between the two centres, height included."""
+        """Return the metres between the two centres, height included."""
         here, there = _position(self._handle), _position(other._handle)
         return math.hypot(there.x - here.x, there.y - here.y, other.z - self.z)
 
     def bearing(self, other: "BodyView") -> float:
-        """Where the other one is, seen from here: 0 ahead, positive to the left, radians."""
+        """Return the direction of another body: radians, 0 ahead, positive to the left."""
         here, there = _position(self._handle), _position(other._handle)
         direction = math.atan2(there.y - here.y, there.x - here.x)
         return (direction - _angle(self._handle) + math.pi) % TAU - math.pi
 
     def to_local(self, x: float, y: float) -> tuple[float, float]:
-        """A point of the world in this body's frame: (forward, left) in metres."""
+        """Return a point of the world in this body's frame: (forward, left) in metres."""
         place, angle = _position(self._handle), _angle(self._handle)
         cos, sin = math.cos(angle), math.sin(angle)
         dx, dy = x - place.x, y - place.y
@@ -118,10 +118,10 @@ class BodyView:
 
 
 class Body(BodyView):
-    """A body that can be moved; actuators get it in this form."""
+    """A body with the methods that move it; actuators get it in this form."""
 
     def set_velocity(self, vx: float, vy: float) -> None:
-        """Sets the velocity in the world's frame, m/s."""
+        """Set the velocity in the world's frame, m/s."""
         if not math.isfinite(vx + vy):
             self._refuse("velocity", (vx, vy))
         vector = self._vector
@@ -129,13 +129,13 @@ class Body(BodyView):
         _set_velocity(self._handle, vector)
 
     def set_angular_velocity(self, omega: float) -> None:
-        """Sets the turning speed, radians per second, counter-clockwise positive."""
+        """Set the turning speed, radians per second, counter-clockwise positive."""
         if not math.isfinite(omega):
             self._refuse("angular velocity", (omega,))
         _set_angular_velocity(self._handle, omega)
 
     def apply_force(self, forward: float, left: float) -> None:
-        """Pushes at the centre for one tick; newtons, in the body's own frame."""
+        """Push at the centre for one tick; newtons, in the body's own frame."""
         if not math.isfinite(forward + left):
             self._refuse("force", (forward, left))
         vector = self._vector
@@ -143,54 +143,54 @@ class Body(BodyView):
         _apply_force(self._handle, vector, _CENTRE)
 
     def jump(self, speed: float) -> None:
-        """Sets an upward speed in m/s and leaves the ground."""
+        """Leave the ground with an upward speed in m/s."""
         if not math.isfinite(speed):
             self._refuse("jump speed", (speed,))
-        self._world._height.launch(self, speed)
+        self._world._physics.height.launch(self, speed)
 
     def hold(self, other: BodyView) -> None:
-        """Fixes another body to this one, where it is now, until :meth:`release`.
+        """Fix another body to this one at its present place, until :meth:`release`.
 
-        A fall, a new place for one of the two or a reset ends it too.
+        A fall, a new place for one of the two and a reset release it too.
 
         Raises:
-            WorldError: this one holds something already, or the other one can't move.
+            WorldError: this body holds one already, or the other one can't move.
         """
-        hold(self._world, self, other)
+        hold(self._world._physics, self, other)
 
     def release(self) -> None:
-        """Lets go of what this body holds."""
-        release(self._world, self)
+        """Release the body that this one holds."""
+        release(self._world._physics, self)
 
     def move_to(
         self, x: float, y: float, *, heading: float | None = None, z: float | None = None
     ) -> None:
-        """Puts the body somewhere else, at rest.
+        """Put the body somewhere else, at rest.
 
         Args:
             x: metres.
             y: metres.
-            heading: radians; left out: as it was.
-            z: metres; left out: on the highest floor there.
+            heading: radians; by default unchanged.
+            z: metres; by default on the highest floor there.
         """
         angle = self._pm.angle if heading is None else heading
         if not math.isfinite(x + y + angle + (z or 0.0)):
             self._refuse("place", (x, y, angle, z or 0.0))
-        self._world._place(self, x, y, angle, z)
+        self._world._physics.place(self, x, y, angle, z)
 
     def leave(self) -> None:
-        """Takes the body out of the world, as if it had fallen out, until it is put somewhere."""
+        """Take the body out of the world, as if it had fallen out, until it is put somewhere."""
         if not self.fallen:
-            self._world._drop(self)
+            self._world._physics.drop(self)
 
     def come_back(self) -> None:
-        """Puts the body where its description says; what is random in that is drawn anew.
+        """Put the body back to its described place; random values are sampled anew.
 
         Raises:
-            WorldError: there is no room for it; then it stays where it is, or out of the world.
+            WorldError: there is no room for it; then nothing changes.
         """
         self._world.put_back(self.name)
 
     def _refuse(self, what: str, numbers: tuple[Any, ...]) -> NoReturn:
-        # one number that is not finite would silently turn every body it touches into NaN
+        # a number that is not finite would silently spread to every body in contact
         raise WorldError(f"{what} of body {self.name!r}: expected finite numbers, got {numbers}")

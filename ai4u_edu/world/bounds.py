@@ -1,4 +1,4 @@
-"""How far a world reaches, wherever chance may put what is in it."""
+"""The rectangle around all places that the things of a world may be given."""
 
 import math
 from collections.abc import Iterable
@@ -9,14 +9,14 @@ from ai4u_edu.world.descriptions import BodyDescription, RegionDescription
 Rectangle = tuple[tuple[float, float], tuple[float, float]]
 Corner = tuple[float, float]
 
-EMPTY: Rectangle = (-5.0, -5.0), (5.0, 5.0)
+EMPTY_WORLD: Rectangle = (-5.0, -5.0), (5.0, 5.0)
 
 
-def around(things: Iterable[BodyDescription | RegionDescription]) -> Rectangle:
-    """The rectangle ((x0, y0), (x1, y1)) that all things stay in, metres."""
+def bounds_of(things: Iterable[BodyDescription | RegionDescription]) -> Rectangle:
+    """Return the rectangle ((x0, y0), (x1, y1)), metres, around all things in any episode."""
     corners = [corner for thing in things for corner in _corners(thing)]
     if not corners:
-        return EMPTY
+        return EMPTY_WORLD
     xs, ys = zip(*corners, strict=True)
     return (min(xs), min(ys)), (max(xs), max(ys))
 
@@ -34,7 +34,7 @@ def _places(thing: BodyDescription | RegionDescription) -> Iterable[Corner]:
 
 
 def _outline(thing: BodyDescription | RegionDescription) -> list[Corner]:
-    """Around the thing's place: corners at its smallest and its largest, in all directions."""
+    """Return corners around a thing's place, of its smallest and largest scale and any heading."""
     vary = thing.random
     scales = (vary and vary.scale) or (1.0,)
     if vary is not None and vary.heading_deg is not None:

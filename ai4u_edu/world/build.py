@@ -1,4 +1,4 @@
-"""From descriptions to pymunk's objects."""
+"""pymunk's objects made from descriptions."""
 
 import math
 from collections.abc import Sequence
@@ -19,11 +19,11 @@ from ai4u_edu.world.shapes import (
 
 Corner = tuple[float, float]
 
-HAIR = 1e-9
-"""Half the thickness of the core of a stick, metres; what it is rounded with makes up the rest."""
+STICK_CORE_RADIUS_M = 1e-9
+"""Half the thickness of a stick's polygon, metres; the polygon's radius adds the rest."""
 
-_AS_IT_IS = pymunk.Transform.identity()
-"""The transform of a polygon's corners; pymunk would make one anew for each."""
+_IDENTITY = pymunk.Transform.identity()
+"""Transform of a polygon's corners; pymunk would construct one for each polygon."""
 
 KINDS = {
     "static": pymunk.Body.STATIC,
@@ -33,25 +33,25 @@ KINDS = {
 
 
 def build(body: Body, space: pymunk.Space, group: int) -> None:
-    """Makes the body's physical parts and adds them to a space.
+    """Make a body's pymunk objects and add them to a space.
 
     Args:
-        body: gets ``_pm`` and ``_shapes``.
-        space: where they are added.
-        group: a number of the body's own (not 0), so that its own rays don't meet it.
+        body: its ``_pm`` and ``_shapes`` are set.
+        space: the space to add to.
+        group: a number of the body alone (not 0), so that its own rays don't hit it.
     """
     description = body.sampled
     pm = FastBody(body_type=KINDS[description.kind])
     pm.position = description.position
     pm.angle = math.radians(description.heading_deg)
     if description.kind != "static":
-        # a new body rests
+        # a new pymunk body is at rest
         if description.velocity != (0.0, 0.0):
             pm.velocity = description.velocity
         if description.angular_velocity_deg:
             pm.angular_velocity = math.radians(description.angular_velocity_deg)
     shape = make_shape(description.shape, pm)
-    dress(shape, description, group)
+    set_material(shape, description, group)
     if description.kind == "dynamic":
         _give_mass(pm, shape, description)
     space.add(pm, shape)
@@ -61,29 +61,32 @@ def build(body: Body, space: pymunk.Space, group: int) -> None:
 def make_shape(
     shape: BodyShape, pm: pymunk.Body | None, more: float = 0.0
 ) -> pymunk.Circle | pymunk.Poly:
-    """The pymunk shape of a description, with ``more`` metres all around it."""
+    """Return the pymunk shape of a description, grown by ``more`` metres on all sides."""
     if isinstance(shape, CircleShape):
         return FastCircle(pm, shape.radius + more)
     corners, radius = core(shape)
-    return FastPoly(pm, corners, _AS_IT_IS, radius + more)
+    return FastPoly(pm, corners, _IDENTITY, radius + more)
 
 
 def core(shape: BodyShape) -> tuple[Sequence[Corner], float]:
-    """The corners in the middle of a shape, and the radius that rounds what they span to it."""
+    """Return corners and radius: the shape is the corners' convex hull, grown by the radius."""
     match shape:
         case CircleShape():
             return [(0.0, 0.0)], shape.radius
         case BoxShape() | PolygonShape():
             return shape.outline(), 0.0
         case _:
-            # a polygon with a radius, not a Segment: of a ray that comes in through a Segment's
-            # round end and leaves through its side, pymunk tells where it leaves; as thin as a
-            # hair, not of two corners: those would hold every point in line with them
+            # a polygon with a radius, not a Segment: for a ray that enters a Segment through its
+            # round end and leaves it through its side, pymunk returns where it leaves. The polygon
+            # needs some thickness: one of two corners would contain every point in line with them
             a, b, radius = _ends(shape)
             length = math.dist(a, b)
-            x, y = HAIR * (a[1] - b[1]) / length, HAIR * (b[0] - a[0]) / length
+            x, y = (
+                STICK_CORE_RADIUS_M * (a[1] - b[1]) / length,
+                STICK_CORE_RADIUS_M * (b[0] - a[0]) / length,
+            )
             corners = [(px + s * x, py + s * y) for (px, py) in (a, b) for s in (1, -1)]
-            return corners, max(radius - HAIR, 0.0)
+            return corners, max(radius - STICK_CORE_RADIUS_M, 0.0)
 
 
 def _ends(shape: CapsuleShape | SegmentShape) -> tuple[Corner, Corner, float]:
@@ -97,20 +100,20 @@ def _give_mass(pm: pymunk.Body, shape: pymunk.Shape, description: BodyDescriptio
     if not isinstance(form, CapsuleShape | SegmentShape):
         shape.mass = description.mass
         return
-    # the mass is spread over the stick, not over the hair in it
+    # the mass is spread over the whole stick, not over its thin polygon
     a, b, radius = _ends(form)
     pm.mass = description.mass
     place = pm.position
     pm.center_of_gravity = ((a[0] + b[0]) / 2, (a[1] + b[1]) / 2)
-    pm.position = place  # the centre of gravity was there until now
+    pm.position = place  # setting the centre of gravity has moved it
     half = ((b[0] - a[0]) / 2, (b[1] - a[1]) / 2)
     pm.moment = pymunk.moment_for_segment(description.mass, (-half[0], -half[1]), half, radius)
 
 
-def dress(shape: pymunk.Shape, description: BodyDescription, group: int) -> None:
-    """Gives a shape its material and its filter."""
+def set_material(shape: pymunk.Shape, description: BodyDescription, group: int) -> None:
+    """Set a shape's material and filter."""
     shape.friction = description.friction
-    if description.elasticity:  # a new shape has none
+    if description.elasticity:  # a new pymunk shape has none
         shape.elasticity = description.elasticity
     shape.filter = pymunk.ShapeFilter(
         group=group,

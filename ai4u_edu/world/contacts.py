@@ -1,7 +1,7 @@
-"""Who touches whom, kept up to date by the physics' own begin and separate signals.
+"""Contacts between bodies, updated by pymunk's begin and separate callbacks.
 
-Only bodies somebody watches (agents' bodies) and bodies off their ground level are followed, so a
-pile of boxes that nobody asks about costs nothing.
+Only watched bodies (those of agents) and bodies that are not at height 0 on the ground have
+callbacks, so a pile of boxes that no block asks about costs nothing.
 """
 
 from collections.abc import Callable
@@ -11,19 +11,19 @@ import pymunk
 
 from ai4u_edu.world.body import Body
 
-PLAIN, WATCHED, ALOFT = 0, 1, 2
-"""Collision types: no signals; begin and separate; and one more every tick, to compare heights."""
+UNWATCHED, WATCHED, RAISED = 0, 1, 2
+"""Collision types: no callbacks; begin and separate; also one at every tick, to compare heights."""
 
-TOUCH = 1e-6
-"""Bodies closer than this above one another (metres) touch."""
+TOUCH_GAP_M = 1e-6
+"""Bodies with a smaller vertical gap than this (metres) touch."""
 
 
 class Contacts:
-    """The contacts of one world, and which pairs pass each other at different heights."""
+    """The contacts of one world, and the pairs that pass each other at different heights."""
 
     def __init__(self) -> None:
         self.tick = 0
-        """The last tick, or the one that is under way."""
+        """The last tick, or the one under way."""
         self.error: BaseException | None = None
         self._space: pymunk.Space | None = None
         self._owners: dict[pymunk.Shape, Body] = {}
@@ -33,7 +33,7 @@ class Contacts:
         self._passing: dict[Body, dict[Body, None]] = {}
 
     def attach(self, space: pymunk.Space, owners: dict[pymunk.Shape, Body]) -> None:
-        """Starts over, on a space that was built anew."""
+        """Start over on a new space."""
         self.tick, self.error = 0, None
         self._space, self._owners = space, owners
         self._touching.clear()
@@ -41,48 +41,48 @@ class Contacts:
         self._passing.clear()
         compare, separate = self._guard(self._compare), self._guard(self._separate)
         space.on_collision(WATCHED, None, begin=compare, separate=separate)
-        space.on_collision(ALOFT, None, begin=compare, pre_solve=compare, separate=separate)
+        space.on_collision(RAISED, None, begin=compare, pre_solve=compare, separate=separate)
 
     def raise_error(self) -> None:
-        """Raises what a handler has raised since the last time, if any did."""
+        """Raise the first error of a callback since the last call, if there is one."""
         if self.error is not None:
             error, self.error = self.error, None
             raise error
 
     def watch(self, body: Body) -> None:
-        """From now on the contacts of this body are known."""
+        """Record the contacts of a body from now on."""
         self._watched[body.name] = None
         self.classify(body)
-        # what it touches already does not begin again
+        # contacts that exist already do not begin again
         body._pm.each_arbiter(lambda arbiter: self._touch(*self._pair(arbiter)))
 
     def classify(self, body: Body) -> None:
-        """Gives the body's shapes the collision type that its place asks for."""
+        """Set the collision type of a body's shapes."""
         if body.z != 0.0 or not body.on_ground or body in self._passing:
-            kind = ALOFT
+            kind = RAISED
         else:
-            kind = WATCHED if body.name in self._watched else PLAIN
+            kind = WATCHED if body.name in self._watched else UNWATCHED
         for shape in body._shapes:
             if shape.collision_type != kind:
                 shape.collision_type = kind
 
     def of(self, name: str) -> tuple[str, ...]:
-        """The names of all that a watched body touches now, in the order of first touch."""
+        """Return the names of bodies that a watched body touches, in the order of first touch."""
         return tuple(self._touching.get(name, ()))
 
     def touched_after(self, name: str, other: str, tick: int) -> bool:
-        """Whether the two touch now, or touched at any tick after the given one."""
+        """Return True if the two touch now, or touched at any tick after the given one."""
         return other in self._touching.get(name, ()) or self._last.get((name, other), -1) > tick
 
     def passes(self, body: Body) -> tuple[Body, ...]:
-        """The bodies that this one is right above or below of now."""
+        """Return the bodies that this one is above or below."""
         return tuple(self._passing.get(body, ()))
 
     def forget(self, body: Body) -> None:
-        """Drops the contacts of a body that left the world."""
+        """End all contacts of a body that left the space."""
         self._passing.pop(body, None)
         for other in list(self._passing):
-            self._meet_again(other, body)
+            self._end_passing(other, body)
         for name in list(self._touching):
             self._end(name, body.name, self.tick)
         for name in self.of(body.name):
@@ -91,29 +91,29 @@ class Contacts:
     def _compare(self, arbiter: pymunk.Arbiter) -> None:
         a, b = self._pair(arbiter)
         gap = max(b.z - (a.z + a.height), a.z - (b.z + b.height))
-        apart = gap >= -TOUCH
-        # the arbiter remembers this from tick to tick, so it is said both ways
+        apart = gap >= -TOUCH_GAP_M
+        # the arbiter keeps this from tick to tick, so it is set in both cases
         arbiter.process_collision = not apart
-        if gap <= TOUCH:
+        if gap <= TOUCH_GAP_M:
             self._touch(a, b)
         for one, other in ((a, b), (b, a)):
             if apart:
                 self._passing.setdefault(one, {})[other] = None
             else:
-                self._meet_again(one, other)
-            if gap > TOUCH:
+                self._end_passing(one, other)
+            if gap > TOUCH_GAP_M:
                 self._end(one.name, other.name, self.tick - 1)
 
     def _separate(self, arbiter: pymunk.Arbiter) -> None:
         a, b = self._pair(arbiter)
-        # what is taken out of the space was touched until now, else it was until the last tick
+        # a removed body was touched until now, any other until the last tick
         last = self.tick if arbiter.is_removal else self.tick - 1
         for one, other in ((a, b), (b, a)):
-            self._meet_again(one, other)
+            self._end_passing(one, other)
             self._end(one.name, other.name, last)
 
-    def _meet_again(self, one: Body, other: Body) -> None:
-        """Forgets that one passes the other; on the ground and past all, it needs no more looks."""
+    def _end_passing(self, one: Body, other: Body) -> None:
+        """End the passing of one by another; past all, it needs no callback at each tick."""
         passing = self._passing.get(one)
         if passing is not None and other in passing:
             del passing[other]
@@ -139,10 +139,10 @@ class Contacts:
     def _guard(
         self, handle: Callable[[pymunk.Arbiter], None]
     ) -> Callable[[pymunk.Arbiter, pymunk.Space, Any], None]:
-        # pymunk prints and swallows what is raised in here; kept, it is raised after the tick
+        # pymunk prints and swallows errors of callbacks; this one is raised after the tick
         def guarded(arbiter: pymunk.Arbiter, space: pymunk.Space, _data: Any) -> None:
             if space is not self._space:
-                return  # a space of an earlier episode, which says goodbye when it is freed
+                return  # the space of an earlier episode, which ends its contacts when it is freed
             try:
                 handle(arbiter)
             except Exception as error:  # whatever it is, World.tick raises it

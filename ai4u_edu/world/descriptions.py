@@ -1,6 +1,6 @@
-"""What a world is made of, as descriptions: settings, bodies, floors, areas.
+"""Descriptions of a world's settings, bodies, floors and areas.
 
-Angles in degrees, as people write them; inside the world all is radians.
+Angles are degrees here, and radians inside the world.
 """
 
 from typing import Annotated, Literal
@@ -25,7 +25,7 @@ Tags = tuple[Name, ...]
 
 
 class WorldSettings(Description):
-    """What holds for a whole world."""
+    """Settings of a whole world."""
 
     ticks_per_second: Annotated[int, quantity("1/s", ge=1, le=1000)] = 60
     damping: Annotated[float, quantity("1", gt=0, le=1)] = 0.05
@@ -48,7 +48,7 @@ class BodyDescription(Description):
     position: Point = (0.0, 0.0)
     heading_deg: Degrees = 0.0
     random: Variation | None = None
-    """What is drawn anew at each reset; where nothing is said, the body is as described here."""
+    """Values sampled anew at each reset; without any, the body is as described here."""
     z: Metres | None = None
     """Height of the underside; left out: it stands on the highest floor there."""
     height: PositiveMetres = 1.0
@@ -73,7 +73,7 @@ class RegionDescription(Description):
     position: Point = (0.0, 0.0)
     heading_deg: Degrees = 0.0
     random: Variation | None = None
-    """What is drawn anew at each reset; where nothing is said, it is as described here."""
+    """Values sampled anew at each reset; without any, it is as described here."""
     tags: Tags = ()
     colour: Colour | None = None
     label: Annotated[str, Field(max_length=40)] = ""
@@ -101,4 +101,4 @@ class AreaDescription(RegionDescription):
     """A place that can be asked about (a goal, a trigger); nothing collides with it."""
 
     paint: bool = False
-    """Whether it is drawn as paint on the ground, without outline and label: a line, a marking."""
+    """True draws it as paint on the ground, without outline and label: a line, a marking."""

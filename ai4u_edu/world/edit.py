@@ -1,12 +1,13 @@
-"""Changes in a world that is under way: what is new comes in, all else stays where it is."""
+"""Edits of a world during an episode; everything else stays where it is."""
 
 import math
 from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 from ai4u_edu.base.errors import WorldError
+from ai4u_edu.world.construction import add_now
 from ai4u_edu.world.descriptions import BodyDescription
-from ai4u_edu.world.overlap import in_the_way
+from ai4u_edu.world.overlap import find_overlap
 
 if TYPE_CHECKING:
     from ai4u_edu.world.body import Body
@@ -17,53 +18,53 @@ Pose = tuple[float, float, float]
 
 
 def insert_body(world: "World", description: BodyDescription) -> "Body":
-    """Adds a body where it is free now; nothing else is put back, however young the episode is.
+    """Add a body at a free place; unlike ``World.add``, never sample or reset anything else.
 
     Raises:
-        WorldError: its name or its place is taken, or the world is full.
+        WorldError: its name or its place is blocker, or the world is full.
     """
-    world._add_now(description)
+    add_now(world, description)
     return world[description.name]
 
 
 def edit_body(world: "World", description: BodyDescription, pose: Pose | None = None) -> "Body":
-    """Makes another body of the one that has this name; whoever knows it knows the new one.
+    """Give the body of a name another description; references to it stay valid.
 
-    Nobody holds it or touches it then.
+    It is not held and touches nothing then.
 
     Args:
-        world: where it is.
-        description: how it is from now on, in later episodes too.
-        pose: where it is put, at rest, on the highest floor there (or at the described height);
-            left out: it stays where it is, as fast as it is.
+        world: the world to change.
+        description: of this and all later episodes.
+        pose: new place, at rest, on the highest floor there or at the described height; by
+            default the body keeps its place and its speed.
 
     Raises:
-        WorldError: it would overlap another body; then all stays as it was.
+        WorldError: the body would overlap another one; then nothing changes.
     """
-    body = world[description.name]
+    body, height = world[description.name], world._physics.height
     before, drawn = body.description, body.sampled
     place, speed, z = body.pose, (body.velocity, body.angular_velocity, body.vz), body.z
     fallen = body.fallen
     x, y, heading = pose or (place[0], place[1], place[3])
     shape = description.shape.scaled(drawn.shape.reach / before.shape.reach)
     here = {"shape": shape, "position": (x, y), "heading_deg": math.degrees(heading)}
-    _remake(world, body, description, description.model_copy(update=here))
+    _replace_body(world, body, description, description.model_copy(update=here))
     if pose is not None:
-        world._height.settle(body, description.z)
-        world._height.rest(body)
-        taken = in_the_way(world, body)
+        height.set_height(body, description.z)
+        height.update_support(body)
+        blocker = find_overlap(world, body)
     else:
-        taken = None if fallen else in_the_way(world, body)
-        _go_on(world, body, speed, z, fallen=fallen)
-    if taken is not None:
+        blocker = None if fallen else find_overlap(world, body)
+        _restore_motion(world, body, speed, z, fallen=fallen)
+    if blocker is not None:
         then = drawn.model_copy(
             update={"position": place[:2], "heading_deg": math.degrees(place[3])}
         )
-        _remake(world, body, before, then)
+        _replace_body(world, body, before, then)
         body.sampled = drawn
-        _go_on(world, body, speed, z, fallen=fallen)
+        _restore_motion(world, body, speed, z, fallen=fallen)
         raise WorldError(
-            f"body {body.name!r}: at ({x:.2f}, {y:.2f}) it would overlap body {taken.name!r}; "
+            f"body {body.name!r}: at ({x:.2f}, {y:.2f}) it would overlap body {blocker.name!r}; "
             "choose another place, or move that one first",
             thing=body.name,
         )
@@ -71,27 +72,22 @@ def edit_body(world: "World", description: BodyDescription, pose: Pose | None = 
 
 
 def reorder(world: "World", names: Iterable[str]) -> None:
-    """Puts all things into this order; the physics is built in it from the next reset on."""
-    order = {name: index for index, name in enumerate(names)}
-    for things in (world._described, world._bodies, world._floors, world._areas):
-        in_order = sorted(things.items(), key=lambda item: order.get(item[0], len(order)))
-        things.clear()
-        things.update(in_order)  # type: ignore[arg-type]  # each keeps its own kind of thing
-    world.generation += 1
+    """Put all things into this order; from the next reset on, the physics is built in it."""
+    world._registry.reorder(names)
+    world._physics.generation += 1
 
 
-def _remake(
+def _replace_body(
     world: "World", body: "Body", description: BodyDescription, drawn: BodyDescription
 ) -> None:
-    world._remove_parts(body)
+    world._physics.remove(body)
     body.description, body.sampled = description, drawn
     body.tags, body.height = description.tags, description.height
-    world._described[body.name] = description
-    world._has_random = any(thing.random for thing in world._described.values())
-    world._embody(body)
+    world._registry.replace(description)
+    world._physics.add(body)
 
 
-def _go_on(
+def _restore_motion(
     world: "World",
     body: "Body",
     speed: tuple[tuple[float, float], float, float],
@@ -99,14 +95,15 @@ def _go_on(
     *,
     fallen: bool,
 ) -> None:
-    """As high and as fast as it was before."""
-    world._height.settle(body, z)
+    """Give a body its former height and speed."""
+    physics = world._physics
+    physics.height.set_height(body, z)
     if fallen:
-        world._drop(body)
+        physics.drop(body)
         return
     if body.description.kind != "static":
         body.set_velocity(*speed[0])
         body.set_angular_velocity(speed[1])
-    world._height.rest(body)
+    physics.height.update_support(body)
     if not body.on_ground:
         body.vz = speed[2]

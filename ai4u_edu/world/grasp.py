@@ -1,4 +1,4 @@
-"""One body that holds another: two joints, which the space alone remembers."""
+"""Holding another body, by two joints of the space."""
 
 from typing import TYPE_CHECKING
 
@@ -8,17 +8,17 @@ from ai4u_edu.base.errors import WorldError
 
 if TYPE_CHECKING:
     from ai4u_edu.world.body import BodyView
-    from ai4u_edu.world.world import World
+    from ai4u_edu.world.physics import Physics
 
 
-def hold(world: "World", holder: "BodyView", other: "BodyView") -> None:
-    """Fixes a body to another, at the place and the angle that it has now.
+def hold(physics: "Physics", holder: "BodyView", other: "BodyView") -> None:
+    """Fix a body to a holder at its present place and angle.
 
     Raises:
-        WorldError: the holder holds something already, or the other one can't be held.
+        WorldError: the holder holds a body already, or the other one can't be held.
     """
     what = f"body {holder.name!r} can't hold {other.name!r}"
-    held = held_by(world, holder)
+    held = held_by(physics, holder)
     if held is not None:
         raise WorldError(f"{what}: it holds {held.name!r}; release that first")
     if other is holder or not other.moves or other.fallen or holder.fallen:
@@ -29,29 +29,29 @@ def hold(world: "World", holder: "BodyView", other: "BodyView") -> None:
         pymunk.GearJoint(a, b, b.angle - a.angle, 1.0),
     )
     for joint in joints:
-        joint.error_bias = world.space.collision_bias  # as firm as a wall
-    world.space.add(*joints)
+        joint.error_bias = physics.space.collision_bias  # as stiff as a contact with a wall
+    physics.space.add(*joints)
 
 
-def held_by(world: "World", holder: "BodyView") -> "BodyView | None":
-    """What a body holds."""
-    for joint in world.space.constraints:
+def held_by(physics: "Physics", holder: "BodyView") -> "BodyView | None":
+    """Return the body that a body holds; None if it holds none."""
+    for joint in physics.space.constraints:
         if joint.a is holder._pm:
-            return world.owners[next(iter(joint.b.shapes))]
+            return physics.owners[next(iter(joint.b.shapes))]
     return None
 
 
-def release(world: "World", holder: "BodyView") -> None:
-    """Ends what a body holds."""
-    _cut(world, [joint for joint in world.space.constraints if joint.a is holder._pm])
+def release(physics: "Physics", holder: "BodyView") -> None:
+    """Release the body that a body holds."""
+    _remove(physics, [joint for joint in physics.space.constraints if joint.a is holder._pm])
 
 
-def detach(world: "World", body: "BodyView") -> None:
-    """Ends what a body holds, and whatever holds it: it goes away, or somewhere else."""
-    ends = [joint for joint in world.space.constraints if body._pm in (joint.a, joint.b)]
-    _cut(world, ends)
+def detach(physics: "Physics", body: "BodyView") -> None:
+    """Release what a body holds, and the body from whatever holds it."""
+    ends = [joint for joint in physics.space.constraints if body._pm in (joint.a, joint.b)]
+    _remove(physics, ends)
 
 
-def _cut(world: "World", joints: list[pymunk.Constraint]) -> None:
+def _remove(physics: "Physics", joints: list[pymunk.Constraint]) -> None:
     if joints:
-        world.space.remove(*joints)
+        physics.space.remove(*joints)

@@ -1,4 +1,4 @@
-"""Whether one body can see another."""
+"""Line of sight between two bodies."""
 
 from typing import TYPE_CHECKING
 
@@ -9,13 +9,13 @@ if TYPE_CHECKING:
 
 
 def line_of_sight(world: "World", looker: BodyView, target: BodyView, up: float) -> bool:
-    """Whether the straight line between two bodies' eyes meets no third body.
+    """Return True if the straight line between two bodies' eyes meets no third body.
 
     Args:
-        world: where both live.
+        world: the world of both.
         looker: one end.
         target: the other end.
-        up: each eye's height above its body's underside, metres.
+        up: height of each eye above its body's underside, metres.
     """
     start, rise = looker.z + up, target.z - looker.z
     accept = world.filter_for(looker, 0xFFFFFFFF)

@@ -1,4 +1,4 @@
-"""Whether two shapes are in each other, and whether a body stands in another one."""
+"""Overlap of shapes, and of a body with the others of a world."""
 
 import math
 from collections.abc import Sequence
@@ -12,36 +12,36 @@ if TYPE_CHECKING:
     from ai4u_edu.world.body import BodyView
     from ai4u_edu.world.world import World
 
-OVERLAP = 1e-3
-"""Bodies may be put this far into each other (metres): touching is no overlap."""
+MAX_OVERLAP_M = 1e-3
+"""Depth (metres) to which bodies may be put into each other: touching is no overlap."""
 
 
-def in_the_way(world: "World", body: "BodyView") -> "BodyView | None":
-    """The body that another one overlaps, if there is one; what can't move may overlap."""
+def find_overlap(world: "World", body: "BodyView") -> "BodyView | None":
+    """Return a body that overlaps a given one, or None; two that can't move may overlap."""
     if not body.moves and IS_NATIVE:
-        return _mover_in_the_way(world, body)
+        return _find_overlapping_mover(world, body)
     for shape in body._shapes:
         for hit in world.space.shape_query(shape):
             other = world.owners.get(hit.shape)
             if other is None or other is body or not (body.moves or other.moves):
                 continue
             found = [point.distance for point in hit.contact_point_set.points]
-            if _level(body, other) and overlap(shape, body._pm, hit.shape, other._pm, found):
+            if _level(body, other) and is_overlap(shape, body._pm, hit.shape, other._pm, found):
                 return other
     return None
 
 
-def _mover_in_the_way(world: "World", body: "BodyView") -> "BodyView | None":
-    """The body that can move, and that one overlaps which can't.
+def _find_overlapping_mover(world: "World", body: "BodyView") -> "BodyView | None":
+    """Return a body that can move and overlaps a given one that can't.
 
-    A query of the space would answer with all that can't move either: with hundreds of walls upon
-    each other, that took seconds (``python -m tests.benchmarks.many_walls``).
+    A query of the space would also return all bodies that can't move: with hundreds of overlapping
+    walls, that took seconds (``python -m tests.benchmarks.many_walls``).
     """
     x, y = body.position
-    for other in world._bodies.values():
+    for other in world._registry.bodies.values():
         if not other.moves or other is body or other.fallen:
             continue
-        reach = body.sampled.shape.reach + other.sampled.shape.reach + OVERLAP
+        reach = body.sampled.shape.reach + other.sampled.shape.reach + MAX_OVERLAP_M
         if math.dist((x, y), other.position) > reach or not _level(body, other):
             continue
         for shape in body._shapes:
@@ -49,7 +49,7 @@ def _mover_in_the_way(world: "World", body: "BodyView") -> "BodyView | None":
                 if _pass_through(shape.filter, its.filter):
                     continue
                 found = contact_distances(shape, its, other._pm)
-                if overlap(shape, body._pm, its, other._pm, found):
+                if is_overlap(shape, body._pm, its, other._pm, found):
                     return other
     return None
 
@@ -64,30 +64,30 @@ def _pass_through(one: pymunk.ShapeFilter, other: pymunk.ShapeFilter) -> bool:
     return not (one.categories & other.mask and other.categories & one.mask)
 
 
-def overlap(
+def is_overlap(
     shape: pymunk.Shape,
     pm: pymunk.Body,
     other: pymunk.Shape,
-    its_pm: pymunk.Body,
+    other_pm: pymunk.Body,
     found: Sequence[float],
 ) -> bool:
-    """Whether two shapes are in each other.
+    """Return True if two shapes overlap by more than :data:`MAX_OVERLAP_M`.
 
     Args:
-        shape: of one body.
-        pm: that body.
-        other: of another body.
-        its_pm: the other body.
-        found: the distances at the points where pymunk says that the two touch.
+        shape: a shape.
+        pm: its body.
+        other: another shape.
+        other_pm: its body.
+        found: distances at pymunk's contact points of the two.
     """
     if not found:
         return False
-    # for some pairs of shapes the distance comes with the wrong sign, and as 0 for two that lie
-    # exactly upon each other
+    # for some pairs of shapes pymunk's distance has the wrong sign, and it is 0 for two shapes in
+    # exactly the same place
     return (
-        max(map(abs, found)) > OVERLAP
-        or _depth(other, pm.local_to_world(shape.center_of_gravity)) > OVERLAP
-        or _depth(shape, its_pm.local_to_world(other.center_of_gravity)) > OVERLAP
+        max(map(abs, found)) > MAX_OVERLAP_M
+        or _depth(other, pm.local_to_world(shape.center_of_gravity)) > MAX_OVERLAP_M
+        or _depth(shape, other_pm.local_to_world(other.center_of_gravity)) > MAX_OVERLAP_M
     )
 
 

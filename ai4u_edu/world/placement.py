@@ -1,4 +1,4 @@
-"""Where things are, and where there is room for one more."""
+"""Search for free places."""
 
 import math
 from functools import cached_property
@@ -9,34 +9,34 @@ import pymunk
 
 from ai4u_edu.base.errors import WorldError
 from ai4u_edu.base.seeding import Seeds
-from ai4u_edu.world.build import core, dress, make_shape
+from ai4u_edu.world.build import core, make_shape, set_material
 from ai4u_edu.world.descriptions import AreaDescription, BodyDescription, FloorDescription
 from ai4u_edu.world.ground import Ground
 from ai4u_edu.world.native import FastBody, contact_distances
-from ai4u_edu.world.overlap import overlap
+from ai4u_edu.world.overlap import is_overlap
 from ai4u_edu.world.region import Region
 from ai4u_edu.world.shapes import BodyShape, CircleShape, RingShape
 from ai4u_edu.world.variation import Variation
 
-TRIES = 1000
-"""So many draws a thing gets: where a fiftieth of them is free, one episode in 10^8 fails."""
+MAX_SAMPLES = 1000
+"""Samples for each thing: where 1 in 50 is free, one episode in 10^8 fails."""
 
-SLACK = 1e-6
-"""What a rectangle around a form is wider than the form itself, metres: more than any rounding."""
+RECTANGLE_MARGIN_M = 1e-6
+"""Margin of a rectangle around a form, metres: more than any rounding error."""
 
 Thing = BodyDescription | FloorDescription | AreaDescription
-Some = TypeVar("Some", bound=Thing)
+ThingT = TypeVar("ThingT", bound=Thing)
 
 
 class _Form:
-    """What something takes up in its place.
+    """The space that a thing occupies.
 
     Args:
-        thing: as it is described.
-        shape: its own; of a ring, the disc: what is in its middle is taken up too.
-        more: so many metres are added all around that.
-        heights: from which one it reaches to which.
-        rectangle: (left, bottom, right, top) around it all, upright; it may be a bit too large.
+        thing: its description.
+        shape: its shape; the whole disc for a ring, whose middle is occupied too.
+        more: metres that are added on all sides.
+        heights: lowest and highest point.
+        rectangle: (left, bottom, right, top) around it, parallel to the axes, maybe a bit large.
     """
 
     def __init__(
@@ -52,14 +52,14 @@ class _Form:
         self.left, self.bottom, self.right, self.top = rectangle
 
     def grown(self, more: float) -> "_Form":
-        """The same with so many metres more all around it, in the plane."""
+        """Return the form grown by so many metres on all sides, in the plane."""
         if not more:
             return self
         rectangle = self.left - more, self.bottom - more, self.right + more, self.top + more
         return _Form(self._thing, self._shape, more, (self.low, self.high), rectangle)
 
     def near(self, other: "_Form") -> bool:
-        """Whether the two may meet: whether the rectangles around them do, and their heights."""
+        """Return False if rectangles or heights show that two forms don't overlap."""
         return (
             self.left <= other.right
             and other.left <= self.right
@@ -70,38 +70,38 @@ class _Form:
         )
 
     def overlaps(self, other: "_Form") -> bool:
-        """Whether the two are in each other in the plane, and would collide there."""
-        (pm, shape), (its_pm, its_shape) = self.solid, other.solid
-        return not shape.filter.rejects_collision(its_shape.filter) and overlap(
-            shape, pm, its_shape, its_pm, contact_distances(shape, its_shape, its_pm)
+        """Return True if two forms overlap in the plane and their layers collide."""
+        (pm, shape), (other_pm, other_shape) = self.solid, other.solid
+        return not shape.filter.rejects_collision(other_shape.filter) and is_overlap(
+            shape, pm, other_shape, other_pm, contact_distances(shape, other_shape, other_pm)
         )
 
     @cached_property
     def solid(self) -> tuple[pymunk.Body, pymunk.Shape]:
-        """The same for pymunk; made only for what something comes near to, which is seldom."""
+        """Body and shape for pymunk; made only for forms that another one comes near."""
         thing = self._thing
         pm = FastBody(body_type=pymunk.Body.STATIC)
         pm.position = thing.position
         pm.angle = math.radians(thing.heading_deg)
         shape = make_shape(self._shape, pm, self._more)
         if isinstance(thing, BodyDescription):
-            dress(shape, thing, group=0)
-        shape.cache_bb()  # now it knows where it is, though it is in no space
+            set_material(shape, thing, group=0)
+        shape.cache_bb()  # updates its position, though it is in no space
         return pm, shape
 
 
-class _Taken:
-    """Forms that have their place, each with a few words for it."""
+class _OccupiedForms:
+    """Forms of placed things, each with a name for messages."""
 
     def __init__(self) -> None:
         self._forms: list[tuple[_Form, str]] = []
 
     def keep(self, form: _Form, words: str) -> None:
-        """Adds one."""
+        """Add a form."""
         self._forms.append((form, words))
 
     def met_by(self, form: _Form) -> str:
-        """The words for one that another form overlaps; empty if there is none."""
+        """Return the name of a form that another one overlaps; empty if there is none."""
         for kept, words in self._forms:
             if form.near(kept) and form.overlaps(kept):
                 return words
@@ -109,60 +109,60 @@ class _Taken:
 
 
 class Places:
-    """What is where, and finds a place for one thing more.
+    """The occupied places of a world; finds a free one for another thing.
 
     Args:
-        seed: of what is drawn; from the same one the same comes, however often it is asked.
+        seed: seed of the samples.
     """
 
     def __init__(self, seed: int) -> None:
         self._seeds = Seeds(seed)
         self._ground = Ground()
-        self._bodies, self._kept_free = _Taken(), _Taken()
+        self._bodies, self._kept_free = _OccupiedForms(), _OccupiedForms()
 
-    def take(self, thing: Thing, clearance: float = 0.0) -> None:
-        """From now on something is where its description says, and keeps so much around it free."""
+    def occupy(self, thing: Thing, clearance: float = 0.0) -> None:
+        """Mark a thing's place as occupied, and so many metres around it as kept free."""
         if isinstance(thing, FloorDescription):
             self._ground = Ground([*self._ground.floors, (thing.top, Region(thing))])
         else:
             form = self._form(thing)
             self._keep(thing, form, form.grown(clearance))
 
-    def find(self, described: Some) -> Some:
-        """Draws something until it has a free place, and takes that.
+    def find(self, described: ThingT) -> ThingT:
+        """Sample a thing until its place is free, occupy that and return the thing.
 
         Raises:
-            WorldError: none is found.
+            WorldError: no free place was found.
         """
         vary = described.random
         if vary is None:
-            self.take(described)
+            self.occupy(described)
             return described
-        chance = self._seeds.child(f"random/{described.name}")
-        in_the_way: dict[str, int] = {}
-        for _ in range(TRIES):
-            drawn = draw(described, vary, chance)
-            if isinstance(drawn, FloorDescription):
-                self.take(drawn)
-                return drawn
-            form = self._form(drawn)
+        rng = self._seeds.child(f"random/{described.name}")
+        obstacles: dict[str, int] = {}
+        for _ in range(MAX_SAMPLES):
+            sampled = sample(described, vary, rng)
+            if isinstance(sampled, FloorDescription):
+                self.occupy(sampled)
+                return sampled
+            form = self._form(sampled)
             wide = form.grown(vary.clearance)
-            words = self._in_the_way(drawn, form, wide)
+            words = self._find_obstacle(sampled, form, wide)
             if not words:
-                self._keep(drawn, form, wide)
-                return drawn
-            in_the_way[words] = in_the_way.get(words, 0) + 1
-        raise self._no_place(described, vary, in_the_way)
+                self._keep(sampled, form, wide)
+                return sampled
+            obstacles[words] = obstacles.get(words, 0) + 1
+        raise self._no_place_error(described, vary, obstacles)
 
-    def _in_the_way(
+    def _find_obstacle(
         self, thing: BodyDescription | AreaDescription, form: _Form, wide: _Form
     ) -> str:
-        """Why something can't be where it is described, in a few words; empty if it can.
+        """Return what keeps a thing from its described place; empty if nothing does.
 
         Args:
-            thing: what.
-            form: of it.
-            wide: the same with what is to be free around it; the form itself if nothing is.
+            thing: the thing to place.
+            form: its form.
+            wide: the form with its clearance; ``form`` itself without one.
         """
         if isinstance(thing, AreaDescription):
             return self._bodies.met_by(wide) if wide is not form else ""
@@ -179,7 +179,7 @@ class Places:
             self._kept_free.keep(wide, f"the clearance of {thing.name!r}")
 
     def _stands(self, body: BodyDescription, form: _Form) -> bool:
-        """Whether a floor bears a body's centre, and reaches as far as the body does."""
+        """Return True if one floor is under a body's centre and all its corners."""
         if not self._ground.floors:
             return True
         top = self._ground.at(*body.position, math.inf if body.z is None else body.z)
@@ -194,12 +194,12 @@ class Places:
         shape = CircleShape(radius=outline.outer) if isinstance(outline, RingShape) else outline
         return _Form(thing, shape, 0.0, heights, _around(thing, shape))
 
-    def _no_place(self, thing: Thing, vary: Variation, found: dict[str, int]) -> WorldError:
+    def _no_place_error(self, thing: Thing, vary: Variation, found: dict[str, int]) -> WorldError:
         most = sorted(found.items(), key=lambda each: -each[1])[:3]
         reasons = ", ".join(f"{words} ({count} times)" for words, count in most)
         kind = "body" if isinstance(thing, BodyDescription) else "area"
         return WorldError(
-            f"{kind} {thing.name!r}: found no free place in {TRIES} draws ({vary}; seed "
+            f"{kind} {thing.name!r}: found no free place in {MAX_SAMPLES} draws ({vary}; seed "
             f"{self._seeds.seed}); in the way: {reasons}; give it wider ranges or less clearance, "
             "or make it smaller",
             thing=thing.name,
@@ -207,35 +207,39 @@ class Places:
 
 
 def _around(thing: Thing, shape: BodyShape) -> tuple[float, float, float, float]:
-    """The upright rectangle around a shape in a thing's place, a bit too large."""
+    """Return a rectangle around a thing's shape, parallel to the axes and a bit too large."""
     corners, radius = core(shape)
-    (x, y), heading, more = thing.position, math.radians(thing.heading_deg), radius + SLACK
+    (x, y), heading, more = (
+        thing.position,
+        math.radians(thing.heading_deg),
+        radius + RECTANGLE_MARGIN_M,
+    )
     cos, sin = math.cos(heading), math.sin(heading)
     xs = [cos * cx - sin * cy for cx, cy in corners]
     ys = [sin * cx + cos * cy for cx, cy in corners]
     return x + min(xs) - more, y + min(ys) - more, x + max(xs) + more, y + max(ys) + more
 
 
-def draw(described: Some, vary: Variation, chance: np.random.Generator) -> Some:
-    """A thing with what is random in it drawn once."""
+def sample(described: ThingT, vary: Variation, rng: np.random.Generator) -> ThingT:
+    """Return a thing with its random values sampled once."""
     x, y = described.position
     if vary.places:
-        x, y = vary.places[int(chance.integers(len(vary.places)))]
+        x, y = vary.places[int(rng.integers(len(vary.places)))]
     if vary.x:
-        x = _between(vary.x, chance)
+        x = _uniform(vary.x, rng)
     if vary.y:
-        y = _between(vary.y, chance)
+        y = _uniform(vary.y, rng)
     fresh: dict[str, Any] = {"position": (x, y), "random": None}
     if vary.heading_deg:
-        fresh["heading_deg"] = _between(vary.heading_deg, chance)
+        fresh["heading_deg"] = _uniform(vary.heading_deg, rng)
     if vary.scale:
-        fresh["shape"] = described.shape.scaled(_between(vary.scale, chance))
-    drawn: Any = described.model_copy(update=fresh)  # of the same kind, which mypy can't follow
-    found: Some = drawn
+        fresh["shape"] = described.shape.scaled(_uniform(vary.scale, rng))
+    sampled: Any = described.model_copy(update=fresh)  # of the same kind, which mypy can't follow
+    found: ThingT = sampled
     return found
 
 
-def _between(limits: tuple[float, float], chance: np.random.Generator) -> float:
-    # the numbers of Generator.uniform, which takes three times as long
+def _uniform(limits: tuple[float, float], rng: np.random.Generator) -> float:
+    # the same numbers as Generator.uniform, which takes three times as long
     low, high = limits
-    return low + (high - low) * chance.random()
+    return low + (high - low) * rng.random()

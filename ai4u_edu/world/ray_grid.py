@@ -1,4 +1,4 @@
-"""Rays in perspective: the plane is asked once for each column; the rows follow from heights."""
+"""Perspective grid of rays: one cast in the plane for each column; rows follow from heights."""
 
 import math
 from collections.abc import Sequence
@@ -9,24 +9,24 @@ import numpy.typing as npt
 
 from ai4u_edu.world.body import BodyView
 from ai4u_edu.world.native import GridArrays, compile_grid
-from ai4u_edu.world.rays import Cast, Caster, CodeOf, Floats, Obstacle
+from ai4u_edu.world.rays import Cast, CodeOf, Floats, Obstacle, RayCaster
 
 if TYPE_CHECKING:
     from ai4u_edu.world.world import World
 
-LEVEL = 1e-9
-"""A slope less than this meets no floor within any reach."""
+MIN_SLOPE = 1e-9
+"""A ray of a smaller slope meets no floor within any reach."""
 
-NOWHERE = math.inf, -math.inf
-"""From where to where nothing reaches upwards."""
+NO_HEIGHTS = math.inf, -math.inf
+"""Lowest and highest point of a missing body: no height is between them."""
 
 
-class RayGrid(Caster):
-    """A grid in perspective: m rows at different pitches, n columns at different angles.
+class RayGrid(RayCaster):
+    """A perspective grid: m rows at different pitches, n columns at different angles.
 
     Attributes:
-        codes: (m, n) what each ray met; a floor has its own code, the void the code of nothing.
-        distances: (m, n) metres along the ray; 0 where nothing was met.
+        codes: (m, n) code of each ray's hit; a floor has its own code.
+        distances: (m, n) metres along the ray; 0 without a hit.
     """
 
     def __init__(
@@ -44,7 +44,7 @@ class RayGrid(Caster):
         super().__init__(world, angles, reach, code_of, eye, mask, exclude_self)
         self.pitches = np.asarray(pitches, np.float64)
         self._slopes = np.tan(self.pitches)
-        steep = np.where(np.abs(self._slopes) > LEVEL, self._slopes, math.nan)
+        steep = np.where(np.abs(self._slopes) > MIN_SLOPE, self._slopes, math.nan)
         self._runs = 1.0 / steep
         self._cos = np.cos(self.pitches)[:, None]
         self._reaches = reach * self._cos[:, 0]
@@ -56,18 +56,18 @@ class RayGrid(Caster):
         )
         self._compiled = compile_grid(arrays, self._segments, self._miss)
 
-    def kept(self) -> Cast:
-        """The last cast."""
+    def last_cast(self) -> Cast:
+        """Return a copy of the last cast."""
         return Cast(self.origin, self.directions.copy(), self.distances.copy(), self.codes.copy())
 
     def cast(self, body: BodyView) -> None:
-        """Fills ``codes`` and ``distances``.
+        """Cast the rays: fill ``codes`` and ``distances``.
 
         Args:
-            body: where the eye sits; it turns with it.
+            body: the body that carries the eye.
         """
         self._aim(body, self._flat_reach)
-        # until the end, the distances are those in the plane, and infinite for nothing
+        # until the end, distances are those in the plane, and infinite without a hit
         codes, flat = self.codes, self.distances
         if self._compiled:
             if self._compiled.cast(self.origin, *self._open_heights()):
@@ -76,8 +76,8 @@ class RayGrid(Caster):
         else:
             codes.fill(self._miss)
             flat.fill(math.inf)
-            self._look_at_grounds()
-            undecided = self._look_at_firsts()
+            self._enter_grounds()
+            undecided = self._enter_first_hits()
         for column in np.flatnonzero(undecided.any(axis=0)).tolist():
             obstacles = self._cut(column, self._flat_reach)
             for row in np.flatnonzero(undecided[:, column]).tolist():
@@ -90,18 +90,18 @@ class RayGrid(Caster):
         codes[beyond], flat[beyond] = self._miss, 0.0
         flat /= self._cos
 
-    def _learn(self, body: BodyView) -> None:
-        super()._learn(body)
+    def _update(self, body: BodyView) -> None:
+        super()._update(body)
         if self._compiled:
             self._compiled.update(self._bodies, self._codes, self._grounds)
 
     def _open_heights(self) -> tuple[float, float]:
-        """Between which heights a ray may meet more than what stands first in its column."""
-        # below the ground there is nothing, and nothing above the highest top
-        return (0.0, self._highest_top) if self._simple() else (-math.inf, math.inf)
+        """Return the heights between which a ray may hit more than its column's first body."""
+        # nothing is below the ground or above the highest top
+        return (0.0, self._highest_top) if self._is_flat_scene() else (-math.inf, math.inf)
 
-    def _look_at_grounds(self) -> None:
-        """Enters the floors that the rays meet."""
+    def _enter_grounds(self) -> None:
+        """Enter the hits of floors."""
         x, y, up = self.origin
         codes, flat, directions = self.codes, self.distances, self.directions
         for top, region, code in self._grounds:
@@ -112,16 +112,16 @@ class RayGrid(Caster):
             np.copyto(flat, far, where=met)
             codes[met] = code
 
-    def _look_at_firsts(self) -> npt.NDArray[np.bool_]:
-        """Enters the rays that end on the side of what stands first in their column.
+    def _enter_first_hits(self) -> npt.NDArray[np.bool_]:
+        """Enter the rays that end on the side of their column's first body.
 
         Returns:
-            Which rays may meet something else: a top, or what stands behind.
+            (m, n) True for rays that may hit something else: a top, or a body behind.
         """
         alpha, near, keys = self._segments.alpha, self._segments.distances, self._segments.shapes()
         firsts = [self._bodies.get(key) for key in keys]
         low, high = np.array(
-            [(first.z, first.z + first.height) if first else NOWHERE for first in firsts]
+            [(first.z, first.z + first.height) if first else NO_HEIGHTS for first in firsts]
         ).T
         at_near = self.origin[2] + self._slopes[:, None] * near
         reached = (near < self.distances) & (alpha < 1.0)
@@ -135,7 +135,7 @@ class RayGrid(Caster):
 
 
 def _meet(obstacle: Obstacle, up: float, slope: float) -> float:
-    """How far away in the plane a ray enters an obstacle; infinite if it does not."""
+    """Return the distance in the plane at which a ray enters an obstacle, or infinity."""
     near, far, low, high, _ = obstacle
     if slope == 0.0:
         return near if low <= up <= high else math.inf

@@ -1,7 +1,7 @@
-"""Rays: what lies in which direction, and how far.
+"""Rays: code and distance of the first thing in each direction.
 
-Two forms, both cast from an eye on a body: a flat fan (one ray a direction, level with the eye),
-and, in ray_grid.py, a grid in perspective.
+Two forms are cast from an eye on a body: a flat fan (one level ray in each direction) and, in
+ray_grid.py, a perspective grid.
 """
 
 import math
@@ -22,17 +22,17 @@ if TYPE_CHECKING:
 
 Floats = npt.NDArray[np.float64]
 CodeOf = Callable[[Sequence[str]], float]
-"""Gives the code of something from its tags."""
+"""Function that returns a code for the tags of a body or a floor."""
 
 
 GROUND_TAGS = ("floor",)
-"""The tags of the endless ground of a world without floors."""
+"""Tags of the endless ground of a world without floors."""
 
 _position, _angle = MOTION.position, MOTION.angle
 
 
 class Obstacle(NamedTuple):
-    """What a vertical sheet through the eye cuts: from ``near`` to ``far``, ``low`` to ``high``."""
+    """Section of a body by a vertical plane through the eye, metres: distances and heights."""
 
     near: float
     far: float
@@ -42,18 +42,18 @@ class Obstacle(NamedTuple):
 
 
 class Cast(NamedTuple):
-    """What a fan or a grid met at one cast, kept for later."""
+    """A copy of one cast's results."""
 
     origin: tuple[float, float, float]
-    """Where the eye was: world frame, metres."""
+    """Position of the eye: world frame, metres."""
     directions: Floats
-    """Where each column looked."""
+    """Unit vector of each column, world frame."""
     distances: Floats
     codes: Floats
 
 
-class Caster:
-    """What the fan and the grid share: directions, codes, and the first hit of each direction."""
+class RayCaster:
+    """Common part of fan and grid: directions, codes, and the first hit in each direction."""
 
     def __init__(
         self,
@@ -73,7 +73,7 @@ class Caster:
         self._code_of = code_of
         self._miss = code_of(())
         self._segments = make_segments(len(self.angles))
-        self._learnt = -1
+        self._generation = -1
         self._looker: BodyView | None = None
         self._codes: dict[int, float] = {}
         self._bodies: dict[int, BodyView] = {}
@@ -83,20 +83,20 @@ class Caster:
         self._lowest_top = self._highest_top = 0.0
         self._filter = pymunk.ShapeFilter()
         self.origin = (0.0, 0.0, 0.0)
-        """Where the eye was at the last cast: world frame, metres."""
-        # a pair (x, y) side by side is a complex number, and to turn it is to multiply;
-        # for numpy, an array of one number is half the work of a number
+        """Position of the eye at the last cast: world frame, metres."""
+        # a pair (x, y) is viewed as a complex number, so that turning is multiplying; for numpy, an
+        # array of one number is half the work of a Python number
         self._spokes = np.cos(self.angles) + 1j * np.sin(self.angles)
         self._turn = np.zeros((), np.complex128)
         self.directions = self._segments.directions
-        """Where each column looked at the last cast: unit vectors, world frame."""
+        """Unit vector of each column at the last cast, world frame."""
         self._turned = self.directions.view(np.complex128)[:, 0]
         self._turned[:] = self._spokes
 
     def _aim(self, body: BodyView, reach: float) -> None:
-        """Turns the directions with the body and finds what each meets first in the plane."""
-        if self._learnt != self._world.generation or self._looker is not body:
-            self._learn(body)
+        """Turn the directions with the body and find the first hit of each in the plane."""
+        if self._generation != self._world.generation or self._looker is not body:
+            self._update(body)
         forward, left, up = self.eye
         place, heading = _position(body._handle), _angle(body._handle)
         x, y, cos, sin = place.x, place.y, math.cos(heading), math.sin(heading)
@@ -107,30 +107,30 @@ class Caster:
         multiply(self._spokes, self._turn, self._turned)
         self._segments.cast(self._world.space, x, y, reach, self._filter)
 
-    def _learn(self, body: BodyView) -> None:
-        """Looks up the codes of everything, once for each build of the world."""
+    def _update(self, body: BodyView) -> None:
+        """Look up the codes of everything, after each change of the world's contents."""
         world = self._world
-        self._learnt, self._looker = world.generation, body
+        self._generation, self._looker = world.generation, body
         self._bodies = {shape_key(shape): owner for shape, owner in world.owners.items()}
         self._body_codes = {owner: self._code_of(owner.tags) for owner in self._bodies.values()}
         self._codes = {key: self._body_codes[owner] for key, owner in self._bodies.items()}
         self._codes[0] = self._miss
         self._grounds = [
             (floor.top, region, self._code_of(floor.tags))
-            for floor, region in world._floor_regions()
+            for floor, region in world._registry.floors.values()
         ] or [(0.0, None, self._code_of(GROUND_TAGS))]
         seen = [
             other for other in world.bodies.values() if other is not body or not self._exclude_self
         ]
         tops = [other.height for other in seen] or [math.inf]
         self._lowest_top, self._highest_top = min(tops), max(tops)
-        # what moves can leave the ground at any time, and is looked at in each cast
+        # bodies that move can leave the ground at any time, and are checked at each cast
         self._flat = all(other.moves or other.z == 0.0 for other in seen)
         self._filter = world.filter_for(body if self._exclude_self else None, self._mask)
 
-    def _simple(self) -> bool:
-        """Whether everything stands at height 0 and is as high as the eye."""
-        movers = self._world._height.movers
+    def _is_flat_scene(self) -> bool:
+        """Return True if everything stands at height 0 and is at least as high as the eye."""
+        movers = self._world._physics.height.movers
         return (
             self._flat
             and 0.0 <= self.origin[2] <= self._lowest_top
@@ -138,7 +138,7 @@ class Caster:
         )
 
     def _cut(self, column: int, reach: float) -> list[Obstacle]:
-        """Everything in one column within reach, whatever its height, nearest first."""
+        """Return everything in one column within reach, at any height, nearest first."""
         x, y, _ = self.origin
         dx, dy = self.directions[column].tolist()
         end_x, end_y = dx * reach + x, dy * reach + y
@@ -159,11 +159,11 @@ class Caster:
         return sorted(obstacles)
 
 
-class RayFan(Caster):
+class RayFan(RayCaster):
     """A flat fan: one level ray in each direction.
 
     Attributes:
-        distances: (n,) metres to what each ray met; 0 where nothing was met.
+        distances: (n,) metres to each ray's hit; 0 without a hit.
     """
 
     def __init__(
@@ -183,29 +183,29 @@ class RayFan(Caster):
         self._codes_known = True
 
     def cast(self, body: BodyView) -> None:
-        """Fills ``distances``, and what ``codes`` tells.
+        """Cast the rays: fill ``distances`` and ``codes``.
 
         Args:
-            body: where the eye sits; it turns with it.
+            body: the body that carries the eye.
         """
         self._aim(body, self.reach)
         self._codes_known = False
-        if not self._simple():
-            self._look_at_heights()
+        if not self._is_flat_scene():
+            self._correct_for_heights()
 
-    def kept(self) -> Cast:
-        """The last cast."""
+    def last_cast(self) -> Cast:
+        """Return a copy of the last cast."""
         return Cast(self.origin, self.directions.copy(), self.distances.copy(), self.codes.copy())
 
     @property
     def codes(self) -> Floats:
-        """(n,) what each ray met, as ``code_of`` its tags; looked up when they are asked for."""
+        """(n,) code of each ray's hit; looked up when it is asked for."""
         if not self._codes_known:
             self._codes_known = True
             self._codes_met[:] = [*map(self._codes.__getitem__, self._segments.shapes())]
         return self._codes_met
 
-    def _look_at_heights(self) -> None:
+    def _correct_for_heights(self) -> None:
         level = self.origin[2]
         for column, key in enumerate(self._segments.shapes()):
             if not key:

@@ -1,4 +1,4 @@
-"""A region put in its place: which points of the world lie in it."""
+"""Floors and areas in world coordinates."""
 
 import math
 from collections.abc import Callable
@@ -15,7 +15,7 @@ class Region:
     """A floor or an area in world coordinates.
 
     Args:
-        description: what the region is; kept as ``description``.
+        description: kept as ``description``.
     """
 
     def __init__(self, description: RegionDescription) -> None:
@@ -30,9 +30,9 @@ class Region:
         self._box = shape.size if isinstance(shape, BoxShape) and heading == 0.0 else None
 
     def contains(self, x: float, y: float) -> bool:
-        """Whether a point of the world (metres) lies in the region; its rim belongs to it."""
+        """Return True if a point of the world (metres) lies in the region or on its rim."""
         if self._box is not None:
-            # most floors are upright boxes, and every mover asks its floor every tick
+            # most floors are boxes that are not turned, and each mover tests its floor at each tick
             return 2 * abs(x - self.x) <= self._box[0] and 2 * abs(y - self.y) <= self._box[1]
         inside: bool = self._contains(*self._to_local(x, y))
         return inside
@@ -40,7 +40,7 @@ class Region:
     def contains_each(
         self, x: npt.NDArray[np.float64], y: npt.NDArray[np.float64]
     ) -> npt.NDArray[np.bool_]:
-        """The same for many points of the world, given as arrays of one form."""
+        """Return :meth:`contains` for many points, given as arrays of the same shape."""
         if self._box is not None:
             a, b = self._box
             upright: npt.NDArray[np.bool_] = np.abs(x - self.x) * 2 <= a
@@ -50,11 +50,11 @@ class Region:
         return inside
 
     def outline(self) -> list[tuple[float, float]]:
-        """The rim in world coordinates, counter-clockwise."""
+        """Return the rim in world coordinates, counter-clockwise."""
         return self.placed(self.description.shape.outline())
 
     def placed(self, points: list[tuple[float, float]]) -> list[tuple[float, float]]:
-        """Points of the region's own frame in world coordinates."""
+        """Return points of the region's own frame in world coordinates."""
         return [
             (self.x + self.cos * x - self.sin * y, self.y + self.sin * x + self.cos * y)
             for x, y in points

@@ -1,7 +1,7 @@
-"""Shapes as descriptions: what a body, a floor or an area looks like from above.
+"""Descriptions of shapes: bodies, floors and areas seen from above.
 
-All lengths in metres, in the frame of what carries the shape (x forward, y left). What can be a
-region says ``contains`` in plain arithmetic, so that it answers for arrays as well as for numbers.
+All lengths are metres, in the frame of the body or region (x forward, y left). ``contains`` of
+shapes that a region may have is plain arithmetic, so it works for arrays as well as for numbers.
 """
 
 import itertools
@@ -17,7 +17,7 @@ OUTLINE_CORNERS = 48
 
 
 class Description(BaseModel):
-    """The base of all that a scene file can say: frozen, nothing unknown, nothing infinite."""
+    """The base of everything in a scene file: frozen, no unknown fields, finite numbers only."""
 
     model_config = ConfigDict(
         frozen=True, extra="forbid", allow_inf_nan=False, use_attribute_docstrings=True
@@ -38,7 +38,7 @@ class Description(BaseModel):
             told.details = error
             raise told from None
 
-    # a description inside another one is no call of the constructor, and reports with its path
+    # a nested description is made without the constructor; its errors are reported with a path
     __init__.__pydantic_base_init__ = True  # type: ignore[attr-defined]
 
 
@@ -46,8 +46,8 @@ class Shape(Description):
     """The base of all shapes."""
 
     def scaled(self, times: float) -> Self:
-        """The same shape, so many times as large."""
-        # whatever a shape has beside its type is a length, or lengths
+        """Return the shape scaled by a factor."""
+        # all fields of a shape except its type are lengths
         lengths = {name: _times(value, times) for name, value in self if name != "type"}
         return self if times == 1.0 else self.model_copy(update=lengths)
 
@@ -64,11 +64,11 @@ class CircleShape(Shape):
         return self.radius
 
     def contains(self, x: float, y: float) -> bool:
-        """Whether a point of the shape's own frame lies in it."""
+        """Return True if a point of the shape's own frame lies in it."""
         return x * x + y * y <= self.radius * self.radius
 
     def outline(self) -> list[tuple[float, float]]:
-        """Corners of a polygon that looks like the shape, counter-clockwise."""
+        """Return the corners of a polygon that approximates the shape, counter-clockwise."""
         return _arc(self.radius, 0, 2 * math.pi, OUTLINE_CORNERS)
 
 
@@ -84,11 +84,11 @@ class BoxShape(Shape):
         return math.hypot(*self.size) / 2
 
     def contains(self, x: float, y: float) -> bool:
-        """Whether a point of the shape's own frame lies in it."""
+        """Return True if a point of the shape's own frame lies in it."""
         return (2 * abs(x) <= self.size[0]) & (2 * abs(y) <= self.size[1])
 
     def outline(self) -> list[tuple[float, float]]:
-        """The four corners, counter-clockwise."""
+        """Return the four corners, counter-clockwise."""
         a, b = self.size[0] / 2, self.size[1] / 2
         return [(a, b), (-a, b), (-a, -b), (a, -b)]
 
@@ -130,7 +130,7 @@ class PolygonShape(Shape):
         return max(math.hypot(*corner) for corner in self.vertices)
 
     def contains(self, x: float, y: float) -> bool:
-        """Whether a point of the shape's own frame lies in it."""
+        """Return True if a point of the shape's own frame lies in it."""
         inside = True
         ax, ay = self.vertices[-1]
         for bx, by in self.vertices:
@@ -139,7 +139,7 @@ class PolygonShape(Shape):
         return inside
 
     def outline(self) -> list[tuple[float, float]]:
-        """The corners, counter-clockwise."""
+        """Return the corners, counter-clockwise."""
         return list(self.vertices)
 
 
@@ -156,13 +156,13 @@ class CapsuleShape(Shape):
         return self.length / 2 + self.radius
 
     def contains(self, x: float, y: float) -> bool:
-        """Whether a point of the shape's own frame lies in it."""
+        """Return True if a point of the shape's own frame lies in it."""
         past = abs(x) - self.length / 2
         past *= past > 0
         return past * past + y * y <= self.radius * self.radius
 
     def outline(self) -> list[tuple[float, float]]:
-        """Corners of a polygon that looks like the shape, counter-clockwise."""
+        """Return the corners of a polygon that approximates the shape, counter-clockwise."""
         half, n = self.length / 2, OUTLINE_CORNERS // 2
         right = _arc(self.radius, -math.pi / 2, math.pi / 2, n)
         left = _arc(self.radius, math.pi / 2, 3 * math.pi / 2, n)
@@ -191,14 +191,14 @@ class SegmentShape(Shape):
         return max(math.hypot(*self.a), math.hypot(*self.b)) + self.thickness / 2
 
     def contains(self, x: float, y: float) -> bool:
-        """Whether a point of the shape's own frame lies in it."""
+        """Return True if a point of the shape's own frame lies in it."""
         (ax, ay), (bx, by) = self.a, self.b
         dx, dy = bx - ax, by - ay
         t = max(0.0, min(1.0, ((x - ax) * dx + (y - ay) * dy) / (dx * dx + dy * dy)))
         return math.hypot(x - ax - t * dx, y - ay - t * dy) <= self.thickness / 2
 
     def outline(self) -> list[tuple[float, float]]:
-        """Corners of a polygon that looks like the shape, counter-clockwise."""
+        """Return the corners of a polygon that approximates the shape, counter-clockwise."""
         (ax, ay), (bx, by) = self.a, self.b
         heading, radius, n = math.atan2(by - ay, bx - ax), self.thickness / 2, 8
         front = _arc(radius, heading - math.pi / 2, heading + math.pi / 2, n)
@@ -225,16 +225,16 @@ class RingShape(Shape):
         return self.outer
 
     def contains(self, x: float, y: float) -> bool:
-        """Whether a point of the shape's own frame lies in it."""
+        """Return True if a point of the shape's own frame lies in it."""
         far = x * x + y * y
         return (self.inner * self.inner <= far) & (far <= self.outer * self.outer)
 
     def outline(self) -> list[tuple[float, float]]:
-        """The outer rim, counter-clockwise; the hole is :meth:`hole`."""
+        """Return the outer rim, counter-clockwise; the inner one is :meth:`hole`."""
         return _arc(self.outer, 0, 2 * math.pi, 2 * OUTLINE_CORNERS)
 
     def hole(self) -> list[tuple[float, float]]:
-        """The inner rim, counter-clockwise."""
+        """Return the inner rim, counter-clockwise."""
         return _arc(self.inner, 0, 2 * math.pi, 2 * OUTLINE_CORNERS)
 
 
@@ -261,8 +261,8 @@ RegionShape = Annotated[
 
 
 def _area(corners: "tuple[Point, ...]") -> float:
-    """The area of a polygon with counter-clockwise corners."""
-    x0, y0 = corners[0]  # from a corner: far from the origin the products would be inexact
+    """Return the area of a polygon with counter-clockwise corners."""
+    x0, y0 = corners[0]  # relative to a corner: far from the origin the products would be inexact
     area = 0.0
     for (x1, y1), (x2, y2) in itertools.pairwise(corners[1:]):
         area += ((x1 - x0) * (y2 - y0) - (x2 - x0) * (y1 - y0)) / 2

@@ -1,4 +1,4 @@
-"""What of a thing is drawn anew for each episode."""
+"""Values of a thing that are sampled anew for each episode."""
 
 from typing import Annotated, Self
 
@@ -21,11 +21,11 @@ Times = Annotated[float, quantity("1", gt=0, le=100), not_below(1e-3)]
 
 
 class Variation(Description):
-    """Where chance may put a thing, turn it and scale it; what is left out is as described.
+    """Ranges for a thing's place, heading and scale; what is left out is as described.
 
-    Every number is drawn evenly from its range, by the world's seed and the thing's name. A body
-    is drawn again while it would overlap another one, or not stand wholly on floor (where there
-    are floors).
+    Every number is sampled uniformly from its range, by the world's seed and the thing's name. A
+    body is sampled again while it would overlap another one, or not stand wholly on a floor (where
+    there are floors).
 
     >>> Variation(x=(-4, 4), heading_deg=(-180, 180))
     Variation(x -4..4, heading_deg -180..180)
@@ -60,7 +60,7 @@ got [4.0, -4.0]
         return self
 
     def __str__(self) -> str:
-        """The ranges in a few words, for messages."""
+        """Return the ranges in a few words, for messages."""
         words = [
             f"{name} {ends[0]:g}..{ends[1]:g}"
             for name in ("x", "y", "heading_deg", "scale")

@@ -1,4 +1,4 @@
-"""What a block may ask of the world; to be read, not to be changed."""
+"""Read-only access to a world for blocks."""
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 
 class WorldView:
-    """The world as sensors and rewards see it.
+    """A world as sensors and reward functions see it.
 
     >>> from ai4u_edu.world import CircleShape, World
     >>> world = World()
@@ -36,12 +36,12 @@ class WorldView:
         self._world = world
 
     def __getitem__(self, name: str) -> BodyView:
-        """The body of that name.
+        """Return the body of a name.
 
         Raises:
-            NameNotFoundError: there is none; the message suggests the nearest name.
+            NameNotFoundError: no body has it; the message suggests the nearest name.
         """
-        body = self._world._bodies.get(name)
+        body = self._world._registry.bodies.get(name)
         return self._world[name] if body is None else body
 
     def __contains__(self, name: str) -> bool:
@@ -57,7 +57,7 @@ class WorldView:
 
     @property
     def dt(self) -> float:
-        """A tick's length in seconds."""
+        """Length of a tick in seconds."""
         return self._world.dt
 
     @property
@@ -67,7 +67,7 @@ class WorldView:
 
     @property
     def generation(self) -> int:
-        """Grows whenever bodies, floors or areas come or go: what was learnt of them is old."""
+        """A number that grows whenever bodies, floors or areas come or go, to invalidate caches."""
         return self._world.generation
 
     @property
@@ -81,11 +81,11 @@ class WorldView:
         return self._world.areas
 
     def named(self, tag: str) -> tuple[str, ...]:
-        """The names of all bodies that carry a tag."""
+        """Return the names of all bodies that carry a tag."""
         return tuple(name for name, body in self._world.bodies.items() if tag in body.tags)
 
     def tags(self, *kinds: Literal["bodies", "floors", "areas"]) -> set[str]:
-        """The tags that something of these kinds carries; of all kinds if none is named.
+        """Return the tags of all things of these kinds; of all kinds if none is given.
 
         Endless ground counts as a floor with the tag "floor".
         """
@@ -98,65 +98,65 @@ class WorldView:
         return {tag for kind in kinds or things for tags in things[kind] for tag in tags}
 
     def check_target(self, name: str) -> None:
-        """Raises NameNotFoundError, with a suggestion, unless a body or an area has that name."""
+        """Raise NameNotFoundError, with a suggestion, unless a body or an area has that name."""
         if name not in self:
             known = [*self._world.bodies, *self._world.areas]
             raise NameNotFoundError(f"no body or area is named {name!r}; {suggest(name, known)}")
 
     def check_group(self, tag: str) -> None:
-        """Raises NameNotFoundError, with a suggestion, unless some body carries that tag."""
+        """Raise NameNotFoundError, with a suggestion, unless some body carries that tag."""
         known = self.tags("bodies")
         if tag not in known:
             raise NameNotFoundError(f"no body carries the tag {tag!r}; {suggest(tag, known)}")
 
     def ground(self, x: float, y: float) -> float | None:
-        """The height of the highest floor at a place (metres); None over the void."""
+        """Return the height of the highest floor at a place (metres); None over the void."""
         return self._world.ground(x, y)
 
     def touching(self, body: BodyView, target: str) -> bool:
-        """Whether an agent's body touches another body now, or its centre is in an area."""
-        area = self._world._areas.get(target)
+        """Return True if an agent's body touches another body, or its centre is in an area."""
+        area = self._world._registry.areas.get(target)
         if area is not None:
             return area.contains(*body.position)
         return target in self._world.contacts.of(body.name)
 
     def touched_after(self, body: BodyView, target: str, tick: int) -> bool:
-        """Whether they touch now, or touched at any tick after the given one."""
-        if target in self._world._areas:
+        """Return True if they touch now, or touched at any tick after the given one."""
+        if target in self._world._registry.areas:
             return self.touching(body, target)
         return self._world.contacts.touched_after(body.name, target, tick)
 
     def contacts(self, body: BodyView) -> tuple[str, ...]:
-        """The names of all bodies that an agent's body touches now."""
+        """Return the names of all bodies that an agent's body touches."""
         return self._world.contacts.of(body.name)
 
     def bounds(self) -> tuple[tuple[float, float], tuple[float, float]]:
-        """A rectangle ((x0, y0), (x1, y1)) around all floors and bodies, in any episode."""
+        """Return a rectangle ((x0, y0), (x1, y1)) around all floors and bodies, in any episode."""
         return self._world.bounds()
 
     def diagonal(self) -> float:
-        """The longest way across :meth:`bounds`, metres."""
+        """Return the diagonal of :meth:`bounds`, metres."""
         (left, low), (right, high) = self._world.bounds()
         return math.hypot(right - left, high - low)
 
     def sees(self, looker: BodyView, target: BodyView, up: float = 0.5) -> bool:
-        """Whether nothing stands between two bodies.
+        """Return True if no third body stands between two bodies.
 
         Args:
-            looker: whose eye it is.
-            target: what is looked at.
-            up: how far above its underside each has its eye, metres.
+            looker: one of the two.
+            target: the other one.
+            up: height of each one's eye above its underside, metres.
         """
         return line_of_sight(self._world, looker, target, up)
 
     def random(self, name: str) -> np.random.Generator:
-        """The generator that belongs to a block's name, from the world's seed."""
+        """Return the random generator of a block's name, made from the world's seed."""
         return self._world.seeds.child(name)
 
     def ray_fan(
         self, angles: Sequence[float], reach: float, code_of: CodeOf, **options: Any
     ) -> RayFan:
-        """A fan of level rays; angles in radians from the heading, counter-clockwise."""
+        """Return a fan of level rays; angles in radians from the heading, counter-clockwise."""
         return RayFan(self._world, angles, reach, code_of, **options)
 
     def ray_grid(
@@ -167,5 +167,5 @@ class WorldView:
         code_of: CodeOf,
         **options: Any,
     ) -> RayGrid:
-        """A grid of rays in perspective; pitches in radians, upwards positive."""
+        """Return a perspective grid of rays; pitches in radians, upwards positive."""
         return RayGrid(self._world, angles, pitches, reach, code_of, **options)

@@ -18,7 +18,7 @@ from websockets.sync.connection import Connection
 from websockets.typing import Subprotocol
 from zstandard import ZstdDecompressor
 
-from ai4u_edu.server import ServerThread, page_messages, proxy, room_app, shut_side_door
+from ai4u_edu.server import ServerThread, lock_viser_port, page_messages, proxy, room_app
 from ai4u_edu.server.page_messages import MAX_PART_BYTES
 from ai4u_edu.viewer import Viewer
 from ai4u_edu.viewer.panel.blocks_tab import BlocksTab
@@ -44,12 +44,14 @@ class Room(NamedTuple):
 @pytest.fixture
 def room(monkeypatch: pytest.MonkeyPatch) -> Iterator[Room]:
     """A world that stands still, and all that a room has."""
-    monkeypatch.setattr(proxy, "UPWARD", 1e9)  # these tests are not to take as long as a page would
+    monkeypatch.setattr(
+        proxy, "MAX_MESSAGES_PER_S", 1e9
+    )  # these tests are not to take as long as a page would
     shop = Shop(record=True)
     shop.runner.pause()
     shop.runner.start()
     viewer = Viewer(shop.runner, editor=shop.editor)
-    shut_side_door(viewer.server)
+    lock_viser_port(viewer.server)
     try:
         with ServerThread(room_app(shop.runner, viser_port=viewer.port, title="A room")) as server:
             yield Room(server.url, viewer, shop)

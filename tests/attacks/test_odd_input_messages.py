@@ -47,8 +47,8 @@ def room() -> Iterator[Room]:
 @pytest.fixture(autouse=True)
 def unlimited(monkeypatch: pytest.MonkeyPatch) -> None:
     """Mistakes don't end the connection, nor does their number, so that all are listened to."""
-    monkeypatch.setattr(input_socket, "MISTAKES", 10**6)
-    monkeypatch.setattr(input_socket, "PER_SECOND", 10**6)
+    monkeypatch.setattr(input_socket, "MAX_MISTAKES", 10**6)
+    monkeypatch.setattr(input_socket, "MAX_MESSAGES_PER_S", 10**6)
 
 
 def opened(room: Room) -> Page:
@@ -80,7 +80,7 @@ def harmless(text: str | bytes) -> bool:
     if isinstance(said, messages.Keys):
         pushed = said.stick.forward, said.stick.turn
         return all(-1 <= each <= 1 for each in pushed) and len(said.held) <= 16
-    return not isinstance(said, messages.Order) or said.seed is None or 0 <= said.seed < 2**53
+    return not isinstance(said, messages.Command) or said.seed is None or 0 <= said.seed < 2**53
 
 
 def test_whatever_stands_in_a_field_is_in_range_or_refused() -> None:
@@ -139,8 +139,8 @@ def test_a_large_message_ends_its_connection_alone(
 def test_junk_and_floods_end_their_connection_alone(
     room: Room, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
 ) -> None:
-    monkeypatch.setattr(input_socket, "MISTAKES", 5)
-    monkeypatch.setattr(input_socket, "PER_SECOND", 200)
+    monkeypatch.setattr(input_socket, "MAX_MISTAKES", 5)
+    monkeypatch.setattr(input_socket, "MAX_MESSAGES_PER_S", 200)
     with opened(room) as other:
         for message in ("junk", '{"type": "take"}', '{"type": "let_go"}', b"\xff"):
             with opened(room) as page:

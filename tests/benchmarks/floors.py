@@ -20,7 +20,7 @@ import pymunk
 from pymunk._chipmunk_cffi import ffi, lib
 
 from ai4u_edu.agent.cycle import ControlRequestor
-from ai4u_edu.world.world import BIAS, SLOP
+from ai4u_edu.world.physics import COLLISION_BIAS, COLLISION_SLOP_M
 
 RAYS, REACH, TICKS, DT = 32, 10.0, 4, 1 / 60
 FORCE, TURN, PRIZE, LIMIT = 12.0, 3.0, 10.0, 300
@@ -39,7 +39,7 @@ class PublicFloor:
     def __init__(self, sim: ControlRequestor) -> None:
         space = self.space = pymunk.Space()
         space.damping = sim.world.settings.damping
-        space.collision_slop, space.collision_bias = SLOP, BIAS
+        space.collision_slop, space.collision_bias = COLLISION_SLOP_M, COLLISION_BIAS
         kinds = {"static": pymunk.Body.STATIC, "dynamic": pymunk.Body.DYNAMIC}
         bodies = {}
         for theirs in sim.world.bodies.values():

@@ -11,7 +11,7 @@ from typing import Any
 
 from ai4u_edu.scenes import Scene
 from ai4u_edu.scenes.yaml.file import write_yaml
-from ai4u_edu.world import overlap, world
+from ai4u_edu.world import construction, overlap
 
 WALLS = 499
 TIMES = 3
@@ -26,7 +26,7 @@ def query(space_world: Any, body: Any) -> Any:
                 continue
             found = [point.distance for point in hit.contact_point_set.points]
             level = overlap._level(body, other)
-            if level and overlap.overlap(shape, body._pm, hit.shape, other._pm, found):
+            if level and overlap.is_overlap(shape, body._pm, hit.shape, other._pm, found):
                 return other
     return None
 
@@ -43,8 +43,8 @@ def walls(count: int = WALLS) -> str:
 
 def timed(text: str, way: Callable[[Any, Any], Any]) -> float:
     """Seconds of processor time to load the scene, run 40 ticks, and dump it."""
-    before = vars(world)["in_the_way"]
-    vars(world)["in_the_way"] = way
+    before = vars(construction)["find_overlap"]
+    vars(construction)["find_overlap"] = way
     try:
         began = time.process_time()
         scene = Scene.loads(text)
@@ -55,13 +55,13 @@ def timed(text: str, way: Callable[[Any, Any], Any]) -> float:
         scene.dumps()
         return time.process_time() - began
     finally:
-        vars(world)["in_the_way"] = before
+        vars(construction)["find_overlap"] = before
 
 
 def main() -> None:
     """Prints the least of some times, for both ways."""
     text = walls()
-    both = [(timed(text, query), timed(text, overlap.in_the_way)) for _ in range(TIMES)]
+    both = [(timed(text, query), timed(text, overlap.find_overlap)) for _ in range(TIMES)]
     asked, now = (min(times) for times in zip(*both, strict=True))
     print(f"{WALLS} walls on one spot: load, 40 ticks, dump: {asked:.2f} s, now {now:.2f} s")
 

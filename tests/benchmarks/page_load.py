@@ -17,7 +17,8 @@ from typing import NamedTuple
 
 import psutil
 
-from tests.playing import browser, played
+from tests.chromium import browser
+from tests.playing import played
 
 ROOT = Path(__file__).resolve().parents[2]
 COUNT = """() => {

@@ -9,7 +9,8 @@ import time
 
 import psutil
 
-from tests.playing import browser, played
+from tests.chromium import browser
+from tests.playing import played
 
 
 def main() -> None:

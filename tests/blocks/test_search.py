@@ -47,7 +47,12 @@ def steps_to(free: Map, start: Cell, goals: list[Cell]) -> int | None:
     return None
 
 
-@pytest.mark.parametrize("seed", range(60))
+NIGHTLY = pytest.mark.nightly
+
+
+@pytest.mark.parametrize(
+    "seed", [seed if seed < 12 else pytest.param(seed, marks=NIGHTLY) for seed in range(60)]
+)
 def test_a_shortest_way_to_the_nearest_goal(seed: int) -> None:
     free, start, goals = drawn(seed)
     nearest = steps_to(free, start, goals)
@@ -97,7 +102,9 @@ def driven(controller: Any, seed: int) -> BasicAgent:
     return robot
 
 
-@pytest.mark.parametrize("seed", range(20))
+@pytest.mark.parametrize(
+    "seed", [seed if seed < 3 else pytest.param(seed, marks=NIGHTLY) for seed in range(20)]
+)
 def test_both_clean_the_grid_world_in_the_same_time(seed: int) -> None:
     one, other = (driven(kind(), seed) for kind in (BreadthFirstController, AStarController))
     assert one.ledger.episode_terms["all_clean"] == 10.0

@@ -7,10 +7,10 @@ import viser
 from playwright.sync_api import Browser
 
 from ai4u_edu import CircleShape, ControlRequestor, RBMoveActuator, WASDRBMoveController, World
-from ai4u_edu.server import shut_side_door
+from ai4u_edu.server import lock_viser_port
 from tests.browser.theatre import SPEED, TURN, Theatre
 from tests.builders import small_sim
-from tests.playing import browser
+from tests.chromium import browser
 from tests.server.rooms import served
 
 
@@ -23,7 +23,7 @@ def chromium() -> Iterator[Browser]:
 @pytest.fixture
 def inner() -> Iterator[viser.ViserServer]:
     server = viser.ViserServer(host="127.0.0.1", port=0, verbose=False)
-    shut_side_door(server)
+    lock_viser_port(server)
     server.gui.configure_theme(show_logo=False, show_share_button=False)
     server.scene.add_grid("/grid")
     yield server

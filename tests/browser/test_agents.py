@@ -5,19 +5,20 @@ from collections.abc import Iterator
 import pytest
 from playwright.sync_api import Browser, Page, expect
 
+from tests.chromium import new_page
 from tests.playing import Played, played
 
 pytestmark = pytest.mark.browser
 
 
-@pytest.fixture
+@pytest.fixture(scope="module")
 def server() -> Iterator[Played]:
     with played("sumo", "--seed", "1") as server:
         yield server
 
 
 def opened(chromium: Browser, server: Played, query: str = "") -> Page:
-    page = chromium.new_page(viewport={"width": 1280, "height": 800})
+    page = new_page(chromium)
     page.goto(server.url + query)
     page.locator(".ai4u-driver", has_not_text="Connecting").wait_for()
     page.get_by_text("Senses", exact=True).wait_for()
@@ -39,7 +40,7 @@ def test_a_page_opens_with_its_own_agent_and_can_look_at_another(
     expect(second.locator(".ai4u p").first).to_have_text("blue")
     assert name_of_the_agent_in_the_panel(first) == "blue"
     for page in (first, second):
-        page.close()
+        page.context.close()
 
 
 def test_each_page_tells_the_end_of_its_own_agent(chromium: Browser, server: Played) -> None:
@@ -52,4 +53,4 @@ def test_each_page_tells_the_end_of_its_own_agent(chromium: Browser, server: Pla
     mine.keyboard.press("KeyR")
     expect(mine.locator(".ai4u-banner")).to_have_count(0)
     for page in (mine, theirs):
-        page.close()
+        page.context.close()

@@ -8,6 +8,7 @@ from typing import Any
 import pytest
 from playwright.sync_api import Browser, Locator, Page, expect
 
+from tests.chromium import new_page
 from tests.playing import Played, played
 from tests.server.rooms import until
 
@@ -58,7 +59,7 @@ def opened(chromium: Browser, server: Played) -> Iterator[Callable[[], Page]]:
     pages = []
 
     def open_page() -> Page:
-        page = chromium.new_page(viewport={"width": 1280, "height": 800})
+        page = new_page(chromium)
         pages.append(page)
         page.set_default_timeout(60_000)
         page.goto(server.url)
@@ -68,8 +69,7 @@ def opened(chromium: Browser, server: Played) -> Iterator[Callable[[], Page]]:
 
     yield open_page
     for page in pages:
-        if not page.is_closed():
-            page.close()
+        page.context.close()
     assert "Traceback" not in "".join(server.told)
 
 
@@ -222,13 +222,13 @@ def test_what_a_killed_server_left_is_offered(
     server.process.kill()
     with played(str(tmp_path / "bare.yaml")) as again:
         soon(lambda: any("is there: ai4u-edu play --restore" in line for line in again.told))
-        page = chromium.new_page(viewport={"width": 1280, "height": 800})
+        page = new_page(chromium)
         page.set_default_timeout(60_000)
         page.goto(again.url)
         page.get_by_role("tab", name="Blocks").click()
         page.get_by_text("An unsaved scene from").wait_for()
         press(page, "Bring it back")
         soon(lambda: "bearing" in agent(again)["percept"])
-        page.close()
+        page.context.close()
     with played("--restore") as again:
         assert "bearing" in agent(again)["percept"]

@@ -12,6 +12,7 @@ from ai4u_edu import ControlRequestor
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.server import RoomMount, ServerThread, room_app
 from tests.browser.theatre import Theatre, ready, seat
+from tests.chromium import new_page
 from tests.server.rooms import Room, free_port, served, until
 
 pytestmark = pytest.mark.browser
@@ -27,7 +28,7 @@ def test_a_room_under_a_path(
         viser_port=inner.get_port(),
         wrap=lambda app: Starlette(routes=[RoomMount("/user/ann/room", app)]),
     ) as room:
-        page = chromium.new_page()
+        page = new_page(chromium)
         page.goto(f"{room.url}user/ann/room{end}")
         ready(page)
         page.keyboard.down("KeyW")
@@ -36,7 +37,7 @@ def test_a_room_under_a_path(
         page.keyboard.up("KeyW")
         page.get_by_role("textbox").first.fill("hello")
         until(lambda: name.value == "hello")
-        page.close()
+        page.context.close()
 
 
 def test_a_page_comes_back_after_the_server_did(
@@ -47,7 +48,7 @@ def test_a_page_comes_back_after_the_server_did(
     room = Room(runner, "")
     port = free_port()
     app = room_app(runner, viser_port=inner.get_port(), title="A room")
-    page = chromium.new_page()
+    page = new_page(chromium)
     with ServerThread(app, port=port) as server:
         page.goto(server.url)
         ready(page)
@@ -62,7 +63,7 @@ def test_a_page_comes_back_after_the_server_did(
         page.keyboard.up("KeyW")
         page.keyboard.down("KeyW")
         until(lambda: room.held == ["KeyW"])
-        page.close()
+        page.context.close()
     runner.stop()
 
 
@@ -78,8 +79,7 @@ def other() -> Iterator[viser.ViserServer]:
 def test_a_link_cannot_send_the_page_to_another_viser(
     theatre: Theatre, other: viser.ViserServer, guarded: bool
 ) -> None:
-    context = theatre.chromium.new_context(bypass_csp=not guarded)
-    page = context.new_page()
+    page = new_page(theatre.chromium, bypass_csp=not guarded)
     page.goto(f"{theatre.room.url}?websocket=ws://127.0.0.1:{other.get_port()}")
     ready(page)
     if guarded:
@@ -87,13 +87,13 @@ def test_a_link_cannot_send_the_page_to_another_viser(
         assert other.get_clients() == {}
     else:
         until(other.get_clients)
-    context.close()
+    page.context.close()
 
 
 def test_a_foreign_page_neither_drives_nor_reads(
     theatre: Theatre, other: viser.ViserServer
 ) -> None:
-    page = theatre.chromium.new_page()
+    page = new_page(theatre.chromium)
     page.route("http://evil.example/", lambda route: route.fulfill(body="<p>evil</p>"))
     page.goto("http://evil.example/")
     listen = """([url, protocols]) => new Promise((done) => {
@@ -110,4 +110,4 @@ def test_a_foreign_page_neither_drives_nor_reads(
     assert page.evaluate(listen, [unguarded, version]) == "heard", "the browser forbids nothing"
     read = "url => fetch(url).then(() => 'read', () => 'refused')"
     assert page.evaluate(read, theatre.room.url + "api/snapshot") == "refused"
-    page.close()
+    page.context.close()

@@ -138,7 +138,7 @@ ARROWS = ["ArrowUp", "ArrowLeft", "ArrowDown", "ArrowRight"]
 
 
 def test_visers_camera_does_not_move(theatre: Theatre) -> None:
-    page = theatre.page()
+    page = theatre.page(has_viser=True)
     before = theatre.camera()
     for code in MOVING + ARROWS:
         page.keyboard.down(code)
@@ -153,7 +153,7 @@ def test_without_our_script_it_would_have_moved(theatre: Theatre) -> None:
     def leave_out(page: Page) -> None:
         page.route("**/web/main.js", lambda route: route.fulfill(body=""))
 
-    page = theatre.page(prepare=leave_out, wait=False)
+    page = theatre.page(has_viser=True, prepare=leave_out, wait=False)
     page.get_by_text("Name", exact=True).wait_for()
     before = theatre.camera()
     page.keyboard.down("KeyW")
@@ -161,7 +161,7 @@ def test_without_our_script_it_would_have_moved(theatre: Theatre) -> None:
 
 
 def test_typing_drives_nothing_and_arrives(theatre: Theatre) -> None:
-    page = theatre.page()
+    page = theatre.page(has_viser=True)
     page.get_by_role("textbox").first.click()
     page.keyboard.type("wasd r", delay=30)
     until(lambda: theatre.name.value == "wasd r")
@@ -215,7 +215,7 @@ def test_chords_drive_nothing_and_let_go(theatre: Theatre, modifier: str) -> Non
 
 
 def test_space_jumps_and_presses_no_button_that_was_clicked_before(theatre: Theatre) -> None:
-    page = theatre.page()
+    page = theatre.page(has_viser=True)
     page.get_by_role("button", name="Press me").click()
     until(lambda: len(theatre.clicks) == 1)
     page.keyboard.down("Space")
@@ -227,7 +227,7 @@ def test_space_jumps_and_presses_no_button_that_was_clicked_before(theatre: Thea
 
 
 def test_who_walks_by_tab_presses_buttons_with_space(theatre: Theatre) -> None:
-    page = theatre.page()
+    page = theatre.page(has_viser=True)
     page.get_by_role("textbox").first.focus()
     page.keyboard.press("Tab")
     page.wait_for_timeout(100)

@@ -21,10 +21,17 @@ from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.blocks.brains.controllers.keyboard import Stick
 from tests.browser.theatre import SPEED, Theatre, connected, ready, seat
 from tests.builders import small_sim
+from tests.chromium import new_page
 from tests.playing import Played, played
 from tests.server.rooms import until
 
 pytestmark = pytest.mark.browser
+
+
+@pytest.fixture(scope="module")
+def zoo() -> Iterator[Played]:
+    with played("box_chase", "--brain", "zoo", "--seed", "1") as server:
+        yield server
 
 
 def agent_of(theatre: Theatre) -> BasicAgent:
@@ -194,7 +201,7 @@ def test_where_nothing_can_be_remembered_keys_can_be_changed_all_the_same(
 
 
 def test_help_opens_on_a_question_mark_and_takes_the_keys(theatre: Theatre) -> None:
-    page = theatre.page()
+    page = theatre.page(has_viser=True)
     camera = theatre.camera()
     page.keyboard.down("KeyW")
     until(lambda: theatre.room.held == ["KeyW"])
@@ -237,7 +244,7 @@ def test_the_focus_stays_in_the_help_and_comes_back(theatre: Theatre) -> None:
 
 
 def test_a_question_mark_in_a_text_is_one(theatre: Theatre) -> None:
-    page = theatre.page()
+    page = theatre.page(has_viser=True)
     page.get_by_role("textbox").first.click()
     page.keyboard.type("why?")
     until(lambda: theatre.name.value == "why?")
@@ -292,7 +299,9 @@ def test_all_that_is_written_can_be_read(theatre: Theatre, scheme: str) -> None:
     dimmed = "color: var(--mantine-color-dimmed)"
     theatre.inner.gui.add_html(f"<div class='ai4u'><small style='{dimmed}'>dimmed</small></div>")
     query = "?darkMode" if scheme == "dark" else ""
-    page, watcher = (theatre.page(query, prepare=dress, wait=False) for _ in range(2))
+    page, watcher = (
+        theatre.page(query, has_viser=True, prepare=dress, wait=False) for _ in range(2)
+    )
     for each in (page, watcher):
         connected(each)
         each.get_by_text("dimmed").wait_for(state="attached")
@@ -331,29 +340,30 @@ def panel(page: Page) -> Locator:
     return page.get_by_role("checkbox", name="Dark", exact=True)
 
 
-def test_it_is_dark_where_the_system_is_until_somebody_says_otherwise(chromium: Browser) -> None:
-    with played("box_chase") as server:
-        page = chromium.new_page(color_scheme="dark", reduced_motion="reduce")
-        page.set_default_timeout(60_000)
-        page.goto(server.url)
-        expect(panel(page)).to_be_checked(timeout=40_000)
-        expect(page.locator("html")).to_have_attribute(SCHEME, "dark", timeout=40_000)
-        expect(page.locator("body")).to_be_visible()
-        for part in (".ai4u-keycap", ".ai4u-driver", "#root .mantine-Paper-root, #root input"):
-            until(lambda: max(page.evaluate(LIGHTNESS, part)) < 80, timeout=40)  # noqa: B023
-        panel(page).click()
-        expect(page.locator("html")).to_have_attribute(SCHEME, "light", timeout=40_000)
-        until(lambda: min(page.evaluate(LIGHTNESS, ".ai4u-keycap")) > 180, timeout=40)
-        page.reload()  # it is remembered, against the system's wish
-        expect(panel(page)).not_to_be_checked(timeout=40_000)
-        expect(page.locator("html")).to_have_attribute(SCHEME, "light", timeout=40_000)
-        panel(page).click()
-        expect(page.locator("html")).to_have_attribute(SCHEME, "dark", timeout=40_000)
-        page.emulate_media(color_scheme="light")
-        page.reload()
-        expect(panel(page)).to_be_checked(timeout=40_000)
-        expect(page.locator("html")).to_have_attribute(SCHEME, "dark", timeout=40_000)
-        page.close()
+def test_it_is_dark_where_the_system_is_until_somebody_says_otherwise(
+    chromium: Browser, zoo: Played
+) -> None:
+    page = new_page(chromium, color_scheme="dark", reduced_motion="reduce")
+    page.set_default_timeout(60_000)
+    page.goto(zoo.url)
+    expect(panel(page)).to_be_checked(timeout=40_000)
+    expect(page.locator("html")).to_have_attribute(SCHEME, "dark", timeout=40_000)
+    expect(page.locator("body")).to_be_visible()
+    for part in (".ai4u-keycap", ".ai4u-driver", "#root .mantine-Paper-root, #root input"):
+        until(lambda: max(page.evaluate(LIGHTNESS, part)) < 80, timeout=40)  # noqa: B023
+    panel(page).click()
+    expect(page.locator("html")).to_have_attribute(SCHEME, "light", timeout=40_000)
+    until(lambda: min(page.evaluate(LIGHTNESS, ".ai4u-keycap")) > 180, timeout=40)
+    page.reload()  # it is remembered, against the system's wish
+    expect(panel(page)).not_to_be_checked(timeout=40_000)
+    expect(page.locator("html")).to_have_attribute(SCHEME, "light", timeout=40_000)
+    panel(page).click()
+    expect(page.locator("html")).to_have_attribute(SCHEME, "dark", timeout=40_000)
+    page.emulate_media(color_scheme="light")
+    page.reload()
+    expect(panel(page)).to_be_checked(timeout=40_000)
+    expect(page.locator("html")).to_have_attribute(SCHEME, "dark", timeout=40_000)
+    page.context.close()
 
 
 NAMELESS = """() => [...document.querySelectorAll(
@@ -365,36 +375,35 @@ NAMELESS = """() => [...document.querySelectorAll(
 }).map((part) => part.outerHTML.slice(0, 200))"""
 
 
-def test_all_that_can_be_used_has_a_name(chromium: Browser) -> None:
-    with played("box_chase", "--seed", "1") as server:
-        page = chromium.new_page(viewport={"width": 1280, "height": 1200})
-        page.set_default_timeout(60_000)
-        page.goto(server.url)
-        connected(page)
-        page.keyboard.press("KeyR")  # there is a past then
-        for tab, last in {
-            "Agent": "Decision",
-            "Blocks": "Add",
-            "World": "Open a scene file",
-            "Past": "Open a recording",
-        }.items():
-            page.get_by_role("tab", name=tab).click()
-            page.get_by_role("button", name=last, exact=True).wait_for()
-            if tab == "Blocks":
-                page.get_by_role("button", name="Agent's settings").click()
-                page.get_by_role("textbox", name="reward scale").wait_for()
-            if tab == "Past":
-                page.get_by_label("Episode", exact=True).click()
-                page.get_by_role("option").nth(1).click()
-                page.get_by_role("slider", name="Moment").wait_for()
-            until(lambda: page.evaluate(NAMELESS) == [], timeout=40)
-        for name in ("Open a scene file", "Open a recording"):
-            expect(page.locator(f"input[type=file][aria-label='{name}']")).to_have_count(1)
-        page.close()
+def test_all_that_can_be_used_has_a_name(chromium: Browser, zoo: Played) -> None:
+    page = new_page(chromium, height=1200)
+    page.set_default_timeout(60_000)
+    page.goto(zoo.url)
+    connected(page)
+    page.keyboard.press("KeyR")  # there is a past then
+    for tab, last in {
+        "Agent": "Decision",
+        "Blocks": "Add",
+        "World": "Open a scene file",
+        "Past": "Open a recording",
+    }.items():
+        page.get_by_role("tab", name=tab).click()
+        page.get_by_role("button", name=last, exact=True).wait_for()
+        if tab == "Blocks":
+            page.get_by_role("button", name="Agent's settings").click()
+            page.get_by_role("textbox", name="reward scale").wait_for()
+        if tab == "Past":
+            page.get_by_label("Episode", exact=True).click()
+            page.get_by_role("option").nth(1).click()
+            page.get_by_role("slider", name="Moment").wait_for()
+        until(lambda: page.evaluate(NAMELESS) == [], timeout=40)
+    for name in ("Open a scene file", "Open a recording"):
+        expect(page.locator(f"input[type=file][aria-label='{name}']")).to_have_count(1)
+    page.context.close()
 
 
 def test_an_address_may_ask_for_the_dark(theatre: Theatre) -> None:
-    page = theatre.page("?darkMode", wait=False)
+    page = theatre.page("?darkMode", has_viser=True, wait=False)
     connected(page)
     expect(page.locator("html")).to_have_attribute(SCHEME, "dark")
     assert max(page.evaluate(LIGHTNESS, ".ai4u-keycap")) < 80
@@ -475,18 +484,12 @@ class TestScripted:
         page = theatre.page()
         page.get_by_role("button", name="Take over").click()
         expect(seat(page)).to_have_text("You drive")
-        page.close()
+        page.context.close()
         until(lambda: theatre.room.runner.latest.agents[0].action["move"][1] == -0.5)
 
 
-@pytest.fixture
-def zoo() -> Iterator[Played]:
-    with played("box_chase", "--brain", "zoo", "--seed", "1") as server:
-        yield server
-
-
 def test_a_network_of_the_zoo_is_taken_over_and_goes_on(zoo: Played, theatre: Theatre) -> None:
-    page = theatre.chromium.new_page()
+    page = new_page(theatre.chromium)
     page.goto(zoo.url)
     connected(page)
 
@@ -504,7 +507,7 @@ def test_a_network_of_the_zoo_is_taken_over_and_goes_on(zoo: Played, theatre: Th
     page.get_by_role("button", name="Let go").click()
     expect(seat(page)).to_have_text("A network drives \u2013 press W to take over")
     until(lambda: action() not in ([], [-1, 0], [0, 0]), 20)
-    page.close()
+    page.context.close()
 
 
 # -- another world -------------------------------------------------------------------------------
@@ -544,7 +547,7 @@ def test_a_page_follows_into_another_world(theatre: Theatre, query: str) -> None
 
 
 def test_the_whole_page_comes_from_here(zoo: Played, theatre: Theatre) -> None:
-    page = theatre.chromium.new_page(viewport={"width": 1280, "height": 800})
+    page = new_page(theatre.chromium)
     asked: list[str] = []
     page.on("request", lambda request: asked.append(request.url))
     page.on("websocket", lambda socket: asked.append(socket.url))
@@ -563,4 +566,4 @@ def test_the_whole_page_comes_from_here(zoo: Played, theatre: Theatre) -> None:
         ".map(each => each.transferSize)"
     )
     assert sum(sizes) < 1_200_000, "bytes at the first load, besides the pictures of the world"
-    page.close()
+    page.context.close()

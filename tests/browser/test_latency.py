@@ -29,7 +29,7 @@ def test_from_a_key_to_the_tick_that_obeys(
         before[0] = ahead
 
     agent.begin_of_apply_action.connect(note)
-    page = theatre.page()
+    page = theatre.page(has_viser=True, draws=True)
     page.evaluate(
         """() => {
             window.pressed = [];

@@ -10,6 +10,7 @@ from playwright.sync_api import Browser, Locator, Page
 from ai4u_edu import Scene
 from tests.browser.keys import body, carry, take, where, whole
 from tests.browser.theatre import ready
+from tests.chromium import new_page
 from tests.playing import Played, played
 from tests.server.rooms import until
 
@@ -31,7 +32,7 @@ def server(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Played]:
 
 @pytest.fixture
 def page(server: Played, chromium: Browser) -> Iterator[Page]:
-    page = chromium.new_page(viewport={"width": 1280, "height": 800})
+    page = new_page(chromium)
     page.goto(server.url)
     ready(page)
     yield page

@@ -161,7 +161,7 @@ def test_an_agent_that_is_not_there_is_told(theatre: Theatre) -> None:
 
 @pytest.mark.parametrize(("width", "height"), [(390, 844), (844, 390), (1280, 800)])
 def test_the_caps_are_free_and_the_middle_is_too(theatre: Theatre, width: int, height: int) -> None:
-    page = theatre.page(width=width, height=height)
+    page = theatre.page(has_viser=True, width=width, height=height)
     page.wait_for_timeout(600)
     inside = "([x, y]) => document.elementFromPoint(x, y)?.closest('.ai4u-keycap')?.dataset.action"
     for name, action in (("forward", "forward"), ("back", "backward"), ("restart", "restart")):

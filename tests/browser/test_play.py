@@ -8,7 +8,8 @@ from typing import Any
 import pytest
 from playwright.sync_api import Browser, Page, expect
 
-from tests.browser.theatre import ready
+from tests.browser.theatre import connected, ready
+from tests.chromium import new_page
 from tests.playing import Played, played
 
 pytestmark = pytest.mark.browser
@@ -17,15 +18,21 @@ MIDDLE = "5"
 """A seed with which box_chase puts the robot into the middle, looking along +x."""
 
 
-@pytest.fixture
-def server() -> Iterator[Played]:
-    with played("box_chase", "--seed", MIDDLE) as server:
+@pytest.fixture(scope="module")
+def shared() -> Iterator[Played]:
+    with played("box_chase") as server:
         yield server
 
 
 @pytest.fixture
+def server(shared: Played) -> Played:
+    shared.restart(int(MIDDLE))
+    return shared
+
+
+@pytest.fixture
 def page(server: Played, chromium: Browser) -> Iterator[Page]:
-    page = chromium.new_page(viewport={"width": 1280, "height": 800})
+    page = new_page(chromium)
     page.goto(server.url)
     ready(page)
     yield page
@@ -59,9 +66,10 @@ def test_off_the_plate_it_falls_and_r_restarts(server: Played, page: Page) -> No
     assert state["pose"][1:2] == [0]
     page.get_by_text("Fell.").wait_for()
     until(lambda: agent(server)["pose"][2] < -1.5)  # and it goes on falling while one looks
+    episode = server.snapshot()["episode"]
     page.keyboard.press("KeyR")
     until(lambda: not agent(server)["terminated"])
-    assert server.snapshot()["episode"] == 2
+    assert server.snapshot()["episode"] == episode + 1
     assert agent(server)["pose"][2] == 0
 
 
@@ -96,9 +104,14 @@ def test_there_are_no_keys_for_what_the_robot_can_not_do(page: Page) -> None:
     expect(page.locator(".ai4u-keycap[data-action=jump]")).to_have_count(0)
 
 
-def test_ctrl_c_ends_it_cleanly(server: Played, page: Page) -> None:
-    server.process.send_signal(signal.SIGINT)
-    assert server.process.wait(10) == 0
+def test_ctrl_c_ends_it_cleanly(chromium: Browser) -> None:
+    with played("box_chase") as server:
+        page = new_page(chromium)
+        page.goto(server.url)
+        connected(page)
+        server.process.send_signal(signal.SIGINT)
+        assert server.process.wait(10) == 0
+        page.context.close()
     assert "Traceback" not in "".join(server.told)
 
 

@@ -12,6 +12,7 @@ from playwright.sync_api import Browser, Page, expect
 
 from tests.browser.test_world import SCENE
 from tests.browser.theatre import connected, seat
+from tests.chromium import new_page
 from tests.playing import Played, played
 from tests.server.rooms import free_port, until
 
@@ -39,12 +40,12 @@ def server(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Played]:
 
 @pytest.fixture
 def page(chromium: Browser, server: Played) -> Iterator[Page]:
-    page = chromium.new_page(viewport={"width": 1280, "height": 800})
+    page = new_page(chromium)
     page.set_default_timeout(60_000)
     page.goto(server.url)
     connected(page)
     yield page
-    page.close()
+    page.context.close()
     assert "Traceback" not in "".join(server.told)
 
 

@@ -13,6 +13,7 @@ from playwright.sync_api import Browser, Page, expect
 from ai4u_edu import LocalBrain, ReplayController, Scene
 from ai4u_edu.recording import Episode, Recorder, Replay
 from tests.browser.theatre import ready
+from tests.chromium import new_page
 from tests.playing import Played, played
 
 pytestmark = pytest.mark.browser
@@ -31,7 +32,7 @@ def server() -> Iterator[Played]:
 @pytest.fixture
 def page(server: Played, chromium: Browser) -> Iterator[Page]:
     """A page that shows its past, in which one episode is: the robot drove ahead for a while."""
-    page = chromium.new_page(viewport={"width": 1280, "height": 800})
+    page = new_page(chromium)
     page.goto(server.url)
     ready(page)
     page.keyboard.down("KeyW")
@@ -111,7 +112,7 @@ def test_the_slider_shows_the_past_and_the_world_goes_on_from_there(
 def test_a_ghost_goes_where_that_run_went(chromium: Browser, tmp_path: Path) -> None:
     file = run_to_the_upper_right().save(tmp_path / "mine.episode")
     with played("box_chase", "--ghost", str(file)) as server:
-        page = chromium.new_page(viewport={"width": 1280, "height": 800})
+        page = new_page(chromium, draws=True)
         page.goto(server.url)
         ready(page)
         assert server.snapshot()["seed"] == int(MIDDLE)

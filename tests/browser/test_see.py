@@ -16,6 +16,7 @@ from ai4u_edu.snapshot import capture_static_scene
 from ai4u_edu.snapshot.theme import SPOT_LIT, VOID, Rgb
 from ai4u_edu.viewer.scene.arena import camera_bounds
 from ai4u_edu.viewer.scene.framing import frame_arena
+from tests.chromium import new_page
 from tests.playing import Played, played
 
 pytestmark = pytest.mark.browser
@@ -34,26 +35,41 @@ def patience() -> Iterator[None]:
     expect.set_options(timeout=5_000)
 
 
-def opened(chromium: Browser, server: Played, width: int = 1280, height: int = 800) -> Page:
-    page = chromium.new_page(viewport={"width": width, "height": height})
+def opened(chromium: Browser, server: Played, *size: int, draws: bool = False) -> Page:
+    page = new_page(chromium, *size, draws=draws)
     page.set_default_timeout(PATIENCE)
     page.goto(server.url)
     page.locator(".ai4u-keycap").first.wait_for()
     return page
 
 
-@pytest.fixture
-def server() -> Iterator[Played]:
-    with played("box_chase", "--seed", MIDDLE) as server:
+@pytest.fixture(scope="module")
+def shared() -> Iterator[Played]:
+    with played("box_chase") as server:
         yield server
 
 
 @pytest.fixture
-def page(server: Played, chromium: Browser) -> Iterator[Page]:
-    page = opened(chromium, server)
+def server(shared: Played) -> Played:
+    shared.restart(int(MIDDLE))
+    return shared
+
+
+@pytest.fixture
+def draws() -> bool:
+    return False
+
+
+@pytest.fixture
+def page(server: Played, chromium: Browser, draws: bool) -> Iterator[Page]:
+    page = opened(chromium, server, draws=draws)
     page.locator(".ai4u.sense").first.wait_for()
     yield page
     page.context.close()
+
+
+drawn = pytest.mark.parametrize("draws", [True], ids=["drawn"])
+"""For tests that look at the picture of the world."""
 
 
 def scene(page: Page) -> npt.NDArray[Any]:
@@ -114,6 +130,7 @@ def test_what_the_brain_sees_stands_there_by_name_and_moves(page: Page) -> None:
     expect(sense(page, "RayCastingSensor").locator("svg")).to_have_count(5)
 
 
+@drawn
 def test_a_click_on_a_sensor_lights_it_up_in_the_scene(page: Page) -> None:
     until_seen(page, SPOT_LIT, least=0.0, most=0.001, slack=60)
     press(page, "orientation")
@@ -182,6 +199,7 @@ def test_slow_motion_shows_the_ticks_of_a_decision(page: Page) -> None:
         found = re.search(r"Tick (\d) of 5", words.inner_text())
         seen.add(found[1] if found else "")
         if len(seen) >= 3:
+            choose_speed(page, "1x")
             return
         page.wait_for_timeout(50)
     raise AssertionError(f"all that was seen: {seen}")
@@ -207,6 +225,7 @@ SKY = (150, 182, 212)
 FLOOR = (228, 232, 236)
 
 
+@drawn
 def test_the_camera_looks_through_the_eyes_and_turns(page: Page) -> None:
     until_seen(page, SKY, least=0.0, most=0.01)
     press(page, "Eyes")

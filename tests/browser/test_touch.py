@@ -107,7 +107,7 @@ def test_a_push_takes_an_agent_over_and_let_go_gives_it_back(theatre: Theatre, p
 def test_all_is_in_reach_and_nothing_in_the_way(theatre: Theatre, size: str) -> None:
     width, height = SIZES[size]
     theatre.inner.gui.main_panel.dock_right()  # as in every scene
-    page = theatre.page(width=width, height=height, touch=True, wait=False)
+    page = theatre.page(has_viser=True, width=width, height=height, touch=True, wait=False)
     connected(page)
     page.wait_for_timeout(1500)  # the sheet folds
     things = [

@@ -10,6 +10,7 @@ from playwright.sync_api import Browser, Locator, Page, expect
 
 from tests.browser.keys import body, carry, drag, take, where, whole
 from tests.browser.theatre import ready
+from tests.chromium import new_page
 from tests.playing import Played, played
 from tests.server.rooms import until
 
@@ -52,7 +53,7 @@ def opened(chromium: Browser, server: Played) -> Iterator[Callable[[], Page]]:
     pages = []
 
     def open_page() -> Page:
-        page = chromium.new_page(viewport={"width": 1280, "height": 800})
+        page = new_page(chromium)
         pages.append(page)
         page.goto(server.url)
         ready(page)
@@ -272,7 +273,7 @@ def test_a_scene_is_saved_on_the_server_and_chosen_beside_the_librarys(
     (tmp_path / "bare.yaml").write_text(SCENE)
     kept = tmp_path / "kept"
     with played(str(tmp_path / "bare.yaml"), "--scenes", str(kept)) as server:
-        page = chromium.new_page(viewport={"width": 1280, "height": 800})
+        page = new_page(chromium)
         page.set_default_timeout(60_000)
         page.goto(server.url)
         ready(page)

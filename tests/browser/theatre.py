@@ -1,15 +1,26 @@
 """A room with a viser, and pages that look at it."""
 
+import re
 from collections.abc import Callable
 from dataclasses import dataclass, field
 
 import viser
-from playwright.sync_api import Browser, BrowserContext, Locator, Page
+from playwright.sync_api import Browser, BrowserContext, Locator, Page, Route
 
+from tests.chromium import new_page
 from tests.server.rooms import Room, until
 
 SPEED, TURN = 5.0, 2.0
 """What W and D mean in these rooms, in m/s and rad/s."""
+
+VISERS_CODE = re.compile(r"<script(?![^>]*\bsrc=)[^>]*>.*?</script>", re.DOTALL)
+ROOT = '<div id="root">'
+PLAIN = f"""{ROOT}
+<canvas style="position: fixed; inset: 0; z-index: -1"></canvas>
+<label>Name <input></label>
+<button onclick="this.dataset.clicks = 1 + Number(this.dataset.clicks ?? 0)">Press me</button>
+"""
+"""What a page has in place of viser's scene and panel."""
 
 
 @dataclass
@@ -28,20 +39,25 @@ class Theatre:
         self,
         query: str = "",
         *,
+        has_viser: bool = False,
+        draws: bool = False,
         width: int = 800,
         height: int = 600,
         touch: bool = False,
         prepare: Callable[[Page], object] = lambda page: None,
         wait: bool = True,
     ) -> Page:
-        """Opens a page in a window of its own; it may ask nobody but the room for anything."""
-        viewport = {"width": width, "height": height}
-        context = self.chromium.new_context(viewport=viewport, has_touch=touch)  # type: ignore[arg-type]
-        self.contexts.append(context)
-        page = context.new_page()
+        """Open a page in a window of its own; it may ask nobody but the room for anything.
+
+        Without viser it has our scripts and styles, a text box, a button and an empty canvas.
+        """
+        page = new_page(self.chromium, width, height, draws=draws, has_touch=touch)
+        self.contexts.append(page.context)
         page.on("pageerror", lambda error: self.complaints.append(f"error: {error}"))
         page.on("request", lambda request: self._check(request.url))
         page.on("websocket", lambda socket: self._check(socket.url))
+        if not has_viser:
+            page.route(lambda url: url.partition("?")[0] == self.room.url, _leave_viser_out)
         prepare(page)
         page.goto(self.room.url + query)
         if wait:
@@ -68,6 +84,14 @@ class Theatre:
     def _places(self) -> tuple[str, str]:
         place = self.room.url.rstrip("/")
         return place, place.replace("http", "ws", 1)
+
+
+def _leave_viser_out(route: Route) -> None:
+    response = route.fetch()
+    text, count = VISERS_CODE.subn("", response.text())
+    assert count
+    assert ROOT in text
+    route.fulfill(response=response, body=text.replace(ROOT, PLAIN))
 
 
 CALM = """() => new Promise((done) => {

@@ -22,6 +22,8 @@ from ai4u_edu.check import Outcome
 from tests.check.samples import built_in_kinds, sample_of
 from tests.check.samples.sample import Sample
 
+pytestmark = pytest.mark.slow
+
 
 def checked(sample: Sample) -> Report:
     scene, script, extra = sample.scene, sample.script, sample.actuators

@@ -13,6 +13,8 @@ import pytest
 from ai4u_edu import bootstrap
 from tests.tiny_checkout import CLI, PYPROJECT, REPO, make_checkout, make_wheel
 
+pytestmark = pytest.mark.slow
+
 
 @pytest.fixture(scope="module")
 def made(tmp_path_factory: pytest.TempPathFactory) -> Path:

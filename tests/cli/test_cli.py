@@ -19,6 +19,8 @@ from ai4u_edu.cli.main import app
 from ai4u_edu.cli.options import finite
 from ai4u_edu.scenes import Scene
 
+pytestmark = pytest.mark.slow
+
 COMMANDS = {
     each.name or each.callback.__name__: each.callback
     for each in app.registered_commands

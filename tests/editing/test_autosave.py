@@ -21,6 +21,8 @@ from tests.editing.kill_autosaves import run
 from tests.editing.shops import TEXT, Shop
 from tests.playing import played
 
+pytestmark = pytest.mark.slow
+
 
 @pytest.fixture
 def saver(tmp_path: Path) -> Autosave:

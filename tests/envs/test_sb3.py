@@ -19,8 +19,17 @@ from tests.envs.scenes import SCENES
 COUNT = 3
 
 
-@pytest.mark.parametrize("form", ["dict", "flat"])
-@pytest.mark.parametrize("scene", SCENES)
+@pytest.mark.parametrize(
+    ("scene", "form"),
+    # each scene in one of the forms, and in the other one at night
+    [
+        (scene, form)
+        if number % 2 == index
+        else pytest.param(scene, form, marks=pytest.mark.nightly)
+        for number, scene in enumerate(SCENES)
+        for index, form in enumerate(("dict", "flat"))
+    ],
+)
 def test_its_checker_is_content(scene: str, form: str) -> None:
     env = gymnasium.make(env_id(scene), observation=form, render_mode="rgb_array").unwrapped
     with warnings.catch_warnings():

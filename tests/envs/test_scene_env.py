@@ -18,8 +18,17 @@ from tests.envs.scenes import SCENES, without_blocks
 FORMS = ["dict", "flat"]
 
 
-@pytest.mark.parametrize("form", FORMS)
-@pytest.mark.parametrize("scene", SCENES)
+@pytest.mark.parametrize(
+    ("scene", "form"),
+    # each scene in one of the forms, and in the other ones at night
+    [
+        (scene, form)
+        if number % len(FORMS) == index
+        else pytest.param(scene, form, marks=pytest.mark.nightly)
+        for number, scene in enumerate(SCENES)
+        for index, form in enumerate(FORMS)
+    ],
+)
 def test_gymnasiums_checker_is_content(scene: str, form: str) -> None:
     env = gymnasium.make(env_id(scene), observation=form, render_mode="rgb_array")
     check_env(env.unwrapped)

@@ -16,8 +16,8 @@ from playwright.sync_api import Browser, FrameLocator, Page
 from ai4u_edu import Recorder, Scene
 from ai4u_edu.lessons.live import Live
 from ai4u_edu.runtime.runner import Runner
+from tests.chromium import browser
 from tests.lessons.lab import lab, wait_for
-from tests.playing import browser
 from tests.server.rooms import free_port, until
 
 pytestmark = [pytest.mark.browser, pytest.mark.timeout(600)]

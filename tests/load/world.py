@@ -21,7 +21,7 @@ from ai4u_edu import (
 )
 from ai4u_edu.runtime.process_tuning import tuned_process
 from ai4u_edu.runtime.runner import Runner
-from ai4u_edu.server import ServerThread, room_app, shut_side_door
+from ai4u_edu.server import ServerThread, lock_viser_port, room_app
 from ai4u_edu.server.scripts import Rules
 from ai4u_edu.viewer import Viewer
 from tests.builders import still
@@ -98,7 +98,7 @@ def serve(agents: int, ends: Connection, *, in_turn: bool = True) -> None:
     runner.late = []
     runner.__init__(crowd(agents, in_turn=in_turn), seed=1)  # type: ignore[misc]
     viewer = Viewer(runner, title="Load")
-    shut_side_door(viewer.server)
+    lock_viser_port(viewer.server)
     app = room_app(runner, viser_port=viewer.port, title="Load", rules=Rules(grace=1.0))
     runner.start()
     viewer.start()

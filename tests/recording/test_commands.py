@@ -23,6 +23,8 @@ from ai4u_edu.runtime.runner import Runner
 from tests.playing import played
 from tests.server.rooms import free_port
 
+pytestmark = pytest.mark.slow
+
 SEEK = """
 def seek(percept):
     return {"move": [1.0, 0, 0, 0] if percept["orientation"][0] > 0.99 else [0, 0.2, 0, 0]}

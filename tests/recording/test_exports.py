@@ -7,7 +7,6 @@ import sys
 from pathlib import Path
 from typing import Any
 
-import imageio_ffmpeg
 import numpy as np
 import pytest
 from PIL import Image, ImageSequence
@@ -19,9 +18,10 @@ from ai4u_edu.recording.exports.csv_file import write_csv
 from ai4u_edu.recording.exports.html_page import write_html
 from ai4u_edu.recording.exports.movie import write_gif, write_mp4
 from ai4u_edu.snapshot.raster import draw_snapshot
-from tests.playing import browser
 from tests.recording.takes import Take, take
 from tests.server.rooms import until
+
+imageio_ffmpeg = pytest.importorskip("imageio_ffmpeg")
 
 
 @pytest.fixture(scope="module")
@@ -136,6 +136,8 @@ def test_the_page_asks_for_nothing(replay: Replay, tmp_path: Path) -> None:
 
 @pytest.mark.browser
 def test_the_page_plays_without_a_server(tmp_path: Path) -> None:
+    from tests.chromium import browser
+
     taken = take("tag", decisions=60)
     path = write_html(Replay(taken.episode), tmp_path / "tag.html")
     hostile = write_html(named("0", title=HOSTILE), tmp_path / "hostile.html")

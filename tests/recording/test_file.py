@@ -259,6 +259,7 @@ def test_any_bytes(data: bytes) -> None:
     reads_or_refuses(HEADER + zlib.compress(data))
 
 
+@pytest.mark.slow
 @given(ANYTHING)
 def test_any_contents(plain: Any) -> None:
     try:
@@ -278,6 +279,7 @@ def test_any_contents_in_place_of_the_right_ones(key: str, value: Any) -> None:
     reads_or_refuses(data)
 
 
+@pytest.mark.slow
 @settings(max_examples=60, deadline=None)
 @given(st.sampled_from(sorted(PLAIN["agents"][0])), st.data())
 def test_other_numbers_in_a_column(key: str, data: st.DataObject) -> None:

@@ -27,6 +27,8 @@ from tests.recording.takes import (
     take,
 )
 
+pytestmark = pytest.mark.slow
+
 
 def check(episode: Episode, notes: dict[str, list[Note]]) -> None:
     """Every moment of every agent is as it was noted, bytes and all."""

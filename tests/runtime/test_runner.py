@@ -80,7 +80,7 @@ def test_as_fast_as_it_goes() -> None:
 
 
 @pytest.mark.parametrize(
-    ("takes", "least", "most"), [(0.0, 60, 60), (0.004, 28, 34), (0.02, 12, 17)]
+    ("takes", "least", "most"), [(0.0, 60, 60), (0.004, 28, 34), (0.02, 9, 11)]
 )
 def test_snapshots_that_take_long_are_fewer_and_the_ticks_are_not(
     takes: float, least: int, most: int, monkeypatch: pytest.MonkeyPatch
@@ -96,16 +96,15 @@ def test_snapshots_that_take_long_are_fewer_and_the_ticks_are_not(
         return picture()
 
     monkeypatch.setattr(runner, "_picture", slow_picture)
-    for _ in range(60):
-        runner._schedule.due = now
+    for number in range(60):
+        runner._schedule.due = now = max(now, 100 + number / 60)
         runner._tick()
-        now += 1 / 60
     assert runner.sim.world.ticks == 60
     assert least <= shown <= most
 
 
 @pytest.mark.parametrize(
-    ("ticks", "shown"), [((1, 1), 60), ((16, 1), 30), ((16, 16), 30), ((4, 1), 30), ((4, 4), 60)]
+    ("ticks", "shown"), [((1, 1), 60), ((16, 1), 30), ((16, 16), 30), ((4, 4), 60)]
 )
 def test_a_picture_waits_for_a_tick_that_leaves_time_for_it(
     ticks: tuple[int, int], shown: int, monkeypatch: pytest.MonkeyPatch

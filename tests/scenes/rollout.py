@@ -29,4 +29,5 @@ def trajectory(name: str, seed: int, decisions: int = 300) -> str:
 
 
 if __name__ == "__main__":
-    print(trajectory(sys.argv[1], int(sys.argv[2])))
+    for name in sys.argv[2:]:
+        print(name, trajectory(name, int(sys.argv[1])))

@@ -5,7 +5,7 @@ from typing import Any
 import pytest
 
 from ai4u_edu import Command, ControlRequestor, LocalBrain, Scene
-from ai4u_edu.server.bindings import choose, keys_of
+from ai4u_edu.server.bindings import choose_agent, keys_of
 from tests.envs.scenes import MULTI_AGENT
 
 STILL = {"move": [0, 0, 0, 0]}
@@ -24,7 +24,7 @@ def built(name: str, seed: int = 1, *, still: bool = True) -> ControlRequestor:
 @pytest.mark.parametrize("name", MULTI_AGENT)
 def test_a_person_gets_the_first_agent_and_the_others_have_a_mind_of_their_own(name: str) -> None:
     sim = Scene.load(name).build()
-    assert choose(sim, None) is sim.agents[0]
+    assert choose_agent(sim, None) is sim.agents[0]
     assert keys_of(sim.agents[0])["forward"] == ["KeyW", "ArrowUp"]
     for other in sim.agents[1:]:
         assert not keys_of(other)
@@ -36,7 +36,7 @@ def test_each_of_the_others_has_keys_at_hand_for_a_second_person(name: str) -> N
     first, second = sim.agents[:2]
     keys = [brain for brain in second.brains if not brain.enabled]
     second.use_brain(keys[0])
-    assert choose(sim, second.id) is second
+    assert choose_agent(sim, second.id) is second
     assert keys_of(second) == keys_of(first)
     first.keyboard.hold(["KeyW"])
     second.keyboard.hold(["KeyA"])

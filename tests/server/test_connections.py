@@ -12,7 +12,7 @@ import httpx
 import pytest
 
 from ai4u_edu.server import connections as limits
-from ai4u_edu.server.connections import MAX_EVICTING, PER_ADDRESS, Connections, most_connections
+from ai4u_edu.server.connections import MAX_EVICTING, MAX_PER_ADDRESS, Connections, max_connections
 from tests.server.rooms import UPGRADE, Page, Room, raw_request, served, until
 
 
@@ -38,8 +38,8 @@ def connect(connections: Connections, peer: tuple[str, int], *, idle: bool = Tru
 
 
 def test_an_address_has_so_many_connections_and_others_have_theirs() -> None:
-    connections = Connections(most=500)
-    for port in range(PER_ADDRESS):
+    connections = Connections(limit=500)
+    for port in range(MAX_PER_ADDRESS):
         connect(connections, ("10.0.0.7", port), idle=False)
     assert connections.admit(("10.0.0.7", 5000)) == (
         "expected at most 120 connections from one address, got another one from 10.0.0.7; close "
@@ -51,7 +51,7 @@ def test_an_address_has_so_many_connections_and_others_have_theirs() -> None:
 
 
 def test_this_machine_may_have_as_many_as_there_are() -> None:
-    connections = Connections(most=300)
+    connections = Connections(limit=300)
     for port in range(300):
         connect(connections, ("127.0.0.1", port), idle=False)
     for host in ("127.0.0.1", "10.0.0.8"):
@@ -61,7 +61,7 @@ def test_this_machine_may_have_as_many_as_there_are() -> None:
 
 
 def test_the_connection_that_is_idle_for_the_longest_time_makes_room() -> None:
-    connections = Connections(most=500, per_address=3)
+    connections = Connections(limit=500, per_address=3)
     first, busy, later = (connect(connections, ("10.0.0.7", port)) for port in range(3))
     connections.set_idle(busy, False)  # type: ignore[arg-type]
     connections.set_idle(first, True)  # type: ignore[arg-type]
@@ -75,7 +75,7 @@ def test_the_connection_that_is_idle_for_the_longest_time_makes_room() -> None:
 
 
 def test_nothing_is_left_of_connections_that_are_closed() -> None:
-    connections = Connections(most=10)
+    connections = Connections(limit=10)
     for port in range(1000):
         connect(connections, ("10.0.0.7", port))
         if connections.evicting == MAX_EVICTING:
@@ -92,7 +92,7 @@ def test_the_limit_leaves_descriptors_for_everything_else(monkeypatch: pytest.Mo
     resource = pytest.importorskip("resource")
     for soft, expected in ((1024, 298), (256, 42), (10, 16), (10**6, 1000), (-1, 1000)):
         monkeypatch.setattr(resource, "getrlimit", lambda _, soft=soft: (soft, soft))
-        assert most_connections() == expected
+        assert max_connections() == expected
 
 
 @contextmanager
@@ -108,7 +108,7 @@ def crowd(room: Room, count: int) -> Iterator[list[socket.socket]]:
 @pytest.fixture
 def small(monkeypatch: pytest.MonkeyPatch) -> Iterator[Room]:
     """A room with 20 connections."""
-    monkeypatch.setattr(limits, "most_connections", lambda: 20)
+    monkeypatch.setattr(limits, "max_connections", lambda: 20)
     with served() as room:
         yield room
 

@@ -16,7 +16,7 @@ from websockets.protocol import State
 
 from ai4u_edu.server import messages
 from ai4u_edu.server.frames import FramesProtocol
-from ai4u_edu.server.input import LARGEST, MISTAKES, PER_SECOND
+from ai4u_edu.server.input import MAX_MESSAGE_BYTES, MAX_MESSAGES_PER_S, MAX_MISTAKES
 from tests.server.rooms import served, until
 
 MALFORMED = [
@@ -89,12 +89,12 @@ def test_a_message_of_bytes_is_read_like_text() -> None:
 
 def test_single_mistakes_are_forgiven_but_not_five_in_a_row() -> None:
     with served() as room, room.page() as page:
-        for _ in range(MISTAKES - 1):
+        for _ in range(MAX_MISTAKES - 1):
             page.say("kyes")
             assert page.hear("error")["text"] == "unknown type 'kyes'; did you mean 'keys'?"
         page.hold("KeyW")
         until(lambda: room.held == ["KeyW"])
-        for _ in range(MISTAKES):
+        for _ in range(MAX_MISTAKES):
             page.say("kyes")
         assert page.end() == (1008, "5 malformed messages in a row")
         until(lambda: room.held == [])
@@ -102,7 +102,7 @@ def test_single_mistakes_are_forgiven_but_not_five_in_a_row() -> None:
 
 def test_a_message_that_is_too_large_ends_the_connection() -> None:
     with served() as room, room.page() as page:
-        page.socket.send("x" * (LARGEST + 1))
+        page.socket.send("x" * (MAX_MESSAGE_BYTES + 1))
         assert page.hear("error")["text"] == "expected at most 4096 bytes, got 4097"
         code, reason = page.end()
         assert code == 1009
@@ -111,7 +111,7 @@ def test_a_message_that_is_too_large_ends_the_connection() -> None:
 
 def test_the_largest_message_of_keys_fits() -> None:
     text = json.dumps({"type": "keys", "held": ["A" * 24] * 16})
-    assert len(text) < LARGEST
+    assert len(text) < MAX_MESSAGE_BYTES
     assert messages.read(text) == messages.Keys(type="keys", held=["A" * 24] * 16)
 
 
@@ -119,7 +119,7 @@ def test_a_flood_ends_the_connection_and_leaves_others_alone() -> None:
     with served() as room, room.page() as driver, room.page() as flooder:
         driver.hold("KeyW")
         with suppress(ConnectionClosed):
-            for _ in range(2 * PER_SECOND):
+            for _ in range(2 * MAX_MESSAGES_PER_S):
                 flooder.socket.send('{"type": "keys", "held": []}')
         assert flooder.end() == (1008, "expected at most 200 messages a second")
         driver.hold("KeyD")
@@ -128,7 +128,7 @@ def test_a_flood_ends_the_connection_and_leaves_others_alone() -> None:
 
 def test_a_busy_driver_is_no_flood() -> None:
     with served() as room, room.page() as page:
-        for index in range(PER_SECOND - 20):
+        for index in range(MAX_MESSAGES_PER_S - 20):
             page.hold("KeyW") if index % 2 else page.hold("KeyA")
         page.hold("KeyS")
         until(lambda: room.held == ["KeyS"])

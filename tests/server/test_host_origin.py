@@ -10,12 +10,12 @@ from starlette.types import ASGIApp
 from websockets.exceptions import InvalidStatus
 
 from ai4u_edu.server import LOOPBACK, RoomMount, hosts_for
-from ai4u_edu.server.host_origin import ADDRESSES
+from ai4u_edu.server.host_origin import ANY_ADDRESS
 from tests.server.rooms import UPGRADE, Page, Room, raw_answer, served
 
 PATHS = ("", "healthz", "api/snapshot", "api/openapi.json", "web/main.js", "nothing")
 SOCKETS = ("", "ws/input")
-EVERYWHERE = "0.0.0.0"  # noqa: S104 - a name to be asked by, nothing listens there
+WILDCARD_HOSTS = "0.0.0.0"  # noqa: S104 - a name to be asked by, nothing listens there
 
 
 @pytest.fixture(scope="module")
@@ -51,7 +51,7 @@ def test_another_name_is_refused(room: Room, path: str) -> None:
         "localhost.evil.example",
         "127.0.0.2",
         "10.0.0.1",
-        EVERYWHERE,
+        WILDCARD_HOSTS,
         "localhost:8080:1",
         "localhost:",
         "[::2]",
@@ -146,8 +146,8 @@ def test_any_name_can_be_allowed_but_its_pages_stay_among_themselves() -> None:
 
 def test_listening_everywhere_allows_addresses_but_no_foreign_names() -> None:
     assert hosts_for("127.0.0.1") == hosts_for("localhost") == hosts_for("::1") == LOOPBACK
-    assert ADDRESSES in hosts_for(EVERYWHERE)
-    with served(allowed_hosts=hosts_for(EVERYWHERE)) as room:
+    assert ANY_ADDRESS in hosts_for(WILDCARD_HOSTS)
+    with served(allowed_hosts=hosts_for(WILDCARD_HOSTS)) as room:
         for host in ("192.168.1.5:8080", "[fe80::1]:8080", "localhost"):
             assert raw_answer(room.url + "healthz", f"Host: {host}")[0] == 200
         for host in ("evil.example", "999.1.1.1", "[::g]"):
@@ -227,11 +227,11 @@ def test_a_room_under_a_path_is_guarded_too(client: httpx.Client, prefix: str) -
 
 @pytest.mark.parametrize("path", SOCKETS)
 def test_another_port_of_our_own_names_opens_no_socket(path: str) -> None:
-    names = hosts_for(EVERYWHERE)
+    names = hosts_for(WILDCARD_HOSTS)
     own = names[4]
     with served(allowed_hosts=names) as room:
         port = port_of(room)
-        for name in (own, "192.168.1.5", EVERYWHERE, "localhost"):
+        for name in (own, "192.168.1.5", WILDCARD_HOSTS, "localhost"):
             lines = (f"Host: {name}:{port}", *UPGRADE)
             for origin in (f"http://{name}:9", f"http://{name}", f"https://{name}:{port}"):
                 answer = raw_answer(room.url + path, *lines, f"Origin: {origin}")

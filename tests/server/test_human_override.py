@@ -34,9 +34,9 @@ from ai4u_edu.blocks import trained_brain
 from ai4u_edu.blocks.brains.controllers.keyboard import Stick
 from ai4u_edu.remote import LostError, RemoteError, connect
 from ai4u_edu.runtime.runner import Runner
-from ai4u_edu.server.bindings import takes_a_stick
-from ai4u_edu.server.human_override import Hands, who
-from ai4u_edu.server.key_labels import useful_keys
+from ai4u_edu.server.bindings import has_stick
+from ai4u_edu.server.human_override import HumanOverride, driver_title
+from ai4u_edu.server.key_labels import usable_keys
 from tests.builders import small_sim, still
 from tests.server.rooms import Room, free_port, served, until
 
@@ -263,8 +263,8 @@ def test_the_world_stays_as_it_is(room: Room, paused: bool) -> None:
 def test_a_brain_is_made_that_fits_the_body(actuator: Actuator, actions: set[str]) -> None:
     sim = small_sim(actuators=[actuator])
     (agent,) = sim.agents
-    hands = Hands(Runner(sim), agent)
-    found = useful_keys(agent, hands.brain)
+    hands = HumanOverride(Runner(sim), agent)
+    found = usable_keys(agent, hands.brain)
     assert found.keys() - {"restart"} >= actions
     assert found.keys() - {"restart", "jump", "jump_forward"} == actions - {"jump", "jump_forward"}
     if actions:
@@ -277,17 +277,17 @@ def test_a_brain_is_made_that_fits_the_body(actuator: Actuator, actions: set[str
 
 def test_a_stick_is_offered_where_somebody_listens_to_it() -> None:
     sims = [small_sim(actuators=[each]) for each in (CarActuator(), DiscreteActuator())]
-    brains = [Hands(Runner(sim), sim.agents[0]).brain for sim in sims]
-    assert [takes_a_stick(brain) for brain in brains] == [True, False]
+    brains = [HumanOverride(Runner(sim), sim.agents[0]).brain for sim in sims]
+    assert [has_stick(brain) for brain in brains] == [True, False]
 
 
 def test_who_drives_is_said_in_words() -> None:
     network = trained_brain("zoo:box_chase")
     assert isinstance(network.controller, NeuralNetController)
-    assert who(network) == "A network"
-    assert who(LocalBrain(controller=ReplayController(actions=[{}]))) == "A recording"
+    assert driver_title(network) == "A network"
+    assert driver_title(LocalBrain(controller=ReplayController(actions=[{}]))) == "A recording"
     sim = Scene.load("sumo").build()
-    assert who(sim.agent("orange").brain) == "PushOutController"
+    assert driver_title(sim.agent("orange").brain) == "PushOutController"
 
 
 def test_a_network_goes_on_after_it_was_taken_over() -> None:

@@ -8,10 +8,12 @@ from ai4u_edu import BasicAgent, Scene
 from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.blocks.brains.controllers.keyboard import Stick
 from ai4u_edu.runtime.runner import Runner
-from ai4u_edu.server.bindings import takes_a_stick
-from ai4u_edu.server.human_override import RESTART, Hands
-from ai4u_edu.server.key_labels import captions, useful_keys
+from ai4u_edu.server.bindings import has_stick
+from ai4u_edu.server.human_override import RESTART, HumanOverride
+from ai4u_edu.server.key_labels import key_labels, usable_keys
 from ai4u_edu.snapshot import BodyState, capture_bodies
+
+pytestmark = pytest.mark.slow
 
 PATIENCE = 6
 """Decisions."""
@@ -24,7 +26,7 @@ def driven(scene: str, agent_id: str) -> tuple[ControlRequestor, BasicAgent]:
     sim = Scene.load(scene).build()
     sim.reset(1)
     agent = sim.agent(agent_id)
-    brain = Hands(Runner(sim, seed=1), agent).brain
+    brain = HumanOverride(Runner(sim, seed=1), agent).brain
     if brain is not agent.brain:
         agent.use_brain(brain)
     return sim, agent
@@ -45,7 +47,7 @@ def path(scene: str, agent_id: str, *held: str) -> tuple[BodyState, ...]:
 @pytest.mark.parametrize(("scene", "agent_id"), AGENTS)
 def test_every_key_that_is_shown_does_something(scene: str, agent_id: str) -> None:
     _, agent = driven(scene, agent_id)
-    shown = useful_keys(agent)
+    shown = usable_keys(agent)
     assert RESTART in shown
     ahead = next(iter(shown.values()))[0]  # some only steer what rolls
     for action in shown.keys() - {RESTART}:
@@ -58,14 +60,14 @@ def test_every_key_that_is_shown_does_something(scene: str, agent_id: str) -> No
 def test_who_can_jump_has_a_key_for_it(scene: str, agent_id: str) -> None:
     _, agent = driven(scene, agent_id)
     told = Scene.load(scene).description.controls
-    names = {captions(agent).get(action, action) for action in useful_keys(agent)}
+    names = {key_labels(agent).get(action, action) for action in usable_keys(agent)}
     assert bool({"jump", "leap", "jump_forward"} & names) == ("jump" in told)
 
 
 @pytest.mark.parametrize(("scene", "agent_id"), AGENTS)
 def test_a_stick_is_there_for_whoever_takes_halves(scene: str, agent_id: str) -> None:
     sim, agent = driven(scene, agent_id)
-    if not takes_a_stick(agent.brain):
+    if not has_stick(agent.brain):
         assert not any(actuator.is_continuous for actuator in agent.actuators[:1])
         return
     agent.keyboard.hold([], Stick(forward=0.5))
@@ -79,8 +81,8 @@ def test_a_stick_is_there_for_whoever_takes_halves(scene: str, agent_id: str) ->
 
 def test_a_caption_says_what_its_key_does() -> None:
     _, agent = driven("platform", "0")
-    for action, expected in captions(agent).items():
-        states = path("platform", "0", useful_keys(agent)[action][0])
+    for action, expected in key_labels(agent).items():
+        states = path("platform", "0", usable_keys(agent)[action][0])
         turned = states[0].heading - path("platform", "0")[0].heading
         assert (expected == "left") == (turned > 0.05)
         assert (expected == "right") == (turned < -0.05)

@@ -7,7 +7,7 @@ import pytest
 
 from ai4u_edu import Scene
 from ai4u_edu.agent.cycle import ControlRequestor
-from ai4u_edu.server.key_labels import captions, useful_keys
+from ai4u_edu.server.key_labels import key_labels, usable_keys
 from ai4u_edu.server.page_events import outcome
 from ai4u_edu.snapshot import Snapshot, capture_snapshot
 from tests.builders import small_sim
@@ -128,15 +128,15 @@ def test_who_won_and_rolls_over_the_edge_later_did_not_end_by_that() -> None:
 
 
 def test_keys_for_what_a_body_cannot_do_are_not_shown() -> None:
-    assert "jump" not in useful_keys(sim_of("box_chase").agents[0])
-    assert "jump_forward" not in useful_keys(sim_of("sumo").agents[0])
-    assert "jump" not in useful_keys(sim_of("yardstick").agents[0])
-    assert {"forward", "turn_left", "restart"} <= useful_keys(sim_of("yardstick").agents[0]).keys()
-    assert {"jump", "jump_forward"} <= useful_keys(sim_of("jumper").agents[0]).keys()
+    assert "jump" not in usable_keys(sim_of("box_chase").agents[0])
+    assert "jump_forward" not in usable_keys(sim_of("sumo").agents[0])
+    assert "jump" not in usable_keys(sim_of("yardstick").agents[0])
+    assert {"forward", "turn_left", "restart"} <= usable_keys(sim_of("yardstick").agents[0]).keys()
+    assert {"jump", "jump_forward"} <= usable_keys(sim_of("jumper").agents[0]).keys()
 
 
 def test_keys_are_called_what_they_do_in_the_scene() -> None:
     names = {"right": "right", "left": "left", "up": "forward", "down": "leap"}
-    assert captions(sim_of("platform").agents[0]) == names
-    assert captions(sim_of("grid_world").agents[0]) == {}
-    assert captions(sim_of("box_chase").agents[0]) == {}
+    assert key_labels(sim_of("platform").agents[0]) == names
+    assert key_labels(sim_of("grid_world").agents[0]) == {}
+    assert key_labels(sim_of("box_chase").agents[0]) == {}

@@ -18,7 +18,7 @@ from websockets.typing import Subprotocol
 from zstandard import ZstdDecompressor
 
 from ai4u_edu.server import page_messages
-from ai4u_edu.server.proxy import UPWARD
+from ai4u_edu.server.proxy import MAX_MESSAGES_PER_S
 from tests.load.clients import CAMERA
 from tests.server.rooms import UPGRADE, Room, raw_request, served, until
 
@@ -350,8 +350,8 @@ def test_a_page_that_floods_viser_is_slowed_down() -> None:
         began = time.monotonic()
         thread = threading.Thread(target=flood, args=(page,))
         thread.start()
-        until(lambda: heard > UPWARD)
+        until(lambda: heard > MAX_MESSAGES_PER_S)
         time.sleep(0.5)
-        assert heard < UPWARD * (time.monotonic() - began + 1) + 50
+        assert heard < MAX_MESSAGES_PER_S * (time.monotonic() - began + 1) + 50
         page.socket.shutdown(socket.SHUT_RDWR)
         thread.join()

@@ -23,6 +23,8 @@ from ai4u_edu.server import AddressError, PortTakenError, ServerThread, serve
 from ai4u_edu.server.frames import FramesProtocol
 from tests.server.rooms import UPGRADE, Page, free_port, raw_answer, raw_request, served, until
 
+pytestmark = pytest.mark.slow
+
 PROGRAM = """
 import sys
 import viser

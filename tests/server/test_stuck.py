@@ -12,11 +12,11 @@ from typing import Any
 
 import httpx
 import numpy as np
-import onnx
 import pytest
-from onnx import TensorProto, helper
 
 from tests.server.rooms import until
+
+pytestmark = pytest.mark.slow
 
 BLOCKS = '''
 import time
@@ -62,6 +62,9 @@ posix = pytest.mark.skipif(os.name != "posix", reason="sends signals as POSIX ha
 
 def endless(path: Path) -> Path:
     """A network whose loop does not end in this life."""
+    import onnx
+    from onnx import TensorProto, helper
+
     body = helper.make_graph(
         [
             helper.make_node("Identity", ["goes_on"], ["goes_on_still"]),

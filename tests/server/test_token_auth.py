@@ -12,7 +12,7 @@ from websockets.exceptions import ConnectionClosed, InvalidStatus
 from ai4u_edu.base.errors import SetupError
 from ai4u_edu.server import Rules, hosts_for, token_for
 from ai4u_edu.server import token_auth as guard
-from ai4u_edu.server.host_origin import ADDRESSES, is_loopback
+from ai4u_edu.server.host_origin import ANY_ADDRESS, is_loopback
 from tests.server.rooms import Page, Room, served
 
 TOKEN = "open sesame; Zoë"
@@ -22,7 +22,7 @@ PATHS = ("", "healthz", "api/snapshot", "api/openapi.json", "web/main.js")
 WHY = (
     "expected this world's token, got {}; open the address with ?token=... that its terminal shows"
 )
-EVERYWHERE = "0.0.0.0"  # noqa: S104 - nothing listens there
+WILDCARD_HOSTS = "0.0.0.0"  # noqa: S104 - nothing listens there
 
 
 @pytest.fixture(scope="module")
@@ -147,10 +147,10 @@ def test_without_a_token_nothing_is_asked() -> None:
 
 def test_who_gets_a_token() -> None:
     assert token_for("localhost") == token_for("127.0.0.1") == token_for("::1") == ""
-    fresh = {token_for(EVERYWHERE), token_for(EVERYWHERE), token_for("192.0.2.7")}
+    fresh = {token_for(WILDCARD_HOSTS), token_for(WILDCARD_HOSTS), token_for("192.0.2.7")}
     assert len(fresh) == 3
     assert all(len(each) >= 32 for each in fresh)
-    assert token_for("127.0.0.1", "chosen by me") == token_for(EVERYWHERE, "chosen by me")
+    assert token_for("127.0.0.1", "chosen by me") == token_for(WILDCARD_HOSTS, "chosen by me")
     with pytest.raises(SetupError, match="--token: expected at least 8 characters, got 5"):
         token_for("127.0.0.1", "short")
 
@@ -160,7 +160,7 @@ def test_what_is_on_this_machine_only() -> None:
     assert not is_loopback("")
     assert not is_loopback("no such name.invalid")
     assert hosts_for("127.0.0.2") == (*hosts_for("127.0.0.1"), "127.0.0.2")
-    assert ADDRESSES not in hosts_for("127.0.0.2")
+    assert ANY_ADDRESS not in hosts_for("127.0.0.2")
 
 
 def test_a_frame_that_nobody_means_is_not_even_read(room: Room) -> None:

@@ -1,10 +1,16 @@
 """Trainings that take a second: of use to tests, of none to agents."""
 
+import atexit
+import shutil
+import tempfile
+from dataclasses import replace
+from functools import cache
 from pathlib import Path
 from typing import Any
 
 from ai4u_edu import Scene
 from ai4u_edu.training.learning import Trained, train
+from ai4u_edu.training.run import Run
 from ai4u_edu.training.settings import Algorithm, Settings, settings_for
 
 SMALL: dict[str, dict[str, Any]] = {
@@ -49,3 +55,17 @@ def small_training(
     """A second of learning box_chase."""
     scene = Scene.load("box_chase")
     return train(scene, algorithm, small_settings(**changes), folder, seed=seed, quiet=True)
+
+
+@cache
+def _first_training(algorithm: Algorithm) -> Trained:
+    folder = Path(tempfile.mkdtemp(prefix="ai4u-training-"))
+    atexit.register(shutil.rmtree, folder, ignore_errors=True)
+    return small_training(folder / "run", algorithm)
+
+
+def copied_training(folder: Path, algorithm: Algorithm = "ppo") -> Trained:
+    """Copy a small training with seed 0, which is run once per process, into a folder."""
+    first = _first_training(algorithm)
+    shutil.copytree(first.folder, folder, dirs_exist_ok=True)
+    return replace(first, run=Run(folder))

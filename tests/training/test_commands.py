@@ -23,7 +23,7 @@ from ai4u_edu.training.algorithms import load_model
 from ai4u_edu.training.assigned import with_drivers
 from ai4u_edu.training.run import Run
 from ai4u_edu.training.watch import MODEL, Watch
-from tests.training.small import CHOICES, small_settings, small_training
+from tests.training.small import CHOICES, copied_training, small_settings
 
 
 def run(*arguments: str) -> str:
@@ -138,7 +138,7 @@ class Ahead(Controller):
 def test_whoever_can_be_recorded_can_be_watched(tmp_path: Path) -> None:
     file = tmp_path / "mine.py"
     file.write_text(DRIVERS)
-    folder = small_training(tmp_path / "run").run.folder
+    folder = copied_training(tmp_path / "run").run.folder
     network = export(str(folder), tmp_path / "policy.onnx")
     scene = Scene.load("box_chase")
     for who in (
@@ -205,7 +205,7 @@ def test_what_is_wrong_on_the_command_line(tmp_path: Path) -> None:
 
 def test_watching_hands_the_policy_on(tmp_path: Path) -> None:
     """The page's process serves the world in which the latest model drives."""
-    done = small_training(tmp_path)
+    done = copied_training(tmp_path)
     model = load_model("ppo", done.run.last)
     watch = Watch(done.run, port=0, open_page=False)
     watch.init_callback(model)
@@ -242,7 +242,7 @@ def turning(agent: dict[str, Any]) -> bool:
 
 
 def test_watching_takes_another_port_where_that_one_is_taken(tmp_path: Path) -> None:
-    done = small_training(tmp_path)
+    done = copied_training(tmp_path)
     with socket.create_server(("127.0.0.1", 0)) as taken:
         port = taken.getsockname()[1]
         watch = Watch(done.run, port=port, open_page=False)

@@ -19,7 +19,7 @@ from ai4u_edu.training.prepare import prepare
 from ai4u_edu.training.run import Config
 from ai4u_edu.training.settings import ALGORITHMS, Algorithm, Settings
 from ai4u_edu.training.worlds import Choices, make_worlds
-from tests.training.small import CHOICES, small_settings, small_training
+from tests.training.small import CHOICES, copied_training, small_settings, small_training
 
 
 def config(algorithm: Algorithm, settings: Settings, scene: str = "box_chase") -> Config:
@@ -130,7 +130,7 @@ def test_a_network_decides_as_its_model_does(tmp_path: Path) -> None:
     """On a real agent, on all that it senses in a drive."""
     from ai4u_edu.training.policies import entrant
 
-    done = small_training(tmp_path / "run", "ppo")
+    done = copied_training(tmp_path / "run")
     run = done.run
     export(load_model("ppo", run.best), run.scene(), run.config(), tmp_path / "policy.onnx")
     who, other = (entrant(str(tmp_path / name)) for name in ("run", "policy.onnx"))

@@ -15,7 +15,7 @@ from ai4u_edu.training.eval_callback import EvalCallback
 from ai4u_edu.training.learning import resume, train
 from ai4u_edu.training.run import Check, Run
 from ai4u_edu.training.settings import ALGORITHMS, Algorithm
-from tests.training.small import small_settings, small_training
+from tests.training.small import copied_training, small_settings, small_training
 
 
 def weights(path: Path, algorithm: Algorithm) -> dict[str, torch.Tensor]:
@@ -80,14 +80,14 @@ def test_what_a_training_leaves_behind(tmp_path: Path) -> None:
 
 
 def test_a_second_training_does_not_overwrite_the_first(tmp_path: Path) -> None:
-    small_training(tmp_path)
+    copied_training(tmp_path)
     with pytest.raises(SetupError, match="holds a training already; go on with it"):
         small_training(tmp_path)
 
 
 @pytest.mark.parametrize("algorithm", ["sac", "ppo"])
 def test_a_resumed_training_goes_on_where_it_was(tmp_path: Path, algorithm: Algorithm) -> None:
-    first = small_training(tmp_path, algorithm)
+    first = copied_training(tmp_path, algorithm)
     before = weights(tmp_path / "last.zip", algorithm)
     again = resume(tmp_path, steps=first.steps + 100, quiet=True)
     assert again.steps >= first.steps + 100
@@ -101,7 +101,7 @@ def test_a_resumed_training_goes_on_where_it_was(tmp_path: Path, algorithm: Algo
 
 
 def test_a_resume_needs_something_to_do(tmp_path: Path) -> None:
-    small_training(tmp_path)
+    copied_training(tmp_path)
     with pytest.raises(SetupError, match="has learned from 256 steps already"):
         resume(tmp_path, quiet=True)
     with pytest.raises(SetupError, match="holds no training; begin one with"):

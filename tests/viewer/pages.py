@@ -15,6 +15,7 @@ from websockets.typing import Subprotocol
 
 from ai4u_edu.viewer import Viewer
 from ai4u_edu.viewer.panel.tabs import Tabs
+from ai4u_edu.viewer.scene.sense_overlay import SenseOverlay
 from ai4u_edu.viewer.viewer_client import AGENT_HEADER, DARK_HEADER
 
 P = TypeVar("P")
@@ -102,6 +103,10 @@ def shown(viewer: Viewer) -> None:
     """Draws the latest snapshot on all pages, whatever was drawn when."""
     for part in viewer._parts:
         part._drawn_at = 0.0
+        if isinstance(part.part, SenseOverlay | Tabs):
+            turns = part.part._turns
+            turns._drawn_at.clear()
+            turns._processor_clock = lambda: 0.0  # so that all pages have their turn
     viewer._draw(viewer.runner.latest)
 
 
@@ -117,7 +122,7 @@ def seen(viewer: Viewer, condition: Callable[[], Any]) -> None:
 
 def part_of(viewer: Viewer, kind: type[P]) -> P:
     """The viewer's part of that kind."""
-    (part,) = (each._part for each in viewer._parts if isinstance(each._part, kind))
+    (part,) = (each.part for each in viewer._parts if isinstance(each.part, kind))
     return part
 
 

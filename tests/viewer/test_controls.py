@@ -15,7 +15,7 @@ from tests.viewer.pages import Page, page, part_of, shown, until
 
 @pytest.fixture
 def controls(viewer: Viewer) -> Controls:
-    (controls,) = (each._part for each in viewer._parts if isinstance(each._part, Controls))
+    (controls,) = (each.part for each in viewer._parts if isinstance(each.part, Controls))
     return controls
 
 

@@ -29,7 +29,7 @@ from ai4u_edu import (
     World,
 )
 from ai4u_edu.runtime.runner import Runner
-from ai4u_edu.server import ServerThread, room_app, shut_side_door
+from ai4u_edu.server import ServerThread, lock_viser_port, room_app
 from ai4u_edu.viewer import Viewer
 from ai4u_edu.viewer.panel.remote_lines import lines
 from tests.builders import still
@@ -144,7 +144,7 @@ def test_no_name_becomes_html() -> None:
     sim = evil_sim()
     runner = Runner(sim, seed=1)
     viewer = Viewer(runner, title=EVIL)
-    shut_side_door(viewer.server)
+    lock_viser_port(viewer.server)
     runner.start()
     viewer.start()
     try:

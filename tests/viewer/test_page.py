@@ -1,12 +1,12 @@
 """viser's own page in a real browser."""
 
-import shutil
+import io
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-import imageio.v3
 import numpy as np
 import pytest
+from PIL import Image
 
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.snapshot.theme import FLOOR, VOID
@@ -17,36 +17,27 @@ if TYPE_CHECKING:
 
 pytestmark = pytest.mark.browser
 
-ARGUMENTS = (
-    "--no-sandbox --use-angle=swiftshader --enable-unsafe-swiftshader --ignore-gpu-blocklist "
-    "--disable-quic --no-first-run --disable-background-networking --disable-component-update "
-    "--disable-sync"
-)
 READY = "() => window.__viserMutable?.camera?.fov < 3 && !window.__viserMutable.firstMessageBatch"
 """The camera has its long lens: the scene has come, and it is framed."""
 
 
 @pytest.fixture
 def tab(viewer: Viewer, runner: Runner) -> "Iterator[Page]":
-    sync_api = pytest.importorskip("playwright.sync_api")
-    chromium = shutil.which("chromium")
-    if chromium is None:
-        pytest.skip("there is no Chromium")
+    from tests.chromium import browser, new_page
+
     runner.start()
     viewer.start()
-    with sync_api.sync_playwright() as playwright:
-        browser = playwright.chromium.launch(executable_path=chromium, args=ARGUMENTS.split())
-        tab = browser.new_page(viewport={"width": 900, "height": 560})
+    with browser() as chromium:
+        tab = new_page(chromium, 900, 560, draws=True)
         tab.goto(f"http://127.0.0.1:{viewer.port}")
         tab.wait_for_function(READY, timeout=60_000)
         yield tab
-        browser.close()
     runner.stop()
 
 
 def colours(tab: "Page") -> np.ndarray:
     """The page as (height, width, 3) numbers 0..255."""
-    return np.asarray(imageio.v3.imread(tab.screenshot()))[..., :3].astype(int)
+    return np.asarray(Image.open(io.BytesIO(tab.screenshot())).convert("RGB")).astype(int)
 
 
 def share(pixels: np.ndarray, colour: tuple[int, int, int]) -> float:

@@ -486,7 +486,7 @@ def test_a_world_without_anything_random_pays_nothing(monkeypatch: pytest.Monkey
         raise AssertionError("somebody looked for a place")
 
     world = World()
-    monkeypatch.setattr("ai4u_edu.world.world.randomize", refuse)
+    monkeypatch.setattr("ai4u_edu.world.construction.randomize", refuse)
     monkeypatch.setattr("ai4u_edu.world.randomize.Places", refuse)
     world.add_floor("plate", BoxShape(size=(9, 9)))
     ball = world.add_body("ball", CircleShape())
@@ -500,7 +500,7 @@ def test_once_the_last_random_thing_is_gone_it_pays_nothing_again(
     world = World()
     world.add_body("ball", CircleShape(), random={"x": (0, 1)})
     world.remove("ball")
-    monkeypatch.setattr("ai4u_edu.world.world.randomize", lambda *_args: 1 / 0)
+    monkeypatch.setattr("ai4u_edu.world.construction.randomize", lambda *_args: 1 / 0)
     world.reset()
 
 
@@ -526,13 +526,13 @@ def test_what_can_not_be_added_changes_nothing(wrong: Any) -> None:
 
 def test_places_are_freed_as_soon_as_they_are_found(monkeypatch: pytest.MonkeyPatch) -> None:
     kept: list[Any] = []
-    inner = Places.take
+    inner = Places.occupy
 
     def note(self: Places, *args: Any) -> None:
         inner(self, *args)
         kept.extend([weakref.ref(self), weakref.ref(self._bodies)])
 
-    monkeypatch.setattr(Places, "take", note)
+    monkeypatch.setattr(Places, "occupy", note)
     gc.disable()
     try:
         crowded()

@@ -88,7 +88,7 @@ class LinearRayCastingSensor(RaySensor):
 
     def capture(self) -> Callable[[], RayPicture]:
         """Return a function that makes the picture of the last reading."""
-        return partial(_picture, self._fan.kept(), self.vision_max_distance, self._names())
+        return partial(_picture, self._fan.last_cast(), self.vision_max_distance, self._names())
 
     def _by_ray(self, code: float, distance: float) -> npt.NDArray[np.float64]:
         """Return one number for codes and one for distances, in the order of the reading."""

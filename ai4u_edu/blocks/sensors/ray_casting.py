@@ -92,7 +92,9 @@ class RayCastingSensor(RaySensor):
     def capture(self) -> Callable[[], RayPicture]:
         """Return a function that makes the picture of the last reading, its rays row by row."""
         grid = self._grid
-        return partial(_picture, grid.kept(), grid.pitches, self.vision_max_distance, self._names())
+        return partial(
+            _picture, grid.last_cast(), grid.pitches, self.vision_max_distance, self._names()
+        )
 
     def legend(self) -> CodeLegend:
         """Return the group of each code."""

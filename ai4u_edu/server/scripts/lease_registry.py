@@ -10,7 +10,7 @@ from ai4u_edu.server.scripts.agent_lease import AgentLease
 from ai4u_edu.server.scripts.outbox import Outbox
 from ai4u_edu.server.scripts.refusal import RefusalError, wrong_version
 from ai4u_edu.server.scripts.settings import Rules
-from ai4u_edu.server.token_auth import same
+from ai4u_edu.server.token_auth import is_same_secret
 from ai4u_edu.wire import native
 
 MIN_SECRET_CHARS = 16
@@ -41,7 +41,7 @@ class LeaseRegistry:
         self._check(hello)
         agent = self._agent(hello.agent)
         lease = self._leases.get(agent.id)
-        if lease is not None and same(lease.secret, hello.secret):
+        if lease is not None and is_same_secret(lease.secret, hello.secret):
             await self._take_over(lease, outbox)
         elif hello.session:
             raise RefusalError(
@@ -71,7 +71,7 @@ class LeaseRegistry:
     def _check(self, hello: native.Hello) -> None:
         if hello.version != native.VERSION:
             raise RefusalError("version", wrong_version(f"version {native.VERSION}", hello.version))
-        if self._rules.token and not same(self._rules.token, hello.token):
+        if self._rules.token and not is_same_secret(self._rules.token, hello.token):
             got = "another one" if hello.token else "none"
             raise RefusalError(
                 "bad_token",

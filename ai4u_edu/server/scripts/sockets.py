@@ -8,7 +8,7 @@ from starlette.types import Message, Receive, Scope, Send
 
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.server.frames import EXTENSION, FramesProtocol
-from ai4u_edu.server.rate import Rate
+from ai4u_edu.server.rate_limit import RateLimit
 from ai4u_edu.server.scripts.agent_lease import AgentLease
 from ai4u_edu.server.scripts.answers import is_request_for_time
 from ai4u_edu.server.scripts.lease_registry import LeaseRegistry
@@ -80,7 +80,7 @@ class _Connection:
         self._receive = receive
         self._outbox = outbox
         self._leases = leases
-        self._rate = Rate(MAX_STRAY_FRAMES_PER_S)
+        self._rate = RateLimit(MAX_STRAY_FRAMES_PER_S)
         self._malformed = 0
         self._hello: native.Hello | None = None
         self.lease: AgentLease | None = None

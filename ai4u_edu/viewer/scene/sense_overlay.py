@@ -1,8 +1,8 @@
 """Sensor readings drawn in the scene: on each page, those of the agent that it shows."""
 
+from ai4u_edu.runtime.frame_budget import SENSES_PER_S, PageTurns
 from ai4u_edu.snapshot import AgentState, Snapshot, StaticScene
 from ai4u_edu.snapshot.block_info import SensorInfo
-from ai4u_edu.viewer.backend.turns import Turns
 from ai4u_edu.viewer.scene.layers import Layers
 from ai4u_edu.viewer.scene.pointers import Pointers, has_pointer
 from ai4u_edu.viewer.scene.rays import Rays, RayStyle
@@ -29,7 +29,6 @@ class SenseOverlay:
 
     def __init__(self, viewer_clients: ViewerClients) -> None:
         self._viewer_clients = viewer_clients
-        self._turns = Turns()
         self._pages: dict[int, _Page] = {}
 
     def build(self, static_scene: StaticScene) -> None:
@@ -38,6 +37,7 @@ class SenseOverlay:
         self._style = RayStyle(static_scene)
         margin = layers.body + 3 * layers.unit
         self._tops = {body.name: body.height + margin for body in static_scene.bodies}
+        self._turns = PageTurns(SENSES_PER_S)
         for page in self._pages.values():
             page.build(self._style)
 
@@ -46,7 +46,7 @@ class SenseOverlay:
         for gone in self._pages.keys() - self._viewer_clients.keys():
             del self._pages[gone]
         agents = {agent.id: agent for agent in snapshot.agents}
-        for number in self._turns.next(self._viewer_clients.keys()):
+        for number in self._turns.due(self._viewer_clients.keys()):
             viewer_client = self._viewer_clients[number]
             if number not in self._pages:
                 self._pages[number] = _Page(viewer_client, self._style)

@@ -1,0 +1,81 @@
+"""The things in a world by name: descriptions, bodies, floors and areas."""
+
+from collections.abc import Iterable
+
+from ai4u_edu.base.errors import WorldError
+from ai4u_edu.world.body import Body
+from ai4u_edu.world.descriptions import AreaDescription, BodyDescription, FloorDescription
+from ai4u_edu.world.placement import Thing
+from ai4u_edu.world.region import Region
+
+MAX_BODIES = 500
+
+KIND_NAMES = {BodyDescription: "a body", FloorDescription: "a floor", AreaDescription: "an area"}
+
+
+class Registry:
+    """All things of a world; bodies, floors and areas share one set of names.
+
+    Attributes:
+        described: everything as described, in the order of addition.
+        bodies: by name, in the order of addition.
+        floors: description and region, as sampled for this episode.
+        areas: regions, as sampled for this episode.
+        has_random: True if something is sampled anew at each reset.
+    """
+
+    def __init__(self) -> None:
+        self.described: dict[str, Thing] = {}
+        self.bodies: dict[str, Body] = {}
+        self.floors: dict[str, tuple[FloorDescription, Region]] = {}
+        self.areas: dict[str, Region] = {}
+        self.has_random = False
+
+    def register(self, thing: Thing) -> None:
+        """Enter a description under its name."""
+        self.described[thing.name] = thing
+        self.has_random = self.has_random or thing.random is not None
+
+    def replace(self, thing: Thing) -> None:
+        """Replace the description of the same name."""
+        self.described[thing.name] = thing
+        self._update_has_random()
+
+    def forget(self, name: str) -> None:
+        """Remove everything of a name."""
+        for things in (self.described, self.bodies, self.floors, self.areas):
+            things.pop(name, None)
+        self._update_has_random()
+
+    def put_region(self, sampled: FloorDescription | AreaDescription) -> None:
+        """Enter a floor or an area as sampled for this episode."""
+        if isinstance(sampled, FloorDescription):
+            self.floors[sampled.name] = sampled, Region(sampled)
+        else:
+            self.areas[sampled.name] = Region(sampled)
+
+    def reorder(self, names: Iterable[str]) -> None:
+        """Put all things into the order of these names; others come last."""
+        order = {name: index for index, name in enumerate(names)}
+        for things in (self.described, self.bodies, self.floors, self.areas):
+            in_order = sorted(things.items(), key=lambda item: order.get(item[0], len(order)))
+            things.clear()
+            things.update(in_order)  # type: ignore[arg-type]  # each keeps its own kind of thing
+
+    def check_name(self, thing: Thing) -> None:
+        """Raise a WorldError if a thing's name is taken or the world is full of bodies."""
+        known = self.described.get(thing.name)
+        problem = ""
+        if known is not None:
+            kind = KIND_NAMES[type(known)]
+            problem = f"{thing.name!r} is already the name of {kind}; names are unique"
+        elif isinstance(thing, BodyDescription) and len(self.bodies) >= MAX_BODIES:
+            problem = (
+                f"body {thing.name!r}: the world is full; expected at most {MAX_BODIES} bodies; "
+                "remove some, or build walls from longer segments"
+            )
+        if problem:
+            raise WorldError(problem, thing=thing.name)
+
+    def _update_has_random(self) -> None:
+        self.has_random = any(thing.random for thing in self.described.values())

@@ -1,0 +1,63 @@
+"""Chromium without a window or a graphics card."""
+
+import contextlib
+import os
+import shutil
+from collections.abc import Iterator
+from typing import Any
+
+from playwright.sync_api import Browser, Page, sync_playwright
+
+FLAGS = [
+    "--no-sandbox",
+    # viser draws with WebGL; there may be no graphics card here
+    "--use-angle=swiftshader",
+    "--enable-unsafe-swiftshader",
+    "--ignore-gpu-blocklist",
+    # Debian's has a graphics card paint all text and buttons, even one that is software: twice the
+    # work of what a browser without a card does by itself
+    "--disable-gpu-rasterization",
+    "--disable-quic",
+    "--no-first-run",
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--disable-sync",
+    # newer ones guard this machine against foreign pages; here it is we who have to
+    "--disable-features=LocalNetworkAccessChecks,LocalNetworkAccessChecksWebSockets",
+]
+
+DRAW_NOTHING = """
+for (const kind of [self.WebGLRenderingContext, self.WebGL2RenderingContext]) {
+    for (const name of Object.getOwnPropertyNames(kind?.prototype ?? {})) {
+        const draws = /^(draw(Arrays|Elements|Range)|clear$|blit)/.test(name);
+        if (draws) kind.prototype[name] = () => {};
+    }
+}
+"""
+"""For a page whose picture of the world nobody looks at: viser's code runs, WebGL draws nothing.
+Without a graphics card, to draw takes most of a page's time."""
+
+
+@contextlib.contextmanager
+def browser() -> Iterator[Browser]:
+    """Headless Chromium."""
+    path = os.environ.get("AI4U_CHROMIUM") or shutil.which("chromium")
+    with sync_playwright() as playwright:
+        chromium = playwright.chromium.launch(executable_path=path, args=FLAGS)
+        yield chromium
+        chromium.close()
+
+
+def new_page(
+    chromium: Browser, width: int = 1280, height: int = 800, *, draws: bool = False, **options: Any
+) -> Page:
+    """Return a page in a context of its own, which the caller closes.
+
+    Args:
+        draws: WebGL draws the world; only for tests that look at the picture.
+        options: more of ``Browser.new_context``.
+    """
+    context = chromium.new_context(viewport={"width": width, "height": height}, **options)
+    if not draws:
+        context.add_init_script(DRAW_NOTHING)
+    return context.new_page()
