@@ -61,8 +61,8 @@ def recorded(on: bool) -> SceneEnv:
     """Return the yardstick with a recorder that was switched on once."""
     env = changed()
     recorder = Recorder(env.sim, keep=1)
-    recorder.switch(True)
-    recorder.switch(on)
+    recorder.set_enabled(True)
+    recorder.set_enabled(on)
     return env
 
 
