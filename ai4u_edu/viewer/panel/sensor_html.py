@@ -77,7 +77,7 @@ def _render_lines(sensor: SensorInfo, rows: npt.NDArray[np.float64]) -> str:
     if sensor.stack == 1:
         return html
     older = [
-        f"<span>{escape(name)}</span>{_strip(rows[:, i], low[i], high[i])}<b></b>"
+        f"<span>{escape(name)}</span>{_render_older(rows[:, i], low[i], high[i])}<b></b>"
         for i, name in enumerate(names)
     ]
     past = f"<small>the last {sensor.stack}, oldest first</small>"
