@@ -270,7 +270,7 @@ class BlocksTab:
                 self._path = then or self._path
             elif isinstance(error, ChangeError) and of_form:
                 self._message, self._problems = (
-                    "That can't be; see what is edit_status below.",
+                    "That can't be; see what is said below.",
                     error.problems,
                 )
             elif error is not None:
