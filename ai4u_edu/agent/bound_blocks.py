@@ -183,9 +183,9 @@ class BoundBlocks:
     def _raise_as_reading(self, error: Exception, block: Block | None, doing: str) -> None:
         """Add block and agent to an error; raise one of this package's as a ReadingError."""
         if isinstance(error, AI4UError) and not isinstance(error, ReadingError):
-            told = ReadingError(str(error))
-            add_context(told, self._agent, block, doing)
-            raise told from error
+            problem = ReadingError(str(error))
+            add_context(problem, self._agent, block, doing)
+            raise problem from error
         add_context(error, self._agent, block, doing)
 
     def _with_standard_sensors(self) -> list[Sensor]:
@@ -239,21 +239,21 @@ class BoundBlocks:
         enabled = [brain for brain in brains if brain.enabled]
         who = f"agent {self._agent.id!r}"
         if not enabled:
-            told = SetupError(
+            problem = SetupError(
                 f"{who}: expected exactly one enabled brain, got none"
                 + (f" ({len(brains)} are switched off)" if brains else "")
                 + "; add one, such as brains=[LocalBrain(controller=WASDRBMoveController())]"
             )
-            told.where = (self._agent, "brains")
-            raise told
+            problem.where = (self._agent, "brains")
+            raise problem
         if len(enabled) > 1:
             names = " and ".join(brain.title() for brain in enabled)
-            told = SetupError(
+            problem = SetupError(
                 f"{who}: expected exactly one enabled brain, got {len(enabled)}: {names}; "
                 "set enabled=False on the others"
             )
-            told.where = (self._agent, enabled[1])
-            raise told
+            problem.where = (self._agent, enabled[1])
+            raise problem
         return enabled[0]
 
     def _check_unique(self, what: str, field: str, blocks: Sequence[Block]) -> None:
@@ -261,12 +261,12 @@ class BoundBlocks:
         for block in blocks:
             name = getattr(block, field)
             if name in names:
-                told = SetupError(
+                problem = SetupError(
                     f"agent {self._agent.id!r}: two {what}s have the {field} {name!r}; "
                     f"give one of them another, as in {field}='{name}_2'"
                 )
-                told.where = (self._agent, block)
-                raise told
+                problem.where = (self._agent, block)
+                raise problem
             names.add(name)
 
     @contextmanager
@@ -278,11 +278,11 @@ class BoundBlocks:
             if isinstance(block, LostBrain):
                 raise
             who = f"agent {self._agent.id!r}"
-            told = BlockError(
+            problem = BlockError(
                 f"{who}, {block_label(block)}: {error}" if block else f"{who}: {error}"
             )
-            told.where = (self._agent, block or "body")
-            raise told from error
+            problem.where = (self._agent, block or "body")
+            raise problem from error
         except Exception as error:
             add_context(error, self._agent, block, doing)
             raise
