@@ -12,8 +12,6 @@ from ai4u_edu.world import World
 BLOCKS_CHANGED_REASON = (
     "the agent's blocks were changed; connect again to be told what it senses now"
 )
-    "the agent's blocks were changed; connect again to be told what it senses now"
-)
 """Reason given to a connected script whose agent was changed."""
 
 
