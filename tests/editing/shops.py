@@ -64,10 +64,10 @@ class Shop:
 
     def done(self, future: "Future[T]") -> T:
         """Carries out what was asked; ticks pass only until all decisions are over."""
-        self.runner._carry_out_commands()
+        self.runner._run_commands()
         while not future.done():
             self.tick()
-            self.runner._carry_out_commands()
+            self.runner._run_commands()
         return future.result(0)
 
     def tick(self, times: int = 1) -> None:
