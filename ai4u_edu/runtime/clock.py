@@ -1,6 +1,5 @@
 """The schedule of ticks by the wall clock, and how well it is kept."""
 
-import math
 import threading
 import time
 from collections import deque
@@ -88,8 +87,3 @@ class TickSchedule:
     def forget(self) -> None:
         """Forget the speed, since another world has taken this one's place."""
         self._window.clear()
-
-
-def is_unpaced(time_scale: float) -> bool:
-    """Return True if the time runs as fast as it can, and not by the clock."""
-    return math.isinf(time_scale)

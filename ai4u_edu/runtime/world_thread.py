@@ -329,7 +329,7 @@ class WorldThread:
         before, self.sim = self.sim, sim
         if recorder is not None:
             if self.recorder is not None and self.recorder is not recorder:
-                self.recorder.switch(False)
+                self.recorder.set_enabled(False)
             self.recorder = recorder
         elif self.recorder is not None:
             self.recorder.listen_to(sim)

@@ -60,7 +60,7 @@ def test_who_drives_does_not_end_the_recording() -> None:
     shop.tick(2)
     recorder = shop.runner.recorder
     assert recorder is not None
-    now = recorder.now()
+    now = recorder.current_episode()
     assert now is not None
     assert (len(now.agent()), now.changed) == (5, None)
 

@@ -205,7 +205,7 @@ def two_futures(step: int, **options: object) -> tuple[list[bytes], list[bytes]]
     sim.reset(6)
     there = [sim.step().data for _ in range(40)]
     recorder.finish()
-    recorder.switch(False)
+    recorder.set_enabled(False)
     replay = Replay(recorder.episodes[-1])
     into = sim if options.get("same") else None
     brains = None if options.get("same") else {"0": LocalBrain(controller=circling)}
