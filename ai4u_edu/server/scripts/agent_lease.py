@@ -16,7 +16,7 @@ from ai4u_edu.server.scripts.session import Session
 from ai4u_edu.server.scripts.settings import Rules
 from ai4u_edu.server.scripts.welcome import ObservationSubset, output_of
 from ai4u_edu.wire import native
-from ai4u_edu.wire.validation import LONGEST_TEXT
+from ai4u_edu.wire.validation import MAX_TEXT_CHARS
 
 SHORT_DROP_S = 0.3
 """Time for which a script whose connection is lost counts as late; after that it counts as lost."""
@@ -159,7 +159,7 @@ class AgentLease:
                 grace=self._rules.grace,
                 agent=agent.id,
                 mode=self._hello.mode,
-                title=shorten(title, LONGEST_TEXT),
+                title=shorten(title, MAX_TEXT_CHARS),
                 ticks_per_second=settings.ticks_per_second,
                 skip_frame=agent.brain.skip_frame,
                 repeat_action=agent.brain.repeat_action,
