@@ -1,4 +1,4 @@
-"""A world that stands still until a test moves it, and a editor on it."""
+"""A world that a test advances step by step, and its editor."""
 
 from concurrent.futures import Future
 from pathlib import Path
@@ -46,7 +46,7 @@ agents:
 """
 
 
-class Shop:
+class EditorHarness:
     """A runner without a thread, its editor and its recorder."""
 
     def __init__(
