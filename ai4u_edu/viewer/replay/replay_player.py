@@ -77,7 +77,7 @@ class ReplayPlayer:
 
         def copy_running_episode() -> ArchiveEntry | None:
             recorder = self._runner.recorder
-            episode = recorder.now() if recorder is not None else None
+            episode = recorder.current_episode() if recorder is not None else None
             if recorder is None or episode is None or not len(episode.agents[0]):
                 return None
             return ArchiveEntry(recorder.episodes.next_number, episode)
