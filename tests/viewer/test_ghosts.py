@@ -10,7 +10,7 @@ from ai4u_edu import LocalBrain, Scene
 from ai4u_edu.recording import Episode, Recorder
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.viewer import Viewer
-from tests.recording.takes import take
+from tests.recording.recorded_drives import take
 from tests.viewer.pages import shown, until
 
 
