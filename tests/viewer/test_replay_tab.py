@@ -1,4 +1,4 @@
-"""The tab for the past: what it lists, what its widgets ask for, what it takes from strangers."""
+"""The "Past" tab: its list, its widgets, and uploads from untrusted pages."""
 
 from collections.abc import Iterator
 
@@ -12,7 +12,7 @@ from ai4u_edu.viewer import Viewer
 from ai4u_edu.viewer.panel.uploads import limit_uploads
 from ai4u_edu.viewer.replay.episode_list import download_links, episode_table, short_brain_title
 from ai4u_edu.viewer.replay.replay_tab import ReplayTab
-from tests.recording.takes import take
+from tests.recording.recorded_drives import take
 from tests.viewer.pages import Page, page, shown, tabs_of, until
 
 
