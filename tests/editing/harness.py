@@ -64,10 +64,10 @@ class EditorHarness:
 
     def done(self, future: "Future[T]") -> T:
         """Run commands until a future is done; ticks only as long as decisions are under way."""
-        self.runner._carry_out_commands()
+        self.runner._run_commands()
         while not future.done():
             self.tick()
-            self.runner._carry_out_commands()
+            self.runner._run_commands()
         return future.result(0)
 
     def tick(self, times: int = 1) -> None:

@@ -1,4 +1,4 @@
-"""The tab for the past: what it lists, what its widgets ask for, what it takes from strangers."""
+"""The "Past" tab: its list, its widgets, and uploads from untrusted pages."""
 
 from collections.abc import Iterator
 

@@ -35,7 +35,7 @@ class Watched:
         until(lambda: self.camera.update_timestamp > before)
 
     def sent(self) -> int:
-        """How many messages were meant for this page alone."""
+        """The number of messages sent to this page alone."""
         return self.client._websock_connection.get_message_buffer().message_counter
 
 
@@ -54,7 +54,7 @@ def place(shown: Frame) -> tuple[float, float, float]:
 
 
 def middle(x: float, y: float, height: float) -> list[float]:
-    """What a camera looks at that has a place in the middle of the free part of its window."""
+    """Return the target of a camera that shows a point in the middle of the uncovered window."""
     shown = frame_point(x, y, height, 1.2)
     return [shown.x, shown.y, 0.0]
 
