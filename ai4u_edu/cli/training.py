@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 from rich.console import Console
 
+from ai4u_edu.base.atomic_write import write_atomically
 from ai4u_edu.base.errors import SetupError
 from ai4u_edu.base.seeding import seeds_from
 from ai4u_edu.cli.options import (
@@ -165,7 +166,7 @@ def evaluate(
         if str(json_file) == "-":
             typer.echo(text)
         else:
-            json_file.write_text(text + "\n", encoding="utf-8")
+            write_atomically(json_file, text + "\n")
     if plot is not None:
         plot_evaluations(done, plot)
 

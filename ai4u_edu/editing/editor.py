@@ -17,7 +17,7 @@ from ai4u_edu.editing.scene_store import SceneStore
 from ai4u_edu.editing.state import EditState
 from ai4u_edu.editing.transactions import Transactions
 from ai4u_edu.runtime.runner import Runner
-from ai4u_edu.runtime.stall_monitor import Stall
+from ai4u_edu.runtime.tick_monitor import Stall
 from ai4u_edu.scenes import Scene
 from ai4u_edu.scenes.yaml.file import YamlFile
 from ai4u_edu.world import BodyDescription
@@ -58,7 +58,7 @@ class SceneEditor:
         self.scene_store: SceneStore | None = None
         """Keeps scenes by name for pages; without it a page can only download them."""
         self.listeners = self._transactions.listeners
-        """Called with the state after each change, in the runner's thread; have to be quick."""
+        """Functions called with the state after each change, in the runner's thread."""
         self.listeners.append(self._on_change)
 
     @property

@@ -10,7 +10,7 @@ from pydantic import BaseModel, BeforeValidator, ConfigDict, Field
 from typing_extensions import TypeAliasType
 
 from ai4u_edu.base.version import __version__
-from ai4u_edu.runtime.stall_monitor import Stall
+from ai4u_edu.runtime.tick_monitor import Stall
 from ai4u_edu.snapshot import AgentState, BodyState, Snapshot
 
 

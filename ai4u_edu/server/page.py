@@ -23,7 +23,7 @@ _OURS = """<title>{title}</title>
     <link rel="stylesheet" href="./web/banners.css" />
     <link rel="stylesheet" href="./web/help.css" />
     <script type="module" src="./web/main.js"></script>
-    <script type="module" src="./web/names.js"></script>"""
+    <script type="module" src="./web/accessible_names.js"></script>"""
 # a system's own media types are not reliable: some call a .js plain text
 _KINDS = {".css": "text/css", ".js": "text/javascript", ".svg": "image/svg+xml"}
 _FRESH = {"Cache-Control": "no-cache"}

@@ -15,7 +15,7 @@ from ai4u_edu import LocalBrain, Scene
 from ai4u_edu.base.errors import AI4UError
 from ai4u_edu.recording import Episode, Recorder, RecordingError, Replay, file
 from ai4u_edu.recording.file import HEADER, decode, encode
-from tests.recording.takes import take
+from tests.recording.recorded_drives import take
 
 EPISODE = take("tag", decisions=20).episode
 BYTES = encode(EPISODE)

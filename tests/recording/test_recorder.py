@@ -33,7 +33,7 @@ from ai4u_edu.recording import episode_builder as builder
 from ai4u_edu.recording.scene_export import export_scene
 from ai4u_edu.runtime.runner import Runner
 from tests.builders import small_sim
-from tests.recording.takes import driver, field_of
+from tests.recording.recorded_drives import driver, field_of
 
 
 def ahead(percept: object) -> dict[str, list[float]]:

@@ -1,4 +1,4 @@
-"""A ghost is where the recorded agent was at the same time, and says so where that is unfair."""
+"""A ghost has the pose of the recorded agent at the same time; a warning says if it is unfair."""
 
 from collections.abc import Iterator
 from dataclasses import replace
@@ -10,7 +10,7 @@ from ai4u_edu import LocalBrain, Scene
 from ai4u_edu.recording import Episode, Recorder
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.viewer import Viewer
-from tests.recording.takes import take
+from tests.recording.recorded_drives import take
 from tests.viewer.pages import shown, until
 
 

@@ -40,7 +40,7 @@ def test_what_goes_wrong_in_a_callback_is_told_to_its_page_and_written_once(
     caplog: pytest.LogCaptureFixture,
     capfd: pytest.CaptureFixture[str],
 ) -> None:
-    monkeypatch.setattr("ai4u_edu.viewer.backend.incoming.TELL_PERIOD_S", 0.0)
+    monkeypatch.setattr("ai4u_edu.viewer.backend.incoming.NOTIFICATION_PERIOD_S", 0.0)
 
     async def fail(_event: GuiEvent[Any]) -> None:
         raise ValueError("this is no path")
@@ -179,6 +179,6 @@ def test_a_window_without_a_size_has_a_picture(viewer: Viewer) -> None:
         here.report_camera(size=(0, 0))
         (client,) = viewer.server.get_clients().values()
         until(lambda: client.camera.image_width == 0)
-        viewer._viewer_clients.meet()
+        viewer._viewer_clients.refresh()
         (viewer_client,) = viewer._viewer_clients.values()
         viewer_client.view.update(viewer.runner.latest, viewer_client.agent)

@@ -11,6 +11,7 @@ import numpy as np
 import numpy.typing as npt
 from PIL import Image
 
+from ai4u_edu.base.atomic_write import partial_file, reason
 from ai4u_edu.base.optional_deps import need
 from ai4u_edu.recording.errors import RecordingError
 from ai4u_edu.recording.replay import Replay
@@ -40,14 +41,15 @@ def write_gif(replay: Replay, path: Path, *, longest: int = 360) -> Path:
     )
     first = next(frames)
     hundredths = 100 * every / _rate(replay)
-    first.save(
-        path,
-        format="GIF",
-        save_all=True,
-        append_images=frames,
-        duration=max(20, round(hundredths) * 10),  # browsers show shorter frames for 100 ms
-        loop=0,
-    )
+    with partial_file(path) as partial:
+        first.save(
+            partial,
+            format="GIF",
+            save_all=True,
+            append_images=frames,
+            duration=max(20, round(hundredths) * 10),  # browsers show shorter frames for 100 ms
+            loop=0,
+        )
     return path
 
 
@@ -68,27 +70,37 @@ def write_mp4(replay: Replay, path: Path, *, longest: int = 640) -> Path:
 
     every = _every(replay, MP4_MAX_FPS)
     frames = (_even(frame) for frame in _frames(replay, every, longest))
+    try:
+        with partial_file(path) as partial:
+            message = _encode(get_ffmpeg_exe(), frames, _rate(replay) / every, partial)
+            if message is not None:
+                raise RecordingError(f"{path}: the video can't be written: {message}")
+    except OSError as error:
+        raise RecordingError(f"{path}: the video can't be written: {reason(error)}") from None
+    return path
+
+
+def _encode(ffmpeg: str, frames: Iterator[Frame], fps: float, path: Path) -> str | None:
+    """Encode frames with ffmpeg; return its message if it fails, and None otherwise."""
     first = next(frames)
     height, width, _ = first.shape
-    command = [get_ffmpeg_exe(), "-y", "-loglevel", "error"]
+    command = [ffmpeg, "-y", "-loglevel", "error"]
     command += ["-f", "rawvideo", "-pix_fmt", "rgb24", "-s", f"{width}x{height}"]
-    command += ["-r", str(_rate(replay) / every), "-i", "-"]
-    command += ["-c:v", "libx264", "-pix_fmt", "yuv420p", "-movflags", "+faststart"]
+    command += ["-r", str(fps), "-i", "-"]
+    command += ["-c:v", "libx264", "-pix_fmt", "yuv420p", "-movflags", "+faststart", "-f", "mp4"]
     command += [str(path.absolute())]  # absolute, since a name could begin like an option
     with subprocess.Popen(  # noqa: S603 - the only variable argument is a path
         command, stdin=subprocess.PIPE, stderr=subprocess.PIPE
-    ) as ffmpeg:
+    ) as process:
         try:
             with contextlib.suppress(BrokenPipeError):  # ffmpeg's own message follows
                 for frame in chain([first], frames):
-                    cast(IO[bytes], ffmpeg.stdin).write(frame.data)
+                    cast(IO[bytes], process.stdin).write(frame.data)
         except BaseException:
-            ffmpeg.kill()  # the incomplete video is useless
+            process.kill()  # the incomplete video is useless
             raise
-        _, told = ffmpeg.communicate()
-    if ffmpeg.returncode:
-        raise RecordingError(f"{path}: the video can't be written: {told.decode().strip()}")
-    return path
+        _, told = process.communicate()
+    return told.decode().strip() if process.returncode else None
 
 
 def _frames(replay: Replay, every: int, longest: int) -> Iterator[Frame]:

@@ -5,7 +5,7 @@ from html import escape
 
 from ai4u_edu.recording import ArchiveEntry
 from ai4u_edu.viewer.panel.bars import number
-from ai4u_edu.viewer.panel.readings import block
+from ai4u_edu.viewer.panel.html_parts import section
 
 STYLE = """<style>
 .ai4u .episodes {max-height: 11em; overflow-y: auto; border: 1px solid var(--line)}
@@ -37,11 +37,11 @@ def episode_table(
     """
     rows = [_row(each, each.number == chosen, each is best) for each in reversed(tuple(entries))]
     if not rows:
-        return block("<small>Every episode is kept here when it is over.</small>")
+        return section("<small>Every episode is kept here when it is over.</small>")
     head = "".join(f"<th>{heading}</th>" for heading in HEADINGS)
     table = f"<table><thead><tr>{head}</tr></thead><tbody>{''.join(rows)}</tbody></table>"
     region = 'class="episodes" tabindex="0" role="region" aria-label="Kept episodes"'
-    return STYLE + block(f"<div {region}>{table}</div>")
+    return STYLE + section(f"<div {region}>{table}</div>")
 
 
 def download_links(chosen: int, formats: Iterable[str]) -> str:
@@ -52,7 +52,7 @@ def download_links(chosen: int, formats: Iterable[str]) -> str:
         formats: file extensions, among :data:`FORMATS`.
     """
     links = [f'<a href="api/past/{chosen}.{each}" download>{FORMATS[each]}</a>' for each in formats]
-    return block(f'<div class="downloads">Download: {"".join(links)}</div>')
+    return section(f'<div class="downloads">Download: {"".join(links)}</div>')
 
 
 def driver(entry: ArchiveEntry) -> str:

@@ -18,9 +18,9 @@ from ai4u_edu.recording import ArchiveEntry, Episode
 from ai4u_edu.recording.file import MAX_FILE_BYTES, decode
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.snapshot import Snapshot
-from ai4u_edu.viewer.backend.reporting import reporting
+from ai4u_edu.viewer.backend.reporting import report_errors
+from ai4u_edu.viewer.panel.html_parts import section
 from ai4u_edu.viewer.panel.notify import notify_failure
-from ai4u_edu.viewer.panel.readings import block
 from ai4u_edu.viewer.panel.tabs import TabKind
 from ai4u_edu.viewer.panel.uploads import limit_uploads, take_file
 from ai4u_edu.viewer.panel.widgets import set_options, set_value
@@ -32,7 +32,7 @@ from ai4u_edu.viewer.viewer_client import ViewerClient
 NONE, RUNNING = "choose one", "this one, so far"
 BACK, PLAY, STOP, ON = "Step back", "Play", "Stop", "Step on"
 BACK_TO_NOW, GO_ON, RACE = "Back to now", "Continue here", "Race it"
-BARE = block(kind="bare")
+BARE = section(kind="bare")
 SPEEDS = {"0.25x": 0.25, "0.5x": 0.5, "1x": 1.0, "2x": 2.0, "4x": 4.0}
 
 
@@ -77,7 +77,7 @@ class ReplayTab:
         self._speed.on_update(self._on_speed)
         self._actions.on_click(self._on_action)
         self._no_ghost.on_click(self._on_no_ghost)
-        self._upload.on_upload(reporting(self._on_upload))
+        self._upload.on_upload(report_errors(self._on_upload))
 
     def draw(self, snapshot: Snapshot) -> None:
         """Show the episodes, the chosen one, and the shown decision."""
@@ -126,7 +126,7 @@ class ReplayTab:
             escape(recorder.problem or recorder.save_problem) if recorder is not None else "",
         ]
         lines = "<br>".join(f"<small>{each}</small>" for each in texts if each)
-        self._status.content = block(lines, kind="bare")
+        self._status.content = section(lines, kind="bare")
 
     # -- events; in viser's event loop, one after the other --------------------------------------
 

@@ -10,14 +10,14 @@ from ai4u_edu.viewer.scene.spots import Spots
 from ai4u_edu.viewer.viewer_client import ViewerClient, ViewerClients
 
 
-def is_drawable(sense: SensorInfo, agent: AgentState) -> bool:
+def is_drawable(sensor: SensorInfo, agent: AgentState) -> bool:
     """Return True if a sensor has something to draw in the scene."""
-    return is_shown_by_default(sense, agent) or has_pointer(sense)
+    return is_shown_by_default(sensor, agent) or has_pointer(sensor)
 
 
-def is_shown_by_default(sense: SensorInfo, agent: AgentState) -> bool:
+def is_shown_by_default(sensor: SensorInfo, agent: AgentState) -> bool:
     """Return True if a sensor is drawn unless switched off: one with rays or spots."""
-    return sense.key in agent.rays or sense.key in agent.spots
+    return sensor.key in agent.rays or sensor.key in agent.spots
 
 
 class SenseOverlay:
@@ -69,12 +69,12 @@ class _Page:
     def draw(self, snapshot: Snapshot, agent: AgentState, top: float) -> None:
         (body,) = (each for each in snapshot.bodies if each.name == agent.body)
         shown = [
-            sense
-            for sense in agent.sensor_infos
+            sensor
+            for sensor in agent.sensor_infos
             if not body.fallen
-            and self._viewer_client.lights(sense.key, by_itself=is_shown_by_default(sense, agent))
+            and self._viewer_client.lights(sensor.key, by_itself=is_shown_by_default(sensor, agent))
         ]
-        keys = [sense.key for sense in shown]
+        keys = [sensor.key for sensor in shown]
         with self._viewer_client.client.atomic():
             # `rays` is a new object after every reading
             if agent.rays is not self._drawn_rays or keys != self._keys:

@@ -1,4 +1,4 @@
-"""A world that stands still until a test moves it, and a editor on it."""
+"""A world that a test advances step by step, and its editor."""
 
 from concurrent.futures import Future
 from pathlib import Path
@@ -46,7 +46,7 @@ agents:
 """
 
 
-class Shop:
+class EditorHarness:
     """A runner without a thread, its editor and its recorder."""
 
     def __init__(
@@ -63,11 +63,11 @@ class Shop:
         self.editor = SceneEditor(self.runner, self.scene, offers=offers)
 
     def done(self, future: "Future[T]") -> T:
-        """Carries out what was asked; ticks pass only until all decisions are over."""
-        self.runner._carry_out_commands()
+        """Run commands until a future is done; ticks only as long as decisions are under way."""
+        self.runner._run_commands()
         while not future.done():
             self.tick()
-            self.runner._carry_out_commands()
+            self.runner._run_commands()
         return future.result(0)
 
     def tick(self, times: int = 1) -> None:
@@ -85,7 +85,7 @@ class Shop:
 
 
 def trace(sim: Any, seed: int, ticks: int = 60) -> list[Any]:
-    """All that can be seen of an episode, bit for bit."""
+    """Return everything observable of an episode, to be compared bit for bit."""
     sim.reset(seed)
     seen = []
     for _ in range(ticks):
