@@ -90,7 +90,7 @@ def page(room: Room) -> Iterator[Page]:
         here = Page(connection)
         here.report_camera()
         until(lambda: len(room.viewer.server.get_clients()) == before + 1)
-        room.viewer._viewer_clients.meet()
+        room.viewer._viewer_clients.refresh()
         shown(room.viewer)
         yield here
 

@@ -42,7 +42,7 @@ def viewer(runner: Runner) -> Iterator[Viewer]:
 
 def tab_of(viewer: Viewer) -> ReplayTab:
     """The tab of the only page, as it is now."""
-    viewer._viewer_clients.meet()
+    viewer._viewer_clients.refresh()
     shown(viewer)
     (tab,) = tabs_of(viewer, ReplayTab)
     return tab
@@ -83,7 +83,7 @@ def test_the_slider_moves_what_all_see(viewer: Viewer, runner: Runner) -> None:
         assert "Seen now: episode 1, step 7 of 20" in tab._status.content
         with page(viewer):  # whoever comes later sees the same
             until(lambda: len(viewer.server.get_clients()) == 2)
-            viewer._viewer_clients.meet()
+            viewer._viewer_clients.refresh()
             shown(viewer)
             assert [each._step.value for each in tabs_of(viewer, ReplayTab)] == [7, 7]
         here.change(tab._actions, "Back to now")
@@ -198,7 +198,7 @@ def test_the_table_marks_what_was_chosen_and_shortens_what_is_long() -> None:
 def test_without_a_recorder_there_is_no_such_tab() -> None:
     viewer = Viewer(Runner(Scene.load("box_chase").build(), seed=1))
     with page(viewer):
-        viewer._viewer_clients.meet()
+        viewer._viewer_clients.refresh()
         shown(viewer)
         assert tabs_of(viewer, ReplayTab) == []
     viewer.stop()

@@ -10,7 +10,7 @@ from ai4u_edu.snapshot import Snapshot
 from ai4u_edu.viewer import Viewer
 from ai4u_edu.viewer.scene.arena import camera_bounds
 from ai4u_edu.viewer.scene.framing import Frame, frame_arena, frame_point
-from ai4u_edu.viewer.scene.view import FOLLOWED, Mode, View
+from ai4u_edu.viewer.scene.view import FOLLOW_HEIGHT_IN_RADII, Mode, View
 from tests.viewer.pages import Page, page, until
 
 PLACE = (1.0, -2.0, 80.0)
@@ -141,8 +141,10 @@ def test_a_followed_agent_comes_to_the_middle_smoothly(
     view.update(runner.latest, "0")
     view.choose(Mode.FOLLOW)
     view.update(runner.latest, "0")
-    assert watched.camera.look_at == pytest.approx(middle(0.0, 0.0, 0.4 * FOLLOWED))
-    assert watched.camera.position[2] == pytest.approx(Frame(0, 0, 0.4 * FOLLOWED).distance)
+    assert watched.camera.look_at == pytest.approx(middle(0.0, 0.0, 0.4 * FOLLOW_HEIGHT_IN_RADII))
+    assert watched.camera.position[2] == pytest.approx(
+        Frame(0, 0, 0.4 * FOLLOW_HEIGHT_IN_RADII).distance
+    )
     ways = []
     for _ in range(60):
         now += 1 / 60

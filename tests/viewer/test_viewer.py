@@ -161,7 +161,7 @@ def test_an_error_beside_the_parts_does_not_end_the_thread(
         failed.set()
         raise OSError("no clients")
 
-    monkeypatch.setattr(viewer._viewer_clients, "meet", fail)
+    monkeypatch.setattr(viewer._viewer_clients, "refresh", fail)
     viewer.start()
     assert failed.wait(5)
     failed.clear()
