@@ -73,9 +73,9 @@ posix = pytest.mark.skipif(os.name != "posix", reason="sends signals as POSIX ha
 def test_a_signal_ends_it_cleanly_with_pages_open(number: signal.Signals) -> None:
     with program() as (process, url):
         with Page(url + "ws/input") as page, raw_request(url, "Host: localhost", *UPGRADE):
-            page.hear("hello")
+            page.receive("hello")
             page.hold("KeyW")
-            page.hear("state", held=["KeyW"])
+            page.receive("state", held=["KeyW"])
             began = time.monotonic()
             process.send_signal(number)
             code, _ = page.end()
@@ -193,11 +193,11 @@ def test_small_frames_wait_for_no_others(monkeypatch: pytest.MonkeyPatch) -> Non
     assert all(at_once)
 
 
-def test_stopping_with_pages_open_takes_little_time_and_frees_the_seat() -> None:
+def test_stopping_with_pages_open_takes_little_time_and_frees_control() -> None:
     with served() as room:
         page = room.page()
         page.hold("KeyW")
-        page.hear("seat", driver=1)
+        page.receive("seat", driver=1)
         stopping = time.monotonic()
     assert time.monotonic() - stopping < 3
     assert room.held == []
