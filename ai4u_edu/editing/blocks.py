@@ -21,7 +21,7 @@ from ai4u_edu.blocks import (
 from ai4u_edu.editing.errors import ChangeError
 from ai4u_edu.editing.input_checks import MAX_DEPTH, check_name, check_number, check_plain
 from ai4u_edu.editing.plain import BlockPath, Plain
-from ai4u_edu.editing.typed import (
+from ai4u_edu.editing.type_checks import (
     check_typed,
     check_typed_and,
     schema_of,

@@ -12,8 +12,8 @@ from ai4u_edu.base.parameters import Problem
 from ai4u_edu.editing import ChangeError, ChangeResult, SceneEditor
 from ai4u_edu.editing.blocks import block_at, is_enabled
 from ai4u_edu.editing.forms import Field
-from ai4u_edu.editing.names import SceneNames
 from ai4u_edu.editing.plain import BlockPath
+from ai4u_edu.editing.scene_names import SceneNames
 from ai4u_edu.editing.settings import agent_form
 from ai4u_edu.editing.suggestion import suggest_block
 from ai4u_edu.snapshot import Snapshot
