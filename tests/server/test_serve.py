@@ -18,6 +18,7 @@ from starlette.requests import Request
 from starlette.responses import PlainTextResponse, Response
 from starlette.routing import Route
 
+from ai4u_edu import server
 from ai4u_edu.base.errors import AI4UError
 from ai4u_edu.server import AddressError, PortTakenError, ServerThread, serve
 from ai4u_edu.server.frames import FramesProtocol
@@ -231,3 +232,11 @@ def _suppressed_get(url: str) -> None:
 
 async def _nothing(scope: object, receive: object, send: object) -> None:
     await PlainTextResponse("fine")(scope, receive, send)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize(
+    ("old", "new"), [("announcement", "startup_banner"), ("shut_side_door", "lock_viser_port")]
+)
+def test_an_old_name_warns(old: str, new: str) -> None:
+    with pytest.warns(DeprecationWarning, match=new):
+        assert getattr(server, old) is getattr(server, new)
