@@ -170,7 +170,7 @@ def _counted(left_out: int) -> str:
 
 
 def _place(error: BaseException | None) -> tuple[str, int] | None:
-    """The file and line where an exception was raised."""
+    """Return the file and line where an exception was raised."""
     at: TracebackType | None = error.__traceback__ if error is not None else None
     if at is None:
         return None

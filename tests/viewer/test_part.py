@@ -1,4 +1,4 @@
-"""How often a part of the picture is drawn."""
+"""The rate at which a part of a frame is drawn."""
 
 import pytest
 

@@ -4,7 +4,7 @@ import time
 from typing import Protocol
 
 from ai4u_edu.base.log_limit import ErrorLog
-from ai4u_edu.runtime.frame_budget import EARLY, PART_SHARE
+from ai4u_edu.runtime.frame_budget import EARLY_FRACTION, PART_SHARE
 from ai4u_edu.snapshot import Snapshot, StaticScene
 
 
@@ -29,7 +29,7 @@ class RatedPart:
 
     def __init__(self, part: Part, rate: float, error_log: ErrorLog) -> None:
         self.part = part
-        self._period = EARLY / rate
+        self._period = EARLY_FRACTION / rate
         self._error_log = error_log
         self._drawn_at = self._draw_time = 0.0
         self._is_ready = False
