@@ -70,12 +70,12 @@ class Viewer:
         self.runner = runner
         self.server = server = LocalServer(title)
         self._title = title
-        self._viewer_clients = viewer_clients = ViewerClients(server, first=runner.sim.agents[0].id)
+        self.viewer_clients = viewer_clients = ViewerClients(server, first=runner.sim.agents[0].id)
         self._static_scene: StaticScene | None = None
         self._complaints = Complaints()
         self._stopping = threading.Event()
         self._pace = Pace()
-        self._thread = threading.Thread(target=self._run, name="viewer", daemon=True)
+        self.thread = threading.Thread(target=self._run, name="viewer", daemon=True)
         server.gui.configure_theme(show_logo=False, show_share_button=False)
         server.gui.main_panel.dock_right()
         server.gui.main_panel.set_width(PANEL_WIDTH)
@@ -87,9 +87,9 @@ class Viewer:
         if editor is not None:
             kinds += [blocks_tab(editor), world_tab(editor)]
             editor.listeners.append(self._rename)
-        self._player, self.ghosts = ReplayPlayer(runner), Ghosts(server)
+        self.player, self.ghosts = ReplayPlayer(runner), Ghosts(server)
         if runner.recorder is not None:
-            kinds.append(replay_tab(runner, self._player, self.ghosts))
+            kinds.append(replay_tab(runner, self.player, self.ghosts))
 
         def rounds() -> int:
             return Turns.rounds(len(viewer_clients))
@@ -108,11 +108,11 @@ class Viewer:
             (SenseOverlay(viewer_clients), 30),
             (Tabs(viewer_clients, kinds, self._complaints), 8),
         ]
-        self._parts = [Paced(part, rate, self._complaints, share) for part, rate, share in parts]
-        self._parts += [
+        self.parts = [Paced(part, rate, self._complaints, share) for part, rate, share in parts]
+        self.parts += [
             Paced(part, rate, self._complaints, EACH_PAGE, rounds) for part, rate in in_turn
         ]
-        self._draw(runner.latest)
+        self.draw(runner.latest)
 
     @property
     def port(self) -> int:
@@ -121,7 +121,7 @@ class Viewer:
 
     def start(self) -> None:
         """Begins to draw."""
-        self._thread.start()
+        self.thread.start()
 
     def stop(self) -> None:
         """Ends the thread and viser's server.
@@ -135,9 +135,9 @@ class Viewer:
         ending.join(STOP_S)
 
     def _end(self) -> None:
-        if self._thread.is_alive():
-            self._thread.join()
-        self._player.stop()
+        if self.thread.is_alive():
+            self.thread.join()
+        self.player.stop()
         self.server.stop()
 
     def _rename(self, state: EditState) -> None:
@@ -152,35 +152,36 @@ class Viewer:
             seen = self.runner.wait(seen, IDLE)
             began, worked = time.monotonic(), time.thread_time()
             with self._complaints.caught():
-                self._viewer_clients.meet()
-                if self._viewer_clients or seen.static_scene is not self._static_scene:
-                    self._draw(seen)
+                self.viewer_clients.meet()
+                if self.viewer_clients or seen.static_scene is not self._static_scene:
+                    self.draw(seen)
             spent = time.monotonic() - began
             period = self._pace.period(
-                pages=len(self._viewer_clients),
+                pages=len(self.viewer_clients),
                 late=self.runner.lateness,
                 spent=time.thread_time() - worked,
             )
-            self._stopping.wait(max((period if self._viewer_clients else IDLE) - spent, 0.001))
+            self._stopping.wait(max((period if self.viewer_clients else IDLE) - spent, 0.001))
 
     def _choose(self, client_id: int, body: str) -> None:
         """On one page, looks at the agent with that body."""
-        viewer_client, static_scene = self._viewer_clients.get(client_id), self._static_scene
+        viewer_client, static_scene = self.viewer_clients.get(client_id), self._static_scene
         if viewer_client is not None and static_scene is not None and body in static_scene.agent_of:
             viewer_client.agent = static_scene.agent_of[body]
 
-    def _draw(self, snapshot: Snapshot) -> None:
+    def draw(self, snapshot: Snapshot) -> None:
+        """Draw what is due of a snapshot; the viewer's thread does, once it has started."""
         for agent in self.runner.sim.agents:
             agent.ledger.keep_history(MAX_PLOTTED_DECISIONS)
         with self.server.atomic():
             if snapshot.static_scene is not self._static_scene:
                 self._static_scene = snapshot.static_scene
                 self._aim(snapshot.static_scene)
-                for part in self._parts:
+                for part in self.parts:
                     part.build(snapshot.static_scene)
-            for part in self._parts:
+            for part in self.parts:
                 part.draw(snapshot)
-        for viewer_client in self._viewer_clients.values():
+        for viewer_client in self.viewer_clients.values():
             with self._complaints.caught():
                 viewer_client.view.update(snapshot, viewer_client.agent)
 

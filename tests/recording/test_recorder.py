@@ -2,6 +2,7 @@
 
 import errno
 import os
+import sys
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -21,7 +22,6 @@ from ai4u_edu import (
 from ai4u_edu.agent import EVENTS
 from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.base.errors import SetupError
-from ai4u_edu.cli import episodes as episode_commands
 from ai4u_edu.recording import Episode, Recorder, RecordingError, Replay, recorder_into
 from ai4u_edu.recording import episode_builder as builder
 from ai4u_edu.recording.scene_export import export_scene
@@ -189,7 +189,8 @@ def test_a_full_disk_stops_no_world_and_refuses_no_reset(
         runner.advance()
         asked.result(0)
 
-    monkeypatch.setattr(episode_commands, "write_atomically", full)
+    module = sys.modules[recorder_into.__module__]
+    monkeypatch.setattr(module, "write_atomically", full)
     for seed in (2, 3, 4):
         drive_and_reset(seed)
         assert "No space left on device" in recorder.save_problem

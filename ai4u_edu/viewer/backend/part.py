@@ -46,7 +46,7 @@ class Paced:
         share: float = MOST,
         rounds: Callable[[], int] = lambda: 1,
     ) -> None:
-        self._part, self._rounds = part, rounds
+        self.part, self._rounds = part, rounds
         self._period = 1 / rate
         self._share = share
         self._complaints = complaints
@@ -57,8 +57,12 @@ class Paced:
         """Gets the part ready for a static scene; its next picture is due at once."""
         self._drawn_at, self._ready = 0.0, False
         with self._complaints.caught():
-            self._part.build(static_scene)
+            self.part.build(static_scene)
             self._ready = True
+
+    def make_due(self) -> None:
+        """Let the next snapshot be drawn, however soon it comes."""
+        self._drawn_at = 0.0
 
     def draw(self, snapshot: Snapshot) -> None:
         """Shows a snapshot, if that is due."""
@@ -69,5 +73,5 @@ class Paced:
         ):
             self._drawn_at, began = now, time.thread_time()
             with self._complaints.caught():
-                self._part.draw(snapshot)
+                self.part.draw(snapshot)
             self._took = time.thread_time() - began

@@ -49,21 +49,21 @@ class Tabs:
     ) -> None:
         self._turns = Turns()
         self._viewer_clients = viewer_clients
-        self._kinds = tuple(kinds)
+        self.kinds = tuple(kinds)
         self._complaints = complaints
-        self._pages: dict[int, _Page] = {}
+        self.pages: dict[int, _Page] = {}
 
     def build(self, static_scene: StaticScene) -> None:
         """Do nothing: tabs find the static scene in the snapshot."""
 
     def draw(self, snapshot: Snapshot) -> None:
         """Show a snapshot in all tabs of the pages whose turn it is; add tabs to new pages."""
-        for gone in self._pages.keys() - self._viewer_clients.keys():
-            del self._pages[gone]
-        for new in self._viewer_clients.keys() - self._pages.keys():
-            self._pages[new] = _Page(self._viewer_clients[new], self._kinds, self._complaints)
-        for number in self._turns.next(self._pages.keys()):
-            for tab in self._pages[number].tabs:
+        for gone in self.pages.keys() - self._viewer_clients.keys():
+            del self.pages[gone]
+        for new in self._viewer_clients.keys() - self.pages.keys():
+            self.pages[new] = _Page(self._viewer_clients[new], self.kinds, self._complaints)
+        for number in self._turns.next(self.pages.keys()):
+            for tab in self.pages[number].tabs:
                 with self._complaints.caught():
                     tab.draw(snapshot)
 

@@ -41,9 +41,9 @@ class Ghosts:
         self.problem = ""
         """Why there is no ghost; empty if there is one, or none was wanted."""
         self._episode: Episode | None = None
-        self._ghost: Ghost | None = None
+        self.ghost: Ghost | None = None
         self._made: Ghost | None = None
-        self._bodies: list[_Body] = []
+        self.bodies: list[_Body] = []
         self._layers: Layers | None = None
 
     def race(self, episode: Episode | None, name: str = "") -> None:
@@ -53,7 +53,7 @@ class Ghosts:
             episode: the run.
             name: what it is called.
         """
-        self._episode, self._ghost, self.problem = episode, None, ""
+        self._episode, self.ghost, self.problem = episode, None, ""
         self.name = name if episode is not None else ""
         if episode is not None:
             threading.Thread(target=self._play, args=(episode,), name="ghost", daemon=True).start()
@@ -78,7 +78,7 @@ class Ghosts:
 
     def draw(self, snapshot: Snapshot) -> None:
         """Puts the ghost where it was at this time of its episode."""
-        ghost, layers = self._ghost, self._layers
+        ghost, layers = self.ghost, self._layers
         if ghost is not self._made and layers is not None:
             self._make(ghost, snapshot.static_scene, layers)
         if ghost is None or layers is None:
@@ -86,11 +86,11 @@ class Ghosts:
         now = ghost.at(snapshot.time + 1e-4)  # its times are rounded
         is_fair = self._episode is not None and snapshot.seed == self._episode.seed
         text = "ghost" if is_fair else "ghost of another start"
-        for body in self._bodies:
+        for body in self.bodies:
             body.move(now.get(body.name), layers, text)
 
     def _make(self, ghost: Ghost | None, static_scene: StaticScene, layers: Layers) -> None:
-        self._made, self._bodies = ghost, []
+        self._made, self.bodies = ghost, []
         episode = self._episode
         with self._subtree.rebuild() as parent:
             if ghost is None or episode is None or self._is_elsewhere(static_scene):
@@ -99,7 +99,7 @@ class Ghosts:
             for number, body in enumerate(episode.scene.bodies):
                 if body.name in drivers:
                     node = f"{parent}/{number}"
-                    self._bodies.append(_Body(self._scene, node, body, layers))
+                    self.bodies.append(_Body(self._scene, node, body, layers))
 
     def _play(self, episode: Episode) -> None:
         try:
@@ -109,7 +109,7 @@ class Ghosts:
                 self.problem, self.name, self._episode = str(error), "", None
             return
         if self._episode is episode:
-            self._ghost = ghost
+            self.ghost = ghost
 
     def _is_elsewhere(self, static_scene: StaticScene) -> bool:
         """Whether the run's things are others than those that are here; places may be chance."""
@@ -129,26 +129,26 @@ class _Body:
         outline = body.shape.outline()
         self._radius = radius = half_width(outline)
         colour = mix_colours(body_colour(body, is_agent=True), PALE, 0.35)
-        self._frame: FrameHandle = scene.add_frame(node, show_axes=False, visible=False)
+        self.frame: FrameHandle = scene.add_frame(node, show_axes=False, visible=False)
         drawer = MeshDrawer(scene, node)
         # a little below a living body, so that the two never flicker through each other
         shape = prism(outline, body.height, 0.16 * radius)
         drawer.mesh("body", shape, -layers.unit, colour, OPACITY)
         drawer.mesh("face", face(radius, body.height), 0.0, PALE, OPACITY)
-        self._label: LabelHandle = MeshDrawer(scene, f"{node}-name").label("label", "")
-        self._label.visible = False
+        self.label: LabelHandle = MeshDrawer(scene, f"{node}-name").label("label", "")
+        self.label.visible = False
         self._pose: Pose | None = None
         self._text = ""
 
     def move(self, pose: Pose | None, layers: Layers, text: str) -> None:
         """Puts it where it was; out of the world it is not drawn."""
         if (pose is None) != (self._pose is None):
-            self._frame.visible = self._label.visible = pose is not None
+            self.frame.visible = self.label.visible = pose is not None
         if pose is not None and pose != self._pose:
             x, y, z, heading = pose
-            self._frame.position = (x, y, z + layers.body)
-            self._frame.wxyz = (math.cos(heading / 2), 0.0, 0.0, math.sin(heading / 2))
-            self._label.position = (x, y + ABOVE * self._radius, z + layers.body)
+            self.frame.position = (x, y, z + layers.body)
+            self.frame.wxyz = (math.cos(heading / 2), 0.0, 0.0, math.sin(heading / 2))
+            self.label.position = (x, y + ABOVE * self._radius, z + layers.body)
         if text != self._text:
-            self._text = self._label.text = text
+            self._text = self.label.text = text
         self._pose = pose

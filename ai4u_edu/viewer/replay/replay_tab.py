@@ -49,7 +49,7 @@ class ReplayTab:
         self, viewer_client: ViewerClient, runner: Runner, player: ReplayPlayer, ghosts: Ghosts
     ) -> None:
         gui = viewer_client.client.gui
-        self._viewer_client, self._client, self._runner = (
+        self._viewer_client, self.client, self._runner = (
             viewer_client,
             viewer_client.client,
             runner,
@@ -57,26 +57,26 @@ class ReplayTab:
         self._player, self._ghosts = player, ghosts
         self._seen: tuple[object, ...] = ()
         self._numbers: dict[str, int] = {}
-        self._list = gui.add_html("")
-        self._episode = gui.add_dropdown("Episode", (NONE, UNDER_WAY))
-        self._step = gui.add_slider("Moment", 1, 2, 1, 1, visible=False)
-        self._told = gui.add_html(BARE)
-        self._steps = gui.add_button_group("Go", (BACK, PLAY, ON), visible=False)
+        self.table = gui.add_html("")
+        self.episode = gui.add_dropdown("Episode", (NONE, UNDER_WAY))
+        self.step = gui.add_slider("Moment", 1, 2, 1, 1, visible=False)
+        self.told = gui.add_html(BARE)
+        self.step_buttons = gui.add_button_group("Go", (BACK, PLAY, ON), visible=False)
         self._speed = gui.add_dropdown("Pace", tuple(SPEEDS), initial_value="1x", visible=False)
         gui.add_html(BARE)
-        self._verbs = gui.add_button_group("Then", (NOW_AGAIN, GO_ON, RACE), visible=False)
-        self._nobody = gui.add_button("No ghost", visible=False)
-        self._links = gui.add_html("")
+        self.actions = gui.add_button_group("Then", (NOW_AGAIN, GO_ON, RACE), visible=False)
+        self.no_ghost = gui.add_button("No ghost", visible=False)
+        self.links = gui.add_html("")
         hint = "An .episode file, of a friend's or your own"
-        self._upload = gui.add_upload_button("Open a recording", hint=hint)
-        limit_uploads(self._client, MAX_FILE_BYTES)
-        self._episode.on_update(self._on_episode)
-        self._step.on_update(self._on_step)
-        self._steps.on_click(self._on_steps)
+        self.upload = gui.add_upload_button("Open a recording", hint=hint)
+        limit_uploads(self.client, MAX_FILE_BYTES)
+        self.episode.on_update(self._on_episode)
+        self.step.on_update(self._on_step)
+        self.step_buttons.on_click(self._on_steps)
         self._speed.on_update(self._on_speed)
-        self._verbs.on_click(self._on_verb)
-        self._nobody.on_click(self._on_nobody)
-        self._upload.on_upload(reporting(self._on_upload))
+        self.actions.on_click(self._on_verb)
+        self.no_ghost.on_click(self._on_nobody)
+        self.upload.on_upload(reporting(self._on_upload))
 
     def draw(self, snapshot: Snapshot) -> None:
         """Shows what there is, what was chosen, and which moment is seen."""
@@ -93,37 +93,37 @@ class ReplayTab:
         chosen = self._player.number
         archive = self._player.archive
         best = archive.best if archive is not None and len(entries) > 1 else None
-        self._list.content = listed(entries, chosen, best)
+        self.table.content = listed(entries, chosen, best)
         numbers = {str(entry.number): entry.number for entry in reversed(entries)}
         self._numbers = {UNDER_WAY: NOW} | numbers
         options = (NONE, *self._numbers)
-        if self._episode.options != options:
-            self._episode.options = options
+        if self.episode.options != options:
+            self.episode.options = options
         name = next((name for name, each in self._numbers.items() if each == chosen), NONE)
-        if self._episode.value != name:
-            self._episode.value = name  # type: ignore[misc]  # a method parts getter from setter
+        if self.episode.value != name:
+            self.episode.value = name  # type: ignore[misc]  # a method parts getter from setter
         is_kept = chosen in numbers.values()
         formats = [each for each in FORMATS if each != "mp4" or has("imageio_ffmpeg")]
-        self._links.content = downloads(chosen, formats) if is_kept and chosen else ""
+        self.links.content = downloads(chosen, formats) if is_kept and chosen else ""
 
     def _follow(self, snapshot: Snapshot) -> None:
         """Shows the moment that is wanted, whoever wanted it."""
         player, frame_cache = self._player, self._player.frame_cache
         recorder = self._runner.recorder
         there = frame_cache is not None and frame_cache.last >= 0
-        for handle in (self._step, self._steps, self._speed, self._verbs):
+        for handle in (self.step, self.step_buttons, self._speed, self.actions):
             handle.visible = there
         if frame_cache is not None and there:
             # people count from 1; the end comes after the last step
             last, step = max(frame_cache.last, 1) + 1, player.step + 1
-            if self._step.max != last:
-                self._step.max = last
-            if self._step.value != step:
-                self._step.value = step  # type: ignore[misc]
+            if self.step.max != last:
+                self.step.max = last
+            if self.step.value != step:
+                self.step.value = step  # type: ignore[misc]
         options = (BACK, STOP if player.playing else PLAY, ON)
-        if self._steps.options != options:
-            self._steps.options = options
-        self._nobody.visible = bool(self._ghosts.name)
+        if self.step_buttons.options != options:
+            self.step_buttons.options = options
+        self.no_ghost.visible = bool(self._ghosts.name)
         told = [
             snapshot.past and f"Seen now: {snapshot.past}",
             escape(player.problem or (frame_cache.problem if frame_cache is not None else "")),
@@ -131,7 +131,7 @@ class ReplayTab:
             escape(recorder.problem or recorder.save_problem) if recorder is not None else "",
         ]
         lines = "<br>".join(f"<small>{each}</small>" for each in told if each)
-        self._told.content = block(lines, kind="bare")
+        self.told.content = block(lines, kind="bare")
 
     # -- what people ask for; in viser's loop, one after the other -------------------------------
 
@@ -160,17 +160,17 @@ class ReplayTab:
         player = self._player
         match event.target.value:
             case "Back to now" if player.is_showing:
-                notify_failure(self._client, self._runner, player.back())
+                notify_failure(self.client, self._runner, player.back())
             case "Continue here":
-                notify_failure(self._client, self._runner, await asyncio.to_thread(player.go_on))
+                notify_failure(self.client, self._runner, await asyncio.to_thread(player.go_on))
             case "Race it" if player.frame_cache is not None:
                 frame_cache = player.frame_cache
                 player.leave()
                 self._ghosts.race(frame_cache.episode, f"episode {frame_cache.number}")
                 notify_failure(
-                    self._client, self._runner, self._runner.reset(frame_cache.episode.seed)
+                    self.client, self._runner, self._runner.reset(frame_cache.episode.seed)
                 )
-                notify_failure(self._client, self._runner, self._runner.resume())
+                notify_failure(self.client, self._runner, self._runner.resume())
 
     async def _on_nobody(self, _event: GuiEvent[GuiButtonHandle]) -> None:
         self._ghosts.race(None)
@@ -182,7 +182,7 @@ class ReplayTab:
         try:
             episode = await asyncio.to_thread(decode, Episode, file.content, file.name[:80])
         except AI4UError as error:
-            self._client.add_notification("That is no recording", str(error))
+            self.client.add_notification("That is no recording", str(error))
             return
         self._player.open(archive.append(episode, file.name[:80]).number)
 
