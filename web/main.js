@@ -11,7 +11,7 @@ import { HeldKeys } from "./keys.js";
 import { Keycaps } from "./keycaps.js";
 import { label, loadLayout } from "./labels.js";
 import { collapseMobilePanel } from "./mobile_panel.js";
-import { trackCanvasEdges } from "./scene.js";
+import { trackCanvasEdges } from "./canvas_edges.js";
 import { InputSocket } from "./socket.js";
 
 const query = new URLSearchParams(location.search);

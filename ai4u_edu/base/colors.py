@@ -23,10 +23,10 @@ PALETTE = {
 
 
 def rgb(colour: str) -> tuple[int, int, int]:
-    """A colour's red, green and blue, each 0..255.
+    """Return a colour's red, green and blue, each 0..255.
 
     Args:
-        colour: a name out of :data:`PALETTE`, or ``#rrggbb``.
+        colour: a key of :data:`PALETTE`, or ``#rrggbb``.
 
     >>> rgb("orange")
     (230, 159, 0)

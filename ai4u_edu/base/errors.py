@@ -1,4 +1,4 @@
-"""Everything that can go wrong on purpose, in one tree.
+"""All errors that this package raises on purpose.
 
 ::
 
@@ -29,36 +29,36 @@ from difflib import get_close_matches
 from typing import Any
 
 MAX_SHOWN_CHARS = 60
-"""Of a value in a message."""
+"""Maximum length of a value in a message."""
 MAX_NAMES_COMPARED = 500
 MAX_NAMES_SHOWN = 50
 MAX_NAME_CHARS = 80
-"""Of a name that is compared or shown; what is longer is no name that anybody chose."""
+"""Maximum length of a name that is compared or shown; nobody chooses longer ones."""
 
 
 class AI4UError(Exception):
-    """The root: ``except AI4UError`` catches all that this package raises on purpose."""
+    """The base of all errors that this package raises on purpose."""
 
 
 class NameNotFoundError(AI4UError, KeyError):
     """A name that nothing carries; the message suggests the nearest known one."""
 
     def __str__(self) -> str:
-        return str(self.args[0])  # a KeyError alone would put its message in quotes
+        return str(self.args[0])  # KeyError's own method would quote the message
 
 
 class SetupError(AI4UError):
     """Something was put together wrongly; nothing has run yet."""
 
     where: tuple[object, ...] = ()
-    """The agent, then its block or parameter, that it is about; empty if that is not known."""
+    """The agent, then its block or parameter, that caused it; empty if unknown."""
 
 
 class ParameterError(SetupError):
     """A parameter is missing, unknown, out of range or of another type."""
 
     details: Exception | None = None
-    """The finding, parameter by parameter, of the library that checked."""
+    """The validation library's error, with details for each parameter."""
 
 
 class SeedError(ParameterError, ValueError):
@@ -79,7 +79,7 @@ class WorldError(AI4UError):
     def __init__(self, message: str, *, thing: str = "") -> None:
         super().__init__(message)
         self.thing = thing
-        """The name of the body, floor or area that it is about, if it is one."""
+        """Name of the body, floor or area that caused it; empty if there is none."""
 
 
 class ReadingError(AI4UError):
@@ -95,7 +95,7 @@ class NoDecisionError(AI4UError):
 
 
 def suggest(name: str, known: Iterable[str]) -> str:
-    """What to write instead of an unknown name.
+    """Return a hint for an unknown name: the nearest known one, or all.
 
     >>> suggest("bxo", ["box", "robot"])
     "did you mean 'box'?"
@@ -117,14 +117,14 @@ def suggest(name: str, known: Iterable[str]) -> str:
 
 
 def shown(value: object, most: int = MAX_SHOWN_CHARS) -> str:
-    """Return a value as it stands in a message: the beginning of its repr.
+    """Return a value for a message: the beginning of its repr.
 
-    The value may be anything that came from a file or over a network: long, nested a thousand deep,
-    or a number with more digits than Python writes.
+    The value may be any input from a file or network: long, nested a thousand levels deep, or a
+    number with more digits than Python converts.
 
     Args:
-        value: to be shown.
-        most: characters.
+        value: the value.
+        most: maximum number of characters.
 
     >>> shown([1.0] * 1000, 20)
     '[1.0, 1.0, 1.0, 1...'
@@ -139,7 +139,7 @@ def shown(value: object, most: int = MAX_SHOWN_CHARS) -> str:
 
 
 def shorten(text: str, most: int) -> str:
-    """Return a text that has at most so many characters.
+    """Shorten a text to a maximum number of characters.
 
     >>> shorten("a sentence", 7)
     'a se...'
@@ -148,11 +148,11 @@ def shorten(text: str, most: int) -> str:
 
 
 def _beginning(value: Any, room: list[int]) -> Any:
-    """Return as much of a value as has a repr of so many characters, or a few more.
+    """Return the beginning of a value whose repr has about as many characters as there is room.
 
     Args:
-        value: to be shown.
-        room: the characters that are left; each part takes as many as its repr has, or fewer.
+        value: the value.
+        room: list with the number of characters left; each part subtracts at most its repr's.
     """
     kind = type(value)
     room[0] -= 1

@@ -1,7 +1,7 @@
-"""Packages that only some need: asked for when they are needed, and told of when they are missing.
+"""Checks for optional packages, with a hint how to install them.
 
-``train`` learns, ``onnx`` runs a network that somebody trained; the rest of the package needs
-neither.
+The extra ``train`` is for learning, ``onnx`` for running a trained network; the rest of the package
+needs neither.
 """
 
 from importlib.util import find_spec
@@ -10,19 +10,19 @@ from ai4u_edu.base.errors import SetupError
 
 
 def has(*modules: str) -> bool:
-    """Whether some packages are installed, without loading them."""
+    """Return True if some packages are installed, without importing them."""
     return all(find_spec(module) is not None for module in modules)
 
 
 def need(extra: str, *modules: str) -> None:
-    """Makes sure that an extra is installed, without loading it.
+    """Check that an extra is installed, without importing it.
 
     Args:
         extra: its name in ``pip install "ai4u-edu[...]"``.
-        modules: what of it is needed.
+        modules: the modules of it that are needed.
 
     Raises:
-        SetupError: something is missing; says how to install it.
+        SetupError: a module is missing; the message says how to install it.
     """
     missing = [module for module in modules if find_spec(module) is None]
     if missing:

@@ -1,4 +1,4 @@
-"""How parameters are declared and how a wrong one is explained, for blocks, bodies and scenes.
+"""Declaration of parameters and explanation of wrong ones, for blocks, bodies and scenes.
 
 A parameter is an annotated field. The annotation carries type, range and unit; validation at
 construction, the JSON Schema, forms and tables are derived from it::
@@ -23,22 +23,22 @@ def quantity(
     lt: float | None = None,
     le: float | None = None,
 ) -> Any:
-    """The metadata of a number with a unit and bounds; without any, +-``MAX_NUMBER`` are."""
+    """Return the metadata of a number with unit and bounds; the default is +-``MAX_NUMBER``."""
     ge = -MAX_NUMBER if ge is None and gt is None else ge
     le = MAX_NUMBER if le is None and lt is None else le
     return Field(json_schema_extra={"unit": unit}, gt=gt, ge=ge, lt=lt, le=le)
 
 
 MAX_NUMBER = 1e9
-"""Bound of numbers that have none of their own: a few multiplied still fit a 32-bit float."""
+"""Default bound of numbers: products of a few of them still fit a 32-bit float."""
 MAX_COUNT = 2**31 - 1
-"""Bound of whole numbers that have none of their own."""
+"""Default bound of whole numbers."""
 MIN_LENGTH_M = 1e-4
-"""Smallest length, metres: of smaller bodies the physics finds neither area nor inertia."""
+"""Smallest length, metres: the physics computes neither area nor inertia of smaller bodies."""
 
 
 def not_below(least: float) -> AfterValidator:
-    """Return a check that a positive number is not so small that nothing can be done with it."""
+    """Return a check that a positive number is not too small to compute with."""
 
     def check(number: float) -> float:
         if number < least:
@@ -62,13 +62,13 @@ Bits = Annotated[int, Field(ge=0, le=0xFFFFFFFF)]
 
 
 MAX_LISTED = 20
-"""Problems that are told at once."""
+"""Maximum number of problems in one message."""
 MAX_HINTS = 50
-"""Problems for which a known name is looked for; to compare names takes longest."""
+"""Maximum number of problems that get a suggested name; comparing names is the slowest part."""
 
 
 def is_open(bound: float) -> bool:
-    """Return True for a bound that a number has only because it had none of its own."""
+    """Return True for a default bound, which a parameter has only if it declares none."""
     return abs(bound) in (MAX_NUMBER, MAX_COUNT)
 
 
@@ -77,18 +77,18 @@ DataPath = tuple[str | int, ...]
 
 
 class Problem(NamedTuple):
-    """One wrong parameter: where it is and what is wrong with it."""
+    """The path of a wrong parameter, and what is wrong with it."""
 
     path: DataPath
     text: str
 
     def __str__(self) -> str:
-        """``path: text``, as it stands in a message."""
+        """Return ``path: text``, as in a message."""
         return f"{dotted(self.path)}: {self.text}" if self.path else self.text
 
 
 def dotted(path: Sequence[str | int]) -> str:
-    """A path as a person writes it.
+    """Return a path as text.
 
     >>> dotted(("agents", 0, "sensors", 2, "reach"))
     'agents[0].sensors[2].reach'
@@ -100,11 +100,11 @@ def dotted(path: Sequence[str | int]) -> str:
 def explain(
     errors: Iterable[ErrorDetails], known: type[BaseModel] | Iterable[str]
 ) -> list[Problem]:
-    """Pydantic's findings in our words: expected, got, how to mend it.
+    """Translate pydantic's errors into our form: expected, got, how to mend it.
 
     Args:
-        errors: what pydantic found.
-        known: the model that was asked for, or the names of its parameters.
+        errors: pydantic's errors.
+        known: the model, or the names of its parameters.
     """
     names = known if isinstance(known, type) else list(known)
     found = [(error, *_walk(error["loc"], names)) for error in errors]
@@ -112,13 +112,13 @@ def explain(
     return [
         Problem(path, _sentence(error, names_there, hints=place < MAX_HINTS))
         for place, (error, path, names_there) in enumerate(found)
-        # a list whose entries are wrong counts as too short as well; the entries say it better
+        # pydantic also reports a list with wrong entries as too short; the entries' errors suffice
         if not (error["type"] == "too_short" and path in holders)
     ]
 
 
 def listed(problems: Sequence[Problem]) -> str:
-    """Return problems as one text: the first ones, and how many more there are.
+    """Join problems into one text: the first ones, and how many more there are.
 
     >>> listed([Problem((), "is wrong")] * 22)[-28:]
     'wrong; and 2 more like these'
@@ -132,9 +132,9 @@ def listed(problems: Sequence[Problem]) -> str:
 def _walk(
     location: tuple[int | str, ...], known: type[BaseModel] | list[str]
 ) -> tuple[tuple[str | int, ...], list[str]]:
-    """A finding's path as a person wrote it, and the names that are known in its place.
+    """Return an error's path as in the file, and the names that are known at that place.
 
-    Pydantic puts the tag of a union's member into the path ("circle"); nobody wrote that there.
+    Pydantic adds the tag of a union's member ("circle") to the path; this removes it.
     """
     if isinstance(known, list):
         return location, known
@@ -188,7 +188,7 @@ EXPECTED = {
     "string_too_long": "at most {max_length} characters",
     "string_pattern_mismatch": "text that matches {pattern}",
 }
-"""What was expected, by pydantic's kind of finding."""
+"""Expected values by pydantic's type of error."""
 
 BOUNDS = {
     "greater_than": ("more than", "gt"),
@@ -216,7 +216,7 @@ def _sentence(error: ErrorDetails, known: Sequence[str], *, hints: bool) -> str:
         return "needs a 'type'"
     if kind == "value_error":
         return error["msg"].removeprefix("Value error, ")
-    what = shown(got)  # not sooner: it may be all that was handed in
+    what = shown(got)  # only here: it may be the whole input
     if kind in BOUNDS:
         words, key = BOUNDS[kind]
         return f"expected {words} {context[key]:g}, got {what}"

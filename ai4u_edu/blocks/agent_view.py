@@ -1,4 +1,4 @@
-"""What a block may ask of the agent that it belongs to."""
+"""The part of an agent that its blocks may use."""
 
 from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, Protocol
@@ -13,14 +13,14 @@ if TYPE_CHECKING:
     from ai4u_edu.world import BodyView
 
 
-class Moment(Protocol):
-    """A moment of an agent's life that a block may listen to."""
+class Event(Protocol):
+    """An event of the agent that a block may subscribe to."""
 
     def connect(self, handler: Callable[[Any], None]) -> Any:
-        """Calls the handler with the agent at this moment from now on."""
+        """Call the handler with the agent at each event from now on."""
 
     def disconnect(self, handler: Callable[[Any], None]) -> None:
-        """Stops calling the handler."""
+        """Stop calling the handler."""
 
 
 class AgentView(Protocol):
@@ -29,21 +29,21 @@ class AgentView(Protocol):
     id: str
     max_steps_per_episode: int
     episode: int
-    """How many episodes it has begun."""
+    """Number of episodes that it has begun."""
     other_agents: int
-    """How many other agents are in its world."""
+    """Number of other agents in its world."""
     paused: bool
     actuators: list["Actuator"]
     sensors: list["Sensor"]
     rewards: list["RewardFunc"]
 
     @property
-    def begin_of_episode(self) -> Moment:
-        """When a reset is over and the first percept is there."""
+    def begin_of_episode(self) -> Event:
+        """The event after a reset, when the first percept is available."""
 
     @property
-    def end_of_update_state(self) -> Moment:
-        """When all sensors have read."""
+    def end_of_update_state(self) -> Event:
+        """The event after all sensors have read."""
 
     @property
     def body(self) -> "BodyView":
@@ -51,7 +51,7 @@ class AgentView(Protocol):
 
     @property
     def brain(self) -> "Brain":
-        """The one brain that is enabled."""
+        """The enabled brain."""
 
     @property
     def keyboard(self) -> "Keyboard":
@@ -59,19 +59,19 @@ class AgentView(Protocol):
 
     @property
     def percept(self) -> "Percept":
-        """What was sensed last."""
+        """The latest percept."""
 
     @property
     def steps(self) -> int:
-        """Decisions taken in this episode."""
+        """Number of decisions in this episode."""
 
     @property
     def done(self) -> bool:
-        """Whether the episode is over."""
+        """True if the episode is over."""
 
     @property
     def truncated(self) -> bool:
-        """Whether the episode was cut off by the step limit."""
+        """True if the step limit truncated the episode."""
 
     @property
     def reward(self) -> float:

@@ -1,17 +1,17 @@
-"""AI4U's classes that no block here names as its source, and their counterparts.
+"""Counterparts of those classes of AI4U that no block here names as its source.
 
-A block whose docstring says ``Source: AI4U's NAME`` stands for that name by itself.
+A block whose docstring says ``Source: AI4U's NAME`` is the counterpart of that name already.
 """
 
 from typing import NamedTuple
 
 
 class Counterpart(NamedTuple):
-    """A class of AI4U, and the one that does its work here."""
+    """A class of AI4U and its counterpart here."""
 
     ai4u: str
     here: str
-    """A name that ``ai4u_edu`` exports; empty if there is none."""
+    """Name that ``ai4u_edu`` exports; empty if there is none."""
     words: str
 
 
@@ -25,20 +25,20 @@ CLASSES = (
     Counterpart(
         "ArrowPhysicsMoveController2D",
         "ArrowController",
-        "One controller for all bodies; ``components`` and the lists of keys fit it to any.",
+        "One controller for all bodies; ``components`` and the lists of keys adapt it.",
     ),
     Counterpart("BasicAgent", "BasicAgent", "A body with sensors, actuators, rewards and a brain."),
     Counterpart("Brain", "Brain", "The base of all brains."),
     Counterpart(
         "Camera",
         "LocalGridSensor",
-        "There is no camera: a picture from above, as a policy for images takes it.",
+        "There is no camera, but an image from above, for image policies.",
     ),
-    Counterpart("Camera3DSensor", "LocalGridSensor", "As Camera; grayScale has no place here."),
+    Counterpart("Camera3DSensor", "LocalGridSensor", "Like Camera; grayScale doesn't exist here."),
     Counterpart(
         "CBMoveActuator2D",
         "CBMoveActuator",
-        "The world is seen from above: flipWhenTurn and lerpFactor have no place here.",
+        "The world is seen from above: flipWhenTurn and lerpFactor don't exist here.",
     ),
     Counterpart(
         "CBRespawnActuator",
@@ -46,7 +46,7 @@ CLASSES = (
         "radomizeDirection is ``randomise_heading``, and off by default.",
     ),
     Counterpart(
-        "CBRespawnActuator2D", "RespawnActuator", "flipWhenTurn and randomize have no place here."
+        "CBRespawnActuator2D", "RespawnActuator", "flipWhenTurn and randomize don't exist here."
     ),
     Counterpart("Controller", "Controller", "The base of all controllers of a LocalBrain."),
     Counterpart(
@@ -63,7 +63,7 @@ CLASSES = (
     Counterpart("MinDistReward2D", "MinDistReward", "One block for both."),
     Counterpart("RaycastMapping", "", "No class: a ray sensor's ``group_code`` is a dictionary."),
     Counterpart(
-        "RBMoveActuator2D", "RBMoveActuator", "One block for both; it moves the body here."
+        "RBMoveActuator2D", "RBMoveActuator", "One block for both; here it moves the body."
     ),
     Counterpart(
         "RestlessnessRewardFunc",
@@ -79,7 +79,7 @@ CLASSES = (
     Counterpart(
         "ScreenSensor",
         "LocalGridSensor",
-        "As Camera. To watch a world, open its page or render it.",
+        "Like Camera. To watch a world, open its page or render it.",
     ),
     Counterpart(
         "Sensor", "Sensor", "The base of all sensors; ``normalized`` is off by default, there on."
@@ -90,7 +90,7 @@ CLASSES = (
         "One block for both; a target may be an area. The cool-down is 0, there 0.2 s.",
     ),
     Counterpart(
-        "Trainer", "Trainer", "A script that a TrainController tells of each percept, and obeys."
+        "Trainer", "Trainer", "A script that gets each percept of a TrainController and directs it."
     ),
     Counterpart(
         "Utils",

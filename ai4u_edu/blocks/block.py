@@ -1,4 +1,4 @@
-"""What every block has: declared parameters, a name, a setup and a reset."""
+"""The base of all blocks: declared parameters, setup and reset."""
 
 import re
 import sys
@@ -14,41 +14,41 @@ class Block(Parameterized):
     """The base of sensors, actuators, reward functions, brains and controllers."""
 
     types: ClassVar[dict[str, type["Block"]]] = {}
-    """Every kind of block there is, by the name of its class; scene files name them so."""
+    """All classes of blocks by name, as in scene files."""
 
     abstract: ClassVar[bool] = False
-    """Whether a class is only the base of others; said in its own body."""
+    """True for a class that is only a base of others; it applies to the class that sets it."""
 
     def __init_subclass__(cls, **options: Any) -> None:
         super().__init_subclass__(**options)
         Block.types[cls.__name__] = cls
 
     def inner_blocks(self) -> "Sequence[Block]":
-        """Return the blocks inside this one that it sets up and resets itself; most have none."""
+        """Return the blocks inside this one, which it sets up and resets; most have none."""
         return ()
 
     def on_setup(self, agent: AgentView, view: WorldView) -> None:
-        """Called when the agent is set up: check targets here, prepare what is costly."""
+        """Prepare, when the agent is set up: check targets and compute what is costly here."""
 
     def on_reset(self, agent: AgentView, view: WorldView) -> None:
-        """Called at every reset, before the first reading of the episode."""
+        """Prepare for an episode, at every reset before its first reading."""
 
 
 def levels_up(cls: type, name: str) -> int:
-    """Return how many classes one has to go up until one defines a name; all, if none does."""
+    """Return the index in the MRO of the class that defines a name; the MRO's length if none."""
     order = cls.__mro__
     return next((up for up, each in enumerate(order) if name in vars(each)), len(order))
 
 
 def is_built_in(cls: type[Block]) -> bool:
-    """Whether a class is one of this package's own, not one that was made somewhere else."""
+    """Return True for a class that a module of this package defines."""
     module = sys.modules.get(cls.__module__)
     own = cls.__module__.startswith("ai4u_edu.")
     return own and getattr(module, cls.__name__, None) is cls
 
 
 def default_name(cls: type[Block], *endings: str) -> str:
-    """A name from a class: ``RayCastingSensor`` -> ``ray_casting``."""
+    """Derive a name from a class: ``RayCastingSensor`` -> ``ray_casting``."""
     name = cls.__name__
     for ending in endings:
         if name != ending:

@@ -1,4 +1,4 @@
-"""A block explained from its own declaration."""
+"""Lesson pages and tables that are generated from the blocks' declarations."""
 
 import inspect
 import json
@@ -24,11 +24,11 @@ KINDS: dict[str, type[Block]] = {
 }
 
 PARTS = "parts"
-"""Blocks that other blocks are made of: the internal variables of a HomeostaticReward."""
+"""Blocks inside other blocks, such as the internal variables of a HomeostaticReward."""
 
 
 def built_in_blocks() -> dict[str, list[type[Block]]]:
-    """All blocks of this package by kind, each kind in the order of their names."""
+    """Return all blocks of this package by kind, sorted by name."""
     blocks = [Block.types[name] for name in sorted(Block.types)]
     own = [cls for cls in blocks if is_built_in(cls) and not cls.__dict__.get("abstract")]
     found = {
@@ -40,19 +40,19 @@ def built_in_blocks() -> dict[str, list[type[Block]]]:
 
 
 def summary(cls: type[Block]) -> str:
-    """The first line of a block's description."""
+    """Return the first line of a block's description."""
     return (inspect.getdoc(cls) or "").split("\n", 1)[0]
 
 
 def differences(cls: type[Block]) -> str:
-    """The paragraph in which a block's description says what differs from AI4U; else empty."""
+    """Return the "Differs from AI4U" paragraph of a block's description; empty if there is none."""
     found = re.search(r"Differs from AI4U: (.*?)(?:\n\n|$)", inspect.getdoc(cls) or "", re.DOTALL)
     text = " ".join(found[1].split()) if found else ""
     return text[:1].upper() + text[1:]
 
 
 def ai4u_sources() -> dict[str, type[Block]]:
-    """The blocks that are AI4U's, by the name that they have there."""
+    """Return the blocks that come from AI4U, by their names there."""
     found = {}
     for cls in (cls for members in built_in_blocks().values() for cls in members):
         source = re.search(r"Source:\s+AI4U(?:'s\s+(\w+))?", inspect.getdoc(cls) or "")
@@ -62,7 +62,7 @@ def ai4u_sources() -> dict[str, type[Block]]:
 
 
 def coming_from_ai4u() -> str:
-    """Each class of AI4U, and what stands for it here, as a Markdown table."""
+    """Return a Markdown table of AI4U's classes and their counterparts here."""
     rows = [
         (theirs, cls.__name__, summary(cls).split(" Source:")[0], differences(cls))
         for theirs, cls in ai4u_sources().items()
@@ -75,10 +75,10 @@ def coming_from_ai4u() -> str:
 
 
 def lesson_page(name: str) -> str:
-    """What a block is and what parameters it has, as text.
+    """Return the description and the parameters of a block, as text.
 
     Raises:
-        NameNotFoundError: there is no such block; the message suggests the nearest.
+        NameNotFoundError: there is no such block; the message suggests the nearest name.
 
     >>> print(lesson_page("BearingSensor").splitlines()[0])
     BearingSensor: [sine, cosine] of the angle to the target, counter-clockwise from the heading.
@@ -101,7 +101,7 @@ def lesson_page(name: str) -> str:
 
 
 def _hint_from_ai4u(name: str) -> str:
-    """A clause on what takes the place of a class of AI4U; empty for what is none."""
+    """Return a clause on the counterpart of a class of AI4U; empty for any other name."""
     source = ai4u_sources().get(name)
     if source is not None:
         return f"AI4U's {name} is {source.__name__} here"
@@ -113,7 +113,7 @@ def _hint_from_ai4u(name: str) -> str:
 
 
 def _range(about: dict[str, Any]) -> str:
-    """A parameter's type, bounds and unit, in a few characters."""
+    """Return a parameter's type, bounds and unit as a short text."""
     if "enum" in about:
         return " | ".join(map(str, about["enum"]))
     options = [each for each in about.get("anyOf", ()) if each.get("type") != "null"]

@@ -1,4 +1,4 @@
-"""What is written under each parameter, as its description."""
+"""The texts under the fields of a class, which describe its parameters."""
 
 import ast
 from functools import cache
@@ -9,16 +9,16 @@ from ai4u_edu.base.syntax import parsed_class
 
 @cache
 def field_docs(cls: type) -> dict[str, str]:
-    """The text under each annotated field of a class and its bases; empty where there is no source.
+    """Return the text under each annotated field of a class and its bases; {} without source.
 
-    Read when somebody asks, not when a class is made: most runs never ask.
+    It parses the source on demand, not when the class is made: most runs need no descriptions.
     """
     docs: dict[str, str] = {}
     for each in reversed(cls.__mro__[:-1]):
         try:
             tree = parsed_class(each)
         except (OSError, TypeError, SyntaxError):
-            continue  # made in a console, or built in
+            continue  # defined in a console, or built into Python
         body = tree.body[0].body if isinstance(tree.body[0], ast.ClassDef) else []
         for field, text in pairwise(body):
             if (

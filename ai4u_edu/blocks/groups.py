@@ -1,4 +1,4 @@
-"""The groups (tags) that a block looks for, compared with those that its world has."""
+"""Checks that the groups (tags) that a block names exist in its world."""
 
 from collections.abc import Iterator, Mapping
 from typing import Any
@@ -8,14 +8,14 @@ from ai4u_edu.blocks.block import Block
 from ai4u_edu.world import WorldView
 
 PARAMETERS = ("group", "target_group", "group_code", "channels", "blocked_by")
-"""The parameters that hold the names of groups, in any block."""
+"""Names of the parameters that hold groups, in any block."""
 
 
 def check_groups(block: Block, parameter: str, view: WorldView) -> None:
-    """Refuse a block that looks for groups of which its world has none at all.
+    """Raise an error if none of the groups in a parameter exists in the world.
 
-    One table of groups may serve several worlds: so a single group that is not there is no error
-    (the checkers of ``ai4u_edu.check`` warn of it), nor is one that the parameter has by default.
+    One table of groups may serve several worlds, so a single missing group is no error (the checks
+    of ``ai4u_edu.check`` warn of it), nor is a default value of the parameter.
 
     Raises:
         NameNotFoundError: nothing carries any of the tags; the message suggests the nearest ones.
@@ -26,22 +26,23 @@ def check_groups(block: Block, parameter: str, view: WorldView) -> None:
 
 
 def missing_groups(block: Block, view: WorldView) -> list[str]:
-    """A sentence for each group that a block, or a block inside it, looks for in vain."""
+    """Return a sentence for each group that a block (or one inside it) names and nothing has."""
     own = [parameter for parameter in PARAMETERS if parameter in block.parameters()]
     found = [text for parameter in own for text in _missing(block, parameter, view)]
     return found + [text for part in _parts(block) for text in missing_groups(part, view)]
 
 
 def names_groups(block: Block) -> bool:
-    """Return True if a block, or a block inside it, looks for groups."""
+    """Return True if a block, or a block inside it, names groups."""
     own = any(_names(getattr(block, parameter, None)) for parameter in PARAMETERS)
     return own or any(map(names_groups, _parts(block)))
 
 
 def known_groups(block: Block, view: WorldView) -> set[str]:
-    """The tags of all that a block can look at: a class says ``looks_at``, else it is everything.
+    """Return the tags of everything that a block can perceive.
 
-    ``own_groups`` of a class are groups that are there in any world.
+    The class attribute ``looks_at`` names the kinds of things (by default all), ``own_groups`` the
+    groups that exist in any world.
     """
     return view.tags(*getattr(block, "looks_at", ())).union(getattr(block, "own_groups", ()))
 

@@ -1,4 +1,4 @@
-"""Internal variables, which an agent has to keep in balance."""
+"""Internal variables that an agent has to keep in a comfort zone."""
 
 import math
 
@@ -8,17 +8,17 @@ from ai4u_edu.blocks.agent_view import AgentView
 from ai4u_edu.blocks.block import Block
 from ai4u_edu.world import BodyView, WorldView
 
-MOVING = 0.05
-"""A body that is faster than this (m/s) moves."""
+MOVING_SPEED_M_S = 0.05
+"""Speed (m/s) above which a body counts as moving."""
 
 
 class HomeostaticVariable(Block):
-    """One thing inside the agent that has a good range: energy, warmth, water.
+    """An internal variable of the agent with a comfort zone: energy, warmth, water.
 
-    Picture a bar from ``range_min`` to ``range_max`` with a green zone in it, from ``comfort_min``
-    to ``comfort_max``, and a mark, the ``level``, that drifts: by ``drift_per_second`` at rest, and
-    faster where effort costs more. A HomeostaticReward keeps such variables and lets them drift; a
-    CollectActuator feeds them, or a script does with :meth:`add_value`.
+    Imagine a bar from ``range_min`` to ``range_max`` with a green zone from ``comfort_min`` to
+    ``comfort_max``, and a mark, the ``level``. It drifts by ``drift_per_second`` at rest, and by
+    other amounts in motion or in the air. A HomeostaticReward has such variables and lets them
+    drift; a CollectActuator changes them, or a script with :meth:`add_value`.
 
     Source: AI4U's HomeostaticVariable; the drift is ours, after the energy of its Platform demo.
 
@@ -34,7 +34,7 @@ class HomeostaticVariable(Block):
     """
 
     name: Name
-    """Name of the variable; each one of an agent has another."""
+    """Name of the variable; unique in its agent."""
     range_min: Number = 0.0
     """Lowest level, in the variable's own unit."""
     range_max: Number = 1.0
@@ -46,11 +46,11 @@ class HomeostaticVariable(Block):
     value: Number = 1.0
     """Level at the beginning of an episode; within the range."""
     drift_per_second: Number = 0.0
-    """Change of the level by itself in a second; below 0 for hunger."""
+    """Change of the level per second at rest; negative for hunger."""
     moving_drift_per_second: Number | None = None
-    """The same while the body moves over the ground; left out: as at rest."""
+    """Change per second while the body moves on the ground; left out: as at rest."""
     airborne_drift_per_second: Number | None = None
-    """The same while the body is in the air; left out: as while it moves."""
+    """Change per second while the body is in the air; left out: as while it moves."""
 
     def __post_init__(self) -> None:
         ends = self.range_min, self.comfort_min, self.comfort_max, self.range_max
@@ -65,49 +65,49 @@ class HomeostaticVariable(Block):
                 f"{self.range_min:g}..{self.range_max:g}, got {self.value:g}"
             )
         self.level = self.value
-        """The level now."""
+        """The present level."""
 
     def on_reset(self, agent: AgentView, view: WorldView) -> None:
-        """Begins again with ``value``."""
+        """Set the level to ``value``."""
         self.level = self.value
 
     def add_value(self, amount: float) -> None:
-        """Adds to the level, which stays within the range.
+        """Add to the level, clamped to the range.
 
         Raises:
-            ReadingError: the amount is no number (NaN).
+            ReadingError: the amount is not a number (NaN).
         """
-        if amount != amount:  # max and min would make a full level of it
+        if amount != amount:  # max and min would turn NaN into a full level
             raise ReadingError(f"{self._title()}: expected an amount, got {amount!r}")
         self.level = max(self.range_min, min(self.range_max, self.level + amount))
 
     def drift(self, body: BodyView, seconds: float) -> None:
-        """Lets some time pass, in which a body rests, moves or is in the air as it is now."""
+        """Change the level by the drift of some seconds in the body's present state of motion."""
         amount = self.drift_per_second
         moving, airborne = self.moving_drift_per_second, self.airborne_drift_per_second
         in_the_air = not body.on_ground
-        if moving is not None and (in_the_air or math.hypot(*body.velocity) > MOVING):
+        if moving is not None and (in_the_air or math.hypot(*body.velocity) > MOVING_SPEED_M_S):
             amount = moving
         if airborne is not None and in_the_air:
             amount = airborne
         self.add_value(amount * seconds)
 
     def check(self) -> bool:
-        """Whether the level is in the comfort zone; its ends belong to it."""
+        """Return True if the level is in the comfort zone, ends included."""
         return self.check_value(self.level)
 
     def check_value(self, value: float) -> bool:
-        """Return True if a level would be in the comfort zone; its ends belong to it."""
+        """Return True if a value is in the comfort zone, ends included."""
         return self.comfort_min <= value <= self.comfort_max
 
     def centroid(self) -> float:
-        """The middle of the comfort zone."""
+        """Return the middle of the comfort zone."""
         return (self.comfort_min + self.comfort_max) / 2
 
     def set_centroid(self, value: float) -> None:
-        """Moves the comfort zone, as wide as it is, so that its middle is here.
+        """Move the middle of the comfort zone and keep its width.
 
-        It stays there until it is moved again, also over a reset.
+        It stays there until it is moved again; a reset does not undo it.
 
         Raises:
             BlockError: the zone would leave the range.
@@ -123,19 +123,19 @@ class HomeostaticVariable(Block):
         self.comfort_max = min(self.range_max, value + half)
 
     def position_to_centroid(self) -> float:
-        """The level, counted from the middle of the comfort zone: above 0 where it is higher."""
+        """Return the level minus the middle of the comfort zone."""
         return self.level - self.centroid()
 
     def position_to_min(self) -> float:
-        """The level, counted from the lower end of the comfort zone."""
+        """Return the level minus the lower end of the comfort zone."""
         return self.level - self.comfort_min
 
     def position_to_max(self) -> float:
-        """The level, counted from the upper end of the comfort zone."""
+        """Return the level minus the upper end of the comfort zone."""
         return self.level - self.comfort_max
 
     def distance_to_centroid(self) -> float:
-        """How far the level is from the middle of the comfort zone."""
+        """Return the distance of the level from the middle of the comfort zone."""
         return abs(self.position_to_centroid())
 
     def distance_to_min(self) -> float:
@@ -147,15 +147,15 @@ class HomeostaticVariable(Block):
         return abs(self.position_to_max())
 
     def discomfort(self) -> float:
-        """How far the level is outside of the comfort zone; 0 inside."""
+        """Return the distance of the level from the comfort zone; 0 inside."""
         return max(self.comfort_min - self.level, self.level - self.comfort_max, 0.0)
 
     def normalised(self) -> float:
-        """The level as a share of the range: 0 at its bottom, 1 at its top."""
+        """Return the level as a share of the range: 0 at its bottom, 1 at its top."""
         return self._share(self.level)
 
     def normalised_comfort(self) -> tuple[float, float]:
-        """Both ends of the comfort zone as shares of the range."""
+        """Return both ends of the comfort zone as shares of the range."""
         return self._share(self.comfort_min), self._share(self.comfort_max)
 
     def _share(self, level: float) -> float:

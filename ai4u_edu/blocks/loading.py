@@ -1,4 +1,4 @@
-"""Blocks out of somebody's own Python file, which may do all that Python can do."""
+"""Loading of a user's own blocks from a Python file, which runs with all rights."""
 
 import importlib.util
 import sys
@@ -9,23 +9,23 @@ from ai4u_edu.base.errors import SetupError
 from ai4u_edu.blocks.block import Block, is_built_in
 
 PREFIX = "own_blocks_"
-"""Prefix of the names of modules that were made from such files."""
+"""Prefix of the names of modules that are made from such files."""
 
 
 def load_blocks(path: Path) -> list[type[Block]]:
-    """Runs a Python file; from then on scenes know the kinds of blocks that it defines.
+    """Run a Python file, so that scenes can use the blocks that it defines.
 
-    For files that a person has named, and no others: nothing keeps them from doing harm.
+    Use it only for files that a person has named: the code is not sandboxed.
 
     Args:
-        path: of the file; modules that lie beside it can be imported in it.
+        path: path of the file; it can import modules from its folder.
 
     Returns:
-        The new kinds of blocks.
+        The new classes of blocks.
 
     Raises:
-        SetupError: it can't be read or run, it defines no block, or one with the name of a
-            built-in one; then no new kinds are known.
+        SetupError: the file can't be read or run, defines no block, or one with the name of a
+            built-in one; then no new classes are registered.
     """
     name = f"{PREFIX}{path.stem}"
     spec = importlib.util.spec_from_file_location(name, path)
@@ -39,7 +39,7 @@ def load_blocks(path: Path) -> list[type[Block]]:
     problem = ""
     try:
         spec.loader.exec_module(module)
-    except (Exception, SystemExit) as error:  # it is theirs, so it may be any
+    except (Exception, SystemExit) as error:  # a user's code may raise anything
         problem = f"{_place(path, error)}: {type(error).__name__}: {_text(error)}"
     found = {name: cls for name, cls in Block.types.items() if before.get(name) is not cls}
     taken = [name for name in found if name in before and is_built_in(before[name])]
@@ -58,7 +58,7 @@ def load_blocks(path: Path) -> list[type[Block]]:
 
 
 def own_files() -> list[Path]:
-    """Return the files whose blocks are known here, for a child process to load them too."""
+    """Return the files whose blocks are loaded, so that a child process can load them too."""
     modules = {cls.__module__ for cls in Block.types.values()}
     files = [
         getattr(sys.modules.get(name), "__file__", None)
@@ -69,7 +69,7 @@ def own_files() -> list[Path]:
 
 
 def _place(path: Path, error: BaseException) -> str:
-    """The file, and the line in it where something went wrong."""
+    """Return the file, and the line in it that raised the error."""
     if isinstance(error, SyntaxError) and error.filename == str(path):
         return f"{path}, line {error.lineno}"
     lines = [

@@ -1,7 +1,7 @@
-"""Things whose parameters are declared once, as annotated fields.
+"""Objects whose parameters are declared once, as annotated fields.
 
-From the declaration come the constructor and its checks, the JSON Schema, the form in the browser
-and the tables.
+The constructor and its checks, the JSON Schema, the form in the browser and the tables are derived
+from the declaration.
 """
 
 from collections.abc import Callable, Mapping
@@ -28,8 +28,8 @@ _CONFIG = ConfigDict(
 class Parameterized:
     """The base of blocks and agents.
 
-    A subclass declares parameters; it writes no ``__init__``. Attributes of its own it may set
-    at any time later.
+    A subclass declares parameters and writes no ``__init__``. It may set other attributes at any
+    time later.
 
     >>> class Thermometer(Parameterized):
     ...     '''Reads how warm it is.'''
@@ -46,23 +46,23 @@ class Parameterized:
     def __init_subclass__(cls, **options: Any) -> None:
         super().__init_subclass__(**options)
         dataclass(cls, kw_only=True, eq=False, repr=False, config=_CONFIG)
-        # the constructor that was just made raises pydantic's errors; a student gets ours
+        # the constructor that pydantic made raises its own errors; convert them to ours
         setattr(cls, "__init__", _explained(cls.__init__, cls))  # noqa: B010 - mypy: it is no method
 
     @classmethod
     def __get_pydantic_core_schema__(
         cls, source: Any, handler: GetCoreSchemaHandler
     ) -> core_schema.CoreSchema:
-        """Say of a parameter that holds one of these: it takes one that is made, and no mapping.
+        """Accept only instances as values of a parameter of this type, no mappings.
 
-        Pydantic would make one of a mapping: of ``sensors=[{"perception_key": "x"}]`` a bare
-        Sensor, which reads nothing.
+        Pydantic would construct one from a mapping: ``sensors=[{"perception_key": "x"}]`` would
+        make a bare Sensor, which reads nothing.
         """
         return core_schema.no_info_before_validator_function(cls._refuse_unmade, handler(source))
 
     @classmethod
     def _refuse_unmade(cls, value: Any) -> Any:
-        if isinstance(value, cls | ArgsKwargs):  # the latter is what the constructor got
+        if isinstance(value, cls | ArgsKwargs):  # pydantic passes the constructor's arguments too
             return value
         name = cls.__name__
         got, hint = shown(value), ""
@@ -72,33 +72,33 @@ class Parameterized:
         elif isinstance(value, Mapping):
             hint = "; make it here, mappings with a 'type' stand in scene files only"
         article = "an" if name[0] in "AEIOU" else "a"
-        # pydantic takes a ValueError for a finding, and lets a TypeError through
+        # pydantic collects a ValueError, and would let a TypeError through
         problem = ValueError(f"expected {article} {name}, got {got}{hint}")
         raise problem
 
     @classmethod
     def parameters(cls) -> dict[str, FieldInfo]:
-        """The declared parameters by name, with type, default, range and unit."""
+        """Return the declared parameters by name, with type, default, range and unit."""
         fields: dict[str, FieldInfo] = getattr(cls, "__pydantic_fields__", {})
         return {field.alias or name: field for name, field in fields.items()}
 
     @classmethod
     def json_schema(cls) -> dict[str, Any]:
-        """The JSON Schema of the parameters; what is written under a field is its description."""
+        """Return the JSON Schema of the parameters; the text under a field is its description."""
         schema = TypeAdapter(cls).json_schema()
-        plain_type: type = cls  # mypy takes a class that says __hash__ for one that has no hash
+        plain_type: type = cls  # mypy believes that a class that defines __hash__ has no hash
         for name, text in field_docs(plain_type).items():
             if name in schema.get("properties", {}):
                 schema["properties"][name].setdefault("description", text)
         return schema
 
     def values(self) -> dict[str, Any]:
-        """The parameters' values by name, as they are now."""
+        """Return the parameters' present values by name."""
         fields: dict[str, FieldInfo] = getattr(self, "__pydantic_fields__", {})
         return {field.alias or name: getattr(self, name) for name, field in fields.items()}
 
     def given(self) -> dict[str, Any]:
-        """The values that are not as by default."""
+        """Return the values that differ from their defaults."""
         declared = self.parameters()
         return {
             name: value
@@ -107,7 +107,7 @@ class Parameterized:
         }
 
     def changed(self, **values: Any) -> Self:
-        """A new one of the same kind with some other parameters."""
+        """Return a new object of the same class with some parameters changed."""
         return type(self)(**(self.values() | values))
 
     def __repr__(self) -> str:
@@ -128,5 +128,5 @@ def _explained(construct: Callable[..., None], cls: type[Parameterized]) -> Call
             told.details = error
             raise told from None
 
-    explained._inner = inner  # type: ignore[attr-defined]  # a subclass wraps its own, once
+    explained._inner = inner  # type: ignore[attr-defined]  # so that a subclass wraps it only once
     return explained

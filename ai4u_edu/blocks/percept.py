@@ -1,4 +1,4 @@
-"""What an agent sensed in one decision, frozen; shared by brain, viewer, recorder and network."""
+"""The immutable readings of one decision; shared by brain, viewer, recorder and network."""
 
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, NamedTuple
@@ -17,7 +17,7 @@ DTYPES: dict[str, npt.DTypeLike] = {
     "sintarray": np.int32,
     "simage": np.uint8,
 }
-"""AI4U's types of readings that are numbers; texts lie beside them."""
+"""AI4U's types of numeric readings; texts are stored separately."""
 
 TEXTS = ("sstring", "sstrings")
 """AI4U's types of readings that are text: one, or several."""
@@ -27,7 +27,7 @@ Texts = str | tuple[str, ...]
 
 
 class Slot(NamedTuple):
-    """Where one sensor's reading lies in the percept's bytes."""
+    """The position of one sensor's reading in the percept's bytes."""
 
     key: str
     dtype: np.dtype[Any]
@@ -37,11 +37,11 @@ class Slot(NamedTuple):
 
 
 class Layout:
-    """How the readings of an agent's sensors lie side by side in one piece of memory.
+    """The memory layout of an agent's readings in one buffer.
 
     Args:
-        numbers: (key, type out of :data:`DTYPES`, shape) of each reading made of numbers.
-        texts: the keys of the readings that are text.
+        numbers: (key, key of :data:`DTYPES`, shape) of each numeric reading.
+        texts: keys of the readings that are text.
     """
 
     def __init__(
@@ -59,7 +59,7 @@ class Layout:
         self.size = offset
 
     def view(self, memory: Any, key: str) -> npt.NDArray[Any]:
-        """One reading in a piece of memory, without a copy."""
+        """Return one reading in a buffer, without a copy."""
         slot = self.slots[key]
         return np.ndarray(slot.shape, slot.dtype, memory, slot.offset)
 
@@ -67,12 +67,12 @@ class Layout:
 class Percept(Mapping[str, Any]):
     """The readings of one decision by perception key.
 
-    Arrays can't be written to. A reading of shape () is a plain number or bool, text is a str,
+    Arrays are read-only. A reading of shape () is a plain number or bool, text is a str, several
     texts are a tuple of str.
 
     Args:
-        layout: where each reading lies.
-        data: the readings made of numbers, ``layout.size`` bytes.
+        layout: position of each reading.
+        data: the numeric readings, ``layout.size`` bytes.
         texts: the readings that are text, in the layout's order.
 
     >>> layout = Layout([("eyes", "sfloatarray", (2,)), ("done", "sbool", ())], ["id"])

@@ -2,11 +2,12 @@
 
 import json
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 from rich.console import Console
 
+from ai4u_edu.base.atomic_write import write_atomically
 from ai4u_edu.base.errors import SetupError
 from ai4u_edu.base.seeding import seeds_from
 from ai4u_edu.cli.options import (
@@ -17,6 +18,9 @@ from ai4u_edu.cli.options import (
     seed_option,
     training_seed_option,
 )
+
+if TYPE_CHECKING:
+    from ai4u_edu.training.learning import Trained
 
 Folder = Annotated[Path, typer.Option(help="The training's folder.", show_default=False)]
 
@@ -74,7 +78,7 @@ def train(
     if resume and out is None:
         raise SetupError("--resume needs --out, the folder of the training to go on with")
     load_own_blocks(own_blocks)
-    done = trained(
+    result = trained(
         scene or "box_chase",
         algo,
         steps=steps,
@@ -87,14 +91,18 @@ def train(
         overwrite=overwrite,
         watch=watch,
     )
-    best = done.best
+    typer.echo(_summary(result))
+
+
+def _summary(result: "Trained") -> str:
+    best, folder = result.best, result.run.folder
     success = "" if best.success is None else f"success {best.success:.0%}, "
-    why = "interrupted" if done.interrupted else "good enough" if done.enough else "done"
-    typer.echo(
-        f"{why} after {done.steps} steps; kept {done.run.best}: {success}reward {best.reward:.2f} "
-        f"(after {best.steps} steps)\n"
-        f"look at it:  ai4u-edu evaluate {done.run.folder}\n"
-        f"export it:   ai4u-edu export {done.run.folder} --out policy.onnx"
+    why = "interrupted" if result.interrupted else "good enough" if result.enough else "done"
+    return (
+        f"{why} after {result.steps} steps; kept {result.run.best}: {success}"
+        f"reward {best.reward:.2f} (after {best.steps} steps)\n"
+        f"look at it:  ai4u-edu evaluate {folder}\n"
+        f"export it:   ai4u-edu export {folder} --out policy.onnx"
     )
 
 
@@ -158,7 +166,7 @@ def evaluate(
         if str(json_file) == "-":
             typer.echo(text)
         else:
-            json_file.write_text(text + "\n", encoding="utf-8")
+            write_atomically(json_file, text + "\n")
     if plot is not None:
         plot_evaluations(done, plot)
 

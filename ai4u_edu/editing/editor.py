@@ -17,7 +17,7 @@ from ai4u_edu.editing.scene_store import SceneStore
 from ai4u_edu.editing.state import EditState
 from ai4u_edu.editing.transactions import Transactions
 from ai4u_edu.runtime.runner import Runner
-from ai4u_edu.runtime.stall_monitor import Stall
+from ai4u_edu.runtime.tick_monitor import Stall
 from ai4u_edu.scenes import Scene
 from ai4u_edu.scenes.yaml.file import YamlFile
 from ai4u_edu.world import BodyDescription

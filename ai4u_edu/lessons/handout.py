@@ -46,7 +46,7 @@ def hand_out(folder: Path) -> HandedOut:
         shutil.copyfile(course_folder() / "GLOSSARY.md", folder / "GLOSSARY.md")
         config = lab_config(folder) / "labconfig"
         config.mkdir(parents=True, exist_ok=True)
-        (config / "page_config.json").write_text(json.dumps(LAB, indent=1), encoding="utf-8")
+        write_atomically(config / "page_config.json", json.dumps(LAB, indent=1))
         book = _read(folder / FOLDER / BOOK)
         for lesson in lessons():
             text = dumps(lesson.cells)

@@ -73,7 +73,7 @@ class Live:
     @property
     def episodes(self) -> list[Episode]:
         """Return the episodes so far, the current one last."""
-        now = self.recorder.now()
+        now = self.recorder.current_episode()
         under_way = [now] if now is not None and any(map(len, now.agents)) else []
         return [*self.recorder.episodes, *under_way]
 

@@ -1,4 +1,4 @@
-"""The episodes that are kept, each under a number."""
+"""Archive of recent episodes, by number."""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -8,23 +8,23 @@ from typing import overload
 
 from ai4u_edu.recording.episode import AgentRecord, Episode
 
-LARGEST = 64 * 2**20
-"""Bytes that all episodes together may take up in memory."""
+MAX_ARCHIVE_BYTES = 64 * 2**20
+"""Memory that all archived episodes may use."""
 
 
 @dataclass(frozen=True)
 class ArchiveEntry:
-    """A kept episode."""
+    """An archived episode."""
 
     number: int
-    """From 1 on, in the order in which they came; never given twice."""
+    """Number from 1, in order of arrival; never reused."""
     episode: Episode
     source: str = ""
-    """The file that it came from; empty if it happened here."""
+    """The file that it was loaded from; empty if it was recorded here."""
 
     @cached_property
     def success(self) -> bool | None:
-        """Whether somebody reached the scene's goal; None for a scene without one."""
+        """True if an agent reached the scene's goal; None for a scene without a goal."""
         return self.episode.success
 
     @property
@@ -34,23 +34,23 @@ class ArchiveEntry:
 
     @property
     def name(self) -> str:
-        """For a file, without an ending."""
+        """Name for a file, without a suffix."""
         return f"{self.episode.scene.name}-{self.episode.seed}"
 
 
 class Archive(Sequence[Episode]):
-    """The last episodes, the latest last. When there are too many, the oldest go.
+    """The last episodes, the latest last; the oldest are dropped when there are too many.
 
-    Any thread may add to it and look at it.
+    It is thread-safe.
 
     Args:
-        keep: how many episodes are kept.
-        largest: bytes that all of them may take up; the latest is kept in any case.
+        keep: maximum number of episodes.
+        largest: maximum memory (bytes) of all episodes; the latest is always kept.
     """
 
-    def __init__(self, keep: int = 50, largest: int = LARGEST) -> None:
+    def __init__(self, keep: int = 50, largest: int = MAX_ARCHIVE_BYTES) -> None:
         self.entries: tuple[ArchiveEntry, ...] = ()
-        """What is kept; replaced, never changed."""
+        """All entries; the tuple is replaced with each change."""
         self._keep = keep
         self._largest = largest
         self._given = 0
@@ -58,15 +58,15 @@ class Archive(Sequence[Episode]):
 
     @property
     def next_number(self) -> int:
-        """The number that the next one will get."""
+        """Number that the next entry gets."""
         return self._given + 1
 
     def append(self, episode: Episode, source: str = "") -> ArchiveEntry:
-        """Keeps an episode.
+        """Add an episode.
 
         Args:
-            episode: which.
-            source: the file that it came from.
+            episode: the episode.
+            source: the file that it was loaded from.
         """
         with self._lock:
             self._given += 1
@@ -80,15 +80,15 @@ class Archive(Sequence[Episode]):
 
     @property
     def best(self) -> ArchiveEntry | None:
-        """The one with the highest reward among those that reached the goal, or else among all.
+        """The entry with the highest reward among those that reached the goal, or else among all.
 
-        What came from a file doesn't count.
+        Episodes that were loaded from files don't count.
         """
         own = [entry for entry in self.entries if not entry.source]
         return max(own, key=lambda entry: (entry.success is True, entry.first.total), default=None)
 
     def find(self, number: int) -> ArchiveEntry | None:
-        """The entry of that number, if it is still there."""
+        """Return the entry of a number; None if it was dropped."""
         return next((entry for entry in self.entries if entry.number == number), None)
 
     def __len__(self) -> int:
@@ -99,7 +99,7 @@ class Archive(Sequence[Episode]):
     @overload
     def __getitem__(self, index: slice) -> list[Episode]: ...
     def __getitem__(self, index: int | slice) -> Episode | list[Episode]:
-        """An episode by its place, or several."""
+        """Return an episode by its position, or several."""
         episodes = [entry.episode for entry in self.entries]
         return episodes[index]
 
@@ -108,7 +108,7 @@ class Archive(Sequence[Episode]):
 
 
 def size_of(episode: Episode) -> int:
-    """The bytes, about, that an episode takes up in memory."""
+    """Return the approximate memory (bytes) of an episode."""
     columns = [episode.order.nbytes, 64 * len(episode.restarts), 2000]
     for record in episode.agents:
         columns += [

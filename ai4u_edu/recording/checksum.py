@@ -1,4 +1,4 @@
-"""A world's state, and a percept, each as one number: equal ones were equal, bit for bit."""
+"""Checksums of a world's state and of percepts, to compare them bit for bit."""
 
 import struct
 from zlib import crc32
@@ -10,19 +10,19 @@ _NUMBERS = struct.Struct("<9d").pack
 
 
 def percept_checksum(percept: Percept) -> int:
-    """The checksum of a percept's bytes and texts."""
+    """Return the checksum of a percept's bytes and texts."""
     number = crc32(percept.data)
     for reading in percept.texts:
         texts = reading if isinstance(reading, tuple) else (reading,)
         for text in texts:
             number = crc32(text.encode() + b"\0", number)
-        if texts is reading:  # how many they are counts too: one list ends where the next begins
+        if texts is reading:  # the count tells where one list of texts ends
             number = crc32(b"%d\0" % len(texts), number)
     return number
 
 
 def world_checksum(world: World) -> int:
-    """The checksum of where all bodies are, and how they move; what can't move is left out."""
+    """Return the checksum of the poses and velocities of all bodies that are not static."""
     return crc32(
         b"".join(
             [_state(body) for body in world.bodies.values() if body.description.kind != "static"]
@@ -30,8 +30,8 @@ def world_checksum(world: World) -> int:
     )
 
 
-def everything(world: World) -> tuple[object, ...]:
-    """All of a world that a person may change by hand, to be compared."""
+def editable_state(world: World) -> tuple[object, ...]:
+    """Return everything in a world that a person can edit, for comparison."""
     return (
         world.generation,
         world.described,

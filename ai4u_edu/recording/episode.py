@@ -1,4 +1,4 @@
-"""An episode as data: from it the same world can be made, and the same actions taken in it."""
+"""Recorded episodes as data, from which they can be replayed."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -14,28 +14,28 @@ from ai4u_edu.recording.table import Table
 from ai4u_edu.scenes import SceneDescription
 
 REPEAT, ENDED, TERMINATED, TRUNCATED = 1, 2, 4, 8
-"""The bits of a decision's flags."""
+"""Bits of a decision's flags."""
 
-LONGEST_DRIVER = 200
-"""Characters of a driver's name."""
+MAX_DRIVER_CHARS = 200
+"""Length of a driver's title."""
 
 Ticks = npt.NDArray[np.uint32]
 
 
 class Decision(NamedTuple):
-    """What an agent did once, and what it got for that."""
+    """One decision of an agent: its action and its reward."""
 
     step: int
-    """Which of the agent's decisions it was in this recording, from 0 on."""
+    """Index among the agent's decisions in this recording."""
     begin: int
-    """The tick at which it was taken; the agent's percept was that of the same tick."""
+    """Tick at which it was taken; the agent's percept was of the same tick."""
     end: int
-    """The tick after which it was paid; ``begin`` if it never was."""
+    """Tick after which it was rewarded; ``begin`` if it never was."""
     action: dict[str, tuple[float, ...]]
     reward_terms: dict[str, float]
     reward: float
     ended: bool
-    """Whether it came to its end; a restart in the middle of it takes that away."""
+    """True if it ended normally; False if a restart interrupted it."""
     terminated: bool
     truncated: bool
     skip_frame: int
@@ -44,31 +44,31 @@ class Decision(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class AgentRecord:
-    """All decisions of one agent, n of them, column by column."""
+    """All n decisions of one agent, column by column."""
 
     id: str
     begin: Ticks
-    """(n,) the tick at which each was taken."""
+    """(n,) tick at which each was taken."""
     end: Ticks
-    """(n,) the tick after which each was paid."""
+    """(n,) tick after which each was rewarded."""
     skip: npt.NDArray[np.uint16]
-    """(n,) the brain's skip_frame."""
+    """(n,) ``skip_frame`` of the brain."""
     flags: npt.NDArray[np.uint8]
     """(n,) REPEAT, ENDED, TERMINATED, TRUNCATED."""
     actions: Table
     terms: Table
     rewards: npt.NDArray[np.float64]
-    """(n,) the sum of the terms."""
+    """(n,) sum of the reward terms."""
     percepts: npt.NDArray[np.uint32]
-    """(n,) the checksum of what the agent sensed after each."""
+    """(n,) checksum of the percept after each."""
     worlds: npt.NDArray[np.uint32]
-    """(n,) the checksum of all poses and speeds when each was taken."""
+    """(n,) checksum of all poses and velocities when each was taken."""
     starts: npt.NDArray[np.uint32]
-    """(m,) the agent's own episodes: how many decisions came before each."""
+    """(m,) number of decisions before each of the agent's own episodes."""
     firsts: npt.NDArray[np.uint32]
-    """(m,) the checksum of the first percept of each."""
+    """(m,) checksum of the first percept of each of these episodes."""
     driver: str = ""
-    """The title of the brain that decided; of several, one after the other."""
+    """Title of the brain that decided; titles of several are joined."""
 
     def __len__(self) -> int:
         return len(self.begin)
@@ -94,44 +94,44 @@ class AgentRecord:
 
     @property
     def total(self) -> float:
-        """All rewards together."""
+        """Sum of all rewards."""
         return float(self.rewards.sum())
 
 
 class Restart(NamedTuple):
-    """Agents that began a new episode while the world went on."""
+    """A restart of some agents' episodes while the world went on."""
 
     tick: int
     agents: tuple[int, ...]
-    """By their numbers, in the order in which they act."""
+    """Indices of the agents, in the order in which they act."""
 
 
 @dataclass(frozen=True, eq=False)
 class Episode:
     """A recorded episode of a world, from one reset to the next.
 
-    Percepts are not in it: the scene, the seed and the actions give them again, bit for bit, which
-    :class:`~ai4u_edu.recording.Replay` does. Checksums tell whether they are the same.
+    It contains no percepts: :class:`~ai4u_edu.recording.Replay` computes them again from the scene,
+    the seed and the actions, bit for bit, and checks them by their checksums.
     """
 
     scene: SceneDescription
     seed: int
     agents: tuple[AgentRecord, ...]
-    """In the order in which they act."""
+    """Agents in the order in which they act."""
     order: npt.NDArray[np.int32]
-    """What was decided after what: the number of an agent, or ``-1 - i`` for restart i."""
+    """Order of events: the index of an agent for a decision, ``-1 - i`` for restart i."""
     restarts: tuple[Restart, ...]
     ticks: int
-    """The tick at which the last decision ended."""
+    """Tick at which the last decision ended."""
     changed: int | None
-    """The tick at which somebody changed the world by hand; it can be played again up to there."""
+    """Tick at which a person edited the world, which ends the exact replay; None if nobody did."""
     cut: bool
-    """Whether it was too long to be recorded whole."""
+    """True if it was too long to be recorded completely."""
     versions: dict[str, str]
-    """Of the packages that ran, by name."""
+    """Versions of the packages that ran, by name."""
 
     def agent(self, agent_id: str | None = None) -> AgentRecord:
-        """The record of an agent; left out, of the one that acts first."""
+        """Return the record of an agent; by default of the one that acts first."""
         for record in self.agents:
             if agent_id in (None, record.id):
                 return record
@@ -141,17 +141,17 @@ class Episode:
 
     @property
     def ids(self) -> tuple[str, ...]:
-        """The agents' ids."""
+        """Ids of the agents."""
         return tuple(record.id for record in self.agents)
 
     @property
     def seconds(self) -> float:
-        """How long it lasted, in the world's time."""
+        """Duration in world time (s)."""
         return self.ticks / self.scene.world.ticks_per_second
 
     @property
     def success(self) -> bool | None:
-        """Whether somebody reached the scene's goal; None for a scene without one."""
+        """True if an agent reached the scene's goal; None for a scene without a goal."""
         goal = self.scene.success
         if goal is None:
             return None
@@ -164,19 +164,19 @@ class Episode:
 
     @cached_property
     def places(self) -> tuple[npt.NDArray[np.int64], ...]:
-        """Where in ``order`` each agent's decisions stand."""
+        """Indices in ``order`` of each agent's decisions."""
         return tuple(np.flatnonzero(self.order == index) for index in range(len(self.agents)))
 
     @cached_property
     def restart_places(self) -> npt.NDArray[np.int64]:
-        """Where in ``order`` the restarts stand."""
+        """Indices in ``order`` of the restarts."""
         return np.flatnonzero(self.order < 0)
 
     def save(self, path: str | Path) -> Path:
-        """Writes it to a file, whole or not at all.
+        """Write the episode to a file atomically, and return the path.
 
         Args:
-            path: of the file; ``.episode`` is the usual ending.
+            path: of the file; ``.episode`` is the usual suffix.
         """
         from ai4u_edu.recording.file import save
 
@@ -184,10 +184,10 @@ class Episode:
 
     @classmethod
     def load(cls, path: str | Path) -> Self:
-        """Reads a file. Nothing in it is ever run.
+        """Read an episode from a file; nothing in it is executed.
 
         Raises:
-            RecordingError: it is no such file, or something in it is wrong.
+            RecordingError: it is no episode file, or something in it is wrong.
         """
         from ai4u_edu.recording.file import load
 

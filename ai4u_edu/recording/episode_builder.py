@@ -1,4 +1,4 @@
-"""An episode while it happens."""
+"""Builds the record of an episode while it happens."""
 
 from importlib.metadata import version
 
@@ -11,7 +11,7 @@ from ai4u_edu.blocks import Brain
 from ai4u_edu.recording.checksum import percept_checksum, world_checksum
 from ai4u_edu.recording.episode import (
     ENDED,
-    LONGEST_DRIVER,
+    MAX_DRIVER_CHARS,
     REPEAT,
     TERMINATED,
     TRUNCATED,
@@ -22,16 +22,16 @@ from ai4u_edu.recording.episode import (
 from ai4u_edu.recording.table import Table
 from ai4u_edu.scenes import SceneDescription
 
-LONGEST = 6_000_000
-"""Bytes, about, that an episode may take up in memory; what comes after is not recorded."""
-LATEST = 2_000_000
-"""The last tick that is recorded: nine hours, at 60 a second."""
+MAX_EPISODE_BYTES = 6_000_000
+"""Approximate memory of an episode; what happens after it is reached is not recorded."""
+MAX_TICK = 2_000_000
+"""Last tick that is recorded: nine hours at 60 ticks per second."""
 
 VERSIONS = {"ai4u-edu": __version__} | {name: version(name) for name in ("pymunk", "numpy")}
 
 
-class _Column:
-    """What one agent did so far."""
+class _AgentColumns:
+    """Columns of one agent's decisions so far."""
 
     def __init__(self, agent_id: str) -> None:
         self.id = agent_id
@@ -48,11 +48,11 @@ class _Column:
         self.firsts: list[int] = []
         self.brain: Brain | None = None
         self.drivers: dict[str, None] = {}
-        self.under_way = -1
-        """The agent's own count of its decisions when the open one began; -1 for none."""
+        self.open_step = -1
+        """The agent's step count when its unfinished decision began; -1 if there is none."""
 
     def record(self, count: int) -> AgentRecord:
-        """The first ``count`` decisions."""
+        """Return the record of the first ``count`` decisions."""
         return AgentRecord(
             id=self.id,
             begin=np.array(self.begin[:count], np.uint32),
@@ -68,27 +68,27 @@ class _Column:
             worlds=np.array(self.worlds[:count], np.uint32),
             starts=np.array(self.starts, np.uint32),
             firsts=np.array(self.firsts, np.uint32),
-            driver=", ".join(self.drivers)[:LONGEST_DRIVER],
+            driver=", ".join(self.drivers)[:MAX_DRIVER_CHARS],
         )
 
 
 class EpisodeBuilder:
-    """An episode of a world under way.
+    """Builds an :class:`Episode` from an agent's events; the runner's thread calls it.
 
     Args:
         sim: the world and its agents, just reset.
-        scene: what they are.
+        scene: their description.
     """
 
     def __init__(self, sim: ControlRequestor, scene: SceneDescription) -> None:
         self._sim = sim
         self._scene = scene
         self._seed = sim.world.seeds.seed
-        self._columns = [_Column(agent.id) for agent in sim.agents]
+        self._columns = [_AgentColumns(agent.id) for agent in sim.agents]
         self._index = {agent.id: index for index, agent in enumerate(sim.agents)}
         self._order: list[int] = []
         self._restarts: list[tuple[int, list[int]]] = []
-        self._together: list[int] | None = None
+        self._restarting: list[int] | None = None
         self._ticks = 0
         self._size = 0
         self.changed: int | None = None
@@ -96,36 +96,36 @@ class EpisodeBuilder:
 
     @property
     def restarts(self) -> int:
-        """How many times agents began anew so far."""
+        """Number of restarts so far."""
         return len(self._restarts)
 
-    def leave(self) -> None:
-        """Agents are about to begin anew: those that do it together follow each other."""
-        self._together = None
+    def end_restart(self) -> None:
+        """End a group of agents that restart together; the next one that begins starts another."""
+        self._restarting = None
 
-    def first(self, agent: BasicAgent) -> None:
-        """An agent's own episode begins."""
+    def begin_episode(self, agent: BasicAgent) -> None:
+        """Record that an agent's own episode begins."""
         if self.cut:
             return
         index = self._index[agent.id]
         column = self._columns[index]
         ticks = self._sim.world.ticks
-        if column.firsts:  # the first one is the world's own
-            if self._together is None:
-                self._together = []
+        if column.firsts:  # the first one begins with the world's reset
+            if self._restarting is None:
+                self._restarting = []
                 self._order.append(-1 - len(self._restarts))
-                self._restarts.append((ticks, self._together))
-            self._together.append(index)
+                self._restarts.append((ticks, self._restarting))
+            self._restarting.append(index)
             self._ticks = ticks
-        column.under_way = -1
+        column.open_step = -1
         column.starts.append(len(column.begin))
         column.firsts.append(percept_checksum(agent.percept))
 
-    def decided(self, agent: BasicAgent) -> None:
-        """A decision begins."""
+    def begin_decision(self, agent: BasicAgent) -> None:
+        """Record that a decision begins."""
         world, brain = self._sim.world, agent.brain
         self._size += 80 + 8 * sum(map(len, agent.last_action.values()))
-        if self.cut or self._size > LONGEST or world.ticks > LATEST:
+        if self.cut or self._size > MAX_EPISODE_BYTES or world.ticks > MAX_TICK:
             self.cut = True
             return
         index = self._index[agent.id]
@@ -140,17 +140,17 @@ class EpisodeBuilder:
         column.rewards.append(0.0)
         column.percepts.append(0)
         column.worlds.append(world_checksum(world))
-        column.under_way = agent.steps
+        column.open_step = agent.steps
         if brain is not column.brain:
             column.brain = brain
             column.drivers[brain.title()] = None
 
-    def sensed(self, agent: BasicAgent) -> None:
-        """What an agent senses first after a decision ends it: all is paid by then."""
+    def end_decision(self, agent: BasicAgent) -> None:
+        """Record the end of a decision: the first percept after it, when all rewards are paid."""
         column = self._columns[self._index[agent.id]]
-        if self.cut or column.under_way < 0 or agent.steps != column.under_way + 1:
+        if self.cut or column.open_step < 0 or agent.steps != column.open_step + 1:
             return
-        column.under_way = -1
+        column.open_step = -1
         ledger = agent.ledger
         self._size += 8 * len(ledger.terms)
         self._ticks = column.end[-1] = self._sim.world.ticks
@@ -160,9 +160,9 @@ class EpisodeBuilder:
         column.percepts[-1] = percept_checksum(agent.percept)
 
     def episode(self) -> Episode:
-        """What happened so far."""
+        """Return the episode so far."""
         order, counts = list(self._order), [len(column.begin) for column in self._columns]
-        while order and order[-1] >= 0 and self._came_to_nothing(order[-1], counts):
+        while order and order[-1] >= 0 and self._is_unfinished(order[-1], counts):
             counts[order.pop()] -= 1
         return Episode(
             scene=self._scene,
@@ -178,7 +178,7 @@ class EpisodeBuilder:
             versions=dict(VERSIONS),
         )
 
-    def _came_to_nothing(self, index: int, counts: list[int]) -> bool:
-        """Whether an agent's last decision was taken when all that counts was over."""
+    def _is_unfinished(self, index: int, counts: list[int]) -> bool:
+        """Return True if an agent's last decision began at the end and never ended."""
         column, last = self._columns[index], counts[index] - 1
         return not column.flags[last] & ENDED and column.begin[last] >= self._ticks

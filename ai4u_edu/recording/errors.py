@@ -1,7 +1,7 @@
-"""What can go wrong with a recorded episode."""
+"""Error of recorded episodes."""
 
 from ai4u_edu.base.errors import AI4UError
 
 
 class RecordingError(AI4UError):
-    """A recorded episode can't be read, or can't be played again."""
+    """An episode that can't be read or replayed."""

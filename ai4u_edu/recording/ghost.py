@@ -1,4 +1,4 @@
-"""Where everything was in a recorded run, by time: a ghost to play against."""
+"""Poses of a recorded episode by time, to show a ghost to race against."""
 
 from dataclasses import dataclass
 
@@ -11,17 +11,17 @@ from ai4u_edu.recording.replay import Replay
 
 @dataclass(frozen=True, eq=False)
 class Ghost:
-    """The poses of a run, n times of b bodies."""
+    """Poses of b bodies at n times."""
 
     names: tuple[str, ...]
-    """(b,) the bodies that were there at the beginning."""
+    """(b,) names of the bodies at the beginning."""
     times: npt.NDArray[np.float32]
-    """(n,) seconds since the reset, growing."""
+    """(n,) world time (s) since the reset, increasing."""
     poses: npt.NDArray[np.float32]
-    """(n, b, 4) x, y, z in metres and the heading in radians; nan for who is out of the world."""
+    """(n, b, 4) x, y, z (m) and heading (rad); NaN for a body that is out of the world."""
 
     def at(self, time: float) -> dict[str, tuple[float, float, float, float]]:
-        """The pose of each body that was in the world at a time; afterwards, as at the end."""
+        """Return the poses at a time (s), by name, of the bodies that were in the world."""
         index = int(np.searchsorted(self.times, time, side="right")) - 1
         row = self.poses[max(index, 0)]
         return {
@@ -32,21 +32,21 @@ class Ghost:
 
 
 def ghost_of(episode: Episode | Replay, *, every: int = 2) -> Ghost:
-    """The poses of an episode, as far as it can be played again exactly.
+    """Replay an episode, as far as it is exact, and return its poses.
 
     Args:
-        episode: which.
-        every: ticks between two of them.
+        episode: the episode, or its replay.
+        every: ticks between two poses.
     """
     replay = episode if isinstance(episode, Replay) else Replay(episode)
     names = [body.name for body in replay.episode.scene.bodies]
     rank = {name: index for index, name in enumerate(names)}
     times, rows = [], []
-    for picture in replay.snapshots(every):
+    for snapshot in replay.snapshots(every):
         row = np.full((len(names), 4), np.nan, np.float32)
-        for state in picture.bodies:
+        for state in snapshot.bodies:
             if not state.fallen and state.name in rank:
                 row[rank[state.name]] = state.x, state.y, state.z, state.heading
-        times.append(picture.time)
+        times.append(snapshot.time)
         rows.append(row)
     return Ghost(tuple(names), np.array(times, np.float32), np.stack(rows))

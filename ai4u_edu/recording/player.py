@@ -1,4 +1,4 @@
-"""A world in which recorded actions are taken again, by the same decision cycle."""
+"""Player of an episode: a world in which the recorded actions are taken again."""
 
 from collections.abc import Callable, Mapping
 from functools import partial
@@ -17,33 +17,33 @@ from ai4u_edu.world import World
 
 
 class RecordedBrain(Brain):
-    """Decides what was decided, when it was decided."""
+    """Takes the recorded decisions at their recorded ticks."""
 
-    abstract = True  # nothing for a scene file: a player puts the actions in
+    abstract = True  # not for scene files: a player sets the actions
 
-    def play(self, player: "Player", index: int) -> None:
-        """Says whose recording it is."""
+    def attach(self, player: "Player", index: int) -> None:
+        """Set the player, and the index of the agent, whose decisions to take."""
         self._player, self._index = player, index
 
     def decide(self, percept: Percept) -> Answer:  # noqa: ARG002 - it needs to sense nothing
-        """What was decided at this tick, in the rhythm it was decided in."""
+        """Return the recorded answer for this tick."""
         return self._player.answer(self._index, self)
 
     def title(self) -> str:
-        """What a person calls it."""
+        """Return the title to show to a person."""
         return "Recording"
 
 
 class Player:
-    """Lets an episode happen again, from its beginning.
+    """Replays an episode step by step, from its beginning.
 
     Args:
-        episode: which.
-        sim: a world to play it in, as it was recorded; left out, a new one is made.
-        on_step: called before each step; what it raises ends the playing.
+        episode: the recorded episode.
+        sim: a world of the episode's scene to use; by default a new one is made.
+        on_step: called before each step; an exception that it raises ends the replay.
 
     Raises:
-        RecordingError: the episode's scene can't be made, or the world is another one.
+        RecordingError: the episode's scene can't be built, or the world has another one.
     """
 
     def __init__(
@@ -57,55 +57,55 @@ class Player:
         self._on_step = on_step
         self.brains = [RecordedBrain() for _ in episode.agents]
         self.sim = _new_world(episode, self.brains) if sim is None else _same(sim, episode)
-        self._hurries = len(episode.agents) == 1 and not episode.restarts
-        self._own = sim is None
+        self._can_skip_ticks = len(episode.agents) == 1 and not episode.restarts
+        self._owns_sim = sim is None
         self._before: list[Brain] = []
         for index, (agent, brain) in enumerate(zip(self.sim.agents, self.brains, strict=True)):
-            brain.play(self, index)
+            brain.attach(self, index)
             self._before.append(agent.bound_blocks.brain)
             agent.bound_blocks.brain = brain
         self.rewind()
 
     @property
-    def over(self) -> bool:
-        """Whether all that was recorded has happened."""
+    def is_over(self) -> bool:
+        """True if the whole episode has been replayed."""
         ticks = self.sim.world.ticks
         return ticks > self.episode.ticks or (
             ticks == self.episode.ticks and not self._restart_is_due()
         )
 
     def rewind(self) -> None:
-        """Back to the beginning."""
+        """Go back to the beginning."""
         self.taken = [0] * len(self.episode.agents)
-        """How many decisions of each agent were taken again."""
+        """Number of replayed decisions of each agent."""
         self.restarted = 0
-        """How many of the recorded restarts happened again."""
+        """Number of replayed restarts."""
         self._guard(partial(self.sim.reset, self.episode.seed))
 
-    def go_on(self, *, tick_by_tick: bool = False) -> None:
-        """One thing more happens: a restart, or a tick, or (where that is the same) a decision."""
+    def advance(self, *, tick_by_tick: bool = False) -> None:
+        """Replay one restart or one tick; of a single agent one decision, unless tick by tick."""
         if self._on_step is not None:
             self._on_step()
-        self._guard(partial(self._happen, tick_by_tick=tick_by_tick))
+        self._guard(partial(self._advance, tick_by_tick=tick_by_tick))
 
-    def _happen(self, *, tick_by_tick: bool) -> None:
+    def _advance(self, *, tick_by_tick: bool) -> None:
         if self._restart_is_due():
             self._restart()
             return
-        if self._hurries and not tick_by_tick:
+        if self._can_skip_ticks and not tick_by_tick:
             self.sim.step()
             return
         before = list(self.taken)
         self.sim.tick()
         if self.sim.waiting_for_brain and self.taken == before:
-            self._restart()  # who should have decided before it never will: it went otherwise
+            self._restart()  # the replay differs: a decision before the restart will never come
 
-    def go_to(self, index: int, step: int) -> None:
-        """To the moment at which an agent took a decision, before it did.
+    def seek(self, index: int, step: int) -> None:
+        """Go to the moment just before an agent took a decision.
 
         Args:
-            index: the agent's number.
-            step: the decision's number.
+            index: of the agent.
+            step: index of the decision.
         """
         tick = int(self.episode.agents[index].begin[step])
         place = self.episode.places[index][step]
@@ -113,27 +113,27 @@ class Player:
         if self.sim.world.ticks > tick or self.restarted > restarts or self.taken[index] > step:
             self.rewind()
         while self.sim.world.ticks < tick or self.restarted < restarts:
-            self.go_on()
+            self.advance()
 
-    def hand_over(self, brains: Mapping[str, Brain]) -> ControlRequestor:
-        """Gives the agents other brains; a decision that is under way is carried out first.
+    def replace_brains(self, brains: Mapping[str, Brain]) -> ControlRequestor:
+        """Give the agents other brains, and return the world; a begun decision is finished first.
 
         Args:
-            brains: by the agent's id. Who is not named gets, in a world of the player's own, the
-                brain that the scene says, and else the one that it had.
+            brains: brains by agent id. Other agents get a new brain as in the scene if the player
+                made the world, and otherwise the brain that they had before.
         """
         for index, agent in enumerate(self.sim.agents):
             before = agent.bound_blocks.brain = self._before[index]
             if agent.id in brains:
                 agent.use_brain(brains[agent.id])
-            elif self._own:
+            elif self._owns_sim:
                 agent.use_brain(self._brain_of_the_scene(index))
             else:
                 before.on_reset(agent, agent.view)
         return self.sim
 
     def answer(self, index: int, brain: RecordedBrain) -> Answer:
-        """What an agent does at this tick."""
+        """Return an agent's answer for this tick."""
         record, ticks = self.episode.agents[index], self.sim.world.ticks
         step = self.taken[index]
         places = self.episode.restart_places
@@ -148,14 +148,14 @@ class Player:
             return Command.HOLD
         return Command.WAIT
 
-    def _guard(self, happen: Callable[[], None]) -> None:
-        """Let something happen; a block may raise anything, and who plays again catches our errors.
+    def _guard(self, step: Callable[[], None]) -> None:
+        """Run a step, and turn errors of blocks into a RecordingError.
 
         Raises:
             RecordingError: a block failed.
         """
         try:
-            happen()
+            step()
         except BaseException as error:
             if isinstance(error, AI4UError) or not may_be_kept(error):
                 raise
@@ -163,7 +163,7 @@ class Player:
             raise RecordingError(told) from error
 
     def _restart_is_due(self) -> bool:
-        """Whether it is time, and all that was decided before was decided."""
+        """Return True if the next restart is due, and all decisions before it were replayed."""
         if self.restarted == len(self.episode.restarts):
             return False
         if self.episode.restarts[self.restarted].tick != self.sim.world.ticks:

@@ -1,7 +1,8 @@
-"""Keeps the last episodes of a world, whoever drives its agents."""
+"""Recorder of a world's episodes."""
 
 import logging
 import sys
+import warnings
 from collections.abc import Callable
 from typing import Any, TypeVar
 
@@ -10,7 +11,7 @@ from ai4u_edu.agent.block_errors import message_of
 from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.blocks import Block
 from ai4u_edu.recording.archive import Archive
-from ai4u_edu.recording.checksum import everything
+from ai4u_edu.recording.checksum import editable_state
 from ai4u_edu.recording.episode import Episode
 from ai4u_edu.recording.episode_builder import EpisodeBuilder
 from ai4u_edu.recording.errors import RecordingError
@@ -23,18 +24,18 @@ logger = logging.getLogger(__name__)
 
 
 class Recorder:
-    """Listens to all agents of a world, and keeps its last episodes.
+    """Records the episodes of a world from its agents' events, and archives the last ones.
 
-    It hears what the brains decided and does not ask them, so it does not matter who drives: a
-    person, a script, a network, an environment's ``step``. Switched off, it listens to nothing.
+    It does not matter who drives: a person, a script, a network, an environment's ``step``. All
+    methods belong to the thread that runs the world.
 
     Args:
-        sim: the world and its agents. An episode that is under way already is left out.
-        scene: where it comes from; its name, title and goal go into the episodes.
-        keep: how many episodes are kept.
-        episodes: where they are kept; left out, in an archive for ``keep`` of them.
-        on_episode: called with each one when it is over, in the thread that runs the world. What it
-            raises stops nothing: it is logged, and told by :attr:`save_problem`.
+        sim: the world and its agents. An episode that has already begun is not recorded.
+        scene: the scene of the world; its name, title and goal go into the episodes.
+        keep: number of episodes to keep.
+        episodes: archive for the episodes; by default a new one for ``keep`` of them.
+        on_episode: called with each episode when it is over, in the thread that runs the world. Its
+            exceptions are logged and available as :attr:`save_problem`.
 
     >>> from ai4u_edu import Scene
     >>> scene = Scene.load("box_chase")
@@ -61,47 +62,57 @@ class Recorder:
         self.sim = sim
         self.scene = scene
         self.episodes = Archive(keep, sys.maxsize) if episodes is None else episodes
-        """Those that are over, the latest last."""
+        """Finished episodes, the latest last."""
         self.problem = ""
-        """Why the episode that is under way can't be recorded; empty if it can."""
+        """Sentence about why the present episode can't be recorded; empty if it can."""
         self.save_problem = ""
-        """Why ``on_episode`` failed with the last episode, which is kept; empty if it did not."""
+        """Sentence about why ``on_episode`` failed with the last episode; empty if it did not."""
         self.on_episode = on_episode
         self._builder: EpisodeBuilder | None = None
         self._world_episode = sim.episode
         self._listening = False
-        self._attend()
+        self._start()
 
     def listen_to(self, sim: ControlRequestor) -> None:
-        """Listens to another world from now on; what was heard of this one so far is kept."""
+        """Record another world from now on; the present episode is finished."""
         listened = self._listening
-        self.switch(False)
+        self.set_enabled(False)
         self.sim, self._world_episode = sim, sim.episode
         if listened:
-            self._attend()
+            self._start()
 
-    def switch(self, on: bool) -> None:
-        """On: listens from the next reset on. Off: what was heard so far is kept as an episode."""
-        if on == self._listening:
+    def set_enabled(self, enabled: bool) -> None:
+        """Start recording with the next reset, or stop it and finish the present episode."""
+        if enabled == self._listening:
             return
-        self._listening = on
-        if not on:
+        self._listening = enabled
+        if not enabled:
             self.finish()
         for agent in self.sim.agents:
             for event, handler in (
-                (agent.before_the_reset, self._leave),
-                (agent.begin_of_episode, self._first),
-                (agent.begin_of_step, self._decided),
-                (agent.end_of_update_state, self._sensed),
+                (agent.before_the_reset, self._on_reset),
+                (agent.begin_of_episode, self._on_episode_begin),
+                (agent.begin_of_step, self._on_decision),
+                (agent.end_of_update_state, self._on_percept),
             ):
-                (event.connect if on else event.disconnect)(handler)
+                (event.connect if enabled else event.disconnect)(handler)
+
+    def switch(self, on: bool) -> None:
+        """Call :meth:`set_enabled`; deprecated."""
+        warnings.warn("use Recorder.set_enabled", DeprecationWarning, stacklevel=2)
+        self.set_enabled(on)
 
     def now(self) -> Episode | None:
-        """The episode that is under way, as far as it got."""
+        """Return :meth:`current_episode`; deprecated."""
+        warnings.warn("use Recorder.current_episode", DeprecationWarning, stacklevel=2)
+        return self.current_episode()
+
+    def current_episode(self) -> Episode | None:
+        """Return the present episode so far; None if none is being recorded."""
         return None if self._builder is None else self._builder.episode()
 
     def finish(self) -> None:
-        """The episode that is under way is over: nothing more of it is recorded."""
+        """Finish the present episode; the rest of it is not recorded."""
         builder, self._builder = self._builder, None
         if builder is None:
             return
@@ -110,74 +121,72 @@ class Recorder:
             return
         self.episodes.append(episode)
         if self.on_episode is not None:
-            self._hand_on(episode, self.on_episode)
+            self._save(episode, self.on_episode)
 
     def guard(self, command: Callable[[], T]) -> T:
-        """Carries out what somebody asked for, and notices whether the world was changed by that.
+        """Run a command, and record the tick if it edited the world.
 
-        An episode can be played again exactly up to such a change, and not beyond.
+        The exact replay of an episode ends at such a change.
         """
         builder = self._builder
         if builder is None or builder.changed is not None:
             return command()
-        ticks, restarts, before = self.sim.world.ticks, builder.restarts, self._all()
+        ticks, restarts, before = self.sim.world.ticks, builder.restarts, self._editable_state()
         try:
             return command()
         finally:
             same = self._builder is builder and builder.restarts == restarts
-            if same and self.sim.world.ticks == ticks and self._all() != before:
+            if same and self.sim.world.ticks == ticks and self._editable_state() != before:
                 builder.changed = ticks
 
-    def _hand_on(self, episode: Episode, on_episode: Callable[[Episode], object]) -> None:
-        """Call ``on_episode``; a full disk must neither refuse the reset nor stop the world."""
+    def _save(self, episode: Episode, on_episode: Callable[[Episode], object]) -> None:
+        """Call ``on_episode``; an error there, such as a full disk, must not stop the world."""
         before, self.save_problem = self.save_problem, ""
         try:
             on_episode(episode)
         except Exception as error:
             self.save_problem = f"the last episode could not be saved: {message_of(error)}"
-            if not before:  # once, and not with every episode
+            if not before:  # warn once, not with every episode
                 logger.warning("%s; it is kept in memory", self.save_problem)
 
-    def _attend(self) -> None:
-        """Begins to listen; an episode that has only just begun is heard from its beginning."""
-        self.switch(True)
+    def _start(self) -> None:
+        """Start recording; an episode that has just begun is recorded from its beginning."""
+        self.set_enabled(True)
         if self.sim.episode and self.sim.world.ticks == 0 and self.sim.between_decisions():
             self._begin()
             for agent in self.sim.agents:
-                self._first(agent)
+                self._on_episode_begin(agent)
 
-    # -- what it hears ---------------------------------------------------------------------------
-
-    def _leave(self, _agent: BasicAgent) -> None:
+    def _on_reset(self, _agent: BasicAgent) -> None:
         if self._builder is not None:
-            self._builder.leave()
+            self._builder.end_restart()
 
-    def _first(self, agent: BasicAgent) -> None:
+    def _on_episode_begin(self, agent: BasicAgent) -> None:
         if self.sim.episode != self._world_episode:
             self.finish()
             self._begin()
         if self._builder is not None:
-            self._builder.first(agent)
+            self._builder.begin_episode(agent)
 
-    def _decided(self, agent: BasicAgent) -> None:
+    def _on_decision(self, agent: BasicAgent) -> None:
         if self._builder is not None:
-            self._builder.decided(agent)
+            self._builder.begin_decision(agent)
 
-    def _sensed(self, agent: BasicAgent) -> None:
+    def _on_percept(self, agent: BasicAgent) -> None:
         if self._builder is not None:
-            self._builder.sensed(agent)
+            self._builder.end_decision(agent)
 
     def _begin(self) -> None:
         self._world_episode = self.sim.episode
         self.problem = ""
         try:
             self._builder = EpisodeBuilder(self.sim, export_scene(self.sim, self.scene))
-        except RecordingError as error:  # no reason for the world to stop
+        except RecordingError as error:  # must not stop the world
             self.problem = str(error)
 
-    def _all(self) -> list[Any]:
-        """All that a person may change by hand; who drives is no part of it."""
-        blocks: list[Any] = [everything(self.sim.world)]
+    def _editable_state(self) -> list[Any]:
+        """Return everything that a person can edit, except for brains."""
+        blocks: list[Any] = [editable_state(self.sim.world)]
         for agent in self.sim.agents:
             blocks.append(agent.bound_blocks)
             blocks += [

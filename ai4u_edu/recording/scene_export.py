@@ -1,4 +1,4 @@
-"""The scene that a world is: as data, with which the same world can be made somewhere else."""
+"""Export of a running world as a scene description."""
 
 from collections.abc import Iterator, Mapping
 from typing import Any
@@ -16,17 +16,17 @@ from ai4u_edu.world import AreaDescription, BodyDescription, FloorDescription
 
 
 def export_scene(sim: ControlRequestor, like: SceneDescription | None = None) -> SceneDescription:
-    """A world and its agents as a scene.
+    """Return a world and its agents as a scene description.
 
-    A brain that no file can hold, such as a Python function, is left out; so is one of a student's
-    own file where the agent has another: replaying needs no driver, so it needs no such file.
+    Brains that can't be serialized, such as Python functions, are left out. So are brains of types
+    that a student defined, if the agent has another one: a replay needs none of them.
 
     Args:
         sim: the world and its agents.
-        like: where name, title and goal come from.
+        like: a scene with the name, title and goal to use.
 
     Raises:
-        RecordingError: a parameter of a block is nothing that a file can hold.
+        RecordingError: a parameter of a block can't be serialized.
     """
     things = sim.world.described
     fields: dict[str, Any] = {
@@ -46,16 +46,16 @@ def export_scene(sim: ControlRequestor, like: SceneDescription | None = None) ->
 
 
 def without_brains(scene: SceneDescription) -> list[Any]:
-    """What of a scene decides how its world goes on once the actions are given."""
+    """Return the parts of a scene that determine a replay: everything but brains and texts."""
     agents = [{k: v for k, v in agent.items() if k != "brains"} for agent in scene.agents]
     things = [scene.floors, scene.areas, scene.bodies]
     return [scene.world, scene.spread_decisions, *things, agents]
 
 
 def without_unknown_brains(scene: SceneDescription) -> SceneDescription:
-    """Return a scene without the brains that can't be made here, so that it can be built.
+    """Return a scene without brains of unknown types, so that it can be built.
 
-    An agent all of whose brains are unknown keeps them: building says then what is missing.
+    An agent with unknown brains only keeps them, so that building reports them.
     """
     agents = tuple(_with_known_brains(agent) for agent in scene.agents)
     return scene.model_copy(update={"agents": agents})
@@ -72,7 +72,7 @@ def _with_known_brains(agent: Mapping[str, Any]) -> Mapping[str, Any]:
 
 
 def _is_known(block: Any) -> bool:
-    """Return True unless a block, or one in it, is of a type that nobody has defined here."""
+    """Return True if the types of a block and of the blocks in it are defined here."""
     if not isinstance(block, Mapping):
         return True
     parts = [block.get("controller")] if "controller" in block else []
@@ -83,23 +83,23 @@ def _agent(agent: BasicAgent) -> dict[str, Any]:
     given = agent.given()
     brains = given.pop("brains", [])
     try:
-        plain: dict[str, Any] = _numbers(to_plain(given))
+        plain: dict[str, Any] = _plain_numbers(to_plain(given))
     except TypeError as error:
         raise RecordingError(f"agent {agent.id!r}: {error}") from None
-    fitting = [brain for brain in brains if _fits(brain)]
-    built_in = [brain for brain in fitting if all(is_built_in(type(b)) for b in _blocks(brain))]
-    kept = [_numbers(to_plain(brain)) for brain in built_in or fitting]
+    storable = [brain for brain in brains if _is_storable(brain)]
+    built_in = [brain for brain in storable if all(is_built_in(type(b)) for b in _blocks(brain))]
+    kept = [_plain_numbers(to_plain(brain)) for brain in built_in or storable]
     if kept:
         plain["brains"] = kept
         if sum(brain.get("enabled", True) for brain in kept) != 1:
-            # the one that drove is not among them
+            # the enabled brain was left out
             plain["brains"] = [brain | {"enabled": brain is kept[0]} for brain in kept]
     return plain
 
 
-def _fits(brain: Brain) -> bool:
+def _is_storable(brain: Brain) -> bool:
     try:
-        _numbers(to_plain(brain))
+        _plain_numbers(to_plain(brain))
     except TypeError:
         return False
     return all(
@@ -115,8 +115,8 @@ def _blocks(block: Block) -> Iterator[Block]:
             yield from _blocks(value)
 
 
-def _numbers(value: Any) -> Any:
-    """Plain data, with Python's own numbers in it."""
+def _plain_numbers(value: Any) -> Any:
+    """Return plain data with Python's numbers in place of NumPy's."""
     if value is None or isinstance(value, bool | str):
         return value
     if isinstance(value, np.generic | np.ndarray):
@@ -125,7 +125,7 @@ def _numbers(value: Any) -> Any:
         if isinstance(value, kind):
             return kind(value)
     if isinstance(value, Mapping):
-        return {str(key): _numbers(each) for key, each in value.items()}
+        return {str(key): _plain_numbers(each) for key, each in value.items()}
     if isinstance(value, list | tuple):
-        return [_numbers(each) for each in value]
+        return [_plain_numbers(each) for each in value]
     raise TypeError(f"expected a parameter that a file can hold, got {value!r}")

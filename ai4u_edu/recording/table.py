@@ -1,4 +1,4 @@
-"""Rows of named numbers, kept side by side: actions, and reward terms."""
+"""Compact tables of rows of named numbers: actions and reward terms."""
 
 from collections.abc import Iterable, Mapping, Sequence
 from itertools import accumulate
@@ -7,17 +7,17 @@ import numpy as np
 import numpy.typing as npt
 
 Form = tuple[tuple[str, int], ...]
-"""The names in a row, in order, and how many numbers each has."""
+"""Names in a row, in order, with the count of numbers of each."""
 
-MOST_FORMS = 2**16
+MAX_FORMS = 2**16
 
 
 class Table:
     """Rows of named numbers.
 
     Args:
-        forms: the forms that rows have.
-        form: (n,) which form each row has.
+        forms: all forms of rows.
+        form: (n,) index of each row's form.
         numbers: all numbers, row after row.
 
     >>> table = Table.of([{"move": (1.0, 0.5), "catch": (1.0,)}, {}, {"move": (0.0, 0.0)}])
@@ -41,7 +41,7 @@ class Table:
 
     @classmethod
     def of(cls, rows: Iterable[Mapping[str, Sequence[float]]]) -> "Table":
-        """A table of some rows."""
+        """Make a table of rows."""
         forms: dict[Form, int] = {}
         form: list[int] = []
         numbers: list[float] = []
@@ -66,5 +66,5 @@ class Table:
 
 
 def width_of(form: Form) -> int:
-    """How many numbers a row of that form has."""
+    """Return the count of numbers in a row of a form."""
     return sum(width for _, width in form)

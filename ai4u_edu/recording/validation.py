@@ -1,19 +1,19 @@
-"""Whether an episode hangs together: what a file says of it may be anything."""
+"""Validation of an episode that was loaded from an untrusted file."""
 
 import numpy as np
 
 from ai4u_edu.recording.episode import ENDED, AgentRecord, Episode
 from ai4u_edu.recording.errors import RecordingError
 
-LONGEST_SKIP = 10_000
+MAX_SKIP_FRAME = 10_000
 """The largest skip_frame that a brain may have."""
 
 
 def validate_episode(episode: Episode) -> None:
-    """Checks that all parts of an episode fit together.
+    """Check that all parts of an episode fit together.
 
     Raises:
-        RecordingError: they don't; says which.
+        RecordingError: they do not; the message names the part.
     """
     ids = [str(agent.get("id", "0")) for agent in episode.scene.agents]
     if list(episode.ids) != ids:
@@ -32,8 +32,8 @@ def _check_agent(record: AgentRecord, ticks: int) -> None:
                 f"{who}: expected {count} {name}, one for each decision, "
                 f"got {len(getattr(record, name))}"
             )
-    if (record.skip > LONGEST_SKIP).any():
-        raise RecordingError(f"{who}: skip: expected at most {LONGEST_SKIP}")
+    if (record.skip > MAX_SKIP_FRAME).any():
+        raise RecordingError(f"{who}: skip: expected at most {MAX_SKIP_FRAME}")
     if (record.end < record.begin).any() or (record.end > ticks).any():
         raise RecordingError(f"{who}: end: expected decisions that end after they begin")
     ended = (record.flags & ENDED) > 0
@@ -62,9 +62,10 @@ def _check_order(episode: Episode) -> None:
 
 
 def _check_time(episode: Episode) -> None:
-    """Time goes on: a replay that waits for what lies behind it would never end."""
+    """Check that ticks do not decrease; a replay would wait forever for an earlier one."""
     restarts = [restart.tick for restart in episode.restarts]
-    known = all(0 <= tick <= episode.ticks for tick in restarts)  # others may not fit into an array
+    # other values may not fit into the array
+    known = all(0 <= tick <= episode.ticks for tick in restarts)
     ticks = np.zeros(len(episode.order), np.int64)
     for places, record in zip(episode.places, episode.agents, strict=True):
         ticks[places] = record.begin

@@ -18,7 +18,7 @@ _logger.setLevel(logging.CRITICAL)  # a lost connection is normal: the dialogue 
 OPTIONS: dict[str, Any] = {
     "subprotocols": [Subprotocol(native.SUBPROTOCOL)],
     "compression": None,  # frames are small, and numbers compress badly
-    "max_size": native.LARGEST_HEARD,
+    "max_size": native.MAX_WORLD_FRAME_BYTES,
     # seconds; a server that vanished without closing the connection is noticed by these pings
     "ping_interval": 2,
     "ping_timeout": 4,

@@ -10,6 +10,8 @@ from contextlib import suppress
 from secrets import token_urlsafe
 from typing import Any, Literal, NoReturn, SupportsIndex, cast
 
+from msgspec.structs import replace
+
 from ai4u_edu.base.errors import ActionError
 from ai4u_edu.base.seeding import checked_seed
 from ai4u_edu.remote.errors import LostError, RefusedError, RemoteError
@@ -248,22 +250,22 @@ class Dialogue:
         return lost
 
     def _hear_welcome(self, frame: bytes) -> bool:
-        message = native.decode(frame, native.LARGEST_HEARD)
+        message = native.decode(frame, native.MAX_WORLD_FRAME_BYTES)
         if isinstance(message, native.Problem):
             if message.code == "bad_message" and self._hello.on_missing:
                 text = f"{message.text}; if the world is an older one, leave out on_missing"
-                message = message._replace(text=text)
+                message = native.Problem(message.code, text, message.seq)
             self._refuse(message)
         if not isinstance(message, native.Welcome):
             return False
         self._welcome = message
-        self._hello = self._hello._replace(session=message.session)
+        self._hello = replace(self._hello, session=message.session)
         self.readings = {reading.key: reading for reading in message.readings}
         self.outputs = {output.name: output for output in message.outputs}
         return True
 
     def _hear(self, frame: bytes) -> None:
-        message = native.decode(frame, native.LARGEST_HEARD)
+        message = native.decode(frame, native.MAX_WORLD_FRAME_BYTES)
         latest = self.percept.seq if self.percept else 0
         match message:
             case native.Percept(seq=seq) if seq > latest:

@@ -10,7 +10,7 @@ from gymnasium import spaces
 
 from ai4u_edu.base.errors import shown
 from ai4u_edu.remote.errors import RemoteError
-from ai4u_edu.wire.native import LARGEST_HEARD, Output, Reading
+from ai4u_edu.wire.native import MAX_WORLD_FRAME_BYTES, Output, Reading
 from ai4u_edu.wire.texts import SEVERAL
 
 _NO_SPACE = (ValueError, IndexError, AssertionError, TypeError, OverflowError)
@@ -24,7 +24,7 @@ def reading_space(reading: Reading) -> spaces.Space[Any]:
         RemoteError: what the world said of it makes no space.
     """
     try:
-        if math.prod(reading.shape) > LARGEST_HEARD:
+        if math.prod(reading.shape) > MAX_WORLD_FRAME_BYTES:
             raise ValueError(f"shape {shown(reading.shape)} is larger than any percept")
         if reading.kind == "text":
             text = spaces.Text(reading.shape[0])

@@ -1,4 +1,4 @@
-"""Commands for the thread that runs a world, in the order in which they came."""
+"""A queue of commands for the thread that runs a world."""
 
 import threading
 from collections import deque
@@ -12,23 +12,22 @@ T = TypeVar("T")
 
 @dataclass(frozen=True, slots=True)
 class QueuedCommand:
-    """A command that waits."""
+    """A command that waits, and the future of its result."""
 
     asked_at: float
-    """When it came (s)."""
+    """Time (s) at which it was submitted."""
     run: Callable[[], Any]
     future: "Future[Any]"
 
 
 class CommandQueue:
-    """A queue of commands that ends for good when it is closed.
+    """A first-in, first-out queue of commands that can be closed for good.
 
-    Any thread may submit. The thread that runs the world takes; it is woken by ``wake``, and never
-    waits for anybody here.
+    Any thread may submit. The world's thread takes and never blocks here; ``wake`` wakes it.
 
     Args:
         clock: seconds.
-        wake: set when a command has come.
+        wake: set when a command was submitted.
     """
 
     def __init__(self, clock: Callable[[], float], wake: threading.Event) -> None:
@@ -43,7 +42,7 @@ class CommandQueue:
 
     @property
     def first(self) -> QueuedCommand | None:
-        """The command that is next; None if none waits."""
+        """The command that has waited longest; None if none waits."""
         return self._commands[0] if self._commands else None
 
     def submit(self, run: Callable[[], T]) -> "Future[T]":
@@ -66,7 +65,7 @@ class CommandQueue:
         return None
 
     def close(self) -> None:
-        """Cancel what waits, and all that comes from now on."""
+        """Cancel the commands that wait, and all that are submitted from now on."""
         with self._lock:
             self._is_closed = True
             waiting = list(self._commands)

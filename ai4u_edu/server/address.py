@@ -1,4 +1,4 @@
-"""An address to listen at."""
+"""Bind a listening socket, with errors that say how to mend them."""
 
 import errno
 import os
@@ -7,19 +7,19 @@ import socket
 from ai4u_edu.base.errors import AI4UError
 
 WILDCARD_HOSTS = {"": "127.0.0.1", "0.0.0.0": "127.0.0.1", "::": "::1"}  # noqa: S104 - read, not bound
-"""What stands for all addresses of this machine, and one of them for the machine itself."""
+"""Hosts that mean all addresses of this machine, each with its loopback address."""
 
 
 class AddressError(AI4UError):
-    """There is no listening at this address."""
+    """The server can't listen at this address."""
 
 
 class PortTakenError(AddressError):
-    """Another program listens at this port."""
+    """The port is taken by another program."""
 
 
 def listen(host: str, port: int) -> socket.socket:
-    """A socket that listens, bound before anything else starts.
+    """Return a listening socket, bound before anything else starts.
 
     Args:
         host: a name or an address of this machine.
@@ -27,7 +27,7 @@ def listen(host: str, port: int) -> socket.socket:
 
     Raises:
         PortTakenError: another program listens there.
-        AddressError: there is no listening there, for another reason.
+        AddressError: it can't listen there, for another reason.
     """
     try:
         family, kind, protocol, _, address = socket.getaddrinfo(
@@ -38,8 +38,8 @@ def listen(host: str, port: int) -> socket.socket:
             f"expected an address of this machine, got --host {host!r} ({error}); "
             "use --host 127.0.0.1"
         ) from None
-    # asyncio sends small frames at once only where it is told that it is TCP: else one that follows
-    # another, as what an agent senses follows the answer to a ping, waits for up to 40 ms
+    # the protocol is passed on because asyncio sets TCP_NODELAY only for sockets that name TCP;
+    # without it a small frame that follows another one waits for up to 40 ms
     listener = socket.socket(family, kind, protocol)
     try:
         if os.name == "posix":  # elsewhere it would let two programs share a port
@@ -53,7 +53,7 @@ def listen(host: str, port: int) -> socket.socket:
 
 
 def url_of(host: str, listener: socket.socket) -> str:
-    """Where a browser on this machine finds it."""
+    """Return the address under which a browser on this machine finds the page."""
     host = WILDCARD_HOSTS.get(host, host)
     shown = f"[{host}]" if ":" in host else host
     return f"http://{shown}:{listener.getsockname()[1]}/"

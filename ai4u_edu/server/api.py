@@ -1,4 +1,4 @@
-"""What the API answers, as models: the JSON and its description both come from them."""
+"""Models of the API's answers; the JSON and its OpenAPI description come from them."""
 
 import math
 from collections.abc import Mapping
@@ -10,12 +10,12 @@ from pydantic import BaseModel, BeforeValidator, ConfigDict, Field
 from typing_extensions import TypeAliasType
 
 from ai4u_edu.base.version import __version__
-from ai4u_edu.runtime.stall_monitor import Stall
+from ai4u_edu.runtime.tick_monitor import Stall
 from ai4u_edu.snapshot import AgentState, BodyState, Snapshot
 
 
 def finite(value: float) -> float | None:
-    """A number, or nothing where JSON has no word for it."""
+    """Return a number, or None if JSON can't hold it (NaN, infinity)."""
     return value if math.isfinite(value) else None
 
 
@@ -34,7 +34,7 @@ class _View(BaseModel):
 
 
 class BodyView(_View):
-    """Where a body is."""
+    """Pose and motion of a body."""
 
     name: str
     pose: Pose
@@ -44,12 +44,12 @@ class BodyView(_View):
 
     @classmethod
     def of(cls, body: BodyState) -> "BodyView":
-        """The view of a body's state."""
+        """Return the view of a body's state."""
         return cls(name=body.name, fallen=body.fallen, **_motion(body))
 
 
 class AgentView(_View):
-    """What an agent sensed, did and got in its last decision, and where it is now."""
+    """An agent's last percept, action and reward, and its present pose."""
 
     id: str
     body: str
@@ -69,7 +69,7 @@ class AgentView(_View):
 
     @classmethod
     def of(cls, agent: AgentState, body: BodyState) -> "AgentView":
-        """The view of an agent's state."""
+        """Return the view of an agent's state."""
         return cls(
             id=agent.id,
             body=agent.body,
@@ -95,7 +95,7 @@ class SlowTickView(_View):
 
 
 class SnapshotView(_View):
-    """Everything at one tick."""
+    """State of the world at one tick."""
 
     tick: int
     time: Number = Field(description="seconds of the world's time since the reset")
@@ -114,7 +114,7 @@ class SnapshotView(_View):
 
     @classmethod
     def of(cls, picture: Snapshot) -> "SnapshotView":
-        """The view of a snapshot."""
+        """Return the view of a snapshot."""
         bodies = {body.name: body for body in picture.bodies}
         slow = picture.slow_tick
         return cls(
@@ -137,7 +137,7 @@ Status = Literal["ok", "paused", "error", "stalled"]
 
 
 class Health(_View):
-    """Whether the room is well."""
+    """Health of a room."""
 
     status: Status = Field(
         description="of the world in the room; stalled: something in it does not return"

@@ -1,4 +1,4 @@
-"""One room: a world that runs, its viewer, and everything that a browser asks of them."""
+"""The web app of one room: a running world, its page, and the API."""
 
 import time
 from collections.abc import Callable, Collection
@@ -35,59 +35,58 @@ def room_app(
     proxy_hosts: Collection[str] = (),
     rules: Rules | None = None,
 ) -> Starlette:
-    """The ASGI app of one room; may be put under any path with :class:`RoomMount`.
+    """Return the ASGI app of one room; mount it under a path with :class:`RoomMount`.
 
     Args:
-        runner: lets the world run; started by the caller.
+        runner: runs the world; the caller starts it.
         viser_port: where the room's viser listens, on 127.0.0.1.
-        title: of the page, and the scene's name in the API; or what tells it, where it may change.
-        allowed_hosts: names under which the room may be asked for; see
-            :mod:`ai4u_edu.server.host_origin`.
-        proxy_hosts: names under which a proxy gives out the page; see there.
-        rules: for scripts that drive agents from other machines; their token is asked for by the
-            page and the API too.
+        title: the page's title and the scene's name in the API; a function if it may change.
+        allowed_hosts: host names that requests may use; see :mod:`ai4u_edu.server.host_origin`.
+        proxy_hosts: host names of a reverse proxy in front; see there.
+        rules: for scripts that drive agents from other machines; the page and the API ask for
+            their token too.
     """
     began = time.monotonic()
     rules = rules or Rules()
-    called = title if callable(title) else partial(str, title)
-    page = Page(called)
+    current_title = title if callable(title) else partial(str, title)
+    page = Page(current_title)
     attempts = Attempts()
-    guard = [Middleware(TokenAuth, token=rules.token, attempts=attempts)]
-    page_guard = [Middleware(TokenAuth, token=rules.token, attempts=attempts, is_page=True)]
-    script_guard = [Middleware(LimitScripts, attempts=attempts, code=PROBLEMS["bad_token"])]
+    auth = [Middleware(TokenAuth, token=rules.token, attempts=attempts)]
+    page_auth = [Middleware(TokenAuth, token=rules.token, attempts=attempts, is_page=True)]
+    script_limit = [Middleware(LimitScripts, attempts=attempts, code=PROBLEMS["bad_token"])]
     past = Past(runner)
     document = openapi()
-    described: tuple[Snapshot | None, str] = None, ""
+    cached: tuple[Snapshot | None, str] = None, ""
 
-    async def healthz(_: Request) -> Response:  # needs no worker thread: they may all be busy
+    async def healthz(_: Request) -> Response:  # async: worker threads may all be busy
         stall = runner.stall
-        health = Health.of(runner.latest, called(), time.monotonic() - began, stall)
+        health = Health.of(runner.latest, current_title(), time.monotonic() - began, stall)
         return _json(health.model_dump_json(), status=503 if stall else 200)
 
     async def snapshot(_: Request) -> Response:
-        nonlocal described
+        nonlocal cached
         latest = runner.latest
-        if described[0] is not latest:  # however many ask, it is described once
-            described = latest, SnapshotView.of(latest).model_dump_json()
-        return _json(described[1])
+        if cached[0] is not latest:
+            cached = latest, SnapshotView.of(latest).model_dump_json()
+        return _json(cached[1])
 
     async def describe(_: Request) -> Response:
         return JSONResponse(document)
 
     return Starlette(
         routes=[
-            Route("/", page.index, middleware=page_guard),
-            Route("/web/{file}", page.file, middleware=guard),
-            Route("/healthz", healthz, middleware=guard),
-            Route("/api/snapshot", snapshot, middleware=guard),
-            Route("/api/past", past.list, middleware=guard),
-            Route("/api/past/{file}", past.file, middleware=guard),
-            Route("/api/openapi.json", describe, middleware=guard),
-            WebSocketRoute("/", ViserProxy(viser_port, rules.token), middleware=guard),
-            WebSocketRoute("/ws/input", Inputs(runner, called), middleware=guard),
-            # asks for the token itself, in the hello
+            Route("/", page.index, middleware=page_auth),
+            Route("/web/{file}", page.file, middleware=auth),
+            Route("/healthz", healthz, middleware=auth),
+            Route("/api/snapshot", snapshot, middleware=auth),
+            Route("/api/past", past.list, middleware=auth),
+            Route("/api/past/{file}", past.file, middleware=auth),
+            Route("/api/openapi.json", describe, middleware=auth),
+            WebSocketRoute("/", ViserProxy(viser_port, rules.token), middleware=auth),
+            WebSocketRoute("/ws/input", Inputs(runner, current_title), middleware=auth),
+            # scripts send the token in their hello
             WebSocketRoute(
-                "/ws/remote", RemoteSockets(runner, called, rules), middleware=script_guard
+                "/ws/remote", RemoteSockets(runner, current_title, rules), middleware=script_limit
             ),
         ],
         middleware=[
@@ -97,14 +96,14 @@ def room_app(
 
 
 class RoomMount(Mount):
-    """Puts a room under a path.
+    """Mount of a room under a path.
 
-    An ordinary mount at ``/lab`` does not answer to a WebSocket at ``/lab``, only at ``/lab/``;
-    viser's client asks for the page's address without its slash.
+    starlette's mount at ``/lab`` does not match a WebSocket at ``/lab``, only at ``/lab/``; viser's
+    client connects to the page's address without its slash.
     """
 
     def matches(self, scope: Scope) -> tuple[Match, Scope]:
-        """Whether, and as what, the room answers."""
+        """Return whether a request is for the room, and its scope there."""
         match, child = super().matches(scope)
         if match is Match.NONE and scope["type"] == "websocket":
             slashed = scope["path"] + "/"

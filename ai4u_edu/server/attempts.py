@@ -1,8 +1,8 @@
-"""Rate limit for wrong tokens, so that nobody guesses one by trying.
+"""Rate limit for wrong tokens, against guessing.
 
-An address that has given too many wrong tokens waits before the next one is looked at, whether it
-is right or wrong: else a quick answer would be worth as much as a limit that is not there. Only an
-address that has given the right one before, as a class's own, is let in at once with the right one.
+After too many wrong tokens from an address, each further one is checked after a delay, whether it
+is right or wrong. Otherwise a quick answer would tell that a guess was right. An address that has
+sent the right token before, as a class's own has, is not delayed with the right one.
 """
 
 import asyncio
@@ -19,22 +19,22 @@ from starlette.types import ASGIApp, Message, Receive, Scope, Send
 from ai4u_edu.server.connections import address_of
 
 MAX_WRONG = 60
-"""Wrong tokens in a row that an address may give before it has to wait."""
+"""Wrong tokens in a row that an address may send without a delay."""
 FORGOTTEN_PER_S = 1.0
-"""Wrong tokens of an address that are forgotten in a second."""
+"""Rate at which an address's wrong tokens are forgotten."""
 DELAY_S = 1.0
-"""Time that a token is not looked at once there were too many wrong ones."""
+"""Delay of each token after too many wrong ones."""
 MAX_WAITING = 20
-"""Tokens of one address that may wait at a time; further ones are not looked at."""
+"""Delayed tokens of one address at a time; further ones are refused unchecked."""
 MAX_ADDRESSES = 1000
-"""Addresses that are remembered, the latest ones."""
+"""Addresses that are remembered, the most recent ones."""
 TOO_MANY = "too many wrong tokens from this address; try again in {seconds} s"
 
 Value = TypeVar("Value")
 
 
 class Verdict(Enum):
-    """Result of looking at a token."""
+    """Result of checking a token."""
 
     RIGHT = auto()
     WRONG = auto()
@@ -42,11 +42,11 @@ class Verdict(Enum):
 
 
 class Attempts:
-    """The wrong tokens of each address. Belongs to the server's event loop.
+    """Counts of wrong tokens by address. Belongs to the server's event loop.
 
     Args:
-        clock: seconds; to be replaced in tests.
-        sleep: waits for so many seconds; to be replaced in tests.
+        clock: returns seconds; to be replaced in tests.
+        sleep: waits for a number of seconds; to be replaced in tests.
     """
 
     def __init__(
@@ -59,12 +59,12 @@ class Attempts:
         self._known: OrderedDict[str, None] = OrderedDict()
         self._waiting: dict[str, int] = {}
 
-    async def look(self, address: str, is_right: Callable[[], bool]) -> Verdict:
-        """Look at a token, after a while if its address has given too many wrong ones.
+    async def check(self, address: str, is_right: Callable[[], bool]) -> Verdict:
+        """Check a token, after a delay if its address has sent too many wrong ones.
 
         Args:
-            address: where it comes from.
-            is_right: tells whether it is the right one.
+            address: the sender's.
+            is_right: compares the token.
         """
         if address in self._known:
             if is_right():
@@ -81,7 +81,7 @@ class Attempts:
         return Verdict.TOO_MANY if was_over else Verdict.WRONG
 
     async def wait(self, address: str) -> bool:
-        """Wait if an address has given too many wrong tokens; False if too many wait already."""
+        """Wait if an address has sent too many wrong tokens; False if too many wait already."""
         if not self.retry_after(address):
             return True
         waiting = self._waiting.get(address, 0)
@@ -98,16 +98,16 @@ class Attempts:
 
     def add_wrong(self, address: str) -> None:
         """Count a wrong token."""
-        count = min(self._count(address) + 1, MAX_WRONG + 10)  # so that it is forgotten soon
+        count = min(self._count(address) + 1, MAX_WRONG + 10)  # the count must not grow without end
         _remember(self._wrong, address, (count, self._clock()))
 
     def retry_after(self, address: str) -> int:
-        """Return the seconds after which an address does not have to wait; 0 if it does not now."""
+        """Return the seconds until an address is not delayed any more; 0 if it is not now."""
         over = self._count(address) - MAX_WRONG + 1
         return max(0, math.ceil(over / FORGOTTEN_PER_S))
 
     def is_known(self, address: str) -> bool:
-        """Return True if an address has given the right token."""
+        """Return True if an address has sent the right token."""
         return address in self._known
 
     def _count(self, address: str) -> float:
@@ -116,19 +116,19 @@ class Attempts:
 
 
 class LimitScripts:
-    """ASGI middleware for sockets that look at the token themselves, and close with a code.
+    """ASGI middleware for sockets that check the token themselves, and close with a code.
 
     Args:
-        app: the socket's.
-        attempts: counts the wrong tokens.
-        code: with which the socket is closed for a wrong token.
+        app: the socket's app.
+        attempts: the rate limit.
+        code: code of the close for a wrong token.
     """
 
     def __init__(self, app: ASGIApp, attempts: Attempts, code: int) -> None:
         self._app, self._attempts, self._code = app, attempts, code
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
-        """Let a connection in, after a while if its address has given too many wrong tokens."""
+        """Pass a connection on, after a delay if its address has sent too many wrong tokens."""
         address = client_address(scope)
         if not self._attempts.is_known(address) and not await self._attempts.wait(address):
             seconds = self._attempts.retry_after(address)
@@ -144,12 +144,12 @@ class LimitScripts:
 
 
 def client_address(scope: Scope) -> str:
-    """Return the address of the other end, or of the one that a proxy on this machine names."""
+    """Return the client's address, or the one that a reverse proxy on this machine gives."""
     return address_of(scope.get("client"))
 
 
 def too_many(seconds: int) -> PlainTextResponse:
-    """Return the answer to who has given too many wrong tokens."""
+    """Return the answer to an address that has sent too many wrong tokens."""
     text = TOO_MANY.format(seconds=seconds)
     headers = {"Retry-After": str(seconds), "Cache-Control": "no-store"}
     return PlainTextResponse(f"token: {text}\n", 429, headers)

@@ -1,9 +1,8 @@
-"""Limits of the connections that a server accepts, so that idle ones keep nobody out.
+"""Limits of a server's connections, total and by address, with eviction of idle ones.
 
-Each connection takes a file descriptor, and a page's takes two more towards viser. So there is a
-limit for all of them, which depends on the process's own, and one for each address. A connection
-that has no complete request yet, or waits for its next one, is *idle*: where a limit is reached,
-the oldest idle one makes room for a new one.
+Each connection takes a file descriptor, and a page's takes two more towards viser. The total limit
+depends on the process's limit of descriptors. A connection without a complete request, or between
+two requests, is *idle*: at a limit, a new connection evicts the one that is idle for longest.
 """
 
 import ipaddress
@@ -13,51 +12,51 @@ from collections.abc import Hashable
 from typing import Any, cast
 
 MAX_PER_ADDRESS = 120
-"""Connections from one address. Each page has two, and a few more while it loads."""
+"""Limit for one address. Each page has two connections, and a few more while it loads."""
 MAX_CONNECTIONS = 1000
 MIN_CONNECTIONS = 16
 RESERVED_DESCRIPTORS = 128
-"""File descriptors that are kept for everything else: files, viser, scripts."""
+"""File descriptors that are reserved for everything else: files, viser, scripts."""
 DESCRIPTORS_EACH = 3
-"""File descriptors that a connection may take: its own, and both ends of one to viser."""
+"""File descriptors of a connection: its own, and both ends of one to viser."""
 WANTED_DESCRIPTORS = 4096
-"""File descriptors that a command wants for its process."""
+"""File descriptors that a command asks for its process."""
 MAX_EVICTING = 32
-"""Idle connections that may be about to be closed at a time; each still has its descriptor."""
+"""Evicted connections that are not closed yet; each still has its descriptor."""
 THIS_MACHINE = "this machine"
 IPV6_PREFIX = 64
-"""Bits of an IPv6 address that tell networks apart; who has one network has all its addresses."""
+"""Length of an IPv6 network's prefix; one client may use all addresses of its network."""
 
 
 class Connections:
     """The connections of a server, by the address of their other end. Belongs to its event loop.
 
     Args:
-        most: of all addresses together; left out, as the process's limit of descriptors allows.
-        per_address: of one address. This machine's own has no limit besides ``most``: a proxy on
-            it may stand for any number of others.
+        limit: of all connections; left out, as the process's limit of descriptors allows.
+        per_address: of one address. This machine has no limit besides ``limit``: a proxy on it may
+            stand for any number of clients.
     """
 
-    def __init__(self, most: int | None = None, per_address: int = MAX_PER_ADDRESS) -> None:
-        self.most = most or max_connections()
+    def __init__(self, limit: int | None = None, per_address: int = MAX_PER_ADDRESS) -> None:
+        self.limit = limit or max_connections()
         self.per_address = per_address
         self.evicting = 0
-        """Connections that were told to end, and have not yet."""
-        self._places: dict[Hashable, _Place] = {}
+        """Number of evicted connections that are not closed yet."""
+        self._connections: dict[Hashable, _Connection] = {}
         self._by_address: dict[str, int] = {}
-        self._idle: dict[Hashable, _Place] = {}  # the longest idle one first
+        self._idle: dict[Hashable, _Connection] = {}  # the longest idle one first
 
     def __len__(self) -> int:
-        return len(self._places)
+        return len(self._connections)
 
     def admit(self, peer: Any) -> str:
-        """Admit a connection, at the cost of an idle one if need be.
+        """Admit a connection, and evict an idle one if there is no room.
 
         Args:
             peer: the socket's address of the other end.
 
         Returns:
-            Why it is refused; empty if it is not.
+            The reason if it is refused, else an empty text.
         """
         address = address_of(peer)
         is_full = self._by_address.get(address, 0) >= self.per_address
@@ -66,58 +65,58 @@ class Connections:
                 f"expected at most {self.per_address} connections from one address, got another "
                 f"one from {address}; close some pages, or start with --connections N"
             )
-        if len(self._places) - self.evicting >= self.most and not self._evict():
-            return f"expected at most {self.most} connections, got another one; try again later"
-        place = self._places[peer] = _Place(address)
-        self._idle[peer] = place
+        if len(self._connections) - self.evicting >= self.limit and not self._evict():
+            return f"expected at most {self.limit} connections, got another one; try again later"
+        connection = self._connections[peer] = _Connection(address)
+        self._idle[peer] = connection
         self._by_address[address] = self._by_address.get(address, 0) + 1
         return ""
 
     def leave(self, peer: Any) -> None:
-        """Forget a connection, whose socket is closed."""
-        place = self._places.pop(peer, None)
-        if place is None:
+        """Remove a connection whose socket is closed."""
+        connection = self._connections.pop(peer, None)
+        if connection is None:
             return
         self._idle.pop(peer, None)
-        if place.is_evicted:
+        if connection.is_evicted:
             self.evicting -= 1
         else:
-            self._count_off(place)
+            self._uncount(connection)
 
     def set_idle(self, transport: BaseTransport, idle: bool) -> None:
-        """Note whether a connection waits for a request; nothing if it was not admitted here."""
+        """Mark a connection as idle or not; ignore one that was not admitted here."""
         peer = transport.get_extra_info("peername")
-        place = self._places.get(peer)
-        if place is None or place.is_evicted:
+        connection = self._connections.get(peer)
+        if connection is None or connection.is_evicted:
             return
-        place.transport = cast(Transport, transport)
+        connection.transport = cast(Transport, transport)
         self._idle.pop(peer, None)
         if idle:
-            self._idle[peer] = place
+            self._idle[peer] = connection
 
     def _evict(self, address: str | None = None) -> bool:
-        """End the connection that is idle for the longest time, of an address or of all."""
-        for peer, place in self._idle.items():
-            if address in (None, place.address):
-                if place.transport is None:  # it is so new that the loop has not met it yet
+        """Abort the connection that is idle for longest, of an address or of all."""
+        for peer, connection in self._idle.items():
+            if address in (None, connection.address):
+                if connection.transport is None:  # the loop has no transport for it yet
                     return False
                 del self._idle[peer]
-                place.is_evicted = True
+                connection.is_evicted = True
                 self.evicting += 1
-                self._count_off(place)
-                place.transport.abort()
+                self._uncount(connection)
+                connection.transport.abort()
                 return True
         return False
 
-    def _count_off(self, place: "_Place") -> None:
-        left = self._by_address[place.address] - 1
+    def _uncount(self, connection: "_Connection") -> None:
+        left = self._by_address[connection.address] - 1
         if left:
-            self._by_address[place.address] = left
+            self._by_address[connection.address] = left
         else:
-            del self._by_address[place.address]
+            del self._by_address[connection.address]
 
 
-class _Place:
+class _Connection:
     __slots__ = ("address", "is_evicted", "transport")
 
     def __init__(self, address: str) -> None:
@@ -127,7 +126,7 @@ class _Place:
 
 
 def address_of(peer: Any) -> str:
-    """Return what stands for all addresses that one machine may have.
+    """Return a text that is the same for all addresses that one machine may have.
 
     >>> address_of(("127.0.0.1", 50000)), address_of(("::ffff:10.0.0.7", 50000, 0, 0))
     ('this machine', '10.0.0.7')

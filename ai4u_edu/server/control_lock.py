@@ -6,7 +6,7 @@ from concurrent.futures import Future
 from typing import Protocol
 
 from ai4u_edu.blocks import Keyboard
-from ai4u_edu.blocks.brains.controllers.keyboard import AT_REST, Stick
+from ai4u_edu.blocks.brains.controllers.keyboard import CENTERED, Stick
 
 
 class Override(Protocol):
@@ -80,7 +80,7 @@ class ControlLock:
         return self._set_driver(None) if self.driver == page else None
 
     def hold_keys(
-        self, page: int, codes: Collection[str], stick: Stick = AT_REST
+        self, page: int, codes: Collection[str], stick: Stick = CENTERED
     ) -> Future[None] | None:
         """Set the keys that a page holds; they count if it has the lock, or can acquire it."""
         is_request = any(stick) or (

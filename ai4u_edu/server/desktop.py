@@ -1,4 +1,4 @@
-"""Opening the page for the person who started it."""
+"""Open the page in the browser of the person who started the server."""
 
 import os
 import sys
@@ -6,8 +6,8 @@ import webbrowser
 
 
 def open_on_desktop(url: str) -> bool:
-    """Opens a page in the browser where there is a desktop; whether it did."""
-    # elsewhere a browser for the terminal might open, and take it over
+    """Open a page if there is a desktop; return True if it was opened."""
+    # without a desktop a text browser might open, and take over the terminal
     desktop = sys.platform in {"win32", "darwin"} or any(
         os.environ.get(name) for name in ("DISPLAY", "WAYLAND_DISPLAY")
     )

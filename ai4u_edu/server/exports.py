@@ -1,4 +1,4 @@
-"""Files of kept episodes, made one after another beside everything else that the server does."""
+"""Background thread that makes files of kept episodes, one after another, with a cache."""
 
 import asyncio
 from collections import OrderedDict, deque
@@ -12,34 +12,35 @@ from ai4u_edu.base.errors import AI4UError
 from ai4u_edu.recording import Episode
 
 MAX_QUEUED = 16
-"""Files that may wait to be made."""
+"""Files in the queue."""
 MAX_WAITING = 64
-"""Requests that may wait for files, equal ones too: each has a connection as long as it waits."""
+"""Requests that may wait for files; each has a connection meanwhile."""
 RETRY_AFTER_S = 10
 MAX_CACHED_BYTES = 64 * 2**20
 MAX_CACHED = 32
-"""Files that are kept, the latest ones; each keeps its episode too."""
+"""Files in the cache, the latest ones; each keeps its episode in memory."""
 
 Make = Callable[[Episode, str, Callable[[], None]], bytes]
-"""Makes a file, of an episode and an ending; calls the third one often, which raises to stop it."""
+"""Function that makes a file, of an episode and for a file extension. It calls its third argument
+often, which raises to stop it."""
 
 
 class BusyError(AI4UError):
-    """Too many files wait to be made."""
+    """Too many files are in the queue, or too many requests wait."""
 
 
 class StoppedError(Exception):
-    """Nobody waits any more for what is being made."""
+    """Raised to stop making a file that nobody waits for any more."""
 
 
 class Exports:
-    """Makes files, and keeps the latest.
+    """Queue and cache of files.
 
-    Who wants a file that is being made already, or was, gets the same one. When all who wait for it
-    have gone, it is not made, or no further.
+    Equal requests share one file. A file that all its requests have given up is not made, or
+    stopped.
 
-    The event loop calls :meth:`get`; a thread of its own, which ends when nothing waits, makes the
-    files. What both touch is guarded by a lock. The thread keeps no process from ending.
+    The event loop calls :meth:`get`. A daemon thread, which ends when the queue is empty, makes the
+    files. A lock guards what both use.
 
     Args:
         make: makes a file.
@@ -55,15 +56,16 @@ class Exports:
         self._cached: OrderedDict[_Key, tuple[Episode, bytes]] = OrderedDict()
 
     async def get(self, episode: Episode, ending: str) -> bytes:
-        """Return an episode as a file.
-
-        Cancelled, it gives up its place.
+        """Return an episode as a file; give the request up if cancelled.
 
         Raises:
-            BusyError: too many files wait to be made, or requests for them.
-            AI4UError: it can't be made.
+            BusyError: too many files are in the queue, or too many requests wait.
+            AI4UError: the file can't be made.
         """
-        key = id(episode), ending  # the job, or the cache, keeps the episode: so it stays its own
+        key = (
+            id(episode),
+            ending,
+        )  # job and cache keep the episode alive: its id is unique
         with self._lock:
             if key in self._cached:
                 self._cached.move_to_end(key)
@@ -116,7 +118,7 @@ class Exports:
                 data = self._make(job.episode, job.ending, job.check)
             except StoppedError:
                 continue
-            except BaseException as error:  # else all who come later would wait for ever
+            except BaseException as error:  # else all later requests would wait for ever
                 self._finish(job, storable(error))
             else:
                 self._finish(job, data)

@@ -1,9 +1,9 @@
-"""A short way for frames that somebody waits for.
+"""uvicorn's WebSocket protocol with timeouts, and with a callback for frames.
 
-Through ASGI every frame takes two more turns of the event loop than it needs, one for each
-direction. Where a script and a world wait for each other, that is a third of their time. So a
-socket may ask for its frames as they arrive, and may write its own at once. Everything else, the
-handshake, pings, the close, remains uvicorn's and ASGI's.
+The callback is for scripts in lockstep, where world and script wait for each other: a frame that
+goes through ASGI takes two more turns of the event loop, which makes a decision take 12% more of
+the server's time (``python -m tests.benchmarks.remote_native``). Handshake, pings and close remain
+uvicorn's and ASGI's. See ``docs/adr/0003-limits-of-connections.md``.
 """
 
 import asyncio
@@ -15,62 +15,62 @@ from uvicorn.protocols.websockets.websockets_sansio_impl import WebSocketsSansIO
 from websockets.exceptions import InvalidState
 from websockets.http11 import Request
 
-from ai4u_edu.server.refusal import refusal
+from ai4u_edu.server.plain_response import plain_response
 
 EXTENSION = "ai4u_edu.frames"
-"""Where an ASGI app finds it, in ``scope["extensions"]``."""
+"""Key of the protocol in an ASGI scope's ``extensions``."""
 
 HANDSHAKE_TIMEOUT_S = 15.0
-"""Time in which an app has to accept a socket. viser is waited for up to 10 s."""
+"""Time in which an app has to accept a socket; the proxy waits for viser for up to 10 s."""
 CLOSE_TIMEOUT_S = 3.0
-"""Time that the other side has to answer a close."""
+"""Time in which the other side has to answer a close."""
 
 Listener = Callable[[bytes], bool]
-"""Gets a frame as it arrives; whether it took it. What it does not take goes on through ASGI."""
+"""Callback that gets each binary frame; one for which it returns False goes through ASGI."""
 
 
 class FramesProtocol(WebSocketsSansIOProtocol):
-    """uvicorn's protocol, with the short way in its extensions."""
+    """uvicorn's protocol with timeouts; ASGI apps find it in their scope under EXTENSION."""
 
     listener: Listener | None = None
     _handshake_timer: asyncio.TimerHandle | None = None
 
     def connection_made(self, transport: BaseTransport) -> None:
-        """Begin to wait for the handshake."""
+        """Start the handshake's timeout."""
         super().connection_made(transport)
         self.close_timeout = CLOSE_TIMEOUT_S
         self._handshake_timer = self.loop.call_later(HANDSHAKE_TIMEOUT_S, self._end_handshake)
 
     def connection_lost(self, exc: Exception | None) -> None:
-        """End the timer too."""
+        """Cancel the timeout."""
         self._stop_handshake_timer()
         super().connection_lost(exc)
 
     def data_received(self, data: bytes) -> None:
-        """Hear the next bytes; a head that websockets can't read is refused."""
+        """Parse the next bytes; refuse a request whose headers websockets can't parse."""
         super().data_received(data)
         if not self.handshake_initiated and self.conn.handshake_exc is not None:
-            # websockets ends here without a word, and uvicorn would wait for the request
+            # websockets stops here without an answer, and uvicorn would go on waiting
             self.handshake_initiated = self.handshake_complete = self.close_sent = True
             why = "expected at most 128 headers of at most 8 KiB each, such as its cookies"
-            self.transport.write(refusal(431, why))
+            self.transport.write(plain_response(431, why))
             self.transport.close()
 
     def keepalive_timeout(self) -> None:
-        """End the connection of who does not answer, also if it does not read either."""
+        """Close a connection that answers no pings; abort it if it does not read either."""
         super().keepalive_timeout()
         self.loop.call_later(CLOSE_TIMEOUT_S, self.transport.abort)
 
     def on_task_complete(self, task: asyncio.Task[None]) -> None:
-        """End the connection after its app, also if the other side does not read the rest."""
+        """Abort the connection after its app has ended if the other side does not read the rest."""
         super().on_task_complete(task)
         self.loop.call_later(2 * CLOSE_TIMEOUT_S, self.transport.abort)
 
     def handle_connect(self, event: Request) -> None:
-        """Lets the app find the short way; refuses what websockets can't even refuse."""
+        """Add the extension to the scope; refuse a request that websockets fails to refuse."""
         try:
             super().handle_connect(event)
-        except UnicodeEncodeError:  # its answer would repeat a header that is no ASCII
+        except UnicodeEncodeError:  # its answer would repeat a header that is not ASCII
             self.handshake_initiated = self.handshake_complete = self.close_sent = True
             head = (b"HTTP/1.1 400 Bad Request", b"Connection: close", b"Content-Length: 0")
             self.transport.write(b"\r\n".join((*head, b"", b"")))
@@ -81,10 +81,10 @@ class FramesProtocol(WebSocketsSansIOProtocol):
             extensions[EXTENSION] = self
 
     def shutdown(self) -> None:
-        """Ends the connection with the server, also where its farewell is on its way already."""
+        """Close the connection with the server, also if its close has been sent already."""
         try:
             super().shutdown()
-        except InvalidState:  # uvicorn would say goodbye a second time, and not end at all
+        except InvalidState:  # uvicorn would send a second close, and not end
             self.transport.close()
 
     def _end_handshake(self) -> None:
@@ -99,7 +99,7 @@ class FramesProtocol(WebSocketsSansIOProtocol):
             self._handshake_timer = None
 
     def send_receive_event_to_app(self) -> None:
-        """Hands a frame to the listener first."""
+        """Pass a frame to the listener first."""
         if self.listener is not None and self.curr_msg_data_type == "bytes" and self.queue.empty():
             frame = b"".join(self.frames)
             if not self.close_sent and self.listener(frame):
@@ -108,7 +108,7 @@ class FramesProtocol(WebSocketsSansIOProtocol):
         super().send_receive_event_to_app()
 
     def write(self, frame: bytes) -> bool:
-        """Sends a frame at once; whether it could. It can't while earlier ones wait."""
+        """Send a frame at once; return False if others wait or the socket is closed."""
         if not self.handshake_complete or self.close_sent or not self.writable.is_set():
             return False
         try:

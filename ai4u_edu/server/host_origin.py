@@ -1,12 +1,12 @@
-"""Who may come in: browsers on our own page, and programs that are no browsers.
+"""Checks of ``Host`` and ``Origin``, against requests that other sites make in a person's browser.
 
-Two things are looked at. The name under which we were asked for (``Host``): a foreign page that
-has its own name point at this machine still sends its own name. And the page that asks (``Origin``,
-``Sec-Fetch-Site``): browsers let any page open a WebSocket to anywhere, and load our answers as
-pictures or scripts, which takes our time. Another port of the same machine is another site's too.
+``Host`` is checked against DNS rebinding: a site that lets its own name resolve to this machine
+still sends its own name. ``Origin`` and ``Sec-Fetch-Site`` are checked because browsers let any
+page open a WebSocket to anywhere, and load our answers as images or scripts. Another port of the
+same machine is another site.
 
-What another site may do is lead a person to the page: by a link, or in a frame, as notebooks have
-it. Programs that are no browsers send none of these headers, but for ``Host``.
+Other sites may lead a person to the page: by a link, or in a frame, as notebooks do. Programs that
+are no browsers send none of these headers but ``Host``.
 """
 
 import ipaddress
@@ -19,21 +19,21 @@ from starlette.responses import PlainTextResponse
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 LOOPBACK = ("localhost", "127.0.0.1", "[::1]")
-"""The names of this machine, for itself."""
+"""Names of this machine for itself."""
 ANY_ADDRESS = "<any address>"
-"""Among the allowed hosts: every IP address. No page can have one of those as its own name."""
+"""Allowed host that stands for every IP address; DNS rebinding needs a name."""
 
 MAX_SHOWN_CHARS = 200
-"""Characters of a header that a refusal repeats."""
+"""Length at which a refusal cuts the header that it repeats."""
 
 _PORTS = {"http": 80, "https": 443}
 _OWN_SITES = {"same-origin", "none"}  # "none": typed in, or opened from a bookmark
-_VISITS = {"document", "iframe", "frame"}
+_NAVIGATION_DESTS = {"document", "iframe", "frame"}
 _HOST = re.compile(r"(\[[0-9a-f:.]+\]|[a-z0-9._-]+)(:\d{1,5})?")
 
 
 def hosts_for(bound: str) -> tuple[str, ...]:
-    """The names to allow when listening at an address.
+    """Return the host names to allow when listening at an address.
 
     >>> hosts_for("127.0.0.1")
     ('localhost', '127.0.0.1', '[::1]')
@@ -48,27 +48,27 @@ def hosts_for(bound: str) -> tuple[str, ...]:
 
 
 def is_loopback(bound: str) -> bool:
-    """Whether only this machine reaches who listens at an address.
+    """Return True if only this machine can reach a server at an address.
 
     >>> is_loopback("localhost"), is_loopback("127.0.0.2"), is_loopback("0.0.0.0")
     (True, True, False)
     """
     try:
         found = {str(each[4][0]) for each in socket.getaddrinfo(bound, None)}
-    except (OSError, UnicodeError):  # then there is no listening there, and that is told
+    except (OSError, UnicodeError):  # the server can't listen there, and says so
         return False
     return all(ipaddress.ip_address(each.partition("%")[0]).is_loopback for each in found)
 
 
 class HostOriginCheck:
-    """Turns away whoever should not come in; an ASGI middleware.
+    """ASGI middleware that refuses requests for other hosts and from other sites.
 
     Args:
-        app: what is behind the door.
-        allowed_hosts: names (without port) under which we may be asked for, :data:`ANY_ADDRESS`, or
+        app: the protected app.
+        allowed_hosts: host names (without port) that requests may use, :data:`ANY_ADDRESS`, or
             ``"*"`` for any.
-        proxy_hosts: more such names, under which a proxy in front gives out the page. It may have
-            changed the ``Host``, and ended TLS: so pages of these names count as ours, at any port.
+        proxy_hosts: more such names, of a reverse proxy in front. It may have changed ``Host`` and
+            terminated TLS: so pages with these names count as ours, with any port and scheme.
     """
 
     def __init__(
@@ -82,7 +82,7 @@ class HostOriginCheck:
         self._hosts = {name.lower() for name in allowed_hosts} | self._proxies
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
-        """Lets a request in, or answers it with 403 and the reason."""
+        """Pass a request on, or answer it with 403 and the reason."""
         if scope["type"] not in ("http", "websocket"):
             await self._app(scope, receive, send)
             return
@@ -102,12 +102,12 @@ class HostOriginCheck:
         await self._app(scope, receive, send_guarded)
 
     def refusal(self, scope: Scope) -> str:
-        """Why a request is turned away; empty if it is not.
+        """Return why a request is refused; empty if it is not.
 
-        >>> door = HostOriginCheck(lambda *_: None)
-        >>> door.refusal({"type": "http", "headers": [(b"host", b"localhost:8080")]})
+        >>> check = HostOriginCheck(lambda *_: None)
+        >>> check.refusal({"type": "http", "headers": [(b"host", b"localhost:8080")]})
         ''
-        >>> door.refusal({"type": "http", "headers": [(b"host", b"evil.example")]})
+        >>> check.refusal({"type": "http", "headers": [(b"host", b"evil.example")]})
         "Host: expected one of 127.0.0.1, [::1], localhost, got 'evil.example'; a name is allowed \
 with --allow-host NAME"
         """
@@ -128,7 +128,7 @@ with --allow-host NAME"
                 f"{_cut(', '.join(origins))!r}; behind a proxy, start with --allow-host NAME"
             )
         sites = [site.lower() for site in headers.getlist("sec-fetch-site")]
-        if not origins and not set(sites) <= _OWN_SITES and not _is_visit(scope, headers):
+        if not origins and not set(sites) <= _OWN_SITES and not _is_navigation(scope, headers):
             return (
                 f"Sec-Fetch-Site: expected same-origin (the page that this server gives out), got "
                 f"{_cut(', '.join(sites))!r}; open the page itself"
@@ -155,20 +155,20 @@ with --allow-host NAME"
             return True
         if (theirs, _with_port(place, theirs)) == (scheme, _with_port(host, scheme)):
             return True
-        # where any name is allowed there is a proxy, which may have ended TLS and passes Host on
+        # if any name is allowed there is a proxy, which may have terminated TLS and passes Host on
         is_secure = theirs == "https" and "*" in self._hosts
         return is_secure and _with_port(place, theirs) == _with_port(host, theirs)
 
 
-def _is_visit(scope: Scope, headers: Headers) -> bool:
-    """Return True for a person who is led to the page by another site."""
+def _is_navigation(scope: Scope, headers: Headers) -> bool:
+    """Return True for a navigation: another site leads a person to the page."""
     path = scope["path"].removeprefix(scope.get("root_path", ""))
     return (
         scope["type"] == "http"
         and scope["method"] in ("GET", "HEAD")
         and path in ("", "/")
         and headers.get("sec-fetch-mode") == "navigate"
-        and headers.get("sec-fetch-dest", "document") in _VISITS
+        and headers.get("sec-fetch-dest", "document") in _NAVIGATION_DESTS
     )
 
 

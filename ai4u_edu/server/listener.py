@@ -1,8 +1,8 @@
 """A listening socket that refuses connections beyond a limit, and survives a lack of descriptors.
 
-asyncio's selector loop calls :meth:`socket.socket.accept` of the socket that it is given, which is
-where connections are refused: before anything else is made for them. On Windows the loop accepts
-by other means; there only the time limits of :mod:`ai4u_edu.server.requests` apply.
+asyncio's selector loop calls :meth:`socket.socket.accept` of the socket that it is given.
+Connections are refused there, before anything is allocated for them. On Windows the loop accepts by
+other means; there only the timeouts of :mod:`ai4u_edu.server.requests` apply.
 """
 
 import errno
@@ -14,11 +14,11 @@ from typing import Any
 
 from ai4u_edu.base.log_limit import log_limited
 from ai4u_edu.server.connections import MAX_EVICTING, Connections
-from ai4u_edu.server.refusal import refusal
+from ai4u_edu.server.plain_response import plain_response
 
 RETRY_AFTER_S = 5
 MAX_REFUSED = 64
-"""Connections that are refused in a row before the loop goes on to others."""
+"""Connections that are refused in a row before other tasks of the loop have their turn."""
 _EXHAUSTED = (errno.EMFILE, errno.ENFILE, errno.ENOBUFS, errno.ENOMEM)
 _logger = logging.getLogger(__name__)
 
@@ -27,8 +27,8 @@ class Listener(socket.socket):
     """A listening socket; belongs to the event loop that accepts from it.
 
     Args:
-        listener: a socket that listens; it is taken over.
-        connections: whose limits are kept.
+        listener: a listening socket, whose descriptor is taken over.
+        connections: the limits.
     """
 
     def __init__(self, listener: socket.socket, connections: Connections) -> None:
@@ -39,22 +39,22 @@ class Listener(socket.socket):
         self._has_failed = False
 
     def accept(self) -> tuple[socket.socket, Any]:
-        """Accept a connection that is within the limits; those beyond get 503 and are closed.
+        """Accept a connection within the limits; answer those beyond with 503 and close them.
 
         Raises:
-            BlockingIOError: none is there, or others should have their turn first.
-            OSError: there are no descriptors, and none to spare.
+            BlockingIOError: there is none, or other tasks should have their turn first.
+            OSError: there are no file descriptors, and none to spare.
         """
         for _ in range(MAX_REFUSED):
             if self._connections.evicting >= MAX_EVICTING:
-                break  # those have to be gone first; the loop comes back at once
+                break  # those have to close first; the loop calls again at once
             accepted = self._accept_or_refuse()
             if accepted is not None:
                 return accepted
         raise BlockingIOError(errno.EAGAIN, "others have their turn")
 
     def close(self) -> None:
-        """Close it, and the descriptor that it kept."""
+        """Close the socket and its spare descriptor."""
         self._give_spare()
         super().close()
 
@@ -76,23 +76,23 @@ class Listener(socket.socket):
         with connection, suppress(OSError):
             connection.setblocking(False)
             with suppress(BlockingIOError):
-                connection.recv(65536)  # what is unread when it closes would take the answer away
-            connection.send(refusal(503, reason, retry_after=RETRY_AFTER_S))
+                connection.recv(65536)  # closing with unread bytes would reset it
+            connection.send(plain_response(503, reason, retry_after=RETRY_AFTER_S))
         return None
 
     def _refuse_without_descriptors(self, error: OSError) -> None:
-        """Close the connection that waits: left there, it would wake the loop without end."""
+        """Close the next connection: left in the backlog, it would wake the loop without end."""
         log_limited(_logger, logging.ERROR, "descriptors", "a connection is refused: %s", error)
         if self._give_spare():
             with suppress(OSError):
                 super().accept()[0].close()
             self._spare = _spare_descriptor()
             return
-        if self._has_failed:  # asyncio asks on in the same turn, as often as its backlog is long
+        if self._has_failed:  # asyncio calls again in the same turn, once for each of its backlog
             self._has_failed = False
             raise BlockingIOError(errno.EAGAIN, "no descriptors")
         self._has_failed = True
-        raise error  # asyncio comes back after a second
+        raise error  # asyncio calls again after a second
 
     def _give_spare(self) -> bool:
         spare, self._spare = self._spare, None
@@ -103,7 +103,7 @@ class Listener(socket.socket):
 
 
 class _Accepted(socket.socket):
-    """A connection that counts until its socket is closed."""
+    """Accepted connection, which counts until its socket is closed."""
 
     def __init__(self, connection: socket.socket, peer: Any, connections: Connections) -> None:
         super().__init__(connection.family, connection.type, connection.proto, connection.detach())

@@ -1,4 +1,4 @@
-"""The API's own description, out of the models that it answers with."""
+"""OpenAPI description of the API, derived from the models of its answers."""
 
 from typing import Any
 
@@ -17,7 +17,7 @@ _ANSWERS: dict[str, tuple[str, type[BaseModel]]] = {
 
 
 def openapi() -> dict[str, Any]:
-    """The OpenAPI 3.1 document."""
+    """Return the OpenAPI 3.1 document."""
     _, schemas = models_json_schema(
         [(model, "serialization") for _, model in _ANSWERS.values()],
         ref_template="#/components/schemas/{model}",
@@ -33,7 +33,7 @@ def openapi() -> dict[str, Any]:
     return {
         "openapi": "3.1.0",
         "info": {"title": "AI4U Edu", "version": __version__},
-        # relative to this document's own address, so that it holds under a path prefix too
+        # relative to this document's address, which may have a path prefix
         "servers": [{"url": ".."}],
         "paths": paths,
         "components": {"schemas": schemas["$defs"]},
@@ -47,8 +47,8 @@ def _get(summary: str, schema: dict[str, Any]) -> dict[str, Any]:
             "summary": summary,
             "responses": {
                 "200": {"description": "OK", "content": content},
-                "401": {"description": "The room has a token, and it was not said."},
-                "403": {"description": "Asked for under a name that is not allowed, or by a page."},
+                "401": {"description": "The room has a token, and the request does not."},
+                "403": {"description": "The host name is not allowed, or another site asks."},
                 "429": {"description": "Too many wrong tokens; says when to try again."},
             },
         }

@@ -1,4 +1,7 @@
-"""viser's page with our script and style inside: one document, so the keys never go astray."""
+"""viser's page with our scripts and styles inserted.
+
+It is one document without frames, so that no frame keeps keys from the others.
+"""
 
 import hashlib
 import html
@@ -20,20 +23,20 @@ _OURS = """<title>{title}</title>
     <link rel="stylesheet" href="./web/banners.css" />
     <link rel="stylesheet" href="./web/help.css" />
     <script type="module" src="./web/main.js"></script>
-    <script type="module" src="./web/names.js"></script>"""
-# what a system says about endings can't be relied on: some call a .js plain text
+    <script type="module" src="./web/accessible_names.js"></script>"""
+# a system's own media types are not reliable: some call a .js plain text
 _KINDS = {".css": "text/css", ".js": "text/javascript", ".svg": "image/svg+xml"}
 _FRESH = {"Cache-Control": "no-cache"}
 
 
 class Page:
-    """The page and its files.
+    """Routes of the page and its files.
 
     Args:
-        title: tells what the page is called now; any text.
+        title: returns the page's present title; any text.
 
     Raises:
-        SetupError: viser's page or our files are not where they should be.
+        SetupError: viser's page or our files are missing.
     """
 
     def __init__(self, title: Callable[[], str]) -> None:
@@ -42,7 +45,7 @@ class Page:
         self._index = _index(title())
 
     async def index(self, request: Request) -> Response:
-        """The page itself."""
+        """Return the page."""
         index = self._index
         if index.title != self._title():  # another scene has been opened
             index = self._index = _index(self._title())
@@ -55,7 +58,7 @@ class Page:
         return Response(index.content, media_type="text/html", headers=headers)
 
     async def file(self, request: Request) -> Response:
-        """One of our files; nothing outside their folder has a name here."""
+        """Return one of our files. Names are compared, so no path leads out of their folder."""
         wanted = request.path_params["file"]
         for path in self._folder.iterdir():
             if path.name == wanted and path.suffix in _KINDS and path.is_file():
@@ -64,7 +67,7 @@ class Page:
 
 
 def web_folder() -> Path:
-    """Where our scripts and styles are: in the package, or beside it in a checkout."""
+    """Return the folder of our scripts and styles: in the package, or in a checkout."""
     package = Path(__file__).resolve().parent.parent
     for folder in (package / "web", package.parent / "web"):
         if (folder / "main.js").is_file():
@@ -96,9 +99,9 @@ def _index(title: str) -> _Index:
 
 
 def _policy(host: str) -> str:
-    # viser takes ?websocket= and ?playbackPath= from the page's address, and whoever answers there
-    # may run scripts in the page: so it may talk to nobody but us. Its own code is inline,
-    # and starts workers and WebAssembly out of itself.
+    # viser's client connects to ?websocket= and ?playbackPath= of the page's address, and a server
+    # there could run scripts in the page: so it may connect to us only. viser's code is inline, and
+    # starts workers and WebAssembly from blobs.
     return "; ".join(
         [
             "default-src 'self' data: blob:",

@@ -1,9 +1,9 @@
 """The messages that viser's page sends to viser: the kinds that our page uses, typed and bounded.
 
-viser sets whatever attribute of a widget a message names, and casts whatever value it brings. So
-nothing that a page sends gets to viser as it is: a message is decoded strictly, against the types
-below, and viser gets the encoding of what was decoded. Two readers who take one frame for different
-messages can't be played off against each other.
+viser sets any attribute of a widget that a message names, and casts any value. So no message gets
+to viser as it is: it is decoded strictly, against the types below, and viser gets the encoding of
+the result. A frame that two decoders read differently does no harm. See
+``docs/adr/0002-check-what-pages-send-before-viser.md``.
 
 The fields are those of viser's own classes of the same name; a test compares them.
 """
@@ -62,32 +62,32 @@ class Updates(msgspec.Struct, forbid_unknown_fields=True):
 
 
 class GuiUpdateMessage(_Message):
-    """Somebody changed a widget, or pressed a button."""
+    """Change of a widget's value, or press of a button."""
 
     uuid: Id
     updates: Updates
 
 
 class GuiFormSubmitMessage(_Message):
-    """Somebody pressed Enter in a form."""
+    """Press of Enter in a form."""
 
     uuid: Id
 
 
 class GuiFormDirtyMessage(_Message):
-    """Somebody began to fill in a form."""
+    """First change in a form."""
 
     uuid: Id
 
 
 class CommandTriggerMessage(_Message):
-    """Somebody pressed a hotkey."""
+    """Press of a hotkey."""
 
     uuid: Id
 
 
 class ViewerCameraMessage(_Message):
-    """The camera of the page; the first one tells that the page is ready."""
+    """Pose of the page's camera; viser counts a page as connected from its first one on."""
 
     wxyz: tuple[Length, Length, Length, Length]
     position: Point
@@ -101,7 +101,7 @@ class ViewerCameraMessage(_Message):
 
 
 class SceneNodeClickMessage(_Message):
-    """Somebody clicked on something in the scene."""
+    """Click on something in the scene."""
 
     name: Name
     instance_index: Whole | None
@@ -113,7 +113,7 @@ class SceneNodeClickMessage(_Message):
 
 
 class SceneNodeDragMessage(_Message):
-    """Somebody drags something in the scene."""
+    """Drag of something in the scene."""
 
     phase: Literal["start", "update", "end"]
     name: Name
@@ -128,7 +128,7 @@ class SceneNodeDragMessage(_Message):
 
 
 class FileTransferStartUpload(_Message):
-    """Somebody is about to send a file."""
+    """Announcement of a file."""
 
     source_component_uuid: Id
     transfer_uuid: Id
@@ -139,7 +139,7 @@ class FileTransferStartUpload(_Message):
 
 
 class FileTransferPart(_Message):
-    """A part of a file."""
+    """Part of a file."""
 
     source_component_uuid: Id
     transfer_uuid: Id
@@ -173,11 +173,11 @@ _ENCODER = msgspec.msgpack.Encoder()
 
 
 class MalformedError(ValueError):
-    """The bytes are no message at all: no page of viser's has sent them."""
+    """The bytes are not msgpack: no page of viser's has sent them."""
 
 
 def checked(frame: bytes) -> bytes:
-    """Return a message's encoding, made anew of what the check has understood.
+    """Decode a message strictly, and return the encoding of the result.
 
     Raises:
         MalformedError: it is no msgpack.

@@ -1,4 +1,4 @@
-"""The kept episodes over HTTP: their list, and each of them as a file."""
+"""HTTP routes for the kept episodes: a list, and each episode as a file."""
 
 import asyncio
 import tempfile
@@ -26,14 +26,14 @@ WRITERS: dict[str, tuple[str, Callable[[Replay, Path], Path]]] = {
     "mp4": ("video/mp4", write_mp4),
     "csv": ("text/csv; charset=utf-8", write_csv),
 }
-"""What an episode can be made into, and how."""
+"""Media type and writer by file extension."""
 RECORDING = "episode"
 RECORDING_KIND = "application/octet-stream"
 PART_BYTES = 64 * 2**10
-"""Bytes of a file that are sent at a time: a slow reader has no more of it in memory."""
+"""Size of the parts in which a file is sent; a slow client holds one of them in memory."""
 HEADERS = {
     "Cache-Control": "no-store",
-    # whoever opens it all the same gets a page that may not speak in our name
+    # a file that is opened as a page must not act with our origin
     "Content-Security-Policy": "sandbox allow-scripts",
 }
 
@@ -55,7 +55,7 @@ class EpisodeView(BaseModel):
 
     @classmethod
     def of(cls, entry: ArchiveEntry) -> "EpisodeView":
-        """The view of an entry."""
+        """Return the view of an entry."""
         episode = entry.episode
         return cls(
             number=entry.number,
@@ -79,7 +79,7 @@ class PastView(BaseModel):
 
 
 class Past:
-    """The routes to the episodes that a room keeps.
+    """Routes to the episodes that a room keeps.
 
     Args:
         runner: the room's.
@@ -87,12 +87,12 @@ class Past:
 
     def __init__(self, runner: Runner) -> None:
         self._runner = runner
-        # to play and to draw takes a processor: one after the other. Recordings need not wait
+        # replaying and drawing keep a core busy: one file at a time. Recordings need not wait
         self._recordings, self._files = Exports(_recording), Exports(_file)
         self._listed: tuple[tuple[ArchiveEntry, ...], str] = ((), "")
 
     def list(self, _: Request) -> Response:
-        """All of them, as JSON."""
+        """Return the list as JSON."""
         entries, text = self._listed
         if not text or entries is not self._entries():
             entries = self._entries()
@@ -102,7 +102,7 @@ class Past:
         return Response(text, media_type="application/json", headers=headers)
 
     async def file(self, request: Request) -> Response:
-        """One as a file: ``3.episode``, ``3.html``, ..."""
+        """Return an episode as a file: ``3.episode``, ``3.html``, ..."""
         name = str(request.path_params["file"])
         number, _, ending = name.partition(".")
         known = (RECORDING, *WRITERS)
@@ -126,13 +126,13 @@ class Past:
         return StreamingResponse(_parts(data), media_type=kind, headers=HEADERS | about)
 
     async def _made(self, episode: Episode, ending: str, request: Request) -> bytes:
-        """Wait for a file, as long as somebody waits for the answer."""
+        """Wait for a file until the client disconnects."""
         exports = self._recordings if ending == RECORDING else self._files
         making = asyncio.ensure_future(exports.get(episode, ending))
         leaving = asyncio.ensure_future(_has_left(request))
         try:
             await asyncio.wait({making, leaving}, return_when=asyncio.FIRST_COMPLETED)
-            return making.result() if making.done() else b""  # nobody reads that
+            return making.result() if making.done() else b""  # the client has disconnected
         finally:
             making.cancel()
             leaving.cancel()
@@ -168,6 +168,6 @@ def _file(episode: Episode, ending: str, check: Callable[[], None]) -> bytes:
 
 
 def _plain(entry: ArchiveEntry) -> str:
-    """A file's name out of a scene's, which may be anything."""
+    """Return a file name for a scene's name, which may be any text."""
     name = "".join(each if each.isascii() and each.isalnum() else "_" for each in entry.name)
     return name.strip("_")[:60] or "episode"

@@ -1,8 +1,8 @@
-"""The end of a process that serves: within seconds, whatever still runs in it.
+"""Exit of a process that has served a world, within seconds.
 
-For commands only, which own their process. Python joins threads and thread pools when it ends,
-however long they take: a picture that is being drawn, a block in an endless loop. And a thread that
-is in a network's C++ code then may have the process crash.
+For commands only, which own their process. Python joins threads and thread pools at exit, however
+long they take: a picture that is being drawn, a block in an endless loop. And a thread in a neural
+network's C++ code may crash the process then.
 """
 
 import os
@@ -12,14 +12,14 @@ from contextlib import suppress
 from typing import NoReturn
 
 EXIT_S = 1.5
-"""Seconds that a process has to end by itself once nobody is served any more."""
+"""Time that a process has to exit by itself after it has stopped serving."""
 
 HAS_SERVED = threading.Event()
-"""Set by a command that has served a world, and is about to return."""
+"""Event that a command sets when it has served a world and is about to return."""
 
 
 def end_process(status: int) -> None:
-    """See to it that a process that has served ends soon; called last, by its entry point.
+    """Make a process that has served exit soon; called last, by its entry point.
 
     Args:
         status: the exit status.
@@ -36,6 +36,6 @@ def end_process(status: int) -> None:
 def exit_at_once(status: int) -> NoReturn:
     """End the process without waiting for any thread."""
     for stream in (sys.stdout, sys.stderr):
-        with suppress(OSError, ValueError):  # whoever read them may have gone
+        with suppress(OSError, ValueError):  # the reader may have closed them
             stream.flush()
     os._exit(status)

@@ -1,4 +1,4 @@
-"""viser's WebSocket, passed through our port."""
+"""Proxy for viser's WebSocket, so that the page needs one port only."""
 
 import asyncio
 import logging
@@ -21,12 +21,12 @@ from ai4u_edu.server.token_auth import with_token
 from ai4u_edu.server.viser_lockdown import PROXY_SECRET, PROXY_SECRET_HEADER
 
 MAX_MESSAGES_PER_S = 500
-"""Messages a second that viser gets from one page; a page that sends more is slowed down. Dragging
-something sends about a hundred."""
+"""Rate limit for messages from one page to viser; a page that sends more is throttled. Dragging
+something sends about a hundred a second."""
 MAX_UPWARD_BYTES = 2**20
-"""Bytes of a message from a page. The largest one is a part of a file, of 512 KiB."""
+"""Size of a message from a page. The largest one is a part of a file, of 512 KiB."""
 MAX_HEADER_CHARS = 2048
-"""Characters of what viser is told in a header; websockets takes no line longer than 8,192."""
+"""Length of a header to viser; websockets accepts lines of at most 8,192."""
 MAX_SUBPROTOCOLS = 8
 UNSUPPORTED_DATA = 1003
 """Code of a close: the page sent something that is no message of viser's."""
@@ -34,32 +34,32 @@ TOO_BIG = 1009
 """Code of a close: the page sent a message that is too large."""
 
 PAGE_HEADER = "X-AI4U-Edu-Page"
-"""By this viser is told the address under which a browser has the page."""
+"""Header to viser: the address under which a browser has the page."""
 AGENT_HEADER = "X-AI4U-Edu-Agent"
-"""By this viser is told which agent the page is about, percent-encoded; empty for none."""
+"""Header to viser: the agent that the page shows, percent-encoded; empty for none."""
 AGENT_COOKIE = "ai4u_edu_agent"
-"""By this the page tells us: viser leaves the query out of the address that it connects to."""
+"""Cookie from the page with the same; viser's client drops the query of the page's address."""
 DARK_HEADER = "X-AI4U-Edu-Dark"
-"""By this viser is told that a page is to be dark."""
+"""Header to viser: not empty for a dark page."""
 DARK_COOKIE = "ai4u_edu_dark"
-"""By this the page tells us; empty for light."""
+"""Cookie from the page: not empty for a dark page."""
 _SUBPROTOCOL = re.compile(r"[A-Za-z0-9._+-]{1,64}")
 
 _logger = logging.getLogger(__name__)
 
 
-_SAYABLE = (1000, 1001, 1002, 1003, 1009)  # other codes of a close can't be passed on
+_PASSED_CODES = (1000, 1001, 1002, 1003, 1009)  # of a close; others may not be sent
 
 
 class ViserProxy:
-    """Connects each page to viser; an ASGI app.
+    """ASGI app that connects each page to viser.
 
-    Each direction waits until the other side has taken a frame: a slow page slows its own stream
-    down, and nothing piles up here.
+    Each direction waits until the other side has taken a frame, so a slow page gets backpressure
+    and no frames queue up here.
 
     Args:
-        port: where viser listens, on 127.0.0.1.
-        token: the room's; who comes here has it, and its page may show it.
+        port: viser's port on 127.0.0.1.
+        token: the room's token, for the address that the page shows.
     """
 
     def __init__(self, port: int, token: str = "") -> None:
@@ -67,7 +67,7 @@ class ViserProxy:
         self._token = token
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
-        """One page's connection, until one side closes it."""
+        """Serve one page's connection until one side closes it."""
         page = WebSocket(scope, receive, send)
         try:
             viser = await connect(
@@ -82,7 +82,7 @@ class ViserProxy:
                 compression=None,  # viser compresses by itself
                 max_size=None,
                 max_queue=1,  # frames for a slow page wait in viser, where newer ones replace them
-                ping_interval=None,  # the page is asked for signs of life, that's enough
+                ping_interval=None,  # the other connection has pings
                 proxy=None,
             )
         except (OSError, InvalidHandshake):
@@ -93,13 +93,13 @@ class ViserProxy:
             await _downward(viser, page)
         finally:
             upward.cancel()
-            viser.transport.abort()  # a farewell would have to wait behind frames nobody reads
+            viser.transport.abort()  # a close would wait behind frames that nobody reads
             with suppress(asyncio.CancelledError):
                 await upward
 
 
 def page_address(scope: Scope) -> str:
-    """The address under which a browser has the page, as far as it says.
+    """Return the address under which a browser has the page, from its headers.
 
     >>> headers = [(b"host", b"inner:8080"), (b"origin", b"https://teacher.example")]
     >>> page_address({"type": "websocket", "headers": headers, "root_path": "/lab"})
@@ -112,7 +112,7 @@ def page_address(scope: Scope) -> str:
 
 
 def page_agent(scope: Scope) -> str:
-    r"""The agent that a page says it is about, percent-encoded; empty if it says none.
+    r"""Return the agent in a page's cookie, percent-encoded; empty if there is none.
 
     >>> page_agent({"type": "websocket", "headers": [(b"cookie", b"ai4u_edu_agent=red%201")]})
     'red%201'
@@ -124,9 +124,9 @@ def page_agent(scope: Scope) -> str:
 
 
 def _as_header(text: str) -> str:
-    """Return a text that may stand in a header, or nothing.
+    """Return a text if it may stand in a header, else an empty one.
 
-    A cookie's text may have line ends, written otherwise, and begin another header.
+    A cookie may hold escaped line ends, which would begin another header.
     """
     is_fit = text.isascii() and text.isprintable() and len(text) <= MAX_HEADER_CHARS
     return text if is_fit else ""
@@ -144,16 +144,16 @@ async def _downward(viser: ClientConnection, page: WebSocket) -> None:
             while True:
                 await page.send_bytes(await viser.recv(decode=False))
         code = viser.close_code or 1001
-        await page.close(code if code in _SAYABLE else 1001, viser.close_reason)
+        await page.close(code if code in _PASSED_CODES else 1001, viser.close_reason)
 
 
 async def _upward(page: WebSocket, viser: ClientConnection) -> None:
-    """Hand the messages of a page on to viser, as far as a page may send them."""
+    """Pass a page's messages on to viser, except those that a page may not send."""
     rate, code, reason = RateLimit(MAX_MESSAGES_PER_S), 1000, ""
     with suppress(ConnectionClosed):
         while (message := await page.receive())["type"] == "websocket.receive":
             frame = message.get("bytes")
-            if frame is None:  # viser speaks in bytes only
+            if frame is None:  # viser uses binary messages only
                 code, reason = UNSUPPORTED_DATA, "expected bytes, got text"
                 break
             if len(frame) > MAX_UPWARD_BYTES:
@@ -173,5 +173,5 @@ async def _upward(page: WebSocket, viser: ClientConnection) -> None:
 
 
 def _log_refusal(key: str, error: ValueError) -> None:
-    # as ASCII: a page chooses some of the text, which is not to look like another line of the log
+    # as ASCII: the page chose part of the text, which must not look like another line of the log
     log_limited(_logger, logging.WARNING, key, "a page's message was left out: %a", str(error))

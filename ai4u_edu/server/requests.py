@@ -1,7 +1,7 @@
-"""HTTP as uvicorn has it, with time limits: a connection that asks for nothing ends.
+"""uvicorn's HTTP protocol with timeouts.
 
-uvicorn waits for a request's first complete head, and for its body, for as long as the other side
-likes; and for who does not read an answer too.
+uvicorn itself waits without a limit for a request's head and body, and for a client that does not
+read its answer. See ``docs/adr/0003-limits-of-connections.md``.
 """
 
 import asyncio
@@ -15,20 +15,20 @@ import uvicorn
 from uvicorn.protocols.http.h11_impl import H11Protocol
 
 from ai4u_edu.server.connections import Connections
-from ai4u_edu.server.refusal import refusal
+from ai4u_edu.server.plain_response import plain_response
 
 REQUEST_TIMEOUT_S = 5.0
-"""Time for a request's head, from the connection's or its own first byte on; and for its body."""
+"""Timeout of a request's head, since the connection's or its own first byte; and of its body."""
 PART_BYTES = 4096
-"""Bytes of a head that are read at a time, until it is complete."""
+"""Bytes of a head that are parsed at a time, until it is complete."""
 STALL_TIMEOUT_S = 20.0
-"""Time without any progress after which an answer that nobody reads is dropped."""
+"""Time without progress after which an answer that nobody reads is aborted."""
 LINGER_S = 1.0
-"""Time that the other side has to read why its connection ends."""
+"""Time that the other side has to read why its connection is closed."""
 
 
 class ServerConfig(uvicorn.Config):
-    """uvicorn's configuration, with the server's connections: the protocols find them here."""
+    """uvicorn's configuration, by which the protocols reach the server's connections."""
 
     connections: Connections | None = None
 
@@ -38,17 +38,17 @@ class RequestProtocol(H11Protocol):
 
     _deadline: asyncio.TimerHandle | None = None
     _stall: asyncio.TimerHandle | None = None
-    _has_begun = False  # whether something of the next request has come
+    _has_begun = False  # True once a byte of the next request has come
     _is_ending = False
     _unread = 0
 
     def connection_made(self, transport: asyncio.BaseTransport) -> None:
-        """Begin to wait for a request."""
+        """Start the timeout of the first request."""
         super().connection_made(cast(asyncio.Transport, transport))
         self._wait_for_request()
 
     def data_received(self, data: bytes) -> None:
-        """Hear the next bytes; the time for a head begins with its first byte."""
+        """Parse the next bytes; a head's timeout starts with its first byte."""
         if self.is_ending():
             return
         if not self._has_begun:
@@ -56,7 +56,7 @@ class RequestProtocol(H11Protocol):
             self._restart_deadline()
         before = self.conn.their_state
         while data and not self.is_ending() and self.conn.their_state is h11.IDLE:
-            # h11 has a limit for heads that are incomplete; one that came whole would pass it
+            # h11 limits the size of incomplete heads only; one that comes whole would pass
             super().data_received(data[:PART_BYTES])
             data = data[PART_BYTES:]
         if self.is_ending():
@@ -70,7 +70,7 @@ class RequestProtocol(H11Protocol):
             self._restart_deadline()
 
     def on_response_complete(self) -> None:
-        """Wait for the next request, which may have come already."""
+        """Start the next request's timeout; it may have come already."""
         super().on_response_complete()
         if self.transport.is_closing():
             self._watch_reader()
@@ -80,7 +80,7 @@ class RequestProtocol(H11Protocol):
             self._restart_deadline()
 
     def connection_lost(self, exc: Exception | None) -> None:
-        """End the timers too."""
+        """Cancel the timers."""
         for timer in (self._deadline, self._stall):
             if timer is not None:
                 timer.cancel()
@@ -88,15 +88,15 @@ class RequestProtocol(H11Protocol):
         super().connection_lost(exc)
 
     def send_400_response(self, msg: str) -> None:
-        """Answer what is no request; one that is too long gets its own status."""
-        error = sys.exception()  # uvicorn calls this where it has caught it
+        """Answer a malformed request; one that is too long gets its own status."""
+        error = sys.exception()  # uvicorn calls this in an except clause
         hint = error.error_status_hint if isinstance(error, h11.RemoteProtocolError) else 400
         if hint == HTTPStatus.REQUEST_HEADER_FIELDS_TOO_LARGE:
             msg = "expected a request whose address and headers are shorter, such as its cookies"
-        self.end(refusal(hint, msg))
+        self.end(plain_response(hint, msg))
 
     def shutdown(self) -> None:
-        """End the connection with the server, whatever state it is in."""
+        """Close the connection with the server, whatever its state."""
         if self.is_ending():
             self.transport.abort()
             return
@@ -110,14 +110,14 @@ class RequestProtocol(H11Protocol):
         return self._is_ending
 
     def pause_writing(self) -> None:
-        """Look from time to time whether the other side reads at all."""
+        """Start to check that the other side reads at all."""
         super().pause_writing()
         self._watch_reader()
 
     def end(self, answer: bytes = b"") -> None:
-        """End the connection with an answer, and give the other side time to read it."""
+        """Close the connection with an answer, and give the other side time to read it."""
         self._is_ending = True
-        if self.cycle is not None:  # its app may still be at work
+        if self.cycle is not None:  # its app may still be running
             self.cycle.disconnected = True
             self.cycle.message_event.set()
         self._set_idle(True)
@@ -125,13 +125,13 @@ class RequestProtocol(H11Protocol):
         if not self.transport.can_write_eof():
             self.transport.close()
             return
-        # closed at once, with bytes that were not read, it would be reset and the answer lost
+        # closing a socket with unread bytes resets it, and the answer would be lost
         self.transport.write_eof()
         self._set_deadline(LINGER_S, self.transport.abort)
 
     def _wait_for_request(self) -> None:
         self._has_begun = bool(self.conn.trailing_data[0])
-        self._set_idle(not self.transport.get_write_buffer_size())  # else it still reads
+        self._set_idle(not self.transport.get_write_buffer_size())  # it may still read an answer
         self._restart_deadline()
 
     def _restart_deadline(self) -> None:
@@ -152,16 +152,16 @@ class RequestProtocol(H11Protocol):
         self._deadline = None
         if self.transport.is_closing():
             self._watch_reader()
-        elif self.transport.get_write_buffer_size():  # it still reads what it asked for before
+        elif self.transport.get_write_buffer_size():  # it still reads the answer before
             self._watch_reader()
             self._restart_deadline()
         elif not self._has_begun:
             self.transport.close()
         elif self.conn.their_state is h11.SEND_BODY and self.cycle.response_started:
-            self.transport.abort()  # it was answered all the same
+            self.transport.abort()  # it was answered without its body
         else:
             expected = f"expected the whole request within {REQUEST_TIMEOUT_S:g} s"
-            self.end(refusal(HTTPStatus.REQUEST_TIMEOUT, expected))
+            self.end(plain_response(HTTPStatus.REQUEST_TIMEOUT, expected))
 
     def _watch_reader(self) -> None:
         if self._stall is None and self.transport.get_write_buffer_size():

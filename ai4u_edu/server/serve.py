@@ -1,4 +1,4 @@
-"""Serving until somebody ends it, and ending cleanly."""
+"""Run the web server, in this thread or another one, and shut it down cleanly."""
 
 import asyncio
 import signal
@@ -23,8 +23,10 @@ MAX_MESSAGE_BYTES = 2**20
 
 The largest one is a part of a file for viser, of 512 KiB.
 """
-_GRACE = 1  # seconds that open connections have when the server ends
-_UNFINISHED = 0.3  # seconds after which those that still wait for an answer are cut off
+SHUTDOWN_TIMEOUT_S = 1
+"""Time that uvicorn waits for open connections at shutdown."""
+ABORT_AFTER_S = 0.3
+"""Time after which requests that are still waiting for an answer are aborted at shutdown."""
 
 
 def serve(
@@ -35,18 +37,18 @@ def serve(
     *,
     per_address: int = MAX_PER_ADDRESS,
 ) -> None:
-    """Serves until Ctrl-C or SIGTERM, in this thread; returns when all is closed.
+    """Serve an app in this thread until Ctrl-C or SIGTERM.
 
     Args:
-        app: what answers.
-        host: where to listen.
+        app: the ASGI app.
+        host: address to listen at.
         port: 0 for a free one.
-        on_ready: called with the page's address as soon as it answers.
-        per_address: connections that one address may have, other than this machine's own.
+        on_ready: called with the page's address when the server accepts connections.
+        per_address: limit of connections from one address, except from this machine.
 
     Raises:
         PortTakenError: another program listens there.
-        AddressError: there is no listening there, for another reason.
+        AddressError: the server can't listen there, for another reason.
     """
     listener = listen(host, port)
     raise_descriptor_limit()
@@ -54,7 +56,7 @@ def serve(
 
 
 class ServerThread:
-    """A server in a thread of its own, for tests and notebooks.
+    """Server in a thread of its own, for tests and notebooks.
 
     ``with ServerThread(app) as server: ... server.url``
     """
@@ -77,14 +79,14 @@ class ServerThread:
         )
 
     def start(self) -> Self:
-        """Begins to answer."""
+        """Start the thread, and return when the server accepts connections."""
         self._thread.start()
         while not self._ready.wait(0.1) and self._thread.is_alive():
             pass
         return self
 
     def stop(self) -> None:
-        """Closes everything, and returns when that's done."""
+        """Shut the server down, and return when its thread has ended."""
         self._server.should_exit = True
         self._thread.join()
 
@@ -115,7 +117,7 @@ class _Server(uvicorn.Server):
             log_level="warning",
             access_log=False,
             server_header=False,
-            timeout_graceful_shutdown=_GRACE,
+            timeout_graceful_shutdown=SHUTDOWN_TIMEOUT_S,
         )
         super().__init__(config)
         self._connections = config.connections = Connections(per_address=per_address)
@@ -134,17 +136,17 @@ class _Server(uvicorn.Server):
     async def shutdown(self, sockets: list[socket.socket] | None = None) -> None:
         loop = asyncio.get_running_loop()
         for connection in self.server_state.connections:
-            # who takes nothing now takes no farewell either, and uvicorn would wait, and complain
+            # a connection that does not read can't be closed cleanly; uvicorn would wait and log
             if connection.transport.get_write_buffer_size():
                 connection.transport.abort()
             else:
-                loop.call_later(_UNFINISHED, connection.transport.abort)
+                loop.call_later(ABORT_AFTER_S, connection.transport.abort)
         await asyncio.sleep(0)
         await super().shutdown(sockets)
 
     @contextmanager
     def capture_signals(self) -> Iterator[None]:
-        # uvicorn's own raises the signal once more at the end: a traceback where we want a return
+        # uvicorn's own version raises the signal again at the end; here the command returns
         if threading.current_thread() is not threading.main_thread():
             yield
             return

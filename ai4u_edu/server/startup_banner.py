@@ -1,4 +1,4 @@
-"""What the terminal says when a room is served."""
+"""Text that the terminal shows when a room is served."""
 
 import socket
 from urllib.parse import urlsplit
@@ -7,17 +7,17 @@ from ai4u_edu.server.address import WILDCARD_HOSTS
 from ai4u_edu.server.host_origin import is_loopback
 from ai4u_edu.server.token_auth import with_token
 
-_ELSEWHERE = ("192.0.2.1", 9)  # set aside for documentation: there is never anybody
+_UNUSED_ADDRESS = ("192.0.2.1", 9)  # reserved for documentation
 
 
 def startup_banner(title: str, host: str, url: str, token: str) -> str:
-    """The addresses of a room, and who can reach it.
+    """Return the addresses of a room, and a warning if other machines can reach it.
 
     Args:
-        title: the room's.
-        host: where it listens.
+        title: the room's title.
+        host: address that the server listens at.
         url: the page's address, on this machine.
-        token: the room's; empty for none.
+        token: the room's token; empty for none.
 
     >>> print(startup_banner("Box chase", "127.0.0.1", "http://127.0.0.1:8080/", ""))
     Box chase is served at http://127.0.0.1:8080/  (Ctrl-C ends it)
@@ -39,10 +39,10 @@ def startup_banner(title: str, host: str, url: str, token: str) -> str:
 
 
 def own_address() -> str:
-    """This machine's address, as others in its network see it; its name if it has none."""
+    """Return this machine's address in its network; its host name if it has none."""
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
         try:
-            probe.connect(_ELSEWHERE)  # of UDP nothing is sent by this
+            probe.connect(_UNUSED_ADDRESS)  # a UDP socket sends nothing here, it only picks a route
         except OSError:
             return socket.gethostname()
         return str(probe.getsockname()[0])

@@ -1,8 +1,8 @@
-"""The token of a room that can be reached from other machines, as Jupyter has one.
+"""Token authentication for a room that other machines can reach, as in Jupyter.
 
-It stands in the address that the terminal shows. A browser that opens the page with it gets a
-cookie in its place, and is sent on to the address without; programs say it with each request, in
-the address or as ``Authorization: Bearer``. Scripts say it in their hello, see
+The terminal shows an address with the token. A browser that opens it gets a cookie, and is
+redirected to the address without the token. Programs send the token with each request, in the
+address or as ``Authorization: Bearer``. Scripts send it in their hello, see
 :mod:`ai4u_edu.server.scripts.lease_registry`.
 """
 
@@ -21,22 +21,22 @@ from ai4u_edu.server.attempts import TOO_MANY, Attempts, Verdict, client_address
 from ai4u_edu.server.host_origin import is_loopback
 
 MIN_TOKEN_CHARS = 8
-"""Characters of a token that somebody chooses."""
-WHY = (
+"""Length of a token that a person chooses."""
+REASON_401 = (
     "expected this world's token, got {got}; open the address with ?token=... that its terminal "
     "shows"
 )
 
 
 def token_for(host: str, wanted: str = "") -> str:
-    """The token to ask for when listening at an address; empty for none.
+    """Return the token to ask for when listening at an address; empty for none.
 
     Args:
         host: the address.
-        wanted: the one that somebody chose; left out, a fresh one where one is needed.
+        wanted: a token chosen by a person; left out, a random one if one is needed.
 
     Raises:
-        SetupError: what was chosen is too short.
+        SetupError: the chosen token is too short.
 
     >>> token_for("127.0.0.1"), token_for("127.0.0.1", "sesame sesame")
     ('', 'sesame sesame')
@@ -51,7 +51,7 @@ def token_for(host: str, wanted: str = "") -> str:
 
 
 def with_token(url: str, token: str) -> str:
-    """A page's address with the token in it.
+    """Return a page's address with the token in it.
 
     >>> with_token("http://teacher:8080/", "a b"), with_token("http://teacher:8080", "")
     ('http://teacher:8080/?token=a%20b', 'http://teacher:8080')
@@ -60,18 +60,18 @@ def with_token(url: str, token: str) -> str:
 
 
 def is_same_secret(secret: str, other: str) -> bool:
-    """Whether two secrets are the same; takes as long whatever they are."""
+    """Compare two secrets in constant time."""
     return compare_digest(secret.encode(), other.encode())
 
 
 class TokenAuth:
-    """Lets in who knows the token; an ASGI middleware around one route.
+    """ASGI middleware around one route that asks for the token.
 
     Args:
-        app: what is guarded.
-        token: empty to let everybody in.
-        attempts: limits the wrong tokens of an address, over all routes of a room.
-        is_page: whether it is the page, which gives the cookie.
+        app: the protected app.
+        token: the room's token; empty to ask for none.
+        attempts: rate limit for wrong tokens, shared by all routes of a room.
+        is_page: True for the page's route, which sets the cookie.
     """
 
     def __init__(
@@ -86,31 +86,31 @@ class TokenAuth:
         self._token = token
         self._attempts = attempts or Attempts()
         self._is_page = is_page
-        # a cookie goes to all ports of a machine: so each world's has a name of its own, and the
-        # token itself, which may have characters that a cookie can't, is not in it
+        # browsers send a cookie to all ports of a machine: so its name differs for each token;
+        # its value is a digest, since a token may have characters that a cookie can't
         digest = hashlib.sha256(b"ai4u-edu page " + token.encode()).hexdigest()
         self._cookie, self._value = f"ai4u-edu-{digest[:8]}", digest[8:]
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
-        """Lets a request in, or answers it with 401 (a socket: closes it with 1008) and why."""
+        """Pass a request on, or answer it with 401 or a socket's close 1008, and the reason."""
         if not self._token:
             await self._app(scope, receive, send)
             return
         given = HTTPConnection(scope)
         verdict = Verdict.WRONG
-        if self._says_something(given):
+        if self._has_credentials(given):
             address = client_address(scope)
-            verdict = await self._attempts.look(address, lambda: self._is_known(given))
+            verdict = await self._attempts.check(address, lambda: self._is_known(given))
         if verdict is not Verdict.RIGHT:
             await self._refuse(given, verdict, scope, receive, send)
         elif self._is_page and scope["type"] == "http" and self._is_in_address(given):
-            await self._without_token(given)(scope, receive, send)
+            await self._redirect(given)(scope, receive, send)
         else:
             await self._app(scope, receive, send)
 
-    def _says_something(self, given: HTTPConnection) -> bool:
-        """Return True if a token is given, right or wrong."""
-        return _says_token(given) or self._cookie in given.cookies
+    def _has_credentials(self, given: HTTPConnection) -> bool:
+        """Return True if a token or cookie is given, right or wrong."""
+        return _has_token(given) or self._cookie in given.cookies
 
     def _is_in_address(self, given: HTTPConnection) -> bool:
         return is_same_secret(self._token, given.query_params.get("token", ""))
@@ -122,8 +122,8 @@ class TokenAuth:
             or is_same_secret(f"Bearer {self._token}", given.headers.get("authorization", ""))
         )
 
-    def _without_token(self, given: HTTPConnection) -> Response:
-        """The way on to the page's address, from which nobody reads the token over a shoulder."""
+    def _redirect(self, given: HTTPConnection) -> Response:
+        """Return a redirect to the page's address without the token, with the cookie."""
         rest = [(name, value) for name, value in given.query_params.multi_items()]
         query = urlencode([(name, value) for name, value in rest if name != "token"])
         response = RedirectResponse(f"./?{query}" if query else "./", 303)
@@ -131,7 +131,7 @@ class TokenAuth:
         response.set_cookie(
             self._cookie,
             self._value,
-            path=None,  # that of the page, which a proxy may have put under another one
+            path=None,  # the page's own, which a proxy may have changed
             secure=given.url.scheme == "https",
             httponly=True,
             samesite="lax",  # with "strict" a link in a mail or a chat would not open the page
@@ -146,13 +146,13 @@ class TokenAuth:
         receive: Receive,
         send: Send,
     ) -> None:
-        why = WHY.format(got="another one" if _says_token(given) else "none")
+        why = REASON_401.format(got="another one" if _has_token(given) else "none")
         seconds = self._attempts.retry_after(client_address(scope)) or 1
         if verdict is Verdict.TOO_MANY:
             why = TOO_MANY.format(seconds=seconds)
         if scope["type"] == "websocket":
             socket = WebSocket(scope, receive, send)
-            # browsers show no script why a handshake failed, but why a socket was closed
+            # a browser tells a script why a socket was closed, but not why a handshake failed
             await socket.accept(next(iter(scope["subprotocols"]), None))
             await socket.close(1013 if verdict is Verdict.TOO_MANY else 1008, why)
             return
@@ -163,5 +163,5 @@ class TokenAuth:
         await PlainTextResponse(f"token: {why}\n", 401, headers)(scope, receive, send)
 
 
-def _says_token(given: HTTPConnection) -> bool:
+def _has_token(given: HTTPConnection) -> bool:
     return "token" in given.query_params or "authorization" in given.headers

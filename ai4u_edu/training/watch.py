@@ -14,6 +14,7 @@ from copy import deepcopy
 from pathlib import Path
 
 import torch
+from stable_baselines3.common.base_class import BaseAlgorithm
 from stable_baselines3.common.callbacks import BaseCallback
 
 from ai4u_edu.blocks.loading import load_blocks, own_files
@@ -23,6 +24,8 @@ MIN_INTERVAL_S = 3.0
 """Shortest time between two files of weights."""
 MAX_TIME_SHARE = 0.01
 """Largest share of the training's time that writing weights may take."""
+RELOAD_POLL_S = 0.5
+"""Interval at which the page looks for new weights."""
 MODEL = "watched.zip"
 """File of the untrained model in the training's folder."""
 WEIGHTS = "watched.pt"
@@ -116,21 +119,12 @@ def show(folder: Path, port: int, *, open_page: bool) -> None:
             open_on_desktop(url)
 
     ended = threading.Event()
-    weights = folder / WEIGHTS
-
-    def renew() -> None:
-        seen = 0
-        while not ended.wait(0.5):
-            now = weights.stat().st_mtime_ns
-            if now != seen:
-                seen = now
-                policy = deepcopy(model.policy)  # who decides meanwhile does so with the old one
-                policy.load_state_dict(torch.load(weights, weights_only=True))
-                model.policy = policy
-
     runner.start()
     viewer.start()
-    threading.Thread(target=renew, name="renew", daemon=True).start()
+    reloader = threading.Thread(
+        target=_reload_weights, args=(model, folder / WEIGHTS, ended), name="weights", daemon=True
+    )
+    reloader.start()
     try:
         try:
             serve(room, "127.0.0.1", port, on_ready=ready)
@@ -140,6 +134,18 @@ def show(folder: Path, port: int, *, open_page: bool) -> None:
         ended.set()
         runner.stop()
         viewer.stop()
+
+
+def _reload_weights(model: BaseAlgorithm, weights: Path, ended: threading.Event) -> None:
+    """Replace the model's policy whenever the training has written new weights."""
+    loaded_at = 0
+    while not ended.wait(RELOAD_POLL_S):
+        written_at = weights.stat().st_mtime_ns
+        if written_at != loaded_at:
+            loaded_at = written_at
+            policy = deepcopy(model.policy)  # the old one decides until this one is complete
+            policy.load_state_dict(torch.load(weights, weights_only=True))
+            model.policy = policy
 
 
 if __name__ == "__main__":

@@ -97,7 +97,7 @@ def main() -> int:
     if "--tell" not in sys.argv:
         with tempfile.TemporaryDirectory() as folder:
             failed = [name for name in names if not make(name, Path(folder))]
-    (zoo.FOLDER / "README.md").write_text(tell(), encoding="utf-8")
+    write_atomically(zoo.FOLDER / "README.md", tell())
     if failed:
         sys.stderr.write(f"not good enough: {', '.join(failed)}\n")
     return 1 if failed else 0

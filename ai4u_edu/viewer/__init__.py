@@ -1,4 +1,4 @@
-"""The page: draws snapshots with viser, hands on what people ask for."""
+"""The page: draws snapshots with viser, and sends what people do to the runner and the editor."""
 
 from ai4u_edu.viewer.viewer import Viewer
 

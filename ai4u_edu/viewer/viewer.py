@@ -5,13 +5,12 @@ import time
 import warnings
 
 from ai4u_edu.editing import EditState, SceneEditor
+from ai4u_edu.runtime.frame_budget import MAX_FRAMES_PER_S, SENSES_PER_S, TEXTS_PER_S
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.snapshot import Snapshot, StaticScene
 from ai4u_edu.viewer.backend.local_server import LocalServer
 from ai4u_edu.viewer.backend.log_once import Complaints
-from ai4u_edu.viewer.backend.pace import Pace
-from ai4u_edu.viewer.backend.part import EACH_PAGE, MOST, Paced, Part
-from ai4u_edu.viewer.backend.turns import Turns
+from ai4u_edu.viewer.backend.part import Part, RatedPart
 from ai4u_edu.viewer.panel.agent_html import AgentHtmlCache
 from ai4u_edu.viewer.panel.agent_tab import AgentTab
 from ai4u_edu.viewer.panel.blocks_tab import blocks_tab
@@ -35,10 +34,10 @@ from ai4u_edu.viewer.viewer_client import ViewerClients
 
 PANEL_WIDTH = 320
 """Pixels."""
-FRAMES = 60
-"""So many pictures a second at most."""
-IDLE = 0.1
-"""Seconds between two looks for somebody who watches, while nobody does."""
+PAGE_POLL_S = 0.1
+"""Poll interval for pages that open, while there are none."""
+MIN_PAUSE_S = 0.001
+"""Pause after a frame that took longer than it may: other threads have their turn."""
 STOP_S = 2.0
 """Seconds that all threads of a viewer have to end."""
 
@@ -74,7 +73,6 @@ class Viewer:
         self._static_scene: StaticScene | None = None
         self._complaints = Complaints()
         self._stopping = threading.Event()
-        self._pace = Pace()
         self.thread = threading.Thread(target=self._run, name="viewer", daemon=True)
         server.gui.configure_theme(show_logo=False, show_share_button=False)
         server.gui.main_panel.dock_right()
@@ -91,27 +89,19 @@ class Viewer:
         if runner.recorder is not None:
             kinds.append(replay_tab(runner, self.player, self.ghosts))
 
-        def rounds() -> int:
-            return Turns.rounds(len(viewer_clients))
-
-        parts: list[tuple[Part, float, float]] = [
-            (viewer_clients, FRAMES, MOST),
-            (Ground(server), 1, MOST),
-            (Bodies(server, self._choose), FRAMES, MOST),
-            (Labels(server), FRAMES, MOST),
-            (self.ghosts, 30, MOST),
-            (Actions(server), 30, MOST),
-            (Controls(server, runner, viewer_clients), 8, MOST),
-            (PageControls(viewer_clients), 8, EACH_PAGE),
+        parts: list[tuple[Part, float]] = [
+            (viewer_clients, MAX_FRAMES_PER_S),
+            (Ground(server), TEXTS_PER_S),
+            (Bodies(server, self._choose), MAX_FRAMES_PER_S),
+            (Labels(server), MAX_FRAMES_PER_S),
+            (self.ghosts, SENSES_PER_S),
+            (Actions(server), SENSES_PER_S),
+            (Controls(server, runner, viewer_clients), TEXTS_PER_S),
+            (PageControls(viewer_clients), TEXTS_PER_S),
+            (SenseOverlay(viewer_clients), MAX_FRAMES_PER_S),
+            (Tabs(viewer_clients, kinds, self._complaints), MAX_FRAMES_PER_S),
         ]
-        in_turn: list[tuple[Part, float]] = [
-            (SenseOverlay(viewer_clients), 30),
-            (Tabs(viewer_clients, kinds, self._complaints), 8),
-        ]
-        self.parts = [Paced(part, rate, self._complaints, share) for part, rate, share in parts]
-        self.parts += [
-            Paced(part, rate, self._complaints, EACH_PAGE, rounds) for part, rate in in_turn
-        ]
+        self.parts = [RatedPart(part, rate, self._complaints) for part, rate in parts]
         self.draw(runner.latest)
 
     @property
@@ -149,19 +139,20 @@ class Viewer:
     def _run(self) -> None:
         seen = self.runner.latest
         while not self._stopping.is_set():
-            seen = self.runner.wait(seen, IDLE)
-            began, worked = time.monotonic(), time.thread_time()
+            seen = self.runner.wait(seen, PAGE_POLL_S)
+            began, processor_began = time.monotonic(), time.thread_time()
             with self._complaints.caught():
                 self.viewer_clients.meet()
                 if self.viewer_clients or seen.static_scene is not self._static_scene:
                     self.draw(seen)
-            spent = time.monotonic() - began
-            period = self._pace.period(
-                pages=len(self.viewer_clients),
-                late=self.runner.lateness,
-                spent=time.thread_time() - worked,
-            )
-            self._stopping.wait(max((period if self.viewer_clients else IDLE) - spent, 0.001))
+            period = PAGE_POLL_S
+            if self.viewer_clients:
+                period = self.runner.frame_budget.frame_period(
+                    pages=len(self.viewer_clients),
+                    tick_lateness=self.runner.lateness,
+                    draw_time=time.thread_time() - processor_began,
+                )
+            self._stopping.wait(max(began + period - time.monotonic(), MIN_PAUSE_S))
 
     def _choose(self, client_id: int, body: str) -> None:
         """On one page, looks at the agent with that body."""

@@ -132,7 +132,7 @@ class AI4UDialogue:
     >>> dialogue.request(None)[:40]
     b'   4  10__target__3      10envcontrol  1'
     >>> dialogue.parse_reply(b"__noop__;1;0").kind, dialogue.phase
-    (<ReplyKind.NOOP: '__noop__'>, <Phase.HANDSHAKE: 'greeting'>)
+    (<ReplyKind.NOOP: '__noop__'>, <Phase.HANDSHAKE: 'handshake'>)
     >>> handshake = dialogue.request(None)
     >>> dialogue.parse_reply(b"max_steps;1;0@id;1;0").kind, dialogue.phase
     (<ReplyKind.CONFIGURED: 'max_steps'>, <Phase.POLLING: 'polling'>)

@@ -1,6 +1,6 @@
-"""Our own protocol: what a world and a script on another machine say to each other.
+"""Our own protocol between a world and a script on another machine.
 
-A frame is one msgpack array: the kind of message, then its fields. The script speaks first::
+A frame is one msgpack array: the kind of message, then its fields. The script begins::
 
     script  hello                        which agent, and how
     world   welcome                      what the agent senses and can do
@@ -8,193 +8,212 @@ A frame is one msgpack array: the kind of message, then its fields. The script s
     script  action for 1 (or a reset)    what it shall do
     world   percept 2 ...                when the decision is over
 
-Frames may get lost, come twice or in another order. So everything has its number, and whoever waits
-says again what it said last: the script its last frame, upon which the world says its own last one
-again if it has already heard that. Nothing counts twice.
+Frames may get lost, be duplicated, or arrive out of order. So percepts are numbered, an answer
+carries the number of its percept, and a side that waits for too long repeats its last frame: the
+script its answer, upon which the world repeats its percept if it has that answer already. No answer
+counts twice.
 
-Readings are one piece of memory, little-endian, as the welcome lays it out.
+The readings of a percept are one block of little-endian numbers, laid out as the welcome says.
 
-A field that was added to a message later stands at its end and has a default. Who says the default
-leaves the field out, and who does not find it takes the default: so older scripts and worlds go
-together with newer ones, as long as nobody wants what the other does not know. Any other change
+Compatibility: a field that was added to a message later stands at its end and has a default. It is
+left out of the frame if it has its default, and takes its default if it is not there. So versions
+work together as long as nobody uses a field that the other side does not know. Any other change
 needs another :data:`VERSION`.
 """
 
+import math
 from collections.abc import Mapping
-from typing import Annotated, Any, Literal, NamedTuple
+from typing import Annotated, Any, Literal, get_args
 
-import msgpack
+import msgspec
+from msgspec import Meta, Struct
 
 from ai4u_edu.base.errors import shorten
 from ai4u_edu.base.seeding import MAX_SEED
 from ai4u_edu.wire.validation import (
-    ENDLESS,
-    LARGEST_FLOAT,
-    LONGEST_TEXT,
-    MOST,
-    UNCHECKED,
-    Bounds,
+    LIST,
+    MAX_FLOAT,
+    MAX_TEXT_CHARS,
+    Finite,
+    Int,
+    Text,
     WireError,
-    reader,
+    find_wrong_field,
     shown,
 )
 
 VERSION = 1
 SUBPROTOCOL = f"ai4u-edu-remote.v{VERSION}"
 """The WebSocket's subprotocol."""
-LARGEST_SAID = 64 * 2**10
-"""Bytes of a frame from a script."""
-LARGEST_HEARD = 4 * 2**20
-"""Bytes of a frame from a world."""
-LONGEST_READ = 4000
-"""Characters of a reading that is text."""
-LONGEST_GRACE = 86_400.0
-"""Seconds."""
+MAX_SCRIPT_FRAME_BYTES = 64 * 2**10
+"""Largest frame from a script."""
+MAX_WORLD_FRAME_BYTES = 4 * 2**20
+"""Largest frame from a world."""
+MAX_READING_CHARS = 4000
+"""Longest reading that is text."""
+MAX_GRACE_S = 86_400.0
 
 Mode = Literal["lockstep", "realtime"]
 OnMissing = Literal["", "hold", "coast", "stop"]
 """Substitutes for an action that is missing: the last one again, nothing, or zeros for all
 actuators; empty: as the room has it."""
+Texts = Annotated[tuple[Text, ...], LIST]
+_Size = Annotated[int, Meta(ge=0, le=MAX_WORLD_FRAME_BYTES)]
+_Data = Annotated[bytes, Meta(max_length=MAX_WORLD_FRAME_BYTES)]
+_ReadingText = Annotated[str, Meta(max_length=MAX_READING_CHARS)]
 
 
-class Hello(NamedTuple):
-    """A script wants an agent, or the session back that it had."""
+class _Record(Struct, frozen=True, array_like=True, forbid_unknown_fields=True):
+    """The base of messages and their parts: an array of fields on the wire."""
 
-    version: int
-    agent: str
-    """Its id; empty: the world's only one."""
-    token: str
+
+class _Message(_Record, frozen=True, tag=str.lower):
+    """The base of messages, which begin with the name of their class in lower case."""
+
+
+class Hello(_Message, frozen=True):
+    """A script asks for an agent, or to resume its session."""
+
+    version: Int
+    agent: Text
+    """Its id; empty for the only agent of a world."""
+    token: Text
     mode: Mode
-    keys: tuple[str, ...]
-    """The readings that it wants; none named: all."""
-    session: str
-    """Empty for a new one."""
-    secret: Annotated[str, 80]
-    """Made up by the script. Who knows it may come back to the session."""
+    keys: Texts
+    """Keys of the readings that the script wants; empty for all."""
+    session: Text
+    """Name of the session to resume; empty for a new one."""
+    secret: Annotated[str, Meta(max_length=80)]
+    """Chosen by the script; needed to resume the session."""
     on_missing: OnMissing = ""
 
 
-class Reading(NamedTuple):
-    """One reading: its space, and where it lies in a percept."""
+class Reading(_Record, frozen=True):
+    """The description of a reading: its space, and its place in a percept."""
 
-    key: str
+    key: Text
     kind: Literal["box", "discrete", "text"]
-    sensor_type: str
-    """AI4U's type of it: sfloatarray, simage, ..."""
+    sensor_type: Text
+    """AI4U's type: sfloatarray, simage, ..."""
     dtype: Literal["<f4", "<i4", "|b1", "|u1", ""]
-    shape: tuple[Annotated[int, LARGEST_HEARD], ...]
-    """Of a text: the most characters."""
-    offset: int
-    """Bytes from the beginning of the data; of a text, its place among the texts."""
-    low: Annotated[bytes, LARGEST_HEARD]
-    """The lowest value: one number for all entries, or one for each; as the reading itself."""
-    high: Annotated[bytes, LARGEST_HEARD]
-    unit: str
+    shape: Annotated[tuple[_Size, ...], LIST]
+    """Shape of an array; of a text, its largest number of characters."""
+    offset: Int
+    """Offset in the percept's data in bytes; of a text, its index in the texts."""
+    low: _Data
+    """Lowest value, encoded as the reading: one number for all entries, or one for each."""
+    high: _Data
+    """Highest value, in the same form."""
+    unit: Text
     is_input: bool
-    """Whether a policy gets it as part of its observation."""
+    """Whether it is part of a policy's observation."""
 
 
-class Output(NamedTuple):
-    """One actuator: what an action of it may be."""
+class Output(_Record, frozen=True):
+    """The description of an actuator: the space of its actions."""
 
-    name: str
+    name: Text
     kind: Literal["box", "discrete"]
-    low: tuple[Annotated[float, ENDLESS], ...]
-    high: tuple[Annotated[float, ENDLESS], ...]
+    low: Annotated[tuple[float, ...], LIST]
+    high: Annotated[tuple[float, ...], LIST]
     is_output: bool
     """Whether a policy drives it."""
 
+    def __post_init__(self) -> None:
+        if any(map(math.isnan, (*self.low, *self.high))):
+            raise ValueError("expected bounds that are numbers or infinities, got nan")
 
-class Welcome(NamedTuple):
-    """The script has the agent."""
 
-    version: int
-    session: str
-    grace: Annotated[float, Bounds(0.0, LONGEST_GRACE)]
-    """Seconds that the seat is kept for a script whose connection is lost."""
-    agent: str
+class Welcome(_Message, frozen=True):
+    """The world gives the agent to the script, and describes it."""
+
+    version: Int
+    session: Text
+    grace: Annotated[float, Meta(ge=0.0, le=MAX_GRACE_S)]
+    """Seconds for which a script whose connection is lost keeps its agent."""
+    agent: Text
     mode: Mode
-    title: str
-    """Of the scene."""
-    ticks_per_second: Annotated[float, Bounds(0.0, LARGEST_FLOAT)]
-    skip_frame: int
+    title: Text
+    """Title of the scene."""
+    ticks_per_second: Annotated[float, Meta(ge=0.0, le=MAX_FLOAT)]
+    skip_frame: Int
     repeat_action: bool
-    max_steps: int
-    """Decisions after which an episode is cut off; 0 for no limit."""
-    rewards: tuple[str, ...]
-    """The names of the reward's terms."""
-    success: str
-    """The term that is paid when the scene's goal is reached; empty if there is none."""
-    readings: tuple[Reading, ...]
-    outputs: tuple[Output, ...]
+    max_steps: Int
+    """Decisions after which an episode is truncated; 0 for no limit."""
+    rewards: Texts
+    """Names of the reward's terms."""
+    success: Text
+    """Name of the term that is paid when the scene's goal is reached; empty if there is none."""
+    readings: Annotated[tuple[Reading, ...], LIST]
+    outputs: Annotated[tuple[Output, ...], LIST]
 
 
-class Percept(NamedTuple):
-    """What the agent senses, and what its last decision brought."""
+class Percept(_Message, frozen=True):
+    """The readings of the agent, and the result of its last decision."""
 
-    episode: int
-    """The agent's own count."""
-    step: int
+    episode: Int
+    """Counted by the agent, from 1."""
+    step: Int
     """Decisions in this episode so far."""
-    seq: int
-    """The percept's number in the session, from 1 on; the answer carries it."""
-    tick: int
-    """Of the world, since its reset."""
-    reward: float
-    """Of all decisions since the percept before; in lockstep that is one."""
-    terms: Mapping[str, float]
+    seq: Int
+    """Number of the percept in the session, from 1; its answer carries the same number."""
+    tick: Int
+    """Ticks of the world since its reset."""
+    reward: Finite
+    """Sum over all decisions since the percept before; in lockstep there is one."""
+    terms: Annotated[Mapping[Text, Finite], LIST]
     terminated: bool
     truncated: bool
     paused: bool
-    """Whether the script asked for a pause; an action moves nothing until it ends."""
+    """True while the agent is paused by the script; its actions have no effect."""
     stopped: bool
-    """Whether the script asked for no more decisions until the next reset."""
-    data: Annotated[bytes, LARGEST_HEARD]
-    texts: tuple[Annotated[str, LONGEST_READ], ...]
+    """True if the script ended its decisions until the next reset."""
+    data: _Data
+    texts: Annotated[tuple[_ReadingText, ...], LIST]
 
 
-class Action(NamedTuple):
-    """What the agent shall do, as the answer to one percept."""
+class Action(_Message, frozen=True):
+    """An action for the agent, as the answer to one percept."""
 
-    episode: int
-    step: int
-    seq: int
-    values: Mapping[str, tuple[Annotated[float, UNCHECKED], ...]]
-    """Numbers by the actuator's name; what is left out does nothing. The actuator checks them, so
-    that one that is not finite is refused as the answer to its percept."""
-
-
-class Reset(NamedTuple):
-    """A new episode shall begin, as the answer to one percept."""
-
-    seq: int
-    seed: Annotated[int, MAX_SEED] | None
-    """With a seed the whole world begins anew; without, the agent alone if there are others."""
+    episode: Int
+    step: Int
+    seq: Int
+    values: Annotated[Mapping[Text, Annotated[tuple[float, ...], LIST]], LIST]
+    """Numbers by the actuator's name; actuators that are left out do nothing. NaN and infinities
+    pass here: the actuator refuses them, which makes the error an answer to this percept."""
 
 
-class Order(NamedTuple):
-    """Something other than an action, as the answer to one percept."""
+class Reset(_Message, frozen=True):
+    """A request for a new episode, as the answer to one percept."""
 
-    seq: int
+    seq: Int
+    seed: Annotated[int, Meta(ge=0, le=MAX_SEED)] | None
+    """With a seed, the whole world is reset; without, the agent alone if there are others."""
+
+
+class Order(_Message, frozen=True):
+    """A command other than an action, as the answer to one percept."""
+
+    seq: Int
     word: Literal["pause", "resume", "stop", "wait"]
-    """``wait`` is no answer: the script needs more time, and a world in lockstep gives it."""
+    """``wait`` is no answer: it asks a world in lockstep to wait longer."""
 
 
-class Problem(NamedTuple):
-    """Something was wrong; the text says what, and what to do."""
+class Problem(_Message, frozen=True):
+    """An error: the text says what was wrong, and how to mend it."""
 
-    code: Annotated[str, 40]
+    code: Annotated[str, Meta(max_length=40)]
     """One of :data:`PROBLEMS`; or bad_message, bad_action, episode_over, seed_refused, after which
-    the script may say something else."""
-    text: Annotated[str, LONGEST_READ]
-    seq: int
-    """Of the percept whose answer it was; 0 where it was none."""
+    the session goes on."""
+    text: _ReadingText
+    seq: Int
+    """Number of the percept whose answer was wrong; 0 if it was no answer."""
 
 
-class Bye(NamedTuple):
-    """The end; from the script: the seat is free."""
+class Bye(_Message, frozen=True):
+    """The end of the session, from either side."""
 
-    reason: str
+    reason: Text
 
 
 Answer = Action | Reset | Order
@@ -214,74 +233,107 @@ PROBLEMS = {
     "ended": 4010,
     "lockstep_refused": 4011,
 }
-"""Problems after which the connection is closed, with the code of the close."""
+"""Errors that close the connection, with the WebSocket's close code."""
 
-_KINDS: dict[str, type[Message]] = {
-    kind.__name__.lower(): kind
-    for kind in (Hello, Welcome, Percept, Action, Reset, Order, Problem, Bye)
-}
-_NAMES = {kind: name for name, kind in _KINDS.items()}
-_READERS = {name: reader(kind) for name, kind in _KINDS.items()}
-_LATER = {
-    kind: tuple(reversed(kind._field_defaults.values()))
-    for kind in _KINDS.values()
-    if kind._field_defaults
-}
-"""The defaults of the fields that were added later, the last field's first."""
+_FIELDS: dict[str, tuple[msgspec.inspect.Field, ...]] = {}
+for _kind in get_args(Message):
+    _info = msgspec.inspect.type_info(_kind)
+    assert isinstance(_info, msgspec.inspect.StructType)  # noqa: S101
+    _FIELDS[_kind.__name__.lower()] = _info.fields
+
+
+def _plain(value: Any) -> Any:
+    """Convert an instance of a subclass, such as numpy.float64."""
+    for kind in (float, int, str):
+        if isinstance(value, kind):
+            return kind(value)
+    raise TypeError(shown(value))
+
+
+_decoder: msgspec.msgpack.Decoder[Message] = msgspec.msgpack.Decoder(Message)
+_encoder = msgspec.msgpack.Encoder(enc_hook=_plain)
 
 
 def encode(message: Message) -> bytes:
-    """A message as a frame; a sentence in it that is too long for one is cut.
+    """Return a message as a frame; a sentence in it that is too long is cut.
 
     >>> len(encode(Bye("enough")))
     12
     """
     if isinstance(message, Problem):
-        message = message._replace(text=shorten(message.text, LONGEST_READ))
+        text = shorten(message.text, MAX_READING_CHARS)
+        message = Problem(message.code, text, message.seq)
     elif isinstance(message, Bye):
-        message = Bye(shorten(message.reason, LONGEST_TEXT))
-    fields: tuple[Any, ...] = message
-    for default in _LATER.get(type(message), ()):
-        if fields[-1] != default:
-            break
-        fields = fields[:-1]
-    packed: bytes = msgpack.packb((_NAMES[type(message)], *fields), unicode_errors="replace")
-    return packed
+        message = Bye(shorten(message.reason, MAX_TEXT_CHARS))
+    fields: Any = message
+    if message.__struct_defaults__:
+        fields = _without_defaults(message)
+    try:
+        return _encoder.encode(fields)
+    except UnicodeEncodeError:  # half of a surrogate pair, from somebody's text
+        return _encoder.encode(
+            _without_surrogates(msgspec.to_builtins(fields, builtin_types=(bytes,)))
+        )
 
 
-def decode(frame: bytes, largest: int = LARGEST_SAID) -> Message:
-    """The message in a frame.
+def decode(frame: bytes, max_bytes: int = MAX_SCRIPT_FRAME_BYTES) -> Message:
+    """Return the message in a frame.
 
     Args:
-        frame: what came.
-        largest: bytes that it may have.
+        frame: the bytes that were received.
+        max_bytes: limit of its size.
 
     Raises:
-        WireError: there is none in it; nothing else is ever raised, whatever the bytes are.
+        WireError: there is no valid message in it. No other error is raised for any bytes.
 
     >>> decode(encode(Reset(seq=3, seed=None)))
     Reset(seq=3, seed=None)
-    >>> decode(msgpack.packb(["rest", 3, None]))
+    >>> decode(msgspec.msgpack.encode(["rest", 3, None]))
     Traceback (most recent call last):
     ...
     ai4u_edu.wire.validation.WireError: expected a message (hello, welcome, percept, action, \
 reset, order, problem, bye), got 'rest'
     """
-    if len(frame) > largest:
-        raise WireError(f"expected at most {largest} bytes, got {len(frame)}")
+    if len(frame) > max_bytes:
+        raise WireError(f"expected at most {max_bytes} bytes, got {len(frame)}")
     try:
-        parts = msgpack.unpackb(
-            frame,
-            use_list=False,
-            strict_map_key=True,
-            max_array_len=MOST,
-            max_map_len=MOST,
-            max_ext_len=0,
-        )
-    except Exception as error:  # whatever is wrong with the bytes is wrong with the bytes
-        raise WireError(f"expected msgpack, got {shown(frame)} ({error})") from None
-    name = parts[0] if type(parts) is tuple and parts else None
-    read = _READERS.get(name) if type(name) is str else None
-    if read is None:
-        raise WireError(f"expected a message ({', '.join(_READERS)}), got {shown(name)}")
-    return read(parts[1:])
+        return _decoder.decode(frame)
+    except Exception as error:  # any error is due to the bytes
+        raise WireError(_explain(frame, error)) from None
+
+
+def _explain(frame: bytes, error: Exception) -> str:
+    """Return the text for a frame that is no message."""
+    try:
+        parts = msgspec.msgpack.decode(frame)
+    except Exception as malformed:  # such as bytes that nest too deep
+        return f"expected msgpack, got {shown(frame)} ({malformed})"
+    name = parts[0] if type(parts) is list and parts else None
+    if type(name) is not str or name not in _FIELDS:
+        return f"expected a message ({', '.join(_FIELDS)}), got {shown(name)}"
+    return find_wrong_field(_FIELDS[name], parts[1:]) or str(error)
+
+
+def _without_defaults(message: Message) -> tuple[Any, ...]:
+    """Return the parts of a frame, without trailing fields that have their default."""
+    kind = type(message)
+    fields = msgspec.structs.astuple(message)
+    for default in reversed(kind.__struct_defaults__):
+        if fields[-1] != default:
+            break
+        fields = fields[:-1]
+    return (kind.__name__.lower(), *fields)
+
+
+def _without_surrogates(value: Any) -> Any:
+    """Replace what UTF-8 can't encode in all texts of a message."""
+    match value:
+        case str():
+            return value.encode(errors="replace").decode()
+        case list() | tuple():
+            return [_without_surrogates(each) for each in value]
+        case dict():
+            return {
+                _without_surrogates(key): _without_surrogates(each) for key, each in value.items()
+            }
+    return value

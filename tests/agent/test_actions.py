@@ -1,4 +1,4 @@
-"""Actions at the door: what is let in, what is cut, what is refused."""
+"""Checks of actions: accepted, clipped and refused values."""
 
 from typing import Any
 

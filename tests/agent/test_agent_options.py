@@ -1,4 +1,4 @@
-"""The options of an agent that add blocks, its handlers' rewards, and what may drive it."""
+"""Options of an agent that add blocks, rewards of handlers, and brains made of functions."""
 
 from typing import Any
 

@@ -1,4 +1,4 @@
-"""Whatever a block or a handler raises names it and its agent."""
+"""Errors of blocks and handlers name the block or handler and its agent."""
 
 from typing import Any
 

@@ -1,4 +1,4 @@
-"""A block works for one agent at a time; it may change over to another one later."""
+"""A block belongs to one agent at a time; another one may claim it later."""
 
 import gc
 import weakref

@@ -1,4 +1,4 @@
-"""One agent begins a new episode; the world and the others go on."""
+"""One agent begins a new episode while the world and the others go on."""
 
 import hashlib
 import textwrap

@@ -1,4 +1,4 @@
-"""What a student gets to read when an agent is put together wrongly: the exact text."""
+"""Error messages for agents that are put together wrongly, word for word."""
 
 from typing import Any
 

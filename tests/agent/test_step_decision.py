@@ -1,4 +1,4 @@
-"""A step at one go is the same as one tick after another, and gives way where somebody listens."""
+"""A whole decision gives the same as tick by tick, and runs tick by tick where events need it."""
 
 import struct
 from collections.abc import Callable

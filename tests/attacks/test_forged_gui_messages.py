@@ -25,7 +25,7 @@ from ai4u_edu.viewer.panel.blocks_tab import BlocksTab
 from ai4u_edu.viewer.panel.controls import Controls
 from ai4u_edu.viewer.panel.world_tab import WorldTab
 from ai4u_edu.viewer.replay.replay_tab import ReplayTab
-from tests.editing.shops import Shop
+from tests.editing.harness import EditorHarness
 from tests.viewer.pages import Page, part_of, seen, shown, tabs_of, until
 
 ODD_VALUES: tuple[Any, ...] = (
@@ -38,7 +38,7 @@ ODD_VALUES: tuple[Any, ...] = (
 class Room(NamedTuple):
     url: str
     viewer: Viewer
-    shop: Shop
+    harness: EditorHarness
 
 
 @pytest.fixture
@@ -47,17 +47,19 @@ def room(monkeypatch: pytest.MonkeyPatch) -> Iterator[Room]:
     monkeypatch.setattr(
         proxy, "MAX_MESSAGES_PER_S", 1e9
     )  # these tests are not to take as long as a page would
-    shop = Shop(record=True)
-    shop.runner.pause()
-    shop.runner.start()
-    viewer = Viewer(shop.runner, editor=shop.editor)
+    harness = EditorHarness(record=True)
+    harness.runner.pause()
+    harness.runner.start()
+    viewer = Viewer(harness.runner, editor=harness.editor)
     lock_viser_port(viewer.server)
     try:
-        with ServerThread(room_app(shop.runner, viser_port=viewer.port, title="A room")) as server:
-            yield Room(server.url, viewer, shop)
+        with ServerThread(
+            room_app(harness.runner, viser_port=viewer.port, title="A room")
+        ) as server:
+            yield Room(server.url, viewer, harness)
     finally:
         viewer.stop()
-        shop.runner.stop()
+        harness.runner.stop()
 
 
 @pytest.fixture(params=["the proxy and the viewer", "the viewer alone"])
@@ -149,7 +151,7 @@ def unharmed(caplog: pytest.LogCaptureFixture, capfd: pytest.CaptureFixture[str]
 
 def in_order(room: Room, other: Page) -> None:
     """All that a page can do for everybody works from another one, and it shows."""
-    controls, runner = part_of(room.viewer, Controls), room.shop.runner
+    controls, runner = part_of(room.viewer, Controls), room.harness.runner
     seen(room.viewer, lambda: "Resume" in controls.time_buttons.options)
     other.change(controls.time_buttons, "Resume")
     until(lambda: not runner.latest.paused)

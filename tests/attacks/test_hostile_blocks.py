@@ -9,7 +9,7 @@ import pytest
 from ai4u_edu.agent.block_errors import message_of
 from ai4u_edu.base.errors import AI4UError
 from ai4u_edu.recording import Recorder, RecordingError, Replay
-from ai4u_edu.runtime import stall_monitor
+from ai4u_edu.runtime import tick_monitor
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.server.exports import Exports
 from tests.attacks.hostile import HOOKS, MISDEEDS, Misdeed, divide, exit_process, hostile_sim
@@ -64,7 +64,7 @@ def test_a_misdeed_is_told_and_a_reset_mends_it(
 def test_a_block_that_does_not_return_is_named_until_it_does(
     runner: Runner, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(stall_monitor, "STALL_S", 0.1)
+    monkeypatch.setattr(tick_monitor, "STALL_S", 0.1)
     until(lambda: runner.latest.tick > 1)
     release = threading.Event()
     Misdeed.misdeed, Misdeed.is_armed = staticmethod(lambda: wait_for(release)), True

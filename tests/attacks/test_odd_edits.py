@@ -22,7 +22,7 @@ from ai4u_edu.editing.settings import agent_form, scene_form
 from ai4u_edu.editing.suggestion import suggest_block
 from ai4u_edu.scenes.serialization import is_serializable
 from ai4u_edu.world import BodyDescription
-from tests.editing.shops import TEXT, Shop
+from tests.editing.harness import TEXT, EditorHarness
 
 NESTED: list[Any] = []
 NESTED.append(NESTED)
@@ -50,7 +50,7 @@ NOT_NUMBERS = [True, "5", "", [], [1], {}, object(), b"1", math.nan, math.inf, -
 MAX_SENTENCE_CHARS = 2000
 
 
-class Attacked(Shop):
+class Attacked(EditorHarness):
     """A editor, and what it keeps."""
 
     def __init__(self) -> None:
@@ -88,13 +88,13 @@ class Attacked(Shop):
 
 
 @pytest.fixture
-def shop() -> Iterator[Attacked]:
-    shop = Attacked()
-    shop.tick(5)
-    text = shop.editor.text()
-    yield shop
-    shop.go_on("at the end")
-    assert shop.editor.text() == text
+def harness() -> Iterator[Attacked]:
+    harness = Attacked()
+    harness.tick(5)
+    text = harness.editor.text()
+    yield harness
+    harness.go_on("at the end")
+    assert harness.editor.text() == text
 
 
 KINDS: dict[str, type[Block]] = {
@@ -112,20 +112,20 @@ BLOCKS = [
 
 
 @pytest.mark.parametrize(("kind", "name"), BLOCKS)
-def test_every_field_of_every_block(shop: Attacked, kind: str, name: str) -> None:
-    block = dict(suggest_block(shop.editor.state, "0", name)) | {"enabled": False}
+def test_every_field_of_every_block(harness: Attacked, kind: str, name: str) -> None:
+    block = dict(suggest_block(harness.editor.state, "0", name)) | {"enabled": False}
     if kind != "brains":
         del block["enabled"]
-    fields = block_form(block, SceneNames(shop.editor.state, "0"))
-    as_suggested = shop.attempt(lambda: shop.editor.add_block("0", kind, block), name)
+    fields = block_form(block, SceneNames(harness.editor.state, "0"))
+    as_suggested = harness.attempt(lambda: harness.editor.add_block("0", kind, block), name)
     is_first = name in {"BearingSensor", "ForceMoveActuator", "TouchRewardFunc"}
     for index, field in enumerate(fields):
         if field.is_common and not is_first and kind != "brains":
             continue
         for value in ODD if is_first else ODD[index % 2 :: 2]:
             given = {**block, field.name: value}
-            shop.attempt(
-                lambda given=given: shop.editor.add_block("0", kind, given),  # type: ignore[misc]
+            harness.attempt(
+                lambda given=given: harness.editor.add_block("0", kind, given),  # type: ignore[misc]
                 f"{name}.{field.name} = {str(value)[:40]}",
             )
     assert as_suggested or name in UNFIT, "all was refused for another reason"
@@ -141,68 +141,68 @@ CONTROLLERS = [
 
 
 @pytest.mark.parametrize("name", CONTROLLERS)
-def test_every_field_of_every_controller(shop: Attacked, name: str) -> None:
-    block = suggest_block(shop.editor.state, "0", name)
-    for index, field in enumerate(block_form(block, SceneNames(shop.editor.state, "0"))):
+def test_every_field_of_every_controller(harness: Attacked, name: str) -> None:
+    block = suggest_block(harness.editor.state, "0", name)
+    for index, field in enumerate(block_form(block, SceneNames(harness.editor.state, "0"))):
         for value in ODD[index % 2 :: 2]:
             controller = {**block, field.name: value}
             brain = {"type": "LocalBrain", "enabled": False, "controller": controller}
-            shop.attempt(
-                lambda brain=brain: shop.editor.add_block("0", "brains", brain),  # type: ignore[misc]
+            harness.attempt(
+                lambda brain=brain: harness.editor.add_block("0", "brains", brain),  # type: ignore[misc]
                 f"{name}.{field.name} = {str(value)[:40]}",
             )
 
 
-def test_every_field_of_a_block_that_is_there(shop: Attacked) -> None:
-    agent = shop.editor.state.agent("0")
+def test_every_field_of_a_block_that_is_there(harness: Attacked) -> None:
+    agent = harness.editor.state.agent("0")
     paths = [("sensors", 0), ("actuators", 0), ("rewards", 0), ("brains", 0, "controller")]
     for path in paths:
         block: Any = agent
         for part in path:
             block = block[part]
-        for field in block_form(block, SceneNames(shop.editor.state, "0")):
+        for field in block_form(block, SceneNames(harness.editor.state, "0")):
             if field.name == "action_name":
                 continue  # under another name the brain that drives does not find it
             for value in ODD:
-                shop.attempt(
-                    lambda p=path, f=field.name, v=value: shop.editor.change_block(  # type: ignore[misc]
+                harness.attempt(
+                    lambda p=path, f=field.name, v=value: harness.editor.change_block(  # type: ignore[misc]
                         "0", p, {f: v}
                     ),
                     f"{path} {field.name} = {str(value)[:40]}",
                 )
 
 
-def test_every_setting_of_agent_and_scene(shop: Attacked) -> None:
-    editor = shop.editor
+def test_every_setting_of_agent_and_scene(harness: Attacked) -> None:
+    editor = harness.editor
     for field in agent_form(editor.state.agent("0")):
         for value in ODD:
             given = {field.name: value}
             what = f"{field.name} = {str(value)[:40]}"
-            shop.attempt(lambda given=given: editor.change_agent("0", given), what)  # type: ignore[misc]
+            harness.attempt(lambda given=given: editor.change_agent("0", given), what)  # type: ignore[misc]
     for field in scene_form(editor.state.description):
         for value in ODD:
             given = {field.name: value}
             what = f"{field.name} = {str(value)[:40]}"
-            shop.attempt(lambda given=given: editor.change_settings(given), what)  # type: ignore[misc]
-    assert shop.attempt(lambda: editor.change_agent("0", {"reward_scale": 2}), "2")
-    assert shop.attempt(lambda: editor.change_settings({"gravity": 2}), "2")
+            harness.attempt(lambda given=given: editor.change_settings(given), what)  # type: ignore[misc]
+    assert harness.attempt(lambda: editor.change_agent("0", {"reward_scale": 2}), "2")
+    assert harness.attempt(lambda: editor.change_settings({"gravity": 2}), "2")
 
 
 @pytest.mark.parametrize("field", BodyDescription.model_fields)
-def test_every_field_of_a_body(shop: Attacked, field: str) -> None:
-    editor = shop.editor
+def test_every_field_of_a_body(harness: Attacked, field: str) -> None:
+    editor = harness.editor
     for value in ODD:
         what = f"{field} = {str(value)[:40]}"
         for name in ("box", "robot"):
-            shop.attempt(lambda n=name, v=value: editor.change_body(n, {field: v}), what)  # type: ignore[misc]
+            harness.attempt(lambda n=name, v=value: editor.change_body(n, {field: v}), what)  # type: ignore[misc]
         body = {"name": "new", "position": [0, 4], field: value}
-        shop.attempt(lambda body=body: editor.add_body(body), what)  # type: ignore[misc]
-    assert shop.attempt(lambda: editor.change_body("box", {"mass": 2.0, "z": None}), "mass")
-    assert shop.attempt(lambda: editor.add_body({"name": "new", "position": [0, 4]}), "new")
+        harness.attempt(lambda body=body: editor.add_body(body), what)  # type: ignore[misc]
+    assert harness.attempt(lambda: editor.change_body("box", {"mass": 2.0, "z": None}), "mass")
+    assert harness.attempt(lambda: editor.add_body({"name": "new", "position": [0, 4]}), "new")
 
 
-def test_every_method_with_what_is_no_number(shop: Attacked) -> None:
-    editor = shop.editor
+def test_every_method_with_what_is_no_number(harness: Attacked) -> None:
+    editor = harness.editor
     for odd in NOT_NUMBERS:
         what = str(odd)[:40]
         calls: list[Callable[[Any], Future[Any]]] = [
@@ -216,11 +216,11 @@ def test_every_method_with_what_is_no_number(shop: Attacked) -> None:
             lambda v: editor.add_block("0", "sensors", {"type": "HeadingSensor"}, v),
         ]
         for call in calls:
-            assert not shop.attempt(lambda call=call, v=odd: call(v), what)  # type: ignore[misc]
+            assert not harness.attempt(lambda call=call, v=odd: call(v), what)  # type: ignore[misc]
 
 
-def test_every_method_with_anything(shop: Attacked) -> None:
-    editor = shop.editor
+def test_every_method_with_anything(harness: Attacked) -> None:
+    editor = harness.editor
     for odd in [*ODD, *NOT_NUMBERS, ("sensors", 9), ("sensors",), ("x", 0), -1, 5, "box"]:
         what = str(odd)[:40]
         calls: list[Callable[[Any], Future[Any]]] = [
@@ -251,4 +251,4 @@ def test_every_method_with_anything(shop: Attacked) -> None:
             lambda v: editor.load(v),
         ]
         for number, call in enumerate(calls):
-            shop.attempt(lambda call=call, v=odd: call(v), f"{number}: {what}")  # type: ignore[misc]
+            harness.attempt(lambda call=call, v=odd: call(v), f"{number}: {what}")  # type: ignore[misc]

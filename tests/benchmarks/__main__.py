@@ -1,9 +1,9 @@
-"""What a step costs, next to the same world written by hand: ``python -m tests.benchmarks``.
+"""Cost of a step beside the same world written by hand: ``python -m tests.benchmarks``.
 
-All contenders drive the same course through the same worlds, each in turns with ours; what counts
-is the median of the rounds' ratios. Those with many worlds come one by one, for nobody has several
-of them in one process. It prints the table as Markdown; with ``--peers`` it has other environments
-from the package index in it, which are fetched first and get a limited time each.
+All contenders drive the same course through the same worlds, each in turn with ours; the result is
+the median of the rounds' ratios. Those with many worlds are measured one by one, since a program
+has only one of them. The table is printed as Markdown; ``--peers`` adds other environments from the
+package index, which are installed first and get a time limit each.
 """
 
 import argparse
@@ -34,12 +34,12 @@ OURS = "`SceneEnv.step`"
 
 
 def make() -> SceneEnv:
-    """One world of ours."""
+    """Return an environment of the yardstick."""
     return SceneEnv("yardstick", observation="flat")
 
 
 def main() -> None:
-    """Measures and prints."""
+    """Run the benchmark and print its table."""
     parser = argparse.ArgumentParser(prog="python -m tests.benchmarks", description=__doc__)
     parser.add_argument("--rounds", type=int, default=30)
     parser.add_argument("--worlds", type=int, default=64)
@@ -103,7 +103,7 @@ def main() -> None:
 
 
 def vectors(count: int) -> dict[str, Callable[[], object]]:
-    """Many worlds in one process, ours and those that come with the libraries."""
+    """Return vector environments in one process by name, ours and those of the libraries."""
     return {
         "`SceneVectorEnv`": lambda: SceneVectorEnv(count, "yardstick", observation="flat"),
         "Gymnasium's `SyncVectorEnv`": lambda: gymnasium.vector.SyncVectorEnv([make] * count),
@@ -113,7 +113,7 @@ def vectors(count: int) -> dict[str, Callable[[], object]]:
 
 
 def show(timings: dict[str, Timing]) -> None:
-    """Prints the table."""
+    """Print the table."""
     loop = "compiled" if segments.compiled_cast() else "cffi: nothing compiled here"
     print(f"{platform.machine()}, Python {platform.python_version()}; our loop over rays: {loop}\n")
     print("| one decision | microseconds | a second | fastest round | ours is |")

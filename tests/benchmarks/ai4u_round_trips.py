@@ -1,11 +1,10 @@
 """Round trips a second with AI4U's package: ``python -m tests.benchmarks.ai4u_round_trips``.
 
 The unmodified package drives an agent, as ``play`` runs it at full speed: in box_chase, and in an
-empty world, where nothing is sensed and the observation is one that box_chase's agent had: to read
-it is most of the script's work, and takes longer for more readings and longer numbers. Then it
-talks to a bare responder that has no world and says the same bytes again and again. All ask again
-at once when the script wants more time. They take turns, since machines are never equally busy for
-long; on one that is, put ``chrt -r 5`` in front (as root).
+empty world with a constant observation of box_chase's agent (most of the script's work is parsing
+it, which depends on the number and length of its values). Then it talks to a bare responder, which
+has no world and repeats the same bytes. They take turns, since the load of a machine changes; on a
+busy one, put ``chrt -r 5`` in front (as root).
 """
 
 import argparse
@@ -40,7 +39,7 @@ from tests.remote.test_ai4u_package import free_port, run_script
 
 
 def main() -> None:
-    """Measures and prints."""
+    """Run the benchmark and print its table."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--steps", type=int, default=3000)
     parser.add_argument("--turns", type=int, default=5)
@@ -65,23 +64,23 @@ class Constant(Sensor):
         self.reading: npt.NDArray[np.float32] = np.zeros(1, np.float32)
 
     def space(self) -> Box:
-        """Anything of that shape."""
+        """Return a space of the reading's shape."""
         return Box(-np.inf, np.inf, self.reading.shape)
 
     def read(self, body: BodyView, view: WorldView) -> npt.NDArray[np.float32]:
-        """The same as ever."""
+        """Return the constant reading."""
         return self.reading
 
 
 def constant(key: str, reading: npt.NDArray[np.float32]) -> Constant:
-    """A sensor with that reading."""
+    """Return a sensor with a constant reading."""
     sensor = Constant(perception_key=key)
     sensor.reading = reading
     return sensor
 
 
 def empty_world() -> ControlRequestor:
-    """A robot that nothing surrounds, with the observation of box_chase's."""
+    """Return a robot in an empty world, with a constant observation of box_chase."""
     model = Scene.load("box_chase").build()
     model.reset(1)
     percept = model.step()
@@ -97,7 +96,7 @@ def empty_world() -> ControlRequestor:
 
 
 def with_a_world(sim: ControlRequestor, steps: int) -> float:
-    """Round trips a second with a world."""
+    """Return round trips a second with a world."""
     port = free_port()
     sim.agents[0].use_brain(RemoteBrain(port=port))
     runner = Runner(sim, seed=1, time_scale=math.inf)
@@ -109,7 +108,7 @@ def with_a_world(sim: ControlRequestor, steps: int) -> float:
 
 
 def without_a_world(steps: int) -> float:
-    """Round trips a second with constant content."""
+    """Return round trips a second with the bare responder."""
     port = free_port()
     ended = threading.Event()
     responder = threading.Thread(target=respond, args=(port, ended))
@@ -121,7 +120,7 @@ def without_a_world(steps: int) -> float:
 
 
 def respond(port: int, ended: threading.Event) -> None:
-    """The world's side of the protocol, and nothing behind it."""
+    """Run the world's side of the protocol, without a world."""
     sim = Scene.load("box_chase").build()
     sim.reset(1)
     agent = sim.agents[0]

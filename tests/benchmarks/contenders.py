@@ -1,4 +1,4 @@
-"""What takes part in the benchmark: each gets itself ready for a round, which is not timed."""
+"""Contenders of the benchmark; preparing one for a round is not timed."""
 
 from collections.abc import Callable
 from typing import Any
@@ -12,22 +12,22 @@ from tests.benchmarks.floors import PublicFloor
 from tests.benchmarks.interleaved import Work
 
 STEPS, SEED = 250, 5
-BEFORE, FEW = 12, 8
-"""Decisions a world where there are many worlds, not timed and timed: in the first ones the physics
-gets its memory, and two of 64 episodes end; during the others none does, for a reset is no step."""
+WARM_UP_STEPS, TIMED_STEPS = 12, 8
+"""Decisions in each of many worlds. In the first ones the physics allocates its memory, and two of
+64 episodes end; during the timed ones no episode ends, since a reset is no step."""
 
 Contender = Callable[[], tuple[Work, int]]
 
 
 def one_world(make: Callable[[], Any]) -> Contender:
-    """Something with a ``step``, ready at the beginning of the episode."""
+    """Return a contender that makes an object with a ``step`` for each round."""
 
     def prepare() -> tuple[Work, int]:
         step, actions = make().step, list(course(STEPS, SEED))
 
         def work() -> None:
             ends = [any(step(action)[2:4]) for action in actions]
-            assert not any(ends), "a step after the end is no step"
+            assert not any(ends), "the episode must not end while it is timed"
 
         return work, STEPS
 
@@ -35,8 +35,8 @@ def one_world(make: Callable[[], Any]) -> Contender:
 
 
 def many_worlds(env: Any, count: int) -> Contender:
-    """A vector environment, every world driven along the same course."""
-    actions = np.repeat(course(BEFORE + FEW, SEED)[:, None], count, axis=1)
+    """Return a contender with a vector environment, all of whose worlds drive the same course."""
+    actions = np.repeat(course(WARM_UP_STEPS + TIMED_STEPS, SEED)[:, None], count, axis=1)
 
     def prepare() -> tuple[Work, int]:
         if isinstance(env, VecEnv):
@@ -44,21 +44,21 @@ def many_worlds(env: Any, count: int) -> Contender:
             env.reset()
         else:
             env.reset(seed=[SEED + index for index in range(count)])
-        for each in actions[:BEFORE]:
+        for each in actions[:WARM_UP_STEPS]:
             env.step(each)
 
         def work() -> None:
-            for each in actions[BEFORE:]:
+            for each in actions[WARM_UP_STEPS:]:
                 env.step(each)
 
-        return work, FEW * count
+        return work, TIMED_STEPS * count
 
     return prepare
 
 
 def many_floors(kind: type[PublicFloor], env: SceneEnv, count: int) -> Contender:
-    """The same worlds by hand, one after another: what many worlds cost where nothing else does."""
-    actions = list(course(BEFORE + FEW, SEED))
+    """Return a contender with many hand-written worlds, stepped in turn."""
+    actions = list(course(WARM_UP_STEPS + TIMED_STEPS, SEED))
 
     def one(seed: int) -> Callable[[Any], Any]:
         env.reset(seed=seed)
@@ -66,22 +66,22 @@ def many_floors(kind: type[PublicFloor], env: SceneEnv, count: int) -> Contender
 
     def prepare() -> tuple[Work, int]:
         steps = [one(SEED + index) for index in range(count)]
-        for action in actions[:BEFORE]:
+        for action in actions[:WARM_UP_STEPS]:
             for step in steps:
                 step(action)
 
         def work() -> None:
-            for action in actions[BEFORE:]:
+            for action in actions[WARM_UP_STEPS:]:
                 for step in steps:
                     step(action)
 
-        return work, FEW * count
+        return work, TIMED_STEPS * count
 
     return prepare
 
 
 def resets(env: SceneEnv, clock: Callable[[], float], rounds: int) -> float:
-    """Microseconds that a reset takes: for each of some seeds the fastest round, on average."""
+    """Return the microseconds of a reset: the fastest round of each seed, averaged."""
 
     def once(seed: int) -> float:
         began = clock()

@@ -1,8 +1,8 @@
-"""The yardstick's world written by hand, with no abstraction at all: what a step costs at least.
+"""The yardstick's world written by hand, without any abstraction: a lower bound of a step's cost.
 
-Four forms of one loop: with pymunk's public interface alone; with the rays cast through its cffi
-layer into memory that is there already; with everything that has to be done each tick through that
-layer, which is as far as Python goes without a compiler; and that with the loop over the rays in C.
+Four forms of one loop: with pymunk's public API alone; with the rays cast through its cffi layer
+into preallocated memory; with everything at each tick through that layer, which is the limit of
+Python without a compiler; and that with the loop over the rays in C.
 """
 
 import ctypes
@@ -30,10 +30,10 @@ Step = tuple[npt.NDArray[np.float32], float, bool, bool, dict[str, Any]]
 
 
 class PublicFloor:
-    """Written against pymunk's public interface.
+    """A loop over pymunk's public API.
 
     Args:
-        sim: the yardstick as an episode begins; its bodies are put in the same places.
+        sim: the yardstick at an episode's beginning; its bodies are copied.
     """
 
     def __init__(self, sim: ControlRequestor) -> None:
@@ -68,7 +68,7 @@ class PublicFloor:
         self.steps, self.distance = 0, math.nan
 
     def step(self, action: Any) -> Step:
-        """One decision: four ticks, then the observation and the reward."""
+        """Run one decision: four ticks, then the observation and the reward."""
         forward, turn = action.tolist()
         forward, turn = max(-1.0, min(1.0, forward)), max(-1.0, min(1.0, turn))
         robot, space = self.robot, self.space
@@ -84,7 +84,7 @@ class PublicFloor:
         return observation, reward, self.touched, self.steps >= LIMIT, {}
 
     def observe(self) -> npt.NDArray[np.float32]:
-        """Rays, bearing, distance."""
+        """Return the observation: rays, bearing, distance."""
         x, y = self.robot.position
         angle = self.robot.angle
         observation = np.zeros(RAYS + 3, np.float32)
@@ -93,7 +93,7 @@ class PublicFloor:
         return observation
 
     def cast(self, x: float, y: float, angle: float, out: npt.NDArray[np.float32]) -> None:
-        """The share of its reach at which each ray meets something; 0 where it meets nothing."""
+        """Write the fraction of its reach at which each ray hits; 0 without a hit."""
         turned = self.angles + angle
         xs, ys = (x + REACH * np.cos(turned)).tolist(), (y + REACH * np.sin(turned)).tolist()
         query, others, start = self.space.segment_query_first, self.others, (x, y)
@@ -103,18 +103,18 @@ class PublicFloor:
                 out[i] = hit.alpha
 
     def orient(self, x: float, y: float, angle: float, out: npt.NDArray[np.float32]) -> None:
-        """Where the target is."""
+        """Write bearing and distance of the target."""
         dx, dy = self.goal[0] - x, self.goal[1] - y
         bearing = math.atan2(dy, dx) - angle
         self.before, self.distance = self.distance, math.hypot(dx, dy)
-        out[RAYS:] = math.sin(bearing), math.cos(bearing), self.distance / FAR
+        out[RAYS:] = math.sin(bearing), math.cos(bearing), self.distance / DIAGONAL_M
 
     def _touch(self, *_: Any) -> None:
         self.touched = True
 
 
-FAR = math.hypot(10.4, 10.4)
-"""The longest way across the arena, walls included: what a distance is divided by."""
+DIAGONAL_M = math.hypot(10.4, 10.4)
+"""Diagonal of the arena with its walls (metres): distances are divided by it."""
 
 HIT = np.dtype(
     [("shape", "u8"), ("px", "f8"), ("py", "f8"), ("nx", "f8"), ("ny", "f8"), ("alpha", "f8")]
@@ -138,7 +138,7 @@ class CffiFloor(PublicFloor):
         self.turned = np.zeros(RAYS)
 
     def cast(self, x: float, y: float, angle: float, out: npt.NDArray[np.float32]) -> None:
-        """The share of its reach at which each ray meets something; 0 where it meets nothing."""
+        """Write the fraction of its reach at which each ray hits; 0 without a hit."""
         ends, turned = self.ends, self.turned
         np.add(self.angles, angle, out=turned)
         np.cos(turned, out=ends[:, 0])
@@ -150,7 +150,7 @@ class CffiFloor(PublicFloor):
         out[out == 1.0] = 0.0
 
     def query(self, space: Any, x: float, y: float) -> None:
-        """Casts all rays."""
+        """Cast all rays."""
         start, chosen, first = self.start, self.chosen, lib.cpSpaceSegmentQueryFirst
         start.x, start.y = x, y
         for end, hit in self.rays:
@@ -162,11 +162,11 @@ class BareFloor(CffiFloor):
 
     def __init__(self, sim: ControlRequestor) -> None:
         super().__init__(sim)
-        self.space.step(1e-9)  # pymunk's own checks of what was added
+        self.space.step(1e-9)  # lets pymunk check the objects that were added
         self.push, self.nowhere = ffi.new("cpVect *")[0], ffi.new("cpVect *")[0]
 
     def step(self, action: Any) -> Step:
-        """One decision: four ticks, then the observation and the reward."""
+        """Run one decision: four ticks, then the observation and the reward."""
         forward, turn = action.tolist()
         forward, turn = max(-1.0, min(1.0, forward)), max(-1.0, min(1.0, turn))
         robot, space, push, nowhere = self.robot._body, self.space._space, self.push, self.nowhere
@@ -185,7 +185,7 @@ class BareFloor(CffiFloor):
         return observation, reward, self.touched, self.steps >= LIMIT, {}
 
     def observe(self) -> npt.NDArray[np.float32]:
-        """Rays, bearing, distance."""
+        """Return the observation: rays, bearing, distance."""
         place, angle = lib.cpBodyGetPosition(self.robot._body), lib.cpBodyGetAngle(self.robot._body)
         x, y = place.x, place.y
         observation = np.empty(RAYS + 3, np.float32)
@@ -203,14 +203,14 @@ class CompiledFloor(BareFloor):
         self.first = ffi.addressof(lib, "cpSpaceSegmentQueryFirst")
 
     def query(self, space: Any, x: float, y: float) -> None:
-        """Casts all rays."""
+        """Cast all rays."""
         ends, hits = self.kept
         self.cast_all(self.first, space, x, y, ends, self.filter, hits, RAYS)
 
 
 @cache
 def compiled() -> Any:
-    """The loop of floor.c, to be called through cffi; None where there is no compiler."""
+    """Return the loop of floor.c as a cffi function; None where there is no compiler."""
     compiler = shutil.which("cc")
     if compiler is None:
         return None

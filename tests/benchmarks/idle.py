@@ -1,8 +1,8 @@
-"""What costs nothing where it is not used: ``python -m tests.benchmarks.idle``.
+"""Cost of features that are not used: ``python -m tests.benchmarks.idle``.
 
-The yardstick as it is, next to one with more in it that nobody uses (blocks that are switched off,
-a recorder that is), and to one whose code doesn't even look whether somebody listens to an event or
-is in the air. Ratios as in ``tests.benchmarks``.
+The yardstick as it is, beside one with unused parts (blocks and a recorder that are switched off),
+and beside one whose code does not even test whether an event has handlers or a body is in the air.
+Ratios as in ``tests.benchmarks``.
 """
 
 import argparse
@@ -22,7 +22,7 @@ from tests.benchmarks.interleaved import race
 
 
 def changed(**more: Any) -> SceneEnv:
-    """The yardstick with more blocks on its agent."""
+    """Return the yardstick with more blocks on its agent."""
     plain = Scene.load("yardstick").plain()
     agent = plain["agents"][0]
     for kind, blocks in more.items():
@@ -31,43 +31,43 @@ def changed(**more: Any) -> SceneEnv:
     return SceneEnv(scene, observation="flat")
 
 
-def without(env: SceneEnv, looked_at: str) -> SceneEnv:
-    """The same with each ``if`` left out of the decision cycle that looks at an attribute.
+def without(env: SceneEnv, attribute: str) -> SceneEnv:
+    """Remove each ``if`` that tests an attribute from the environment's decision cycle.
 
-    With a name that nothing has, all stays; so what the detour itself costs is seen, too.
+    With a name that nothing has, nothing is removed; that shows the cost of the method itself.
     """
     agent, world = env.agent, env.sim.world
     for owner, names in ((agent, ("begin_step", "sense", "end_step")), (world, ("tick",))):
         for name in names:
             method = getattr(type(owner), name)
             tree = ast.parse(textwrap.dedent(inspect.getsource(method)))
-            tree = _Blind(looked_at).visit(tree)
+            tree = _WithoutTests(attribute).visit(tree)
             found: dict[str, Any] = {}
             exec(compile(tree, "<without>", "exec"), method.__globals__, found)  # noqa: S102
             setattr(owner, name, MethodType(found[name], owner))
     return env
 
 
-class _Blind(ast.NodeTransformer):
-    def __init__(self, looked_at: str) -> None:
-        self._looked_at = looked_at
+class _WithoutTests(ast.NodeTransformer):
+    def __init__(self, attribute: str) -> None:
+        self._attribute = attribute
 
     def visit_If(self, node: ast.If) -> ast.If | None:
         attributes = (each for each in ast.walk(node.test) if isinstance(each, ast.Attribute))
-        return None if any(each.attr == self._looked_at for each in attributes) else node
+        return None if any(each.attr == self._attribute for each in attributes) else node
 
 
 def recorded(on: bool) -> SceneEnv:
-    """The yardstick with a recorder that was switched on once."""
+    """Return the yardstick with a recorder that was switched on once."""
     env = changed()
     recorder = Recorder(env.sim, keep=1)
-    recorder.switch(True)
-    recorder.switch(on)
+    recorder.set_enabled(True)
+    recorder.set_enabled(on)
     return env
 
 
 def contender(env: SceneEnv) -> Contender:
-    """An environment, ready at the beginning of the episode."""
+    """Return a contender with an environment that is reset before each round."""
 
     def ready() -> SceneEnv:
         env.reset(seed=SEED)
@@ -77,7 +77,7 @@ def contender(env: SceneEnv) -> Contender:
 
 
 def main() -> None:
-    """Measures and prints."""
+    """Run the benchmark and print its table."""
     parser = argparse.ArgumentParser(prog="python -m tests.benchmarks.idle", description=__doc__)
     parser.add_argument("--rounds", type=int, default=60)
     options = parser.parse_args()
@@ -90,14 +90,14 @@ def main() -> None:
         {
             "as it is": contender(without(changed(), "nothing")),
             "the same once more": contender(without(changed(), "nothing")),
-            "no look whether somebody listens": contender(without(changed(), "handlers")),
-            "no look whether somebody is in the air": contender(without(changed(), "movers")),
+            "no test for handlers": contender(without(changed(), "handlers")),
+            "no test for bodies in the air": contender(without(changed(), "movers")),
             "a recorder that is off": contender(recorded(False)),
             "a sensor that is off": contender(changed(sensors=[rays | off])),
             "a reward that is off": contender(
                 changed(rewards=[{"type": "MinDistReward", "target": "target"} | off])
             ),
-            "for comparison: four events with a listener": contender(heard),
+            "for comparison: four events with a handler": contender(heard),
             "for comparison: a recorder that is on": contender(recorded(True)),
         },
         "as it is",

@@ -1,4 +1,4 @@
-"""Times several things in turns, so that a machine that is busy now and then slows all of them."""
+"""Timing of several contenders in turn, so that other load on the machine slows all of them."""
 
 import statistics
 import time
@@ -9,14 +9,14 @@ Work = Callable[[], None]
 
 
 class Timing(NamedTuple):
-    """What one contender took."""
+    """Times of one contender."""
 
     microseconds: float
-    """For one unit of work, the median over the rounds."""
+    """Microseconds for one unit of work, median over the rounds."""
     fastest: float
-    """The same in the fastest round: where others use the machine, the median tells of them too."""
+    """The same in the fastest round, which other load on the machine changes least."""
     speed: float
-    """How many times as fast as the one it is compared with, the median of the rounds' ratios."""
+    """Speed relative to the reference contender, median of the rounds' ratios."""
 
 
 def race(
@@ -25,15 +25,15 @@ def race(
     rounds: int,
     clock: Callable[[], float] = time.perf_counter,
 ) -> dict[str, Timing]:
-    """Lets each do its work once a round.
+    """Run each contender once a round and return the times by name.
 
     Args:
-        contenders: by name, what gets one ready for a round: its work, and how many units that is.
-            Getting ready is not timed.
-        against: the one that all others are compared with.
-        rounds: how many; one more comes before them, which is not counted.
-        clock: gives seconds; ``time.process_time`` leaves out what other processes take, and also
-            what a contender has other processes do.
+        contenders: functions by name that prepare a round, which is not timed, and return its work
+            and the units of work in it.
+        against: name of the reference contender.
+        rounds: number of rounds, after a first one that is not counted.
+        clock: function that returns seconds; ``time.process_time`` leaves out other processes,
+            also those that a contender uses.
     """
     took: dict[str, list[float]] = {name: [] for name in contenders}
     for _ in range(rounds + 1):

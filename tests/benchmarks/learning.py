@@ -1,12 +1,12 @@
-"""How fast, and how well, agents learn: ``python -m tests.benchmarks.learning``.
+"""Speed and success of learning: ``python -m tests.benchmarks.learning``.
 
-Learns each scene with each algorithm from five seeds, one training after another, as
+It learns each scene with each algorithm from five seeds, one training after another, as
 ``ai4u-edu train`` does; evaluates each on 100 seeds that no training uses, in the scene's own
 limits; prints a table for the README, and draws the curves into
 ``tests/pictures/learning.png``. Arguments: ``--seeds N``, ``--algo ...``, scenes.
 
 Seconds are those of the whole training, checks included, without the second or two in which torch
-is loaded. CPU seconds tell what it would take on a machine that does nothing else.
+is loaded. CPU seconds show the time on a machine without other load.
 """
 
 import argparse
@@ -30,7 +30,7 @@ PICTURE = Path(__file__).parents[1] / "pictures" / "learning.png"
 
 
 class Result(NamedTuple):
-    """What came of one training."""
+    """Result of one training."""
 
     success: float
     steps: int
@@ -40,7 +40,7 @@ class Result(NamedTuple):
 
 
 def learn(scene: str, algorithm: Algorithm, seed: int, folder: Path) -> Result:
-    """One training and its evaluation."""
+    """Train once and evaluate the policy."""
     loaded = Scene.load(scene)
     began, worked = time.perf_counter(), time.process_time()
     done = train(loaded, algorithm, settings_for(scene), folder, seed=seed, quiet=True)
@@ -50,13 +50,13 @@ def learn(scene: str, algorithm: Algorithm, seed: int, folder: Path) -> Result:
 
 
 def between(numbers: list[float], form: str = ".0f") -> str:
-    """The smallest and the largest."""
+    """Return the smallest and the largest number as text."""
     low, high = (format(each, form) for each in (min(numbers), max(numbers)))
     return low if low == high else f"{low} to {high}"
 
 
 def main() -> None:
-    """Runs all and prints the table."""
+    """Run all trainings and print the table."""
     parser = argparse.ArgumentParser()
     parser.add_argument("scenes", nargs="*", default=list(SCENES))
     parser.add_argument("--seeds", type=int, default=5)

@@ -1,8 +1,7 @@
 """The cost of hundreds of walls on one spot: ``python -m tests.benchmarks.many_walls``.
 
-Walls may overlap. What is in a new wall's way is looked for among the bodies that can move; before,
-the physics answered with all walls, of which there were more each time. Both ways are timed in one
-run, in turn, and have to find the same.
+Walls may overlap. An overlap with a new wall is searched among the bodies that can move; a query of
+the space would return all other walls, too. Both ways are timed in turn, in one run.
 """
 
 import time
@@ -18,7 +17,7 @@ TIMES = 3
 
 
 def query(space_world: Any, body: Any) -> Any:
-    """The former way: whatever the physics finds."""
+    """Search an overlap by a query of the space."""
     for shape in body._shapes:
         for hit in space_world.space.shape_query(shape):
             other = space_world.owners.get(hit.shape)
@@ -32,7 +31,7 @@ def query(space_world: Any, body: Any) -> Any:
 
 
 def walls(count: int = WALLS) -> str:
-    """A scene with so many bodies, nearly all of them walls on one spot."""
+    """Return the text of a scene with so many bodies, nearly all of them walls in one place."""
     plain = Scene.load("box_chase").plain()
     plain["bodies"] = list(plain["bodies"])
     while len(plain["bodies"]) < count:
@@ -42,7 +41,7 @@ def walls(count: int = WALLS) -> str:
 
 
 def timed(text: str, way: Callable[[Any, Any], Any]) -> float:
-    """Seconds of processor time to load the scene, run 40 ticks, and dump it."""
+    """Return the processor time (s) to load a scene, run 40 ticks, and dump it."""
     before = vars(construction)["find_overlap"]
     vars(construction)["find_overlap"] = way
     try:
@@ -59,7 +58,7 @@ def timed(text: str, way: Callable[[Any, Any], Any]) -> float:
 
 
 def main() -> None:
-    """Prints the least of some times, for both ways."""
+    """Print the fastest run of both ways."""
     text = walls()
     both = [(timed(text, query), timed(text, overlap.find_overlap)) for _ in range(TIMES)]
     asked, now = (min(times) for times in zip(*both, strict=True))

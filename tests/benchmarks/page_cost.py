@@ -1,11 +1,10 @@
-"""What a page costs: ``python -m tests.benchmarks.page_cost``.
+"""Cost of a page: ``python -m tests.benchmarks.page_cost``.
 
-Thirty bodies, eight agents with 64 rays each, 60 ticks a second; the world and its viewer have a
-process of their own, and so many pages look on: bare clients of viser's socket, each at the agent
-that comes first, that read every frame and open none. The table has the frames in which bodies
-moved and the bytes that each page got a second, the processor time of the serving process, and how
-much of that went into drawing a picture for all pages (which other load on the machine changes
-least).
+Thirty bodies, eight agents with 64 rays each, 60 ticks a second. The world and its viewer have a
+process of their own; the pages are bare clients of viser's socket, which read every frame and
+decode none. The table shows the frames with moved bodies and the bytes that each page got a second,
+the processor time of the serving process, and the time to draw a picture for all pages (which other
+load on the machine changes least).
 """
 
 import argparse
@@ -44,7 +43,7 @@ AGENTS, BODIES, RAYS = 8, 30, 64
 
 
 def crowd() -> ControlRequestor:
-    """Eight agents that drive in circles among boxes."""
+    """Return a world with eight agents that drive in circles among boxes."""
     world = World()
     world.add_floor("plate", BoxShape(size=(24, 24)))
     agents = []
@@ -80,7 +79,7 @@ def crowd() -> ControlRequestor:
 
 
 def serve(there: Connection) -> None:
-    """The world, until somebody says that it is enough."""
+    """Run the world until the other process ends it."""
     runner = Runner(crowd(), seed=1)
     viewer = Viewer(runner)
     drawn, draw = [0, 0.0], viewer.draw
@@ -103,10 +102,10 @@ def serve(there: Connection) -> None:
 
 
 class Reader:
-    """A page that reads what it is sent.
+    """A client of viser's socket that counts frames and bytes.
 
     Args:
-        url: of viser's socket.
+        url: address of the socket.
     """
 
     def __init__(self, url: str) -> None:
@@ -153,7 +152,7 @@ CAMERA = {
 def measure(
     url: str, process: psutil.Process, here: Connection, pages: int, seconds: float
 ) -> tuple[float, ...]:
-    """Frames and bytes a second and page, the server's share of a core, ms to draw a picture."""
+    """Return frames and bytes a second and page, the server's share of a core, ms a picture."""
     with ExitStack() as stack:
         readers = [stack.enter_context(Reader(url)) for _ in range(pages)]
         time.sleep(3.0)
@@ -174,7 +173,7 @@ def measure(
 
 
 def main() -> None:
-    """Measures and prints."""
+    """Run the benchmark and print its table."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--seconds", type=float, default=10)
     parser.add_argument("--pages", default="1,4,16")

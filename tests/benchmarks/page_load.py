@@ -1,10 +1,9 @@
-"""How long a page takes to load: ``python -m tests.benchmarks.page_load``.
+"""Time to load a page: ``python -m tests.benchmarks.page_load``.
 
-From the first byte asked for to the agent's senses in the panel, in a browser that has only just
-been started (nothing cached, nothing compiled), as a class does at the beginning of a lesson.
-What the browser's processes used of a processor is told too: other work on the machine changes it
-less.
-``--against CHECKOUT`` loads the page of another checkout in turns with this one's.
+It is measured from the first request to the agent's senses in the panel, in a browser that has just
+been started (nothing cached, nothing compiled), as at the beginning of a lesson. The processor time
+of the browser's processes is printed too; other load on the machine changes it less.
+``--against CHECKOUT`` loads the page of another checkout in turn with this one's.
 """
 
 import argparse
@@ -29,16 +28,16 @@ COUNT = """() => {
 
 
 class Load(NamedTuple):
-    """What it took until a fresh browser showed the senses."""
+    """Time until a fresh browser showed the senses."""
 
     seconds: float
     processor: float
     programs: int
-    """How many the page had compiled for what it draws in 3D."""
+    """Number of WebGL programs that the page compiled."""
 
 
 def used() -> float:
-    """Processor time of this script's children, in seconds."""
+    """Return the processor time (s) of the browser's processes."""
     spent = 0.0
     for child in psutil.Process().children(recursive=True):
         if "chrom" in child.name():
@@ -48,7 +47,7 @@ def used() -> float:
 
 
 def load(url: str) -> Load:
-    """Loads it once."""
+    """Load a page once."""
     with browser() as chromium:
         page = chromium.new_page(viewport={"width": 1280, "height": 800})
         page.add_init_script(f"({COUNT})()")
@@ -60,7 +59,7 @@ def load(url: str) -> Load:
 
 
 def main() -> None:
-    """Measures and prints."""
+    """Run the benchmark and print its table."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--scene", default="box_chase")
     parser.add_argument("--times", type=int, default=9)

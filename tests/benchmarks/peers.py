@@ -1,8 +1,8 @@
 """Other environments from the package index, each in a virtual environment of its own.
 
-They do other things than the yardstick, so their figures say in which class one is, no more. Each
-runs in a process of its own that waits for a word before every round, and so takes its turn like
-all other contenders. Made once, under ``.venvs/``, with ``python -m tests.benchmarks --peers``.
+They do other things than the yardstick, so their figures show the order of magnitude only. Each
+runs in a process of its own that waits for a line before every round, so it takes its turn like all
+other contenders. ``python -m tests.benchmarks --peers`` makes them once, under ``.venvs/``.
 """
 
 import contextlib
@@ -16,10 +16,10 @@ from typing import NamedTuple
 from tests.benchmarks.interleaved import Work
 
 FOLDER = Path(__file__).resolve().parent.parent.parent / ".venvs"
-PATIENCE = 600
-"""Seconds that an installation gets."""
-LIMIT = 120.0
-"""Seconds that one of them gets for all its rounds, ours between them included."""
+INSTALL_TIMEOUT_S = 600
+"""Timeout (s) of an installation."""
+ROUNDS_TIMEOUT_S = 120.0
+"""Time (s) for all rounds of one environment, ours in between included."""
 
 LOOP = """
 import sys
@@ -32,17 +32,17 @@ for line in sys.stdin:
 
 
 class Peer(NamedTuple):
-    """One of them."""
+    """Another environment."""
 
     title: str
     package: str
-    """What pip is to install, the one that it is about first."""
+    """Requirements for pip, the environment's own package first."""
     steps: int
-    """In one round."""
+    """Steps in one round."""
     program: str
-    """Defines ``step(i)``."""
+    """Python code that defines ``step(i)``."""
     worlds: int = 1
-    """How many worlds one step moves."""
+    """Number of worlds that one step moves."""
 
 
 PEERS = {
@@ -178,19 +178,19 @@ def step(i):
 
 
 class PeerError(Exception):
-    """It can't be had, or doesn't run; the text says why."""
+    """An environment can't be installed or doesn't run; the text says why."""
 
 
 @contextlib.contextmanager
-def running(name: str, limit: float = LIMIT) -> Iterator[Callable[[], tuple[Work, int]]]:
-    """A peer as a contender, for as long as its process runs.
+def running(name: str, limit: float = ROUNDS_TIMEOUT_S) -> Iterator[Callable[[], tuple[Work, int]]]:
+    """Run an environment as a contender, in a process of its own.
 
     Args:
-        name: out of :data:`PEERS`.
-        limit: seconds; whoever is not done by then is ended.
+        name: a key of :data:`PEERS`.
+        limit: timeout in seconds for all rounds.
 
     Raises:
-        PeerError: it can't be installed, doesn't start, or takes too long.
+        PeerError: the environment can't be installed, doesn't start, or takes too long.
     """
     peer = PEERS[name]
     process = subprocess.Popen(
@@ -211,7 +211,7 @@ def running(name: str, limit: float = LIMIT) -> Iterator[Callable[[], tuple[Work
 
     def wait_for(word: str) -> None:
         last = ""
-        for line in from_it:  # some say a few words of their own first
+        for line in from_it:  # some print lines of their own first
             if line.strip() == word:
                 return
             last = line
@@ -237,7 +237,7 @@ def running(name: str, limit: float = LIMIT) -> Iterator[Callable[[], tuple[Work
 
 
 def installed(peer: Peer) -> Path:
-    """The Python of an environment that has a peer's package; made if it is not there."""
+    """Return the Python of a peer's virtual environment; make it if it is missing."""
     packages = peer.package.split()
     folder = FOLDER / f"peer-{packages[0].partition('=')[0].partition('[')[0]}"
     python, stamp = folder / "bin" / "python", folder / "made-of.txt"
@@ -250,10 +250,10 @@ def installed(peer: Peer) -> Path:
     ):
         try:
             done = subprocess.run(
-                command, capture_output=True, text=True, timeout=PATIENCE, check=False
+                command, capture_output=True, text=True, timeout=INSTALL_TIMEOUT_S, check=False
             )
         except subprocess.TimeoutExpired:
-            raise PeerError(f"not installed within {PATIENCE} s") from None
+            raise PeerError(f"not installed within {INSTALL_TIMEOUT_S} s") from None
         if done.returncode:
             raise PeerError("can't be installed: " + _last_words(done.stdout + done.stderr))
     stamp.write_text(peer.package)

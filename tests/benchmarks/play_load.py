@@ -1,7 +1,7 @@
-"""How much of a core a played scene uses: ``python -m tests.benchmarks.play_load``.
+"""Share of a core that a played scene uses: ``python -m tests.benchmarks.play_load``.
 
-One agent, 60 ticks a second, the page open in headless Chromium with W held. What is counted is the
-processor time of the serving process (world, viewer and server together), not the browser's.
+One agent, 60 ticks a second, the page open in headless Chromium with A held. The processor time is
+that of the serving process (world, viewer and server together), not the browser's.
 """
 
 import argparse
@@ -14,7 +14,7 @@ from tests.playing import played
 
 
 def main() -> None:
-    """Measures and prints."""
+    """Run the benchmark and print its table."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--seconds", type=float, default=20)
     parser.add_argument("--scene", default="box_chase")
@@ -26,7 +26,7 @@ def main() -> None:
                 page = chromium.new_page(viewport={"width": 1280, "height": 800})
                 page.goto(server.url)
                 page.wait_for_timeout(5000)
-                page.keyboard.down("KeyA")  # it turns on its spot, and so never falls
+                page.keyboard.down("KeyA")  # the robot turns in place, and so never falls
             time.sleep(2)
             before, tick = process.cpu_times(), server.snapshot()["tick"]
             began = time.perf_counter()

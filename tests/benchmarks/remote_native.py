@@ -1,12 +1,11 @@
 """Round trips by our protocol and by a bare echo: ``python -m tests.benchmarks.remote_native``.
 
-A world in lockstep, as fast as it goes, whose agents see 35 numbers and decide on every tick; the
-scripts do nothing but answer. In turns with it, a bare echo by the same WebSocket library, with a
-frame of the same size: over as many connections, and (the last column) over a single one. Eight
-echoes know nothing of each other; eight agents of one world wait for each other at every tick.
-Servers have a process of their own, and the one whose turn it is not stands still: a world that
-nobody drives would keep a core busy, and an echo beside it finds the other core awake, which makes
-it half as fast again.
+A world in lockstep, unpaced, whose agents sense 35 numbers and decide at every tick; the scripts
+only answer. In turn with it, a bare echo by the same WebSocket library, with a frame of the same
+size: over as many connections, and (the last column) over a single one. Eight echoes are
+independent; eight agents of one world wait for each other at every tick. Each server has a process
+of its own, which is suspended while the other is measured: a world would keep a core busy, and an
+echo is half as fast again beside a core that is awake.
 """
 
 import argparse
@@ -30,12 +29,12 @@ from websockets.sync.client import connect as connect_plain
 from ai4u_edu.remote import AsyncRobot, Robot, connect
 
 FORWARD = [0.5, 0.1, 0.0, 0.0]
-SIZE = 184
-"""Bytes of a percept's frame with 35 numbers."""
+PERCEPT_FRAME_BYTES = 184
+"""Size of a percept's frame with 35 numbers (bytes)."""
 
 
 def serve_world(agents: int, ready: Connection) -> None:
-    """A world with so many agents, for ever."""
+    """Run a world with so many agents until the process is ended."""
     from ai4u_edu import (
         BasicAgent,
         CircleShape,
@@ -81,7 +80,7 @@ def serve_world(agents: int, ready: Connection) -> None:
 
 
 def serve_bare(_agents: int, ready: Connection) -> None:
-    """An echo, for ever."""
+    """Run an echo server until the process is ended."""
 
     async def echo(socket: ServerConnection) -> None:
         async for frame in socket:
@@ -107,7 +106,7 @@ def ours_plain(url: str, _agents: int, seconds: float) -> float:
 
 
 def bare_plain(url: str, _agents: int, seconds: float) -> float:
-    frame = bytes(SIZE)
+    frame = bytes(PERCEPT_FRAME_BYTES)
     with connect_plain(url, compression=None, proxy=None) as socket:
 
         def there_and_back() -> None:
@@ -132,7 +131,7 @@ def ours_async(url: str, agents: int, seconds: float) -> float:
 
 def bare_async(url: str, agents: int, seconds: float) -> float:
     async def drive(_number: int, until: Callable[[], bool]) -> int:
-        count, frame = 0, bytes(SIZE)
+        count, frame = 0, bytes(PERCEPT_FRAME_BYTES)
         async with connect_async(url, compression=None, proxy=None) as socket:
             while until():
                 await socket.send(frame)
@@ -187,7 +186,7 @@ def _timed(once: Callable[[], object], seconds: float) -> float:
 
 def _spread(one: Any, url: str, agents: int, seconds: float) -> float:
     rates: Any = multiprocessing.Queue()
-    # while some of them still start, the others have the machine for themselves, or not at all
+    # begin together, so that none has the machine to itself while others start
     all_here = multiprocessing.Barrier(agents)
     scripts = [
         multiprocessing.Process(
@@ -212,7 +211,7 @@ WAYS: list[tuple[str, int, Any, Any]] = [
 
 
 def main() -> None:
-    """Measures and prints."""
+    """Run the benchmark and print its table."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--seconds", type=float, default=2)
     parser.add_argument("--times", type=int, default=5)
@@ -240,7 +239,7 @@ def main() -> None:
             here.send("end")
             process.join(10)
         mine, other = (statistics.median(rates[measure]) for measure in (ours, bare))
-        one = single.setdefault(bare is bare_async, other)  # those with one script come first
+        one = single.setdefault(bare is bare_async, other)  # the rows with one script come first
         print(
             f"| {name} | {mine:,.0f} | {other:,.0f} | {mine / other:.0%} | {mine / one:.0%} |",
             flush=True,

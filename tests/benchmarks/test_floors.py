@@ -1,4 +1,4 @@
-"""What the benchmark compares is the same world: same poses, same observations, same rewards."""
+"""The benchmark compares equal worlds: same poses, same observations, same rewards."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""Other environments take their turn in processes of their own; one that fails says why."""
+"""Other environments run in processes of their own; a failure is reported with its reason."""
 
 import sys
 from pathlib import Path

@@ -1,9 +1,9 @@
-"""What ``--watch`` costs a training: ``python -m tests.benchmarks.watch_cost``.
+"""Cost of ``--watch`` for a training: ``python -m tests.benchmarks.watch_cost``.
 
-Learns box_chase again and again, from the same seed and for as many steps, in turns with the page
-and without it, and compares the seconds of each two that came one after the other. The whole
-training counts: the page's start, its world, and each model that is handed to it. The training's
-own processor seconds tell what watching costs where others use the machine too.
+It learns box_chase repeatedly, from the same seed and for as many steps, in turn with the page and
+without it, and compares the seconds of consecutive pairs. The whole training counts: the page's
+start, its world, and each model that is sent to it. The processor time of the training alone is
+printed too; other load on the machine changes it less.
 """
 
 import argparse
@@ -16,20 +16,20 @@ from typing import NamedTuple
 
 from ai4u_edu.training import train
 
-ALLOWED = 0.05
-"""The share of the training's time that watching may cost."""
+MAX_SHARE = 0.05
+"""Share of the training's time that watching may cost."""
 
 
 class Took(NamedTuple):
-    """What one training took."""
+    """Times of one training."""
 
     seconds: float
     processor: float
-    """Seconds of the training's process, without the page's."""
+    """Processor time (s) of the training's process, without the page's."""
 
 
 def learn(algo: str, steps: int, folder: Path, *, watch: bool) -> Took:
-    """One training."""
+    """Train once."""
     began, worked = time.perf_counter(), time.process_time()
     train(
         "box_chase",
@@ -44,19 +44,19 @@ def learn(algo: str, steps: int, folder: Path, *, watch: bool) -> Took:
 
 
 def main() -> None:
-    """Runs the pairs and prints what watching cost in each."""
+    """Run the pairs and print the cost of watching in each."""
     parser = argparse.ArgumentParser()
     parser.add_argument("--algo", default="sac")
     parser.add_argument("--steps", type=int, default=8000)
     parser.add_argument("--pairs", type=int, default=5)
     chosen = parser.parse_args()
-    for display in ("DISPLAY", "WAYLAND_DISPLAY"):  # nobody looks
+    for display in ("DISPLAY", "WAYLAND_DISPLAY"):  # opens no browser
         os.environ.pop(display, None)
     pairs: list[tuple[Took, Took]] = []
     with tempfile.TemporaryDirectory() as folder:
         learn(chosen.algo, 500, Path(folder) / "warm", watch=False)
         for pair in range(chosen.pairs):
-            # who comes first changes, so that a machine that grows busier slows both alike
+            # the order alternates, so that growing load on the machine slows both alike
             first = bool(pair % 2)
             took = {
                 watch: learn(
@@ -75,8 +75,8 @@ def main() -> None:
             )
     for index, what in enumerate(Took._fields):
         share = statistics.median(watched[index] / alone[index] - 1 for alone, watched in pairs)
-        verdict = "within" if share <= ALLOWED else "more than"
-        print(f"{what}, median of {len(pairs)} pairs: {share:+.1%}, {verdict} {ALLOWED:.0%}")
+        verdict = "within" if share <= MAX_SHARE else "more than"
+        print(f"{what}, median of {len(pairs)} pairs: {share:+.1%}, {verdict} {MAX_SHARE:.0%}")
 
 
 if __name__ == "__main__":

@@ -53,7 +53,7 @@ def wish(
 ) -> tuple[float, float]:
     """Where it wants to go, in the world; the robot is at the origin and looks along +x."""
     sim = driven(controller, sensors, places, **fields)
-    forward, left = controller.wish(sim.agents[0].percept)
+    forward, left = controller.target_point(sim.agents[0].percept)
     return round(forward, 2), round(left, 2)
 
 
@@ -93,7 +93,7 @@ def test_it_does_not_follow_one_that_falls() -> None:
     sim = driven(controller, sensors, {"robot": (2, 0), "other": (3, 0)})
     sim.world["other"].move_to(3, 0, z=-0.5)
     sim.step()
-    forward, left = controller.wish(sim.agents[0].percept)
+    forward, left = controller.target_point(sim.agents[0].percept)
     assert (forward, left) == pytest.approx((-2, 0), abs=0.3)
 
 
@@ -132,7 +132,7 @@ def test_it_strolls_while_the_pursuer_is_far_away() -> None:
         sim.world["chaser"].move_to(-distance, 0)
         sim.world["robot"].move_to(0, 0, heading=0.0)
         sim.step()
-        speeds.append(controller.effort(sim.agents[0].percept, (1.0, 0.0)))
+        speeds.append(controller.speed_share(sim.agents[0].percept, (1.0, 0.0)))
     assert speeds == [1.0, 1.0, 0.3, 0.3]
 
 

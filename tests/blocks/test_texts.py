@@ -101,7 +101,7 @@ def test_our_own_protocol_carries_them() -> None:
 def test_too_many_are_cut_off_at_a_whole_text() -> None:
     (agent,) = small_sim([Signs(words=["x" * 1000] * 9)]).agents
     _, texts = ObservationSubset(agent, ["signs"]).extract(agent.percept)
-    assert len(texts[0]) <= native.LONGEST_READ
+    assert len(texts[0]) <= native.MAX_READING_CHARS
     assert unpack_texts(texts[0]) == ("x" * 1000,) * 3
 
 

@@ -17,8 +17,8 @@ from ai4u_edu.base.errors import SetupError
 from ai4u_edu.editing import EditState, SceneEditor, autosave, unsaved
 from ai4u_edu.editing.autosave import Autosave, latest, unsaved_scenes
 from ai4u_edu.editing.unsaved import choose_unsaved
+from tests.editing.harness import TEXT, EditorHarness
 from tests.editing.kill_autosaves import run
-from tests.editing.shops import TEXT, Shop
 from tests.playing import played
 
 pytestmark = pytest.mark.slow
@@ -44,26 +44,26 @@ def written(monkeypatch: pytest.MonkeyPatch) -> Semaphore:
 
 
 def test_a_changed_scene_is_written_and_read(saver: Autosave, tmp_path: Path) -> None:
-    shop = Shop()
-    shop.editor.listeners.append(saver.schedule)
-    shop.done(shop.editor.add_body({"name": "ball", "position": [0, 3]}))
-    shop.done(shop.editor.move_body("ball", 1, 3))
+    harness = EditorHarness()
+    harness.editor.listeners.append(saver.schedule)
+    harness.done(harness.editor.add_body({"name": "ball", "position": [0, 3]}))
+    harness.done(harness.editor.move_body("ball", 1, 3))
     saver.stop()
-    assert shop.editor.is_as_opened is False
+    assert harness.editor.is_as_opened is False
     (file,) = (tmp_path / "deep" / "unsaved").iterdir()
     assert re.fullmatch(r"small-[0-9a-f]{12}-1\.unsaved", file.name)
     left = latest(file.parent)
     assert left is not None
-    assert left.scene() == shop.editor.scene
+    assert left.scene() == harness.editor.scene
     assert left.name == "small"
     assert len(left.when) == 5
 
 
 def test_what_was_taken_back_is_not_offered(tmp_path: Path) -> None:
-    shop, saver = Shop(), Autosave(tmp_path, "small")
-    shop.editor.recovery.autosave = saver
-    shop.done(shop.editor.add_body({"name": "ball", "position": [0, 3]}))
-    shop.done(shop.editor.open(Scene.load("sumo")))
+    harness, saver = EditorHarness(), Autosave(tmp_path, "small")
+    harness.editor.recovery.autosave = saver
+    harness.done(harness.editor.add_body({"name": "ball", "position": [0, 3]}))
+    harness.done(harness.editor.open(Scene.load("sumo")))
     saver.stop()
     left = latest(tmp_path)  # of a scene that is only looked at nothing is lost
     assert left is not None
@@ -71,30 +71,30 @@ def test_what_was_taken_back_is_not_offered(tmp_path: Path) -> None:
 
 
 def test_what_was_written_goes_when_it_is_taken_back(tmp_path: Path, written: Semaphore) -> None:
-    shop, saver = Shop(), Autosave(tmp_path, "small")
-    shop.editor.recovery.autosave = saver
-    shop.done(shop.editor.add_body({"name": "ball", "position": [0, 3]}))
+    harness, saver = EditorHarness(), Autosave(tmp_path, "small")
+    harness.editor.recovery.autosave = saver
+    harness.done(harness.editor.add_body({"name": "ball", "position": [0, 3]}))
     assert written.acquire(timeout=30)
-    shop.done(shop.editor.open(Scene.load("sumo")))
-    shop.done(shop.editor.undo())
-    shop.done(shop.editor.undo())
+    harness.done(harness.editor.open(Scene.load("sumo")))
+    harness.done(harness.editor.undo())
+    harness.done(harness.editor.undo())
     saver.stop()
     assert list(tmp_path.iterdir()) == []
 
 
 def test_each_scene_that_was_changed_is_kept(tmp_path: Path) -> None:
-    shop, saver = Shop(), Autosave(tmp_path, "small")
-    shop.editor.recovery.autosave = saver
-    shop.done(shop.editor.add_body({"name": "ball", "position": [0, 3]}))
-    shop.done(shop.editor.open(Scene.load("sumo")))
-    shop.done(shop.editor.add_body({"name": "pole", "position": [0, 3]}))
+    harness, saver = EditorHarness(), Autosave(tmp_path, "small")
+    harness.editor.recovery.autosave = saver
+    harness.done(harness.editor.add_body({"name": "ball", "position": [0, 3]}))
+    harness.done(harness.editor.open(Scene.load("sumo")))
+    harness.done(harness.editor.add_body({"name": "pole", "position": [0, 3]}))
     saver.stop()
     assert {each.name: "ball" in each.text for each in unsaved_scenes(tmp_path)} == {
         "small": True,
         "sumo": False,
     }
-    shop.editor.recovery.autosave = saver = Autosave(tmp_path, "small")
-    shop.editor.recovery.mark_saved()  # the one that runs was saved
+    harness.editor.recovery.autosave = saver = Autosave(tmp_path, "small")
+    harness.editor.recovery.mark_saved()  # the one that runs was saved
     saver.stop()
     assert {each.name for each in unsaved_scenes(tmp_path)} == {"small", "sumo"}
 
@@ -102,15 +102,15 @@ def test_each_scene_that_was_changed_is_kept(tmp_path: Path) -> None:
 def test_two_servers_on_one_scene_leave_each_other_s_work_alone(
     tmp_path: Path, written: Semaphore
 ) -> None:
-    shops = [Shop(), Shop()]
-    savers = [Autosave(tmp_path, "small") for _ in shops]
-    for number, (shop, saver) in enumerate(zip(shops, savers, strict=True)):
-        shop.editor.recovery.autosave = saver
-        shop.done(shop.editor.add_body({"name": f"ball {number}", "position": [0, 3]}))
+    harnesses = [EditorHarness(), EditorHarness()]
+    savers = [Autosave(tmp_path, "small") for _ in harnesses]
+    for number, (harness, saver) in enumerate(zip(harnesses, savers, strict=True)):
+        harness.editor.recovery.autosave = saver
+        harness.done(harness.editor.add_body({"name": f"ball {number}", "position": [0, 3]}))
         assert written.acquire(timeout=30)
     assert len(list(tmp_path.glob("*.unsaved"))) == 2
     assert latest(tmp_path) is None, "the work of a server that lives is not offered"
-    shops[1].done(shops[1].editor.undo())
+    harnesses[1].done(harnesses[1].editor.undo())
     savers[1].stop()
     assert latest(tmp_path) is None
     savers[0].stop()
@@ -119,14 +119,14 @@ def test_two_servers_on_one_scene_leave_each_other_s_work_alone(
 
 
 def test_a_restored_scene_is_kept_until_it_is_saved(tmp_path: Path) -> None:
-    shop, saver = Shop(), Autosave(tmp_path, "small")
-    shop.editor.recovery.autosave = saver
-    shop.done(shop.editor.add_body({"name": "ball", "position": [0, 3]}))
+    harness, saver = EditorHarness(), Autosave(tmp_path, "small")
+    harness.editor.recovery.autosave = saver
+    harness.done(harness.editor.add_body({"name": "ball", "position": [0, 3]}))
     saver.stop()
     left = latest(tmp_path)
     assert left is not None
     # as play --restore does; then it is changed, and the change is taken back
-    again, saver = Shop(left.scene()), Autosave(tmp_path, "small")
+    again, saver = EditorHarness(left.scene()), Autosave(tmp_path, "small")
     again.editor.recovery.autosave = saver
     again.editor.recovery.mark_restored(left)
     assert latest(tmp_path) is None, "it has an owner again"
@@ -135,7 +135,7 @@ def test_a_restored_scene_is_kept_until_it_is_saved(tmp_path: Path) -> None:
     saver.stop()
     (kept,) = unsaved_scenes(tmp_path)
     assert kept.scene() == left.scene()
-    third, saver = Shop(), Autosave(tmp_path, "small")
+    third, saver = EditorHarness(), Autosave(tmp_path, "small")
     third.editor.recovery.autosave, third.editor.recovery.unsaved = saver, kept
     third.done(third.editor.recovery.restore())
     third.editor.recovery.mark_saved()
@@ -149,12 +149,12 @@ def test_of_two_servers_that_restore_one_scene_both_keep_it(tmp_path: Path) -> N
     assert left is not None
     savers = [Autosave(tmp_path, "small") for _ in range(2)]
     for saver in savers:
-        shop = Shop(left.scene())
-        shop.editor.recovery.autosave = saver
-        shop.editor.recovery.mark_restored(left)
+        harness = EditorHarness(left.scene())
+        harness.editor.recovery.autosave = saver
+        harness.editor.recovery.mark_restored(left)
     for saver in savers:
         saver.stop()
-    assert [each.text for each in unsaved_scenes(tmp_path)] == [Shop().editor.text(), TEXT]
+    assert [each.text for each in unsaved_scenes(tmp_path)] == [EditorHarness().editor.text(), TEXT]
 
 
 def left_by_an_earlier_version(folder: Path, name: str, text: str, ago_s: float = 0.0) -> None:
@@ -195,29 +195,29 @@ def test_old_ones_go_but_never_the_latest_of_a_scene(
 
 
 def test_it_is_brought_back_or_forgotten(tmp_path: Path) -> None:
-    left, saver = Shop(), Autosave(tmp_path, "small")
+    left, saver = EditorHarness(), Autosave(tmp_path, "small")
     left.editor.recovery.autosave = saver
     left.done(left.editor.add_body({"name": "ball", "position": [0, 3]}))
     saver.stop()
-    shop = Shop()
-    shop.editor.recovery.unsaved = latest(tmp_path)
-    shop.done(shop.editor.recovery.restore())
-    assert shop.editor.scene == left.editor.scene
-    assert shop.editor.recovery.unsaved is None
-    shop.done(shop.editor.undo())
-    assert "ball" not in shop.world.bodies
-    shop.editor.recovery.autosave = saver = Autosave(tmp_path, "small")
-    shop.editor.recovery.mark_saved()
+    harness = EditorHarness()
+    harness.editor.recovery.unsaved = latest(tmp_path)
+    harness.done(harness.editor.recovery.restore())
+    assert harness.editor.scene == left.editor.scene
+    assert harness.editor.recovery.unsaved is None
+    harness.done(harness.editor.undo())
+    assert "ball" not in harness.world.bodies
+    harness.editor.recovery.autosave = saver = Autosave(tmp_path, "small")
+    harness.editor.recovery.mark_saved()
     saver.stop()
     assert latest(tmp_path) is None
     with pytest.raises(SetupError, match="there is no unsaved scene"):
-        shop.done(shop.editor.recovery.restore())
+        harness.done(harness.editor.recovery.restore())
 
 
 def test_many_changes_are_written_once(saver: Autosave, monkeypatch: pytest.MonkeyPatch) -> None:
     written = []
     monkeypatch.setattr(autosave, "_write_file", lambda _file, state: written.append(state))
-    state = Shop().editor.state
+    state = EditorHarness().editor.state
     for number in range(100):
         state = state.describing(title=str(number))
         saver.schedule(state)
@@ -240,9 +240,9 @@ def test_a_folder_that_can_t_be_made_is_told_of_once(tmp_path: Path, where: str)
     saver = Autosave(tmp_path / where / "unsaved", "small", told.append)
     assert told == [saver.problem]
     assert told[0].startswith("changes can't be kept in ")
-    shop = Shop()
-    shop.editor.recovery.autosave = saver
-    shop.done(shop.editor.add_body({"name": "ball", "position": [0, 3]}))
+    harness = EditorHarness()
+    harness.editor.recovery.autosave = saver
+    harness.done(harness.editor.add_body({"name": "ball", "position": [0, 3]}))
     saver.stop()
     assert told == [saver.problem]
     assert unsaved_scenes(tmp_path / where / "unsaved") == []
@@ -265,9 +265,9 @@ def test_a_full_disk_is_told_of_once_and_tried_again(
 
     monkeypatch.setattr(autosave, "_write_file", written)
     told: list[str] = []
-    shop, saver = Shop(), Autosave(tmp_path, "small", told.append)
-    shop.editor.recovery.autosave = saver
-    shop.done(shop.editor.add_body({"name": "ball", "position": [0, 3]}))
+    harness, saver = EditorHarness(), Autosave(tmp_path, "small", told.append)
+    harness.editor.recovery.autosave = saver
+    harness.done(harness.editor.add_body({"name": "ball", "position": [0, 3]}))
     for _ in range(3):
         assert tries.acquire(timeout=30)
     assert told == [f"changes can't be kept in {tmp_path}: the disk is full"]
@@ -281,8 +281,8 @@ def test_a_full_disk_is_told_of_once_and_tried_again(
 
 
 def test_a_name_that_is_too_long_for_a_file_is_cut(tmp_path: Path) -> None:
-    shop, saver = Shop(), Autosave(tmp_path, "\u4e00" * 80)
-    saver.schedule(shop.editor.state.describing(name="\u4e00" * 80))
+    harness, saver = EditorHarness(), Autosave(tmp_path, "\u4e00" * 80)
+    saver.schedule(harness.editor.state.describing(name="\u4e00" * 80))
     saver.stop()
     assert len(unsaved_scenes(tmp_path)) == 1
 
@@ -344,7 +344,7 @@ def test_a_folder_that_was_asked_for_has_to_be_one(tmp_path: Path, option: str) 
 
 def test_nothing_is_kept_unless_asked_for(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path))
-    shop = Shop(Scene.load("box_chase"))
-    assert isinstance(shop.editor, SceneEditor)
-    shop.done(shop.editor.add_body({"name": "ball", "position": [0, 3]}))
+    harness = EditorHarness(Scene.load("box_chase"))
+    assert isinstance(harness.editor, SceneEditor)
+    harness.done(harness.editor.add_body({"name": "ball", "position": [0, 3]}))
     assert list(tmp_path.iterdir()) == []

@@ -10,90 +10,95 @@ from gymnasium.spaces import Box
 from ai4u_edu import Scene, Sensor
 from ai4u_edu.base.errors import BlockError, WorldError
 from ai4u_edu.editing import ChangeError
-from tests.editing.shops import Shop, trace
+from tests.editing.harness import EditorHarness, trace
 
 
 @pytest.fixture
-def shop() -> Shop:
-    shop = Shop()
-    shop.tick(5)
-    return shop
+def harness() -> EditorHarness:
+    harness = EditorHarness()
+    harness.tick(5)
+    return harness
 
 
-def test_a_body_is_put_somewhere_now_and_for_later(shop: Shop) -> None:
-    robot = shop.world["robot"].pose
-    outcome = shop.done(shop.editor.move_body("wall", -2, 3, 90))
+def test_a_body_is_put_somewhere_now_and_for_later(harness: EditorHarness) -> None:
+    robot = harness.world["robot"].pose
+    outcome = harness.done(harness.editor.move_body("wall", -2, 3, 90))
     assert (outcome.when, outcome.label, outcome.note) == ("now", "move wall", "")
-    x, y, z, heading = shop.world["wall"].pose
+    x, y, z, heading = harness.world["wall"].pose
     assert (x, y, z, heading) == pytest.approx((-2, 3, 0, math.pi / 2))
-    assert shop.world["robot"].pose == robot
-    assert shop.world.ticks == 5
-    shop.done(shop.runner.reset(seed=2))
-    assert shop.world["wall"].position == (-2, 3)
+    assert harness.world["robot"].pose == robot
+    assert harness.world.ticks == 5
+    harness.done(harness.runner.reset(seed=2))
+    assert harness.world["wall"].position == (-2, 3)
 
 
-def test_what_is_seen_then_is_sensed_at_once(shop: Shop) -> None:
-    before = shop.agent.percept["bearing"][-1].tolist(), shop.agent.percept["bearing"][:-1].tolist()
-    shop.done(shop.editor.move_body("box", -3, 4))
-    after = shop.agent.percept["bearing"]
+def test_what_is_seen_then_is_sensed_at_once(harness: EditorHarness) -> None:
+    before = (
+        harness.agent.percept["bearing"][-1].tolist(),
+        harness.agent.percept["bearing"][:-1].tolist(),
+    )
+    harness.done(harness.editor.move_body("box", -3, 4))
+    after = harness.agent.percept["bearing"]
     assert after[-1].tolist() != before[0]
     assert after[:-1].tolist() == before[1]
 
 
-def test_undo_puts_it_back_where_it_was_taken_up(shop: Shop) -> None:
-    shop.world["box"].move_to(3, 3)  # it has rolled there
-    shop.done(shop.editor.drag("box", 0, 4))
-    shop.done(shop.editor.drag("box", 1, 4))
-    assert shop.world["box"].position == (1, 4)
-    shop.done(shop.editor.move_body("box", 2, 4))
-    shop.done(shop.editor.undo())
-    assert shop.world["box"].position == (3, 3)
-    shop.done(shop.editor.redo())
-    assert shop.world["box"].position == (2, 4)
+def test_undo_puts_it_back_where_it_was_taken_up(harness: EditorHarness) -> None:
+    harness.world["box"].move_to(3, 3)  # it has rolled there
+    harness.done(harness.editor.drag("box", 0, 4))
+    harness.done(harness.editor.drag("box", 1, 4))
+    assert harness.world["box"].position == (1, 4)
+    harness.done(harness.editor.move_body("box", 2, 4))
+    harness.done(harness.editor.undo())
+    assert harness.world["box"].position == (3, 3)
+    harness.done(harness.editor.redo())
+    assert harness.world["box"].position == (2, 4)
 
 
-def test_one_that_overlaps_goes_back(shop: Shop) -> None:
+def test_one_that_overlaps_goes_back(harness: EditorHarness) -> None:
     x, y = -3, 4
-    shop.world["robot"].move_to(x, y)
-    shop.done(shop.editor.drag("box", x, y))
+    harness.world["robot"].move_to(x, y)
+    harness.done(harness.editor.drag("box", x, y))
     with pytest.raises(WorldError, match="it would overlap body 'robot'; choose another place"):
-        shop.done(shop.editor.move_body("box", x, y))
-    assert shop.world["box"].position == (4, 0)
-    assert shop.editor.undo_label == ""
-    assert shop.editor.scene == shop.scene
-    shop.tick(3)
+        harness.done(harness.editor.move_body("box", x, y))
+    assert harness.world["box"].position == (4, 0)
+    assert harness.editor.undo_label == ""
+    assert harness.editor.scene == harness.scene
+    harness.tick(3)
 
 
-def test_a_move_that_the_next_episode_could_not_begin_with_is_refused(shop: Shop) -> None:
-    shop.world["robot"].move_to(0, -4)
+def test_a_move_that_the_next_episode_could_not_begin_with_is_refused(
+    harness: EditorHarness,
+) -> None:
+    harness.world["robot"].move_to(0, -4)
     with pytest.raises(ChangeError, match=r"where all begin, .* overlaps body 'robot'"):
-        shop.done(shop.editor.move_body("box", 0, 0.3))
-    assert shop.world["box"].position == (4, 0)
+        harness.done(harness.editor.move_body("box", 0, 0.3))
+    assert harness.world["box"].position == (4, 0)
 
 
-def test_one_that_was_pushed_about_stays_when_it_is_changed(shop: Shop) -> None:
-    shop.world["box"].move_to(3, 3)
-    shop.world["box"].set_velocity(1, 0)
-    shop.done(shop.editor.change_body("box", {"mass": 3, "colour": "purple"}))
-    box = shop.world["box"]
+def test_one_that_was_pushed_about_stays_when_it_is_changed(harness: EditorHarness) -> None:
+    harness.world["box"].move_to(3, 3)
+    harness.world["box"].set_velocity(1, 0)
+    harness.done(harness.editor.change_body("box", {"mass": 3, "colour": "purple"}))
+    box = harness.world["box"]
     assert (box.position, box.velocity, box.description.mass) == ((3, 3), (1, 0), 3)
-    static_scene = shop.runner.latest.static_scene
+    static_scene = harness.runner.latest.static_scene
     assert [body.colour for body in static_scene.bodies if body.name == "box"] == ["purple"]
-    shop.done(shop.runner.reset())
-    assert shop.world["box"].position == (4, 0)
+    harness.done(harness.runner.reset())
+    assert harness.world["box"].position == (4, 0)
 
 
-def test_add_and_remove(shop: Shop) -> None:
-    name = shop.editor.free_name("box")
+def test_add_and_remove(harness: EditorHarness) -> None:
+    name = harness.editor.free_name("box")
     assert name == "box 2"
-    shop.done(shop.editor.add_body({"name": name, "position": [0, 4], "kind": "static"}))
-    assert shop.world["box 2"].position == (0, 4)
-    assert "box 2" in [body.name for body in shop.runner.latest.static_scene.bodies]
-    assert shop.done(shop.editor.remove_body("box 2")).when == "now"
-    assert "box 2" not in shop.world.bodies
-    shop.done(shop.editor.undo())
-    assert shop.world["box 2"].position == (0, 4)
-    shop.tick(5)
+    harness.done(harness.editor.add_body({"name": name, "position": [0, 4], "kind": "static"}))
+    assert harness.world["box 2"].position == (0, 4)
+    assert "box 2" in [body.name for body in harness.runner.latest.static_scene.bodies]
+    assert harness.done(harness.editor.remove_body("box 2")).when == "now"
+    assert "box 2" not in harness.world.bodies
+    harness.done(harness.editor.undo())
+    assert harness.world["box 2"].position == (0, 4)
+    harness.tick(5)
 
 
 @pytest.mark.parametrize(
@@ -106,36 +111,36 @@ def test_add_and_remove(shop: Shop) -> None:
         ({"name": "new", "colur": "blue"}, "colur: unknown parameter; did you mean 'colour'?"),
     ],
 )
-def test_bad_bodies(shop: Shop, body: dict[str, object], told: str) -> None:
+def test_bad_bodies(harness: EditorHarness, body: dict[str, object], told: str) -> None:
     with pytest.raises(ChangeError) as error:
-        shop.done(shop.editor.add_body(body))
+        harness.done(harness.editor.add_body(body))
     assert told in str(error.value)
-    assert list(shop.world.bodies) == ["robot", "box", "wall"]
+    assert list(harness.world.bodies) == ["robot", "box", "wall"]
 
 
 def test_the_world_is_full() -> None:
-    shop = Shop()
-    description = shop.scene.description
+    harness = EditorHarness()
+    description = harness.scene.description
     pole = description.bodies[2]
     poles = [
         pole.model_copy(update={"name": f"pole {n}", "position": (20.0 + n // 20, 2.0 * (n % 20))})
         for n in range(497)
     ]
     full = description.model_copy(update={"bodies": (*description.bodies, *poles)})
-    shop.done(shop.editor.open(Scene(full)))
+    harness.done(harness.editor.open(Scene(full)))
     with pytest.raises(ChangeError, match="the world is full; expected at most 500 bodies"):
-        shop.done(shop.editor.add_body({"name": "one too many", "position": [0, -4]}))
+        harness.done(harness.editor.add_body({"name": "one too many", "position": [0, -4]}))
 
 
-def test_what_is_needed_stays(shop: Shop) -> None:
+def test_what_is_needed_stays(harness: EditorHarness) -> None:
     with pytest.raises(ChangeError, match="it is the body of agent '0'; an agent needs its body"):
-        shop.done(shop.editor.remove_body("robot"))
+        harness.done(harness.editor.remove_body("robot"))
     with pytest.raises(
         ChangeError, match="TouchRewardFunc 'touch': no body or area is named 'box'"
     ):
-        shop.done(shop.editor.remove_body("box"))
-    assert "box" in shop.world.bodies
-    shop.tick(3)
+        harness.done(harness.editor.remove_body("box"))
+    assert "box" in harness.world.bodies
+    harness.tick(3)
 
 
 class Moody(Sensor):
@@ -157,54 +162,54 @@ class Moody(Sensor):
 
 @pytest.mark.parametrize("verb", ["remove", "change", "add"])
 def test_what_fails_in_the_running_world_is_taken_back(
-    verb: str, shop: Shop, monkeypatch: pytest.MonkeyPatch
+    verb: str, harness: EditorHarness, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    shop.done(shop.editor.add_block("0", "sensors", {"type": "Moody"}))
-    before = {name: body.pose for name, body in shop.world.bodies.items()}
+    harness.done(harness.editor.add_block("0", "sensors", {"type": "Moody"}))
+    before = {name: body.pose for name, body in harness.world.bodies.items()}
     monkeypatch.setattr(Moody, "in_a_good_mood", False)
-    editor = shop.editor
+    editor = harness.editor
     asked = {
         "remove": partial(editor.remove_body, "wall"),
         "change": partial(editor.change_body, "wall", {"position": [0, 4]}),
         "add": partial(editor.add_body, {"name": "ball", "position": [0, 4]}),
     }[verb]()
     with pytest.raises(BlockError, match="not now"):
-        shop.done(asked)
+        harness.done(asked)
     monkeypatch.setattr(Moody, "in_a_good_mood", True)
-    assert {name: body.pose for name, body in shop.world.bodies.items()} == before
-    assert shop.editor.undo_label == "add Moody"
-    shop.tick(2)
+    assert {name: body.pose for name, body in harness.world.bodies.items()} == before
+    assert harness.editor.undo_label == "add Moody"
+    harness.tick(2)
 
 
 def test_where_chance_or_an_actuator_has_a_say_it_is_told() -> None:
-    shop = Shop(Scene.load("box_chase"))
-    shop.tick(3)
-    outcome = shop.done(shop.editor.move_body("robot", 1, 1))
+    harness = EditorHarness(Scene.load("box_chase"))
+    harness.tick(3)
+    outcome = harness.done(harness.editor.move_body("robot", 1, 1))
     assert outcome.note == "its RespawnActuator puts 'robot' elsewhere at each reset"
-    assert shop.world["robot"].position == (1, 1)
+    assert harness.world["robot"].position == (1, 1)
 
 
 def test_one_that_is_moved_before_the_first_tick_stands_there() -> None:
-    shop = Shop(Scene.load("box_chase"))
-    shop.done(shop.editor.move_body("robot", 1, 1))
-    assert shop.world["robot"].position == (1, 1)
-    shop.done(shop.editor.move_body("box", 3, -3))
-    assert shop.world["box"].position == (3, -3)
+    harness = EditorHarness(Scene.load("box_chase"))
+    harness.done(harness.editor.move_body("robot", 1, 1))
+    assert harness.world["robot"].position == (1, 1)
+    harness.done(harness.editor.move_body("box", 3, -3))
+    assert harness.world["box"].position == (3, -3)
 
 
-def test_contacts_are_forgotten(shop: Shop) -> None:
-    shop.done(shop.editor.move_body("box", 1.2, shop.world["robot"].position[1]))
-    shop.tick(60)
-    view = shop.agent.view
-    assert view.contacts(shop.world["robot"]) == ("box",)
-    shop.done(shop.editor.move_body("box", -3, 4))
-    assert view.contacts(shop.world["robot"]) == ()
-    shop.tick(2)
-    assert view.contacts(shop.world["robot"]) == ()
+def test_contacts_are_forgotten(harness: EditorHarness) -> None:
+    harness.done(harness.editor.move_body("box", 1.2, harness.world["robot"].position[1]))
+    harness.tick(60)
+    view = harness.agent.view
+    assert view.contacts(harness.world["robot"]) == ("box",)
+    harness.done(harness.editor.move_body("box", -3, 4))
+    assert view.contacts(harness.world["robot"]) == ()
+    harness.tick(2)
+    assert view.contacts(harness.world["robot"]) == ()
 
 
 def test_height_is_right() -> None:
-    shop = Shop(
+    harness = EditorHarness(
         Scene.loads(
             """
 name: steps
@@ -221,20 +226,20 @@ agents:
 """
         )
     )
-    shop.tick(3)
-    shop.done(shop.editor.move_body("box", 8, 8))
-    box = shop.world["box"]
+    harness.tick(3)
+    harness.done(harness.editor.move_body("box", 8, 8))
+    box = harness.world["box"]
     assert (box.z, box.on_ground) == (1, True)
-    shop.done(shop.editor.move_body("box", 3, 3))
+    harness.done(harness.editor.move_body("box", 3, 3))
     assert (box.z, box.on_ground) == (0, True)
-    assert trace(shop.runner.sim, 1, 5) == trace(shop.editor.scene.build(), 1, 5)
+    assert trace(harness.runner.sim, 1, 5) == trace(harness.editor.scene.build(), 1, 5)
 
 
-def test_hands_may_not_be_mad(shop: Shop) -> None:
+def test_hands_may_not_be_mad(harness: EditorHarness) -> None:
     with pytest.raises(WorldError, match="expected finite numbers"):
-        shop.done(shop.editor.drag("box", math.nan, 0))
+        harness.done(harness.editor.drag("box", math.nan, 0))
     with pytest.raises(ChangeError, match="expected finite numbers"):
-        shop.done(shop.editor.move_body("box", math.inf, 0))
+        harness.done(harness.editor.move_body("box", math.inf, 0))
     with pytest.raises(ChangeError, match=r"position\[0\]: expected at most 10000"):
-        shop.done(shop.editor.move_body("box", 1e6, 0))
-    assert shop.world["box"].position == (4, 0)
+        harness.done(harness.editor.move_body("box", 1e6, 0))
+    assert harness.world["box"].position == (4, 0)

@@ -10,7 +10,7 @@ from ai4u_edu.editing.blocks import block_paths, types_of
 from ai4u_edu.editing.forms import NONE_LABEL, Field, block_form
 from ai4u_edu.editing.names import SceneNames
 from ai4u_edu.editing.suggestion import suggest_block
-from tests.editing.shops import TEXT, Shop
+from tests.editing.harness import TEXT, EditorHarness
 
 RICH = TEXT.replace(
     "bodies:",
@@ -30,20 +30,20 @@ ALL = [
 ]
 
 
-def fields(shop: Shop, block: dict[str, Any]) -> dict[str, Field]:
-    return {each.name: each for each in block_form(block, SceneNames(shop.editor.state, "0"))}
+def fields(harness: EditorHarness, block: dict[str, Any]) -> dict[str, Field]:
+    return {each.name: each for each in block_form(block, SceneNames(harness.editor.state, "0"))}
 
 
 @pytest.mark.parametrize(("kind", "name"), ALL)
 def test_a_new_block_fits_and_its_form_says_what_it_is(kind: str, name: str) -> None:
-    shop = Shop(RICH)
-    block = suggest_block(shop.editor.state, "0", name)
+    harness = EditorHarness(RICH)
+    block = suggest_block(harness.editor.state, "0", name)
     if name == "NeuralNetController":
         return
-    shop.done(shop.editor.add_block("0", kind, block))
+    harness.done(harness.editor.add_block("0", kind, block))
     if name != "RemoteBrain":
-        shop.tick(3)
-    for field in fields(shop, dict(block)).values():
+        harness.tick(3)
+    for field in fields(harness, dict(block)).values():
         said = field.value if field.kind == "switch" else field.shown
         read = field.read(said)
         same = field.value if field.value not in ("", None) else None
@@ -51,8 +51,8 @@ def test_a_new_block_fits_and_its_form_says_what_it_is(kind: str, name: str) -> 
 
 
 def test_a_field_has_what_a_person_needs() -> None:
-    shop = Shop(RICH)
-    seen = fields(shop, {"type": "LinearRayCastingSensor", "number_of_rays": 9})
+    harness = EditorHarness(RICH)
+    seen = fields(harness, {"type": "LinearRayCastingSensor", "number_of_rays": 9})
     assert seen["number_of_rays"].kind == "whole"
     assert seen["number_of_rays"].shown == "9"
     assert next(iter(seen)) == "number_of_rays"  # its own before those of all that cast rays
@@ -62,11 +62,11 @@ def test_a_field_has_what_a_person_needs() -> None:
     assert seen["noise"].is_common
     assert not seen["number_of_rays"].is_common
     assert "is_active" not in seen
-    seen = fields(shop, {"type": "BearingSensor", "target": "box"})
+    seen = fields(harness, {"type": "BearingSensor", "target": "box"})
     assert (seen["target"].kind, seen["target"].choices) == ("choice", ("box", "wall", "goal"))
-    seen = fields(shop, {"type": "OrientationSensor", "target": "box"})
+    seen = fields(harness, {"type": "OrientationSensor", "target": "box"})
     assert seen["info"].choices == ("both", "angle", "distance")
-    assert "children" not in fields(shop, {"type": "AndRewardFunc", "children": []})
+    assert "children" not in fields(harness, {"type": "AndRewardFunc", "children": []})
 
 
 @pytest.mark.parametrize(
@@ -105,10 +105,10 @@ def test_what_can_not_be_read_is_explained(said: str) -> None:
 
 
 def test_blocks_in_blocks() -> None:
-    shop = Shop(RICH)
-    block = suggest_block(shop.editor.state, "0", "AndRewardFunc")
-    shop.done(shop.editor.add_block("0", "rewards", block))
-    agent = shop.editor.state.agent("0")
+    harness = EditorHarness(RICH)
+    block = suggest_block(harness.editor.state, "0", "AndRewardFunc")
+    harness.done(harness.editor.add_block("0", "rewards", block))
+    agent = harness.editor.state.agent("0")
     assert block_paths(agent, "rewards") == [
         ("rewards", 0),
         ("rewards", 1),
@@ -119,26 +119,26 @@ def test_blocks_in_blocks() -> None:
     ]
     assert block_paths(agent, "brains") == [("brains", 0), ("brains", 0, "controller")]
     child = ("rewards", 3, "children", 0)
-    shop.done(shop.editor.change_block("0", child, {"reward": 3.0}))
-    assert shop.agent.rewards[3].children[0].reward == 3
+    harness.done(harness.editor.change_block("0", child, {"reward": 3.0}))
+    assert harness.agent.rewards[3].children[0].reward == 3
     new = {"type": "FallReward"}
-    shop.done(shop.editor.add_block("0", ("rewards", 3, "children"), new))
-    assert [type(each).__name__ for each in shop.agent.rewards[3].children] == [
+    harness.done(harness.editor.add_block("0", ("rewards", 3, "children"), new))
+    assert [type(each).__name__ for each in harness.agent.rewards[3].children] == [
         "TouchRewardFunc",
         "FallReward",
     ]
     with pytest.raises(ChangeError) as error:
-        shop.done(shop.editor.change_block("0", child, {"reward": "much"}))
+        harness.done(harness.editor.change_block("0", child, {"reward": "much"}))
     assert [str(each) for each in error.value.problems] == ["reward: expected a number, got 'much'"]
-    shop.done(shop.editor.remove_block("0", child))
-    shop.done(shop.editor.undo())
-    shop.tick(3)
+    harness.done(harness.editor.remove_block("0", child))
+    harness.done(harness.editor.undo())
+    harness.tick(3)
 
 
 def test_names_that_are_taken_get_a_number() -> None:
-    shop = Shop(Scene.load("box_chase"))
+    harness = EditorHarness(Scene.load("box_chase"))
     for expected in ("ray_casting", "ray_casting_2", "ray_casting_3"):
-        block = suggest_block(shop.editor.state, "0", "RayCastingSensor")
+        block = suggest_block(harness.editor.state, "0", "RayCastingSensor")
         assert block.get("perception_key", "ray_casting") == expected
-        shop.done(shop.editor.add_block("0", "sensors", block))
-        assert expected in shop.agent.percept
+        harness.done(harness.editor.add_block("0", "sensors", block))
+        assert expected in harness.agent.percept

@@ -12,7 +12,7 @@ from ai4u_edu import Scene
 from ai4u_edu.base.errors import SceneError, SetupError
 from ai4u_edu.editing import scene_store as shelves
 from ai4u_edu.editing.scene_store import SceneExistsError, SceneStore, normalized_name
-from tests.editing.shops import TEXT
+from tests.editing.harness import TEXT
 
 
 @pytest.fixture

@@ -6,52 +6,52 @@ from ai4u_edu import Scene
 from ai4u_edu.base.errors import SceneError
 from ai4u_edu.editing import ChangeError
 from ai4u_edu.scenes.yaml.file import MAX_SCENE_CHARS
-from tests.editing.shops import TEXT, Shop, trace
+from tests.editing.harness import TEXT, EditorHarness, trace
 
 
 def test_another_scene_runs_in_place_of_this_one() -> None:
-    shop = Shop(record=True)
-    shop.tick(4)
-    before = shop.runner.sim
+    harness = EditorHarness(record=True)
+    harness.tick(4)
+    before = harness.runner.sim
     sumo = Scene.load("sumo")
-    outcome = shop.done(shop.editor.open(sumo))
+    outcome = harness.done(harness.editor.open(sumo))
     assert (outcome.when, outcome.label) == ("now", "open sumo")
-    assert shop.runner.sim is not before
-    assert shop.editor.scene == sumo
-    assert shop.editor.is_as_opened
-    assert {agent.id for agent in shop.runner.latest.agents} == {"blue", "orange"}
-    shop.tick(12)
-    recorder = shop.runner.recorder
+    assert harness.runner.sim is not before
+    assert harness.editor.scene == sumo
+    assert harness.editor.is_as_opened
+    assert {agent.id for agent in harness.runner.latest.agents} == {"blue", "orange"}
+    harness.tick(12)
+    recorder = harness.runner.recorder
     assert recorder is not None
     recorder.finish()
     assert [each.scene.name for each in recorder.episodes] == ["small", "sumo"]
-    shop.done(shop.editor.undo())
-    assert shop.editor.scene == shop.scene
-    shop.tick(3)
+    harness.done(harness.editor.undo())
+    assert harness.editor.scene == harness.scene
+    harness.tick(3)
 
 
 def test_blocks_of_the_new_scene_can_be_changed() -> None:
-    shop = Shop()
-    shop.done(shop.editor.open(Scene.load("sumo")))
-    shop.tick(2)
-    outcome = shop.done(shop.editor.add_block("orange", "sensors", {"type": "StepSensor"}))
+    harness = EditorHarness()
+    harness.done(harness.editor.open(Scene.load("sumo")))
+    harness.tick(2)
+    outcome = harness.done(harness.editor.add_block("orange", "sensors", {"type": "StepSensor"}))
     assert outcome.when == "next decision"
-    assert "steps" in shop.runner.sim.agent("orange").percept
-    shop.done(shop.editor.undo())
-    shop.done(shop.editor.undo())
-    assert shop.editor.scene == shop.scene
+    assert "steps" in harness.runner.sim.agent("orange").percept
+    harness.done(harness.editor.undo())
+    harness.done(harness.editor.undo())
+    assert harness.editor.scene == harness.scene
 
 
 def test_text_and_back() -> None:
-    shop = Shop()
-    text = shop.editor.text()
-    assert Scene.loads(text) == shop.scene
-    shop.done(shop.editor.add_body({"name": "ball", "position": [0, 3]}))
-    changed = shop.editor.text()
-    shop.done(shop.editor.load(text))
-    assert list(shop.world.bodies) == ["robot", "box", "wall"]
-    shop.done(shop.editor.load(changed))
-    assert trace(shop.runner.sim, 5) == trace(Scene.loads(changed).build(), 5)
+    harness = EditorHarness()
+    text = harness.editor.text()
+    assert Scene.loads(text) == harness.scene
+    harness.done(harness.editor.add_body({"name": "ball", "position": [0, 3]}))
+    changed = harness.editor.text()
+    harness.done(harness.editor.load(text))
+    assert list(harness.world.bodies) == ["robot", "box", "wall"]
+    harness.done(harness.editor.load(changed))
+    assert trace(harness.runner.sim, 5) == trace(Scene.loads(changed).build(), 5)
 
 
 @pytest.mark.parametrize(
@@ -65,13 +65,13 @@ def test_text_and_back() -> None:
     ],
 )
 def test_bad_texts(text: str, told: str) -> None:
-    shop = Shop()
-    shop.tick(2)
-    sim = shop.runner.sim
+    harness = EditorHarness()
+    harness.tick(2)
+    sim = harness.runner.sim
     with pytest.raises(SceneError) as error:
-        shop.done(shop.editor.load(text))
+        harness.done(harness.editor.load(text))
     assert told in str(error.value)
-    assert shop.runner.sim is sim
+    assert harness.runner.sim is sim
 
 
 @pytest.mark.parametrize(
@@ -92,51 +92,53 @@ def test_bad_texts(text: str, told: str) -> None:
     ],
 )
 def test_a_page_names_no_other_machine_and_no_file_elsewhere(brain: str, told: str) -> None:
-    shop = Shop()
+    harness = EditorHarness()
     text = TEXT.split("    brains:")[0] + f"    brains:\n      - {brain}\n"
     with pytest.raises(ChangeError) as error:
-        shop.done(shop.editor.load(text))
+        harness.done(harness.editor.load(text))
     assert told in str(error.value)
     with pytest.raises(ChangeError) as error:
-        shop.done(shop.editor.add_block("0", "brains", {"type": "RemoteBrain", "host": "x.org"}))
+        harness.done(
+            harness.editor.add_block("0", "brains", {"type": "RemoteBrain", "host": "x.org"})
+        )
     assert "can't have this machine connect to 'x.org'" in str(error.value)
 
 
 def test_what_waits_for_the_reset_comes_with_it() -> None:
-    shop = Shop(record=True)
-    shop.tick(4)
-    sim = shop.runner.sim
-    outcome = shop.done(shop.editor.change_scene({"world": {"ticks_per_second": 30}}))
+    harness = EditorHarness(record=True)
+    harness.tick(4)
+    sim = harness.runner.sim
+    outcome = harness.done(harness.editor.change_scene({"world": {"ticks_per_second": 30}}))
     assert str(outcome) == "it applies at the next reset"
-    assert (shop.editor.waits_for_reset, shop.runner.sim) == (True, sim)
-    outcome = shop.done(shop.editor.change_block("0", ("rewards", 0), {"reward": 4}))
+    assert (harness.editor.waits_for_reset, harness.runner.sim) == (True, sim)
+    outcome = harness.done(harness.editor.change_block("0", ("rewards", 0), {"reward": 4}))
     assert outcome.when == "next reset"
     assert sim.agents[0].rewards[0].values()["reward"] == 4  # that much is possible now
-    shop.done(shop.runner.reset(seed=11))
-    shop.done(shop.runner.submit(lambda: None))
-    assert shop.editor.waits_for_reset is False
-    assert shop.world.settings.ticks_per_second == 30
-    assert (shop.world.seeds.seed, shop.world.ticks) == (11, 0)
-    assert trace(shop.runner.sim, 5) == trace(shop.editor.scene.build(), 5)
+    harness.done(harness.runner.reset(seed=11))
+    harness.done(harness.runner.submit(lambda: None))
+    assert harness.editor.waits_for_reset is False
+    assert harness.world.settings.ticks_per_second == 30
+    assert (harness.world.seeds.seed, harness.world.ticks) == (11, 0)
+    assert trace(harness.runner.sim, 5) == trace(harness.editor.scene.build(), 5)
 
 
 def test_what_waits_can_be_taken_back() -> None:
-    shop = Shop()
-    shop.done(shop.editor.change_scene({"world": {"damping": 0.5}}))
-    shop.done(shop.editor.undo())
-    sim = shop.runner.sim
-    assert not shop.editor.waits_for_reset
-    shop.done(shop.runner.reset())
-    assert shop.runner.sim is sim
+    harness = EditorHarness()
+    harness.done(harness.editor.change_scene({"world": {"damping": 0.5}}))
+    harness.done(harness.editor.undo())
+    sim = harness.runner.sim
+    assert not harness.editor.waits_for_reset
+    harness.done(harness.runner.reset())
+    assert harness.runner.sim is sim
 
 
 def test_somebody_elses_world_is_taken_over() -> None:
-    shop = Shop()
-    shop.done(shop.editor.add_body({"name": "ball", "position": [0, 3]}))
-    shop.done(shop.runner.replace_sim(shop.scene.build()))
-    shop.done(shop.editor.add_block("0", "sensors", {"type": "HeadingSensor"}))
-    assert "ball" not in shop.editor.text()
-    assert "heading" in shop.agent.percept
-    shop.done(shop.editor.undo())
-    shop.done(shop.editor.undo())
-    assert "ball" in shop.world.bodies
+    harness = EditorHarness()
+    harness.done(harness.editor.add_body({"name": "ball", "position": [0, 3]}))
+    harness.done(harness.runner.replace_sim(harness.scene.build()))
+    harness.done(harness.editor.add_block("0", "sensors", {"type": "HeadingSensor"}))
+    assert "ball" not in harness.editor.text()
+    assert "heading" in harness.agent.percept
+    harness.done(harness.editor.undo())
+    harness.done(harness.editor.undo())
+    assert "ball" in harness.world.bodies

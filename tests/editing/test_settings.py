@@ -4,11 +4,11 @@ import pytest
 
 from ai4u_edu.editing import ChangeError
 from ai4u_edu.editing.settings import agent_form, scene_form
-from tests.editing.shops import Shop
+from tests.editing.harness import EditorHarness
 
 
 def test_the_forms_come_from_the_declarations() -> None:
-    description = Shop().editor.state.description
+    description = EditorHarness().editor.state.description
     agent = {field.name: field for field in agent_form(description.agents[0])}
     assert list(agent)[:3] == ["skip_frame", "repeat_action", "max_steps_per_episode"]
     assert (agent["skip_frame"].value, agent["skip_frame"].kind) == (0, "whole")
@@ -27,61 +27,61 @@ def test_the_forms_come_from_the_declarations() -> None:
 
 
 def test_an_agents_settings_apply_at_the_next_decision_and_can_be_undone() -> None:
-    shop = Shop()
+    harness = EditorHarness()
     values = {"skip_frame": 2, "max_steps_per_episode": 7, "reward_scale": 2.5}
-    outcome = shop.done(shop.editor.change_agent("0", values))
+    outcome = harness.done(harness.editor.change_agent("0", values))
     assert (outcome.when, outcome.label) == ("next decision", "change agent 0")
-    assert shop.agent.brain.skip_frame == 2
-    assert (shop.agent.max_steps_per_episode, shop.agent.reward_scale) == (7, 2.5)
-    brain = shop.editor.state.agent("0")["brains"][0]
+    assert harness.agent.brain.skip_frame == 2
+    assert (harness.agent.max_steps_per_episode, harness.agent.reward_scale) == (7, 2.5)
+    brain = harness.editor.state.agent("0")["brains"][0]
     assert brain["skip_frame"] == 2
     assert brain["controller"]["type"] == "ReplayController"
-    shop.done(shop.editor.undo())
-    assert shop.agent.brain.skip_frame == 0
-    assert (shop.agent.max_steps_per_episode, shop.agent.reward_scale) == (0, 1)
+    harness.done(harness.editor.undo())
+    assert harness.agent.brain.skip_frame == 0
+    assert (harness.agent.max_steps_per_episode, harness.agent.reward_scale) == (0, 1)
 
 
 def test_who_acts_first_is_settled_at_a_reset() -> None:
-    shop = Shop()
-    outcome = shop.done(shop.editor.change_agent("0", {"priority": 3}))
+    harness = EditorHarness()
+    outcome = harness.done(harness.editor.change_agent("0", {"priority": 3}))
     assert outcome.when == "next reset"
-    assert shop.agent.priority == 0
-    shop.done(shop.runner.reset(5))
-    shop.done(shop.runner.submit(lambda: None))
-    assert shop.agent.priority == 3
+    assert harness.agent.priority == 0
+    harness.done(harness.runner.reset(5))
+    harness.done(harness.runner.submit(lambda: None))
+    assert harness.agent.priority == 3
 
 
 def test_a_worlds_settings_apply_at_the_next_reset_and_its_words_at_once() -> None:
-    shop = Shop()
-    before = shop.world
-    outcome = shop.done(shop.editor.change_settings({"gravity": 1.6, "goal": "Jump high."}))
+    harness = EditorHarness()
+    before = harness.world
+    outcome = harness.done(harness.editor.change_settings({"gravity": 1.6, "goal": "Jump high."}))
     assert (outcome.when, outcome.label) == ("next reset", "change the scene")
-    assert shop.runner.sim.goal == "Jump high."
-    assert shop.world is before
-    assert "gravity: 1.6" in shop.editor.text()
-    shop.done(shop.runner.reset(5))
-    shop.done(shop.runner.submit(lambda: None))
-    assert shop.world.settings.gravity == 1.6
-    assert not shop.editor.waits_for_reset
-    shop.done(shop.editor.change_settings({"gravity": None}))
-    assert "gravity" not in shop.editor.text()
-    shop.done(shop.editor.undo())
-    shop.done(shop.editor.undo())
-    assert shop.editor.state.description == shop.scene.description
-    shop = Shop()
-    assert shop.done(shop.editor.change_settings({"title": "Moon"})).when == "now"
+    assert harness.runner.sim.goal == "Jump high."
+    assert harness.world is before
+    assert "gravity: 1.6" in harness.editor.text()
+    harness.done(harness.runner.reset(5))
+    harness.done(harness.runner.submit(lambda: None))
+    assert harness.world.settings.gravity == 1.6
+    assert not harness.editor.waits_for_reset
+    harness.done(harness.editor.change_settings({"gravity": None}))
+    assert "gravity" not in harness.editor.text()
+    harness.done(harness.editor.undo())
+    harness.done(harness.editor.undo())
+    assert harness.editor.state.description == harness.scene.description
+    harness = EditorHarness()
+    assert harness.done(harness.editor.change_settings({"title": "Moon"})).when == "now"
 
 
 def test_agents_take_turns_from_the_next_reset_on() -> None:
-    shop = Shop()
-    outcome = shop.done(shop.editor.change_settings({"spread_decisions": True}))
-    before = shop.runner.sim.spread_decisions
-    shop.done(shop.runner.reset(5))
-    shop.done(shop.runner.submit(lambda: None))
+    harness = EditorHarness()
+    outcome = harness.done(harness.editor.change_settings({"spread_decisions": True}))
+    before = harness.runner.sim.spread_decisions
+    harness.done(harness.runner.reset(5))
+    harness.done(harness.runner.submit(lambda: None))
     assert (outcome.when, before) == ("next reset", False)
-    assert shop.runner.sim.spread_decisions
-    shop.done(shop.editor.change_settings({"spread_decisions": None}))
-    assert "spread_decisions" not in shop.editor.text()
+    assert harness.runner.sim.spread_decisions
+    harness.done(harness.editor.change_settings({"spread_decisions": None}))
+    assert "spread_decisions" not in harness.editor.text()
 
 
 @pytest.mark.parametrize(
@@ -96,17 +96,17 @@ def test_agents_take_turns_from_the_next_reset_on() -> None:
     ],
 )
 def test_what_is_wrong_is_told_by_field(values: dict[str, object], told: str) -> None:
-    shop = Shop()
+    harness = EditorHarness()
     with pytest.raises(ChangeError) as caught:
-        shop.done(shop.editor.change_settings(values))
+        harness.done(harness.editor.change_settings(values))
     assert told in str(caught.value)
     assert {problem.path[0] for problem in caught.value.problems} == set(values)
-    assert shop.editor.undo_label == ""
+    assert harness.editor.undo_label == ""
 
 
 @pytest.mark.parametrize("values", [{"skip_frame": -1}, {"max_steps_per_episode": -1}])
 def test_what_is_wrong_with_an_agent_is_told_by_field(values: dict[str, object]) -> None:
-    shop = Shop()
+    harness = EditorHarness()
     with pytest.raises(ChangeError, match="expected at least 0, got -1") as caught:
-        shop.done(shop.editor.change_agent("0", values))
+        harness.done(harness.editor.change_agent("0", values))
     assert [problem.path for problem in caught.value.problems] == [tuple(values)]

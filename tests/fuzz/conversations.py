@@ -84,7 +84,7 @@ class Talk:
             self.closed = True
             assert len(message.get("reason", "").encode()) <= 123, message
         elif message.get("bytes") is not None:
-            heard = native.decode(message["bytes"], native.LARGEST_HEARD)
+            heard = native.decode(message["bytes"], native.MAX_WORLD_FRAME_BYTES)
             if isinstance(heard, native.Percept):
                 self.percept = heard
         elif message.get("text") is not None:

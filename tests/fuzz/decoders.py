@@ -83,8 +83,8 @@ def make_percept(chance: random.Random) -> bytes:
 def read_percept(data: bytes) -> None:
     """Reads it as a script does: every reading, and the spaces."""
     size = int(data[:8])
-    welcome = native.decode(data[8 : 8 + size], native.LARGEST_HEARD)
-    percept = native.decode(data[8 + size :], native.LARGEST_HEARD)
+    welcome = native.decode(data[8 : 8 + size], native.MAX_WORLD_FRAME_BYTES)
+    percept = native.decode(data[8 + size :], native.MAX_WORLD_FRAME_BYTES)
     if not isinstance(welcome, native.Welcome) or not isinstance(percept, native.Percept):
         return
     readings = {reading.key: reading for reading in welcome.readings}
@@ -191,7 +191,7 @@ WIRE = ("ai4u_edu.wire",)
 NATIVE_SAID = Target(
     "native-said",
     make_frame,
-    _read_frame(native.LARGEST_SAID),
+    _read_frame(native.MAX_SCRIPT_FRAME_BYTES),
     (WireError,),
     packages=WIRE,
     seeds=FRAMES,
@@ -199,7 +199,7 @@ NATIVE_SAID = Target(
 NATIVE_HEARD = Target(
     "native-heard",
     make_frame,
-    _read_frame(native.LARGEST_HEARD),
+    _read_frame(native.MAX_WORLD_FRAME_BYTES),
     (WireError,),
     packages=WIRE,
     seeds=FRAMES,

@@ -139,7 +139,7 @@ class NativeSession(RuleBasedStateMachine):
     @rule()
     def connect(self) -> None:
         def write(frame: bytes) -> bool:
-            self.heard.append(native.decode(frame, native.LARGEST_HEARD))
+            self.heard.append(native.decode(frame, native.MAX_WORLD_FRAME_BYTES))
             return True
 
         async def never(message: Any) -> None:

@@ -48,9 +48,9 @@ class TimedRunner(Runner):
 
     late: list[float]
 
-    def _tick(self, *, leaps: bool = False) -> None:
+    def _tick(self, *, whole_decision: bool = False) -> None:
         self.late.append(self._clock() - self._schedule.due)
-        super()._tick(leaps=leaps)
+        super()._tick(whole_decision=whole_decision)
 
 
 class Told(NamedTuple):

@@ -5,7 +5,7 @@ from dataclasses import replace
 
 from ai4u_edu.recording import Archive, Episode
 from ai4u_edu.recording.archive import size_of
-from tests.recording.takes import take
+from tests.recording.recorded_drives import take
 
 
 def episodes(count: int) -> list[Episode]:

@@ -241,7 +241,7 @@ def test_record_says_what_it_waits_for_and_ends_with_ctrl_c(tmp_path: Path) -> N
 def test_who_never_decides_is_not_recorded_for_ever(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(episode_commands, "LONGEST", 50)
+    monkeypatch.setattr(episode_commands, "DEFAULT_MAX_DECISIONS", 50)
     file = tmp_path / "mine.py"
     file.write_text("from ai4u_edu import Command\n\ndef idle(percept):\n    return Command.WAIT\n")
     with pytest.raises(NoDecisionError, match="agent '0' took no decision in 50 ticks"):

@@ -18,7 +18,7 @@ from ai4u_edu.recording.exports.csv_file import write_csv
 from ai4u_edu.recording.exports.html_page import write_html
 from ai4u_edu.recording.exports.movie import write_gif, write_mp4
 from ai4u_edu.snapshot.raster import draw_snapshot
-from tests.recording.takes import Take, take
+from tests.recording.recorded_drives import Take, take
 from tests.server.rooms import until
 
 imageio_ffmpeg = pytest.importorskip("imageio_ffmpeg")

@@ -10,7 +10,7 @@ from ai4u_edu.check.drive import RandomDrive
 from ai4u_edu.recording import Episode, Recorder
 from ai4u_edu.recording.frame_cache import FrameCache
 from ai4u_edu.snapshot import AgentState, Snapshot, capture_snapshot, capture_static_scene
-from tests.recording.takes import GO, HOLD, LEFT, RESPAWN, WAIT, driver, field_of, take
+from tests.recording.recorded_drives import GO, HOLD, LEFT, RESPAWN, WAIT, driver, field_of, take
 
 
 def lived(name: str, decisions: int) -> tuple[Episode, dict[int, Snapshot]]:

@@ -2,7 +2,6 @@
 
 import errno
 import os
-import sys
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -22,12 +21,19 @@ from ai4u_edu import (
 from ai4u_edu.agent import EVENTS
 from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.base.errors import SetupError
-from ai4u_edu.recording import Episode, Recorder, RecordingError, Replay, recorder_into
+from ai4u_edu.recording import (
+    Episode,
+    Recorder,
+    RecordingError,
+    Replay,
+    folder_recorder,
+    recorder_into,
+)
 from ai4u_edu.recording import episode_builder as builder
 from ai4u_edu.recording.scene_export import export_scene
 from ai4u_edu.runtime.runner import Runner
 from tests.builders import small_sim
-from tests.recording.takes import driver, field_of
+from tests.recording.recorded_drives import driver, field_of
 
 
 def ahead(percept: object) -> dict[str, list[float]]:
@@ -69,12 +75,12 @@ def test_switched_off_it_listens_to_nothing() -> None:
     assert handlers(sim) == before + 4
     sim.reset(1)
     sim.step()
-    recorder.switch(False)
+    recorder.set_enabled(False)
     assert handlers(sim) == before
     assert [len(each.agents[0]) for each in recorder.episodes] == [1]
     sim.reset(2)
     sim.step()
-    recorder.switch(True)
+    recorder.set_enabled(True)
     sim.step()  # in the middle of an episode: not recorded
     sim.reset(3)
     sim.step()
@@ -87,7 +93,7 @@ def test_what_began_but_did_nothing_yet_is_recorded() -> None:
     sim.reset(4)
     recorder = Recorder(sim)
     sim.step()
-    now = recorder.now()
+    now = recorder.current_episode()
     assert now is not None
     assert (now.seed, len(now.agents[0])) == (4, 1)
     assert Replay(now).verdict.exact
@@ -96,16 +102,16 @@ def test_what_began_but_did_nothing_yet_is_recorded() -> None:
 def test_what_is_under_way_can_be_looked_at() -> None:
     sim, _ = chase()
     recorder = Recorder(sim)
-    assert recorder.now() is None
+    assert recorder.current_episode() is None
     sim.reset(1)
     percepts = [sim.step() for _ in range(9)]
-    now = recorder.now()
+    now = recorder.current_episode()
     assert now is not None
     assert Replay(now).at(7).percept == percepts[6]
 
 
 def test_an_episode_that_is_too_long_is_cut(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(builder, "LONGEST", 3000)
+    monkeypatch.setattr(builder, "MAX_EPISODE_BYTES", 3000)
     sim = field_of(driver("a", [], skip_frame=1), driver("b", [], skip_frame=4))
     recorder = Recorder(sim)
     sim.reset(1)
@@ -117,7 +123,7 @@ def test_an_episode_that_is_too_long_is_cut(monkeypatch: pytest.MonkeyPatch) -> 
     assert 10 < len(episode.agents[0]) < 40
     assert Replay(episode).verdict.exact
     sim.step()
-    now = recorder.now()
+    now = recorder.current_episode()
     assert now is not None
     assert not now.cut
 
@@ -132,7 +138,7 @@ def test_a_block_that_no_file_can_hold_stops_no_world() -> None:
     recorder = Recorder(sim)
     sim.reset(1)
     sim.step()
-    assert recorder.now() is None
+    assert recorder.current_episode() is None
     assert recorder.problem.startswith(
         "agent '0': expected a parameter that a file can hold, got <object object"
     )
@@ -189,8 +195,7 @@ def test_a_full_disk_stops_no_world_and_refuses_no_reset(
         runner.advance()
         asked.result(0)
 
-    module = sys.modules[recorder_into.__module__]
-    monkeypatch.setattr(module, "write_atomically", full)
+    monkeypatch.setattr(folder_recorder, "write_atomically", full)
     for seed in (2, 3, 4):
         drive_and_reset(seed)
         assert "No space left on device" in recorder.save_problem

@@ -13,8 +13,7 @@ from ai4u_edu.recording import Episode, Recorder, RecordingError, Replay, ghost_
 from ai4u_edu.recording.checksum import percept_checksum
 from ai4u_edu.recording.file import decode, encode
 from ai4u_edu.recording.player import Player
-from tests.recording.again import digest
-from tests.recording.takes import (
+from tests.recording.recorded_drives import (
     GO,
     HOLD,
     LEFT,
@@ -26,6 +25,7 @@ from tests.recording.takes import (
     field_of,
     take,
 )
+from tests.recording.replay_digest import digest
 
 pytestmark = pytest.mark.slow
 
@@ -60,7 +60,7 @@ def test_another_process_agrees(name: str, tmp_path: Path) -> None:
     episode = take(name).episode
     file = episode.save(tmp_path / "one.episode")
     there = subprocess.run(
-        [sys.executable, "-m", "tests.recording.again", str(file)],
+        [sys.executable, "-m", "tests.recording.replay_digest", str(file)],
         capture_output=True,
         text=True,
         check=True,
@@ -205,7 +205,7 @@ def two_futures(step: int, **options: object) -> tuple[list[bytes], list[bytes]]
     sim.reset(6)
     there = [sim.step().data for _ in range(40)]
     recorder.finish()
-    recorder.switch(False)
+    recorder.set_enabled(False)
     replay = Replay(recorder.episodes[-1])
     into = sim if options.get("same") else None
     brains = None if options.get("same") else {"0": LocalBrain(controller=circling)}

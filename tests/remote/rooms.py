@@ -137,7 +137,7 @@ class Script:
         return self.hear()
 
     def hear(self, timeout: float = 5.0) -> native.Message:
-        return native.decode(self.socket.recv(timeout, decode=False), native.LARGEST_HEARD)
+        return native.decode(self.socket.recv(timeout, decode=False), native.MAX_WORLD_FRAME_BYTES)
 
     def percept(self) -> native.Percept:
         message = self.hear()

@@ -41,7 +41,7 @@ def test_a_script_keeps_its_agent_when_the_world_goes_back_in_time() -> None:
             first = robot.reset(seed=6)
             drive(robot, 10)
             assert robot.sense().step == 10
-            episode = room.runner.submit(recorder.now).result(5)
+            episode = room.runner.submit(recorder.current_episode).result(5)
             assert episode is not None
             room.runner.continue_from(Replay(episode), 4).result(5)
             drive(robot, 4)  # what it says of what it sensed before counts no more

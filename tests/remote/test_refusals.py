@@ -136,11 +136,11 @@ def test_a_second_hello_can_not_be_another_one() -> None:
 def test_a_frame_that_is_too_large_ends_the_connection() -> None:
     with log_room() as room, Script(room) as script:
         script.hello()
-        script.socket.send(bytes(native.LARGEST_SAID + 1))
+        script.socket.send(bytes(native.MAX_SCRIPT_FRAME_BYTES + 1))
         assert script.end() == (
             native.PROBLEMS["too_large"],
-            f"expected at most {native.LARGEST_SAID} bytes in a frame, got "
-            f"{native.LARGEST_SAID + 1}",
+            f"expected at most {native.MAX_SCRIPT_FRAME_BYTES} bytes in a frame, got "
+            f"{native.MAX_SCRIPT_FRAME_BYTES + 1}",
         )
 
 
@@ -218,12 +218,12 @@ def test_a_single_agent_is_driven_in_lockstep_unless_the_world_forbids_it() -> N
     ("arguments", "complaint"),
     [
         ({"mode": "lockstp"}, "connect: mode: expected one of 'lockstep', 'realtime', got"),
-        ({"on_missing": "hodl"}, "connect: on_missing: expected one of '', 'hold', 'coast', 's"),
+        ({"on_missing": "hodl"}, "connect: on_missing: expected one of '', 'coast', 'hold', 's"),
         ({"agent": 7}, "connect: agent: expected text of up to 400 characters, got 7"),
         ({"keys": [7]}, "connect: keys: expected text of up to 400 characters, got 7"),
         ({"keys": 7}, "connect: keys: expected a list of up to 1024, got 7"),
         ({"session": None}, "connect: session: expected text of up to 400 characters, got None"),
-        ({"token": object()}, "connect: expected text and names of keys, got can not serialize"),
+        ({"token": object()}, "connect: expected text and names of keys, got <object object"),
         ({"patience": float("nan")}, "patience: expected a number of seconds from 0 on, got nan"),
     ],
 )

@@ -7,7 +7,7 @@ import pytest
 from ai4u_edu import BasicAgent, CircleShape, ControlRequestor, LocalBrain, World
 from ai4u_edu.base.errors import WorldError
 from ai4u_edu.runtime.runner import Runner
-from ai4u_edu.runtime.slow_ticks import LATELY, SLOW
+from ai4u_edu.runtime.tick_monitor import SLOW_TICK_S, SLOW_TICK_SHOWN_S
 from ai4u_edu.server.api import SnapshotView
 from ai4u_edu.viewer.panel.status import status
 from tests.builders import small_sim, still
@@ -43,7 +43,7 @@ def told(runner: Runner) -> float | None:
 
 def test_a_slow_tick_is_remembered_for_a_while_and_the_slowest_counts() -> None:
     clock = Clock()
-    runner = slowed(clock, [SLOW, 0.2, 0.1])
+    runner = slowed(clock, [SLOW_TICK_S, 0.2, 0.1])
     runner.advance()
     assert told(runner) is None  # just quick enough
     runner.advance()
@@ -55,7 +55,7 @@ def test_a_slow_tick_is_remembered_for_a_while_and_the_slowest_counts() -> None:
     view = SnapshotView.of(runner.latest).slow_tick
     assert view is not None
     assert view.seconds == pytest.approx(0.2)
-    clock.now += LATELY + 0.1
+    clock.now += SLOW_TICK_SHOWN_S + 0.1
     runner.advance()
     assert told(runner) is None
     assert "a tick took" not in status(runner.latest)

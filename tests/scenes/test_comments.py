@@ -6,7 +6,7 @@ import pytest
 
 from ai4u_edu import Scene
 from ai4u_edu.scenes.yaml.file import write_yaml
-from tests.editing.shops import Shop
+from tests.editing.harness import EditorHarness
 
 TEXT = """\
 # A header of mine,
@@ -137,20 +137,20 @@ def test_a_text_that_is_written_in_an_odd_way_loses_no_data() -> None:
 
 
 def test_comments_survive_the_page() -> None:
-    shop = Shop(Scene.loads(TEXT))
-    assert shop.editor.text() == TEXT
-    shop.done(shop.editor.add_body({"name": "ball", "position": [0, 3]}))
-    shop.done(shop.editor.move_body("box", 4, 2))
-    shop.done(shop.editor.change_block("0", ("actuators", 0), {"move_amount": 3}))
-    text = shop.editor.text()
+    harness = EditorHarness(Scene.loads(TEXT))
+    assert harness.editor.text() == TEXT
+    harness.done(harness.editor.add_body({"name": "ball", "position": [0, 3]}))
+    harness.done(harness.editor.move_body("box", 4, 2))
+    harness.done(harness.editor.change_block("0", ("actuators", 0), {"move_amount": 3}))
+    text = harness.editor.text()
     assert comments_in(text) == COMMENTS
-    assert Scene.loads(text) == shop.editor.scene
-    shop.done(shop.editor.remove_body("ball"))
-    shop.done(shop.editor.load(text.replace("small", "other")))
-    assert comments_in(shop.editor.text()) == COMMENTS
+    assert Scene.loads(text) == harness.editor.scene
+    harness.done(harness.editor.remove_body("ball"))
+    harness.done(harness.editor.load(text.replace("small", "other")))
+    assert comments_in(harness.editor.text()) == COMMENTS
     for _ in range(5):
-        shop.done(shop.editor.undo())
-    assert shop.editor.text() == TEXT
+        harness.done(harness.editor.undo())
+    assert harness.editor.text() == TEXT
 
 
 def test_a_scene_that_was_made_in_python_is_written_plainly() -> None:

@@ -140,7 +140,7 @@ class Slow(Sensor):
 
 
 def test_health_tells_which_block_does_not_return(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("ai4u_edu.runtime.stall_monitor.STALL_S", 0.0)
+    monkeypatch.setattr("ai4u_edu.runtime.tick_monitor.STALL_S", 0.0)
     sensor = Slow()
     with served(small_sim([sensor])) as room:
         try:

@@ -47,12 +47,12 @@ def tries(time: Time) -> Attempts:
 
 
 def look(tries: Attempts, address: str, token: str) -> Verdict:
-    return asyncio.run(tries.look(address, lambda: token == TOKEN))
+    return asyncio.run(tries.check(address, lambda: token == TOKEN))
 
 
 def flood(tries: Attempts, address: str, count: int = MAX_WRONG) -> list[Verdict]:
     async def guess() -> list[Verdict]:
-        return [await tries.look(address, lambda: False) for _ in range(count)]
+        return [await tries.check(address, lambda: False) for _ in range(count)]
 
     return asyncio.run(guess())
 
@@ -88,7 +88,7 @@ def test_of_many_at_once_most_are_not_even_looked_at(tries: Attempts) -> None:
         return False
 
     async def all_at_once() -> list[Verdict]:
-        return await asyncio.gather(*[tries.look("a", is_right) for _ in range(500)])
+        return await asyncio.gather(*[tries.check("a", is_right) for _ in range(500)])
 
     assert set(asyncio.run(all_at_once())) == {Verdict.TOO_MANY}
     assert looked == MAX_WAITING
@@ -97,8 +97,8 @@ def test_of_many_at_once_most_are_not_even_looked_at(tries: Attempts) -> None:
 def test_memory_is_bounded(tries: Attempts) -> None:
     async def come() -> None:
         for number in range(3 * MAX_ADDRESSES):
-            await tries.look(str(number), lambda: False)
-            await tries.look(str(number), lambda: True)
+            await tries.check(str(number), lambda: False)
+            await tries.check(str(number), lambda: True)
 
     asyncio.run(come())
     assert len(tries._wrong) == len(tries._known) == MAX_ADDRESSES

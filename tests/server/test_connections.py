@@ -38,7 +38,7 @@ def connect(connections: Connections, peer: tuple[str, int], *, idle: bool = Tru
 
 
 def test_an_address_has_so_many_connections_and_others_have_theirs() -> None:
-    connections = Connections(most=500)
+    connections = Connections(limit=500)
     for port in range(MAX_PER_ADDRESS):
         connect(connections, ("10.0.0.7", port), idle=False)
     assert connections.admit(("10.0.0.7", 5000)) == (
@@ -51,7 +51,7 @@ def test_an_address_has_so_many_connections_and_others_have_theirs() -> None:
 
 
 def test_this_machine_may_have_as_many_as_there_are() -> None:
-    connections = Connections(most=300)
+    connections = Connections(limit=300)
     for port in range(300):
         connect(connections, ("127.0.0.1", port), idle=False)
     for host in ("127.0.0.1", "10.0.0.8"):
@@ -61,7 +61,7 @@ def test_this_machine_may_have_as_many_as_there_are() -> None:
 
 
 def test_the_connection_that_is_idle_for_the_longest_time_makes_room() -> None:
-    connections = Connections(most=500, per_address=3)
+    connections = Connections(limit=500, per_address=3)
     first, busy, later = (connect(connections, ("10.0.0.7", port)) for port in range(3))
     connections.set_idle(busy, False)  # type: ignore[arg-type]
     connections.set_idle(first, True)  # type: ignore[arg-type]
@@ -75,7 +75,7 @@ def test_the_connection_that_is_idle_for_the_longest_time_makes_room() -> None:
 
 
 def test_nothing_is_left_of_connections_that_are_closed() -> None:
-    connections = Connections(most=10)
+    connections = Connections(limit=10)
     for port in range(1000):
         connect(connections, ("10.0.0.7", port))
         if connections.evicting == MAX_EVICTING:

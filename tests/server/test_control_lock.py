@@ -17,7 +17,7 @@ from ai4u_edu import (
     World,
 )
 from ai4u_edu.blocks.brains.command import Answer
-from ai4u_edu.blocks.brains.controllers.keyboard import SILENCE
+from ai4u_edu.blocks.brains.controllers.keyboard import KEY_TIMEOUT_S
 from ai4u_edu.server.bindings import keys_of
 from tests.builders import small_sim, still
 from tests.server.rooms import Room, served, until
@@ -106,7 +106,7 @@ def test_a_silent_page_keeps_the_seat_but_not_the_keys(room: Room) -> None:
     with room.page() as page, room.page() as other:
         page.hold("KeyW")
         until(lambda: room.held == ["KeyW"])
-        until(lambda: room.held == [], 3 * SILENCE)
+        until(lambda: room.held == [], 3 * KEY_TIMEOUT_S)
         other.hold("KeyS")
         other.say("nonsense")
         other.hear("error")

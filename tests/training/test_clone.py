@@ -19,7 +19,7 @@ from ai4u_edu.training.cloning import Clone, clone, levels_of
 from ai4u_edu.training.demonstrations import demonstrations
 from ai4u_edu.training.evaluating import evaluate
 from ai4u_edu.training.policies import entrant
-from tests.recording.takes import take
+from tests.recording.recorded_drives import take
 from tests.scenes.solvers import solver_of
 
 

@@ -10,7 +10,7 @@ from ai4u_edu.base.errors import SetupError
 from ai4u_edu.envs import SceneEnv
 from ai4u_edu.recording import Episode, Recorder, RecordingError
 from ai4u_edu.training.demonstrations import demonstrations
-from tests.recording.takes import LEFT, RESPAWN, driver, field_of, take
+from tests.recording.recorded_drives import LEFT, RESPAWN, driver, field_of, take
 
 
 def shown(scene: str, observation: str, seeds: tuple[int, ...]) -> tuple[list[Episode], list[Any]]:

@@ -6,7 +6,7 @@ import pytest
 
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.viewer import Viewer
-from tests.editing.shops import Shop
+from tests.editing.harness import EditorHarness
 from tests.viewer.worlds import busy_sim
 
 
@@ -23,9 +23,9 @@ def viewer(runner: Runner) -> Iterator[Viewer]:
 
 
 @pytest.fixture
-def shop() -> Iterator[Shop]:
-    shop = Shop()
-    shop.runner.pause()
-    shop.runner.start()
-    yield shop
-    shop.runner.stop()
+def harness() -> Iterator[EditorHarness]:
+    harness = EditorHarness()
+    harness.runner.pause()
+    harness.runner.start()
+    yield harness
+    harness.runner.stop()

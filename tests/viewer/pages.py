@@ -16,6 +16,7 @@ from websockets.typing import Subprotocol
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.viewer import Viewer
 from ai4u_edu.viewer.panel.tabs import Tabs
+from ai4u_edu.viewer.scene.sense_overlay import SenseOverlay
 from ai4u_edu.viewer.viewer_client import AGENT_HEADER, DARK_HEADER
 
 P = TypeVar("P")
@@ -103,6 +104,10 @@ def shown(viewer: Viewer) -> None:
     """Draws the latest snapshot on all pages, whatever was drawn when."""
     for part in viewer.parts:
         part.make_due()
+        if isinstance(part.part, SenseOverlay | Tabs):
+            turns = part.part._turns
+            turns._drawn_at.clear()
+            turns._processor_clock = lambda: 0.0  # so that all pages have their turn
     viewer.draw(viewer.runner.latest)
 
 

@@ -182,6 +182,6 @@ def test_of_an_agent_that_decides_no_more_a_single_tick_passes(runner: Runner) -
     tick = runner.sim.world.ticks
     runner.paused = True
     asked = runner.step_decision()
-    runner._carry_out_commands()
+    runner._run_commands()
     assert asked.done()
     assert runner.sim.world.ticks == tick + 1

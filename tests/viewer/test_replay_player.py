@@ -7,7 +7,7 @@ import pytest
 from ai4u_edu import LocalBrain, Scene
 from ai4u_edu.recording import Archive, Recorder
 from ai4u_edu.runtime.runner import Runner
-from ai4u_edu.viewer.replay.replay_player import NOW, ReplayPlayer
+from ai4u_edu.viewer.replay.replay_player import RUNNING_EPISODE, ReplayPlayer
 from tests.viewer.pages import until
 
 
@@ -64,7 +64,7 @@ def test_a_moment_is_shown_and_left(runner: Runner, player: ReplayPlayer) -> Non
     until(lambda: runner.latest.past == "episode 1, step 1 of 20")
     player.go_to(99)
     until(lambda: runner.latest.past == "episode 1, the end")
-    player.back().result(5)
+    player.return_to_present().result(5)
     assert (runner.latest.past, runner.latest.seed, runner.latest.tick) == ("", 6, 40)
     assert runner.latest.paused
 
@@ -72,7 +72,7 @@ def test_a_moment_is_shown_and_left(runner: Runner, player: ReplayPlayer) -> Non
 def test_the_episode_that_is_under_way_can_be_looked_at_from_its_end(
     runner: Runner, player: ReplayPlayer
 ) -> None:
-    opened(player, NOW)
+    opened(player, RUNNING_EPISODE)
     assert player.step == 8
     player.move(-1)
     until(lambda: runner.latest.past == "episode 2, step 8 of 8")
@@ -82,10 +82,10 @@ def test_the_episode_that_is_under_way_can_be_looked_at_from_its_end(
 def test_what_is_under_way_is_taken_anew_when_it_has_gone_on(
     runner: Runner, player: ReplayPlayer
 ) -> None:
-    opened(player, NOW)
+    opened(player, RUNNING_EPISODE)
     player.go_to(3)
     until(lambda: runner.latest.past == "episode 2, step 4 of 8")
-    player.back().result(5)
+    player.return_to_present().result(5)
 
     def go_on() -> None:
         for _ in range(4):
@@ -94,7 +94,7 @@ def test_what_is_under_way_is_taken_anew_when_it_has_gone_on(
     runner.submit(go_on).result(5)
     player.move(-1)
     until(lambda: runner.latest.past == "episode 2, step 12 of 12")
-    player.back().result(5)
+    player.return_to_present().result(5)
     player.go_to(10)
     until(lambda: runner.latest.past == "episode 2, step 11 of 12")
 
@@ -108,7 +108,7 @@ def test_it_plays_to_the_end_and_stops(runner: Runner, player: ReplayPlayer) -> 
     def ended() -> bool:
         if not seen or seen[-1] != runner.latest.past:
             seen.append(runner.latest.past)
-        return not player.playing and player.step == 20
+        return not player.is_playing and player.step == 20
 
     until(ended)
     assert seen[-1] == "episode 1, the end"
@@ -116,7 +116,7 @@ def test_it_plays_to_the_end_and_stops(runner: Runner, player: ReplayPlayer) -> 
     player.play()
     until(lambda: player.step < 20)
     player.play(on=False)
-    assert not player.playing
+    assert not player.is_playing
 
 
 def test_if_somebody_has_the_world_go_on_it_stops_playing(
@@ -126,7 +126,7 @@ def test_if_somebody_has_the_world_go_on_it_stops_playing(
     player.play()
     until(lambda: runner.latest.past)
     runner.resume().result(5)
-    until(lambda: not player.playing)
+    until(lambda: not player.is_playing)
     assert runner.latest.past == ""
     assert not runner.paused
 
@@ -135,7 +135,7 @@ def test_the_world_goes_on_from_a_moment(runner: Runner, player: ReplayPlayer) -
     opened(player, 1)
     player.go_to(4)
     until(lambda: runner.latest.past)
-    player.go_on().result(5)
+    player.continue_from_here().result(5)
     assert runner.latest.past == ""
     until(lambda: runner.latest.tick > 20)
     assert (runner.latest.seed, runner.sim.world.seeds.seed) == (5, 5)
@@ -144,9 +144,9 @@ def test_the_world_goes_on_from_a_moment(runner: Runner, player: ReplayPlayer) -
 
 def test_what_is_not_there_is_said(runner: Runner, player: ReplayPlayer) -> None:
     with pytest.raises(Exception, match="choose an episode first"):
-        player.go_on().result(5)
+        player.continue_from_here().result(5)
     player.open(99)
     assert player.problem == "episode 99 is not kept any more"
     runner.reset(7).result(5)
-    player.open(NOW)
+    player.open(RUNNING_EPISODE)
     until(lambda: player.problem == "nothing of it is recorded yet")

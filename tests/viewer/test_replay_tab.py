@@ -10,9 +10,9 @@ from ai4u_edu.recording.file import encode
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.viewer import Viewer
 from ai4u_edu.viewer.panel.uploads import limit_uploads
-from ai4u_edu.viewer.replay.episode_list import downloads, listed, short
+from ai4u_edu.viewer.replay.episode_list import download_links, episode_table, short_brain_title
 from ai4u_edu.viewer.replay.replay_tab import ReplayTab
-from tests.recording.takes import take
+from tests.recording.recorded_drives import take
 from tests.viewer.pages import Page, page, seen, shown, tabs_of, until
 
 
@@ -80,7 +80,7 @@ def test_the_slider_moves_what_all_see(viewer: Viewer, runner: Runner) -> None:
         until(lambda: runner.latest.past == "episode 1, step 7 of 20")
         shown(viewer)
         assert tab.step.value == 7
-        assert "Seen now: episode 1, step 7 of 20" in tab.told.content
+        assert "Seen now: episode 1, step 7 of 20" in tab.status.content
         with page(viewer):  # whoever comes later sees the same
             until(lambda: len(viewer.server.get_clients()) == 2)
             viewer.viewer_clients.meet()
@@ -105,10 +105,10 @@ def test_a_race_begins_with_the_same_seed(viewer: Viewer, runner: Runner) -> Non
         here.change(tab.actions, "Race it")
         until(lambda: runner.latest.seed == 5 and not runner.paused)
         shown(viewer)
-        assert viewer.ghosts.told(runner.latest) == "Ghost: episode 1"
+        assert viewer.ghosts.message(runner.latest) == "Ghost: episode 1"
         assert tab.no_ghost.visible
         here.press(tab.no_ghost)
-        until(lambda: viewer.ghosts.told(runner.latest) == "")
+        until(lambda: viewer.ghosts.message(runner.latest) == "")
 
 
 def send(
@@ -180,17 +180,19 @@ def test_the_table_marks_what_was_chosen_and_shortens_what_is_long() -> None:
     archive = Archive()
     for _ in range(2):
         archive.append(take("box_chase", seed=2**40, decisions=3).episode)
-    html = listed(archive.entries, 2)
+    html = episode_table(archive.entries, 2)
     assert html.index("<th>2</th>") < html.index("<th>1</th>")
     assert '<tr class="chosen" aria-current="true"><th>2</th><td>109951…</td>' in html
-    assert "<th>1 <b" in listed(archive.entries, 2, archive.entries[0])
-    assert "Every episode is kept here" in listed((), None)
-    assert [short(each) for each in ("LocalBrain(WASDRBMoveController)", "Recording", "")] == [
+    assert "<th>1 <b" in episode_table(archive.entries, 2, archive.entries[0])
+    assert "Every episode is kept here" in episode_table((), None)
+    assert [
+        short_brain_title(each) for each in ("LocalBrain(WASDRBMoveController)", "Recording", "")
+    ] == [
         "WASDRBMove",
         "Recording",
         "",
     ]
-    assert downloads(3, ["csv"]).count("href") == 1
+    assert download_links(3, ["csv"]).count("href") == 1
 
 
 def test_without_a_recorder_there_is_no_such_tab() -> None:

@@ -4,7 +4,7 @@ from dataclasses import replace
 from ai4u_edu.agent.block_frames import Place
 from ai4u_edu.blocks import RemoteStatus
 from ai4u_edu.runtime.runner import Runner
-from ai4u_edu.runtime.stall_monitor import Stall
+from ai4u_edu.runtime.tick_monitor import Stall
 from ai4u_edu.viewer.panel.status import goal, legend, speed_name, status
 
 

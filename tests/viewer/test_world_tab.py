@@ -18,13 +18,13 @@ from ai4u_edu.viewer.panel.add_menu import BODY_TEMPLATES, free_position
 from ai4u_edu.viewer.panel.body_form import BodyForm
 from ai4u_edu.viewer.panel.scene_cards import library_cards, stored_cards
 from ai4u_edu.viewer.panel.world_tab import NO_BODY, WorldTab
-from tests.editing.shops import TEXT, Shop
+from tests.editing.harness import TEXT, EditorHarness
 from tests.viewer.pages import Page, page, seen, shown, tabs_of, until
 
 
 @pytest.fixture
-def viewer(shop: Shop) -> Iterator[Viewer]:
-    viewer = Viewer(shop.runner, editor=shop.editor)
+def viewer(harness: EditorHarness) -> Iterator[Viewer]:
+    viewer = Viewer(harness.runner, editor=harness.editor)
     yield viewer
     viewer.stop()
 
@@ -40,8 +40,8 @@ def moving(viewer: Viewer, here: Page, tab: WorldTab) -> None:
     seen(viewer, lambda: tab.handles.node)
 
 
-def index(shop: Shop, name: str) -> int:
-    return [body.name for body in shop.scene.description.bodies].index(name)
+def index(harness: EditorHarness, name: str) -> int:
+    return [body.name for body in harness.scene.description.bodies].index(name)
 
 
 def drag(
@@ -106,7 +106,9 @@ def upload(tab: WorldTab, here: Page, name: str, content: bytes) -> None:
     )
 
 
-def test_there_are_no_handles_until_they_are_asked_for(viewer: Viewer, shop: Shop) -> None:
+def test_there_are_no_handles_until_they_are_asked_for(
+    viewer: Viewer, harness: EditorHarness
+) -> None:
     with page(viewer) as here:
         tab = tab_of(viewer)
         assert tab.handles.node == ""
@@ -115,34 +117,36 @@ def test_there_are_no_handles_until_they_are_asked_for(viewer: Viewer, shop: Sho
         seen(viewer, lambda: tab.handles.node == "")
 
 
-def test_a_wall_is_dragged_while_the_time_stands_still(viewer: Viewer, shop: Shop) -> None:
+def test_a_wall_is_dragged_while_the_time_stands_still(
+    viewer: Viewer, harness: EditorHarness
+) -> None:
     with page(viewer) as here:
         tab = tab_of(viewer)
         moving(viewer, here, tab)
-        wall = index(shop, "wall")
+        wall = index(harness, "wall")
         drag(here, tab, tab.handles.node, wall, (-4.1, 1), (-3, 1), (-2.1, -1.5))
         # it was taken up off its centre, and keeps to that
-        until(lambda: shop.editor.undo_label == "move wall")
-        assert shop.world["wall"].position == pytest.approx((-2, -2.5))
+        until(lambda: harness.editor.undo_label == "move wall")
+        assert harness.world["wall"].position == pytest.approx((-2, -2.5))
         seen(viewer, lambda: "move wall: it applies at once" in tab.status.content)
-        described = shop.editor.state.description.bodies[wall]
+        described = harness.editor.state.description.bodies[wall]
         assert described.position == pytest.approx((-2, -2.5))
         assert tab.body_list.value == "wall"
         here.change(tab.changes, "Undo")
-        until(lambda: shop.world["wall"].position == (-4, 0))
+        until(lambda: harness.world["wall"].position == (-4, 0))
 
 
-def test_where_it_can_not_stand_it_goes_back(viewer: Viewer, shop: Shop) -> None:
+def test_where_it_can_not_stand_it_goes_back(viewer: Viewer, harness: EditorHarness) -> None:
     with page(viewer) as here:
         tab = tab_of(viewer)
         moving(viewer, here, tab)
-        drag(here, tab, tab.handles.node, index(shop, "wall"), (-4, 0), (-2, 0), (4, 0))
+        drag(here, tab, tab.handles.node, index(harness, "wall"), (-4, 0), (-2, 0), (4, 0))
         seen(viewer, lambda: "overlap" in tab.status.content)
-        assert shop.world["wall"].position == (-4, 0)
-        assert shop.editor.undo_label == ""
+        assert harness.world["wall"].position == (-4, 0)
+        assert harness.editor.undo_label == ""
 
 
-def test_the_knob_turns_what_was_chosen_in_steps(viewer: Viewer, shop: Shop) -> None:
+def test_the_knob_turns_what_was_chosen_in_steps(viewer: Viewer, harness: EditorHarness) -> None:
     with page(viewer) as here:
         tab = tab_of(viewer)
         moving(viewer, here, tab)
@@ -150,17 +154,17 @@ def test_the_knob_turns_what_was_chosen_in_steps(viewer: Viewer, shop: Shop) -> 
         seen(viewer, lambda: tab.handles.knob)
         assert tab.handles.knob is not None
         drag(here, tab, tab.handles.knob.name, 0, (-3, 0), (-3.5, 0.4), (-3.98, 1.03))
-        until(lambda: shop.editor.undo_label == "move wall")
-        assert shop.world["wall"].heading == pytest.approx(1.5707963)
-        assert shop.world["wall"].position == (-4, 0)
+        until(lambda: harness.editor.undo_label == "move wall")
+        assert harness.world["wall"].heading == pytest.approx(1.5707963)
+        assert harness.world["wall"].position == (-4, 0)
 
 
-def test_a_click_chooses(viewer: Viewer, shop: Shop) -> None:
+def test_a_click_chooses(viewer: Viewer, harness: EditorHarness) -> None:
     with page(viewer) as here:
         tab = tab_of(viewer)
         moving(viewer, here, tab)
         owner = tab.viewer_client.client.scene._owner_id
-        here.click(tab.handles.node, index(shop, "box"), owner=owner)
+        here.click(tab.handles.node, index(harness, "box"), owner=owner)
         seen(viewer, lambda: tab.body_list.value == "box")
         assert tab.form is not None
         here.click(tab.handles.node, 77, owner=owner)
@@ -168,11 +172,11 @@ def test_a_click_chooses(viewer: Viewer, shop: Shop) -> None:
         seen(viewer, lambda: tab.form is None and tab.handles.knob is None)
 
 
-def test_a_page_can_drag_what_it_likes(viewer: Viewer, shop: Shop) -> None:
+def test_a_page_can_drag_what_it_likes(viewer: Viewer, harness: EditorHarness) -> None:
     with page(viewer) as here:
         tab = tab_of(viewer)
         moving(viewer, here, tab)
-        before = shop.editor.state
+        before = harness.editor.state
         drag(here, tab, tab.handles.node, 99, (0, 0), (1, 1))
         drag(here, tab, tab.handles.node, -1, (0, 0), (1, 1))
         drag(here, tab, tab.handles.node, 2, (0, 0), (float("nan"), 1), (1, float("inf")))
@@ -183,103 +187,111 @@ def test_a_page_can_drag_what_it_likes(viewer: Viewer, shop: Shop) -> None:
             here.change(handle, "nonsense")
         here.change(tab.drag_enabled, False)
         seen(viewer, lambda: tab.handles.node == "")
-        shop.runner.submit(lambda: None).result(5)  # all that was asked for before is done
-        assert shop.editor.state == before
-        assert shop.world["wall"].position == (-4, 0)
+        harness.runner.submit(lambda: None).result(5)  # all that was asked for before is done
+        assert harness.editor.state == before
+        assert harness.world["wall"].position == (-4, 0)
 
 
-def test_escape_puts_back_what_is_held(viewer: Viewer, shop: Shop) -> None:
+def test_escape_puts_back_what_is_held(viewer: Viewer, harness: EditorHarness) -> None:
     with page(viewer) as here:
         tab = tab_of(viewer)
         moving(viewer, here, tab)
-        node, wall = tab.handles.node, index(shop, "wall")
+        node, wall = tab.handles.node, index(harness, "wall")
         drag(here, tab, node, wall, (-4, 0), (-3, 1), lets_go=False)
-        seen(viewer, lambda: shop.world["wall"].position == (-3, 1))
+        seen(viewer, lambda: harness.world["wall"].position == (-3, 1))
         escape = tab.handles.escape
         assert escape is not None
         here.say("CommandTriggerMessage", uuid=escape._impl.uuid)
-        until(lambda: shop.world["wall"].position == (-4, 0))
-        shop.runner.submit(lambda: None).result(5)
+        until(lambda: harness.world["wall"].position == (-4, 0))
+        harness.runner.submit(lambda: None).result(5)
         seen(viewer, lambda: tab.handles.states["wall"].x == -4)
         drag(here, tab, node, wall, (-4, 0), (-2, 2))  # the next time it is held as ever
-        until(lambda: shop.editor.undo_label == "move wall")
-        assert shop.world["wall"].position == (-2, 2)
+        until(lambda: harness.editor.undo_label == "move wall")
+        assert harness.world["wall"].position == (-2, 2)
         here.say("CommandTriggerMessage", uuid=escape._impl.uuid)  # nothing is held
         here.change(tab.changes, "Undo")
-        until(lambda: shop.world["wall"].position == (-4, 0))
-        until(lambda: shop.editor.undo_label == "")
+        until(lambda: harness.world["wall"].position == (-4, 0))
+        until(lambda: harness.editor.undo_label == "")
         here.change(tab.drag_enabled, False)
         seen(viewer, lambda: tab.handles.escape is None)
 
 
-def test_a_page_that_vanishes_lets_go_of_what_it_holds(viewer: Viewer, shop: Shop) -> None:
+def test_a_page_that_vanishes_lets_go_of_what_it_holds(
+    viewer: Viewer, harness: EditorHarness
+) -> None:
     with page(viewer) as here:
         tab = tab_of(viewer)
         moving(viewer, here, tab)
-        drag(here, tab, tab.handles.node, index(shop, "wall"), (-4, 0), (-3, 1), lets_go=False)
-        seen(viewer, lambda: shop.world["wall"].position == (-3, 1))
-    until(lambda: shop.editor.undo_label == "move wall")
+        drag(here, tab, tab.handles.node, index(harness, "wall"), (-4, 0), (-3, 1), lets_go=False)
+        seen(viewer, lambda: harness.world["wall"].position == (-3, 1))
+    until(lambda: harness.editor.undo_label == "move wall")
     assert tab.handles.drag is None
-    assert not shop.editor.is_dragging
-    assert shop.editor.state.description.bodies[index(shop, "wall")].position == (-3, 1)
-    shop.editor.undo().result(5)
-    assert shop.world["wall"].position == (-4, 0)
+    assert not harness.editor.is_dragging
+    assert harness.editor.state.description.bodies[index(harness, "wall")].position == (-3, 1)
+    harness.editor.undo().result(5)
+    assert harness.world["wall"].position == (-4, 0)
 
 
-def test_what_is_held_while_the_handles_go_is_let_go_of(viewer: Viewer, shop: Shop) -> None:
+def test_what_is_held_while_the_handles_go_is_let_go_of(
+    viewer: Viewer, harness: EditorHarness
+) -> None:
     with page(viewer) as here:
         tab = tab_of(viewer)
         moving(viewer, here, tab)
-        node, wall = tab.handles.node, index(shop, "wall")
+        node, wall = tab.handles.node, index(harness, "wall")
         drag(here, tab, node, wall, (-4, 0), (-3, 1), lets_go=False)
-        seen(viewer, lambda: shop.world["wall"].position == (-3, 1))
+        seen(viewer, lambda: harness.world["wall"].position == (-3, 1))
         here.change(tab.drag_enabled, False)
         seen(viewer, lambda: tab.handles.node == "")
-        until(lambda: shop.editor.undo_label == "move wall")
+        until(lambda: harness.editor.undo_label == "move wall")
         assert tab.handles.drag is None
 
 
-def test_a_hand_lets_nothing_fall_into_another_scene(viewer: Viewer, shop: Shop) -> None:
+def test_a_hand_lets_nothing_fall_into_another_scene(
+    viewer: Viewer, harness: EditorHarness
+) -> None:
     with page(viewer) as here:
         tab = tab_of(viewer)
         moving(viewer, here, tab)
-        wall = index(shop, "wall")
+        wall = index(harness, "wall")
         drag(here, tab, tab.handles.node, wall, (-4, 0), (-3, 1), lets_go=False)
-        seen(viewer, lambda: shop.world["wall"].position == (-3, 1))
+        seen(viewer, lambda: harness.world["wall"].position == (-3, 1))
         other = Scene.loads(TEXT.replace("position: [-4, 0]", "position: [-5, 0]"))
-        shop.editor.open(other).result(5)
+        harness.editor.open(other).result(5)
         seen(viewer, lambda: tab.handles.drag is None)
-        shop.runner.submit(lambda: None).result(5)
-        assert shop.world["wall"].position == (-5, 0)
-        assert not shop.editor.is_dragging
-        assert shop.editor.undo_label == "open small"
+        harness.runner.submit(lambda: None).result(5)
+        assert harness.world["wall"].position == (-5, 0)
+        assert not harness.editor.is_dragging
+        assert harness.editor.undo_label == "open small"
 
 
-def test_in_the_past_nothing_can_be_taken_up(viewer: Viewer, shop: Shop) -> None:
+def test_in_the_past_nothing_can_be_taken_up(viewer: Viewer, harness: EditorHarness) -> None:
     with page(viewer) as here:
         tab = tab_of(viewer)
         moving(viewer, here, tab)
-        tab.handles.draw(replace(shop.runner.latest, past="episode 1"), "wall", on=True)
+        tab.handles.draw(replace(harness.runner.latest, past="episode 1"), "wall", on=True)
         assert tab.handles.node == ""
 
 
 @pytest.mark.parametrize("word", BODY_TEMPLATES)
-def test_things_are_added_where_there_is_room(viewer: Viewer, shop: Shop, word: str) -> None:
+def test_things_are_added_where_there_is_room(
+    viewer: Viewer, harness: EditorHarness, word: str
+) -> None:
     with page(viewer) as here:
         tab = tab_of(viewer)
-        name = shop.editor.free_name(BODY_TEMPLATES[word]["name"])
+        name = harness.editor.free_name(BODY_TEMPLATES[word]["name"])
         here.change(tab.new, word)
-        until(lambda: name in shop.world.bodies)
+        until(lambda: name in harness.world.bodies)
         seen(viewer, lambda: tab.form is not None and tab.form.body.name == name)
         assert tab.delete.label == f"Delete {name}"
         assert tab.handles.node  # it can be dragged at once
         here.press(tab.delete)
-        until(lambda: name not in shop.world.bodies)
+        until(lambda: name not in harness.world.bodies)
         seen(viewer, lambda: tab.form is None)
         assert not tab.delete.visible
 
 
-def test_a_thing_comes_where_the_page_looks(viewer: Viewer, shop: Shop) -> None:
+def test_a_thing_comes_where_the_page_looks(viewer: Viewer, harness: EditorHarness) -> None:
     with page(viewer) as here:
         tab = tab_of(viewer)
         camera = tab.viewer_client.client.camera
@@ -288,43 +300,43 @@ def test_a_thing_comes_where_the_page_looks(viewer: Viewer, shop: Shop) -> None:
             until(lambda place=place: tuple(camera.look_at[:2]) == place)  # type: ignore[misc]
             here.change(tab.new, "Disc")
             name = "disc" if number == 0 else "disc 2"
-            until(lambda name=name: name in shop.world.bodies)  # type: ignore[misc]
-            assert shop.world[name].position == place
+            until(lambda name=name: name in harness.world.bodies)  # type: ignore[misc]
+            assert harness.world[name].position == place
         here.report_camera(position=(50.0, 0.0, 30.0))
         until(lambda: camera.look_at[0] == 50)
         here.change(tab.new, "Disc")
         seen(viewer, lambda: "there is no room" in tab.status.content)
 
 
-def test_the_body_of_an_agent_stays(viewer: Viewer, shop: Shop) -> None:
+def test_the_body_of_an_agent_stays(viewer: Viewer, harness: EditorHarness) -> None:
     with page(viewer) as here:
         tab = tab_of(viewer)
         chosen(viewer, here, tab, "robot")
         here.press(tab.delete)
         seen(viewer, lambda: "an agent needs its body" in tab.status.content)
-        assert "robot" in shop.world.bodies
+        assert "robot" in harness.world.bodies
 
 
-def test_a_form_changes_place_size_and_looks(viewer: Viewer, shop: Shop) -> None:
+def test_a_form_changes_place_size_and_looks(viewer: Viewer, harness: EditorHarness) -> None:
     with page(viewer) as here:
         tab = tab_of(viewer)
         form = chosen(viewer, here, tab, "wall")
         applied(here, form, x="-3,5", heading_deg="90")
         seen(viewer, lambda: "move wall: it applies at once" in tab.status.content)
-        assert shop.world["wall"].position == (-3.5, 0)
+        assert harness.world["wall"].position == (-3.5, 0)
         seen(viewer, lambda: form.boxes["x"].value == "-3.5")
         applied(here, form, length="0.5", width="3", colour="blue", label="gate", y="1")
         seen(viewer, lambda: "change wall: it applies at once" in tab.status.content)
-        wall = shop.editor.state.description.bodies[index(shop, "wall")]
+        wall = harness.editor.state.description.bodies[index(harness, "wall")]
         assert wall.shape.model_dump() == {"type": "box", "size": (0.5, 3)}
         assert (wall.colour, wall.label, wall.position) == ("blue", "gate", (-3.5, 1))
-        assert shop.world["wall"].position == (-3.5, 1)
+        assert harness.world["wall"].position == (-3.5, 1)
         here.change(tab.changes, "Undo")
         seen(viewer, lambda: form.boxes["label"].value == "")
         assert form.boxes["colour"].value == "(none)"
 
 
-def test_what_is_wrong_is_said_with_its_label(viewer: Viewer, shop: Shop) -> None:
+def test_what_is_wrong_is_said_with_its_label(viewer: Viewer, harness: EditorHarness) -> None:
     with page(viewer) as here:
         tab = tab_of(viewer)
         form = chosen(viewer, here, tab, "wall")
@@ -333,7 +345,7 @@ def test_what_is_wrong_is_said_with_its_label(viewer: Viewer, shop: Shop) -> Non
         applied(here, form, length="0.4", x="left")
         seen(viewer, lambda: "x (m): expected a number" in form.message.content)
         assert "&#x27;left&#x27;" in form.message.content
-        assert shop.editor.undo_label == ""
+        assert harness.editor.undo_label == ""
         applied(here, form, x="-4.5")
         seen(viewer, lambda: not form.message.content)
 
@@ -348,29 +360,29 @@ def test_the_gallery_has_a_picture_of_every_scene() -> None:
     assert "data:image/png;base64," in maze.html
 
 
-def test_a_scene_is_opened_from_the_gallery(viewer: Viewer, shop: Shop) -> None:
+def test_a_scene_is_opened_from_the_gallery(viewer: Viewer, harness: EditorHarness) -> None:
     with page(viewer) as here:
         tab = tab_of(viewer)
         assert not tab.gallery.buttons  # made when it is asked for
         here.change(tab.scene, "Choose a scene")
         until(lambda: len(tab.gallery.buttons) == len(Scene.names()))
         here.press(tab.gallery.buttons["maze"])
-        until(lambda: "exit" in shop.world.bodies)
+        until(lambda: "exit" in harness.world.bodies)
         assert not tab.gallery.buttons
         seen(viewer, lambda: "exit" in tab.body_list.options)
         assert "<b>Maze</b>" in tab.status.content
         here.change(tab.changes, "Undo")
-        until(lambda: "box" in shop.world.bodies)
+        until(lambda: "box" in harness.world.bodies)
 
 
 def test_a_scene_is_saved_by_name_and_chosen_again(
-    shop: Shop, tmp_path: Path, viewer: Viewer
+    harness: EditorHarness, tmp_path: Path, viewer: Viewer
 ) -> None:
     with page(viewer) as here:
         assert tab_of(viewer).saving is None  # nowhere to save
-    shop.editor.scene_store = SceneStore(tmp_path / "kept")
+    harness.editor.scene_store = SceneStore(tmp_path / "kept")
     left: Unsaved | None = Unsaved(tmp_path / "x", TEXT, None, time.time())
-    shop.editor.recovery.unsaved = left
+    harness.editor.recovery.unsaved = left
     with page(viewer) as here:
         seen(viewer, lambda: any(tab.saving for tab in tabs_of(viewer, WorldTab)))
         (tab,) = (each for each in tabs_of(viewer, WorldTab) if each.saving)
@@ -387,19 +399,19 @@ def test_a_scene_is_saved_by_name_and_chosen_again(
         here.press(window.save)
         until(lambda: not window.is_open)
         seen(viewer, lambda: "saved as &#x27;Mine&#x27;" in tab.status.content)
-        assert not shop.editor.recovery.unsaved
-        assert shop.editor.scene_store.load("Mine") == shop.editor.scene
-        shop.editor.remove_body("wall").result(5)
+        assert not harness.editor.recovery.unsaved
+        assert harness.editor.scene_store.load("Mine") == harness.editor.scene
+        harness.editor.remove_body("wall").result(5)
         here.change(tab.scene, "Save")
         until(lambda: window.is_open)
         here.change(window.name, "mine")
         here.press(window.save)
         until(lambda: window.save.label == "Replace it")
-        assert "wall" in shop.editor.scene_store.load("Mine").dumps()
+        assert "wall" in harness.editor.scene_store.load("Mine").dumps()
         here.change(window.name, "other")
         here.press(window.save)  # that is not what was asked about
         until(lambda: not window.is_open)
-        assert shop.editor.scene_store.names() == ["Mine", "other"]
+        assert harness.editor.scene_store.names() == ["Mine", "other"]
         here.change(tab.scene, "Save")
         until(lambda: window.is_open)
         here.change(window.name, "mine")
@@ -413,16 +425,16 @@ def test_a_scene_is_saved_by_name_and_chosen_again(
         until(lambda: "&#x27;Mine&#x27; is there already" in window.message.content)
         here.press(window.save)
         until(lambda: not window.is_open)
-        assert "wall" not in shop.editor.scene_store.load("Mine").dumps()
+        assert "wall" not in harness.editor.scene_store.load("Mine").dumps()
         here.change(tab.new, "Disc")
-        until(lambda: "disc" in shop.world.bodies)
+        until(lambda: "disc" in harness.world.bodies)
         here.change(tab.scene, "Choose a scene")
         until(lambda: len(tab.gallery.buttons) == len(Scene.names()))
         here.press(tab.gallery.stored_buttons["Mine"])
-        until(lambda: "disc" not in shop.world.bodies)
+        until(lambda: "disc" not in harness.world.bodies)
 
 
-def test_the_scenes_own_settings_have_a_form(viewer: Viewer, shop: Shop) -> None:
+def test_the_scenes_own_settings_have_a_form(viewer: Viewer, harness: EditorHarness) -> None:
     with page(viewer) as here:
         tab = tab_of(viewer)
         here.press(tab.settings.button)
@@ -436,10 +448,10 @@ def test_the_scenes_own_settings_have_a_form(viewer: Viewer, shop: Shop) -> None
         assert "On the &lt;moon&gt;" in tab.status.content
         assert "waits for the next reset" in tab.status.content
         assert form.boxes["gravity"].value == "1.6"
-        assert shop.world.settings.gravity == 9.81
-        shop.runner.reset(3).result(5)
+        assert harness.world.settings.gravity == 9.81
+        harness.runner.reset(3).result(5)
         seen(viewer, lambda: "waits for" not in tab.status.content)
-        assert shop.world.settings.gravity == 1.6
+        assert harness.world.settings.gravity == 1.6
         here.change(form.boxes["damping"], "2")
         here.press(form.apply)
         seen(viewer, lambda: "damping: expected at most 1, got 2" in form.message.content)
@@ -460,11 +472,11 @@ def test_what_is_kept_can_be_spoilt_from_outside(tmp_path: Path) -> None:
     assert stored_cards(store)[1].goal == Scene.load("maze").description.goal
 
 
-def test_a_scene_file_is_opened(viewer: Viewer, shop: Shop) -> None:
+def test_a_scene_file_is_opened(viewer: Viewer, harness: EditorHarness) -> None:
     with page(viewer) as here:
         tab = tab_of(viewer)
         upload(tab, here, "mine.yaml", TEXT.replace("[4, 0]", "[3, 3]").encode())
-        until(lambda: shop.world["box"].position == (3, 3))
+        until(lambda: harness.world["box"].position == (3, 3))
 
 
 @pytest.mark.parametrize(
@@ -476,31 +488,33 @@ def test_a_scene_file_is_opened(viewer: Viewer, shop: Shop) -> None:
         (b"x" * 400_000, "expected at most"),
     ],
 )
-def test_what_is_no_scene_is_refused(viewer: Viewer, shop: Shop, content: bytes, told: str) -> None:
+def test_what_is_no_scene_is_refused(
+    viewer: Viewer, harness: EditorHarness, content: bytes, told: str
+) -> None:
     with page(viewer) as here:
         tab = tab_of(viewer)
-        before = shop.editor.state
+        before = harness.editor.state
         upload(tab, here, "mine.yaml", content)
         seen(viewer, lambda: told in tab.status.content)
         assert 'role="alert"' in tab.status.content
-        assert shop.editor.state == before
+        assert harness.editor.state == before
 
 
 def test_what_was_left_is_offered_and_can_be_thrown_away(
-    viewer: Viewer, shop: Shop, tmp_path: Path
+    viewer: Viewer, harness: EditorHarness, tmp_path: Path
 ) -> None:
     text = TEXT.replace("[4, 0]", "[3, 3]")
-    shop.editor.recovery.unsaved = Unsaved(tmp_path / "x", text, None, time.time())
+    harness.editor.recovery.unsaved = Unsaved(tmp_path / "x", text, None, time.time())
     with page(viewer) as here:
         tab = tab_of(viewer)
         assert tab.unsaved_actions.visible
         here.change(tab.unsaved_actions, "Discard")
         seen(viewer, lambda: not tab.unsaved_actions.visible)
-        assert shop.world["box"].position == (4, 0)
-        shop.editor.recovery.unsaved = Unsaved(tmp_path / "x", text, None, time.time())
+        assert harness.world["box"].position == (4, 0)
+        harness.editor.recovery.unsaved = Unsaved(tmp_path / "x", text, None, time.time())
         seen(viewer, lambda: tab.unsaved_actions.visible)
         here.change(tab.unsaved_actions, "Restore")
-        until(lambda: shop.world["box"].position == (3, 3))
+        until(lambda: harness.world["box"].position == (3, 3))
         seen(viewer, lambda: not tab.unsaved_actions.visible)
 
 

@@ -1,4 +1,4 @@
-"""How the tests move a robot about."""
+"""Driving a robot in tests."""
 
 from ai4u_edu.world import Body, CircleShape, World
 

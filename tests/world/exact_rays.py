@@ -1,4 +1,4 @@
-"""What a ray meets in a world, worked out solid by solid: slow, plain, and no code of rays.py.
+"""Reference implementation of rays, solid by solid: slow, simple, and independent of rays.py.
 
 A ray is a half-line in space. A body is a convex outline, rounded or not, that reaches from one
 height to another; a floor is a flat sheet. Every solid can be made ``margin`` metres bigger on all
@@ -30,21 +30,21 @@ GROUND = 99.0
 
 
 class Ray(NamedTuple):
-    """Where it starts and one metre of it: x, y, z."""
+    """Start of a ray and one metre along it: x, y, z."""
 
     start: tuple[float, float, float]
     step: tuple[float, float, float]
 
 
 class Met(NamedTuple):
-    """What a ray meets, one or several at once; 0 and 0 for nothing."""
+    """Codes and distance of a ray's hits, one or several at once; 0 and 0 without a hit."""
 
     codes: frozenset[float]
     distance: float
 
 
 def meets(world: World, ray: Ray, reach: float, skip: str, mask: int) -> Met | None:
-    """What a ray meets, by number (:func:`code_of`); None where that hangs by a thread."""
+    """Return the hit of a ray, with codes of :func:`code_of`; None where rounding decides."""
     fits = [_first(world, ray, reach, skip, mask, margin) for margin in (0.0, MARGIN, -MARGIN)]
     exact = fits[0]
     for other in fits:
@@ -109,7 +109,7 @@ def _outline(body: BodyView, start: Vec, step: Vec, margin: float) -> Interval:
 
 
 def _slab(low: float, high: float, speed: float) -> Interval:
-    """When something that starts at 0 is between two walls."""
+    """Return the interval in which a point that starts at 0 is between two walls."""
     if speed == 0.0:
         return (-math.inf, math.inf) if low <= 0.0 <= high else NOTHING
     return min(low / speed, high / speed), max(low / speed, high / speed)
@@ -159,7 +159,7 @@ def _stick(a: Vec, b: Vec, radius: float, start: Vec, step: Vec) -> Interval:
 
 
 def _onto(floor: FloorDescription, ray: Ray, margin: float) -> float | None:
-    """How far along a ray a floor lies."""
+    """Return the distance along a ray to a floor."""
     x, y, z = ray.start
     if ray.step[2] == 0.0:
         return None

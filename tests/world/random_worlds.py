@@ -1,4 +1,4 @@
-"""Worlds and eyes at random, for tests that compare two ways to see them."""
+"""Random worlds and eyes, for tests that compare two implementations of rays."""
 
 import math
 import random

@@ -1,4 +1,4 @@
-"""One body shape of each type, about as big as each other."""
+"""One body shape of each type, of similar size."""
 
 from ai4u_edu.world import BoxShape, CapsuleShape, CircleShape, PolygonShape, SegmentShape
 from ai4u_edu.world.shapes import BodyShape

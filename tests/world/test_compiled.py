@@ -1,4 +1,4 @@
-"""The compiled part is optional: made once, where it can be, and missed without a word."""
+"""The compiled library is optional: compiled once where possible, else silently left out."""
 
 import os
 import shutil

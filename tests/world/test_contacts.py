@@ -1,4 +1,4 @@
-"""Who touches whom: begin and separate, over and under, and what is forgotten."""
+"""Contacts: begin and separate, over and under, and removal."""
 
 import gc
 

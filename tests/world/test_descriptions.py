@@ -1,4 +1,4 @@
-"""What is wrong with a description is told in one sentence: where, what was expected, what came."""
+"""Errors of descriptions: one sentence with place, expected value and given value."""
 
 import math
 from collections.abc import Callable

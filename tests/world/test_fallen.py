@@ -1,4 +1,4 @@
-"""Who falls below the threshold is out of the physics, until somebody puts it back."""
+"""A body that falls below the threshold leaves the physics until it is put back."""
 
 import pytest
 

@@ -1,4 +1,4 @@
-"""A world without height does not pay for it: nothing of ours runs in its ticks."""
+"""A world without height has no cost for it: no Python code for height runs in its ticks."""
 
 import threading
 from collections.abc import Callable
@@ -15,7 +15,7 @@ Handler = Callable[[pymunk.Arbiter, pymunk.Space, Any], None]
 
 
 class Calls:
-    """How often the vertical step and a handler of collisions ran."""
+    """Counts of vertical steps and of collision callbacks."""
 
     steps = 0
     handlers = 0

@@ -1,4 +1,4 @@
-"""Falling, jumping and landing, against the parabola that is worked out by hand."""
+"""Falling, jumping and landing, compared with the exact parabola."""
 
 import math
 

@@ -1,4 +1,4 @@
-"""A body that leaves the world, and comes back."""
+"""Bodies that leave the world and come back."""
 
 import pytest
 

@@ -1,4 +1,4 @@
-"""The quick ways to ask, move and tick bodies give exactly what pymunk's public ones give."""
+"""Motion through pymunk's cffi layer gives the same bits as through its public API."""
 
 import math
 import random

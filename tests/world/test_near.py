@@ -1,4 +1,4 @@
-"""Things are compared by the rectangles around them first: that may never miss one that meets."""
+"""The comparison of rectangles around forms never misses an overlap."""
 
 import random
 from typing import Any

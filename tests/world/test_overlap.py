@@ -1,4 +1,4 @@
-"""What stands in a body's way: the same, whether it or the other one can move."""
+"""Overlaps of bodies: the same result whichever of the two can move."""
 
 import math
 import random

@@ -1,4 +1,4 @@
-"""What stands in the way, and what is passed over or under."""
+"""Collisions, and passing over or under."""
 
 import pytest
 

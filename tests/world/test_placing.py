@@ -1,4 +1,4 @@
-"""Where a body may be put: not into another one, not under a taken name, not into a full world."""
+"""Adding bodies is refused inside another one, under a taken name, and in a full world."""
 
 import gc
 import weakref

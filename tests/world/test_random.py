@@ -1,4 +1,4 @@
-"""What a scene leaves to chance: drawn at each reset, from the seed alone, onto free floor."""
+"""Random values of a scene: sampled at each reset, from the seed alone, on free floor."""
 
 import gc
 import hashlib

@@ -1,4 +1,4 @@
-"""Rays ask the physics no more than they need."""
+"""Rays make no more queries than necessary."""
 
 import math
 from collections.abc import Sequence
@@ -13,7 +13,7 @@ from ai4u_edu.world.native import segments as _segments
 
 
 class Queries:
-    """How often the physics was asked, by kind of question."""
+    """Counts of queries, by kind."""
 
     first = every = point = 0
 

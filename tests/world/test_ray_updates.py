@@ -1,4 +1,4 @@
-"""A fan that was made once sees the world as it is, whatever happened to it in between."""
+"""A fan that was made once sees all later changes of the world."""
 
 from collections.abc import Callable, Sequence
 
@@ -26,7 +26,7 @@ def world() -> World:
 
 @pytest.fixture(params=["fan", "grid"])
 def look(world: World, request: pytest.FixtureRequest) -> Look:
-    """What is straight ahead; always the same caster."""
+    """Return a function that casts one ray ahead, always with the same caster."""
     caster: RayFan | RayGrid = (
         RayFan(world, [0.0], 20.0, code_of)
         if request.param == "fan"

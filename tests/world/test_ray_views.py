@@ -1,4 +1,4 @@
-"""What a fan and a grid see in small worlds that fit into a sentence."""
+"""Readings of a fan and a grid in small worlds."""
 
 import math
 from collections.abc import Sequence

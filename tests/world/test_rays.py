@@ -1,4 +1,4 @@
-"""Ten thousand casts in random worlds, each ray compared with one worked out by hand.
+"""Ten thousand casts in random worlds, each ray compared with the reference implementation.
 
 A case is one cast of a fan (8 rays) or a grid (4 rows of 4 rays) at a random place in a random
 world of up to 20 bodies and 6 floors.
@@ -19,7 +19,7 @@ ANY = 0xFFFFFFFF
 
 
 class Tally:
-    """What came of all rays."""
+    """Counts of all rays' results."""
 
     def __init__(self) -> None:
         self.cases = self.rays = self.on_edge = self.hits = 0

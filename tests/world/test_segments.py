@@ -1,4 +1,4 @@
-"""Three ways to cast rays give the same to the last bit: compiled, quick, public."""
+"""Three implementations of segments give the same bits: compiled, cffi, public."""
 
 import random
 from typing import Any
@@ -112,7 +112,7 @@ def _code_of(tags: Any) -> float:
 
 
 def test_the_quick_way_is_there() -> None:
-    """Where it is not, with another pymunk, all goes on more slowly; here we want to know."""
+    """With an unknown pymunk everything works more slowly; the tests must notice."""
     assert isinstance(_segments.make_segments(1), CffiSegments)
 
 

@@ -1,4 +1,4 @@
-"""Shapes and regions at random: what they contain, how they are drawn and how they are put."""
+"""Random shapes and regions: containment, outline and placing."""
 
 import cmath
 import math
@@ -64,7 +64,7 @@ def area(outline: Outline) -> float:
 
 
 def is_inside(outline: Outline, x: float, y: float) -> bool:
-    """Whether a beam to the right leaves the outline an odd number of times."""
+    """Return True if a ray to the right crosses the outline an odd number of times."""
     inside = False
     for (ax, ay), (bx, by) in zip(outline, outline[1:] + outline[:1], strict=True):
         if (ay > y) != (by > y) and x < ax + (y - ay) / (by - ay) * (bx - ax):
@@ -73,7 +73,7 @@ def is_inside(outline: Outline, x: float, y: float) -> bool:
 
 
 def to_rim(outline: Outline, x: float, y: float) -> float:
-    """How far a point is from the outline."""
+    """Return the distance of a point to the outline."""
     nearest = math.inf
     for (ax, ay), (bx, by) in zip(outline, outline[1:] + outline[:1], strict=True):
         dx, dy = bx - ax, by - ay
@@ -84,7 +84,7 @@ def to_rim(outline: Outline, x: float, y: float) -> float:
 
 
 def sagitta(shape: BodyShape | RegionShape) -> float:
-    """How far the outline of a round shape may be from its rim."""
+    """Return the tolerance between a round shape's outline and its rim."""
     match shape:
         case CircleShape(radius=radius) | CapsuleShape(radius=radius):
             return 0.003 * radius

@@ -1,4 +1,4 @@
-"""Standing on obstacles and on higher floors, and what bears whom."""
+"""Standing on obstacles and on higher floors."""
 
 import pytest
 

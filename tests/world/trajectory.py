@@ -1,4 +1,4 @@
-"""A busy world's trajectory as bytes: ``python -m tests.world.trajectory`` writes them out."""
+"""A world's trajectory as bytes: ``python -m tests.world.trajectory`` writes them to stdout."""
 
 import struct
 import sys

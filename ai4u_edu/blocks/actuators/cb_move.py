@@ -62,14 +62,14 @@ class CBMoveActuator(GroundMotion):
         forward, strafe, turn, jump, forward_jump = apply_dead_zone(action, self.dead_zone)
         self.drive(
             body,
-            self._missed(forward, self.move_noise),
-            self._missed(turn, self.turn_noise),
-            self._missed(jump, self.jump_noise),
-            max(0.0, self._missed(forward_jump, self.jump_noise)),
-            self._missed(strafe, self.move_noise),
+            self._with_noise(forward, self.move_noise),
+            self._with_noise(turn, self.turn_noise),
+            self._with_noise(jump, self.jump_noise),
+            max(0.0, self._with_noise(forward_jump, self.jump_noise)),
+            self._with_noise(strafe, self.move_noise),
         )
 
-    def _missed(self, number: float, deviation: float) -> float:
+    def _with_noise(self, number: float, deviation: float) -> float:
         if not (number and deviation):
             return number
         return number + float(self._rng.normal(0.0, deviation))

@@ -49,7 +49,7 @@ class GridMoveActuator(OnGrid, ChoiceActuator):
         check_groups(self, "blocked_by", view)
         self._agent, self._view, self._grid = agent, view, self.grid()
         self._way: list[Point] = []
-        self._learnt = -1
+        self._built_for = -1
 
     def on_reset(self, agent: AgentView, view: WorldView) -> None:
         """Forget the path."""
@@ -81,8 +81,8 @@ class GridMoveActuator(OnGrid, ChoiceActuator):
     def _blocked(self, cell: Cell) -> bool:
         if not self._grid.holds(cell):
             return True
-        if self._learnt != self._view.generation:
-            self._learn()
+        if self._built_for != self._view.generation:
+            self._build()
         x, y = self._grid.centre_of(cell)
         number = self._grid.number(cell)
         return any(
@@ -93,9 +93,9 @@ class GridMoveActuator(OnGrid, ChoiceActuator):
             for at_x, at_y in [wall.position]
         )
 
-    def _learn(self) -> None:
+    def _build(self) -> None:
         """Look up the bodies that block the way, once for each build of the world."""
-        self._learnt = self._view.generation
+        self._built_for = self._view.generation
         names = [name for tag in self.blocked_by for name in self._view.named(tag)]
         walls = [self._view[name] for name in dict.fromkeys(names)]
         self._walls = [

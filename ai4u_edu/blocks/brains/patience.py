@@ -5,17 +5,16 @@ import time
 from ai4u_edu.blocks.brains.links.link import Link
 
 WAIT_SLICE_S = 0.015
-"""Time for which the world waits at once; then whoever runs it looks whether somebody wants
-something else, and asks again."""
+"""Time for which the world waits at once; then the runner checks its commands, and asks again."""
 YIELD_AFTER_S = 0.05
-"""Time for which a script that asks for time has a world with other agents wait. One script may
-drive several of them in turn; if the world waited for all, it would wait for ever."""
+"""Time for which a script that asks for time makes a world with other agents wait. One script may
+drive several of them in turn: if the world waited for all of them, it would wait for ever."""
 YIELDING_WAIT_S = 0.001
-"""Time for which such a script is listened to after that, at each tick."""
+"""Time for which the world waits for such a script after that, at each tick."""
 
 
 class Patience:
-    """The time that a script has for its answer, and whether it was given up.
+    """The time limit of a script's answer, and whether the world has stopped waiting for it.
 
     Only the runner's thread calls it.
 

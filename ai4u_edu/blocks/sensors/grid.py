@@ -64,12 +64,12 @@ class GridSensor(OnGrid, Sensor):
         self._grid = self.grid()
         self._map = np.zeros(self.rows * self.columns, np.int32)
         self._ground = np.zeros_like(self._map)
-        self._learnt: tuple[int, BodyView] | None = None
+        self._built_for: tuple[int, BodyView] | None = None
 
     def write(self, out: Array, body: BodyView, view: WorldView) -> None:
         """Draw the map."""
-        if self._learnt != (view.generation, body):
-            self._learn(body, view)
+        if self._built_for != (view.generation, body):
+            self._build(body, view)
         self._map[:] = 0
         for code, other in self._bodies:  # the largest code is drawn last, over all others
             if not other.fallen:
@@ -86,9 +86,9 @@ class GridSensor(OnGrid, Sensor):
         shape = (across, across) if self.around else (self.rows, self.columns)
         return CodeLegend(shape, codes, tuple(self.group_code))
 
-    def _learn(self, body: BodyView, view: WorldView) -> None:
+    def _build(self, body: BodyView, view: WorldView) -> None:
         """Look up the bodies' codes and draw floors and areas, once for each build of the world."""
-        self._learnt = view.generation, body
+        self._built_for = view.generation, body
         bodies = [view[name] for name in view if not (view[name] is body and self.self_exclude)]
         coded = [(self._code_of(other.tags), other) for other in bodies]
         self._bodies = sorted((each for each in coded if each[0]), key=lambda each: each[0])

@@ -54,14 +54,14 @@ class LineSensor(Sensor):
         left = np.linspace(0.5, -0.5, self.points) if self.points > 1 else np.zeros(1)
         self._left = left * self.width
         self._reach = float(np.hypot(self.ahead, self.width / 2))
-        self._learnt = -1
+        self._built_for = -1
         nowhere = np.zeros(self.points)
         self._seen = nowhere, nowhere, 0.0, nowhere.astype(np.bool_)
 
     def read(self, body: BodyView, view: WorldView) -> npt.NDArray[np.bool_]:
         """Return the reading."""
-        if self._learnt != view.generation:
-            self._learn(view)
+        if self._built_for != view.generation:
+            self._build(view)
         (x, y), heading = body.position, body.heading
         cos, sin = np.cos(heading), np.sin(heading)
         xs = x + cos * self.ahead - sin * self._left
@@ -79,8 +79,8 @@ class LineSensor(Sensor):
         places = np.column_stack([xs, ys, np.full(self.points, z)])
         return SpotPicture(places, tuple(on_it.tolist()))
 
-    def _learn(self, view: WorldView) -> None:
-        self._learnt = view.generation
+    def _build(self, view: WorldView) -> None:
+        self._built_for = view.generation
         self._line = [area for area in view.areas.values() if self.group in area.tags]
         self._x = np.array([piece.x for piece in self._line])
         self._y = np.array([piece.y for piece in self._line])

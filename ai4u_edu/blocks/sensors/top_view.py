@@ -77,12 +77,12 @@ class TopView:
         self._exclude_self = exclude_self
         self._middle = (width - 1) / 2, (height - 1) / 2
         self._corner = float(np.hypot(width, height)) / 2
-        self._learnt: tuple[int, BodyView] | None = None
+        self._built_for: tuple[int, BodyView] | None = None
 
     def draw(self, body: BodyView, view: WorldView) -> Bits:
         """Return the present surroundings of a body as 0 and 1: (channels, height, width)."""
-        if self._learnt != (view.generation, body):
-            self._learn(body, view)
+        if self._built_for != (view.generation, body):
+            self._build(body, view)
         seen = self._look(body)
         pictures = self._raster.empty(self._count)
         drawn = [parts.draw(seen, self._raster) for parts in self._parts]
@@ -115,9 +115,9 @@ class TopView:
             self._middle[0] - left, self._middle[1] - ahead, np.cos(turned), np.sin(turned), near
         )
 
-    def _learn(self, body: BodyView, view: WorldView) -> None:
+    def _build(self, body: BodyView, view: WorldView) -> None:
         """Decompose all shapes, once for each build of the world."""
-        self._learnt = view.generation, body
+        self._built_for = view.generation, body
         self._bodies = [
             other
             for other in (view[name] for name in view)

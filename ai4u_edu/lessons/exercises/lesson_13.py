@@ -33,38 +33,7 @@ def creature(controller: Any) -> ControlRequestor:
     Args:
         controller: a function, a controller or a brain; drives it.
     """
-    world = World()
-    world.add_floor("meadow", BoxShape(size=(12, 12)))
-    world.add_body("creature", CircleShape(radius=0.5), tags=("agent",), random=ROOM)
-    world.add_body(
-        "food",
-        CircleShape(radius=0.45),
-        kind="static",
-        tags=("food",),
-        random=ROOM,
-        colour="green",
-        label="food",
-    )
-    world.add_body(
-        "water",
-        BoxShape(size=(0.8, 0.8)),
-        kind="static",
-        tags=("water",),
-        random=ROOM,
-        colour="sky blue",
-        label="water",
-    )
-    needs = [
-        HomeostaticVariable(
-            name=name,
-            range_max=100,
-            comfort_min=100 * LOW,
-            comfort_max=100 * HIGH,
-            value=60,
-            drift_per_second=-loss,
-        )
-        for name, loss in (("energy", 3.0), ("water", 4.0))
-    ]
+    needs = _needs()
     agent = BasicAgent(
         body="creature",
         max_steps_per_episode=DECISIONS_PER_MINUTE,
@@ -104,7 +73,47 @@ def creature(controller: Any) -> ControlRequestor:
         ],
         brains=[as_brain(controller)],
     )
-    return ControlRequestor(world, [agent])
+    return ControlRequestor(_meadow(), [agent])
+
+
+def _meadow() -> World:
+    """Return a plate with the creature's body, food and water at random places."""
+    world = World()
+    world.add_floor("meadow", BoxShape(size=(12, 12)))
+    world.add_body("creature", CircleShape(radius=0.5), tags=("agent",), random=ROOM)
+    world.add_body(
+        "food",
+        CircleShape(radius=0.45),
+        kind="static",
+        tags=("food",),
+        random=ROOM,
+        colour="green",
+        label="food",
+    )
+    world.add_body(
+        "water",
+        BoxShape(size=(0.8, 0.8)),
+        kind="static",
+        tags=("water",),
+        random=ROOM,
+        colour="sky blue",
+        label="water",
+    )
+    return world
+
+
+def _needs() -> list[HomeostaticVariable]:
+    return [
+        HomeostaticVariable(
+            name=name,
+            range_max=100,
+            comfort_min=100 * LOW,
+            comfort_max=100 * HIGH,
+            value=60,
+            drift_per_second=-loss,
+        )
+        for name, loss in (("energy", 3.0), ("water", 4.0))
+    ]
 
 
 @exercise(

@@ -1,1 +1,1 @@
-"""Episodes as files for other programs: CSV, GIF and MP4, a web page."""
+"""Exports of episodes for other programs: CSV, GIF, MP4, a web page."""

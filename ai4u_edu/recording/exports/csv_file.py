@@ -1,4 +1,4 @@
-"""An episode as a table that any spreadsheet opens: a row for each decision of each agent."""
+"""Export of an episode as CSV: one row for each decision of each agent."""
 
 import csv
 import math
@@ -15,14 +15,14 @@ Row = dict[str, Any]
 
 
 def write_csv(replay: Replay, path: Path) -> Path:
-    """Writes the table.
+    """Write an episode as CSV, and return the path.
 
-    Columns: agent, step, tick, time (s), x, y, z (m) and heading (degrees) of its body when it
-    decided; ``sensor[i]`` what it sensed; ``actuator[i]`` what it did; ``reward``, and
-    ``reward:term`` for each term that was paid; terminated, truncated.
+    Columns: agent, step, tick, time (s), x, y, z (m) and heading (degrees) of its body at the
+    decision; ``sensor[i]`` of its percept; ``actuator[i]`` of its action; ``reward``, and
+    ``reward:term`` for each reward term; terminated, truncated.
 
     Args:
-        replay: of the episode; rows go as far as it is exact.
+        replay: of the episode; the rows end where the replay is no longer exact.
         path: of the file.
     """
     rows = [row for agent in replay.episode.ids for row in _rows(replay, agent)]
@@ -72,7 +72,7 @@ def _cells(name: str, value: Any) -> Row:
 
 
 def _text(value: Any) -> Any:
-    """A spreadsheet takes text that begins like this for a formula, and would work it out."""
+    """Quote text that a spreadsheet would evaluate as a formula."""
     if isinstance(value, str) and value[:1] in ("=", "+", "-", "@", "\t", "\r"):
         return "'" + value
     return value

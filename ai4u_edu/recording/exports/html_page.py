@@ -1,4 +1,4 @@
-"""An episode as one HTML file that plays itself: no server, and nothing fetched from anywhere."""
+"""Export of an episode as one HTML file that plays it, without a server or other files."""
 
 import json
 import math
@@ -14,33 +14,33 @@ from ai4u_edu.snapshot import Snapshot, StaticScene, theme
 from ai4u_edu.world import BodyDescription, CircleShape, RegionDescription, RingShape
 
 TEMPLATE = Path(__file__).parent / "player.html"
-PLACE = "/*EPISODE*/null"
-RATE = 30
-"""Poses a second, at most; the page finds those between them."""
-LARGEST_READING = 300
-"""Numbers of a reading that is shown; a larger one would make the file too large."""
+PLACEHOLDER = "/*EPISODE*/null"
+MAX_POSES_PER_S = 30
+"""Poses per second; the page interpolates between them."""
+MAX_READING_NUMBERS = 300
+"""Numbers of a reading that is shown; larger ones would make the file too large."""
 
 
 def write_html(replay: Replay, path: Path) -> Path:
-    """Writes the page.
+    """Write an episode as an HTML page, and return the path.
 
     Args:
         replay: of the episode; it is shown as far as it is exact.
         path: of the file.
     """
     text = json.dumps(_data(replay), ensure_ascii=True, separators=(",", ":"), allow_nan=False)
-    # whatever names and texts say, it stays data: nothing in it can end the script that it is in
+    # escaped so that no text in the data can end the script element
     for risky in "<>&":
         text = text.replace(risky, f"\\u{ord(risky):04x}")
     page = TEMPLATE.read_text(encoding="utf-8")
-    write_atomically(path, page.replace(PLACE, text))
+    write_atomically(path, page.replace(PLACEHOLDER, text))
     return path
 
 
 def _data(replay: Replay) -> dict[str, Any]:
     episode = replay.episode
     scene = episode.scene
-    every = max(1, round(scene.world.ticks_per_second / RATE))
+    every = max(1, round(scene.world.ticks_per_second / MAX_POSES_PER_S))
     frames = list(replay.snapshots(every))
     static_scene = frames[0].static_scene
     moving = [body.name for body in static_scene.bodies if body.kind != "static"]
@@ -48,7 +48,7 @@ def _data(replay: Replay) -> dict[str, Any]:
     return {
         "title": scene.title or scene.name,
         "goal": scene.goal,
-        "seed": str(episode.seed),  # too large for a number there
+        "seed": str(episode.seed),  # too large for a JavaScript number
         "success": episode.success,
         "exact": verdict.exact,
         "why": verdict.why,
@@ -112,7 +112,7 @@ def _body(body: BodyDescription, static_scene: StaticScene, first: Snapshot) -> 
 
 
 def _poses(picture: Snapshot, moving: list[str]) -> list[float | None]:
-    """x, y, z and heading of each body that can move, one after another."""
+    """Return x, y, z and heading of each moving body, one after another."""
     states = {state.name: state for state in picture.bodies}
     row: list[float | None] = []
     for name in moving:
@@ -154,7 +154,7 @@ def _readings(percept: Percept) -> dict[str, Any]:
     for name, reading in percept.items():
         if not isinstance(reading, np.ndarray):
             shown[name] = _digits(reading) if isinstance(reading, float) else reading
-        elif reading.size <= LARGEST_READING:
+        elif reading.size <= MAX_READING_NUMBERS:
             shown[name] = [_digits(float(each)) for each in reading.ravel()]
         else:
             shown[name] = f"{reading.size} numbers"
@@ -166,7 +166,7 @@ def _points(points: Any) -> list[list[float]]:
 
 
 def _short(value: float) -> float:
-    """Millimetres are enough for a picture."""
+    """Round a length to millimetres."""
     return round(float(value), 3)
 
 

@@ -1,4 +1,4 @@
-"""An episode as a moving picture, drawn without a browser."""
+"""Export of an episode as GIF or MP4, drawn without a browser."""
 
 import contextlib
 import subprocess
@@ -11,6 +11,7 @@ import numpy as np
 import numpy.typing as npt
 from PIL import Image
 
+from ai4u_edu.base.atomic_write import partial_file, reason
 from ai4u_edu.base.optional_deps import need
 from ai4u_edu.recording.errors import RecordingError
 from ai4u_edu.recording.replay import Replay
@@ -18,46 +19,45 @@ from ai4u_edu.snapshot.raster import draw_snapshot
 
 Frame = npt.NDArray[np.uint8]
 
-GIF_RATE, MP4_RATE = 20, 30
-"""Pictures a second, at most."""
-EVEN = 2
-"""A video's sides are multiples of this."""
+GIF_MAX_FPS, MP4_MAX_FPS = 20, 30
+"""Frames per second."""
+SIDE_MULTIPLE_PX = 2
+"""The encoder wants sides that are multiples of this."""
 
 
 def write_gif(replay: Replay, path: Path, *, longest: int = 360) -> Path:
-    """Writes an animated GIF, at the pace of the world's time.
+    """Write an animated GIF at the speed of world time, and return the path.
 
     Args:
-        replay: of the episode; pictures go as far as it is exact.
+        replay: of the episode; it is drawn as far as it is exact.
         path: of the file.
         longest: pixels of the longer side.
     """
-    every = _every(replay, GIF_RATE)
+    every = _every(replay, GIF_MAX_FPS)
     frames = (
-        # the same few colours in all pictures: they pack better, and nothing flickers
+        # few colours: smaller files, and no flicker
         Image.fromarray(frame).quantize(64, method=Image.Quantize.FASTOCTREE)
         for frame in _frames(replay, every, longest)
     )
     first = next(frames)
     hundredths = 100 * every / _rate(replay)
-    first.save(
-        path,
-        format="GIF",
-        save_all=True,
-        append_images=frames,
-        duration=max(
-            20, round(hundredths) * 10
-        ),  # browsers show what is shorter at a tenth a second
-        loop=0,
-    )
+    with partial_file(path) as partial:
+        first.save(
+            partial,
+            format="GIF",
+            save_all=True,
+            append_images=frames,
+            duration=max(20, round(hundredths) * 10),  # browsers show shorter frames for 100 ms
+            loop=0,
+        )
     return path
 
 
 def write_mp4(replay: Replay, path: Path, *, longest: int = 640) -> Path:
-    """Writes an MP4 (H.264); needs ``pip install "ai4u-edu[video]"``.
+    """Write an MP4 (H.264), and return the path; needs ``pip install "ai4u-edu[video]"``.
 
     Args:
-        replay: of the episode; pictures go as far as it is exact.
+        replay: of the episode; it is drawn as far as it is exact.
         path: of the file.
         longest: pixels of the longer side.
 
@@ -68,34 +68,44 @@ def write_mp4(replay: Replay, path: Path, *, longest: int = 640) -> Path:
     need("video", "imageio_ffmpeg")
     from imageio_ffmpeg import get_ffmpeg_exe
 
-    every = _every(replay, MP4_RATE)
+    every = _every(replay, MP4_MAX_FPS)
     frames = (_even(frame) for frame in _frames(replay, every, longest))
+    try:
+        with partial_file(path) as partial:
+            message = _encode(get_ffmpeg_exe(), frames, _rate(replay) / every, partial)
+            if message is not None:
+                raise RecordingError(f"{path}: the video can't be written: {message}")
+    except OSError as error:
+        raise RecordingError(f"{path}: the video can't be written: {reason(error)}") from None
+    return path
+
+
+def _encode(ffmpeg: str, frames: Iterator[Frame], fps: float, path: Path) -> str | None:
+    """Encode frames with ffmpeg; return its message if it fails, and None otherwise."""
     first = next(frames)
     height, width, _ = first.shape
-    command = [get_ffmpeg_exe(), "-y", "-loglevel", "error"]
+    command = [ffmpeg, "-y", "-loglevel", "error"]
     command += ["-f", "rawvideo", "-pix_fmt", "rgb24", "-s", f"{width}x{height}"]
-    command += ["-r", str(_rate(replay) / every), "-i", "-"]
-    command += ["-c:v", "libx264", "-pix_fmt", "yuv420p", "-movflags", "+faststart"]
-    command += [str(path.absolute())]  # absolute: a name may begin like an option
-    with subprocess.Popen(  # noqa: S603 - a program of the extra's, and nothing but a path is given
+    command += ["-r", str(fps), "-i", "-"]
+    command += ["-c:v", "libx264", "-pix_fmt", "yuv420p", "-movflags", "+faststart", "-f", "mp4"]
+    command += [str(path.absolute())]  # absolute, since a name could begin like an option
+    with subprocess.Popen(  # noqa: S603 - the only variable argument is a path
         command, stdin=subprocess.PIPE, stderr=subprocess.PIPE
-    ) as ffmpeg:
+    ) as process:
         try:
-            with contextlib.suppress(BrokenPipeError):  # it says itself what is wrong
+            with contextlib.suppress(BrokenPipeError):  # ffmpeg's own message follows
                 for frame in chain([first], frames):
-                    cast(IO[bytes], ffmpeg.stdin).write(frame.data)
+                    cast(IO[bytes], process.stdin).write(frame.data)
         except BaseException:
-            ffmpeg.kill()  # nobody wants what there is so far
+            process.kill()  # the incomplete video is useless
             raise
-        _, told = ffmpeg.communicate()
-    if ffmpeg.returncode:
-        raise RecordingError(f"{path}: the video can't be written: {told.decode().strip()}")
-    return path
+        _, told = process.communicate()
+    return told.decode().strip() if process.returncode else None
 
 
 def _frames(replay: Replay, every: int, longest: int) -> Iterator[Frame]:
     for picture in replay.snapshots(every):
-        if picture.tick % every == 0:  # the very last one would be too soon
+        if picture.tick % every == 0:  # the last snapshot may come after fewer ticks
             yield draw_snapshot(picture, longest=longest)
 
 
@@ -108,5 +118,5 @@ def _every(replay: Replay, rate: int) -> int:
 
 
 def _even(frame: Frame) -> Frame:
-    height, width = (length - length % EVEN for length in frame.shape[:2])
+    height, width = (length - length % SIDE_MULTIPLE_PX for length in frame.shape[:2])
     return np.ascontiguousarray(frame[:height, :width])

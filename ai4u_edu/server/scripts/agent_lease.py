@@ -8,7 +8,8 @@ from ai4u_edu.agent import BasicAgent
 from ai4u_edu.base.errors import AI4UError, NameNotFoundError, shorten
 from ai4u_edu.blocks import Brain
 from ai4u_edu.blocks.brains.remote import RemoteBrain
-from ai4u_edu.runtime.runner import ANOTHER_WORLD, Runner
+from ai4u_edu.runtime.runner import Runner
+from ai4u_edu.runtime.world_thread import WORLD_REPLACED
 from ai4u_edu.server.loop_queue import LoopQueue
 from ai4u_edu.server.scripts.outbox import Outbox
 from ai4u_edu.server.scripts.refusal import RefusalError
@@ -16,7 +17,7 @@ from ai4u_edu.server.scripts.session import Session
 from ai4u_edu.server.scripts.settings import Rules
 from ai4u_edu.server.scripts.welcome import ObservationSubset, output_of
 from ai4u_edu.wire import native
-from ai4u_edu.wire.validation import LONGEST_TEXT
+from ai4u_edu.wire.validation import MAX_TEXT_CHARS
 
 SHORT_DROP_S = 0.3
 """Time for which a script whose connection is lost counts as late; after that it counts as lost."""
@@ -133,7 +134,7 @@ class AgentLease:
     def _install_brain(self, title: str) -> bytes:
         """Give the agent a remote brain, and return the script's welcome."""
         if not any(agent is self.agent for agent in self._runner.sim.agents):
-            raise RefusalError("ended", ANOTHER_WORLD)  # since the script said hello
+            raise RefusalError("ended", WORLD_REPLACED)  # since the script said hello
         try:
             self.session.subset = ObservationSubset(self.agent, self._hello.keys)
         except NameNotFoundError as error:
@@ -159,7 +160,7 @@ class AgentLease:
                 grace=self._rules.grace,
                 agent=agent.id,
                 mode=self._hello.mode,
-                title=shorten(title, LONGEST_TEXT),
+                title=shorten(title, MAX_TEXT_CHARS),
                 ticks_per_second=settings.ticks_per_second,
                 skip_frame=agent.brain.skip_frame,
                 repeat_action=agent.brain.repeat_action,

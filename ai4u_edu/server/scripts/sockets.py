@@ -97,8 +97,9 @@ class _Connection:
             if message["type"] != "websocket.receive":
                 return
             frame = message.get("bytes") or (message.get("text") or "").encode()
-            if len(frame) > native.LARGEST_SAID:
-                text = f"expected at most {native.LARGEST_SAID} bytes in a frame, got {len(frame)}"
+            if len(frame) > native.MAX_SCRIPT_FRAME_BYTES:
+                most = native.MAX_SCRIPT_FRAME_BYTES
+                text = f"expected at most {most} bytes in a frame, got {len(frame)}"
                 self._outbox.close_with_problem("too_large", text)
                 return
             try:
@@ -110,7 +111,7 @@ class _Connection:
 
     def hear_answer(self, frame: bytes) -> bool:
         """Handle a frame without the detour through ASGI; return False if it is no answer."""
-        if self.lease is None or self._outbox.is_closing or len(frame) > native.LARGEST_SAID:
+        if self.lease is None or self._outbox.is_closing:
             return False
         try:
             heard = native.decode(frame)

@@ -60,7 +60,7 @@ class ObservationSubset:
         for number, place in enumerate(self._texts):
             sensor = sensors[layout.texts[place]]
             space = sensor.observation_space()
-            longest = native.LONGEST_READ
+            longest = native.MAX_READING_CHARS
             if isinstance(space, spaces.Text):
                 longest = min(longest, space.max_length)
             found.append(
@@ -94,8 +94,8 @@ class ObservationSubset:
 def _as_text(reading: str | tuple[str, ...]) -> str:
     """Return a text reading as it is sent; several texts are packed into one."""
     if isinstance(reading, tuple):
-        return pack_texts(reading, native.LONGEST_READ)
-    return reading[: native.LONGEST_READ]
+        return pack_texts(reading, native.MAX_READING_CHARS)
+    return reading[: native.MAX_READING_CHARS]
 
 
 def output_of(name: str, actuator: Actuator) -> native.Output:

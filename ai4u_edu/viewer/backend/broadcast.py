@@ -27,11 +27,9 @@ from ai4u_edu.base.log_limit import log_limited
 
 KNOWN = "1.1.1"
 """The viser whose insides this fits. Any other one goes on in its own way."""
-PERIOD = 1 / 120
-"""Seconds between two sendings at least: less than between two pictures, of which one that comes a
-bit early would go together with the next."""
-MOST = 0.4
-"""The share of the time that may go into sending pictures: then there are fewer of them."""
+SEND_PERIOD_S = 1 / 120
+"""Shortest time between two messages to a page: less than between two frames, so that none is sent
+together with the next."""
 CHUNK = 128
 """Messages in a frame for a page that has just come."""
 
@@ -134,14 +132,13 @@ class FanOut:
     async def _send(self) -> None:
         buffer = self._buffer
         while True:
-            is_done, began = False, time.monotonic()
+            is_done = False
             try:  # all pages would be closed if this task ended
                 is_done = self._send_news()
             except Exception as error:
                 _log_failure("sending", "some pages were not told what is new: %a", error)
-            spent = time.monotonic() - began
             with suppress(TimeoutError):
-                await asyncio.wait_for(buffer.flush_event.wait(), max(PERIOD, spent / MOST))
+                await asyncio.wait_for(buffer.flush_event.wait(), SEND_PERIOD_S)
             buffer.flush_event.clear()
             if is_done:
                 await buffer.message_event.wait()

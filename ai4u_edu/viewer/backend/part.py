@@ -1,77 +1,57 @@
-"""A part of the picture, drawn at its own pace; what goes wrong in it stays in it."""
+"""Parts of a frame: each is drawn at its own rate, and its errors stop nothing else."""
 
 import time
-from collections.abc import Callable
 from typing import Protocol
 
+from ai4u_edu.runtime.frame_budget import EARLY, PART_SHARE
 from ai4u_edu.snapshot import Snapshot, StaticScene
 from ai4u_edu.viewer.backend.log_once import Complaints
-
-MOST = 0.2
-"""The share of the processor's time that one part may take: with a hundred agents what takes long
-is drawn less often, and all else is as smooth as ever."""
-EACH_PAGE = 0.1
-"""The same for a part that is drawn for each page anew: with a hundred pages it gives way to what
-all of them see."""
 
 
 class Part(Protocol):
     """Something that is drawn."""
 
     def build(self, static_scene: StaticScene) -> None:
-        """Gets ready for a static scene; called for every new one."""
+        """Prepare for a static scene; called for every new one."""
 
     def draw(self, snapshot: Snapshot) -> None:
-        """Shows a snapshot."""
+        """Show a snapshot."""
 
 
-class Paced:
-    """Draws a part so many times a second at most, and less often if it takes long.
-
-    A picture that lacks it is better than none.
+class RatedPart:
+    """Draws a part at a limited rate, and less often if it takes long.
 
     Args:
         part: what is drawn.
-        rate: how many times a second.
+        rate: how many times a second, at most.
         complaints: gets to know what went wrong.
-        share: of the time that it may take.
-        rounds: so many times it has to be drawn until all pages have had their turn.
     """
 
-    def __init__(
-        self,
-        part: Part,
-        rate: float,
-        complaints: Complaints,
-        share: float = MOST,
-        rounds: Callable[[], int] = lambda: 1,
-    ) -> None:
-        self.part, self._rounds = part, rounds
-        self._period = 1 / rate
-        self._share = share
+    def __init__(self, part: Part, rate: float, complaints: Complaints) -> None:
+        self.part = part
+        self._period = EARLY / rate
         self._complaints = complaints
-        self._drawn_at = self._took = 0.0
-        self._ready = False
+        self._drawn_at = self._draw_time = 0.0
+        self._is_ready = False
 
     def build(self, static_scene: StaticScene) -> None:
-        """Gets the part ready for a static scene; its next picture is due at once."""
-        self._drawn_at, self._ready = 0.0, False
+        """Prepare the part for a static scene; it is drawn in the next frame."""
+        self._drawn_at, self._is_ready = 0.0, False
         with self._complaints.caught():
             self.part.build(static_scene)
-            self._ready = True
+            self._is_ready = True
 
     def make_due(self) -> None:
-        """Let the next snapshot be drawn, however soon it comes."""
+        """Draw the next snapshot, however soon it comes."""
         self._drawn_at = 0.0
 
     def draw(self, snapshot: Snapshot) -> None:
-        """Shows a snapshot, if that is due."""
+        """Show a snapshot, if that is due."""
         now = time.monotonic()
-        # pictures come when the world has ticked: a bit early is better than a tick late
-        if self._ready and now - self._drawn_at >= max(
-            0.8 * self._period / self._rounds(), self._took / self._share
+        if self._is_ready and now - self._drawn_at >= max(
+            self._period, self._draw_time / PART_SHARE
         ):
             self._drawn_at, began = now, time.thread_time()
             with self._complaints.caught():
                 self.part.draw(snapshot)
-            self._took = time.thread_time() - began
+            self._draw_time = time.thread_time() - began

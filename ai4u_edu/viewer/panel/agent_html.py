@@ -8,10 +8,11 @@ from ai4u_edu.snapshot import AgentState, Snapshot
 from ai4u_edu.snapshot.theme import Rgb, body_colour
 from ai4u_edu.viewer.panel.bars import number
 from ai4u_edu.viewer.panel.decision import decision
+from ai4u_edu.viewer.panel.html_parts import heading, section
 from ai4u_edu.viewer.panel.needs import needs
-from ai4u_edu.viewer.panel.readings import action, block, heading, reading
+from ai4u_edu.viewer.panel.readings import action, reading
 from ai4u_edu.viewer.panel.reward_table import Curves, curves, reward_table
-from ai4u_edu.viewer.panel.senses import sense_html
+from ai4u_edu.viewer.panel.sensor_html import sensor_html
 from ai4u_edu.viewer.scene.labels import script_problem
 from ai4u_edu.viewer.scene.sense_overlay import is_drawable
 
@@ -51,16 +52,16 @@ class AgentHtml(NamedTuple):
         """
         percept = agent.percept
         sensors = {
-            sense.key: sense_html(
-                sense,
-                percept[sense.key],
+            sensor.key: sensor_html(
+                sensor,
+                percept[sensor.key],
                 colours,
-                agent.rays.get(sense.key),
-                lit=sense.key in shown,
-                named=not is_drawable(sense, agent),
+                agent.rays.get(sensor.key),
+                lit=sensor.key in shown,
+                named=not is_drawable(sensor, agent),
             )
-            for sense in agent.sensor_infos
-            if sense.block not in ONE_VALUE_SENSORS
+            for sensor in agent.sensor_infos
+            if sensor.block not in ONE_VALUE_SENSORS
         }
         return cls(
             overview=overview(snapshot, agent.id) if len(snapshot.agents) > 1 else "",
@@ -107,11 +108,11 @@ class AgentHtmlCache:
 def _one_value_sensors(agent: AgentState) -> str:
     """Return a line with the readings of :data:`ONE_VALUE_SENSORS`."""
     readings = [
-        f"<span><small>{escape(sense.key)}</small> {reading(agent.percept[sense.key])}</span>"
-        for sense in agent.sensor_infos
-        if sense.block in ONE_VALUE_SENSORS
+        f"<span><small>{escape(sensor.key)}</small> {reading(agent.percept[sensor.key])}</span>"
+        for sensor in agent.sensor_infos
+        if sensor.block in ONE_VALUE_SENSORS
     ]
-    return block(*readings) if readings else ""
+    return section(*readings) if readings else ""
 
 
 def title(agent_id: str, body: str) -> str:
@@ -134,7 +135,7 @@ def state(agent: AgentState) -> str:
         words.append(f"<br><strong>{script_problem(agent)}</strong>")
     if agent.clipped:
         words.append(f"<br>{agent.clipped} numbers out of range, cut")
-    return block(*words)
+    return section(*words)
 
 
 def ending(agent: AgentState) -> str:
@@ -169,4 +170,4 @@ def overview(snapshot: Snapshot, chosen: str) -> str:
             f"{f'<b>{name}</b>' if agent.id == chosen else name}</th>"
             + "".join(f"<td>{cell}</td>" for cell in cells)
         )
-    return block("<table>", *(f"<tr>{row}</tr>" for row in rows), "</table>")
+    return section("<table>", *(f"<tr>{row}</tr>" for row in rows), "</table>")

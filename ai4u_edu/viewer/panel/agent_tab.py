@@ -16,8 +16,8 @@ from ai4u_edu.snapshot import AgentState, Snapshot, StaticScene
 from ai4u_edu.snapshot.block_info import SensorInfo
 from ai4u_edu.snapshot.theme import Rgb, group_colours
 from ai4u_edu.viewer.panel.agent_html import ONE_VALUE_SENSORS, AgentHtmlCache, title
+from ai4u_edu.viewer.panel.html_parts import heading, section
 from ai4u_edu.viewer.panel.plot import RewardPlot
-from ai4u_edu.viewer.panel.readings import block, heading
 from ai4u_edu.viewer.panel.remote_lines import RemoteLines
 from ai4u_edu.viewer.panel.status import legend
 from ai4u_edu.viewer.panel.widgets import set_options, set_value
@@ -90,7 +90,7 @@ class AgentTab:
 
     def _read_static_scene(self, static_scene: StaticScene) -> None:
         self._static_scene, self._colours = static_scene, group_colours(static_scene)
-        self._legend.content = block(heading("Senses"), legend(static_scene))
+        self._legend.content = section(heading("Senses"), legend(static_scene))
         self._ids = {
             title(agent_id, body): agent_id for body, agent_id in static_scene.agent_of.items()
         }
@@ -125,21 +125,21 @@ class _SensorList:
         self._handles, self.readings, self.buttons = [], {}, {}
         gui = self._client.gui
         with self._folder:
-            for sense in agent.sensor_infos:
-                if sense.block in ONE_VALUE_SENSORS:
+            for sensor in agent.sensor_infos:
+                if sensor.block in ONE_VALUE_SENSORS:
                     continue
-                if is_drawable(sense, agent):
-                    self._add_button(agent, sense)
-                self.readings[sense.key] = gui.add_html("")
-                self._handles.append(self.readings[sense.key])
+                if is_drawable(sensor, agent):
+                    self._add_button(agent, sensor)
+                self.readings[sensor.key] = gui.add_html("")
+                self._handles.append(self.readings[sensor.key])
 
     def update_buttons(self, agent: AgentState) -> set[str]:
         """Update the buttons' icons, and return the keys of the sensors drawn in the scene."""
         shown = {
-            sense.key
-            for sense in agent.sensor_infos
-            if is_drawable(sense, agent)
-            and self._viewer_client.lights(sense.key, by_itself=is_shown_by_default(sense, agent))
+            sensor.key
+            for sensor in agent.sensor_infos
+            if is_drawable(sensor, agent)
+            and self._viewer_client.lights(sensor.key, by_itself=is_shown_by_default(sensor, agent))
         }
         for key, button in self.buttons.items():
             icon = SHOWN if key in shown else HIDDEN
@@ -151,8 +151,8 @@ class _SensorList:
         for key, html in readings.items():
             self.readings[key].content = html
 
-    def _add_button(self, agent: AgentState, sense: SensorInfo) -> None:
-        key, by_itself = sense.key, is_shown_by_default(sense, agent)
+    def _add_button(self, agent: AgentState, sensor: SensorInfo) -> None:
+        key, by_itself = sensor.key, is_shown_by_default(sensor, agent)
         hint = f"Shows in the scene what {key} is about, or hides it"
         button = self._client.gui.add_button(key, icon=HIDDEN, hint=hint)
 

@@ -8,7 +8,7 @@ from ai4u_edu.editing.blocks import block_at, block_paths, is_enabled, types_of
 from ai4u_edu.editing.plain import BlockPath, Plain
 from ai4u_edu.snapshot import AgentState
 from ai4u_edu.viewer.panel.agent_html import title
-from ai4u_edu.viewer.panel.readings import block as paragraph
+from ai4u_edu.viewer.panel.html_parts import section
 
 KINDS = {
     "Sensors": "sensors",
@@ -69,7 +69,7 @@ def edit_status(editor: SceneEditor, agent: AgentState, message: str) -> str:
         lines.append(f'<span role="status" style="white-space: normal">{escape(message)}</span>')
     if editor.waits_for_reset:
         lines.append(f"<small>{WAITS}</small>")
-    return paragraph("<br>".join(filter(None, (*lines, undo_line(editor)))))
+    return section("<br>".join(filter(None, (*lines, undo_line(editor)))))
 
 
 def _short(text: str) -> str:

@@ -11,7 +11,7 @@ from ai4u_edu.base.colors import PALETTE
 from ai4u_edu.base.parameters import Problem
 from ai4u_edu.editing import ChangeError
 from ai4u_edu.editing.forms import NONE_LABEL, Field
-from ai4u_edu.viewer.panel.readings import block as paragraph
+from ai4u_edu.viewer.panel.html_parts import section
 from ai4u_edu.world import BodyDescription, BoxShape, CapsuleShape, CircleShape, SegmentShape
 
 KINDS = {
@@ -108,7 +108,7 @@ class BodyForm:
         """Show problems above the button, each with the label of its box."""
         text = "; ".join(self._describe(problem) for problem in problems)
         html = f'<strong role="alert">{escape(text)}</strong>'
-        self.message.content = paragraph(html) if text else ""
+        self.message.content = section(html) if text else ""
 
     def remove(self) -> None:
         """Remove the form from the page."""

@@ -1,7 +1,7 @@
 """The decision cycle as a strip: sense, decide, act for some ticks, get the reward."""
 
 from ai4u_edu.snapshot import AgentState, Snapshot
-from ai4u_edu.viewer.panel.readings import block
+from ai4u_edu.viewer.panel.html_parts import section
 
 MAX_TICKS = 24
 """Most ticks that are drawn; of longer decisions only the first ones."""
@@ -28,7 +28,7 @@ def decision(agent: AgentState, snapshot: Snapshot) -> str:
     strip = "".join(
         f'<span class="{kind}{" now" if now else ""}">{text}</span>' for kind, text, now in parts
     )
-    return block(
+    return section(
         f'<div class="decision">{strip}</div>', f"<small>{_caption(agent, snapshot)}</small>"
     )
 

@@ -17,7 +17,7 @@ from viser import (
 from ai4u_edu.base.parameters import Problem, dotted
 from ai4u_edu.editing import ChangeError
 from ai4u_edu.editing.forms import Field
-from ai4u_edu.viewer.panel.readings import block as paragraph
+from ai4u_edu.viewer.panel.html_parts import section
 
 Box = GuiCheckboxHandle | GuiDropdownHandle[str] | GuiNumberHandle[int] | GuiTextHandle
 
@@ -51,7 +51,7 @@ class FieldForm:
         self._more: GuiFolderHandle | None = None
         with self._form:
             if heading:
-                self._gui.add_html(paragraph(heading), order=-1.0)
+                self._gui.add_html(section(heading), order=-1.0)
             for index, field in enumerate(self.fields):
                 if not field.is_common:
                     self.boxes[field.name] = self._box(field, index)
@@ -81,7 +81,7 @@ class FieldForm:
 
     def show_message(self, text: str) -> None:
         """Show a message above the button."""
-        self.message.content = paragraph(f"<small>{escape(text)}</small>") if text else ""
+        self.message.content = section(f"<small>{escape(text)}</small>") if text else ""
 
     def changes(self) -> dict[str, Any]:
         """Read the values that differ from the parameters', as plain data.
@@ -131,14 +131,14 @@ class FieldForm:
             if field.name in texts
         ]
         text = "; ".join((*rest, *labelled))
-        self.message.content = paragraph(f"<strong>{escape(text)}</strong>") if text else ""
+        self.message.content = section(f"<strong>{escape(text)}</strong>") if text else ""
 
     def remove(self) -> None:
         """Remove the form from the page."""
         self._form.remove()
 
     def _show_problem(self, field: Field, index: int, text: str) -> None:
-        html = paragraph(f'<strong role="alert">{escape(text)}</strong>')
+        html = section(f'<strong role="alert">{escape(text)}</strong>')
         if field.name in self.problem_texts:
             self.problem_texts[field.name].content = html
             return

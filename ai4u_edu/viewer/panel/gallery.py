@@ -10,7 +10,7 @@ from viser._gui_handles import GuiModalHandle
 
 from ai4u_edu.editing.scene_store import SceneStore
 from ai4u_edu.scenes import Scene
-from ai4u_edu.viewer.panel.readings import block
+from ai4u_edu.viewer.panel.html_parts import section
 from ai4u_edu.viewer.panel.scene_cards import STYLE, Card, library_cards, stored_cards
 
 Load = Callable[[], Scene]
@@ -58,11 +58,11 @@ class Gallery:
             gui.add_button("Stay here").on_click(self._on_close)
             gui.add_html(STYLE)
             if store is not None and stored:
-                gui.add_html(block("<b>Saved here</b>"))
+                gui.add_html(section("<b>Saved here</b>"))
                 for each in stored:
                     load = partial(store.load, each.name)
                     self.stored_buttons[each.name] = self._add(each, load)
-                gui.add_html(block("<b>The library</b>"))
+                gui.add_html(section("<b>The library</b>"))
             for each in library:
                 self.buttons[each.name] = self._add(each, partial(Scene.load, each.name))
 

@@ -5,7 +5,7 @@ from html import escape
 
 from ai4u_edu.snapshot import Need
 from ai4u_edu.viewer.panel.bars import number, share
-from ai4u_edu.viewer.panel.readings import block, heading
+from ai4u_edu.viewer.panel.html_parts import heading, section
 
 MIN_COARSE_RANGE = 50.0
 """Width of a variable's range from which its level is shown as a whole number."""
@@ -14,7 +14,7 @@ MIN_COARSE_RANGE = 50.0
 def needs(variables: Iterable[Need]) -> str:
     """Return a bar for each variable: its level, and in green the comfort zone."""
     bars = "".join(_bar(need) for need in variables)
-    return block(heading("Inside"), f'<div class="bars">{bars}</div>') if bars else ""
+    return section(heading("Inside"), f'<div class="bars">{bars}</div>') if bars else ""
 
 
 def _bar(need: Need) -> str:

@@ -7,7 +7,7 @@ from viser import ClientHandle
 
 from ai4u_edu.agent.block_errors import message_of
 from ai4u_edu.runtime.runner import Runner
-from ai4u_edu.runtime.stall_monitor import Stall
+from ai4u_edu.runtime.tick_monitor import Stall
 
 
 def notify_failure(client: ClientHandle | None, runner: Runner, future: "Future[Any]") -> None:

@@ -9,6 +9,7 @@ import numpy.typing as npt
 
 from ai4u_edu.snapshot.block_info import ActuatorInfo
 from ai4u_edu.viewer.panel.bars import amount, bars, number
+from ai4u_edu.viewer.panel.html_parts import heading, section, table
 
 MAX_LISTED_NUMBERS = 8
 """Longest array whose numbers are listed; longer ones are drawn as bars."""
@@ -16,25 +17,6 @@ MAX_ROWS, MAX_COLUMNS, MAX_TABLES = 16, 40, 16
 """Most rows, columns and tables of bars that are drawn of an array."""
 MAX_TEXT_CHARS = 200
 BAR_CHARS = "▁▂▃▄▅▆▇█"
-
-
-def block(*parts: str, kind: str = "") -> str:
-    """Join pieces of HTML into one part of the panel, with our styles."""
-    return f'<div class="ai4u{f" {kind}" if kind else ""}">{"".join(parts)}</div>'
-
-
-def heading(text: str) -> str:
-    """Return a heading."""
-    return f"<p>{escape(text)}</p>"
-
-
-def table(rows: Iterable[Sequence[str]]) -> str:
-    """Return a table of HTML cells; each row's first cell is its heading."""
-    lines = [
-        f"<tr><th>{name}</th>{''.join(f'<td>{cell}</td>' for cell in cells)}</tr>"
-        for name, *cells in rows
-    ]
-    return f"<table>{''.join(lines)}</table>"
 
 
 def action(numbers: Mapping[str, Sequence[float]], controls: Iterable[ActuatorInfo] = ()) -> str:
@@ -49,7 +31,7 @@ def action(numbers: Mapping[str, Sequence[float]], controls: Iterable[ActuatorIn
         f"{_named(name, known.get(name))}{_components(values, known.get(name))}"
         for name, values in numbers.items()
     ]
-    return block(heading("Action"), *(parts or ["<small>nothing yet</small>"]))
+    return section(heading("Action"), *(parts or ["<small>nothing yet</small>"]))
 
 
 def rewards(now: Mapping[str, float], so_far: Mapping[str, float]) -> str:
@@ -60,7 +42,7 @@ def rewards(now: Mapping[str, float], so_far: Mapping[str, float]) -> str:
     ]
     head = ("", "<small>decision</small>", "<small>episode</small>")
     total = ("sum", amount(sum(now.values(), 0.0)), amount(sum(so_far.values(), 0.0)))
-    return block(heading("Reward"), table([head, *rows, total]))
+    return section(heading("Reward"), table([head, *rows, total]))
 
 
 def reading(value: Any) -> str:

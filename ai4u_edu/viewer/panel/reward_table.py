@@ -9,7 +9,8 @@ import numpy.typing as npt
 from ai4u_edu.agent import Entry
 from ai4u_edu.snapshot import AgentState
 from ai4u_edu.viewer.panel.bars import amount
-from ai4u_edu.viewer.panel.readings import block, heading, rewards, table
+from ai4u_edu.viewer.panel.html_parts import heading, section, table
+from ai4u_edu.viewer.panel.readings import rewards
 
 MAX_PLOTTED_DECISIONS = 240
 """Number of decisions that an agent's history keeps for the page."""
@@ -27,7 +28,7 @@ def reward_table(agent: AgentState) -> str:
         for entry in reversed(paid)
     ]
     last = heading("Paid last") + table(rows) if rows else ""
-    return rewards(agent.reward_terms, agent.episode_terms) + (block(last) if last else "")
+    return rewards(agent.reward_terms, agent.episode_terms) + (section(last) if last else "")
 
 
 def signed(paid: float) -> str:

@@ -11,7 +11,7 @@ from viser._gui_handles import GuiModalHandle
 from ai4u_edu.base.errors import AI4UError
 from ai4u_edu.editing.scene_store import SceneExistsError, SceneStore
 from ai4u_edu.scenes import Scene
-from ai4u_edu.viewer.panel.readings import block
+from ai4u_edu.viewer.panel.html_parts import section
 
 SAVE, REPLACE = "Save", "Replace it"
 
@@ -89,7 +89,7 @@ class SaveWindow:
             self._is_saving = False
 
     def _show_error(self, text: str, label: str) -> None:
-        self.message.content = block(f'<strong role="alert">{escape(text)}</strong>')
+        self.message.content = section(f'<strong role="alert">{escape(text)}</strong>')
         if self.save.label != label:
             self.save.label = label
 

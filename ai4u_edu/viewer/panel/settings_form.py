@@ -11,10 +11,10 @@ from ai4u_edu.base.parameters import Problem
 from ai4u_edu.editing import ChangeError, ChangeResult
 from ai4u_edu.editing.forms import Field
 from ai4u_edu.viewer.panel.field_form import FieldForm
-from ai4u_edu.viewer.panel.readings import block
+from ai4u_edu.viewer.panel.html_parts import section
 
 OPEN, CLOSE = "▸", "▾"
-FOLD = block(kind="fold mark")
+FOLD = section(kind="fold mark")
 """Marker before a button that unfolds something, which the style sheet draws differently."""
 
 

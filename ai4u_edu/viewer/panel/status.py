@@ -2,11 +2,11 @@
 
 from html import escape
 
-from ai4u_edu.runtime.stall_monitor import Stall
+from ai4u_edu.runtime.tick_monitor import Stall
 from ai4u_edu.snapshot import AgentState, Snapshot, StaticScene
 from ai4u_edu.snapshot.theme import RAY_MISS, UNKNOWN_GROUP, group_colours
 from ai4u_edu.viewer.panel.bars import number
-from ai4u_edu.viewer.panel.readings import block
+from ai4u_edu.viewer.panel.html_parts import section
 
 MAX_LEGEND_GROUPS = 12
 """Most groups in the legend."""
@@ -51,13 +51,13 @@ def status(snapshot: Snapshot, stall: Stall | None = None) -> str:
         f"<span><small>time</small> {number(snapshot.time)} s</span>"
     )
     speed = _speed(snapshot) if stall is None else f"<strong>{escape(str(stall))}</strong>"
-    return block(place, speed, *map(_script, agents), kind="status bare")
+    return section(place, speed, *map(_script, agents), kind="status bare")
 
 
 def goal(static_scene: StaticScene) -> str:
     """Return the scene's goal; empty if it has none."""
     return (
-        block(f'<div class="goal">{escape(static_scene.goal)}</div>') if static_scene.goal else ""
+        section(f'<div class="goal">{escape(static_scene.goal)}</div>') if static_scene.goal else ""
     )
 
 

@@ -5,9 +5,9 @@ from typing import NamedTuple, Protocol
 
 from viser import PanelHandle
 
+from ai4u_edu.runtime.frame_budget import TEXTS_PER_S, PageTurns
 from ai4u_edu.snapshot import Snapshot, StaticScene
 from ai4u_edu.viewer.backend.log_once import Complaints
-from ai4u_edu.viewer.backend.turns import Turns
 from ai4u_edu.viewer.viewer_client import ViewerClient, ViewerClients
 
 
@@ -47,14 +47,14 @@ class Tabs:
         kinds: Sequence[TabKind],
         complaints: Complaints,
     ) -> None:
-        self._turns = Turns()
         self._viewer_clients = viewer_clients
         self.kinds = tuple(kinds)
         self._complaints = complaints
         self.pages: dict[int, _Page] = {}
 
-    def build(self, static_scene: StaticScene) -> None:
-        """Do nothing: tabs find the static scene in the snapshot."""
+    def build(self, static_scene: StaticScene) -> None:  # noqa: ARG002 - tabs find it in snapshots
+        """Draw all pages anew, at once."""
+        self._turns = PageTurns(TEXTS_PER_S)
 
     def draw(self, snapshot: Snapshot) -> None:
         """Show a snapshot in all tabs of the pages whose turn it is; add tabs to new pages."""
@@ -62,7 +62,7 @@ class Tabs:
             del self.pages[gone]
         for new in self._viewer_clients.keys() - self.pages.keys():
             self.pages[new] = _Page(self._viewer_clients[new], self.kinds, self._complaints)
-        for number in self._turns.next(self.pages.keys()):
+        for number in self._turns.due(self.pages.keys()):
             for tab in self.pages[number].tabs:
                 with self._complaints.caught():
                     tab.draw(snapshot)

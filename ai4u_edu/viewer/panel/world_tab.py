@@ -28,8 +28,8 @@ from ai4u_edu.viewer.panel.add_menu import BODY_TEMPLATES, free_position, ground
 from ai4u_edu.viewer.panel.block_labels import WAITS, undo_line
 from ai4u_edu.viewer.panel.body_form import BodyForm
 from ai4u_edu.viewer.panel.gallery import Gallery, Load
+from ai4u_edu.viewer.panel.html_parts import section
 from ai4u_edu.viewer.panel.notify import notify_stall
-from ai4u_edu.viewer.panel.readings import block
 from ai4u_edu.viewer.panel.save_window import SaveWindow
 from ai4u_edu.viewer.panel.settings_form import SettingsForm
 from ai4u_edu.viewer.panel.tabs import TabKind
@@ -43,7 +43,7 @@ UNDO, REDO = "Undo", "Redo"
 CHOOSE, SAVE, DOWNLOAD = "Choose a scene", "Save", "Download"
 RESTORE, DISCARD = "Restore", "Discard"
 NO_BODY = "choose one, or click on it"
-BARE = block(kind="mark bare")
+BARE = section(kind="mark bare")
 HINT_OFF = "Switch on <b>Move things</b>, then drag with the mouse what you like in the picture."
 HINT_ON = "Drag anything in the picture; Escape puts it back. Click on it, and a knob turns it."
 
@@ -88,7 +88,7 @@ class WorldTab:
             viewer_client.client, "Scene's settings", self._settings, self._on_settings
         )
         self.drag_enabled = gui.add_checkbox("Move things", False)
-        self._hint = gui.add_html(block(f"<small>{HINT_OFF}</small>"))
+        self._hint = gui.add_html(section(f"<small>{HINT_OFF}</small>"))
         self.body_list = gui.add_dropdown("Thing", (NO_BODY,))
         self.new = gui.add_button_group("Add", tuple(BODY_TEMPLATES))
         self._form_folder = gui.add_folder(None)
@@ -122,7 +122,7 @@ class WorldTab:
                 handle.visible = unsaved is not None
             if unsaved is not None:
                 text = f"<b>A scene from {escape(unsaved.when)} was never saved.</b>"
-                self._unsaved_text.content = block(text)
+                self._unsaved_text.content = section(text)
         if self._problems is not None:
             problems, self._problems = self._problems, None
             if self.form is not None:
@@ -146,7 +146,7 @@ class WorldTab:
             problem and f'<small role="alert" style="{style}">{escape(problem)}</small>',
             undo_line(editor),
         ]
-        self.status.content = block("<br>".join(line for line in lines if line))
+        self.status.content = section("<br>".join(line for line in lines if line))
 
     def _show_form(self, body: BodyDescription | None) -> None:
         overwrite, self._is_applied = self._is_applied, False
@@ -202,7 +202,7 @@ class WorldTab:
 
     async def _on_drag_enabled(self, event: GuiEvent[GuiCheckboxHandle]) -> None:
         hint = HINT_ON if event.target.value else HINT_OFF
-        self._hint.content = block(f"<small>{hint}</small>")
+        self._hint.content = section(f"<small>{hint}</small>")
 
     async def _on_body(self, event: GuiEvent[GuiDropdownHandle[str]]) -> None:
         if event.client is not None:

@@ -1,11 +1,11 @@
-"""The kept episodes as a table, and the links that download one."""
+"""The kept episodes as a table, and links to download one, as HTML."""
 
 from collections.abc import Iterable
 from html import escape
 
 from ai4u_edu.recording import ArchiveEntry
 from ai4u_edu.viewer.panel.bars import number
-from ai4u_edu.viewer.panel.readings import block
+from ai4u_edu.viewer.panel.html_parts import section
 
 STYLE = """<style>
 .ai4u .episodes {max-height: 11em; overflow-y: auto; border: 1px solid var(--line)}
@@ -22,51 +22,51 @@ STYLE = """<style>
 </style>"""
 HEADINGS = ("", "seed", "time", "reward", "goal", "driver")
 FORMATS = {"html": "Page", "gif": "GIF", "mp4": "MP4", "csv": "Table", "episode": "Recording"}
-"""What can be downloaded, by the file's ending."""
+"""Labels of the download formats, by file extension."""
 
 
-def listed(
+def episode_table(
     entries: Iterable[ArchiveEntry], chosen: int | None, best: ArchiveEntry | None = None
 ) -> str:
-    """A table, the latest episode first.
+    """Return a table of episodes, the latest first.
 
     Args:
         entries: the kept episodes.
-        chosen: the number of the one that was chosen.
-        best: the one that gets a star.
+        chosen: number of the chosen episode.
+        best: the episode that gets a star.
     """
     rows = [_row(each, each.number == chosen, each is best) for each in reversed(tuple(entries))]
     if not rows:
-        return block("<small>Every episode is kept here when it is over.</small>")
+        return section("<small>Every episode is kept here when it is over.</small>")
     head = "".join(f"<th>{heading}</th>" for heading in HEADINGS)
     table = f"<table><thead><tr>{head}</tr></thead><tbody>{''.join(rows)}</tbody></table>"
     region = 'class="episodes" tabindex="0" role="region" aria-label="Kept episodes"'
-    return STYLE + block(f"<div {region}>{table}</div>")
+    return STYLE + section(f"<div {region}>{table}</div>")
 
 
-def downloads(chosen: int, formats: Iterable[str]) -> str:
-    """Links to an episode's files.
+def download_links(chosen: int, formats: Iterable[str]) -> str:
+    """Return links to an episode's files.
 
     Args:
         chosen: the episode's number.
-        formats: some of :data:`FORMATS`.
+        formats: file extensions, among :data:`FORMATS`.
     """
-    links = [
-        f'<a href="api/past/{chosen}.{ending}" download>{FORMATS[ending]}</a>' for ending in formats
-    ]
-    return block(f'<div class="downloads">Download: {"".join(links)}</div>')
+    links = [f'<a href="api/past/{chosen}.{each}" download>{FORMATS[each]}</a>' for each in formats]
+    return section(f'<div class="downloads">Download: {"".join(links)}</div>')
 
 
 def driver(entry: ArchiveEntry) -> str:
-    """Who drove the first agent, in few words."""
-    return entry.source or short(entry.first.driver)
+    """Return a short name of the first agent's driver."""
+    return entry.source or short_brain_title(entry.first.driver)
 
 
-def short(title: str) -> str:
-    """A brain's title without what all of them have in common.
+def short_brain_title(title: str) -> str:
+    """Return a brain's title without the parts that all titles share.
 
-    >>> short("LocalBrain(WASDRBMoveController)"), short("Recording, RemoteBrain(a script)")
-    ('WASDRBMove', 'Recording, a script')
+    >>> short_brain_title("LocalBrain(WASDRBMoveController)")
+    'WASDRBMove'
+    >>> short_brain_title("Recording, RemoteBrain(a script)")
+    'Recording, a script'
     """
     parts = [part.rstrip(")").rpartition("(")[2] for part in title.split(", ")]
     return ", ".join(part.removesuffix("Controller") or part for part in parts)

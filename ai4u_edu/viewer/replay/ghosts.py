@@ -1,4 +1,4 @@
-"""Ghosts: the agents of a recorded run, drawn where they were at the same time of their episode."""
+"""Ghosts: the agents of a recorded episode, drawn translucent at the same time of the episode."""
 
 import math
 import threading
@@ -20,80 +20,83 @@ from ai4u_edu.world import BodyDescription
 
 PALE: Rgb = (255, 255, 255)
 OPACITY = 0.4
-ABOVE = 1.5
-"""So many radii above a ghost stands that it is one."""
+LABEL_DISTANCE = 1.5
+"""Distance of a ghost's label from its centre, in radii."""
 
 Pose = tuple[float, float, float, float]
 
 
 class Ghosts:
-    """Draws the ghost of one run, for all pages. It is no body: nothing senses it or touches it.
+    """The ghosts of one episode, on all pages. They are not bodies: nothing senses or touches them.
+
+    A background thread computes their path; the viewer's thread calls :meth:`build` and
+    :meth:`draw`.
 
     Args:
-        server: viser's.
+        server: viser's server.
     """
 
     def __init__(self, server: LocalServer) -> None:
         self._scene = server.scene
         self._subtree = Subtree(server.scene, "ghosts")
         self.name = ""
-        """Whose ghost it is, in words; empty if there is none."""
+        """Name of the episode; empty if there is no ghost."""
         self.problem = ""
-        """Why there is no ghost; empty if there is one, or none was wanted."""
+        """The reason why a requested ghost can't be shown; else empty."""
         self._episode: Episode | None = None
         self.ghost: Ghost | None = None
-        self._made: Ghost | None = None
+        self._built_ghost: Ghost | None = None
         self.bodies: list[_Body] = []
         self._layers: Layers | None = None
 
     def race(self, episode: Episode | None, name: str = "") -> None:
-        """Shows the ghost of a run as soon as it is known where it went; None: of none.
+        """Show an episode's ghost, as soon as its path is computed.
 
         Args:
-            episode: the run.
-            name: what it is called.
+            episode: the recorded episode; None removes the ghost.
+            name: the episode's name.
         """
         self._episode, self.ghost, self.problem = episode, None, ""
         self.name = name if episode is not None else ""
         if episode is not None:
             threading.Thread(target=self._play, args=(episode,), name="ghost", daemon=True).start()
 
-    def told(self, snapshot: Snapshot) -> str:
-        """What is to be said of the ghost, as HTML; empty if there is none."""
+    def message(self, snapshot: Snapshot) -> str:
+        """Return the ghost's name and any problem, as HTML; empty if there is no ghost."""
         if self.problem:
             return f"No ghost: {escape(self.problem)}"
         if self._episode is None:
             return ""
-        told = f"Ghost: {escape(self.name)}"
-        if self._is_elsewhere(snapshot.static_scene):
-            return f"{told}. <strong>It ran in another scene.</strong>"
+        text = f"Ghost: {escape(self.name)}"
+        if self._is_of_other_scene(snapshot.static_scene):
+            return f"{text}. <strong>It ran in another scene.</strong>"
         if snapshot.seed != self._episode.seed:
             seed = self._episode.seed
-            return f"{told}. <strong>It began otherwise: with seed {seed}. Race it anew.</strong>"
-        return told
+            return f"{text}. <strong>It began otherwise: with seed {seed}. Race it anew.</strong>"
+        return text
 
     def build(self, static_scene: StaticScene) -> None:
-        """Learns how high things are drawn."""
-        self._layers, self._made = Layers.of(static_scene), None
+        """Rebuild the ghost at the next drawing, for a new static scene."""
+        self._layers, self._built_ghost = Layers.of(static_scene), None
 
     def draw(self, snapshot: Snapshot) -> None:
-        """Puts the ghost where it was at this time of its episode."""
+        """Move the ghost to its pose at the snapshot's time."""
         ghost, layers = self.ghost, self._layers
-        if ghost is not self._made and layers is not None:
-            self._make(ghost, snapshot.static_scene, layers)
+        if ghost is not self._built_ghost and layers is not None:
+            self._build_bodies(ghost, snapshot.static_scene, layers)
         if ghost is None or layers is None:
             return
-        now = ghost.at(snapshot.time + 1e-4)  # its times are rounded
+        now = ghost.at(snapshot.time + 1e-4)  # a bit later, because its times are rounded
         is_fair = self._episode is not None and snapshot.seed == self._episode.seed
         text = "ghost" if is_fair else "ghost of another start"
         for body in self.bodies:
             body.move(now.get(body.name), layers, text)
 
-    def _make(self, ghost: Ghost | None, static_scene: StaticScene, layers: Layers) -> None:
-        self._made, self.bodies = ghost, []
+    def _build_bodies(self, ghost: Ghost | None, static_scene: StaticScene, layers: Layers) -> None:
+        self._built_ghost, self.bodies = ghost, []
         episode = self._episode
         with self._subtree.rebuild() as parent:
-            if ghost is None or episode is None or self._is_elsewhere(static_scene):
+            if ghost is None or episode is None or self._is_of_other_scene(static_scene):
                 return
             drivers = {str(agent.get("body", "")) for agent in episode.scene.agents}
             for number, body in enumerate(episode.scene.bodies):
@@ -111,18 +114,18 @@ class Ghosts:
         if self._episode is episode:
             self.ghost = ghost
 
-    def _is_elsewhere(self, static_scene: StaticScene) -> bool:
-        """Whether the run's things are others than those that are here; places may be chance."""
+    def _is_of_other_scene(self, static_scene: StaticScene) -> bool:
+        """Return True if the episode has other bodies or floors; positions may be random."""
         episode = self._episode
         if episode is None:
             return False
-        there = {(body.name, body.kind, body.shape) for body in episode.scene.bodies}
-        here = {(body.name, body.kind, body.shape) for body in static_scene.bodies}
-        return there != here or len(episode.scene.floors) != len(static_scene.floors)
+        recorded = {(body.name, body.kind, body.shape) for body in episode.scene.bodies}
+        current = {(body.name, body.kind, body.shape) for body in static_scene.bodies}
+        return recorded != current or len(episode.scene.floors) != len(static_scene.floors)
 
 
 class _Body:
-    """An agent's body, seen through; it is made once, and the node that it hangs on is moved."""
+    """A ghost's translucent body; its meshes are built once, and only their parent node moves."""
 
     def __init__(self, scene: SceneApi, node: str, body: BodyDescription, layers: Layers) -> None:
         self.name = body.name
@@ -131,7 +134,7 @@ class _Body:
         colour = mix_colours(body_colour(body, is_agent=True), PALE, 0.35)
         self.frame: FrameHandle = scene.add_frame(node, show_axes=False, visible=False)
         drawer = MeshDrawer(scene, node)
-        # a little below a living body, so that the two never flicker through each other
+        # a bit lower than a real body, against z-fighting between the two
         shape = prism(outline, body.height, 0.16 * radius)
         drawer.mesh("body", shape, -layers.unit, colour, OPACITY)
         drawer.mesh("face", face(radius, body.height), 0.0, PALE, OPACITY)
@@ -141,14 +144,14 @@ class _Body:
         self._text = ""
 
     def move(self, pose: Pose | None, layers: Layers, text: str) -> None:
-        """Puts it where it was; out of the world it is not drawn."""
+        """Move the body; None, for a pose outside the world, hides it."""
         if (pose is None) != (self._pose is None):
             self.frame.visible = self.label.visible = pose is not None
         if pose is not None and pose != self._pose:
             x, y, z, heading = pose
             self.frame.position = (x, y, z + layers.body)
             self.frame.wxyz = (math.cos(heading / 2), 0.0, 0.0, math.sin(heading / 2))
-            self.label.position = (x, y + ABOVE * self._radius, z + layers.body)
+            self.label.position = (x, y + LABEL_DISTANCE * self._radius, z + layers.body)
         if text != self._text:
             self._text = self.label.text = text
         self._pose = pose

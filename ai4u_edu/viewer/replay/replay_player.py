@@ -1,4 +1,4 @@
-"""Shows the past to all who look: which episode, and which moment of it."""
+"""The player of recorded episodes, which shows the same decision on all pages."""
 
 import threading
 from concurrent.futures import CancelledError, Future
@@ -9,125 +9,140 @@ from ai4u_edu.recording import Archive, ArchiveEntry, RecordingError
 from ai4u_edu.recording.frame_cache import FrameCache
 from ai4u_edu.runtime.runner import Runner
 
-NOW = 0
-"""The number of the episode that is under way."""
-LONGEST_BREAK = 1.0
-"""Seconds for which a moment is shown at most while it plays: nobody has to wait twice."""
+RUNNING_EPISODE = 0
+"""Number of the episode that is still running."""
+MAX_PAUSE_S = 1.0
+"""Longest time (s) between two decisions during playback, which shortens long waits."""
+FRAME_POLL_S = 0.25
+"""Interval (s) at which a wait for a frame checks whether the frame is still wanted."""
+NEXT_FRAME_TIMEOUT_S = 5.0
+"""Time (s) that playback waits for the next frame before it stops."""
 
 
 class ReplayPlayer:
-    """One for all pages: a class looks at the same moment. Any thread may ask it for things.
+    """The player that all pages share. Its public methods may be called from any thread.
+
+    A thread of its own waits for the frames of the wanted decision and shows them; it starts with
+    the first request. Each request has a new id, and work for an older id is dropped.
 
     Args:
-        runner: shows the pictures, and has the episodes.
+        runner: shows the frames and holds the episodes.
     """
 
     def __init__(self, runner: Runner) -> None:
         self._runner = runner
         self.frame_cache: FrameCache | None = None
-        """Of the episode that was chosen."""
+        """Frames of the chosen episode."""
         self.number: int | None = None
-        """Of that episode; :data:`NOW` for the one that is under way."""
+        """Number of that episode, or :data:`RUNNING_EPISODE`."""
         self.step = 0
-        """The moment that is wanted."""
-        self.playing = False
+        """The wanted decision, counted from 0; the end comes after the last decision."""
+        self.is_playing = False
         self.speed = 1.0
-        """How fast it plays; 1 is the world's own time."""
+        """Playback speed; 1 is the recorded speed."""
         self.problem = ""
-        """Why something could not be shown."""
-        self._wish = 0
-        self._wanted = False
-        self._goes_on = False
+        """The reason why something could not be shown."""
+        self._request_id = 0
+        self._has_request = False
+        self._is_next_frame = False
+        """True if the requested frame follows the shown one in a playback."""
         self._stopping = False
         self._changed = threading.Condition()
         self._thread: threading.Thread | None = None
 
     @property
     def archive(self) -> Archive | None:
-        """The episodes that are kept; None if none are recorded."""
+        """The kept episodes; None if nothing is recorded."""
         recorder = self._runner.recorder
         return None if recorder is None else recorder.episodes
 
     @property
     def is_showing(self) -> bool:
-        """Whether it is the past that is seen now."""
+        """True while the pages show a recorded frame instead of the present."""
         return bool(self._runner.latest.past)
 
     def open(self, number: int, agent: str = "", step: int | None = None) -> None:
-        """Chooses an episode; its pictures are made, and the present goes on.
+        """Choose an episode and compute its frames, while the world continues.
 
         Args:
-            number: in the archive; :data:`NOW` for the one that is under way, as far as it got.
-            agent: the id of the one whose decisions are gone through, if it has it; else it is the
-                one that acts first.
-            step: the moment that is wanted at once, if one is; below 0 it counts from the end.
+            number: the episode's number, or :data:`RUNNING_EPISODE` for the running one so far.
+            agent: id of the agent whose decisions are stepped through; if the episode has no such
+                agent, the one that acts first.
+            step: decision to show at once; below 0 it counts from the end. None shows nothing yet.
         """
-        if number != NOW:
+        if number != RUNNING_EPISODE:
             entry = self.archive.find(number) if self.archive is not None else None
             self._load(entry, number, agent, step)
             return
 
-        def take() -> ArchiveEntry | None:
+        def copy_running_episode() -> ArchiveEntry | None:
             recorder = self._runner.recorder
-            episode = recorder.now() if recorder is not None else None
+            episode = recorder.current_episode() if recorder is not None else None
             if recorder is None or episode is None or not len(episode.agents[0]):
                 return None
             return ArchiveEntry(recorder.episodes.next_number, episode)
 
-        self._runner.submit(take).add_done_callback(
-            lambda done: self._load(None if done.cancelled() else done.result(), NOW, agent, step)
+        self._runner.submit(copy_running_episode).add_done_callback(
+            lambda done: self._load(
+                None if done.cancelled() else done.result(), RUNNING_EPISODE, agent, step
+            )
         )
 
     def go_to(self, step: int) -> None:
-        """Shows a moment: a decision, by its number from 0 on."""
-        if self.number == NOW and self.frame_cache is not None and not self.is_showing:
-            self.open(NOW, self.frame_cache.record.id, step)  # it may have gone on since
+        """Show a decision, counted from 0."""
+        if self.number == RUNNING_EPISODE and self.frame_cache is not None and not self.is_showing:
+            # reload, because the running episode has continued since
+            self.open(RUNNING_EPISODE, self.frame_cache.record.id, step)
         else:
-            self._want(step)
+            self._request(step)
 
     def move(self, steps: int) -> None:
-        """Goes some decisions on, or back."""
+        """Step forward by some decisions, or backward."""
         frame_cache = self.frame_cache
-        if self.number == NOW and frame_cache is not None and not self.is_showing:
-            self.open(NOW, frame_cache.record.id, min(steps, 0) - 1)  # from now, and not from then
+        if self.number == RUNNING_EPISODE and frame_cache is not None and not self.is_showing:
+            # relative to the present, because the running episode has continued since
+            self.open(RUNNING_EPISODE, frame_cache.record.id, min(steps, 0) - 1)
         else:
             self.go_to(self.step + steps)
 
     def play(self, *, on: bool = True) -> None:
-        """Lets the moments follow each other; from the beginning, if it is at its end."""
+        """Start or stop the playback; at the end of the episode it starts from the beginning."""
         frame_cache = self.frame_cache
         if frame_cache is None:
             return
-        self._want(0 if on and self.step >= frame_cache.last else self.step, playing=on)
+        step = 0 if on and self.step >= frame_cache.last else self.step
+        self._request(step, play=on)
 
-    def back(self) -> "Future[None]":
-        """Back to now."""
-        self.leave()
+    def return_to_present(self) -> "Future[None]":
+        """Show the present again."""
+        self.cancel()
         return self._runner.show_past(None)
 
-    def leave(self) -> None:
-        """Shows nothing more of the past, whatever was wanted; what is seen stays for now."""
+    def cancel(self) -> None:
+        """Drop the pending request and stop the playback; the shown frame stays."""
         with self._changed:
-            self._wish, self._wanted, self.playing = self._wish + 1, False, False
+            self._request_id += 1
+            self._has_request = self.is_playing = False
             self._changed.notify_all()
 
-    def go_on(self) -> "Future[None]":
-        """Has the world go on from the moment that is wanted; may take as long as to play it all.
+    def continue_from_here(self) -> "Future[None]":
+        """Continue the world from the wanted decision.
+
+        Blocks until the episode has been replayed up to there.
 
         Returns:
-            What the runner answers; a :class:`~ai4u_edu.recording.RecordingError` if it can't be.
+            The runner's result; :class:`~ai4u_edu.recording.RecordingError` if it is impossible.
         """
         frame_cache, step = self.frame_cache, self.step
         if frame_cache is None:
             return _failed("choose an episode first")
-        self.leave()
-        frame_cache.snapshot(
-            min(step, max(frame_cache.last, 0)), timeout=None
-        )  # then it is known how it goes
+        self.cancel()
+        # wait for the frame: the replay exists from then on
+        frame_cache.snapshot(min(step, max(frame_cache.last, 0)), timeout=None)
         if frame_cache.replay is None:
             return _failed(frame_cache.problem)
         try:
-            # after the last decision there is none in whose place something else could be done
+            # from the end, continue at the last decision, the last one that can be replaced
             last = len(frame_cache.record) - 1
             return self._runner.continue_from(
                 frame_cache.replay, min(step, last), agent=frame_cache.record.id
@@ -136,7 +151,7 @@ class ReplayPlayer:
             return _failed(str(error))
 
     def stop(self) -> None:
-        """Ends the threads."""
+        """Stop the threads and wait for them."""
         with self._changed:
             self._stopping = True
             self._changed.notify_all()
@@ -145,13 +160,13 @@ class ReplayPlayer:
         if self.frame_cache is not None:
             self.frame_cache.stop()
 
-    # -- how -------------------------------------------------------------------------------------
+    # -- internals -------------------------------------------------------------------------------
 
     def _load(self, entry: ArchiveEntry | None, number: int, agent: str, step: int | None) -> None:
         if entry is None:
             self.problem = (
                 "nothing of it is recorded yet"
-                if number == NOW
+                if number == RUNNING_EPISODE
                 else f"episode {number} is not kept any more"
             )
             return
@@ -159,74 +174,79 @@ class ReplayPlayer:
         frame_cache = FrameCache(entry.episode, agent=known, number=entry.number)
         with self._changed:
             before, self.frame_cache, self.number = self.frame_cache, frame_cache.start(), number
-            # who looks at what is under way wants to go back from where it is
-            self.step = frame_cache.last if number == NOW else 0
-            self._wish, self._wanted = self._wish + 1, False
-            self.playing, self.problem = False, ""
+            # in the running episode people step back from the present
+            self.step = frame_cache.last if number == RUNNING_EPISODE else 0
+            self._request_id += 1
+            self._has_request = self.is_playing = False
+            self.problem = ""
         if before is not None:
             before.stop(wait=False)
         if self.is_showing or step is not None:
             wanted = self.step if step is None else step
-            self._want(wanted if wanted >= 0 else frame_cache.last + 1 + wanted)
+            self._request(wanted if wanted >= 0 else frame_cache.last + 1 + wanted)
 
-    def _want(self, step: int, *, playing: bool = False) -> None:
+    def _request(self, step: int, *, play: bool = False) -> None:
         frame_cache = self.frame_cache
         if frame_cache is None:
             return
         with self._changed:
             self.step = min(max(step, 0), max(frame_cache.last, 0))
-            self._wish, self._wanted, self.playing = self._wish + 1, True, playing
-            self._goes_on = False
+            self._request_id += 1
+            self._has_request, self.is_playing, self._is_next_frame = True, play, False
             if self._thread is None and not self._stopping:
-                self._thread = threading.Thread(target=self._run, name="past", daemon=True)
+                self._thread = threading.Thread(target=self._run, name="replay", daemon=True)
                 self._thread.start()
             self._changed.notify_all()
 
     def _run(self) -> None:
         while True:
             with self._changed:
-                self._changed.wait_for(lambda: self._wanted or self._stopping)
+                self._changed.wait_for(lambda: self._has_request or self._stopping)
                 if self._stopping:
                     return
-                self._wanted = False
-                wish, frame_cache, step = self._wish, self.frame_cache, self.step
-                goes_on, self._goes_on = self._goes_on, False
-            if frame_cache is None or not self._show(frame_cache, step, wish, goes_on=goes_on):
+                self._has_request = False
+                request_id, frame_cache, step = self._request_id, self.frame_cache, self.step
+                goes_on, self._is_next_frame = self._is_next_frame, False
+            if frame_cache is None:
                 continue
-            if self.playing:
-                self._play_on(frame_cache, step, wish)
+            if self._show(frame_cache, step, request_id, goes_on=goes_on) and self.is_playing:
+                self._request_next(frame_cache, step, request_id)
 
-    def _show(self, frame_cache: FrameCache, step: int, wish: int, *, goes_on: bool) -> bool:
-        """Shows a picture as soon as it is there; whether it was shown."""
-        while (picture := frame_cache.snapshot(step, timeout=0.25)) is None:
-            if wish != self._wish or self._stopping:
+    def _show(self, frame_cache: FrameCache, step: int, request_id: int, *, goes_on: bool) -> bool:
+        """Wait for a frame and show it; return False if it was not shown."""
+        while (snapshot := frame_cache.snapshot(step, timeout=FRAME_POLL_S)) is None:
+            if request_id != self._request_id or self._stopping:
                 return False
             if not frame_cache.is_alive or step > frame_cache.last:
-                self.problem, self.playing = frame_cache.problem or "there is nothing to see", False
+                self.problem = frame_cache.problem or "there is nothing to see"
+                self.is_playing = False
                 return False
         with self._changed:
-            if wish != self._wish:
+            if request_id != self._request_id:
                 return False
-            shown = self._runner.show_past(picture, goes_on=goes_on)
+            shown = self._runner.show_past(snapshot, goes_on=goes_on)
         with suppress(CancelledError, TimeoutError):
             shown.result(1.0)
         return True
 
-    def _play_on(self, frame_cache: FrameCache, step: int, wish: int) -> None:
-        """Waits as long as this moment took then, and wants the next one."""
-        here = frame_cache.snapshot(step)
-        there = frame_cache.snapshot(step + 1, timeout=5.0) if step < frame_cache.last else None
-        if here is None or there is None or not self.is_showing:  # somebody had the world go on
-            self.playing = False
+    def _request_next(self, frame_cache: FrameCache, step: int, request_id: int) -> None:
+        """Wait as long as the decision took when recorded, and request the next one."""
+        this = frame_cache.snapshot(step)
+        following = None
+        if step < frame_cache.last:
+            following = frame_cache.snapshot(step + 1, timeout=NEXT_FRAME_TIMEOUT_S)
+        # not showing any more: somebody returned to the present or continued the world
+        if this is None or following is None or not self.is_showing:
+            self.is_playing = False
             return
-        pause = min((there.time - here.time) / self.speed, LONGEST_BREAK)
+        pause = min((following.time - this.time) / self.speed, MAX_PAUSE_S)
         with self._changed:
-            self._changed.wait_for(lambda: wish != self._wish or self._stopping, pause)
-            if wish == self._wish:
-                self.step, self._wanted, self._goes_on = step + 1, True, True
+            self._changed.wait_for(lambda: request_id != self._request_id or self._stopping, pause)
+            if request_id == self._request_id:
+                self.step, self._has_request, self._is_next_frame = step + 1, True, True
 
 
-def _failed(why: str) -> "Future[None]":
+def _failed(reason: str) -> "Future[None]":
     future: Future[None] = Future()
-    future.set_exception(RecordingError(why))
+    future.set_exception(RecordingError(reason))
     return future

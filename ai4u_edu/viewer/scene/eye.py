@@ -57,7 +57,7 @@ def eye_pose(
 
     The eye is that of the agent's first ray sensor, else a point near the top of its body.
     """
-    eyes = [sense.eye for sense in agent.sensor_infos if sense.eye is not None]
+    eyes = [sensor.eye for sensor in agent.sensor_infos if sensor.eye is not None]
     forward, left, up = eyes[0] if eyes else _default_eye(static_scene, body)
     cos, sin = math.cos(body.heading), math.sin(body.heading)
     x, y = body.x + cos * forward - sin * left, body.y + sin * forward + cos * left

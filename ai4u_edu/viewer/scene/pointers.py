@@ -20,9 +20,9 @@ LINE_THICKNESS_PX = 3.0
 INK: Rgb = SPOT_LIT
 
 
-def has_pointer(sense: SensorInfo) -> bool:
+def has_pointer(sensor: SensorInfo) -> bool:
     """Return True if a sensor refers to bodies, areas or a window of the world."""
-    return bool(sense.targets or sense.groups or sense.window)
+    return bool(sensor.targets or sensor.groups or sensor.window)
 
 
 class Pointers:
@@ -36,15 +36,15 @@ class Pointers:
         self._scene = scene
         self._lines: LineSegmentsHandle | None = None
 
-    def draw(self, snapshot: Snapshot, body: BodyState, senses: Iterable[SensorInfo]) -> None:
+    def draw(self, snapshot: Snapshot, body: BodyState, sensors: Iterable[SensorInfo]) -> None:
         """Draw the targets of these sensors, and remove all other marks.
 
         Args:
             snapshot: the shown state of the world.
             body: the body of the sensors' agent.
-            senses: the sensors.
+            sensors: the sensors.
         """
-        marks = [mark for sense in senses for mark in pointer(snapshot, body, sense)]
+        marks = [mark for sensor in sensors for mark in pointer(snapshot, body, sensor)]
         if not marks:
             if self._lines is not None:
                 self._lines.visible = False
@@ -61,7 +61,7 @@ class Pointers:
         self._lines.points, self._lines.visible = points, True
 
 
-def pointer(snapshot: Snapshot, body: BodyState, sense: SensorInfo) -> list[Array]:
+def pointer(snapshot: Snapshot, body: BodyState, sensor: SensorInfo) -> list[Array]:
     """Return a sensor's marks as arrays of line segments (n, 2, 3); world frame, metres."""
     static_scene = snapshot.static_scene
     z = body.z + 2 * Layers.of(static_scene).body
@@ -69,21 +69,21 @@ def pointer(snapshot: Snapshot, body: BodyState, sense: SensorInfo) -> list[Arra
     marks = []
     for described in static_scene.bodies:
         state = bodies[described.name]
-        is_target = described.name in sense.targets or set(described.tags) & set(sense.groups)
+        is_target = described.name in sensor.targets or set(described.tags) & set(sensor.groups)
         if is_target and not state.fallen and state.name != body.name:
             reach = described.shape.reach
             ring = segments(circle(RING_RADIUS * reach, state.x, state.y), state.z + z - body.z)
             marks += [ring, _line(body, state.x, state.y, z, short_by=RING_RADIUS * reach)]
     for area in static_scene.areas:
-        if area.name in sense.targets or set(area.tags) & set(sense.groups):
+        if area.name in sensor.targets or set(area.tags) & set(sensor.groups):
             top = floor_under(static_scene, *area.position)
             level = (lowest_floor(static_scene) if top is None else top) + z - body.z
             outline, hole = region_outlines(area)
             marks += [segments(edge, level) for edge in (outline, hole) if edge is not None]
-            if area.name in sense.targets:
+            if area.name in sensor.targets:
                 marks.append(_line(body, *area.position, z, short_by=0.0))
-    if sense.window is not None:
-        marks.append(segments(_window_corners(sense.window, body), z))
+    if sensor.window is not None:
+        marks.append(segments(_window_corners(sensor.window, body), z))
     return marks
 
 

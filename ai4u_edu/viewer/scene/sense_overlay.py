@@ -1,8 +1,8 @@
 """Sensor readings drawn in the scene: on each page, those of the agent that it shows."""
 
+from ai4u_edu.runtime.frame_budget import SENSES_PER_S, PageTurns
 from ai4u_edu.snapshot import AgentState, Snapshot, StaticScene
 from ai4u_edu.snapshot.block_info import SensorInfo
-from ai4u_edu.viewer.backend.turns import Turns
 from ai4u_edu.viewer.scene.layers import Layers
 from ai4u_edu.viewer.scene.pointers import Pointers, has_pointer
 from ai4u_edu.viewer.scene.rays import Rays, RayStyle
@@ -10,14 +10,14 @@ from ai4u_edu.viewer.scene.spots import Spots
 from ai4u_edu.viewer.viewer_client import ViewerClient, ViewerClients
 
 
-def is_drawable(sense: SensorInfo, agent: AgentState) -> bool:
+def is_drawable(sensor: SensorInfo, agent: AgentState) -> bool:
     """Return True if a sensor has something to draw in the scene."""
-    return is_shown_by_default(sense, agent) or has_pointer(sense)
+    return is_shown_by_default(sensor, agent) or has_pointer(sensor)
 
 
-def is_shown_by_default(sense: SensorInfo, agent: AgentState) -> bool:
+def is_shown_by_default(sensor: SensorInfo, agent: AgentState) -> bool:
     """Return True if a sensor is drawn unless switched off: one with rays or spots."""
-    return sense.key in agent.rays or sense.key in agent.spots
+    return sensor.key in agent.rays or sensor.key in agent.spots
 
 
 class SenseOverlay:
@@ -29,7 +29,6 @@ class SenseOverlay:
 
     def __init__(self, viewer_clients: ViewerClients) -> None:
         self._viewer_clients = viewer_clients
-        self._turns = Turns()
         self._pages: dict[int, _Page] = {}
 
     def build(self, static_scene: StaticScene) -> None:
@@ -38,6 +37,7 @@ class SenseOverlay:
         self._style = RayStyle(static_scene)
         margin = layers.body + 3 * layers.unit
         self._tops = {body.name: body.height + margin for body in static_scene.bodies}
+        self._turns = PageTurns(SENSES_PER_S)
         for page in self._pages.values():
             page.build(self._style)
 
@@ -46,7 +46,7 @@ class SenseOverlay:
         for gone in self._pages.keys() - self._viewer_clients.keys():
             del self._pages[gone]
         agents = {agent.id: agent for agent in snapshot.agents}
-        for number in self._turns.next(self._viewer_clients.keys()):
+        for number in self._turns.due(self._viewer_clients.keys()):
             viewer_client = self._viewer_clients[number]
             if number not in self._pages:
                 self._pages[number] = _Page(viewer_client, self._style)
@@ -69,12 +69,12 @@ class _Page:
     def draw(self, snapshot: Snapshot, agent: AgentState, top: float) -> None:
         (body,) = (each for each in snapshot.bodies if each.name == agent.body)
         shown = [
-            sense
-            for sense in agent.sensor_infos
+            sensor
+            for sensor in agent.sensor_infos
             if not body.fallen
-            and self._viewer_client.lights(sense.key, by_itself=is_shown_by_default(sense, agent))
+            and self._viewer_client.lights(sensor.key, by_itself=is_shown_by_default(sensor, agent))
         ]
-        keys = [sense.key for sense in shown]
+        keys = [sensor.key for sensor in shown]
         with self._viewer_client.client.atomic():
             # `rays` is a new object after every reading
             if agent.rays is not self._drawn_rays or keys != self._keys:

@@ -1,4 +1,4 @@
-"""The controllers: what a LocalBrain can ask."""
+"""The controllers, which a LocalBrain asks for actions: one idea a file."""
 
 from ai4u_edu.blocks.brains.controllers.a_star import AStarController, a_star
 from ai4u_edu.blocks.brains.controllers.arrow import ArrowController

@@ -1,4 +1,4 @@
-"""Drive with the arrow keys, whatever the body is."""
+"""A keyboard controller with the arrow keys for any actuator."""
 
 from collections.abc import Iterable
 from typing import Annotated, Literal
@@ -19,32 +19,32 @@ Component = Literal[
     "forward", "strafe", "turn", "jump", "jump_forward", "left_wheel", "right_wheel", "none"
 ]
 
-RB_MOVE: list[Component] = ["forward", "turn", "jump", "jump_forward"]
-CB_MOVE: list[Component] = ["forward", "strafe", "turn", "jump", "jump_forward"]
-WHEELS: list[Component] = ["left_wheel", "right_wheel"]
+RB_MOVE_COMPONENTS: list[Component] = ["forward", "turn", "jump", "jump_forward"]
+CB_MOVE_COMPONENTS: list[Component] = ["forward", "strafe", "turn", "jump", "jump_forward"]
+WHEEL_COMPONENTS: list[Component] = ["left_wheel", "right_wheel"]
 
 
 class ArrowController(Controller):
     """The arrow keys drive and turn, Space jumps, Enter jumps forward, R restarts.
 
-    Any key can be given any part: of each part the keys are listed (``KeyboardEvent.code``, places
-    on the keyboard); strafing to the side has none until you give it some. Opposite keys cancel
-    out. A stick, on a screen or a gamepad, drives and turns as fast as it is pushed.
+    The keys of each motion can be changed (lists of ``KeyboardEvent.code``, positions on the
+    keyboard); sideways motion has none by default. Opposite keys cancel out. A stick, on a screen
+    or a gamepad, drives and turns in proportion to its deflection.
 
-    ``components`` says what each number of the action is. Left out, it is as the actuator takes
-    them: two wheels (the inner one slows down), RBMoveActuator's four or CBMoveActuator's five;
-    numbers beyond those are 0.
+    ``components`` gives the meaning of each number of the action. By default it follows from the
+    actuator: two wheels (the inner one slows down), RBMoveActuator's four numbers or
+    CBMoveActuator's five; further numbers are 0.
 
-    Extra actions: while a key of ``extra_keys[i]`` is held, the number that
-    ``extra_actions_index[i]`` counts (from 0) is ``extra_actions_value[i]``. Other actuators of one
-    number have ``switches``: ``{"grab": ["KeyG"]}`` gives the actuator "grab" a 1 while G is held,
-    else a 0.
+    Extra actions: while a key of ``extra_keys[i]`` is held, the number at index
+    ``extra_actions_index[i]`` (from 0) is ``extra_actions_value[i]``. For other actuators of one
+    number there is ``switches``: ``{"grab": ["KeyG"]}`` gives the actuator "grab" a 1 while G is
+    held, else a 0.
 
     Source: AI4U's ArrowPhysicsMoveController.
 
-    Differs from AI4U: the actionMap is a list of keys for each part. numberOfExtraActions follows
-    from the actuator. The first episode is begun by whoever runs the world, there by a first
-    ``__reset__``.
+    Differs from AI4U: the actionMap is a list of keys for each motion. numberOfExtraActions follows
+    from the actuator. The first episode is started by the program that runs the world; there by a
+    first ``__reset__``.
     """
 
     actuator_name: str = "move"
@@ -56,49 +56,46 @@ class ArrowController(Controller):
     jump_power: Amount = 1.0
     """Jump number while a key is held, as a share of full power."""
     forward: Keys = Field(default_factory=lambda: ["ArrowUp"])
-    """Keys that drive forward, as places on the keyboard (``KeyW``); at most 8, none by ``[]``."""
+    """Keys that drive forward (codes such as ``KeyW``; at most 8, ``[]`` for none)."""
     backward: Keys = Field(default_factory=lambda: ["ArrowDown"])
-    """Keys that drive backward, as places on the keyboard (``KeyW``); at most 8, none by ``[]``."""
+    """Keys that drive backward (codes such as ``KeyW``; at most 8, ``[]`` for none)."""
     left: Keys = Field(default_factory=list)
-    """Keys that drive sideways to the left, as places on the keyboard (``KeyW``); at most 8, none
-    by ``[]``."""
+    """Keys that drive sideways, left (codes such as ``KeyW``; at most 8, ``[]`` for none)."""
     right: Keys = Field(default_factory=list)
-    """Keys that drive sideways to the right, as places on the keyboard (``KeyW``); at most 8, none
-    by ``[]``."""
+    """Keys that drive sideways, right (codes such as ``KeyW``; at most 8, ``[]`` for none)."""
     turn_left: Keys = Field(default_factory=lambda: ["ArrowLeft"])
-    """Keys that turn left, as places on the keyboard (``KeyW``); at most 8, none by ``[]``."""
+    """Keys that turn left (codes such as ``KeyW``; at most 8, ``[]`` for none)."""
     turn_right: Keys = Field(default_factory=lambda: ["ArrowRight"])
-    """Keys that turn right, as places on the keyboard (``KeyW``); at most 8, none by ``[]``."""
+    """Keys that turn right (codes such as ``KeyW``; at most 8, ``[]`` for none)."""
     jump: Keys = Field(default_factory=lambda: ["Space"])
-    """Keys that jump, as places on the keyboard (``KeyW``); at most 8, none by ``[]``."""
+    """Keys that jump (codes such as ``KeyW``; at most 8, ``[]`` for none)."""
     jump_forward: Keys = Field(default_factory=lambda: ["Enter"])
-    """Keys that jump forward, as places on the keyboard (``KeyW``); at most 8, none by ``[]``."""
+    """Keys that jump forward (codes such as ``KeyW``; at most 8, ``[]`` for none)."""
     restart: Keys = Field(default_factory=lambda: ["KeyR"])
-    """Keys that begin a new episode, as places on the keyboard (``KeyW``); at most 8, none by
-    ``[]``."""
+    """Keys that start a new episode (codes such as ``KeyW``; at most 8, ``[]`` for none)."""
     components: list[Component] | None = None
-    """Meaning of each number of the action, in order; left out: as the actuator takes them."""
+    """Meaning of each number of the action, in order; left out: chosen by the actuator."""
     extra_keys: list[Keys] = Field(default_factory=list)
-    """For each extra action, the keys that set it while one of them is held."""
+    """Keys of each extra action; it is set while one of them is held."""
     extra_actions_index: list[Annotated[int, Field(ge=0, le=1023)]] = Field(default_factory=list)
-    """For each extra action, the place in the action that it sets, counted from 0."""
+    """Index in the action, from 0, that each extra action sets."""
     extra_actions_value: list[Number] = Field(default_factory=list)
-    """For each extra action, the number that it sets there."""
+    """Number that each extra action sets."""
     switches: dict[Name, Keys] = Field(default_factory=dict)
-    """For each actuator of one number, by its action name, the keys that give it a 1."""
+    """Keys that give an actuator of one number a 1, by its action name."""
 
     def on_setup(self, agent: AgentView, view: WorldView) -> None:
-        """Takes the agent's keyboard, and looks how many numbers the actuator wants."""
+        """Store the agent's keyboard, and look up how many numbers the actuator takes."""
         self._keyboard = agent.keyboard
         self._before: frozenset[str] = frozenset()
         size = len(limits_of(self.actuator_name, agent)[0])
-        self._components = self._laid_out(size)
+        self._components = self._chosen_components(size)
         self._check_extras(size)
         for name in self.switches:
             limits_of(name, agent)
 
     def get_action(self, percept: Percept) -> Answer:
-        """One number a component, from the keys held now."""
+        """Return one number for each component, from the keys that are held now."""
         keys, stick = self._keyboard.read(), self._keyboard.stick()
         fresh, self._before = keys - self._before, keys
         if not fresh.isdisjoint(self.restart):
@@ -126,7 +123,7 @@ class ArrowController(Controller):
         switched = {name: float(_any(keys, held)) for name, held in self.switches.items()}
         return {self.actuator_name: tuple(action), **switched}
 
-    def _laid_out(self, size: int) -> list[Component]:
+    def _chosen_components(self, size: int) -> list[Component]:
         if self.components is not None:
             if len(self.components) != size:
                 raise BlockError(
@@ -134,7 +131,14 @@ class ArrowController(Controller):
                     f"got {len(self.components)}"
                 )
             return self.components
-        known = next((each for each in (CB_MOVE, RB_MOVE, WHEELS) if size >= len(each)), [])
+        known = next(
+            (
+                each
+                for each in (CB_MOVE_COMPONENTS, RB_MOVE_COMPONENTS, WHEEL_COMPONENTS)
+                if size >= len(each)
+            ),
+            [],
+        )
         rest: list[Component] = ["none"] * (size - len(known))
         return known + rest
 
@@ -155,10 +159,10 @@ class ArrowController(Controller):
 
 
 def limits_of(name: str, agent: AgentView) -> tuple[list[float], list[float]]:
-    """The ranges of an agent's actuator.
+    """Return the ranges of an agent's actuator.
 
     Raises:
-        BlockError: the agent has none of that name.
+        BlockError: the agent has no actuator of that name.
     """
     actuators = {each.action_name: each for each in agent.actuators if each.is_active}
     if name not in actuators:

@@ -1,4 +1,4 @@
-"""Search that looks everywhere, near places first."""
+"""Breadth-first search, and a controller that uses it."""
 
 from collections import deque
 from collections.abc import Iterable
@@ -9,23 +9,23 @@ from ai4u_edu.blocks.brains.controllers.planner import (
     Map,
     PlanController,
     neighbours,
-    way_to,
+    path_to,
 )
 
 __all__ = ["BreadthFirstController", "breadth_first"]
 
 
 def breadth_first(free: Map, start: Cell, goals: Iterable[Cell]) -> Found:
-    """A shortest way to the nearest goal, by breadth-first search.
+    """Find a shortest path to the nearest goal by breadth-first search.
 
-    It keeps a border of cells that it has seen but not looked at yet, and takes first what it saw
-    first. So it looks at all cells one step away, then at all that are two steps away, and so on:
-    the first goal that it meets is a nearest one.
+    It keeps a frontier of cells that were seen but not visited yet, and visits them in the order in
+    which they were seen: all cells one step away, then all that are two steps away, and so on. The
+    first goal that it visits is a nearest one.
 
     Args:
-        free: (rows, columns) where one can go.
-        start: where the way begins.
-        goals: where it may end.
+        free: (rows, columns) True for cells that can be entered.
+        start: the first cell of the path.
+        goals: the cells where the path may end.
 
     >>> import numpy as np
     >>> free = np.array([[1, 1, 1], [1, 0, 1]], bool)
@@ -40,7 +40,7 @@ def breadth_first(free: Map, start: Cell, goals: Iterable[Cell]) -> Found:
         cell = border.popleft()
         visited.append(cell)
         if cell in ends:
-            return Found(way_to(cell, before), visited)
+            return Found(path_to(cell, before), visited)
         for near in neighbours(free, cell):
             if near not in before:
                 before[near] = cell
@@ -49,12 +49,12 @@ def breadth_first(free: Map, start: Cell, goals: Iterable[Cell]) -> Found:
 
 
 class BreadthFirstController(PlanController):
-    """Goes the shortest way to the nearest goal, which breadth-first search finds on the map.
+    """Takes the shortest path to the nearest goal, found by breadth-first search on the map.
 
-    It needs a GridSensor (``grid``) for the map, a CellSensor (``cell``) for its place in it, and a
-    GridMoveActuator. It knows only what the map shows, and keeps off every code that is not in
-    ``free``: in the grid world those of walls, persons and enemies. The search itself is the
-    function ``breadth_first``, which takes any map.
+    It needs a GridSensor (``grid``) for the map, a CellSensor (``cell``) for its cell in it, and a
+    GridMoveActuator. It knows only the map, and avoids every code that is not in ``free``: in the
+    grid world those of walls, persons and enemies. The search itself is the function
+    ``breadth_first``, which takes any map.
 
     Source: ours, for the lessons on search of AI4U's grid world.
 
@@ -70,5 +70,5 @@ class BreadthFirstController(PlanController):
     """
 
     def search(self, free: Map, start: Cell, goals: Iterable[Cell]) -> Found:
-        """A way from the start to the nearest goal."""
+        """Return a path from the start to the nearest goal."""
         return breadth_first(free, start, goals)

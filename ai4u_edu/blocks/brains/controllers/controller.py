@@ -1,4 +1,4 @@
-"""What a LocalBrain asks for an action."""
+"""The base of controllers, which a LocalBrain asks for actions."""
 
 from ai4u_edu.base.errors import BlockError
 from ai4u_edu.blocks.block import Block
@@ -7,10 +7,10 @@ from ai4u_edu.blocks.percept import Percept
 
 
 class Controller(Block):
-    """The base of all controllers: fill :meth:`get_action`. Source: AI4U's Controller.
+    """The base of all controllers: override :meth:`get_action`. Source: AI4U's Controller.
 
     >>> class Forward(Controller):
-    ...     '''Always drives ahead.'''
+    ...     '''Always drives forward.'''
     ...     speed: float = 1.0
     ...     def get_action(self, percept): return {"move": [self.speed, 0, 0, 0]}
     >>> Forward(speed=0.5).get_action({})
@@ -18,14 +18,14 @@ class Controller(Block):
     """
 
     def get_action(self, percept: Percept) -> Answer:
-        """An action by the actuator's name, or a command.
+        """Return an action for each actuator, by its name, or a command.
 
         Args:
-            percept: what the agent senses now.
+            percept: the agent's present readings.
         """
         raise BlockError(
             f"{type(self).__name__} has no get_action(self, percept): it must return an action"
         )
 
     def new_state_event(self, percept: Percept) -> None:
-        """Called with each new percept, before :meth:`get_action`."""
+        """React to a new percept; called before :meth:`get_action`."""

@@ -1,4 +1,4 @@
-"""Choose with the arrow keys."""
+"""A keyboard controller for discrete actions."""
 
 from pydantic import Field
 
@@ -10,15 +10,15 @@ from ai4u_edu.blocks.brains.controllers.wasd import Keys
 from ai4u_edu.blocks.percept import Percept
 from ai4u_edu.world import WorldView
 
-NONE = 0
+NO_CHOICE = 0
 
 
 class DiscreteArrowController(Controller):
     """Right is 1, left 2, up 3, down 4, accept (Enter or Space) 5, no key 0; R restarts.
 
-    For a DiscreteActuator. Keys are places on the keyboard (``KeyboardEvent.code``). Of several
-    that are held the one pressed last counts. A key whose choice the actuator doesn't have (accept,
-    where it has five) does nothing.
+    For a DiscreteActuator. Keys are positions on the keyboard (``KeyboardEvent.code``). If several
+    are held, the one pressed last counts. A key whose choice the actuator doesn't have (such as
+    accept, if it has five choices) does nothing.
 
     Source: AI4U's DiscretArrowController.
     """
@@ -26,21 +26,20 @@ class DiscreteArrowController(Controller):
     actuator_name: str = "move"
     """Action name of the DiscreteActuator that the keys drive."""
     right: Keys = Field(default_factory=lambda: ["ArrowRight"])
-    """Keys that give choice 1, as places on the keyboard (``KeyW``); at most 8, none by ``[]``."""
+    """Keys that give choice 1 (codes such as ``KeyW``; at most 8, ``[]`` for none)."""
     left: Keys = Field(default_factory=lambda: ["ArrowLeft"])
-    """Keys that give choice 2, as places on the keyboard (``KeyW``); at most 8, none by ``[]``."""
+    """Keys that give choice 2 (codes such as ``KeyW``; at most 8, ``[]`` for none)."""
     up: Keys = Field(default_factory=lambda: ["ArrowUp"])
-    """Keys that give choice 3, as places on the keyboard (``KeyW``); at most 8, none by ``[]``."""
+    """Keys that give choice 3 (codes such as ``KeyW``; at most 8, ``[]`` for none)."""
     down: Keys = Field(default_factory=lambda: ["ArrowDown"])
-    """Keys that give choice 4, as places on the keyboard (``KeyW``); at most 8, none by ``[]``."""
+    """Keys that give choice 4 (codes such as ``KeyW``; at most 8, ``[]`` for none)."""
     accept: Keys = Field(default_factory=lambda: ["Enter", "Space"])
-    """Keys that give choice 5, as places on the keyboard (``KeyW``); at most 8, none by ``[]``."""
+    """Keys that give choice 5 (codes such as ``KeyW``; at most 8, ``[]`` for none)."""
     restart: Keys = Field(default_factory=lambda: ["KeyR"])
-    """Keys that begin a new episode, as places on the keyboard (``KeyW``); at most 8, none by
-    ``[]``."""
+    """Keys that start a new episode (codes such as ``KeyW``; at most 8, ``[]`` for none)."""
 
     def on_setup(self, agent: AgentView, view: WorldView) -> None:
-        """Takes the agent's keyboard, and looks how many choices there are."""
+        """Store the agent's keyboard, and look up how many choices there are."""
         self._keyboard = agent.keyboard
         self._before: frozenset[str] = frozenset()
         last = int(limits_of(self.actuator_name, agent)[1][0])
@@ -54,11 +53,11 @@ class DiscreteArrowController(Controller):
         self._order: list[str] = []
 
     def on_reset(self, agent: AgentView, view: WorldView) -> None:
-        """Forgets which key came when."""
+        """Forget the order of the keys."""
         self._order = []
 
     def get_action(self, percept: Percept) -> Answer:
-        """One choice, from the keys held now."""
+        """Return one choice, from the keys that are held now."""
         keys = self._keyboard.read()
         fresh, self._before = keys - self._before, keys
         if not fresh.isdisjoint(self.restart):
@@ -66,4 +65,4 @@ class DiscreteArrowController(Controller):
         self._order = [key for key in self._order if key in keys]
         known = self._choices
         self._order += [key for key in known if key in keys and key not in self._order]
-        return {self.actuator_name: known[self._order[-1]] if self._order else NONE}
+        return {self.actuator_name: known[self._order[-1]] if self._order else NO_CHOICE}

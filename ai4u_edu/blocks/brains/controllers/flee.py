@@ -1,4 +1,4 @@
-"""Runs away."""
+"""A controller that flees from a pursuer."""
 
 import math
 
@@ -7,21 +7,21 @@ import numpy as np
 from ai4u_edu.base.errors import BlockError
 from ai4u_edu.base.parameters import PositiveMetres
 from ai4u_edu.blocks.agent_view import AgentView
-from ai4u_edu.blocks.brains.controllers.steering import Spot, SteeringController
+from ai4u_edu.blocks.brains.controllers.steering import LocalPoint, SteeringController
 from ai4u_edu.blocks.percept import Percept
 from ai4u_edu.blocks.sensors import LinearRayCastingSensor
 from ai4u_edu.blocks.sensors.ray_sensor import spread
 from ai4u_edu.world import WorldView
 
-STRAIGHT = 0.3
-"""What going on as before is worth, where getting away is worth 1."""
+STRAIGHT_WEIGHT = 0.3
+"""Weight of going straight on, relative to a weight of 1 for getting away."""
 
 
 class FleeController(SteeringController):
-    """Runs from its pursuer, where there is room: it looks along rays, and takes the best one.
+    """Flees from its pursuer to where there is room: it rates directions along rays.
 
-    A ray is the better the more it leads away and the more room there is (up to ``room``). While
-    the pursuer is farther away than ``calm_distance`` it strolls, wherever there is room, at a
+    A ray is better if it leads away from the pursuer and if it is free for longer (up to ``room``).
+    While the pursuer is farther away than ``calm_distance``, it drives to where there is room, at a
     third of its speed.
 
     It needs two sensors, named by their perception keys: ``pursuer``, a PositionSensor of the other
@@ -36,14 +36,14 @@ class FleeController(SteeringController):
     rays: str = "rays"
     """Perception key of a LinearRayCastingSensor all around, with ``return_distance``."""
     calm_distance: PositiveMetres = 5.0
-    """Farther away than this, the pursuer is no danger."""
+    """Distance beyond which the pursuer is no danger."""
     room: PositiveMetres = 2.5
-    """Free way ahead that is enough; more of it makes a direction no better."""
+    """Free length of a ray that is enough; more makes it no better."""
 
     reads = ("pursuer", "rays")
 
     def on_setup(self, agent: AgentView, view: WorldView) -> None:
-        """Look its sensors up, and where the rays look."""
+        """Look up its sensors and the rays' angles."""
         super().on_setup(agent, view)
         sensor = self._sensors["rays"]
         if not isinstance(sensor, LinearRayCastingSensor) or not sensor.return_distance:
@@ -55,19 +55,21 @@ class FleeController(SteeringController):
         self._angles = spread(sensor.number_of_rays, sensor.field_of_view)
         self._angles -= math.radians(sensor.horizontal_shift)
 
-    def wish(self, percept: Percept) -> Spot:
-        """A point along the best ray."""
+    def target_point(self, percept: Percept) -> LocalPoint:
+        """Return a point along the best ray."""
         forward, left = self.spot(percept, "pursuer")
         free = np.asarray(percept[self.rays][1::2], np.float64) * self._unit
         free = np.where(free == 0.0, self._reach, free)
-        away = -np.cos(self._angles - math.atan2(left, forward)) * self._in_fear(percept)
-        worth = away + 2.0 * np.minimum(free / self.room, 1.0) + STRAIGHT * np.cos(self._angles)
+        away = -np.cos(self._angles - math.atan2(left, forward)) * self._is_chased(percept)
+        worth = (
+            away + 2.0 * np.minimum(free / self.room, 1.0) + STRAIGHT_WEIGHT * np.cos(self._angles)
+        )
         best = float(self._angles[np.argmax(worth)])
         return math.cos(best), math.sin(best)
 
-    def effort(self, percept: Percept, wish: Spot) -> float:
-        """All of it while the pursuer is near."""
-        return 1.0 if self._in_fear(percept) else 0.3
+    def speed_share(self, percept: Percept, target_point: LocalPoint) -> float:
+        """Return 1 while the pursuer is near, else 0.3."""
+        return 1.0 if self._is_chased(percept) else 0.3
 
-    def _in_fear(self, percept: Percept) -> bool:
+    def _is_chased(self, percept: Percept) -> bool:
         return math.hypot(*self.spot(percept, "pursuer")) < self.calm_distance

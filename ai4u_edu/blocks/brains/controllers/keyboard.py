@@ -1,4 +1,4 @@
-"""The keys that a person holds and the stick that they push, as the physics' thread sees them."""
+"""The keys and the stick that a person holds, shared between the server's and world's threads."""
 
 import threading
 import time
@@ -7,32 +7,32 @@ from typing import NamedTuple
 
 __all__ = ["Keyboard"]
 
-SILENCE = 0.3
-"""A page that holds keys says so about ten times a second; after this long without a word (s) the
-keys count as released."""
+KEY_TIMEOUT_S = 0.3
+"""Time (s) without a message after which keys count as released. A page that holds keys sends about
+ten messages a second."""
 
 
 class Stick(NamedTuple):
-    """How far a stick is pushed, on a screen or a gamepad; each number from -1 to 1."""
+    """Deflection of a stick, on a screen or a gamepad; each number from -1 to 1."""
 
     forward: float = 0.0
-    """1 is ahead."""
+    """Forward deflection; 1 is full speed ahead."""
     turn: float = 0.0
-    """1 is to the right, clockwise, as in an action."""
+    """Sideways deflection; 1 is to the right (clockwise), as in an action."""
 
 
-AT_REST = Stick()
+CENTERED = Stick()
 
 
 class Keyboard:
-    """Which keys are held: written by the server's thread, read by the world's.
+    """The keys that are held; thread-safe: the server's thread writes, the world's thread reads.
 
-    Keys are codes of places on the keyboard (``KeyW``, ``ArrowUp``, ``Space``), as a browser's
-    ``KeyboardEvent.code`` has them, so they don't depend on the layout. A stick does by halves what
-    the keys for ahead, back, left and right do.
+    Keys are codes of positions on the keyboard (``KeyW``, ``ArrowUp``, ``Space``), as in a
+    browser's ``KeyboardEvent.code``, so they don't depend on the layout. A stick does the same as
+    the keys for forward, backward, left and right, in finer steps.
 
     Args:
-        clock: seconds; to be replaced in tests.
+        clock: returns seconds; replaced in tests.
 
     >>> now = 0.0
     >>> keyboard = Keyboard(clock=lambda: now)
@@ -49,51 +49,51 @@ class Keyboard:
         self._lock = threading.Lock()
         self._held: frozenset[str] = frozenset()
         self._tapped: frozenset[str] = frozenset()
-        self._stick = AT_REST
-        self._heard = -SILENCE
+        self._stick = CENTERED
+        self._last_message = -KEY_TIMEOUT_S
 
-    def hold(self, codes: Iterable[str], stick: Stick = AT_REST) -> None:
-        """These keys, and no others, are held now, and a stick is pushed so far."""
+    def hold(self, codes: Iterable[str], stick: Stick = CENTERED) -> None:
+        """Set the keys that are held now, and the stick's deflection."""
         codes = frozenset(codes)
         with self._lock:
             self._tapped |= codes - self._held
-            self._held, self._stick, self._heard = codes, stick, self._clock()
+            self._held, self._stick, self._last_message = codes, stick, self._clock()
 
     def release(self) -> None:
-        """Lets all keys go, also those that were only tapped, and the stick."""
+        """Release all keys, also those that were only tapped, and the stick."""
         with self._lock:
             self._let_go()
 
     def held(self) -> frozenset[str]:
-        """The keys that are held now."""
+        """Return the keys that are held now."""
         with self._lock:
             return self._current()
 
     def read(self) -> frozenset[str]:
-        """The keys held now or pressed since the last read: so a quick tap is never missed."""
+        """Return the keys held now or pressed since the last read, so that no tap is missed."""
         with self._lock:
             keys = self._current() | self._tapped
             self._tapped = frozenset()
             return keys
 
     def stick(self) -> Stick:
-        """How far the stick is pushed now."""
+        """Return the stick's present deflection."""
         with self._lock:
             self._current()
             return self._stick
 
     def _current(self) -> frozenset[str]:
-        if self._clock() - self._heard > SILENCE:
+        if self._clock() - self._last_message > KEY_TIMEOUT_S:
             self._let_go()
         return self._held
 
     def _let_go(self) -> None:
         self._held = self._tapped = frozenset()
-        self._stick = AT_REST
+        self._stick = CENTERED
 
 
 def combine(keys: float, stick: float) -> float:
-    """What keys and a stick say of one direction, from -1 to 1.
+    """Combine keys and a stick for one direction into a number from -1 to 1.
 
     >>> combine(1, 0.5), combine(-1, 0.25), combine(0, 0.25)
     (1, -0.75, 0.25)

@@ -1,4 +1,4 @@
-"""A trained network drives."""
+"""A controller that runs a trained network."""
 
 import math
 from collections.abc import Iterator
@@ -17,19 +17,19 @@ from ai4u_edu.world import WorldView
 
 
 class NeuralNetController(Controller):
-    """Asks a trained network (an ONNX file) for each action.
+    """Takes each action from a trained network (an ONNX file).
 
-    It needs ``pip install "ai4u-edu[onnx]"``, and a file as ``ai4u-edu export`` writes it. Each of
-    the network's inputs is called like a sensor's perception key and has the shape of that sensor's
-    reading; its output is the action, scaled and cut to the actuator's range inside the network. A
-    network from elsewhere fits as well if its inputs do; numbers out of an actuator's range are cut
-    then.
+    It needs ``pip install "ai4u-edu[onnx]"`` and a file in the format of ``ai4u-edu export``. Each
+    input of the network has the name and shape of a sensor's reading (its perception key). The
+    output is the action, scaled and clipped to the actuator's range inside the network. A network
+    from another source works too if its inputs fit; numbers outside an actuator's range are then
+    clipped.
 
-    ``model_path`` is a path (a relative one begins beside the scene file, or in the current
-    folder), or ``zoo:`` and a scene's name for the network that comes with the package.
+    ``model_path`` is a path (relative to the scene file, or to the current folder), or ``zoo:``
+    and a scene's name for the network that comes with the package.
 
-    A network decides best in the rhythm in which it learned (``skip_frame`` of its brain);
-    ``trained_brain(model_path)`` makes a LocalBrain that has it.
+    A network works best with the ``skip_frame`` of the brain with which it was trained;
+    ``trained_brain(model_path)`` makes a LocalBrain with it.
 
     Source: AI4U's NeuralNetController.
     """
@@ -37,9 +37,9 @@ class NeuralNetController(Controller):
     model_path: str
     """Path of the ONNX file, or ``zoo:`` and a scene's name."""
     main_output: str = "move"
-    """The actuator that the action is for, where the network's output has no actuator's name."""
+    """Actuator that gets the action if the network's output doesn't have an actuator's name."""
     repeat: bool = True
-    """True begins a new episode when one is over."""
+    """True starts a new episode when one is over."""
 
     def __post_init__(self) -> None:
         self._folder: Path | None = folder_of_files()
@@ -47,20 +47,20 @@ class NeuralNetController(Controller):
 
     @property
     def network(self) -> Network:
-        """The network; loaded when it is needed first."""
+        """The network; loaded at first access."""
         if self._network is None:
             with self._named():
                 self._network = Network(find_network(self.model_path, self._folder))
         return self._network
 
     def reload(self) -> None:
-        """Reads the file anew; the network in it has the same inputs and outputs as before."""
+        """Load the file again; its network must have the same inputs and outputs as before."""
         path = self.network.path
         with self._named():
             self._network = Network(path)
 
     def on_setup(self, agent: AgentView, view: WorldView) -> None:
-        """Loads the network, and checks that it fits the agent's sensors and actuators."""
+        """Load the network, and check that it fits the agent's sensors and actuators."""
         network = self.network
         name = network.path.name
         sensors = {each.perception_key: each for each in agent.sensors if each.is_active}
@@ -88,7 +88,7 @@ class NeuralNetController(Controller):
                 )
 
     def get_action(self, percept: Percept) -> Answer:
-        """What the network says."""
+        """Return the network's action."""
         if self.repeat and percept["done"]:
             return Command.RESTART
         network = self.network
@@ -100,7 +100,7 @@ class NeuralNetController(Controller):
 
     @contextmanager
     def _named(self) -> Iterator[None]:
-        """Say in errors which block they come from."""
+        """Add this block's name to errors."""
         try:
             yield
         except BlockError as error:
@@ -111,7 +111,7 @@ class NeuralNetController(Controller):
 
 
 def _misfit(port: Port, sensors: dict[str, Sensor], about: dict[str, Any]) -> str:
-    """What is wrong with the sensor that an input reads, in a clause."""
+    """Return why an input does not fit its sensor, as a clause; empty if it fits."""
     sensor = sensors.get(port.name)
     if sensor is None:
         made_by = _type_of(port.name, about)

@@ -1,4 +1,4 @@
-"""What controllers that search their way share: a map, a way on it, one step after the other."""
+"""The base of controllers that search a path on a map and follow it."""
 
 from collections.abc import Iterable, Mapping
 from typing import Annotated, NamedTuple
@@ -17,35 +17,35 @@ from ai4u_edu.world import WorldView
 Cell = tuple[int, int]
 """(row, column); row 0 is on top."""
 Map = npt.NDArray[np.bool_]
-"""(rows, columns): where one can go."""
+"""(rows, columns): True for cells that can be entered."""
 Codes = Annotated[list[float], Field(min_length=1)]
 
-STEPS: tuple[Cell, ...] = ((0, 1), (0, -1), (-1, 0), (1, 0))
+MOVES: tuple[Cell, ...] = ((0, 1), (0, -1), (-1, 0), (1, 0))
 """(rows, columns) to the right, left, up and down."""
 
 
 class Found(NamedTuple):
-    """What a search found."""
+    """The result of a search."""
 
     way: list[Cell]
-    """From the start to the goal, both included; empty if there is none."""
+    """Path from the start to the goal, both included; empty if there is none."""
     visited: list[Cell]
-    """The cells that it looked at on the way, in that order: the fewer, the less work."""
+    """Cells that the search visited, in order: fewer cells mean less work."""
 
 
 def neighbours(free: Map, cell: Cell) -> list[Cell]:
-    """The cells to which one step leads: right, left, up, down.
+    """Return the free cells one step away: right, left, up, down.
 
     >>> neighbours(np.array([[1, 1], [1, 0]], bool), (0, 0))
     [(0, 1), (1, 0)]
     """
     rows, columns = free.shape
-    near = [(cell[0] + down, cell[1] + right) for down, right in STEPS]
+    near = [(cell[0] + down, cell[1] + right) for down, right in MOVES]
     return [(r, c) for r, c in near if 0 <= r < rows and 0 <= c < columns and free[r, c]]
 
 
-def way_to(cell: Cell, before: Mapping[Cell, Cell]) -> list[Cell]:
-    """The way to a cell, of the notes from where each one was reached; the first, from itself."""
+def path_to(cell: Cell, before: Mapping[Cell, Cell]) -> list[Cell]:
+    """Return the path to a cell from each cell's predecessor; the start is its own predecessor."""
     way = [cell]
     while before[cell] != cell:
         cell = before[cell]
@@ -54,43 +54,43 @@ def way_to(cell: Cell, before: Mapping[Cell, Cell]) -> list[Cell]:
 
 
 class PlanController(Controller):
-    """The base of controllers that go, cell by cell, a way that they searched.
+    """The base of controllers that follow a path on the map, cell by cell.
 
-    They plan anew at each decision: the map may have changed, and to think is quicker than to walk.
+    They search again at each decision, since the map may have changed.
     """
 
     abstract = True
 
     grid: Name = "grid"
-    """The perception key of the map, a GridSensor's."""
+    """Perception key of the map, a GridSensor's."""
     cell: Name = "cell"
-    """The perception key of the agent's place in it, a CellSensor's."""
+    """Perception key of the agent's cell in it, a CellSensor's."""
     actuator_name: Name = "move"
     """Action name of its GridMoveActuator."""
     free: Codes = Field(default_factory=lambda: [1.0, 200.0])
-    """Codes, as in the map, of what it may walk on."""
+    """Codes in the map of the cells that it may enter."""
     goal: Codes = Field(default_factory=lambda: [200.0])
-    """Codes, as in the map, of what it looks for."""
+    """Codes in the map of its goals."""
 
     def search(self, free: Map, start: Cell, goals: Iterable[Cell]) -> Found:
-        """A way from the start to the nearest goal."""
+        """Return a path from the start to the nearest goal."""
         raise BlockError(f"{type(self).__name__} has no search(self, free, start, goals)")
 
     def on_setup(self, agent: AgentView, view: WorldView) -> None:
-        """Begins without a plan."""
+        """Start without a path."""
         self._found = Found([], [])
 
     def on_reset(self, agent: AgentView, view: WorldView) -> None:
-        """Forgets the plan."""
+        """Forget the path."""
         self._found = Found([], [])
 
     @property
     def found(self) -> Found:
-        """What its last search found."""
+        """The result of its last search."""
         return self._found
 
     def get_action(self, percept: Percept) -> dict[str, int]:
-        """The first step of the way; 0 (stay) where there is none."""
+        """Return the first step of the path; 0 (stay) if there is none."""
         for key in (self.grid, self.cell):
             if key not in percept:
                 raise BlockError(
@@ -104,4 +104,4 @@ class PlanController(Controller):
         if len(self._found.way) < 2:
             return {self.actuator_name: 0}
         down, right = self._found.way[1]
-        return {self.actuator_name: 1 + STEPS.index((down - row, right - column))}
+        return {self.actuator_name: 1 + MOVES.index((down - row, right - column))}

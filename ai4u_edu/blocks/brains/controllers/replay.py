@@ -1,4 +1,4 @@
-"""Does again what was done before."""
+"""A controller that replays recorded actions."""
 
 from typing import Annotated, Literal
 
@@ -13,11 +13,11 @@ from ai4u_edu.world import WorldView
 
 
 class ReplayController(Controller):
-    """Gives a list of recorded actions, one a decision, from the first one on after each reset.
+    """Replays a list of recorded actions, one per decision, from the first one after each reset.
 
-    Each is an action by the actuator's name, as ``agent.last_action`` has it. After the last one
-    comes the ``ending``: ``stop`` (no more decisions until the next reset) or ``repeat`` (from the
-    first one again). From the same seed the same actions lead to the same places, bit for bit.
+    Each entry has the form of ``agent.last_action``: numbers by the actuator's name. ``ending``
+    says what follows the last one: ``stop`` (no more decisions until the next reset) or ``repeat``
+    (start again). With the same seed, the same actions lead to the same positions, bit for bit.
 
     Source: ours.
 
@@ -27,19 +27,19 @@ class ReplayController(Controller):
     """
 
     actions: Annotated[list[dict[Name, list[Number]]], Field(min_length=1)]
-    """Actions in their order: numbers by the actuator's name for each decision."""
+    """Actions in order: for each decision, numbers by the actuator's name."""
     ending: Literal["stop", "repeat"] = "stop"
-    """After the last action: ``stop`` takes no more decisions, ``repeat`` begins again."""
+    """After the last action: ``stop`` takes no more decisions, ``repeat`` starts again."""
 
     def __post_init__(self) -> None:
         self._turn = 0
 
     def on_reset(self, agent: AgentView, view: WorldView) -> None:
-        """Begins with the first one."""
+        """Start with the first action."""
         self._turn = 0
 
     def get_action(self, percept: Percept) -> Answer:
-        """The next action, or the end."""
+        """Return the next action, or the stop command."""
         if self._turn == len(self.actions):
             if self.ending == "stop":
                 return Command.STOP

@@ -11,7 +11,7 @@ from ai4u_edu.blocks.percept import Percept
 
 
 class ScriptController(Controller):
-    """Asks a Python function from percept to action.
+    """Calls a Python function that maps a percept to an action.
 
     >>> ScriptController(function=lambda percept: {"move": [1, 0, 0, 0]}).get_action({})
     {'move': [1, 0, 0, 0]}
@@ -21,5 +21,5 @@ class ScriptController(Controller):
     """Function that takes a percept and returns an action, or a command."""
 
     def get_action(self, percept: Percept) -> Answer:
-        """What the function returns."""
+        """Return the function's result."""
         return self.function(percept)

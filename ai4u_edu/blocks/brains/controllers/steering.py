@@ -1,4 +1,4 @@
-"""DriverRegistry that know where they want to go: towards a point, with a little whim."""
+"""The base of controllers that steer to a point, with some randomness."""
 
 import math
 from collections.abc import Sequence
@@ -17,24 +17,24 @@ from ai4u_edu.blocks.percept import Percept
 from ai4u_edu.blocks.sensors.sensor import Sensor
 from ai4u_edu.world import WorldView
 
-Spot = tuple[float, float]
-"""A place in the agent's own frame: (forward, left), metres."""
+LocalPoint = tuple[float, float]
+"""A point in the agent's own frame: (forward, left), metres."""
 
-LONGEST_ERROR = math.radians(40)
-"""How far beside its aim a driver of whim 1 may look."""
-NEW_WHIM = 0.1
-"""The chance that a decision is taken with another error than the one before."""
-BACKS_OFF = 0.1
-"""The chance that a driver of whim 1 begins to back off: so that nobody pushes for ever."""
-BACKWARD = 6
-"""So many decisions long."""
+MAX_ERROR_RAD = math.radians(40)
+"""Largest error of the direction at whim 1."""
+NEW_ERROR_PROBABILITY = 0.1
+"""Probability that a decision draws a new error."""
+BACK_OFF_PROBABILITY = 0.1
+"""Probability that a decision at whim 1 begins to back off, so that no two push for ever."""
+BACK_OFF_DECISIONS = 6
+"""Duration of backing off."""
 
 
 class SteeringController(Controller):
-    """What scripted drivers share: each says at every decision to which point it wants to go.
+    """The base of scripted drivers: a subclass chooses the point to drive to at every decision.
 
-    Where its sensors are is told by their perception keys. What a sensor normalises is measured in
-    metres again here.
+    Parameters name its sensors by their perception keys. Normalised readings are converted back to
+    metres.
     """
 
     abstract = True
@@ -44,16 +44,16 @@ class SteeringController(Controller):
     speed: Amount = 1.0
     """Forward number at full speed, as a share of full power."""
     whim: Annotated[float, quantity("1", ge=0, le=1)] = 0.2
-    """How much it varies, by the world's seed: its aim (by up to 40 degrees at 1), its speed, and
-    how often it backs off for half a second (ten times as many decisions apart as 1 / whim)."""
+    """Random variation, from the world's seed: of its direction (by up to 40 degrees at
+    1), speed, and backing off for half a second (on average every 10 / whim decisions)."""
     head_start: Count = 0
-    """Count of decisions for which it stands still at first."""
+    """Number of decisions at the start for which it stands still."""
 
     reads: ClassVar[tuple[str, ...]] = ()
-    """The parameters that hold perception keys."""
+    """Names of the parameters that hold perception keys."""
 
     def on_setup(self, agent: AgentView, view: WorldView) -> None:
-        """Look its sensors up."""
+        """Look up its sensors."""
         self._sensors = {name: _sensor_of(agent, name, getattr(self, name)) for name in self.reads}
         self._scales = {
             name: sensor.scale() if sensor.normalized else 1.0
@@ -61,53 +61,55 @@ class SteeringController(Controller):
         }
 
     def on_reset(self, agent: AgentView, view: WorldView) -> None:
-        """Draws how it feels in this episode."""
+        """Draw the episode's variation."""
         self._rng = view.random(f"{agent.id}/controller")
-        self._vigour = 1.0 - self.whim * float(self._rng.random())
+        self._speed_factor = 1.0 - self.whim * float(self._rng.random())
         self._error = 0.0
         self._backward = 0
-        self._waits = self.head_start
+        self._decisions_to_wait = self.head_start
 
     def get_action(self, percept: Percept) -> Answer:
-        """Towards where it wants to go: [forward, turn, jump, forward jump]."""
-        if self._waits:
-            self._waits -= 1
+        """Return the action towards its point: [forward, turn, jump, forward jump]."""
+        if self._decisions_to_wait:
+            self._decisions_to_wait -= 1
             return {self.actuator_name: (0.0, 0.0, 0.0, 0.0)}
-        if self._rng.random() < NEW_WHIM:
-            self._error = LONGEST_ERROR * self.whim * float(self._rng.uniform(-1, 1))
-        if not self._backward and self._rng.random() < BACKS_OFF * self.whim:
-            self._backward = BACKWARD
+        if self._rng.random() < NEW_ERROR_PROBABILITY:
+            self._error = MAX_ERROR_RAD * self.whim * float(self._rng.uniform(-1, 1))
+        if not self._backward and self._rng.random() < BACK_OFF_PROBABILITY * self.whim:
+            self._backward = BACK_OFF_DECISIONS
         if self._backward:
             self._backward -= 1
-            return {self.actuator_name: (-self.speed * self._vigour, self._error, 0.0, 0.0)}
-        forward, left = spot = self.wish(percept)
+            return {self.actuator_name: (-self.speed * self._speed_factor, self._error, 0.0, 0.0)}
+        forward, left = spot = self.target_point(percept)
         angle = math.atan2(left, forward) + self._error
-        effort = self.effort(percept, spot) * self._vigour
-        return {self.actuator_name: steer(math.cos(angle), math.sin(angle), self.speed * effort)}
+        speed_share = self.speed_share(percept, spot) * self._speed_factor
+        return {
+            self.actuator_name: steer(math.cos(angle), math.sin(angle), self.speed * speed_share)
+        }
 
-    def wish(self, percept: Percept) -> Spot:
-        """To which point it wants to go."""
+    def target_point(self, percept: Percept) -> LocalPoint:
+        """Return the point to drive to."""
         raise NotImplementedError  # each driver has its own
 
-    def effort(self, percept: Percept, wish: Spot) -> float:
-        """With which share of its speed it goes there."""
+    def speed_share(self, percept: Percept, target_point: LocalPoint) -> float:
+        """Return the share of its speed at which to drive there."""
         return 1.0
 
     def read(self, percept: Percept, name: str) -> npt.NDArray[np.float64]:
-        """The reading of one of its sensors, in the sensor's own unit."""
+        """Return the reading of one of its sensors, in the sensor's unit."""
         reading = np.asarray(percept[getattr(self, name)], np.float64)
         return reading * self._scales[name]
 
-    def spot(self, percept: Percept, name: str) -> Spot:
-        """Where a PositionSensor with ``frame="local"`` says that its target is."""
+    def spot(self, percept: Percept, name: str) -> LocalPoint:
+        """Return the target's position from a PositionSensor with ``frame="local"``."""
         forward, left, _ = self.read(percept, name).tolist()
         return forward, left
 
 
 def steer(forward: float, left: float, speed: float = 1.0) -> tuple[float, float, float, float]:
-    """An RBMoveActuator's action that turns to a point, and drives the more the more it is ahead.
+    """Return an RBMoveActuator's action that turns to a point, and drives faster if it is ahead.
 
-    >>> steer(0.0, 2.0)  # to the left, so no way forward yet
+    >>> steer(0.0, 2.0)  # the point is to the left, so it only turns
     (0.0, -1.0, 0.0, 0.0)
     """
     angle = math.atan2(left, forward)
@@ -127,10 +129,10 @@ def _sensor_of(agent: AgentView, parameter: str, key: str) -> Sensor:
     return found
 
 
-def towards(start: Sequence[float], end: Sequence[float]) -> tuple[Spot, float]:
-    """The direction from one spot to another, of length 1, and how far it is.
+def direction_to(start: Sequence[float], end: Sequence[float]) -> tuple[LocalPoint, float]:
+    """Return the unit vector from one point to another, and their distance.
 
-    >>> towards((1, 0), (1, 2))
+    >>> direction_to((1, 0), (1, 2))
     ((0.0, 1.0), 2.0)
     """
     dx, dy = end[0] - start[0], end[1] - start[1]

@@ -1,4 +1,4 @@
-"""A controller that does what a script requests, one action at a time."""
+"""A controller that executes a script's requests."""
 
 from collections.abc import Sequence
 from typing import Any, ClassVar
@@ -16,47 +16,46 @@ __all__ = ["TrainController", "Trainer"]
 
 
 class Trainer:
-    """A script that drives an agent by the requests that it makes to its TrainController.
+    """A script that drives an agent by requests to its TrainController.
 
-    Fill :meth:`state_updated`, and give it to the controller: ``controller.trainer = MyTrainer()``.
+    Override :meth:`state_updated`, and set ``controller.trainer = MyTrainer()``.
     """
 
     controller: "TrainController"
-    """The controller that takes the requests; known once the agent is set up."""
+    """The controller that takes the requests; available once the agent is set up."""
     agent: AgentView
-    """The agent that is driven; known once it is set up."""
+    """The agent that it drives; available once the agent is set up."""
 
     def on_setup(self) -> None:
-        """Called when the agent is set up; controller and agent are known by then."""
+        """Prepare; called when the agent is set up, with controller and agent available."""
 
     def on_reset(self) -> None:
-        """Called at each reset, before the first percept of the episode."""
+        """Prepare for an episode; called at each reset, before its first percept."""
 
     def state_updated(self, percept: Percept) -> None:
-        """Called before each decision; what it requests is done in this very decision.
+        """Request actions; called before each decision, which executes them.
 
         Args:
-            percept: the agent's readings now.
+            percept: the agent's present readings.
         """
 
 
 class TrainController(Controller):
-    """Does what a script requests, once for each request, and nothing where there is none.
+    """Executes a script's requests, each one once; without a request no actuator acts.
 
     A script calls :meth:`request_continuous_action` or :meth:`request_action` with an actuator's
-    name and numbers: the next decision takes them. Requests to several actuators are taken
-    together; of two to the same actuator, the later one counts. Without a request the decision is
-    an empty action: no actuator acts, and the body rolls on as the physics has it. A reset forgets
-    what was requested before.
+    name and numbers; the next decision executes them. Requests to several actuators are combined;
+    of two to the same actuator, the later one counts. Without a request the body only moves by its
+    momentum. A reset discards pending requests.
 
-    A :class:`Trainer` in ``trainer`` is told of each new percept, and requests from there. A script
-    that steps the world itself requests between two steps. Both in the world's own thread: requests
-    are not thread-safe.
+    A :class:`Trainer` in ``trainer`` is called with each new percept, and makes requests then. A
+    script that steps the world itself makes requests between two steps. Both run in the world's
+    thread: requests are not thread-safe.
 
     Source: AI4U's TrainController.
 
-    Differs from AI4U: a request names its actuator, so several can be under way. The trainer gets
-    the percept, in place of GetStateAsFloat and its like, and asks for a new episode by
+    Differs from AI4U: a request names its actuator, so a decision can have several. The trainer
+    gets the percept instead of calling GetStateAsFloat and the like, and starts a new episode with
     ``request_restart()``.
 
     >>> from ai4u_edu import LocalBrain, Scene, TrainController, Trainer
@@ -79,11 +78,11 @@ class TrainController(Controller):
     """
 
     needs_script: ClassVar[bool] = True
-    """The page offers no driver that does nothing by itself."""
+    """Marks a controller that does nothing without a script; the page doesn't offer it."""
 
     def __post_init__(self) -> None:
         self.trainer: Trainer | None = None
-        """The script that is told of each new percept; None: requests come from somewhere else."""
+        """The script that is called with each new percept; None if requests come from elsewhere."""
         self._agent: AgentView | None = None
         self._requested: dict[str, Any] = {}
         self._wants_restart = False
@@ -96,7 +95,7 @@ class TrainController(Controller):
             values: as many numbers as the actuator takes.
 
         Raises:
-            ActionError: there is no such actuator, or these are no finite numbers.
+            ActionError: there is no such actuator, or these are not finite numbers.
         """
         self._request(name, values, "finite numbers")
 
@@ -108,7 +107,7 @@ class TrainController(Controller):
             values: whole numbers, such as ``[2]`` for choice 2 of a DiscreteActuator.
 
         Raises:
-            ActionError: there is no such actuator, or these are no whole numbers.
+            ActionError: there is no such actuator, or these are not whole numbers.
         """
         self._request(name, values, "whole numbers", are_whole=True)
 
@@ -117,31 +116,31 @@ class TrainController(Controller):
         self._wants_restart = True
 
     def on_setup(self, agent: AgentView, view: WorldView) -> None:
-        """Introduces the trainer to the agent."""
+        """Connect the trainer to the agent."""
         self._agent = agent
         self._forget()
         if self.trainer is not None:
             self._introduce(self.trainer).on_setup()
 
     def on_reset(self, agent: AgentView, view: WorldView) -> None:
-        """Forgets what was requested."""
+        """Discard pending requests."""
         self._forget()
         if self.trainer is not None:
             self._introduce(self.trainer).on_reset()
 
     def new_state_event(self, percept: Percept) -> None:
-        """Tells the trainer."""
+        """Call the trainer."""
         if self.trainer is not None:
             self._introduce(self.trainer).state_updated(percept)
 
     def get_action(self, percept: Percept) -> Answer:
-        """All that was requested since the last decision."""
+        """Return all requests since the last decision."""
         requested, restart = self._requested, self._wants_restart
         self._forget()
         return Command.RESTART if restart else requested
 
     def _introduce(self, trainer: Trainer) -> Trainer:
-        # each time: one trainer may drive copies of this controller in turns
+        # at each call, since one trainer may drive several copies of this controller
         trainer.controller = self
         if self._agent is not None:
             trainer.agent = self._agent

@@ -1,4 +1,4 @@
-"""Drive with W, A, S, D."""
+"""A keyboard controller with W, A, S, D for RBMoveActuator."""
 
 from typing import Annotated
 
@@ -19,14 +19,14 @@ Amount = Annotated[float, quantity("1", ge=0, le=1)]
 class WASDRBMoveController(Controller):
     """W forward, S backward, A left, D right, Space or U jump, J jump forward, R restart.
 
-    The arrow keys drive too. Keys are places on the keyboard (``KeyboardEvent.code``), so W is
-    where it is on an English keyboard whatever is printed there. Opposite keys cancel out. A key
-    that is released stops its part of the action at once. A stick, on a screen or a gamepad, drives
-    and turns as fast as it is pushed.
+    The arrow keys drive too. Keys are positions on the keyboard (``KeyboardEvent.code``), so W is
+    the key at that position of an English keyboard, whatever is printed on it. Opposite keys cancel
+    out. Releasing a key stops its part of the action at once. A stick, on a screen or a gamepad,
+    drives and turns in proportion to its deflection.
 
     Source: AI4U's WASDRBMoveController.
 
-    Differs from AI4U: ``speed`` is 1, there 0.5. Space jumps and the arrow keys drive as well,
+    Differs from AI4U: ``speed`` is 1, there 0.5. Space jumps and the arrow keys drive as well;
     there only U, W, A, S and D.
     """
 
@@ -39,28 +39,27 @@ class WASDRBMoveController(Controller):
     jump_power: Amount = 1.0
     """Jump number while a key is held, as a share of full power."""
     forward: Keys = Field(default_factory=lambda: ["KeyW", "ArrowUp"])
-    """Keys that drive forward, as places on the keyboard (``KeyW``); at most 8, none by ``[]``."""
+    """Keys that drive forward (codes such as ``KeyW``; at most 8, ``[]`` for none)."""
     backward: Keys = Field(default_factory=lambda: ["KeyS", "ArrowDown"])
-    """Keys that drive backward, as places on the keyboard (``KeyW``); at most 8, none by ``[]``."""
+    """Keys that drive backward (codes such as ``KeyW``; at most 8, ``[]`` for none)."""
     left: Keys = Field(default_factory=lambda: ["KeyA", "ArrowLeft"])
-    """Keys that turn left, as places on the keyboard (``KeyW``); at most 8, none by ``[]``."""
+    """Keys that turn left (codes such as ``KeyW``; at most 8, ``[]`` for none)."""
     right: Keys = Field(default_factory=lambda: ["KeyD", "ArrowRight"])
-    """Keys that turn right, as places on the keyboard (``KeyW``); at most 8, none by ``[]``."""
+    """Keys that turn right (codes such as ``KeyW``; at most 8, ``[]`` for none)."""
     jump: Keys = Field(default_factory=lambda: ["Space", "KeyU"])
-    """Keys that jump, as places on the keyboard (``KeyW``); at most 8, none by ``[]``."""
+    """Keys that jump (codes such as ``KeyW``; at most 8, ``[]`` for none)."""
     jump_forward: Keys = Field(default_factory=lambda: ["KeyJ"])
-    """Keys that jump forward, as places on the keyboard (``KeyW``); at most 8, none by ``[]``."""
+    """Keys that jump forward (codes such as ``KeyW``; at most 8, ``[]`` for none)."""
     restart: Keys = Field(default_factory=lambda: ["KeyR"])
-    """Keys that begin a new episode, as places on the keyboard (``KeyW``); at most 8, none by
-    ``[]``."""
+    """Keys that start a new episode (codes such as ``KeyW``; at most 8, ``[]`` for none)."""
 
     def on_setup(self, agent: AgentView, view: WorldView) -> None:
-        """Takes the agent's keyboard."""
+        """Store the agent's keyboard."""
         self._keyboard = agent.keyboard
         self._before: frozenset[str] = frozenset()
 
     def get_action(self, percept: Percept) -> Answer:
-        """[forward, turn, jump, forward jump] from the keys held now."""
+        """Return [forward, turn, jump, forward jump] from the keys that are held now."""
         keys, stick = self._keyboard.read(), self._keyboard.stick()
         fresh, self._before = keys - self._before, keys
         if not fresh.isdisjoint(self.restart):

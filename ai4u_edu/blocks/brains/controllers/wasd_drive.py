@@ -1,4 +1,4 @@
-"""Drive anything with W, A, S, D."""
+"""A keyboard controller with W, A, S, D for any actuator."""
 
 from pydantic import Field
 
@@ -9,10 +9,9 @@ from ai4u_edu.blocks.brains.controllers.wasd import Amount, Keys
 class WASDController(ArrowController):
     """W forward, S backward, A left, D right, Space or U jump, J jump forward, R restart.
 
-    The arrow keys drive too. As ArrowController, it finds out what the actuator takes (two wheels,
-    four numbers, five), or is told by ``components``; as WASDRBMoveController, it drives at full
-    speed unless told otherwise. Keys for what a body can't do are taken away by an empty list:
-    ``jump=[]``.
+    The arrow keys drive too. Like ArrowController, it adapts to the actuator (two wheels, four
+    numbers, five), or to ``components``; like WASDRBMoveController, it drives at full speed by
+    default. An empty list, such as ``jump=[]``, removes keys for what a body can't do.
 
     Source: ours; AI4U's WASDRBMoveController for all kinds of bodies.
     """

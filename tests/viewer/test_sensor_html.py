@@ -25,7 +25,7 @@ from ai4u_edu import (
 from ai4u_edu.blocks import RayPicture
 from ai4u_edu.snapshot.block_info import SensorInfo, Window, block_info_of, sensor_pictures_of
 from ai4u_edu.snapshot.theme import RAY_MISS
-from ai4u_edu.viewer.panel.senses import sense_html
+from ai4u_edu.viewer.panel.sensor_html import sensor_html
 from tests.builders import small_sim
 
 EVIL = "<script>alert('&')</script>"
@@ -63,12 +63,12 @@ def lines(html: str) -> list[tuple[str, str]]:
 def test_each_number_has_its_name(sensor: Sensor, names: tuple[str, ...]) -> None:
     sense, value = sense_of(sensor)
     assert sense.slots == names
-    assert tuple(name for name, _ in lines(sense_html(sense, value, {}))) == names
+    assert tuple(name for name, _ in lines(sensor_html(sense, value, {}))) == names
 
 
 def test_units_stand_beside_their_numbers() -> None:
     sense, value = sense_of(VelocitySensor())
-    told = [number for _, number in lines(sense_html(sense, value, {}))]
+    told = [number for _, number in lines(sensor_html(sense, value, {}))]
     assert told == [f"0.00 <small>{unit}</small>" for unit in ("m/s", "m/s", "rad/s")]
 
 
@@ -80,7 +80,7 @@ def test_a_normalised_reading_has_no_unit() -> None:
 def test_what_stands_for_nothing_is_no_end_of_the_range() -> None:
     sense, _ = sense_of(OrientationSensor(target="box"))
     assert (sense.low.tolist(), sense.high.tolist()) == ([-1, 0], [1, 1])
-    html = sense_html(sense, np.array([-2.0, -1.0], np.float32), {})
+    html = sensor_html(sense, np.array([-2.0, -1.0], np.float32), {})
     assert [number for _, number in lines(html)] == [
         "<small>(-2.00)</small>",
         "<small>(-1.00)</small>",
@@ -91,7 +91,7 @@ def test_stacked_numbers_have_a_strip_of_their_past() -> None:
     sense, value = sense_of(HeadingSensor(stacked_observations=3))
     assert sense.stack == 3
     assert len(sense.low) == 2
-    html = sense_html(sense, value, {})
+    html = sensor_html(sense, value, {})
     assert lines(html) == [("sine", "0.00"), ("cosine", "1.00")]
     assert html.count('<svg class="strip old" viewBox="0 0 3 1"') == 2
 
@@ -99,18 +99,18 @@ def test_stacked_numbers_have_a_strip_of_their_past() -> None:
 def test_many_numbers_are_bars_side_by_side() -> None:
     sensor = AgentArraySensor(perception_key="much", size=20, range_min=-1.0)
     sense, _ = sense_of(sensor)
-    html = sense_html(sense, np.linspace(-1, 1, 20), {})
+    html = sensor_html(sense, np.linspace(-1, 1, 20), {})
     assert 'viewBox="0 0 20 1"' in html
     assert "-1.00 to 1.00" in html
     assert html.count("M") == 20
     huge, _ = sense_of(AgentArraySensor(perception_key="huge", size=1000))
-    assert "the first 256 of 1000" in sense_html(huge, np.zeros(1000), {})
+    assert "the first 256 of 1000" in sensor_html(huge, np.zeros(1000), {})
 
 
 def test_stacked_rows_stand_above_the_latest() -> None:
     sensor = AgentArraySensor(perception_key="much", size=20, stacked_observations=3)
     sense, value = sense_of(sensor)
-    assert re.findall('class="(strip[^"]*)"', sense_html(sense, value, {})) == [
+    assert re.findall('class="(strip[^"]*)"', sensor_html(sense, value, {})) == [
         "strip old",
         "strip old",
         "strip",
@@ -124,7 +124,7 @@ def test_rays_have_the_colours_of_what_they_met_and_their_distances_apart() -> N
     sense, value = sense_of(sensor)
     groups = ("",) * 4 + ("target",) + ("",) * 4
     rays = RayPicture((0, 0, 0), np.zeros((9, 3)), groups)
-    html = sense_html(sense, value, {"target": (1, 2, 3)}, rays)
+    html = sensor_html(sense, value, {"target": (1, 2, 3)}, rays)
     assert html.count("<svg") == 2
     assert html.count('fill="rgb(1, 2, 3)"') == 2
     assert html.count(f'fill="rgb{RAY_MISS}"') == 2
@@ -133,7 +133,7 @@ def test_rays_have_the_colours_of_what_they_met_and_their_distances_apart() -> N
 
 def test_pictures_replace_the_numbers() -> None:
     sense, value = sense_of(LocalGridSensor(width=4, height=2, channels=["target"]))
-    html = sense_html(sense, value, {"target": (1, 2, 3)})
+    html = sensor_html(sense, value, {"target": (1, 2, 3)})
     assert 'viewBox="0 0 4 2"' in html
     assert "LocalGridSensor 2 x 4 x 1" in html
 
@@ -154,7 +154,7 @@ def test_what_a_student_names_is_escaped_and_wrong_names_are_none() -> None:
             return (EVIL, "b")
 
     fits, value = sense_of(Odd(perception_key="a", size=2))
-    html = sense_html(fits, value, {})
+    html = sensor_html(fits, value, {})
     assert "<script" not in html
     assert "&lt;script&gt;" in html
     assert sense_of(Odd(perception_key="a", size=3))[0].slots == ()
@@ -168,7 +168,7 @@ def test_all_readings_of_all_scenes_can_be_shown(name: str) -> None:
         rays = sensor_pictures_of(agent).rays
         for sense in block_info_of(agent).sensor_infos:
             reading = agent.percept[sense.key]
-            assert sense_html(sense, reading, {}, rays.get(sense.key))
+            assert sensor_html(sense, reading, {}, rays.get(sense.key))
 
 
 def test_facts_and_pictures_are_worked_out_once() -> None:

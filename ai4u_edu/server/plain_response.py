@@ -1,17 +1,17 @@
-"""Answers of a server that does not get as far as its app."""
+"""HTTP responses that are written without an app."""
 
 from http import HTTPStatus
 
 
-def refusal(status: int, text: str, *, retry_after: int = 0) -> bytes:
-    r"""Return a whole HTTP answer, after which the connection ends.
+def plain_response(status: int, text: str, *, retry_after: int = 0) -> bytes:
+    r"""Return the bytes of an HTTP response, after which the connection is closed.
 
     Args:
-        status: of the answer.
-        text: why, in a sentence.
-        retry_after: seconds after which it may be tried again; 0 to say nothing of it.
+        status: the status code.
+        text: the reason, in a sentence.
+        retry_after: seconds in the header Retry-After; 0 for none.
 
-    >>> print(refusal(408, "too slow").decode().replace("\r", ""))
+    >>> print(plain_response(408, "too slow").decode().replace("\r", ""))
     HTTP/1.1 408 Request Timeout
     Content-Type: text/plain; charset=utf-8
     Content-Length: 9

@@ -1,4 +1,4 @@
-"""A world that stands still until a test moves it, and a editor on it."""
+"""A world that a test advances step by step, and its editor."""
 
 from concurrent.futures import Future
 from pathlib import Path
@@ -46,7 +46,7 @@ agents:
 """
 
 
-class Shop:
+class EditorHarness:
     """A runner without a thread, its editor and its recorder."""
 
     def __init__(
@@ -64,10 +64,10 @@ class Shop:
 
     def done(self, future: "Future[T]") -> T:
         """Carries out what was asked; ticks pass only until all decisions are over."""
-        self.runner._carry_out_commands()
+        self.runner._run_commands()
         while not future.done():
             self.tick()
-            self.runner._carry_out_commands()
+            self.runner._run_commands()
         return future.result(0)
 
     def tick(self, times: int = 1) -> None:

@@ -5,7 +5,7 @@ import pytest
 from ai4u_edu import Scene
 from ai4u_edu.editing import SceneEditor
 from ai4u_edu.remote import RemoteError, Robot, connect
-from tests.editing.shops import TEXT
+from tests.editing.harness import TEXT
 from tests.server.rooms import served, until
 
 

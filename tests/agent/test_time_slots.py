@@ -1,4 +1,4 @@
-"""Agents that take turns in deciding."""
+"""Time slots of agents' decisions (``spread_decisions``)."""
 
 from typing import Any
 

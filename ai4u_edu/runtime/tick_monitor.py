@@ -1,4 +1,4 @@
-"""Detection of blocks that do not return: the thread that runs the world is stuck in one."""
+"""Detection of slow ticks, and of blocks that do not return."""
 
 import logging
 import threading
@@ -7,25 +7,30 @@ from dataclasses import dataclass
 
 from ai4u_edu.agent import BasicAgent
 from ai4u_edu.agent.block_frames import Place, calls_of_thread, find_place
+from ai4u_edu.snapshot import SlowTick
 
 logger = logging.getLogger(__name__)
 
 STALL_S = 2.0
-"""Seconds after which a tick or a command that has not ended counts as stalled."""
-POLL_S = 0.5
-"""Seconds between two looks of the thread that writes the log."""
+"""Time after which a tick or a command that has not ended counts as stalled."""
+STALL_POLL_S = 0.5
+"""Poll interval of the thread that logs stalls."""
+SLOW_TICK_S = 0.05
+"""Duration above which a tick counts as slow."""
+SLOW_TICK_SHOWN_S = 5.0
+"""Time for which a slow tick is reported."""
 
 
 @dataclass(frozen=True, slots=True)
 class Stall:
-    """A tick or a command that has not ended for too long."""
+    """A tick or a command that has not ended for :data:`STALL_S`."""
 
     since: float
-    """When it began, by the runner's clock (s)."""
+    """Time at which it began, by the runner's clock (s)."""
     seconds: float
-    """Time since then, when this was noticed."""
+    """Time since then."""
     place: Place
-    """Where the thread is."""
+    """The block and the line where the thread is."""
 
     @property
     def block(self) -> str:
@@ -48,7 +53,7 @@ class Stall:
         return f"{self.place} ({self.where})" if self.where else str(self.place)
 
     def __str__(self) -> str:
-        """Tell it in a sentence.
+        """Return a sentence about it.
 
         >>> place = Place("Sensor WallDistance 'wall'", "0", "my_blocks.py, line 12")
         >>> str(Stall(since=3.0, seconds=5.2, place=place))
@@ -58,12 +63,13 @@ class Stall:
         return f"{self.place} has not answered for {self.seconds:.0f} s{where}"
 
 
-class StallMonitor:
-    """Tells whether the thread that runs the world is stuck, and in which block.
+class TickMonitor:
+    """Finds ticks that are slow, and ticks or commands that do not end.
 
-    That thread calls :meth:`begin` and :meth:`end`, which take no lock and cost no more than a look
-    at the clock. Any thread may ask for :attr:`stall`; only then, and only if too much time has
-    passed, the stack is looked at. A thread of the monitor's own asks now and then, for the log.
+    The runner's thread calls :meth:`begin`, :meth:`end`, :meth:`note_tick` and :meth:`forget`; they
+    take no lock and cost no more than a look at the clock. Any thread may read :attr:`stall`; only
+    then, and only if too much time has passed, the stack is examined. A thread of the monitor's own
+    logs stalls.
 
     Args:
         clock: seconds.
@@ -77,6 +83,7 @@ class StallMonitor:
         self._agents = agents
         self._since: float | None = None
         self._thread_id = 0
+        self._slow: tuple[float, SlowTick] | None = None
         self._seen: Stall | None = None
         self._logged: Stall | None = None
         self._ended = threading.Event()
@@ -87,8 +94,27 @@ class StallMonitor:
         self._since = self._clock()
 
     def end(self) -> None:
-        """Note that it has ended, or only waits for what may come."""
+        """Note that it has ended, or only waits."""
         self._since = None
+
+    def note_tick(self, seconds: float, count_contacts: Callable[[], int]) -> None:
+        """Note how long a tick took; contacts are counted only if it was slow."""
+        if seconds <= SLOW_TICK_S:
+            return
+        before = self.slow_tick
+        if before is None or seconds > before.seconds:
+            self._slow = self._clock(), SlowTick(seconds, count_contacts())
+
+    def forget(self) -> None:
+        """Forget slow ticks, since another world has taken this one's place."""
+        self._slow = None
+
+    @property
+    def slow_tick(self) -> SlowTick | None:
+        """The slowest tick of the last :data:`SLOW_TICK_SHOWN_S`; None if none was slow."""
+        if self._slow is None or self._clock() - self._slow[0] > SLOW_TICK_SHOWN_S:
+            return None
+        return self._slow[1]
 
     @property
     def is_stalled(self) -> bool:
@@ -98,7 +124,7 @@ class StallMonitor:
 
     @property
     def stall(self) -> Stall | None:
-        """The tick or command that has not ended for too long; None while all is well."""
+        """The tick or command that has not ended for too long; None if there is none."""
         return self.under_way() if self.is_stalled else None
 
     def under_way(self) -> Stall | None:
@@ -108,11 +134,11 @@ class StallMonitor:
             return None
         place = find_place(calls_of_thread(self._thread_id), self._agents())
         if self._since != since:
-            return None  # it ended while the stack was looked at
+            return None  # it ended while the stack was examined
         return Stall(since, self._clock() - since, place)
 
     def start(self) -> None:
-        """Begin to log stalls, from a thread of its own."""
+        """Start the thread that logs stalls."""
         threading.Thread(target=self._run, name="stall monitor", daemon=True).start()
 
     def stop(self) -> None:
@@ -122,8 +148,8 @@ class StallMonitor:
     def log_changes(self) -> None:
         """Log a stall that has begun, or one that has ended, once each.
 
-        One that is seen for the first time is looked at once more: a process that was stopped for a
-        while, or a computer that slept, goes on in the middle of a tick.
+        One that is seen for the first time is checked once more: a process that was stopped for a
+        while, or a computer that slept, continues in the middle of a tick.
         """
         stall, seen, logged = self.stall, self._seen, self._logged
         self._seen = stall
@@ -136,5 +162,5 @@ class StallMonitor:
             logger.warning("%s", stall)
 
     def _run(self) -> None:
-        while not self._ended.wait(POLL_S):
+        while not self._ended.wait(STALL_POLL_S):
             self.log_changes()

@@ -1,4 +1,4 @@
-"""A recorder that also writes each finished episode into a folder."""
+"""Recorder that also writes each finished episode to a folder."""
 
 from pathlib import Path
 
@@ -18,19 +18,18 @@ MAX_SCENE_NAME_BYTES = 150
 def recorder_into(
     folder: Path | None, sim: ControlRequestor, scene: Scene, keep: int = DEFAULT_KEPT_EPISODES
 ) -> Recorder:
-    """Return a recorder that keeps the last episodes and writes each into a folder when it ends.
+    """Return a recorder that archives the last episodes and writes each to a folder when it ends.
 
-    An episode that can't be written, as when the disk is full, stays in memory; the next one is
-    tried again.
+    An episode that can't be written, for example since the disk is full, stays in memory.
 
     Args:
-        folder: where episodes are written; None writes nothing.
+        folder: folder for episode files; None writes none.
         sim: the world and its agents.
-        scene: what it was made from.
-        keep: episodes that are kept in memory.
+        scene: the scene that the world was built from.
+        keep: number of episodes that are kept in memory.
 
     Raises:
-        SetupError: the folder can't be made.
+        SetupError: the folder can't be created.
     """
     episodes = Archive(keep)
     if folder is None:

@@ -4,7 +4,7 @@ import threading
 
 import pytest
 
-from ai4u_edu.runtime.stall_monitor import STALL_S, StallMonitor
+from ai4u_edu.runtime.tick_monitor import STALL_S, TickMonitor
 
 
 class Clock:
@@ -22,11 +22,11 @@ def clock() -> Clock:
 
 
 @pytest.fixture
-def monitor(clock: Clock) -> StallMonitor:
-    return StallMonitor(clock, tuple)
+def monitor(clock: Clock) -> TickMonitor:
+    return TickMonitor(clock, tuple)
 
 
-def test_what_takes_too_long_is_a_stall_until_it_ends(monitor: StallMonitor, clock: Clock) -> None:
+def test_what_takes_too_long_is_a_stall_until_it_ends(monitor: TickMonitor, clock: Clock) -> None:
     monitor.begin()
     clock.now = STALL_S
     assert (monitor.is_stalled, monitor.stall) == (False, None)
@@ -42,7 +42,7 @@ def test_what_takes_too_long_is_a_stall_until_it_ends(monitor: StallMonitor, clo
 
 
 def test_a_stall_is_logged_when_it_begins_and_when_it_ends(
-    monitor: StallMonitor, clock: Clock, caplog: pytest.LogCaptureFixture
+    monitor: TickMonitor, clock: Clock, caplog: pytest.LogCaptureFixture
 ) -> None:
     monitor.begin()
     for now in (1, 3, 4, 5, 60):
@@ -54,12 +54,12 @@ def test_a_stall_is_logged_when_it_begins_and_when_it_ends(
         monitor.log_changes()
     told = [record.getMessage() for record in caplog.records]
     assert len(told) == 2
-    assert told[0].startswith("The world has not answered for 4 s (test_stall_monitor.py, line ")
+    assert told[0].startswith("The world has not answered for 4 s (test_tick_monitor.py, line ")
     assert told[1] == "The world goes on, after about 61 s"
 
 
 def test_a_process_that_was_stopped_in_a_tick_logs_nothing(
-    monitor: StallMonitor, clock: Clock, caplog: pytest.LogCaptureFixture
+    monitor: TickMonitor, clock: Clock, caplog: pytest.LogCaptureFixture
 ) -> None:
     monitor.begin()
     clock.now = 3600.0
@@ -70,7 +70,7 @@ def test_a_process_that_was_stopped_in_a_tick_logs_nothing(
 
 
 def test_a_thread_that_has_ended_is_nowhere(clock: Clock) -> None:
-    monitor = StallMonitor(clock, tuple)
+    monitor = TickMonitor(clock, tuple)
     thread = threading.Thread(target=monitor.begin)
     thread.start()
     thread.join()

@@ -1,0 +1,123 @@
+"""Limits on how often a world is drawn. All of them are here, since they have to fit together.
+
+A frame takes two steps: after a tick the runner's thread makes a snapshot, and the viewer's thread
+draws the latest snapshot on the pages, part by part. Both share the processor with ticks, which
+must be on time, so every step is rated: what costs more is done less often.
+"""
+
+import math
+import time
+from collections.abc import Callable, Collection, Iterator
+
+MAX_FRAMES_PER_S = 75.0
+"""Frame rate for few pages. Above the usual 60 ticks a second, so that no tick is missed by a hair.
+Snapshots are no more frequent, even in a world that runs as fast as it can."""
+MIN_FRAMES_PER_S = 30.0
+"""Frame rate for many pages, for late ticks and for frames that take long; still smooth."""
+MAX_PAGE_FRAMES_PER_S = 720.0
+"""Frames that are sent to all pages together: from ten pages on, each gets fewer than ten do."""
+MAX_TICK_LATENESS_S = 0.02
+"""Average lateness of ticks at which the frame rate is at its minimum."""
+DRAW_SHARE = 0.3
+"""Share of one processor that drawing may take, unless the frame rate is at its minimum."""
+PART_SHARE = 0.2
+"""Share of one processor that snapshots may take, and each part of a frame: what is slow to draw
+(the labels of a hundred agents) is drawn less often, and all else stays smooth."""
+PAGES_SLICE_S = 0.003
+"""Processor time in one frame for a part that is drawn for each page; the next frame goes on with
+the other pages."""
+MAX_SNAPSHOT_DELAY_S = 0.032
+"""Time between two snapshots after which the next one may make a tick late: just under two ticks at
+60 a second, so that there are :data:`MIN_FRAMES_PER_S`."""
+SENSES_PER_S = 30.0
+"""Rate at which sensors, actions and ghosts are drawn; floors and bodies are in every frame."""
+TEXTS_PER_S = 8.0
+"""Rate at which the texts of the panel are drawn: faster than anybody reads."""
+
+EARLY = 0.8
+"""Fraction of a part's period after which it may be drawn. Frames follow ticks, so a part that
+waited for its whole period would often miss a frame by a hair."""
+
+
+class FrameBudget:
+    """Decides when the next snapshot and the next frame are due.
+
+    The runner's thread calls :meth:`is_snapshot_due` and :meth:`note_snapshot`; the rest is free of
+    state, and any thread may call it.
+    """
+
+    def __init__(self) -> None:
+        self._snapshot_at = -math.inf
+        self._snapshot_s = 0.0
+
+    def note_snapshot(self, began: float, ended: float) -> None:
+        """Note when a snapshot was made (s), to rate the next ones."""
+        self._snapshot_at, self._snapshot_s = began, ended - began
+
+    def is_snapshot_due(self, now: float, next_tick_at: float) -> bool:
+        """Return True if there is to be a snapshot after this tick.
+
+        One that would make the next tick late waits for a tick that leaves more time, for up to
+        :data:`MAX_SNAPSHOT_DELAY_S` since the last one.
+
+        Args:
+            now: end of the tick (s).
+            next_tick_at: when the next tick is to begin (s).
+        """
+        since = now - self._snapshot_at
+        if since < max(1 / MAX_FRAMES_PER_S, self._snapshot_s / PART_SHARE):
+            return False
+        return now + self._snapshot_s <= next_tick_at or since >= MAX_SNAPSHOT_DELAY_S
+
+    @staticmethod
+    def frame_period(*, pages: int, tick_lateness: float, draw_time: float) -> float:
+        """Return the time (s) from the begin of one frame to that of the next.
+
+        Args:
+            pages: number of pages that are open.
+            tick_lateness: average lateness of ticks (s).
+            draw_time: processor time of the last frame (s).
+
+        >>> [round(1 / FrameBudget.frame_period(pages=pages, tick_lateness=0, draw_time=0.002))
+        ...  for pages in (1, 9, 18, 100)]
+        [75, 75, 40, 30]
+        """
+        wanted = max(
+            1 / MAX_FRAMES_PER_S,
+            pages / MAX_PAGE_FRAMES_PER_S,
+            draw_time / DRAW_SHARE,
+            tick_lateness / MAX_TICK_LATENESS_S / MIN_FRAMES_PER_S,
+        )
+        return min(wanted, 1 / MIN_FRAMES_PER_S)
+
+
+class PageTurns:
+    """Takes turns among the pages that a part is drawn for, longest waiting first.
+
+    Args:
+        rate: how many times a second each page is drawn, at most.
+        clock: wall clock (s); to be replaced in tests.
+        processor_clock: processor time of this thread (s); likewise.
+    """
+
+    def __init__(
+        self,
+        rate: float,
+        clock: Callable[[], float] = time.monotonic,
+        processor_clock: Callable[[], float] = time.thread_time,
+    ) -> None:
+        self._period = EARLY / rate
+        self._clock, self._processor_clock = clock, processor_clock
+        self._drawn_at: dict[int, float] = {}
+
+    def due(self, pages: Collection[int]) -> Iterator[int]:
+        """Yield the numbers of the pages to draw now, until the frame's share of time is used."""
+        now, began = self._clock(), self._processor_clock()
+        self._drawn_at = {page: self._drawn_at.get(page, -math.inf) for page in pages}
+        for page in sorted(self._drawn_at, key=self._drawn_at.__getitem__):
+            if now - self._drawn_at[page] < self._period:
+                return
+            self._drawn_at[page] = now
+            yield page
+            if self._processor_clock() - began >= PAGES_SLICE_S:
+                return
