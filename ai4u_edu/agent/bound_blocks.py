@@ -1,7 +1,7 @@
 """An agent's blocks, bound to its body in one world."""
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from contextlib import contextmanager
 from functools import partial
 from typing import TYPE_CHECKING
@@ -10,6 +10,8 @@ from ai4u_edu.agent.error_context import add_context, block_label
 from ai4u_edu.agent.ledger import Ledger
 from ai4u_edu.agent.options import add_optional_blocks
 from ai4u_edu.agent.ownership import LostBrain, check_each_once, claim
+from ai4u_edu.agent.raw_values import as_amount, read_text, read_texts, refuse_amount
+from ai4u_edu.agent.setup_checks import check_unique, enabled_brain
 from ai4u_edu.base.errors import AI4UError, BlockError, ReadingError, SetupError
 from ai4u_edu.blocks import (
     Actuator,
@@ -22,8 +24,8 @@ from ai4u_edu.blocks import (
     Sensor,
 )
 from ai4u_edu.blocks.block import Block
-from ai4u_edu.blocks.percept import TEXTS, Texts
-from ai4u_edu.world import BodyView, World, WorldView
+from ai4u_edu.blocks.percept import TEXTS
+from ai4u_edu.world import World, WorldView
 
 if TYPE_CHECKING:
     from ai4u_edu.agent.agent import BasicAgent
@@ -48,14 +50,14 @@ class BoundBlocks:
             self.body = world[agent.body_name]
         self.view = WorldView(world)
         world.contacts.watch(self.body)
-        self.brain = self._enabled_brain(agent.brains)
+        self.brain = enabled_brain(agent)
         self.rewards = [reward for reward in agent.rewards if reward.is_active]
         self.sensors = [sensor for sensor in self._with_standard_sensors() if sensor.is_active]
         active = [actuator for actuator in agent.actuators if actuator.is_active]
         check_each_once(agent, [*self.rewards, *self.sensors, *active, self.brain])
-        self._check_unique("reward function", "name", self.rewards)
-        self._check_unique("sensor", "perception_key", self.sensors)
-        self._check_unique("actuator", "action_name", active)
+        check_unique(agent, "reward function", "name", self.rewards)
+        check_unique(agent, "sensor", "perception_key", self.sensors)
+        check_unique(agent, "actuator", "action_name", active)
         self.actuators = {actuator.action_name: actuator for actuator in active}
         self.tick_actuators = [
             actuator for actuator in active if type(actuator).on_tick is not Actuator.on_tick
@@ -183,9 +185,9 @@ class BoundBlocks:
     def _raise_as_reading(self, error: Exception, block: Block | None, doing: str) -> None:
         """Add block and agent to an error; raise one of this package's as a ReadingError."""
         if isinstance(error, AI4UError) and not isinstance(error, ReadingError):
-            told = ReadingError(str(error))
-            add_context(told, self._agent, block, doing)
-            raise told from error
+            problem = ReadingError(str(error))
+            add_context(problem, self._agent, block, doing)
+            raise problem from error
         add_context(error, self._agent, block, doing)
 
     def _with_standard_sensors(self) -> list[Sensor]:
@@ -235,40 +237,6 @@ class BoundBlocks:
         with self._error_context(block, "was reset"):
             block.on_reset(self._agent, self.view)
 
-    def _enabled_brain(self, brains: list[Brain]) -> Brain:
-        enabled = [brain for brain in brains if brain.enabled]
-        who = f"agent {self._agent.id!r}"
-        if not enabled:
-            told = SetupError(
-                f"{who}: expected exactly one enabled brain, got none"
-                + (f" ({len(brains)} are switched off)" if brains else "")
-                + "; add one, such as brains=[LocalBrain(controller=WASDRBMoveController())]"
-            )
-            told.where = (self._agent, "brains")
-            raise told
-        if len(enabled) > 1:
-            names = " and ".join(brain.title() for brain in enabled)
-            told = SetupError(
-                f"{who}: expected exactly one enabled brain, got {len(enabled)}: {names}; "
-                "set enabled=False on the others"
-            )
-            told.where = (self._agent, enabled[1])
-            raise told
-        return enabled[0]
-
-    def _check_unique(self, what: str, field: str, blocks: Sequence[Block]) -> None:
-        names: set[str] = set()
-        for block in blocks:
-            name = getattr(block, field)
-            if name in names:
-                told = SetupError(
-                    f"agent {self._agent.id!r}: two {what}s have the {field} {name!r}; "
-                    f"give one of them another, as in {field}='{name}_2'"
-                )
-                told.where = (self._agent, block)
-                raise told
-            names.add(name)
-
     @contextmanager
     def _error_context(self, block: Block | None, doing: str = "") -> Iterator[None]:
         """Add agent and block to an error that is raised inside."""
@@ -278,47 +246,11 @@ class BoundBlocks:
             if isinstance(block, LostBrain):
                 raise
             who = f"agent {self._agent.id!r}"
-            told = BlockError(
+            problem = BlockError(
                 f"{who}, {block_label(block)}: {error}" if block else f"{who}: {error}"
             )
-            told.where = (self._agent, block or "body")
-            raise told from error
+            problem.where = (self._agent, block or "body")
+            raise problem from error
         except Exception as error:
             add_context(error, self._agent, block, doing)
             raise
-
-
-def read_text(sensor: Sensor, body: BodyView, view: WorldView) -> Texts:
-    """Return the reading of a sensor of type sstring."""
-    return str(sensor.read(body, view)) if sensor.is_active else ""
-
-
-def read_texts(sensor: Sensor, body: BodyView, view: WorldView) -> Texts:
-    """Return the reading of a sensor of type sstrings.
-
-    Raises:
-        ReadingError: the reading is not a list of texts.
-    """
-    if not sensor.is_active:
-        return ()
-    texts = sensor.read(body, view)
-    if not isinstance(texts, list | tuple) or not all(isinstance(each, str) for each in texts):
-        raise ReadingError(f"expected a list of texts, got {texts!r}")
-    return tuple(texts)
-
-
-def refuse_amount(amount: float) -> None:
-    """Raise a ReadingError for an amount that is not finite."""
-    raise ReadingError(f"expected a finite number, got {amount}")
-
-
-def as_amount(value: object) -> float:
-    """Return an amount that a reward function paid as a float.
-
-    Raises:
-        ReadingError: the amount is no number.
-    """
-    try:
-        return float(value)  # type: ignore[arg-type]  # anything may come; the next line says so
-    except (TypeError, ValueError):
-        raise ReadingError(f"expected a number from on_update, got {value!r}") from None

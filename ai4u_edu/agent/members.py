@@ -31,16 +31,16 @@ def _check_unique(agents: Sequence[BasicAgent]) -> None:
     for index, agent in enumerate(agents):
         for other in agents[:index]:
             if agent.id == other.id:
-                told = SetupError(f"two agents have the id {agent.id!r}; ids are unique")
-                told.where = (agent, "id")
-                raise told
+                problem = SetupError(f"two agents have the id {agent.id!r}; ids are unique")
+                problem.where = (agent, "id")
+                raise problem
             if agent.body_name == other.body_name:
-                told = SetupError(
+                problem = SetupError(
                     f"agents {other.id!r} and {agent.id!r} have the same body "
                     f"{agent.body_name!r}; expected a body for each"
                 )
-                told.where = (agent, "body")
-                raise told
+                problem.where = (agent, "body")
+                raise problem
 
 
 def _shown(value: object) -> str:

@@ -9,7 +9,9 @@ from ai4u_edu.blocks import Actuator, Brain, RemoteBrain, RewardFunc, Sensor
 from ai4u_edu.blocks.sensors.sensor_state import SensorState, read_again
 from ai4u_edu.world import World
 
-FAREWELL = "the agent's blocks were changed; connect again to be told what it senses now"
+BLOCKS_CHANGED_REASON = (
+    "the agent's blocks were changed; connect again to be told what it senses now"
+)
 """Reason given to a connected script whose agent was changed."""
 
 
@@ -75,7 +77,7 @@ def rebind(agent: BasicAgent, world: World, blocks: Blocks, *, keep_brain: bool 
     if agent.brain is gone:
         return
     if isinstance(gone, RemoteBrain):
-        gone.close(FAREWELL)
+        gone.close(BLOCKS_CHANGED_REASON)
     else:
         gone.close()
 

@@ -98,7 +98,7 @@ class FloorDescription(RegionDescription):
 
 
 class AreaDescription(RegionDescription):
-    """A place that can be asked about (a goal, a trigger); nothing collides with it."""
+    """A region that blocks can refer to (a goal, a trigger); nothing collides with it."""
 
     paint: bool = False
     """True draws it as paint on the ground, without outline and label: a line, a marking."""

@@ -34,9 +34,9 @@ class Description(BaseModel):
             super().__init__(**fields)
         except ValidationError as error:
             problems = listed(explain(error.errors(), type(self)))
-            told = ParameterError(f"{type(self).__name__}: {problems}")
-            told.details = error
-            raise told from None
+            problem = ParameterError(f"{type(self).__name__}: {problems}")
+            problem.details = error
+            raise problem from None
 
     # a nested description is made without the constructor; its errors are reported with a path
     __init__.__pydantic_base_init__ = True  # type: ignore[attr-defined]

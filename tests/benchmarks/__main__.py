@@ -40,20 +40,7 @@ def make() -> SceneEnv:
 
 def main() -> None:
     """Run the benchmark and print its table."""
-    parser = argparse.ArgumentParser(prog="python -m tests.benchmarks", description=__doc__)
-    parser.add_argument("--rounds", type=int, default=30)
-    parser.add_argument("--worlds", type=int, default=64)
-    parser.add_argument("--workers", type=int, default=8, help="of AsyncVectorEnv; 0: without it")
-    parser.add_argument("--peers", action="store_true", help="others too; takes minutes")
-    parser.add_argument(
-        "--busy",
-        action="store_true",
-        help="for a machine that others use: count the processor's time, not the clock's; without "
-        "what runs in other processes",
-    )
-    options = parser.parse_args()
-    if options.busy:
-        options.workers, options.peers = 0, False
+    options = parse_options()
     clock = time.process_time if options.busy else time.perf_counter
     env = make()
 
@@ -100,6 +87,25 @@ def main() -> None:
     for title, why in missing.items():
         print(f"| {title} | not measured: {why} | | | |")
     print(f"\nA reset of `SceneEnv`: {resets(env, clock, options.rounds):.0f} microseconds")
+
+
+def parse_options() -> argparse.Namespace:
+    """Parse the command line."""
+    parser = argparse.ArgumentParser(prog="python -m tests.benchmarks", description=__doc__)
+    parser.add_argument("--rounds", type=int, default=30)
+    parser.add_argument("--worlds", type=int, default=64)
+    parser.add_argument("--workers", type=int, default=8, help="of AsyncVectorEnv; 0: without it")
+    parser.add_argument("--peers", action="store_true", help="others too; takes minutes")
+    parser.add_argument(
+        "--busy",
+        action="store_true",
+        help="for a machine that others use: count the processor's time, not the clock's; without "
+        "what runs in other processes",
+    )
+    options = parser.parse_args()
+    if options.busy:
+        options.workers, options.peers = 0, False
+    return options
 
 
 def vectors(count: int) -> dict[str, Callable[[], object]]:

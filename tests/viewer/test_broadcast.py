@@ -14,13 +14,14 @@ import viser
 from viser._messages import GuiUpdateMessage
 from viser.infra import _infra
 from viser.infra._messages import Message
+from websockets.asyncio.server import ServerConnection
 from websockets.sync.client import ClientConnection, connect
 from websockets.sync.connection import Connection
 from websockets.typing import Subprotocol
 from zstandard import ZstdDecompressor
 
-from ai4u_edu.viewer.backend import broadcast as fan_out
-from ai4u_edu.viewer.backend.broadcast import FanOut, Page
+from ai4u_edu.viewer.backend import broadcast
+from ai4u_edu.viewer.backend.broadcast import Broadcaster, LoopEvent
 from ai4u_edu.viewer.backend.local_server import LocalServer
 from tests.load.clients import CAMERA
 from tests.server.rooms import served, until
@@ -45,13 +46,13 @@ def server(request: pytest.FixtureRequest) -> Iterator[LocalServer]:
 def packings(monkeypatch: pytest.MonkeyPatch) -> list[list[Message]]:
     """What was packed."""
     made: list[list[Message]] = []
-    pack = fan_out.packed
+    pack = broadcast.pack
 
     def packed(messages: list[Message]) -> bytes:
         made.append(list(messages))
         return pack(messages)
 
-    monkeypatch.setattr(fan_out, "packed", packed)
+    monkeypatch.setattr(broadcast, "pack", packed)
     return made
 
 
@@ -101,29 +102,29 @@ def said(page: Connection) -> bool:
     return True
 
 
-def settled(server: LocalServer, pages: int) -> FanOut:
-    """The server's fan-out, as soon as so many pages are up to date."""
-    out: FanOut = server._websock_server._broadcast_buffer._ai4u_edu_fan_out  # type: ignore[attr-defined]
+def settled(server: LocalServer, pages: int) -> Broadcaster:
+    """Return the server's broadcaster as soon as so many pages are up to date."""
+    out: Broadcaster = server._websock_server._broadcast_buffer._ai4u_edu_broadcaster  # type: ignore[attr-defined]
     until(lambda: len(out._pages) == pages)
-    until(lambda: all(page.is_clear() for page in out._pages.values()))
+    until(lambda: not any(waiting(page) for page in out._pages.values()))
     return out
 
 
-def waiting(page: Page) -> int:
-    """Bytes that a page has not taken yet, and that wait for it."""
-    return page.connection.transport.get_write_buffer_size()
+def waiting(page: ServerConnection) -> int:
+    """Return the number of bytes that wait for a page."""
+    return page.transport.get_write_buffer_size()
 
 
 def test_it_fits_the_viser_that_is_there(server: LocalServer) -> None:
-    assert viser.__version__ == fan_out.KNOWN, "look whether viewer/fan_out.py still fits"
-    assert fan_out.fan_out(server)
-    ours, theirs = (inspect.signature(f) for f in (fan_out._produce, fan_out._viser_does))
+    assert viser.__version__ == broadcast.VISER_VERSION, "check viewer/backend/broadcast.py"
+    assert broadcast.install_broadcaster(server)
+    ours, theirs = (inspect.signature(f) for f in (broadcast._produce, broadcast._visers_producer))
     assert list(ours.parameters) == list(theirs.parameters)
     assert "_message_producer" in inspect.getsource(_infra.WebsockServer)
 
 
 def test_with_another_viser_all_goes_visers_way(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(fan_out, "KNOWN", "0.0.0")
+    monkeypatch.setattr(broadcast, "VISER_VERSION", "0.0.0")
     server = LocalServer("AI4U Edu")
     try:
         with client(server) as page:
@@ -269,7 +270,7 @@ def test_a_message_that_can_not_be_packed_is_left_out(
             server.gui.add_markdown("<last>")
             frame_with(page, "<last>")
             frame_with(late, "<last>")
-    lines = [each for each in caplog.records if each.name == fan_out.__name__]
+    lines = [each for each in caplog.records if each.name == broadcast.__name__]
     assert len(lines) <= 1, "they are limited, over all of these tests"
     assert not any(each.exc_info for each in caplog.records)
 
@@ -296,7 +297,7 @@ def test_nothing_that_goes_wrong_while_sending_ends_it(
     with client(server) as page, client(server) as other:
         out = settled(server, 2)
         with monkeypatch.context() as patched:
-            patched.setattr(fan_out, "_plain", fail)
+            patched.setattr(broadcast, "_encode", fail)
             server.gui.add_markdown("<first>")
             server.flush()
         server.gui.add_markdown("<last>")
@@ -306,13 +307,12 @@ def test_nothing_that_goes_wrong_while_sending_ends_it(
         assert not out._sending.done()
 
 
-def test_from_another_thread_nobody_is_woken_and_nothing_is_forgotten() -> None:
+def test_the_event_is_set_in_its_own_thread_only() -> None:
     async def main() -> None:
-        event = fan_out.Awakener()
+        event = LoopEvent()
         waits = asyncio.create_task(event.wait())
         await asyncio.sleep(0)
         await asyncio.to_thread(event.set)
-        assert event.is_set()
         assert not waits.done()
         event.set()
         await asyncio.wait_for(waits, 1)

@@ -40,7 +40,7 @@ def test_what_goes_wrong_in_a_callback_is_told_to_its_page_and_written_once(
     caplog: pytest.LogCaptureFixture,
     capfd: pytest.CaptureFixture[str],
 ) -> None:
-    monkeypatch.setattr("ai4u_edu.viewer.backend.incoming.TELL_PERIOD_S", 0.0)
+    monkeypatch.setattr("ai4u_edu.viewer.backend.incoming.NOTIFICATION_PERIOD_S", 0.0)
 
     async def fail(_event: GuiEvent[Any]) -> None:
         raise ValueError("this is no path")

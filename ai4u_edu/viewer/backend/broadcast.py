@@ -1,8 +1,8 @@
-"""What all pages get is packed once, and not once for each of them.
+"""Broadcast of viser's messages: each is packed once for all pages, not once for each page.
 
-viser lets every page gather, pack and compress the same messages anew. With a class that looks on
-(measured: sixty pages) most of the processor's time goes into that. Here pages that are up to date
-share one packing; a page that can't keep up skips what is outdated by then, and gets the newest.
+viser lets every page gather, pack and compress the same messages anew, which takes most of a core
+with thirty pages. Here all pages that are up to date share one packing. A page that can't keep up
+skips outdated messages. See ``docs/adr/0006-one-packing-for-all-pages.md``.
 """
 
 import asyncio
@@ -13,7 +13,6 @@ from collections import defaultdict
 from collections.abc import Awaitable, Callable, Sequence
 from contextlib import suppress
 from threading import get_ident
-from weakref import WeakKeyDictionary
 
 import msgspec
 import viser
@@ -25,106 +24,83 @@ from websockets.asyncio.server import ServerConnection, broadcast
 
 from ai4u_edu.base.log_limit import log_limited
 
-KNOWN = "1.1.1"
-"""The viser whose insides this fits. Any other one goes on in its own way."""
+VISER_VERSION = "1.1.1"
+"""The version of viser whose private parts are used here; any other one is left as it is."""
 SEND_PERIOD_S = 1 / 120
 """Shortest time between two messages to a page: less than between two frames, so that none is sent
 together with the next."""
-CHUNK = 128
-"""Messages in a frame for a page that has just come."""
-
+MAX_BACKLOG_MESSAGES = 128
+"""Messages in one WebSocket message to a page that has just connected."""
 SEND_BUFFER_BYTES = 64 * 2**10
-"""Size of the system's buffer for what one page has not taken yet."""
+"""Size of the system's send buffer for a page: frames for a slow page wait here, where newer
+messages replace them, and not on the way."""
 
-_NAME = "_ai4u_edu_fan_out"
-_IS_OWN = "_ai4u_edu_is_own"
-"""Marks the buffers of single pages of a server of ours."""
+_BROADCASTER = "_ai4u_edu_broadcaster"
+_IS_OURS = "_ai4u_edu_is_ours"
+"""Attribute of the buffers of single pages of a server with a broadcaster."""
 _logger = logging.getLogger(__name__)
 Producer = Callable[..., Awaitable[None]]
 
 
-class Awakener(asyncio.Event):
-    """In place of a buffer's event, which viser sets from other threads too.
+class LoopEvent(asyncio.Event):
+    """Event of a buffer that other threads can't set.
 
-    To wake who waits is for the loop's thread alone, and viser has that done besides: from another
-    one it may fail, since who waits comes and goes meanwhile.
+    viser sets a buffer's event from any thread, and besides has the loop set it. asyncio's events
+    are not thread-safe: the first call may fail, or keep the second from waking anybody.
     """
 
     def __init__(self) -> None:
         super().__init__()
-        self._thread = get_ident()
+        self._thread_id = get_ident()
 
     def set(self) -> None:
-        """Sets it; whoever waits is woken in the loop's thread."""
-        if get_ident() != self._thread:
-            self._value = True
-            return
-        self._value = False  # else those would not be woken who wait since before it was set
-        super().set()
+        """Set the event in the loop's thread; do nothing in another one."""
+        if get_ident() == self._thread_id:
+            super().set()
 
 
-class Page:
-    """The way to one page.
+class Broadcaster:
+    """Sends new messages to all pages of a server. Belongs to viser's event loop.
 
     Args:
-        connection: viser's.
-    """
-
-    def __init__(self, connection: ServerConnection) -> None:
-        self.connection = connection
-        # what waits for a slow page is to wait here, where newer messages replace it
-        stream: socket.socket = connection.transport.get_extra_info("socket")
-        stream.setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, SEND_BUFFER_BYTES)
-
-    def is_clear(self) -> bool:
-        """Whether it has taken all that it was told."""
-        return not self.connection.transport.get_write_buffer_size()
-
-    async def send(self, message: bytes) -> None:
-        """Tells it something after all else; viser's producers call this."""
-        await self.connection.send(message)
-
-
-class FanOut:
-    """Tells all pages of a server what is new. Belongs to viser's loop.
-
-    Args:
-        buffer: viser's, of the messages for all pages.
+        buffer: viser's buffer of the messages for all pages.
     """
 
     def __init__(self, buffer: AsyncMessageBuffer) -> None:
         self._buffer = buffer
-        self._pages: dict[int, Page] = {}
+        self._pages: dict[int, ServerConnection] = {}
         self._sending: asyncio.Task[None] | None = None
 
-    async def serve(self, page: Page, number: int, replayed: Message | None) -> None:
-        """One page: all that there is first, then what is new, until it is cancelled.
+    async def serve(
+        self, connection: ServerConnection, client_id: int, backlog_done_message: Message | None
+    ) -> None:
+        """Send one page its backlog, then new messages until it is cancelled.
 
         Args:
-            page: the way to it.
-            number: the page's.
-            replayed: is said after what there was when the page came.
+            connection: the page's.
+            client_id: the page's number.
+            backlog_done_message: is sent after the backlog.
         """
         buffer, cursors = self._buffer, self._buffer.generator_cursors
         backlog = buffer.message_counter - 1
-        cursors[number] = -1
+        cursors[client_id] = -1
         try:
-            while buffer.atomic_counter:  # somebody is in the middle of something
+            while buffer.atomic_counter:
                 await asyncio.sleep(0.001)
-            there = self._between(-1, backlog, number)
-            for first in range(0, len(there), CHUNK):
-                await page.send(packed(there[first : first + CHUNK]))
-            if replayed is not None:
-                await page.send(packed([replayed]))
-            cursors[number] = backlog
-            self._pages[number] = page
+            messages = self._between(-1, backlog, client_id)
+            for first in range(0, len(messages), MAX_BACKLOG_MESSAGES):
+                await connection.send(pack(messages[first : first + MAX_BACKLOG_MESSAGES]))
+            if backlog_done_message is not None:
+                await connection.send(pack([backlog_done_message]))
+            cursors[client_id] = backlog
+            self._pages[client_id] = connection
             if self._sending is None:
                 self._sending = asyncio.create_task(self._send())
             buffer.message_event.set()
             await asyncio.shield(self._sending)
         finally:
-            self._pages.pop(number, None)
-            cursors.pop(number, None)
+            self._pages.pop(client_id, None)
+            cursors.pop(client_id, None)
             if not self._pages and self._sending is not None:
                 self._sending.cancel()
                 self._sending = None
@@ -134,7 +110,7 @@ class FanOut:
         while True:
             is_done = False
             try:  # all pages would be closed if this task ended
-                is_done = self._send_news()
+                is_done = self._send_new()
             except Exception as error:
                 _log_failure("sending", "some pages were not told what is new: %a", error)
             with suppress(TimeoutError):
@@ -144,83 +120,86 @@ class FanOut:
                 await buffer.message_event.wait()
             buffer.message_event.clear()
 
-    def _send_news(self) -> bool:
-        """Sends to every page what it lacks; whether no page is left behind."""
+    def _send_new(self) -> bool:
+        """Send each page the messages that it lacks; return True if all pages are up to date."""
         buffer, cursors = self._buffer, self._buffer.generator_cursors
         last = buffer.message_counter - 1
         if buffer.atomic_counter:
-            return True  # at its end we are woken again
-        lacking = defaultdict(list)
+            return True  # viser sets the event at the end of the atomic block
+        behind = defaultdict(list)
         is_done = True
-        for number, page in self._pages.items():
-            if cursors[number] == last:
+        for client_id, connection in self._pages.items():
+            if cursors[client_id] == last:
                 continue
-            if page.is_clear():
-                lacking[cursors[number]].append(number)
-            else:
+            if connection.transport.get_write_buffer_size():
                 is_done = False
-        for since, numbers in lacking.items():
+            else:
+                behind[cursors[client_id]].append(client_id)
+        for since, client_ids in behind.items():
             messages = self._between(since, last)
-            barred = {message.excluded_self_client for message in messages}
-            for number in numbers:
-                cursors[number] = last  # first: what fails to be told now would fail again
-            self._tell([number for number in numbers if number not in barred], messages)
-            for number in numbers:
-                if number in barred:
-                    self._tell([number], [m for m in messages if m.excluded_self_client != number])
+            excluded = {message.excluded_self_client for message in messages}
+            for client_id in client_ids:
+                cursors[client_id] = last  # first: a message that fails would fail again
+            self._send_to([each for each in client_ids if each not in excluded], messages)
+            for client_id in client_ids:
+                if client_id in excluded:
+                    rest = [each for each in messages if each.excluded_self_client != client_id]
+                    self._send_to([client_id], rest)
         return is_done
 
-    def _tell(self, numbers: Sequence[int], messages: Sequence[Message]) -> None:
-        if not (numbers and messages):
-            return
-        broadcast([self._pages[number].connection for number in numbers], packed(messages))
+    def _send_to(self, client_ids: Sequence[int], messages: Sequence[Message]) -> None:
+        if client_ids and messages:
+            broadcast([self._pages[each] for each in client_ids], pack(messages))
 
-    def _between(self, since: int, last: int, number: int = -1) -> list[Message]:
-        """The messages after one and up to another that are still of use, but for one page's."""
+    def _between(self, since: int, last: int, client_id: int = -1) -> list[Message]:
+        """Return the messages after ``since`` up to ``last``, except those that exclude a page.
+
+        viser has removed those that a newer one replaces.
+        """
         messages = self._buffer.message_from_id
         if last - since <= len(messages):
             found = [messages.get(each) for each in range(since + 1, last + 1)]
-        else:  # of what was said in the last hour little is left
+        else:  # after a long time few numbers are left
             with self._buffer.buffer_lock:
                 found = [each for key, each in messages.items() if since < key <= last]
-        return [each for each in found if each and each.excluded_self_client != number]
+        return [each for each in found if each and each.excluded_self_client != client_id]
 
 
-def packed(messages: Sequence[Message]) -> bytes:
-    """Return a frame as viser's page reads it (see viser's ``_message_producer``).
+def pack(messages: Sequence[Message]) -> bytes:
+    """Return a WebSocket message as viser's page reads it (see viser's ``_message_producer``).
 
     A message that msgpack can't hold is left out, and logged.
     """
     try:
-        plain, buffers = _plain(messages)
+        encoded, buffers = _encode(messages)
     except Exception:
-        plain, buffers = _plain([each for each in messages if _can_be_packed(each)])
-    small = zstandard.ZstdCompressor(level=1).compress(plain)
+        encoded, buffers = _encode([each for each in messages if _can_be_encoded(each)])
+    compressed = zstandard.ZstdCompressor(level=1).compress(encoded)
     parts: list[bytes | memoryview] = [
-        len(plain).to_bytes(8, "little"),
-        len(small).to_bytes(8, "little"),
-        small,
+        len(encoded).to_bytes(8, "little"),
+        len(compressed).to_bytes(8, "little"),
+        compressed,
     ]
-    _infra._append_aligned_buffers(parts, buffers, 16 + len(small))
+    _infra._append_aligned_buffers(parts, buffers, 16 + len(compressed))
     return b"".join(parts)
 
 
-def _plain(messages: Sequence[Message]) -> tuple[bytes, list[memoryview]]:
+def _encode(messages: Sequence[Message]) -> tuple[bytes, list[memoryview]]:
     buffers: list[memoryview] = []
-    plain = msgspec.msgpack.encode(
+    encoded = msgspec.msgpack.encode(
         {
             "messages": tuple(message.as_serializable_dict(buffers) for message in messages),
             "timestampSec": time.perf_counter(),
             "binaryBufferLengths": tuple(each.nbytes for each in buffers),
         }
     )
-    return plain, buffers
+    return encoded, buffers
 
 
-def _can_be_packed(message: Message) -> bool:
+def _can_be_encoded(message: Message) -> bool:
     try:
-        _plain([message])
-    except Exception as error:  # whatever a value's type does when it is asked for its content
+        _encode([message])
+    except Exception as error:  # a value's own type may raise anything
         kind = type(message).__name__
         _log_failure(kind, f"a {kind} was left out, it can't be sent: %a", error)
         return False
@@ -231,44 +210,27 @@ def _log_failure(key: str, text: str, error: Exception) -> None:
     log_limited(_logger, logging.ERROR, key, text, f"{type(error).__name__}: {error!s:.200}")
 
 
-def fan_out(server: viser.ViserServer) -> bool:
-    """Has a server pack once what all pages get; whether it can be done with this viser.
+def install_broadcaster(server: viser.ViserServer) -> bool:
+    """Let a server pack messages for all pages once; return False if its viser is another version.
 
-    Args:
-        server: viser's.
+    This replaces viser's ``_message_producer`` for the whole process; servers without a broadcaster
+    go on as before.
     """
-    if viser.__version__ != KNOWN:
+    if viser.__version__ != VISER_VERSION:
         return False
-    buffer = server._websock_server._broadcast_buffer
-    setattr(buffer, _NAME, FanOut(buffer))
-    server._websock_server.on_client_connect(_mark_own)
-    if _infra._message_producer is _viser_does:
+    web = server._websock_server
+    setattr(web._broadcast_buffer, _BROADCASTER, Broadcaster(web._broadcast_buffer))
+    web.on_client_connect(_mark_buffer)
+    if _infra._message_producer is _visers_producer:
         _infra._message_producer = _produce
     return True
 
 
-async def _mark_own(connection: WebsockClientConnection) -> None:
-    setattr(connection.get_message_buffer(), _IS_OWN, True)
+async def _mark_buffer(connection: WebsockClientConnection) -> None:
+    setattr(connection.get_message_buffer(), _IS_OURS, True)
 
 
-_pages: WeakKeyDictionary[ServerConnection, Page] = WeakKeyDictionary()
-_viser_does: Producer = _infra._message_producer
-
-
-async def _send_windows(
-    page: Page, buffer: AsyncMessageBuffer, client_id: int, backlog_done_message: Message | None
-) -> None:
-    """Send a buffer that belongs to one page, as viser's ``_message_producer`` does."""
-    windows = buffer.window_generator(client_id, backlog_done_message=backlog_done_message)
-    try:
-        while not buffer.done:
-            try:
-                window = await anext(windows)
-            except StopAsyncIteration:
-                break
-            await page.send(packed(window))
-    finally:
-        await windows.aclose()
+_visers_producer: Producer = _infra._message_producer
 
 
 async def _produce(
@@ -277,21 +239,40 @@ async def _produce(
     client_id: int,
     backlog_done_message: Message | None = None,
 ) -> None:
-    """Send a page what is in a buffer, in place of viser's function of that name.
+    """Send a page the messages of a buffer, in place of viser's ``_message_producer``.
 
     A message that can't be packed is left out, also if it is for one page only: viser would close
-    the page. Servers that are not ours go on in viser's way.
+    the page.
     """
-    if not isinstance(buffer.message_event, Awakener):
-        buffer.message_event = Awakener()
+    broadcaster: Broadcaster | None = getattr(buffer, _BROADCASTER, None)
+    if broadcaster is None and not hasattr(buffer, _IS_OURS):
+        await _visers_producer(websocket, buffer, client_id, backlog_done_message)
+        return
+    if not isinstance(buffer.message_event, LoopEvent):
+        buffer.message_event = LoopEvent()
         buffer.message_event.set()
-    page = _pages.get(websocket)
-    if page is None:
-        page = _pages[websocket] = Page(websocket)
-    ours: FanOut | None = getattr(buffer, _NAME, None)
-    if ours is None and hasattr(buffer, _IS_OWN):
-        await _send_windows(page, buffer, client_id, backlog_done_message)
-    elif ours is None:
-        await _viser_does(page, buffer, client_id, backlog_done_message)
-    else:
-        await ours.serve(page, client_id, backlog_done_message)
+    if broadcaster is None:
+        await _send_windows(websocket, buffer, client_id, backlog_done_message)
+        return
+    stream: socket.socket = websocket.transport.get_extra_info("socket")
+    stream.setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, SEND_BUFFER_BYTES)
+    await broadcaster.serve(websocket, client_id, backlog_done_message)
+
+
+async def _send_windows(
+    connection: ServerConnection,
+    buffer: AsyncMessageBuffer,
+    client_id: int,
+    backlog_done_message: Message | None,
+) -> None:
+    """Send the messages of a buffer that belongs to one page."""
+    windows = buffer.window_generator(client_id, backlog_done_message=backlog_done_message)
+    try:
+        while not buffer.done:
+            try:
+                window = await anext(windows)
+            except StopAsyncIteration:
+                break
+            await connection.send(pack(window))
+    finally:
+        await windows.aclose()

@@ -1,50 +1,56 @@
-"""viser's server as we run it: on loopback, silent, and never shared with the internet."""
+"""viser's server on loopback, without output and without public addresses."""
 
-import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager
 
 import rich
 from viser import ViserServer
+from viser.infra._async_message_buffer import AsyncMessageBuffer
 
-from ai4u_edu.viewer.backend.broadcast import fan_out
+from ai4u_edu.viewer.backend.broadcast import install_broadcaster
 from ai4u_edu.viewer.backend.incoming import IncomingMessages
 
 
 class LocalServer(ViserServer):
-    """A viser server that only this machine can reach.
+    """viser server that only this machine can reach.
 
-    viser lets any page ask for a public address, whether or not it shows the button: its handlers
-    call the two methods below. They do nothing here, so there is no way left to open a tunnel.
+    viser lets any page ask for a public address: its handlers call the two methods below. They do
+    nothing here, so nobody can open a tunnel.
 
     Args:
-        label: what the panel is called.
+        label: title of the panel.
     """
 
     def __init__(self, label: str) -> None:
-        # a page may go while it is being written to; that is no news
-        warnings.filterwarnings("ignore", r"Queued a \w+ on a closed connection")
-        with quiet():
+        with no_console_output():
             super().__init__(host="127.0.0.1", port=0, label=label, verbose=False)
-        fan_out(self)
+        web = self._websock_server
+        web.on_client_connect(lambda page: _mute_buffer(page.get_message_buffer()))
+        _mute_buffer(web._broadcast_buffer)
+        install_broadcaster(self)
         IncomingMessages(self)
 
     def request_share_url(self, verbose: bool = True) -> str | None:  # noqa: ARG002
-        """Refuses."""
+        """Refuse a public address."""
         return None
 
     def disconnect_share_url(self) -> None:
-        """There is nothing to disconnect."""
+        """Do nothing: there is no public address."""
 
     def stop(self) -> None:
-        """Stops the server and its threads."""
-        with quiet():
+        """Stop the server and its threads."""
+        with no_console_output():
             super().stop()
 
 
+def _mute_buffer(buffer: AsyncMessageBuffer) -> None:
+    """Keep a buffer from warning of a message to a page that has just disconnected."""
+    buffer._warned_push_after_done = True
+
+
 @contextmanager
-def quiet() -> Iterator[None]:
-    """Keeps viser's notices, printed with rich, off the terminal."""
+def no_console_output() -> Iterator[None]:
+    """Suppress the notices that viser prints with rich."""
     console = rich.get_console()
     before, console.quiet = console.quiet, True
     try:

@@ -1,4 +1,4 @@
-"""Reports of what goes wrong in callbacks: to the page that caused it, and once to stderr."""
+"""Reports of errors in callbacks: to the page that caused them, and once to stderr."""
 
 from collections.abc import Awaitable, Callable, Coroutine
 from functools import wraps
@@ -11,10 +11,10 @@ E = TypeVar("E")
 _complaints = Complaints()
 
 
-def reported(error: Exception) -> str:
+def describe_error(error: Exception) -> str:
     """Return a sentence about an error for the page that caused it.
 
-    An error that is not of our own kind is a fault of ours: it is written to stderr, once.
+    An error that is no AI4UError is a bug, and is written to stderr once.
     """
     if isinstance(error, AI4UError):
         return str(error)
@@ -22,10 +22,12 @@ def reported(error: Exception) -> str:
     return f"{type(error).__name__}: {error}"
 
 
-def reporting(callback: Callable[[E], Awaitable[None]]) -> Callable[[E], Coroutine[Any, Any, None]]:
-    """Return a callback for something in the scene whose errors are written only once.
+def report_errors(
+    callback: Callable[[E], Awaitable[None]],
+) -> Callable[[E], Coroutine[Any, Any, None]]:
+    """Wrap a callback of a scene node so that its errors are shown to the page.
 
-    Those of widgets need none: see :mod:`ai4u_edu.viewer.backend.incoming`.
+    Callbacks of widgets need no wrapper: see :mod:`ai4u_edu.viewer.backend.incoming`.
     """
 
     @wraps(callback)
@@ -33,7 +35,7 @@ def reporting(callback: Callable[[E], Awaitable[None]]) -> Callable[[E], Corouti
         try:
             await callback(event)
         except Exception as error:
-            text, client = reported(error), getattr(event, "client", None)
+            text, client = describe_error(error), getattr(event, "client", None)
             if client is not None:
                 client.add_notification("That didn't work", f"{text:.500}", auto_close_seconds=8.0)
 

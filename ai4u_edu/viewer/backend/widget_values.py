@@ -1,4 +1,4 @@
-"""The values that a page may give to a widget."""
+"""Checks of the values that a page may give to a widget."""
 
 import math
 from typing import Any
@@ -16,15 +16,15 @@ from viser import (
 from ai4u_edu.base.limits import MAX_EXACT_INT
 
 MAX_TEXT_CHARS = 20_000
-"""Characters of a text box."""
+"""Length of a text box's value."""
 
 
 class ValueRefusedError(ValueError):
     """A page gave a widget a value that this widget can't have.
 
     Attributes:
-        is_typed: True if a person may have typed it in; else only a program sends such a value, or
-            the page was told too late that the choices have changed.
+        is_typed: True if a person may have typed it; else only a program sends such a value, or a
+            page that does not know yet that the choices have changed.
     """
 
     def __init__(self, text: str, *, is_typed: bool = False) -> None:
@@ -33,11 +33,11 @@ class ValueRefusedError(ValueError):
 
 
 def checked_value(widget: Any, value: object) -> object:
-    """Return a value as the widget keeps it.
+    """Return a value in the type that the widget has.
 
     Args:
-        widget: a handle of viser's.
-        value: what the page sent.
+        widget: viser's handle.
+        value: from the page.
 
     Raises:
         ValueRefusedError: the widget can't have it.

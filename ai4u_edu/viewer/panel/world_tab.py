@@ -23,7 +23,7 @@ from ai4u_edu.editing.settings import scene_form
 from ai4u_edu.scenes import Scene
 from ai4u_edu.scenes.yaml.file import MAX_SCENE_CHARS
 from ai4u_edu.snapshot import Snapshot
-from ai4u_edu.viewer.backend.reporting import reporting
+from ai4u_edu.viewer.backend.reporting import report_errors
 from ai4u_edu.viewer.panel.add_menu import BODY_TEMPLATES, free_position, ground_at_center
 from ai4u_edu.viewer.panel.block_labels import WAITS, undo_line
 from ai4u_edu.viewer.panel.body_form import BodyForm
@@ -102,7 +102,7 @@ class WorldTab:
         self.body_list.on_update(self._on_body)
         self.new.on_click(self._on_new)
         self.delete.on_click(self._on_delete)
-        self.upload.on_upload(reporting(self._on_upload))
+        self.upload.on_upload(report_errors(self._on_upload))
 
     def draw(self, snapshot: Snapshot) -> None:
         """Show the scene and its bodies, if they have changed."""

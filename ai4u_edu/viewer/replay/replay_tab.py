@@ -18,7 +18,7 @@ from ai4u_edu.recording import ArchiveEntry, Episode
 from ai4u_edu.recording.file import MAX_FILE_BYTES, decode
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.snapshot import Snapshot
-from ai4u_edu.viewer.backend.reporting import reporting
+from ai4u_edu.viewer.backend.reporting import report_errors
 from ai4u_edu.viewer.panel.html_parts import section
 from ai4u_edu.viewer.panel.notify import notify_failure
 from ai4u_edu.viewer.panel.tabs import TabKind
@@ -77,7 +77,7 @@ class ReplayTab:
         self._speed.on_update(self._on_speed)
         self.actions.on_click(self._on_action)
         self.no_ghost.on_click(self._on_no_ghost)
-        self.upload.on_upload(reporting(self._on_upload))
+        self.upload.on_upload(report_errors(self._on_upload))
 
     def draw(self, snapshot: Snapshot) -> None:
         """Show the episodes, the chosen one, and the shown decision."""

@@ -10,7 +10,7 @@ from viser import BatchedMeshHandle, SceneNodePointerEvent
 from ai4u_edu.snapshot import Snapshot, StaticScene
 from ai4u_edu.snapshot.theme import VOID, Rgb, body_colour, mix_colours
 from ai4u_edu.viewer.backend.local_server import LocalServer
-from ai4u_edu.viewer.backend.reporting import reporting
+from ai4u_edu.viewer.backend.reporting import report_errors
 from ai4u_edu.viewer.scene.face import face, pupils, rings
 from ai4u_edu.viewer.scene.geometry import cap, half_width, join_meshes, prism, soft_shadow
 from ai4u_edu.viewer.scene.layers import Layers
@@ -114,7 +114,7 @@ class _BodyGroup:
             if index is not None and 0 <= index < len(self.names):
                 on_agent(event.client_id, self.names[index])
 
-        self._body.on_click(reporting(on_click))
+        self._body.on_click(report_errors(on_click))
 
     def move(self, poses: Poses) -> None:
         """Move the members to their current poses."""

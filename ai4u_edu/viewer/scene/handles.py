@@ -19,7 +19,7 @@ from ai4u_edu.base.colors import rgb
 from ai4u_edu.editing import ChangeResult, SceneEditor
 from ai4u_edu.snapshot import BodyState, Snapshot, StaticScene
 from ai4u_edu.snapshot.theme import Rgb
-from ai4u_edu.viewer.backend.reporting import reporting
+from ai4u_edu.viewer.backend.reporting import report_errors
 from ai4u_edu.viewer.scene.arena import arena_size
 from ai4u_edu.viewer.scene.geometry import Array, circle, grow, prism, segments
 from ai4u_edu.viewer.scene.layers import Layers
@@ -135,8 +135,8 @@ class Handles:
             if self._bodies:
                 drawer = MeshDrawer(self._viewer_client.client.scene, parent)
                 boxes = drawer.batch("boxes", BOX, [INK] * len(self._bodies), opacity=0.0)
-                boxes.on_click(reporting(self._on_click))
-                boxes.on_drag(reporting(self._on_drag))
+                boxes.on_click(report_errors(self._on_click))
+                boxes.on_drag(report_errors(self._on_drag))
                 self._boxes = boxes
         extents = [_extent(body) for body in self._bodies]
         margin = HANDLE_MARGIN * arena_size(static_scene)
@@ -169,7 +169,7 @@ class Handles:
             rim = circle(KNOB_RADIUS * unit, corners=24)
             knob = drawer.batch("knob", prism(rim, KNOB_RADIUS * unit, 0.0).moved(far, 0.0), [INK])
             knob.batched_scales = np.ones(1, np.float32)
-            knob.on_drag(reporting(self._on_rotate))
+            knob.on_drag(report_errors(self._on_rotate))
             self.knob = knob
 
     def _move_handles(self, static_scene: StaticScene) -> None:

@@ -47,7 +47,7 @@ void cast_fan(Fan *fan, void *space, double x, double y, double reach) {
     }
 }
 
-/* The grid in perspective: as RayGrid in ray_grid.py does it, cell by cell. */
+/* The perspective grid: the same as RayGrid in ray_grid.py, cell by cell. */
 
 enum { ENDLESS, CIRCLE, BOX, POLYGON, CAPSULE, RING };
 
@@ -77,7 +77,7 @@ typedef struct {
 
 static double size(double number) { return number < 0.0 ? -number : number; }
 
-/* Whether a point of a floor's own frame lies in it; see shapes.py. */
+/* Returns 1 if a point of a floor's own frame lies in it; see shapes.py. */
 static int contains(const Floor *floor, double x, double y) {
     const double a = floor->a, b = floor->b, far = x * x + y * y;
     double past;
@@ -112,7 +112,7 @@ static const Thing *find(const Grid *grid, const void *shape) {
     return 0;
 }
 
-/* How far away in the plane a ray meets a floor first; what it meets goes into code. */
+/* Returns the distance in the plane to the first floor on a ray, and writes its code. */
 static double ground(const Grid *grid, int64_t row, Vect way, Vect eye, double up, double *code) {
     double nearest = INFINITY;
     for (int64_t i = 0; i < grid->floors; i++) {
@@ -130,9 +130,9 @@ static double ground(const Grid *grid, int64_t row, Vect way, Vect eye, double u
     return nearest;
 }
 
-/* Fills codes and distances. Rays that may meet something behind what stands first in their column,
- * between bottom and ceiling, are left undecided, and how many these are is told; if there are any,
- * the distances are left as they are in the plane. */
+/* Fills codes and distances. Rays that may meet a body behind the first one of their column, between
+ * bottom and ceiling, are left undecided; returns their number. If there are any, the distances are
+ * those in the plane. */
 int64_t look(Grid *grid, double x, double y, double up, double bottom, double ceiling) {
     const Vect eye = {x, y};
     int64_t open = 0;
