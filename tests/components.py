@@ -1,4 +1,4 @@
-"""A table of all components: what each is called in AI4U, and what tests it."""
+"""A table of all components with their AI4U names and their tests."""
 
 import ast
 import re
@@ -68,13 +68,13 @@ class Component:
     ai4u: str
     """Its names in AI4U; empty for what is ours alone."""
     contract: str
-    """Whether the checkers run on it."""
+    """"yes" if the checks run on it, "in others" if on a block that contains it, else "NO"."""
     tests: dict[str, int]
-    """How many tests name it, by module."""
+    """Number of tests that name it, by module."""
 
 
 def components() -> list[Component]:
-    """Every kind of block that is built in, by kind and name."""
+    """Return all built-in blocks, sorted by kind and name."""
     ai4u: dict[str, list[str]] = {}
     for theirs, ours in parity_rows().items():
         ai4u.setdefault(ours, []).append(theirs)
@@ -99,7 +99,7 @@ def has_sample(cls: type[Block]) -> bool:
 
 
 def parity_rows() -> dict[str, str]:
-    """Our names by AI4U's, as the table for those who come from there says; empty for none."""
+    """Return our names by AI4U's, from the table for users of AI4U; empty if there is none."""
     rows = re.findall(r"^\| `(\w+)` \| (?:`(\w+)`|-) \|", coming_from_ai4u(), re.MULTILINE)
     assert len(dict(rows)) == len(rows) == len(coming_from_ai4u().splitlines()) - 2
     return dict(rows)
@@ -107,7 +107,7 @@ def parity_rows() -> dict[str, str]:
 
 @cache
 def named_in_tests() -> dict[str, Counter[str]]:
-    """How many tests of each module name what; modules that only list names left out."""
+    """Return the number of tests of each module for each name, without modules that only list."""
     files = sorted(TESTS.rglob("test_*.py"))
     return {
         file.relative_to(TESTS).with_suffix("").as_posix(): names_in(
@@ -119,7 +119,7 @@ def named_in_tests() -> dict[str, Counter[str]]:
 
 
 def names_in(source: str) -> Counter[str]:
-    """How many pieces of a test module, tests above all, name what; those that are put off don't.
+    """Count the top-level parts of a test module that use each name; skipped tests do not count.
 
     >>> names_in("def test_it(): assert TouchSensor(target='box')")["TouchSensor"]
     1
@@ -127,11 +127,16 @@ def names_in(source: str) -> Counter[str]:
     1
     >>> names_in("@pytest.mark.skip\\ndef test_it(): assert TouchSensor()")["TouchSensor"]
     0
+    >>> names_in("pytestmark = pytest.mark.skip\\ndef test_it(): TouchSensor()")["TouchSensor"]
+    0
+    >>> names_in("NIGHTLY = pytest.mark.nightly\\ndef test_it(): TouchSensor()")["TouchSensor"]
+    1
     """
     pieces = ast.parse(source).body
-    if any(_is_put_off(each) for each in pieces if isinstance(each, ast.Assign)):
+    marks = [each for each in pieces if "pytestmark" in _names(each)]
+    if any(map(_is_skipped, marks)):
         return Counter()
-    return Counter(name for each in pieces if not _is_put_off(each) for name in set(_names(each)))
+    return Counter(name for each in pieces if not _is_skipped(each) for name in set(_names(each)))
 
 
 def _names(piece: ast.stmt) -> Iterator[str]:
@@ -143,7 +148,7 @@ def _names(piece: ast.stmt) -> Iterator[str]:
                 yield from re.findall(r"\btype: *(\w+)", text)
 
 
-def _is_put_off(piece: ast.stmt) -> bool:
+def _is_skipped(piece: ast.stmt) -> bool:
     """Return True for a mark of the whole module or of a test: skip, skipif, xfail, nightly."""
     match piece:
         case ast.Assign(targets=[ast.Name(id="pytestmark")], value=value):
@@ -159,7 +164,7 @@ def _is_put_off(piece: ast.stmt) -> bool:
 
 
 def table() -> str:
-    """All components, and what is missing, in columns."""
+    """Return all components, and the missing ones, in columns."""
     rows = [("component", "kind", "AI4U's name", "contract", "tests that name it")]
     for each in components():
         modules = sorted(each.tests, key=lambda module: (-each.tests[module], module))

@@ -1,4 +1,4 @@
-"""Takes the README's picture of all scenes, without a browser: ``python -m tests.gallery``."""
+"""Draws the README's picture of all scenes, without a browser: ``python -m tests.gallery``."""
 
 from pathlib import Path
 
@@ -12,40 +12,43 @@ from ai4u_edu.snapshot.theme import VOID
 
 PICTURE = Path(__file__).parent / "pictures" / "scenes.png"
 COLUMNS = 5
-TILE, TITLE, SPACE = 240, 26, 8
-"""Pixels: a tile's side, its title's height, what is between two tiles."""
-PAPER = (255, 255, 255)
-INK = (27, 37, 48)
+TILE_PX, TITLE_PX, GAP_PX = 240, 26, 8
+"""Side of a tile, height of its title, gap between two tiles."""
+BACKGROUND = (255, 255, 255)
+TEXT_COLOUR = (27, 37, 48)
 
 
 def contact_sheet(names: list[str], seed: int = 1) -> Image.Image:
-    """Scenes side by side, each as it begins, with its title."""
+    """Draw the starts of scenes side by side, each with its title."""
     rows = -(-len(names) // COLUMNS)
-    size = (COLUMNS * (TILE + SPACE) + SPACE, rows * (TILE + TITLE + SPACE) + SPACE)
-    sheet = Image.new("RGB", size, PAPER)
+    size = (COLUMNS * (TILE_PX + GAP_PX) + GAP_PX, rows * (TILE_PX + TITLE_PX + GAP_PX) + GAP_PX)
+    sheet = Image.new("RGB", size, BACKGROUND)
     pen, font = ImageDraw.Draw(sheet), ImageFont.load_default(15)
     for index, name in enumerate(names):
         row, column = divmod(index, COLUMNS)
-        left, top = SPACE + column * (TILE + SPACE), SPACE + row * (TILE + TITLE + SPACE)
+        left, top = (
+            GAP_PX + column * (TILE_PX + GAP_PX),
+            GAP_PX + row * (TILE_PX + TITLE_PX + GAP_PX),
+        )
         scene = Scene.load(name)
         sheet.paste(tile(scene, seed), (left, top))
         title = scene.description.title or name
-        pen.text((left + TILE / 2, top + TILE + 19), title, INK, font, anchor="ms")
+        pen.text((left + TILE_PX / 2, top + TILE_PX + 19), title, TEXT_COLOUR, font, anchor="ms")
     return sheet
 
 
 def tile(scene: Scene, seed: int) -> Image.Image:
-    """A scene as it begins, in the middle of a square."""
+    """Draw the start of a scene, centred in a square."""
     sim = scene.build()
     sim.reset(seed)
-    picture = Image.fromarray(np.asarray(draw_snapshot(capture_snapshot(sim), longest=TILE)))
-    square = Image.new("RGB", (TILE, TILE), VOID)
-    square.paste(picture, ((TILE - picture.width) // 2, (TILE - picture.height) // 2))
+    picture = Image.fromarray(np.asarray(draw_snapshot(capture_snapshot(sim), longest=TILE_PX)))
+    square = Image.new("RGB", (TILE_PX, TILE_PX), VOID)
+    square.paste(picture, ((TILE_PX - picture.width) // 2, (TILE_PX - picture.height) // 2))
     return square
 
 
 def main() -> None:
-    """Draws the scenes of the library."""
+    """Draw the scenes of the library."""
     PICTURE.parent.mkdir(exist_ok=True)
     contact_sheet(Scene.names()).quantize(128).save(PICTURE, optimize=True)
     print(PICTURE)

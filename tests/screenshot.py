@@ -1,4 +1,4 @@
-"""Takes the README's picture: ``python -m tests.screenshot``."""
+"""Takes the README's screenshot of the page: ``python -m tests.screenshot``."""
 
 import argparse
 import re
@@ -13,7 +13,7 @@ PICTURES = Path(__file__).parent / "pictures"
 
 
 def main() -> None:
-    """Drives a little, and takes a picture while W and D are held."""
+    """Drive a little, and take a screenshot while W and D are held."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--scene", default="sample_scene")
     parser.add_argument("--size", default="1280x800")
@@ -30,7 +30,7 @@ def main() -> None:
         page.goto(server.url)
         page.wait_for_timeout(6000)
         for notice in page.locator(".mantine-Notification-closeButton").all():
-            # viser's word that there is no graphics card here; a banner may lie over it
+            # viser warns about the missing graphics card; by script, as a banner may cover it
             notice.evaluate("button => button.click()")
         page.keyboard.down("KeyW")
         page.wait_for_timeout(500)
@@ -45,19 +45,19 @@ def main() -> None:
 
 
 def open_tab(page: Page, tab: str) -> None:
-    """Opens one of the lower tabs, and chooses the first thing in it; of the Past, a moment."""
+    """Open one of the lower tabs, and choose its first entry; in Past, an earlier decision."""
     for code in ("KeyW", "KeyD"):
         page.keyboard.up(code)
     if tab == "Past":
-        page.keyboard.press("KeyR")  # there is a past once an episode is over
+        page.keyboard.press("KeyR")  # ends the episode, so that one is recorded
         page.wait_for_timeout(500)
     if page.viewport_size and page.viewport_size["width"] <= 576:
-        open_sheet(page, tab)
+        open_mobile_panel(page, tab)
     else:
         page.get_by_role("tab", name=tab).click()
     page.wait_for_timeout(2000)
     page.locator(".mantine-Select-input:visible").last.click()
-    # the first option says what to do; of the Past, the second is the episode under way
+    # the first option is a prompt; in Past, the second one is the running episode
     page.get_by_role("option").nth(2 if tab == "Past" else 1).click()
     page.wait_for_timeout(2000)
     if tab == "Past":
@@ -66,8 +66,8 @@ def open_tab(page: Page, tab: str) -> None:
         page.wait_for_timeout(2000)
 
 
-def open_sheet(page: Page, tab: str) -> None:
-    """On a small screen the panels are folded away."""
+def open_mobile_panel(page: Page, tab: str) -> None:
+    """Expand the panel, which small screens have collapsed at the bottom, and open a tab."""
     page.locator('#root .mantine-Paper-root div[style*="pointer"]').first.click()
     page.wait_for_timeout(1000)
     page.get_by_text(re.compile("^Agent( ·|$)")).click()

@@ -1,4 +1,4 @@
-"""Every component has a test of its own and passes the checkers; none of AI4U's is forgotten.
+"""Every component has a test and a sample; every class of AI4U has a counterpart.
 
 The table of them stands at the end of the log.
 """

@@ -4,18 +4,18 @@ from ai4u_edu import Scene
 from ai4u_edu.snapshot import capture_snapshot
 from ai4u_edu.snapshot.raster import draw_snapshot
 from ai4u_edu.snapshot.theme import SPOT_LIT, SPOT_UNLIT
-from tests.gallery import COLUMNS, SPACE, TILE, contact_sheet
+from tests.gallery import COLUMNS, GAP_PX, TILE_PX, contact_sheet
 
 
 def test_every_scene_has_its_tile() -> None:
     names = Scene.names()
     sheet = np.asarray(contact_sheet(names))
     rows = -(-len(names) // COLUMNS)
-    tall = (sheet.shape[0] - SPACE) // rows
+    tall = (sheet.shape[0] - GAP_PX) // rows
     for index in range(len(names)):
         row, column = divmod(index, COLUMNS)
-        top, left = SPACE + row * tall, SPACE + column * (TILE + SPACE)
-        tile = sheet[top : top + TILE, left : left + TILE].reshape(-1, 3)
+        top, left = GAP_PX + row * tall, GAP_PX + column * (TILE_PX + GAP_PX)
+        tile = sheet[top : top + TILE_PX, left : left + TILE_PX].reshape(-1, 3)
         assert len(np.unique(tile, axis=0)) > 10, names[index]
 
 

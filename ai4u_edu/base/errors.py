@@ -3,25 +3,25 @@
 ::
 
     AI4UError
-    ├── NameNotFoundError      a name that nothing in the world or the agent carries
+    ├── NameNotFoundError      nothing in the world or the agent has this name
     ├── SetupError             something was put together wrongly; nothing has run yet
     │   ├── ParameterError     a parameter is missing, unknown, out of range or of another type
-    │   │   └── SeedError      a seed is no whole number from 0 on
+    │   │   └── SeedError      a seed is not a whole number from 0 on
     │   ├── BlockError         a block does not fit its agent or its world; names the block
     │   └── SceneError         a scene file is wrong; names file, path and line
     ├── WorldError             the world can't do this (too many bodies, a place is taken)
-    ├── ReadingError           a sensor gave something that it had not declared
-    ├── ActionError            an action that no actuator can carry out
+    ├── ReadingError           a sensor read something outside its declaration
+    ├── ActionError            no actuator can execute an action
     ├── NoDecisionError        an agent takes no decision, since it waits for its script
     ├── RecordingError         an episode can't be read, or played again (in ai4u_edu.recording)
-    ├── WireError              what came over a network is no message (in ai4u_edu.wire)
-    ├── RemoteError            a robot that is somewhere else (in ai4u_edu.remote)
-    │   ├── RefusedError       the world does not give it to this script
-    │   └── LostError          the connection is lost, or was ended, for good
+    ├── WireError              data from a network is not a valid message (in ai4u_edu.wire)
+    ├── RemoteError            controlling a robot over a network failed (in ai4u_edu.remote)
+    │   ├── RefusedError       the world refuses the robot to this script
+    │   └── LostError          the connection is lost, or was closed, for good
     └── AddressError           the page can't be served there (in ai4u_edu.server)
-        └── PortTakenError     somebody else listens on that port
+        └── PortTakenError     another program uses that port
 
-Every message says what was expected, what came, and how to mend it.
+Every message says what was expected, what it got, and how to mend it.
 """
 
 from collections.abc import Iterable
@@ -41,7 +41,7 @@ class AI4UError(Exception):
 
 
 class NameNotFoundError(AI4UError, KeyError):
-    """A name that nothing carries; the message suggests the nearest known one."""
+    """Nothing has this name; the message suggests the nearest known one."""
 
     def __str__(self) -> str:
         return str(self.args[0])  # KeyError's own method would quote the message
@@ -62,7 +62,7 @@ class ParameterError(SetupError):
 
 
 class SeedError(ParameterError, ValueError):
-    """A seed is no whole number from 0 on."""
+    """A seed is not a whole number from 0 on."""
 
 
 class BlockError(SetupError):
@@ -74,7 +74,7 @@ class SceneError(SetupError):
 
 
 class WorldError(AI4UError):
-    """The world can't do what was asked of it."""
+    """The world can't do this, such as adding too many bodies."""
 
     def __init__(self, message: str, *, thing: str = "") -> None:
         super().__init__(message)
@@ -83,15 +83,15 @@ class WorldError(AI4UError):
 
 
 class ReadingError(AI4UError):
-    """A sensor gave something that it had not declared."""
+    """A sensor read something outside its declaration."""
 
 
 class ActionError(AI4UError):
-    """An action that no actuator can carry out."""
+    """No actuator can execute an action."""
 
 
 class NoDecisionError(AI4UError):
-    """An agent was to take a decision, and took none."""
+    """An agent took no decision when one was needed."""
 
 
 def suggest(name: str, known: Iterable[str]) -> str:
@@ -116,7 +116,7 @@ def suggest(name: str, known: Iterable[str]) -> str:
     return f"known are {first}" + (f" and {more} more" if more > 0 else "")
 
 
-def shown(value: object, most: int = MAX_SHOWN_CHARS) -> str:
+def shown(value: object, max_chars: int = MAX_SHOWN_CHARS) -> str:
     """Return a value for a message: the beginning of its repr.
 
     The value may be any input from a file or network: long, nested a thousand levels deep, or a
@@ -124,7 +124,7 @@ def shown(value: object, most: int = MAX_SHOWN_CHARS) -> str:
 
     Args:
         value: the value.
-        most: maximum number of characters.
+        max_chars: maximum number of characters.
 
     >>> shown([1.0] * 1000, 20)
     '[1.0, 1.0, 1.0, 1...'
@@ -132,39 +132,39 @@ def shown(value: object, most: int = MAX_SHOWN_CHARS) -> str:
     'a very large int'
     """
     try:
-        text = repr(_beginning(value, [most + 1]))
+        text = repr(_beginning(value, [max_chars + 1]))
     except ValueError:  # an int of so many digits
         text = f"a very large {type(value).__name__}"
-    return shorten(text, most)
+    return shorten(text, max_chars)
 
 
-def shorten(text: str, most: int) -> str:
+def shorten(text: str, max_chars: int) -> str:
     """Shorten a text to a maximum number of characters.
 
     >>> shorten("a sentence", 7)
     'a se...'
     """
-    return text if len(text) <= most else text[: most - 3] + "..."
+    return text if len(text) <= max_chars else text[: max_chars - 3] + "..."
 
 
-def _beginning(value: Any, room: list[int]) -> Any:
-    """Return the beginning of a value whose repr has about as many characters as there is room.
+def _beginning(value: Any, chars_left: list[int]) -> Any:
+    """Return the beginning of a value whose repr has about a given number of characters.
 
     Args:
         value: the value.
-        room: list with the number of characters left; each part subtracts at most its repr's.
+        chars_left: list with the number of characters left; each part subtracts at most its repr's.
     """
     kind = type(value)
-    room[0] -= 1
+    chars_left[0] -= 1
     if kind is str or kind is bytes:
-        part = value[: max(room[0], 0) + 1]
-        room[0] -= len(part)
+        part = value[: max(chars_left[0], 0) + 1]
+        chars_left[0] -= len(part)
         return part
     if kind not in (list, tuple, dict):
         return value
     parts = []
     for each in value.items() if kind is dict else value:
-        if room[0] <= 0:
+        if chars_left[0] <= 0:
             break
-        parts.append(_beginning(each, room))
+        parts.append(_beginning(each, chars_left))
     return kind(parts)

@@ -1,10 +1,11 @@
-"""Rate limit for log lines, so that nobody can fill a log by repeating a mistake.
+"""Rate limits for log lines, so that nobody can fill a log by repeating a mistake.
 
-:func:`log_limited` is for our own lines; :func:`limited_logs` limits those of the libraries that a
-server runs, for as long as the server owns them.
+:func:`log_limited` is for our own lines, :class:`ErrorLog` for tracebacks that matter only once;
+:func:`limited_logs` limits the lines of the libraries that a server runs, while it runs.
 """
 
 import logging
+import math
 import threading
 import time
 import traceback
@@ -14,9 +15,9 @@ from contextlib import contextmanager
 from types import TracebackType
 
 LOG_INTERVAL_S = 10.0
-"""Lines of one kind are this far apart, at least."""
+"""Time between two lines of one kind, at least."""
 MAX_LOG_KEYS = 100
-"""Kinds of lines that are told apart at a time; all others together count as one kind."""
+"""Kinds of lines that are counted apart at a time; all others together count as one kind."""
 MAX_KIND_CHARS = 80
 """Characters of a message that tell its kind."""
 LOGGERS = ("ai4u_edu", "asyncio", "uvicorn", "viser", "websockets")
@@ -30,7 +31,7 @@ class LogLimiter:
 
     Args:
         interval: seconds between two lines of a key.
-        max_keys: how many keys are told apart at a time; further ones share one.
+        max_keys: number of keys that are counted apart at a time; further ones share one.
         clock: seconds; to be replaced in tests.
 
     >>> now = 0.0
@@ -110,6 +111,26 @@ def log_limited(
     logger.log(level, "%s", text + _counted(left_out), extra={"is_limited": True}, stacklevel=2)
 
 
+class ErrorLog:
+    """Writes errors with their tracebacks to stderr; errors of one type from one line only once."""
+
+    def __init__(self) -> None:
+        self._limiter = LogLimiter(interval=math.inf)
+
+    @contextmanager
+    def caught(self) -> Iterator[None]:
+        """Catch an error in the block and write it."""
+        try:
+            yield
+        except Exception as error:
+            self.write(error)
+
+    def write(self, error: Exception) -> None:
+        """Write an error, unless one of its type from its line was written before."""
+        if self._limiter.admit((type(error), _place(error))) is not None:
+            traceback.print_exception(error)
+
+
 class LimitFilter(logging.Filter):
     """Limits the lines of a logger by their kind: the place that wrote them, and their exception.
 
@@ -149,7 +170,7 @@ def _counted(left_out: int) -> str:
 
 
 def _place(error: BaseException | None) -> tuple[str, int] | None:
-    """The file and line where an exception was raised."""
+    """Return the file and line where an exception was raised."""
     at: TracebackType | None = error.__traceback__ if error is not None else None
     if at is None:
         return None

@@ -84,13 +84,13 @@ class Problem(NamedTuple):
 
     def __str__(self) -> str:
         """Return ``path: text``, as in a message."""
-        return f"{dotted(self.path)}: {self.text}" if self.path else self.text
+        return f"{format_path(self.path)}: {self.text}" if self.path else self.text
 
 
-def dotted(path: Sequence[str | int]) -> str:
+def format_path(path: Sequence[str | int]) -> str:
     """Return a path as text.
 
-    >>> dotted(("agents", 0, "sensors", 2, "reach"))
+    >>> format_path(("agents", 0, "sensors", 2, "reach"))
     'agents[0].sensors[2].reach'
     """
     text = "".join(f"[{part}]" if isinstance(part, int) else f".{part}" for part in path)
@@ -117,10 +117,10 @@ def explain(
     ]
 
 
-def listed(problems: Sequence[Problem]) -> str:
+def format_problems(problems: Sequence[Problem]) -> str:
     """Join problems into one text: the first ones, and how many more there are.
 
-    >>> listed([Problem((), "is wrong")] * 22)[-28:]
+    >>> format_problems([Problem((), "is wrong")] * 22)[-28:]
     'wrong; and 2 more like these'
     """
     told = [*map(str, problems[:MAX_LISTED])]

@@ -14,7 +14,7 @@ from pydantic.fields import FieldInfo
 from pydantic_core import ArgsKwargs, core_schema
 
 from ai4u_edu.base.errors import ParameterError, shown
-from ai4u_edu.base.parameters import explain, listed
+from ai4u_edu.base.parameters import explain, format_problems
 from ai4u_edu.blocks.field_docs import field_docs
 
 _CONFIG = ConfigDict(
@@ -123,7 +123,7 @@ def _explained(construct: Callable[..., None], cls: type[Parameterized]) -> Call
         try:
             inner(self, *args, **values)
         except ValidationError as error:
-            problems = listed(explain(error.errors(), cls.parameters()))
+            problems = format_problems(explain(error.errors(), cls.parameters()))
             told = ParameterError(f"{type(self).__name__}: {problems}")
             told.details = error
             raise told from None

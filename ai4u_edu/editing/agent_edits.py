@@ -8,10 +8,10 @@ from ai4u_edu.agent import BasicAgent
 from ai4u_edu.agent.rebind import Blocks, rebind
 from ai4u_edu.blocks import Actuator, Block, Brain, RemoteBrain, RewardFunc, Sensor
 from ai4u_edu.blocks.brains.network import files_in
-from ai4u_edu.editing.difference import RUNTIME_PARAMETERS
 from ai4u_edu.editing.drivers import DriverRegistry
 from ai4u_edu.editing.plain import Plain
 from ai4u_edu.editing.state import EditState
+from ai4u_edu.editing.state_difference import RUNTIME_PARAMETERS
 from ai4u_edu.scenes.serialization import from_plain
 from ai4u_edu.world import World
 

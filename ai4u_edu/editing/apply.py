@@ -10,9 +10,9 @@ from ai4u_edu.blocks import RemoteBrain
 from ai4u_edu.editing.agent_edits import AgentEdits, set_runtime_parameters
 from ai4u_edu.editing.body_edits import BodyEdits
 from ai4u_edu.editing.change_result import When
-from ai4u_edu.editing.difference import StateDifference
 from ai4u_edu.editing.drivers import DriverRegistry
 from ai4u_edu.editing.state import EditState
+from ai4u_edu.editing.state_difference import StateDifference
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.world import Pose
 

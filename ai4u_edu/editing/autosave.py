@@ -55,7 +55,7 @@ class _OpenScene:
 class Autosave:
     """Writes a scene shortly after it was changed, in its own thread.
 
-    Failed writes are reported once and retried. Any thread may call the methods.
+    Failed writes are reported once and retried.
 
     Args:
         folder: folder of the files; created if needed.

@@ -8,7 +8,7 @@ from collections.abc import Callable, Mapping
 from typing import Any, cast
 
 from ai4u_edu.base.errors import shown, suggest
-from ai4u_edu.base.parameters import MAX_COUNT, Problem, dotted
+from ai4u_edu.base.parameters import MAX_COUNT, Problem, format_path
 from ai4u_edu.blocks import (
     Actuator,
     Block,
@@ -21,7 +21,7 @@ from ai4u_edu.blocks import (
 from ai4u_edu.editing.errors import ChangeError
 from ai4u_edu.editing.input_checks import MAX_DEPTH, check_name, check_number, check_plain
 from ai4u_edu.editing.plain import BlockPath, Plain
-from ai4u_edu.editing.typed import (
+from ai4u_edu.editing.type_checks import (
     check_typed,
     check_typed_and,
     schema_of,
@@ -45,7 +45,9 @@ def kind_at(path: BlockPath) -> type[Block]:
     _check_path(path)
     names = [part for part in path if isinstance(part, str)]
     if not names or names[-1] not in KINDS:
-        raise ChangeError([Problem((), f"{dotted(path)!r} is no place of blocks; {_places()}")])
+        raise ChangeError(
+            [Problem((), f"{format_path(path)!r} is no place of blocks; {_places()}")]
+        )
     return KINDS[names[-1]]
 
 
@@ -71,9 +73,11 @@ def block_at(agent: Plain, path: BlockPath) -> Plain:
         try:
             here = here[part]
         except (KeyError, IndexError, TypeError):
-            raise ChangeError([Problem((), f"there is no block at {dotted(path)!r}")]) from None
+            raise ChangeError(
+                [Problem((), f"there is no block at {format_path(path)!r}")]
+            ) from None
     if not isinstance(here, Mapping) or "type" not in here:
-        raise ChangeError([Problem((), f"there is no block at {dotted(path)!r}")])
+        raise ChangeError([Problem((), f"there is no block at {format_path(path)!r}")])
     return here
 
 
@@ -149,7 +153,7 @@ def removed(agent: Plain, path: BlockPath) -> Plain:
     block_at(agent, path)
     *above, index = path
     if not isinstance(index, int):
-        raise ChangeError([Problem((), f"{dotted(path)} can be changed, but not left out")])
+        raise ChangeError([Problem((), f"{format_path(path)} can be changed, but not left out")])
     return _replace(agent, tuple(above), lambda blocks: [*blocks[:index], *blocks[index + 1 :]])
 
 
@@ -159,7 +163,7 @@ def moved(agent: Plain, path: BlockPath, by: int) -> Plain:
     check_number(by, "by", MAX_COUNT)
     *above, index = path
     if not isinstance(index, int):
-        raise ChangeError([Problem((), f"{dotted(path)} stands alone")])
+        raise ChangeError([Problem((), f"{format_path(path)} stands alone")])
 
     def move(blocks: list[Plain]) -> list[Plain]:
         others = [*blocks[:index], *blocks[index + 1 :]]
@@ -175,7 +179,7 @@ def with_enabled(agent: Plain, path: BlockPath, on: bool) -> Plain:
     if not isinstance(on, bool):
         raise ChangeError([Problem((), f"expected true or false, got {shown(on)}")])
     if path[0] == "brains" and len(path) > 2:
-        raise ChangeError([Problem((), f"{dotted(path)} is on whenever its brain is")])
+        raise ChangeError([Problem((), f"{format_path(path)} is on whenever its brain is")])
     if path[0] != "brains":
         return changed(agent, path, {"is_active": on})
     if not on:

@@ -11,7 +11,7 @@ from ai4u_edu.base.parameters import MAX_NUMBER, Problem, explain
 from ai4u_edu.editing.errors import ChangeError
 from ai4u_edu.editing.input_checks import check_name, check_number, check_plain
 from ai4u_edu.editing.state import EditState
-from ai4u_edu.editing.typed import (
+from ai4u_edu.editing.type_checks import (
     check_typed,
     check_typed_and,
 )

@@ -8,7 +8,7 @@ from ai4u_edu.agent import BasicAgent
 from ai4u_edu.base.parameters import Problem
 from ai4u_edu.blocks import Block, Brain, LocalBrain, NeuralNetController
 from ai4u_edu.blocks.brains.address import brain_at
-from ai4u_edu.blocks.brains.network import IN_THE_ZOO, files_in
+from ai4u_edu.blocks.brains.network import ZOO_PREFIX, files_in
 from ai4u_edu.editing.blocks import types_of
 from ai4u_edu.editing.drivers import NETWORK, REMOTE, Driver, DriverRegistry
 from ai4u_edu.editing.errors import ChangeError
@@ -121,7 +121,7 @@ def _plain_brain(state: EditState, name: str, rhythm: dict[str, Any]) -> Plain:
         return _plain(brain_at(name).changed(**rhythm))
     if name.startswith(NETWORK):
         path = name.removeprefix(NETWORK)
-        if not path.startswith(IN_THE_ZOO) and path not in _networks_in_folder(state):
+        if not path.startswith(ZOO_PREFIX) and path not in _networks_in_folder(state):
             raise ChangeError([Problem((), f"no network {path!r} is offered here; {TO_OFFER}")])
         with files_in(state.folder):
             network = NeuralNetController(model_path=path)

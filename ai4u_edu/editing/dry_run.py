@@ -11,13 +11,9 @@ from ai4u_edu.editing.errors import ChangeError
 from ai4u_edu.editing.plain import BlockPath
 from ai4u_edu.editing.state import EditState
 from ai4u_edu.scenes.description import check_success, make_agents
-from ai4u_edu.scenes.scene import EPISODES
 from ai4u_edu.scenes.serialization import PlainDataError
 from ai4u_edu.scenes.setup_errors import field_named_in
 from ai4u_edu.world import World
-
-MANY_EPISODES = EPISODES
-"""Resets to try where positions were changed."""
 
 
 class _IdleBrain(Brain):
@@ -30,13 +26,13 @@ class _IdleBrain(Brain):
         return Command.WAIT
 
 
-def dry_run(state: EditState, path: BlockPath = (), *, episodes: int = 1) -> ControlRequestor:
+def dry_run(state: EditState, path: BlockPath = (), *, resets: int = 1) -> ControlRequestor:
     """Build a state's world with idle brains, reset it, and let its agents sense once.
 
     Args:
         state: the state to try.
         path: of the part that was changed; problems are told relative to it.
-        episodes: number of resets to try if the scene is randomized.
+        resets: number of resets to try if the scene is randomized.
 
     Raises:
         ChangeError: something in it does not fit.
@@ -51,7 +47,7 @@ def dry_run(state: EditState, path: BlockPath = (), *, episodes: int = 1) -> Con
             agent.brains = [_IdleBrain()]
         check_success(description.success, agents)
         sim = ControlRequestor(world, agents)
-        for seed in range(episodes if any(each.random for each in description.things) else 1):
+        for seed in range(resets if any(each.random for each in description.things) else 1):
             sim.reset(seed)
     except PlainDataError as error:
         raise ChangeError([relative_to(path, each) for each in error.problems]) from None

@@ -58,7 +58,7 @@ class SceneEditor:
         self.scene_store: SceneStore | None = None
         """Keeps scenes by name for pages; without it a page can only download them."""
         self.listeners = self._transactions.listeners
-        """Called with the state after each change, in the runner's thread; have to be quick."""
+        """Functions called with the state after each change, in the runner's thread."""
         self.listeners.append(self._on_change)
 
     @property

@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 
 from ai4u_edu.base.errors import SetupError
-from ai4u_edu.base.parameters import Problem, listed
+from ai4u_edu.base.parameters import Problem, format_problems
 
 
 class ChangeError(SetupError):
@@ -15,5 +15,5 @@ class ChangeError(SetupError):
     """
 
     def __init__(self, problems: Sequence[Problem]) -> None:
-        super().__init__(listed(problems))
+        super().__init__(format_problems(problems))
         self.problems = tuple(problems)

@@ -13,8 +13,8 @@ from ai4u_edu.blocks import Actuator, Block, Brain, Controller, RewardFunc, Sens
 from ai4u_edu.blocks.docs import summary
 from ai4u_edu.editing.blocks import KINDS
 from ai4u_edu.editing.errors import ChangeError
-from ai4u_edu.editing.names import SceneNames
 from ai4u_edu.editing.plain import Plain
+from ai4u_edu.editing.scene_names import SceneNames
 from ai4u_edu.scenes.yaml.file import YamlFile
 
 Kind = Literal["number", "whole", "switch", "choice", "text", "data"]

@@ -5,7 +5,7 @@ from pathlib import PurePath
 from typing import Any
 
 from ai4u_edu.base.parameters import Problem
-from ai4u_edu.blocks.brains.network import IN_THE_ZOO
+from ai4u_edu.blocks.brains.network import ZOO_PREFIX
 from ai4u_edu.editing.errors import ChangeError
 from ai4u_edu.editing.plain import BlockPath
 
@@ -46,7 +46,7 @@ def _fault(name: str, value: str) -> str:
         )
     path = PurePath(value)
     outside = path.is_absolute() or ".." in path.parts or "\\" in value or ":" in value
-    if name == "model_path" and outside and not value.startswith(IN_THE_ZOO):
+    if name == "model_path" and outside and not value.startswith(ZOO_PREFIX):
         return f"expected zoo:SCENE, or a file that lies beside the scene, got {value!r}"
     return ""
 

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from ai4u_edu.base.atomic_write import make_folder, reason, write_atomically
 from ai4u_edu.base.errors import SceneError, SetupError, suggest
-from ai4u_edu.blocks.brains.network import IN_THE_ZOO
+from ai4u_edu.blocks.brains.network import ZOO_PREFIX
 from ai4u_edu.editing.permissions import external_references
 from ai4u_edu.scenes import Scene
 from ai4u_edu.scenes.yaml.file import MAX_SCENE_CHARS
@@ -103,7 +103,7 @@ class SceneStore:
     def _check_files(self, scene: Scene) -> None:
         """Raise a SetupError if the scene needs a network file that is not in this folder."""
         for _, kind, value in external_references(scene.description.agents):
-            is_file = kind == "model_path" and not value.startswith(IN_THE_ZOO)
+            is_file = kind == "model_path" and not value.startswith(ZOO_PREFIX)
             if is_file and not (self.folder / value).is_file():  # `/` keeps an absolute path
                 raise SetupError(
                     f"it needs {value!r}, which lies beside the scene that it came from; "

@@ -11,11 +11,11 @@ from ai4u_edu.base.errors import ParameterError
 from ai4u_edu.base.parameters import Problem, explain
 from ai4u_edu.blocks import Block
 from ai4u_edu.editing import blocks
-from ai4u_edu.editing.difference import RUNTIME_PARAMETERS
 from ai4u_edu.editing.errors import ChangeError
 from ai4u_edu.editing.forms import Field, field_of
 from ai4u_edu.editing.plain import BlockPath, Plain
-from ai4u_edu.editing.typed import check_typed, schema_of
+from ai4u_edu.editing.state_difference import RUNTIME_PARAMETERS
+from ai4u_edu.editing.type_checks import check_typed, schema_of
 from ai4u_edu.scenes import SceneDescription
 from ai4u_edu.world import WorldSettings
 

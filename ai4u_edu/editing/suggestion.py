@@ -3,8 +3,8 @@
 from typing import Any
 
 from ai4u_edu.blocks import Actuator, Block, Brain, RewardFunc, Sensor
-from ai4u_edu.editing.names import SceneNames, name_of
 from ai4u_edu.editing.plain import Plain
+from ai4u_edu.editing.scene_names import SceneNames, name_of
 from ai4u_edu.editing.state import EditState
 from ai4u_edu.zoo import names as in_the_zoo
 

@@ -10,7 +10,7 @@ from ai4u_edu.editing import bodies
 from ai4u_edu.editing.apply import RunningScene
 from ai4u_edu.editing.change_result import ChangeResult, When
 from ai4u_edu.editing.drivers import DriverRegistry
-from ai4u_edu.editing.dry_run import MANY_EPISODES, dry_run
+from ai4u_edu.editing.dry_run import dry_run
 from ai4u_edu.editing.errors import ChangeError
 from ai4u_edu.editing.history import History, Step
 from ai4u_edu.editing.move_warnings import move_warnings
@@ -19,6 +19,7 @@ from ai4u_edu.editing.proposals import Poses, Proposal
 from ai4u_edu.editing.state import EditState
 from ai4u_edu.recording.scene_export import export_scene
 from ai4u_edu.runtime.runner import Runner
+from ai4u_edu.scenes.scene import RANDOM_RESETS
 from ai4u_edu.scenes.serialization import PlainDataError
 from ai4u_edu.world import Pose
 
@@ -137,7 +138,7 @@ class Transactions:
                 return ChangeResult("now", note="nothing is other than it was")
             self.permissions.check(after.description.agents)
             has_moved = after.description.things != before.description.things
-            dry_run(after, proposal.path, episodes=MANY_EPISODES if has_moved else 1)
+            dry_run(after, proposal.path, resets=RANDOM_RESETS if has_moved else 1)
             poses_before = {name: self._dragged.get(name) or self.pose(name) for name in poses}
             when = self._apply(after, poses, whole)
         except BaseException as error:

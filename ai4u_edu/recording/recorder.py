@@ -26,8 +26,7 @@ logger = logging.getLogger(__name__)
 class Recorder:
     """Records the episodes of a world from its agents' events, and archives the last ones.
 
-    It does not matter who drives: a person, a script, a network, an environment's ``step``. All
-    methods belong to the thread that runs the world.
+    It does not matter who drives: a person, a script, a network, an environment's ``step``.
 
     Args:
         sim: the world and its agents. An episode that has already begun is not recorded.

@@ -12,15 +12,15 @@ class Verdict:
     """Result of comparing an episode with its replay."""
 
     exact: bool
-    """True if all of it can."""
+    """True if the whole episode can be replayed exactly."""
     exact_until: int
-    """Tick up to which it can; moments from that tick on can't be shown."""
+    """Tick up to which the replay is exact; later moments can't be shown."""
     why: str
     """Sentence about the first difference; empty if there is none."""
 
     @property
     def until(self) -> int:
-        """Deprecated name of :attr:`exact_until`."""
+        """The value of :attr:`exact_until`; deprecated."""
         warnings.warn("use Verdict.exact_until", DeprecationWarning, stacklevel=2)
         return self.exact_until
 

@@ -1,4 +1,4 @@
-"""Where a world is."""
+"""Addresses of worlds."""
 
 from typing import NamedTuple
 from urllib.parse import parse_qs, urlsplit
@@ -10,16 +10,16 @@ _LOOPBACK = {"localhost", "127.0.0.1", "::1"}
 
 
 class Address(NamedTuple):
-    """A world's address, and what it says of the token."""
+    """The address of a world's WebSocket, and the token that was part of the page's address."""
 
     url: str
-    """Of its socket for scripts."""
+    """Address of the WebSocket for scripts."""
     token: str
     is_loopback: bool
 
 
 def address_of(url: str) -> Address:
-    """The address of the socket for scripts, out of the page's address.
+    """Return the address of the WebSocket for scripts, made of the page's address.
 
     >>> address_of("http://teacher:8080/?token=abc")
     Address(url='ws://teacher:8080/ws/remote', token='abc', is_loopback=False)
@@ -27,7 +27,7 @@ def address_of(url: str) -> Address:
     'ws://teacher:8080/lab/ws/remote'
 
     Raises:
-        RemoteError: it is none.
+        RemoteError: it is not an address of a page.
     """
     try:
         parts = urlsplit(url if "://" in url else f"http://{url}")

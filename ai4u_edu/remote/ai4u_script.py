@@ -1,4 +1,4 @@
-"""An AI4U script on this machine, as a world sees it: asked over UDP, one thing at a time."""
+"""The connection of a bridge to an AI4U script on this machine, over UDP."""
 
 import contextlib
 import socket
@@ -10,30 +10,30 @@ from ai4u_edu.remote.errors import RemoteError
 from ai4u_edu.wire.ai4u_dialogue import AI4UDialogue, AI4UReply, Phase, State
 from ai4u_edu.wire.validation import WireError
 
-KNOCK_EVERY = 0.25
-"""Seconds between two knocks while no script is there."""
-MOST_DRAINED = 1000
-"""Datagrams thrown away before a request, at most."""
-LISTENING = 0.2
-"""Seconds after which whoever waits for a reply looks whether the script is still wanted."""
-FAREWELL = 0.3
-"""Seconds for which a script's last reply is waited for."""
+CONNECT_INTERVAL_S = 0.25
+"""Interval of the requests that look for a script."""
+MAX_DRAINED = 1000
+"""Datagrams that are discarded before a request at most."""
+STOP_POLL_S = 0.2
+"""Interval at which a wait for a reply checks whether it was stopped."""
+GOODBYE_TIMEOUT_S = 0.3
+"""Timeout of a script's last reply."""
+MAX_DATAGRAM_BYTES = 2**16
 
 
 class ScriptGoneError(RemoteError):
-    """The script's session is over: AI4U's protocol can't make up for what is lost."""
+    """The script's session is over: AI4U's protocol can't recover a lost datagram."""
 
 
 class AI4UScript:
-    """The way to a script at a UDP port.
+    """A UDP socket to a script, and the dialogue with it.
 
     Args:
         port: its UDP port.
-        dialogue: what is said when.
+        dialogue: with the script.
         host: where it listens.
         patience: seconds for which a script may be silent.
-        is_over: set by another thread when no script is wanted any more: then nobody waits for
-            this one.
+        is_over: set by another thread to stop waiting for replies.
 
     Raises:
         RemoteError: there is no such host.
@@ -66,26 +66,27 @@ class AI4UScript:
             self._socket.ioctl(0x9800000C, False)
 
     def ask(self, state: State | None = None) -> AI4UReply | None:
-        """Says what is due, and waits for the reply.
+        """Send the next request, and wait for the reply.
 
-        Nothing is ever said twice, other than knocks: the script would take one more for the next.
+        Only requests that look for a script are repeated: the script would take a repeated datagram
+        for the next one.
 
         Returns:
-            The reply; None if nobody opens yet, or the script is not wanted any more.
+            The reply; None if no script answers yet, or the wait was stopped.
 
         Raises:
-            ScriptGoneError: there is no reply.
+            ScriptGoneError: a script that was connected does not reply.
         """
         dialogue = self.dialogue
-        knocks = dialogue.phase is Phase.CONNECTING
+        is_connecting = dialogue.phase is Phase.CONNECTING
         self._drain()
-        until = time.monotonic() + (KNOCK_EVERY if knocks else self._patience)
+        until = time.monotonic() + (CONNECT_INTERVAL_S if is_connecting else self._patience)
         try:
             self._socket.send(dialogue.request(state))
             while (left := until - time.monotonic()) > 0:
-                self._socket.settimeout(min(left, LISTENING))
+                self._socket.settimeout(min(left, STOP_POLL_S))
                 try:
-                    return dialogue.parse_reply(self._socket.recv(2**16))
+                    return dialogue.parse_reply(self._socket.recv(MAX_DATAGRAM_BYTES))
                 except WireError:
                     self.ignored += 1
                 except TimeoutError:
@@ -96,32 +97,32 @@ class AI4UScript:
         except OSError as failed:
             error = failed
         dialogue.begin()
-        if knocks:
+        if is_connecting:
             time.sleep(max(0.0, until - time.monotonic()))
             return None
         raise ScriptGoneError(f"the AI4U script at {self.where} is gone ({error}); start it again")
 
     def say_goodbye(self) -> None:
-        """Tells a script that the world has ended."""
+        """Tell a script that the world has ended."""
         if self.dialogue.phase not in (Phase.CONNECTING, Phase.OVER):
             with contextlib.suppress(OSError):
                 self._socket.send(self.dialogue.goodbye_request())
-                self._socket.settimeout(FAREWELL)
-                self._socket.recv(2**16)
+                self._socket.settimeout(GOODBYE_TIMEOUT_S)
+                self._socket.recv(MAX_DATAGRAM_BYTES)
         self.dialogue.begin()
 
     def close(self) -> None:
-        """Closes the socket."""
+        """Close the socket."""
         self._socket.close()
 
     def _drain(self) -> None:
-        """What came before a request is no reply to it."""
+        """Discard what arrived before a request: it can't be the reply."""
         self._socket.settimeout(0.0)
-        for _ in range(MOST_DRAINED):
+        for _ in range(MAX_DRAINED):
             try:
-                self._socket.recv(2**16)
+                self._socket.recv(MAX_DATAGRAM_BYTES)
                 self.ignored += 1
             except BlockingIOError:
                 return
             except OSError:
-                continue  # a datagram of before found nobody; the next one will tell
+                continue  # an earlier datagram reached nobody; the next one will tell

@@ -1,4 +1,4 @@
-"""A robot that is somewhere else, for scripts that do other things meanwhile."""
+"""A robot in a world elsewhere, driven by asyncio code."""
 
 from collections.abc import AsyncIterator, Sequence
 from typing import Any, Self, SupportsIndex
@@ -12,7 +12,7 @@ from ai4u_edu.wire.native import Mode, OnMissing
 
 
 class AsyncRobot(RobotBase):
-    """The verbs of :class:`~ai4u_edu.remote.Robot`, to be awaited.
+    """The asynchronous form of :class:`~ai4u_edu.remote.Robot`: its methods are awaited.
 
     ::
 
@@ -50,28 +50,28 @@ class AsyncRobot(RobotBase):
         )
 
     async def open(self) -> Self:
-        """Gets the agent."""
+        """Connect, and get the agent."""
         await self._connection.run(self._dialogue.begin())
         return self
 
     async def sense(self) -> RemotePercept:
-        """What the robot senses now; after an action, as soon as its decision is over."""
+        """Return the current percept; after an action, wait until its decision is over."""
         return await self._connection.run(self._dialogue.sense())
 
     async def act(self, action: Any = None, /, **numbers: Any) -> None:
-        """Decides: answers the latest percept."""
+        """Answer the latest percept with an action."""
         await self._connection.run(self._dialogue.act(numbers if action is None else action))
 
     async def reset(self, seed: SupportsIndex | None = None) -> RemotePercept:
-        """Begins an episode; what the robot senses first."""
+        """Begin an episode, and return its first percept."""
         return await self._connection.run(self._dialogue.reset(seed))
 
     async def close(self) -> None:
-        """Leaves the robot to the brain that it had before."""
+        """Give the agent back to the brain that it had before."""
         await self._connection.run(self._dialogue.end())
 
     async def __aiter__(self) -> AsyncIterator[RemotePercept]:
-        """Every percept that needs an action, until the episode is over."""
+        """Yield every percept that needs an action, until the episode is over."""
         while not (percept := await self.sense()).done:
             yield percept
             self._dialogue.expect_answer_to(percept)

@@ -1,7 +1,8 @@
-"""A bridge: AI4U's protocol to a script on this machine, ours to a world elsewhere.
+"""A bridge between an AI4U script on this machine and a world elsewhere.
 
-AI4U's own protocol can't bear a lost or repeated datagram. On loopback none is lost; and what the
-network between here and the world does is our protocol's affair. The script notices a delay.
+AI4U's own protocol can't recover a lost or repeated datagram. Between script and bridge, on
+loopback, none is lost. Between bridge and world our own protocol recovers losses, which the script
+notices as a delay only.
 """
 
 import threading
@@ -26,15 +27,17 @@ from ai4u_edu.wire.ai4u import Order, number
 from ai4u_edu.wire.ai4u_dialogue import Phase, ReplyKind, State
 from ai4u_edu.wire.validation import WireError
 
-SETTLE = 0.1
-"""Seconds that a script gets to put itself together, before it is greeted and before it is told a
-first state: it asks for its reset meanwhile."""
-POLL_EVERY = 0.01
-"""Seconds between two questions to a script that has not begun, or asks for nothing."""
-THINKING = (1e-4, 0.004)
-"""Seconds by which the pause grows with each question to a script that asks for time; the most."""
-STILL_HERE = 0.25
-"""Seconds between two words to the world while the script asks for time."""
+SETTLE_S = 0.1
+"""Time that a script gets to initialise, before the handshake and before its first state. It asks
+for its reset meanwhile."""
+POLL_INTERVAL_S = 0.01
+"""Interval of the requests to a script that has not started, or asks for nothing."""
+REPEAT_BACKOFF_S = 1e-4
+"""Growth of the pause with each request to a script that asks for time."""
+MAX_REPEAT_INTERVAL_S = 0.004
+"""Longest pause between two requests to a script that asks for time."""
+KEEPALIVE_INTERVAL_S = 0.25
+"""Interval at which the world is asked for time on behalf of the script."""
 
 _ORDERS = {ReplyKind.PAUSE: "pause", ReplyKind.RESUME: "resume", ReplyKind.STOP: "stop"}
 
@@ -53,26 +56,26 @@ class _Output(NamedTuple):
 
 
 class Bridge:
-    """Lets an AI4U script on this machine drive an agent of a world that is somewhere else.
+    """Lets an AI4U script on this machine drive an agent of a world elsewhere.
 
-    The agent is the script's only while there is one: before, between two scripts and after the
-    last, its own brain drives.
+    The script has the agent only while it runs: before, between two scripts and after the last, the
+    agent's own brain drives.
 
     Args:
         url: the page's address of the world; a token in it counts.
         agent: the agent's id; may be left out where there is only one.
         port: where the script listens (UDP).
-        host: the same, if not on loopback.
-        token: the world's, where it asks for one.
+        host: where it listens, if not on loopback.
+        token: the world's, if it has one.
         mode: lockstep: the world waits for each action; realtime: it never waits.
         script_id: the id by which the script knows its agent.
         patience: seconds for which the script may be silent.
-        on_missing: what the agent does in place of an action that is missing; see
+        on_missing: substitute for an action that is missing; see
             :func:`~ai4u_edu.remote.connect`.
-        tell: called with a sentence for whoever sits there.
+        tell: called with sentences for the person at this machine.
 
     Raises:
-        RemoteError: one of the addresses is none.
+        RemoteError: one of the addresses is invalid.
     """
 
     def __init__(
@@ -112,11 +115,11 @@ class Bridge:
         )
 
     def run(self) -> None:
-        """Serves one script after another, until :meth:`stop`.
+        """Serve one script after another, until :meth:`stop`.
 
         Raises:
-            RefusedError: the world does not give the agent away; the text says why.
-            LostError: the world is gone, or has given the agent to another.
+            RefusedError: the world does not give the agent to a script; the text says why.
+            LostError: the world is gone, or has given the agent to another script.
         """
         try:
             while self._await_script():
@@ -133,14 +136,14 @@ class Bridge:
             self._script.close()
 
     def stop(self) -> None:
-        """Has :meth:`run` end, from another thread."""
+        """End :meth:`run`, from another thread."""
         self._is_over.set()
 
-    # -- the steps of it -------------------------------------------------------------------------
+    # -- steps -----------------------------------------------------------------------------------
 
     def _connect(self) -> tuple[SyncConnection, Dialogue]:
         connection = SyncConnection(self._address, stop=self._is_over)
-        # with the same secret, since the world may not have heard that the session before is over
+        # with the same secret, since the goodbye of the session before may have been lost
         robot = Dialogue(
             self._agent,
             token=self._token,
@@ -155,67 +158,67 @@ class Bridge:
         self._connection.run(self._robot.end("the AI4U script has ended"))
 
     def _await_script(self) -> bool:
-        """Knocks until a script is there, and asks it until it begins; whether it did."""
+        """Look for a script until one starts; return False if the bridge was stopped before."""
         script, told = self._script, False
         while not script.is_over.is_set():
             if script.dialogue.phase in (Phase.STARTED, Phase.PLAYING):
                 return True
             try:
-                heard = script.ask()
+                reply = script.ask()
             except ScriptGoneError as gone:
                 self._tell(str(gone))
                 continue
-            if heard is None and not told and not script.is_over.is_set():
+            if reply is None and not told and not script.is_over.is_set():
                 told = True
                 self._tell(f"no AI4U script listens at {script.where} yet; start it")
-            elif heard is not None and heard.kind is ReplyKind.HALT:
+            elif reply is not None and reply.kind is ReplyKind.HALT:
                 script.dialogue.begin()
-            elif heard is not None:
+            elif reply is not None:
                 greets = script.dialogue.phase is Phase.HANDSHAKE
-                time.sleep(SETTLE if greets else POLL_EVERY)
+                time.sleep(SETTLE_S if greets else POLL_INTERVAL_S)
         return False
 
     def _let_drive(self) -> None:
-        """A session: from the script's first wish until it ends."""
+        """Let a script drive, from its start or reset until it ends."""
         script = self._script
         self._connection, self._robot = self._connect()
         self._tell(f"an AI4U script drives {self._title}")
         starts = script.dialogue.phase is Phase.STARTED
         percept = self._connection.run(self._robot.sense() if starts else self._robot.reset())
         if starts:
-            time.sleep(SETTLE)
-        state, waits, said = self._state(percept), 0, 0.0
+            time.sleep(SETTLE_S)
+        state, waits, asked_at = self._state(percept), 0, 0.0
         while not script.is_over.is_set():
-            heard = script.ask(state)
-            word = heard.kind if heard else ReplyKind.CONTROL
-            if word is ReplyKind.HALT:
+            reply = script.ask(state)
+            kind = reply.kind if reply else ReplyKind.CONTROL
+            if kind is ReplyKind.HALT:
                 script.dialogue.begin()
                 self._tell("the AI4U script has ended; start another one, or end me with Ctrl-C")
-            if word in (ReplyKind.HALT, ReplyKind.CONTROL):
+            if kind in (ReplyKind.HALT, ReplyKind.CONTROL):
                 return
-            if word is ReplyKind.WAIT and time.monotonic() - said > STILL_HERE:
+            if kind is ReplyKind.WAIT and time.monotonic() - asked_at > KEEPALIVE_INTERVAL_S:
                 self._connection.run(self._robot.wait())
-                said = time.monotonic()
-            waits = waits + 1 if word is ReplyKind.WAIT else 0
-            after = self._obeyed(word, heard.orders if heard else [], percept)
+                asked_at = time.monotonic()
+            waits = waits + 1 if kind is ReplyKind.WAIT else 0
+            after = self._carry_out(kind, reply.orders if reply else [], percept)
             if after is None:
-                step, most = THINKING
-                time.sleep(min(waits * step, most) if waits else POLL_EVERY)
+                pause = min(waits * REPEAT_BACKOFF_S, MAX_REPEAT_INTERVAL_S)
+                time.sleep(pause if waits else POLL_INTERVAL_S)
             else:
                 percept, state = after, self._state(after)
 
-    def _obeyed(
-        self, word: ReplyKind, orders: list[Order], percept: RemotePercept
+    def _carry_out(
+        self, kind: ReplyKind, orders: list[Order], percept: RemotePercept
     ) -> RemotePercept | None:
-        """Has the world do what the script asks for; what the agent senses then, if it did."""
+        """Carry out a script's reply; return the next percept, or None if nothing was done."""
         run, robot = self._connection.run, self._robot
-        if word is ReplyKind.RESET:
+        if kind is ReplyKind.RESET:
             return run(robot.reset())
-        if word in _ORDERS:
-            run(robot.order(_ORDERS[word]))  # type: ignore[arg-type]  # they are what it takes
+        if kind in _ORDERS:
+            run(robot.order(_ORDERS[kind]))  # type: ignore[arg-type]  # they are what it takes
             return run(robot.sense())
         if (
-            word is not ReplyKind.ACTION
+            kind is not ReplyKind.ACTION
             or percept.done
             or self._script.dialogue.phase is Phase.STARTED
         ):

@@ -1,7 +1,8 @@
-"""A script's side of the dialogue with a world; opens no connection and waits for nothing itself.
+"""A script's side of the dialogue with a world, without input and output.
 
-Its methods are generators of :mod:`~ai4u_edu.remote.steps`. Whoever waits in vain says again what
-it said last, and a lost connection is taken up again within the grace time.
+Its methods are generators of :mod:`~ai4u_edu.remote.steps`, which a connection carries out. If no
+answer arrives in time, the dialogue repeats its last frame; if the connection is lost, it
+reconnects, as long as the world keeps the agent for the script.
 """
 
 import time
@@ -21,16 +22,26 @@ from ai4u_edu.remote.steps import Close, ConnectionLostError, Flow, Open, Pause,
 from ai4u_edu.wire import native
 from ai4u_edu.wire.validation import WireError
 
-FIRST_WAIT = 0.2
-"""Seconds after which something is said again for the first time; then twice as many each time."""
-LONGEST_WAIT = 1.0
-"""Seconds."""
-ATTEMPT = 3.0
-"""Seconds that opening a connection and saying hello may take; then another one is opened."""
+FIRST_TIMEOUT_S = 0.2
+"""Time after which a frame is repeated for the first time; it doubles with each repetition."""
+MAX_TIMEOUT_S = 1.0
+"""Longest time between two repetitions."""
+ATTEMPT_TIMEOUT_S = 3.0
+"""Timeout of one attempt to connect, hello and welcome included."""
+FIRST_BACKOFF_S = 0.02
+"""Pause after the first failed attempt to connect; it doubles with each failure."""
+MAX_BACKOFF_S = 0.5
+"""Longest pause between two attempts."""
+MIN_OPEN_TIMEOUT_S = 0.1
+"""Time that opening a connection gets even if the deadline is nearer."""
 
 
 def _checked(hello: native.Hello) -> native.Hello:
-    """Return a hello that a world can read."""
+    """Return the hello as a world will decode it.
+
+    Raises:
+        RemoteError: it can't be encoded, or breaks a limit.
+    """
     try:
         said = native.decode(native.encode(hello))
     except WireError as error:
@@ -40,23 +51,24 @@ def _checked(hello: native.Hello) -> native.Hello:
     return cast(native.Hello, said)
 
 
-_CODES = {number: name for name, number in native.PROBLEMS.items()}
+_PROBLEM_NAMES = {number: name for name, number in native.PROBLEMS.items()}
+"""Names of problems by the code of the WebSocket's close."""
 
 
 class Dialogue:
-    """What was said last, by both sides.
+    """The state of a session: the latest percept, and the last frame that was sent.
 
     Args:
-        agent: the id of the agent; empty for a world's only one.
-        token: the world's, where it asks for one.
+        agent: the id of the agent; empty for the only agent of a world.
+        token: the world's, if it has one.
         mode: lockstep: the world waits for each action; realtime: it never waits.
-        keys: the readings that are wanted; none named: all.
-        session: what :attr:`session` of another dialogue was, to take its place.
-        patience: seconds until the first welcome has to be there.
-        on_missing: what the agent does in place of an action that is missing.
+        keys: keys of the readings to get; empty for all.
+        session: :attr:`session` of another dialogue, to resume it.
+        patience: timeout of the first welcome in seconds.
+        on_missing: substitute for an action that is missing.
 
     Raises:
-        RemoteError: one of them can't be said to a world.
+        RemoteError: one of the arguments can't be sent to a world.
     """
 
     def __init__(
@@ -71,7 +83,7 @@ class Dialogue:
         on_missing: native.OnMissing = "",
     ) -> None:
         name, _, secret = session.partition(":") if type(session) is str else (session, "", "")
-        wanted: Any = (keys,) if isinstance(keys, str) else keys  # one key is one
+        wanted: Any = (keys,) if isinstance(keys, str) else keys
         self._hello = _checked(
             native.Hello(
                 native.VERSION,
@@ -88,30 +100,35 @@ class Dialogue:
             raise RemoteError(f"patience: expected a number of seconds from 0 on, got {patience}")
         self._patience = patience
         self._welcome: native.Welcome | None = None
-        self._said = self._greeting = b""
-        self._answered = True
-        self._refusable = -1
+        self._last_frame = b""
+        """The frame that is repeated if no answer arrives."""
+        self._last_hello = b""
+        self._is_answered = True
+        """The latest percept has an answer."""
+        self._refusable_seq = -1
+        """Number of the percept whose answer the world may still refuse."""
         self._ended: RemoteError | None = None
+        """The error that ended the session; every method raises it from then on."""
         self.percept: RemotePercept | None = None
-        """The latest."""
+        """The latest percept; None before the first."""
         self.readings: dict[str, native.Reading] = {}
         self.outputs: dict[str, native.Output] = {}
 
     @property
     def welcome(self) -> native.Welcome:
-        """What the world said of the agent."""
+        """The world's description of the agent."""
         if self._welcome is None:
             raise self._ended or RemoteError("there is no connection yet; expected connect(...)")
         return self._welcome
 
     @property
     def session(self) -> str:
-        """What another dialogue needs to take this one's place; keep it secret."""
+        """The argument by which another dialogue can resume this session; a secret."""
         return f"{self.welcome.session}:{self._hello.secret}"
 
     def expect_answer_to(self, percept: RemotePercept) -> None:
-        """Raises a RemoteError if a percept is the latest and has no answer yet."""
-        if self.percept is percept and not self._answered:
+        """Raise a RemoteError if this is the latest percept, and it has no answer yet."""
+        if self.percept is percept and not self._is_answered:
             example = ", ".join(
                 f"{name}={[0] * len(output.low)}" for name, output in self.outputs.items()
             )
@@ -120,11 +137,11 @@ class Dialogue:
                 "robot.act() lets one decision pass"
             )
 
-    # -- the verbs -------------------------------------------------------------------------------
+    # -- what a script can do --------------------------------------------------------------------
 
     def begin(self) -> Flow[None]:
-        """Opens a connection and gets the agent."""
-        lost = yield from self._insist(time.monotonic() + self._patience, first=True)
+        """Connect, and get the agent."""
+        lost = yield from self._connect(time.monotonic() + self._patience, is_first=True)
         if lost is not None:
             yield Close()
             raise LostError(
@@ -132,24 +149,24 @@ class Dialogue:
             )
 
     def sense(self) -> Flow[RemotePercept]:
-        """The percept that has no answer yet, as soon as it is there."""
-        wait = FIRST_WAIT
-        while (percept := self.percept) is None or self._answered:
+        """Return the percept that has no answer yet, as soon as it is there."""
+        timeout = FIRST_TIMEOUT_S
+        while (percept := self.percept) is None or self._is_answered:
             self._check_open()
             try:
-                frame = yield Receive(wait)
+                frame = yield Receive(timeout)
                 if frame is None:
-                    wait = min(2 * wait, LONGEST_WAIT)
-                    yield Send(self._said)
+                    timeout = min(2 * timeout, MAX_TIMEOUT_S)
+                    yield Send(self._last_frame)
                 else:
-                    self._hear(frame)
+                    self._handle(frame)
             except ConnectionLostError as lost:
-                yield from self._take_up_again(lost)
-                wait = FIRST_WAIT
+                yield from self._reconnect(lost)
+                timeout = FIRST_TIMEOUT_S
         return percept
 
     def act(self, action: Any) -> Flow[None]:
-        """Answers the latest percept; after an answer, the next one."""
+        """Answer the latest percept with an action; if it has an answer, wait for the next one."""
         percept = yield from self.sense()
         if percept.done:
             how = "terminated" if percept.terminated else "truncated"
@@ -158,70 +175,93 @@ class Dialogue:
         yield from self._answer(native.Action(percept.episode, percept.step, percept.seq, values))
 
     def reset(self, seed: SupportsIndex | None = None) -> Flow[RemotePercept]:
-        """Begins an episode, and waits for its first percept."""
+        """Begin an episode, and return its first percept."""
         number = None if seed is None else checked_seed(seed)
         before = yield from self.sense()
         yield from self._answer(native.Reset(before.seq, number))
         percept = yield from self.sense()
         while percept.episode == before.episode:
-            # the world had to leave the wish undone: it has stood still because of an error
+            # the world could not reset, since an error had stopped it
             yield from self._answer(native.Reset(percept.seq, number))
             percept = yield from self.sense()
         return percept
 
     def order(self, word: Literal["pause", "resume", "stop"]) -> Flow[None]:
-        """Answers the latest percept with something other than an action."""
+        """Answer the latest percept with a command other than an action."""
         percept = yield from self.sense()
         yield from self._answer(native.Order(percept.seq, word))
 
     def wait(self) -> Flow[None]:
-        """Asks for more time, if there is a percept that has no answer yet."""
-        if self.percept is None or self._answered:
+        """Ask for more time, if the latest percept has no answer yet."""
+        if self.percept is None or self._is_answered:
             return
         try:
             yield Send(native.encode(native.Order(self.percept.seq, "wait")))
         except ConnectionLostError as lost:
-            yield from self._take_up_again(lost)
+            yield from self._reconnect(lost)
 
     def end(self, reason: str = "the script has ended") -> Flow[None]:
-        """Says goodbye: the seat is free."""
+        """Say goodbye, which gives the agent back, and close the connection."""
         if self._ended is None:
             self._ended = LostError("the robot was closed; expected connect(...) again")
             with suppress(ConnectionLostError):
                 yield Send(native.encode(native.Bye(reason)))
             yield Close()
 
-    # -- what they are made of -------------------------------------------------------------------
+    # -- connecting ------------------------------------------------------------------------------
 
-    def _answer(self, message: native.Answer) -> Flow[None]:
-        self._said, self._answered, self._refusable = native.encode(message), True, message.seq
-        try:
-            yield Send(self._said)
-        except ConnectionLostError as lost:
-            yield from self._take_up_again(lost)
+    def _connect(
+        self, deadline: float, *, is_first: bool = False
+    ) -> Flow[ConnectionLostError | None]:
+        """Connect, with a growing pause between two attempts.
 
-    def _greet(self, deadline: float) -> Flow[None]:
-        """Opens a connection and says hello, until there is a welcome."""
-        yield Open(max(deadline - time.monotonic(), 0.1))
+        Returns:
+            None on success, else the last error.
+        """
+        backoff, lost = FIRST_BACKOFF_S, ConnectionLostError("no answer")
+        while time.monotonic() < deadline:
+            try:
+                yield from self._attempt(min(deadline, time.monotonic() + ATTEMPT_TIMEOUT_S))
+                if self._is_answered and not is_first:
+                    yield Send(self._last_frame)
+            except ConnectionLostError as failed:
+                self._end_if_refused(failed)
+                lost = failed
+                if is_first and lost.is_permanent:
+                    break
+            else:
+                return None
+            yield Pause(backoff)
+            backoff = min(2 * backoff, MAX_BACKOFF_S)
+        return lost
+
+    def _attempt(self, deadline: float) -> Flow[None]:
+        """Open a connection, and send the hello until there is a welcome."""
+        yield Open(max(deadline - time.monotonic(), MIN_OPEN_TIMEOUT_S))
         hello = native.encode(self._hello)
-        wait = FIRST_WAIT
+        timeout = FIRST_TIMEOUT_S
         while time.monotonic() < deadline:
             yield Send(hello)
-            if self._said == self._greeting:  # nothing else was said yet
-                self._said = hello
-            self._greeting = hello
-            until = time.monotonic() + wait
-            wait = min(2 * wait, LONGEST_WAIT)
-            while (left := until - time.monotonic()) > 0:
+            if self._last_frame == self._last_hello:  # there was no percept to answer yet
+                self._last_frame = hello
+            self._last_hello = hello
+            repeat_at = time.monotonic() + timeout
+            timeout = min(2 * timeout, MAX_TIMEOUT_S)
+            while (left := repeat_at - time.monotonic()) > 0:
                 frame = yield Receive(left)
-                if frame is not None and self._hear_welcome(frame):
+                if frame is not None and self._handle_welcome(frame):
                     return
         raise ConnectionLostError("no answer")
 
-    def _take_up_again(self, lost: ConnectionLostError) -> Flow[None]:
+    def _reconnect(self, lost: ConnectionLostError) -> Flow[None]:
+        """Resume the session over a new connection, within the world's grace time.
+
+        Raises:
+            LostError: that failed; the session is over.
+        """
         self._check_open()
-        self._refuse_by_close(lost)
-        final = yield from self._insist(time.monotonic() + self.welcome.grace)
+        self._end_if_refused(lost)
+        final = yield from self._connect(time.monotonic() + self.welcome.grace)
         if final is not None:
             self._ended = LostError(
                 f"the connection is lost ({final}), and could not be taken up again within "
@@ -230,32 +270,25 @@ class Dialogue:
             yield Close()
             raise self._ended from None
 
-    def _insist(self, deadline: float, *, first: bool = False) -> Flow[ConnectionLostError | None]:
-        """Opens a connection and says what has to be said, again and again; what failed last."""
-        pause, lost = 0.02, ConnectionLostError("no answer")
-        while time.monotonic() < deadline:
-            try:
-                yield from self._greet(min(deadline, time.monotonic() + ATTEMPT))
-                if self._answered and not first:
-                    yield Send(self._said)
-            except ConnectionLostError as failed:
-                self._refuse_by_close(failed)
-                lost = failed
-                if first and lost.is_permanent:
-                    break
-            else:
-                return None
-            yield Pause(pause)
-            pause = min(2 * pause, 0.5)
-        return lost
+    # -- messages --------------------------------------------------------------------------------
 
-    def _hear_welcome(self, frame: bytes) -> bool:
+    def _answer(self, message: native.Answer) -> Flow[None]:
+        """Send the answer to the latest percept."""
+        self._last_frame, self._is_answered = native.encode(message), True
+        self._refusable_seq = message.seq
+        try:
+            yield Send(self._last_frame)
+        except ConnectionLostError as lost:
+            yield from self._reconnect(lost)
+
+    def _handle_welcome(self, frame: bytes) -> bool:
+        """Handle a frame that may be the welcome; return True if it is."""
         message = native.decode(frame, native.MAX_WORLD_FRAME_BYTES)
         if isinstance(message, native.Problem):
             if message.code == "bad_message" and self._hello.on_missing:
                 text = f"{message.text}; if the world is an older one, leave out on_missing"
                 message = native.Problem(message.code, text, message.seq)
-            self._refuse(message)
+            self._end_by_problem(message)
         if not isinstance(message, native.Welcome):
             return False
         self._welcome = message
@@ -264,40 +297,43 @@ class Dialogue:
         self.outputs = {output.name: output for output in message.outputs}
         return True
 
-    def _hear(self, frame: bytes) -> None:
+    def _handle(self, frame: bytes) -> None:
+        """Handle a frame of the session; old percepts and repeated problems are ignored."""
         message = native.decode(frame, native.MAX_WORLD_FRAME_BYTES)
         latest = self.percept.seq if self.percept else 0
         match message:
             case native.Percept(seq=seq) if seq > latest:
                 self.percept = RemotePercept(self.readings, message)
-                self._answered = False
+                self._is_answered = False
             case native.Problem(code=code) if code in native.PROBLEMS:
-                self._refuse(message)
+                self._end_by_problem(message)
             case native.Problem(seq=0):
-                self._answered = self.percept is None  # what was said is no answer
+                self._is_answered = self.percept is None  # the last frame was no answer
                 raise RemoteError(message.text, message.code)
-            case native.Problem(code=code, seq=seq) if seq == self._refusable:
-                self._refusable = -1  # it may come twice
-                self._answered = self._answered and seq != latest
+            case native.Problem(code=code, seq=seq) if seq == self._refusable_seq:
+                self._refusable_seq = -1  # the problem may be sent twice
+                self._is_answered = self._is_answered and seq != latest
                 if code == "seed_refused":
                     raise RefusedError(message.text, code)
                 raise ActionError(message.text)
             case native.Bye(reason):
-                self._end_by(LostError(f"the world has ended the session: {reason}"))
+                self._end(LostError(f"the world has ended the session: {reason}"))
+
+    # -- the end ---------------------------------------------------------------------------------
 
     def _check_open(self) -> None:
         if self._ended is not None:
             raise self._ended
 
-    def _refuse(self, problem: native.Problem) -> NoReturn:
+    def _end_if_refused(self, lost: ConnectionLostError) -> None:
+        """Raise if the world closed on purpose; the frame that said why may have been lost."""
+        if lost.code in _PROBLEM_NAMES:
+            self._end_by_problem(native.Problem(_PROBLEM_NAMES[lost.code], str(lost), 0))
+
+    def _end_by_problem(self, problem: native.Problem) -> NoReturn:
         kind = LostError if self._welcome else RefusedError
-        self._end_by(kind(problem.text, problem.code))
+        self._end(kind(problem.text, problem.code))
 
-    def _refuse_by_close(self, lost: ConnectionLostError) -> None:
-        """Raises if the world closed on purpose; the frame that said why may have got lost."""
-        if lost.code in _CODES:
-            self._refuse(native.Problem(_CODES[lost.code], str(lost), 0))
-
-    def _end_by(self, error: RemoteError) -> NoReturn:
+    def _end(self, error: RemoteError) -> NoReturn:
         self._ended = error
         raise error from None

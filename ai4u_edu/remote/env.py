@@ -13,23 +13,23 @@ from ai4u_edu.remote.spaces import action_space, observation_space
 
 
 class RemoteEnv(gymnasium.Env[Any, Any]):
-    """One agent of a world that runs somewhere else; the world waits for each step.
+    """One agent of a world that runs elsewhere; the world waits for each step.
 
-    It waits as long as its ``--receive-timeout`` says, and then goes on without this agent's
-    action; an algorithm that learns for longer between two steps needs a longer one. In a world
-    with several agents, whoever runs it has to allow that it waits (``ai4u-edu play --lockstep``).
+    It waits for at most its ``--receive-timeout``, and then goes on without this agent's action; an
+    algorithm that learns for longer between two steps needs a longer one. In a world with several
+    agents, its owner has to allow that it waits (``ai4u-edu play --lockstep``).
 
     ``info`` has ``reward_terms`` (by name), ``success`` (whether the scene's goal was reached in
-    this episode), and the percept's ``tick``. Spaces are those of the same scene's environment on
-    this machine. In a world with other agents, a reset with a seed needs the consent of whoever
-    runs it; one without begins an episode for this agent alone.
+    this episode), and the percept's ``tick``. The spaces are those of the same scene's environment
+    on this machine. In a world with other agents, its owner has to allow resets with a seed; a
+    reset without one begins an episode for this agent alone.
 
     Args:
         url: the page's address, such as ``"http://teacher:8080"``.
         agent: the agent's id; may be left out where there is only one.
         observation: ``"dict"``: by perception key; ``"flat"``: one float32 array.
-        token: the world's, where it asks for one.
-        patience: seconds until the world has to have answered.
+        token: the world's, if it has one.
+        patience: timeout of the world's first answer in seconds.
     """
 
     metadata: dict[str, Any] = {"render_modes": []}
@@ -52,7 +52,7 @@ class RemoteEnv(gymnasium.Env[Any, Any]):
             )
         self.render_mode = None
         self.robot = connect(url, agent, token=token, mode="lockstep", patience=patience)
-        """The same agent, imperatively."""
+        """The same agent, for direct use."""
         welcome = self.robot.welcome
         self._flat = observation == "flat"
         self._readings = [reading for reading in welcome.readings if reading.is_input]
@@ -67,12 +67,15 @@ class RemoteEnv(gymnasium.Env[Any, Any]):
     def reset(
         self, *, seed: int | None = None, options: dict[str, Any] | None = None
     ) -> tuple[Any, dict[str, Any]]:
-        """Begins an episode.
+        """Begin an episode.
 
         Args:
-            seed: fixes everything in it, for the whole world.
-                A RefusedError if others are in that world, and it is not to be reset from here.
-            options: none are known.
+            seed: fixes all random numbers of the episode, and resets the whole world.
+            options: ignored.
+
+        Raises:
+            RefusedError: there is a seed, there are other agents, and the world does not allow
+                scripts to reset it.
         """
         if seed is not None:
             seed = checked_seed(seed)
@@ -82,7 +85,7 @@ class RemoteEnv(gymnasium.Env[Any, Any]):
         return self._observe(percept), self._info(percept)
 
     def step(self, action: Any) -> tuple[Any, float, bool, bool, dict[str, Any]]:
-        """One decision."""
+        """Take one decision."""
         self.robot.act({self._one_output: action} if self._one_output else action)
         percept = self.robot.sense()
         return (
@@ -94,7 +97,7 @@ class RemoteEnv(gymnasium.Env[Any, Any]):
         )
 
     def close(self) -> None:
-        """Leaves the agent to the brain that it had before."""
+        """Give the agent back to the brain that it had before."""
         self.robot.close()
 
     def _observe(self, percept: RemotePercept) -> Any:

@@ -1,14 +1,14 @@
-"""What can go wrong on a script's side of the line."""
+"""Errors that scripts get."""
 
 from ai4u_edu.base.errors import AI4UError
 
 
 class RemoteError(AI4UError):
-    """The root of what a remote robot raises.
+    """The base of the errors that a remote robot raises.
 
     Attributes:
-        code: the world's word for it, such as ``"agent_taken"``; empty where it is not the world
-            that complains.
+        code: the world's name of the problem, such as ``"agent_taken"``; empty if the error did not
+            come from the world.
     """
 
     def __init__(self, text: str, code: str = "") -> None:
@@ -17,8 +17,8 @@ class RemoteError(AI4UError):
 
 
 class RefusedError(RemoteError):
-    """The world does not give the agent to this script, or does not let it do this."""
+    """The world does not give the agent to this script, or does not allow what it asked for."""
 
 
 class LostError(RemoteError):
-    """The connection is lost, or the world has ended it, and it could not be taken up again."""
+    """The world has ended the session, or the connection is lost and reconnecting failed."""

@@ -1,4 +1,4 @@
-"""A script's action, checked before it leaves."""
+"""Checks of a script's action before it is sent."""
 
 import math
 from collections.abc import Mapping, Sequence
@@ -9,14 +9,14 @@ from ai4u_edu.wire.native import Output
 
 
 def numbers_of(outputs: Mapping[str, Output], action: Any) -> dict[str, tuple[float, ...]]:
-    """The numbers of an action by the actuator's name.
+    """Return the numbers of an action by the actuator's name.
 
     Args:
         outputs: the actuators by name.
         action: numbers by the actuator's name; of an agent with one actuator, its numbers alone.
 
     Raises:
-        ActionError: it names an actuator that there is not, or its numbers don't fit.
+        ActionError: it names an unknown actuator, or its numbers don't fit.
 
     >>> move = Output("move", "box", (-1.0, -1.0), (1.0, 1.0), True)
     >>> numbers_of({"move": move}, {"move": [1, 0]})

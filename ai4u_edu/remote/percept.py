@@ -1,4 +1,4 @@
-"""What a remote agent senses, as its script gets it."""
+"""The percept of a remote agent."""
 
 from collections.abc import Iterator, Mapping
 from typing import Any
@@ -12,17 +12,17 @@ from ai4u_edu.wire.texts import SEVERAL, unpack_texts
 
 
 class RemotePercept(Mapping[str, Any]):
-    """The readings of one decision by perception key, and what the decision before it brought.
+    """The readings of one decision by perception key, and the result of the decision before it.
 
-    Arrays can't be written to. A reading of shape () is a plain number or bool, text is a str,
+    Arrays are read-only. A reading of shape () is a plain number or bool, text is a str, several
     texts are a tuple of str.
 
     Attributes:
-        episode: the agent's own count of episodes.
+        episode: counted by the agent, from 1.
         step: decisions in this episode so far.
-        tick: of the world, since its reset.
-        reward: of the decisions since the percept before; in lockstep that is one.
-        reward_terms: the same by name.
+        tick: ticks of the world since its reset.
+        reward: sum over the decisions since the percept before; in lockstep there is one.
+        reward_terms: the same reward by named term.
         terminated: whether the episode ended by what happened in it.
         truncated: whether the episode was cut off by the step limit.
         paused: whether the script asked for a pause, and actions move nothing until it ends.
@@ -62,7 +62,7 @@ class RemotePercept(Mapping[str, Any]):
 
     @property
     def done(self) -> bool:
-        """Whether the episode is over."""
+        """True if the episode is over."""
         return self.terminated or self.truncated
 
     def __getitem__(self, key: str) -> Any:

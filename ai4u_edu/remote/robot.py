@@ -1,4 +1,4 @@
-"""A robot that is somewhere else."""
+"""A robot in a world elsewhere, driven by a script that waits."""
 
 from collections.abc import Iterator, Sequence
 from typing import Any, Self, SupportsIndex
@@ -11,11 +11,11 @@ from ai4u_edu.remote.sync_connection import SyncConnection
 from ai4u_edu.wire.native import Mode, OnMissing
 
 _robots: dict[tuple[str, str], "Robot"] = {}
-"""Those of this process, by the world's address and the agent that was asked for."""
+"""The robots of this process, by the world's address and the agent that was asked for."""
 
 
 class Robot(RobotBase):
-    """An agent of a running world, driven from here. :func:`connect` gives one.
+    """An agent of a running world, driven from this script; made by :func:`connect`.
 
     Each decision is a percept and the action that answers it::
 
@@ -25,7 +25,7 @@ class Robot(RobotBase):
             print(robot.percept.reward_terms)
             robot.reset()
 
-    If the connection is lost, it is taken up again; the session goes on where it was.
+    It reconnects if the connection is lost; the session goes on where it was.
     """
 
     def __init__(self, connection: SyncConnection, dialogue: Dialogue) -> None:
@@ -34,44 +34,45 @@ class Robot(RobotBase):
         connection.run(dialogue.begin())
 
     def sense(self) -> RemotePercept:
-        """What the robot senses now; after an action, as soon as its decision is over."""
+        """Return the current percept; after an action, wait until its decision is over."""
         return self._connection.run(self._dialogue.sense())
 
     def act(self, action: Any = None, /, **numbers: Any) -> None:
-        """Decides: answers the latest percept. Returns at once; :meth:`sense` waits.
+        """Answer the latest percept with an action. Returns at once; :meth:`sense` waits.
 
         Args:
             action: numbers by the actuator's name; of a robot with one actuator, its numbers alone.
-            numbers: the same, as in ``act(move=[1, 0, 0, 0])``. What is left out does nothing.
+            numbers: the same, as in ``act(move=[1, 0, 0, 0])``. Actuators left out do nothing.
 
         Raises:
-            ActionError: it names an actuator that there is not, its numbers don't fit, or the
-                episode is over.
+            ActionError: it names an unknown actuator, its numbers don't fit, or the episode is
+                over.
         """
         self._connection.run(self._dialogue.act(numbers if action is None else action))
 
     def reset(self, seed: SupportsIndex | None = None) -> RemotePercept:
-        """Begins an episode; what the robot senses first.
+        """Begin an episode, and return its first percept.
 
         Args:
-            seed: fixes everything in it, and begins one for the whole world; a whole number from
-                0 to 2**63 - 1. Left out, it begins for this robot alone if there are others.
+            seed: fixes all random numbers of the episode, and resets the whole world; a whole
+                number from 0 to 2**63 - 1. Left out, the episode begins for this robot alone if
+                there are others.
 
         Raises:
-            RemoteError: the seed is none.
-            RefusedError: there is a seed and there are others, and the world is not to be reset
-                from here.
+            RemoteError: the seed is out of range.
+            RefusedError: there is a seed, there are other agents, and the world does not allow
+                scripts to reset it.
         """
         return self._connection.run(self._dialogue.reset(seed))
 
     def close(self) -> None:
-        """Leaves the robot to the brain that it had before. Closing twice is fine."""
+        """Give the agent back to the brain that it had before. It may be called twice."""
         self._connection.run(self._dialogue.end())
         for place in [place for place, robot in _robots.items() if robot is self]:
             del _robots[place]
 
     def __iter__(self) -> Iterator[RemotePercept]:
-        """Every percept that needs an action, until the episode is over."""
+        """Yield every percept that needs an action, until the episode is over."""
         while not (percept := self.sense()).done:
             yield percept
             self._dialogue.expect_answer_to(percept)
@@ -94,30 +95,30 @@ def connect(
     patience: float = 10.0,
     on_missing: OnMissing = "",
 ) -> Robot:
-    """Drives an agent of a running world.
+    """Connect to a running world, and drive one of its agents.
 
-    A robot that this process has already at the same agent is closed first, so that a notebook's
-    cell can be run again.
+    If this process drives the same agent already, that robot is closed first, so that a cell of a
+    notebook can be run again.
 
     Args:
         url: the page's address, such as ``"http://teacher:8080"``; a token in it counts.
         agent: the agent's id; may be left out where there is only one.
-        token: the world's, where it asks for one.
-        mode: ``"realtime"``: the world never waits, and an action counts as soon as it is there.
-            ``"lockstep"``: the world waits for each action, as training wants it. In a world with
-            several agents that has to be allowed by whoever runs it (``ai4u-edu play --lockstep``).
-            A script that is silent for longer than the world's ``--receive-timeout`` is given up
-            until it answers: the world goes on.
-        keys: the readings that are wanted, such as ``["ray_casting"]``; left out, all.
-        session: :attr:`Robot.session` of a script that is gone, to go on in its place.
-        patience: seconds until the world has to have answered.
-        on_missing: what the agent does when a decision is due and no action is there, also while
-            the connection is lost: ``"hold"``: the last action again; ``"coast"``: nothing;
-            ``"stop"``: zeros for all actuators. Left out, as the world has it (``ai4u-edu play
-            --on-missing``), which is to hold, and to stop while the connection is lost.
+        token: the world's, if it has one.
+        mode: ``"realtime"``: the world never waits, and an action counts as soon as it arrives.
+            ``"lockstep"``: the world waits for each action, as training needs it. In a world with
+            several agents, its owner has to allow that (``ai4u-edu play --lockstep``). If a script
+            is silent for longer than the world's ``--receive-timeout``, the world goes on until the
+            script answers.
+        keys: keys of the readings to get, such as ``["ray_casting"]``; left out, all.
+        session: :attr:`Robot.session` of a script that is gone, to resume its session.
+        patience: timeout of the world's first answer in seconds.
+        on_missing: substitute for an action that is missing when a decision is due, also while the
+            connection is lost: ``"hold"``: the last action; ``"coast"``: nothing; ``"stop"``: zeros
+            for all actuators. Left out, the world's setting (``ai4u-edu play --on-missing``): by
+            default hold, and stop while the connection is lost.
 
     Raises:
-        RefusedError: the world doesn't give the agent away; the text says why.
+        RefusedError: the world does not give the agent to this script; the text says why.
         LostError: no world answers.
         RemoteError: an argument is wrong.
     """

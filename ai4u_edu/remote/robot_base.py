@@ -1,4 +1,4 @@
-"""What both kinds of robots can be asked."""
+"""The attributes that both kinds of robots share."""
 
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -11,19 +11,19 @@ if TYPE_CHECKING:
 
 
 class Spaces(NamedTuple):
-    """What an agent senses and can do, in Gymnasium's terms."""
+    """The observation and action spaces of an agent, as Gymnasium's spaces."""
 
     observation: "spaces.Dict"
-    """By perception key; what a policy gets."""
+    """Space of a policy's observation, by perception key."""
     action: "spaces.Space[Any]"
-    """Of its one actuator, or a Dict of several."""
+    """Space of the actions of its one actuator, or a Dict of several."""
 
 
 class RobotBase:
-    """An agent that is driven from here, by whichever verbs.
+    """The base of robots, synchronous and asynchronous.
 
     Args:
-        dialogue: with its world.
+        dialogue: with the world.
     """
 
     def __init__(self, dialogue: Dialogue) -> None:
@@ -31,22 +31,22 @@ class RobotBase:
 
     @property
     def percept(self) -> RemotePercept | None:
-        """The latest, without waiting; None before the first."""
+        """The latest percept, without waiting; None before the first."""
         return self._dialogue.percept
 
     @property
     def welcome(self) -> Welcome:
-        """What the world said of the agent: its readings and outputs, ticks, names of rewards."""
+        """The world's description of the agent: readings, outputs, ticks, names of rewards."""
         return self._dialogue.welcome
 
     @property
     def session(self) -> str:
-        """What ``connect(..., session=...)`` needs to go on from another process; a secret."""
+        """The argument by which ``connect(..., session=...)`` resumes this session; a secret."""
         return self._dialogue.session
 
     @property
     def spaces(self) -> Spaces:
-        """What the robot senses and can do, as Gymnasium's spaces."""
+        """The observation and action spaces, as Gymnasium's spaces."""
         from ai4u_edu.remote.spaces import action_space, observation_space
 
         dialogue = self._dialogue

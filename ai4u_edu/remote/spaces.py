@@ -1,4 +1,4 @@
-"""A remote agent's spaces in Gymnasium's terms."""
+"""The spaces of a remote agent, as Gymnasium's spaces."""
 
 import math
 from collections.abc import Iterable, Mapping
@@ -14,14 +14,14 @@ from ai4u_edu.wire.native import MAX_WORLD_FRAME_BYTES, Output, Reading
 from ai4u_edu.wire.texts import SEVERAL
 
 _NO_SPACE = (ValueError, IndexError, AssertionError, TypeError, OverflowError)
-"""Raised by numpy and Gymnasium for bounds and shapes that don't go together."""
+"""Errors of numpy and Gymnasium for bounds and shapes that don't fit together."""
 
 
 def reading_space(reading: Reading) -> spaces.Space[Any]:
-    """The space of one reading.
+    """Return the space of a reading.
 
     Raises:
-        RemoteError: what the world said of it makes no space.
+        RemoteError: the world's description makes no space.
     """
     try:
         if math.prod(reading.shape) > MAX_WORLD_FRAME_BYTES:
@@ -43,10 +43,10 @@ def reading_space(reading: Reading) -> spaces.Space[Any]:
 
 
 def output_space(output: Output) -> spaces.Space[Any]:
-    """The space of one actuator's actions.
+    """Return the space of an actuator's actions.
 
     Raises:
-        RemoteError: what the world said of it makes no space.
+        RemoteError: the world's description makes no space.
     """
     try:
         if output.kind == "discrete":
@@ -62,10 +62,10 @@ def output_space(output: Output) -> spaces.Space[Any]:
 
 
 def observation_space(readings: Iterable[Reading], form: str = "dict") -> spaces.Dict | spaces.Box:
-    """The space of what a policy gets.
+    """Return the space of a policy's observation.
 
     Args:
-        readings: all; those with ``is_input`` count.
+        readings: of the agent; those with ``is_input`` are used.
         form: ``"dict"`` for one entry a reading, ``"flat"`` for one array of float32.
     """
     each = {reading.key: reading_space(reading) for reading in readings if reading.is_input}
@@ -80,7 +80,7 @@ def observation_space(readings: Iterable[Reading], form: str = "dict") -> spaces
 
 
 def action_space(outputs: Mapping[str, Output]) -> spaces.Space[Any]:
-    """The space of the one actuator that a policy drives, or a Dict of several."""
+    """Return the space of the one actuator that a policy drives, or a Dict of several."""
     each = {name: output_space(output) for name, output in outputs.items() if output.is_output}
     if not each:
         raise RemoteError("the agent has no actuator for a policy to drive (is_output)")

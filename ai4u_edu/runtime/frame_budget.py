@@ -2,7 +2,7 @@
 
 A frame takes two steps: after a tick the runner's thread makes a snapshot, and the viewer's thread
 draws the latest snapshot on the pages, part by part. Both share the processor with ticks, which
-must be on time, so every step is rated: what costs more is done less often.
+must be on time, so the rate of every step is limited: what costs more is done less often.
 """
 
 import math
@@ -10,12 +10,12 @@ import time
 from collections.abc import Callable, Collection, Iterator
 
 MAX_FRAMES_PER_S = 75.0
-"""Frame rate for few pages. Above the usual 60 ticks a second, so that no tick is missed by a hair.
-Snapshots are no more frequent, even in a world that runs as fast as it can."""
+"""Frame rate for few pages, and the limit for snapshots. Above the usual 60 ticks a second, so that
+a tick that comes a bit early is drawn too."""
 MIN_FRAMES_PER_S = 30.0
-"""Frame rate for many pages, for late ticks and for frames that take long; still smooth."""
+"""Frame rate for many pages, late ticks or slow frames; motion still looks smooth."""
 MAX_PAGE_FRAMES_PER_S = 720.0
-"""Frames that are sent to all pages together: from ten pages on, each gets fewer than ten do."""
+"""Limit for the frames of all pages together: above nine pages, each one gets fewer."""
 MAX_TICK_LATENESS_S = 0.02
 """Average lateness of ticks at which the frame rate is at its minimum."""
 DRAW_SHARE = 0.3
@@ -34,9 +34,9 @@ SENSES_PER_S = 30.0
 TEXTS_PER_S = 8.0
 """Rate at which the texts of the panel are drawn: faster than anybody reads."""
 
-EARLY = 0.8
-"""Fraction of a part's period after which it may be drawn. Frames follow ticks, so a part that
-waited for its whole period would often miss a frame by a hair."""
+EARLY_FRACTION = 0.8
+"""Fraction of a part's period after which it may be drawn. Frames follow ticks: a part that waited
+for its whole period would often be drawn one frame late."""
 
 
 class FrameBudget:
@@ -51,7 +51,7 @@ class FrameBudget:
         self._snapshot_s = 0.0
 
     def note_snapshot(self, began: float, ended: float) -> None:
-        """Note when a snapshot was made (s), to rate the next ones."""
+        """Note when a snapshot was made (s), from which the next one follows."""
         self._snapshot_at, self._snapshot_s = began, ended - began
 
     def is_snapshot_due(self, now: float, next_tick_at: float) -> bool:
@@ -106,7 +106,7 @@ class PageTurns:
         clock: Callable[[], float] = time.monotonic,
         processor_clock: Callable[[], float] = time.thread_time,
     ) -> None:
-        self._period = EARLY / rate
+        self._period = EARLY_FRACTION / rate
         self._clock, self._processor_clock = clock, processor_clock
         self._drawn_at: dict[int, float] = {}
 

@@ -21,7 +21,7 @@ from ai4u_edu.world import World
 
 LIBRARY = Path(__file__).parent / "library"
 
-EPISODES = 20
+RANDOM_RESETS = 20
 """Resets that are tried when a randomized scene is read: each must find room for everything."""
 MAX_ERRORS = 20
 """Errors of a file in one message."""
@@ -91,7 +91,7 @@ class Scene:
             scene = cls(description, folder, text)
             world = scene.build().world
             if any(thing.random for thing in description.things):
-                for seed in range(1, EPISODES):
+                for seed in range(1, RANDOM_RESETS):
                     world.reset(seed)
         except ValidationError as error:
             problems = explain(error.errors(), SceneDescription)

@@ -7,7 +7,7 @@ from typing import Any, get_args
 from pydantic import ValidationError
 
 from ai4u_edu.base.errors import AI4UError, ParameterError, shown, suggest
-from ai4u_edu.base.parameters import MAX_HINTS, DataPath, Problem, explain, listed
+from ai4u_edu.base.parameters import MAX_HINTS, DataPath, Problem, explain, format_problems
 from ai4u_edu.blocks import Actuator, Block, Brain, Controller, RewardFunc, ScriptController, Sensor
 from ai4u_edu.blocks.parameterized import Parameterized
 
@@ -27,7 +27,7 @@ class PlainDataError(AI4UError):
     """All problems of plain data, with their paths."""
 
     def __init__(self, problems: Sequence[Problem]) -> None:
-        super().__init__(listed(problems))
+        super().__init__(format_problems(problems))
         self.problems = tuple(problems)
 
 

@@ -1,28 +1,23 @@
 """The web app of one room: a running world, its page, and the API."""
 
-import time
 from collections.abc import Callable, Collection
 from functools import partial
 
 from starlette.applications import Starlette
 from starlette.middleware import Middleware
-from starlette.requests import Request
-from starlette.responses import JSONResponse, Response
 from starlette.routing import Match, Mount, Route, WebSocketRoute
 from starlette.types import Scope
 
 from ai4u_edu.runtime.runner import Runner
-from ai4u_edu.server.api import Health, SnapshotView
 from ai4u_edu.server.attempts import Attempts, LimitScripts
 from ai4u_edu.server.host_origin import LOOPBACK, HostOriginCheck
 from ai4u_edu.server.input import Inputs
-from ai4u_edu.server.openapi import openapi
 from ai4u_edu.server.page import Page
 from ai4u_edu.server.past import Past
 from ai4u_edu.server.proxy import ViserProxy
 from ai4u_edu.server.scripts import RemoteSockets, Rules
+from ai4u_edu.server.state_routes import StateRoutes
 from ai4u_edu.server.token_auth import TokenAuth
-from ai4u_edu.snapshot import Snapshot
 from ai4u_edu.wire.native import PROBLEMS
 
 
@@ -46,7 +41,6 @@ def room_app(
         rules: for scripts that drive agents from other machines; the page and the API ask for
             their token too.
     """
-    began = time.monotonic()
     rules = rules or Rules()
     current_title = title if callable(title) else partial(str, title)
     page = Page(current_title)
@@ -55,33 +49,16 @@ def room_app(
     page_auth = [Middleware(TokenAuth, token=rules.token, attempts=attempts, is_page=True)]
     script_limit = [Middleware(LimitScripts, attempts=attempts, code=PROBLEMS["bad_token"])]
     past = Past(runner)
-    document = openapi()
-    cached: tuple[Snapshot | None, str] = None, ""
-
-    async def healthz(_: Request) -> Response:  # async: worker threads may all be busy
-        stall = runner.stall
-        health = Health.of(runner.latest, current_title(), time.monotonic() - began, stall)
-        return _json(health.model_dump_json(), status=503 if stall else 200)
-
-    async def snapshot(_: Request) -> Response:
-        nonlocal cached
-        latest = runner.latest
-        if cached[0] is not latest:
-            cached = latest, SnapshotView.of(latest).model_dump_json()
-        return _json(cached[1])
-
-    async def describe(_: Request) -> Response:
-        return JSONResponse(document)
-
+    state = StateRoutes(runner, current_title)
     return Starlette(
         routes=[
             Route("/", page.index, middleware=page_auth),
             Route("/web/{file}", page.file, middleware=auth),
-            Route("/healthz", healthz, middleware=auth),
-            Route("/api/snapshot", snapshot, middleware=auth),
+            Route("/healthz", state.health, middleware=auth),
+            Route("/api/snapshot", state.snapshot, middleware=auth),
             Route("/api/past", past.list, middleware=auth),
             Route("/api/past/{file}", past.file, middleware=auth),
-            Route("/api/openapi.json", describe, middleware=auth),
+            Route("/api/openapi.json", state.describe, middleware=auth),
             WebSocketRoute("/", ViserProxy(viser_port, rules.token), middleware=auth),
             WebSocketRoute("/ws/input", Inputs(runner, current_title), middleware=auth),
             # scripts send the token in their hello
@@ -111,8 +88,3 @@ class RoomMount(Mount):
             if match is not Match.NONE:
                 child["path"] = slashed
         return match, child
-
-
-def _json(text: str, *, status: int = 200) -> Response:
-    headers = {"Cache-Control": "no-store"}
-    return Response(text, status, media_type="application/json", headers=headers)

@@ -4,7 +4,7 @@ from typing import Annotated, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, TypeAdapter, ValidationError
 
-from ai4u_edu.base.parameters import explain, listed
+from ai4u_edu.base.parameters import explain, format_problems
 
 CODE = r"^[A-Za-z0-9]{1,24}$"
 Code = Annotated[str, Field(pattern=CODE)]
@@ -87,4 +87,4 @@ def read(text: str | bytes) -> Message:
         if found[0]["type"] == "json_invalid":
             raise ValueError(f"expected JSON, got {text[:40]!r}: {found[0]['msg']}") from None
         kind = _KINDS.get(str(next(iter(found[0]["loc"]), "")), Keys)
-        raise ValueError(listed(explain(found, kind.model_fields))) from None
+        raise ValueError(format_problems(explain(found, kind.model_fields))) from None

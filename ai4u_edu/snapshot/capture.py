@@ -150,7 +150,7 @@ def capture_agent(agent: BasicAgent, success: str = "", phase: Phase = NOWHERE) 
 def _fell(agent: BasicAgent) -> bool:
     if not agent.terminated:
         return False
-    low = agent.body.fallen and not agent.body.on_ground  # a body that was removed is on ground
+    low = agent.body.fallen and not agent.body.on_ground  # taken out without a fall: on ground
     ends = [
         reward
         for reward in agent.bound_blocks.rewards

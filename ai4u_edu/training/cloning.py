@@ -18,7 +18,7 @@ from ai4u_edu.base.atomic_write import write_atomically
 from ai4u_edu.base.errors import SetupError
 from ai4u_edu.base.seeding import checked_seed
 from ai4u_edu.base.version import __version__
-from ai4u_edu.blocks.brains.network import ABOUT
+from ai4u_edu.blocks.brains.network import TRAINING_KEY
 from ai4u_edu.envs.spaces_of import outputs_of
 from ai4u_edu.recording import Episode
 from ai4u_edu.recording.player import Player
@@ -282,5 +282,5 @@ def write_network(network: Clone, agent: BasicAgent, about: dict[str, Any], path
         "hash": hashlib.sha256(graph.SerializeToString(deterministic=True)).hexdigest(),
     }
     entry = graph.metadata_props.add()
-    entry.key, entry.value = ABOUT, json.dumps(told, sort_keys=True)
+    entry.key, entry.value = TRAINING_KEY, json.dumps(told, sort_keys=True)
     write_atomically(path, graph.SerializeToString(deterministic=True))

@@ -20,7 +20,7 @@ from stable_baselines3.common.base_class import BaseAlgorithm
 from ai4u_edu.agent import BasicAgent
 from ai4u_edu.base.atomic_write import write_atomically
 from ai4u_edu.base.version import __version__
-from ai4u_edu.blocks.brains.network import ABOUT
+from ai4u_edu.blocks.brains.network import TRAINING_KEY
 from ai4u_edu.envs.spaces_of import outputs_of
 from ai4u_edu.scenes import Scene
 from ai4u_edu.scenes.serialization import to_plain
@@ -83,7 +83,7 @@ class Exported:
         digest = hashlib.sha256(network.SerializeToString(deterministic=True)).hexdigest()
         about = self._about | {"steps": self._model.num_timesteps, "hash": digest}
         entry = network.metadata_props.add()
-        entry.key, entry.value = ABOUT, json.dumps(about, sort_keys=True)
+        entry.key, entry.value = TRAINING_KEY, json.dumps(about, sort_keys=True)
         write_atomically(path, network.SerializeToString(deterministic=True))
         return path
 

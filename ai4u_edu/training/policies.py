@@ -22,7 +22,7 @@ from ai4u_edu.blocks import (
     trained_brain,
 )
 from ai4u_edu.blocks.brains.address import brain_at
-from ai4u_edu.blocks.brains.network import IN_THE_ZOO
+from ai4u_edu.blocks.brains.network import ZOO_PREFIX
 from ai4u_edu.envs.spaces_of import Observer, outputs_of
 from ai4u_edu.scenes import Scene
 from ai4u_edu.scenes.serialization import is_serializable
@@ -80,8 +80,8 @@ def entrant(spec: str, scene: str = "") -> Entrant:
     if spec == "scene":
         return Entrant("scene", lambda agent: agent.brain)
     if spec == ZOO and scene:
-        return _network(f"{IN_THE_ZOO}{scene}")
-    if spec.startswith(IN_THE_ZOO) or path.suffix == ".onnx":
+        return _network(f"{ZOO_PREFIX}{scene}")
+    if spec.startswith(ZOO_PREFIX) or path.suffix == ".onnx":
         return _network(spec)
     if spec.startswith(SCHEME):
         return Entrant(spec, _in_rhythm_of(brain_at(spec)), is_remote=True)

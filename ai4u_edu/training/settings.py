@@ -10,7 +10,7 @@ from typing import Annotated, Any, Literal
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
 
 from ai4u_edu.base.errors import SceneError, SetupError
-from ai4u_edu.base.parameters import explain, listed
+from ai4u_edu.base.parameters import explain, format_problems
 from ai4u_edu.scenes.yaml.file import YamlFile
 
 EXPECTED = "lines such as algorithm: ..., sac: ..., ppo: ..."
@@ -142,7 +142,7 @@ def settings_for(
     try:
         return Settings.model_validate(_merged(given, changes or {}))
     except ValidationError as error:
-        problems = listed(explain(error.errors(), Settings))
+        problems = format_problems(explain(error.errors(), Settings))
         where = "settings" if changes else own.name
         raise SetupError(f"{where}: {problems}") from None
 

@@ -1,15 +1,15 @@
-"""Draws a runner's world on a page, with viser, from snapshots."""
+"""Drawing of a runner's world in browsers, with viser, from snapshots."""
 
 import threading
 import time
 import warnings
 
+from ai4u_edu.base.log_limit import ErrorLog
 from ai4u_edu.editing import EditState, SceneEditor
 from ai4u_edu.runtime.frame_budget import MAX_FRAMES_PER_S, SENSES_PER_S, TEXTS_PER_S
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.snapshot import Snapshot, StaticScene
 from ai4u_edu.viewer.backend.local_server import LocalServer
-from ai4u_edu.viewer.backend.log_once import Complaints
 from ai4u_edu.viewer.backend.part import Part, RatedPart
 from ai4u_edu.viewer.panel.agent_html import AgentHtmlCache
 from ai4u_edu.viewer.panel.agent_tab import AgentTab
@@ -32,26 +32,25 @@ from ai4u_edu.viewer.scene.light import set_up_lights
 from ai4u_edu.viewer.scene.sense_overlay import SenseOverlay
 from ai4u_edu.viewer.viewer_client import ViewerClients
 
-PANEL_WIDTH = 320
-"""Pixels."""
+PANEL_WIDTH_PX = 320
 PAGE_POLL_S = 0.1
 """Poll interval for pages that open, while there are none."""
 MIN_PAUSE_S = 0.001
-"""Pause after a frame that took longer than it may: other threads have their turn."""
+"""Pause after a frame that took longer than it may, so that other threads run."""
 STOP_S = 2.0
-"""Seconds that all threads of a viewer have to end."""
+"""Time that all threads of a viewer have to end."""
 
 
 class Viewer:
-    """The page on which a runner's world can be watched, and asked for things.
+    """The pages on which a runner's world is shown and controlled.
 
-    It holds no state of the world: it draws the latest snapshot, and hands on to the runner what
-    people ask for. While nobody watches, it draws new static scenes only.
+    It holds no state of the world: its thread draws the latest snapshot, and what users ask for
+    goes to the runner as commands. While no page is open, it draws new static scenes only.
 
     Args:
         runner: whose world is drawn.
-        title: what the panel is called.
-        editor: has the world changed; left out, it can be watched only.
+        title: of the panel.
+        editor: changes the world; left out, the world can only be watched.
         workshop: deprecated name of ``editor``.
     """
 
@@ -71,12 +70,12 @@ class Viewer:
         self._title = title
         self.viewer_clients = viewer_clients = ViewerClients(server, first=runner.sim.agents[0].id)
         self._static_scene: StaticScene | None = None
-        self._complaints = Complaints()
+        self._error_log = ErrorLog()
         self._stopping = threading.Event()
         self.thread = threading.Thread(target=self._run, name="viewer", daemon=True)
         server.gui.configure_theme(show_logo=False, show_share_button=False)
         server.gui.main_panel.dock_right()
-        server.gui.main_panel.set_width(PANEL_WIDTH)
+        server.gui.main_panel.set_width(PANEL_WIDTH_PX)
         set_up_lights(server.scene)
         html_cache = AgentHtmlCache()
         kinds = [
@@ -99,25 +98,25 @@ class Viewer:
             (Controls(server, runner, viewer_clients), TEXTS_PER_S),
             (PageControls(viewer_clients), TEXTS_PER_S),
             (SenseOverlay(viewer_clients), MAX_FRAMES_PER_S),
-            (Tabs(viewer_clients, kinds, self._complaints), MAX_FRAMES_PER_S),
+            (Tabs(viewer_clients, kinds, self._error_log), MAX_FRAMES_PER_S),
         ]
-        self.parts = [RatedPart(part, rate, self._complaints) for part, rate in parts]
+        self.parts = [RatedPart(part, rate, self._error_log) for part, rate in parts]
         self.draw(runner.latest)
 
     @property
     def port(self) -> int:
-        """Where viser listens, on 127.0.0.1."""
+        """Port on 127.0.0.1 at which viser listens."""
         return self.server.get_port()
 
     def start(self) -> None:
-        """Begins to draw."""
+        """Start to draw."""
         self.thread.start()
 
     def stop(self) -> None:
-        """Ends the thread and viser's server.
+        """End the thread and viser's server.
 
-        Waits for them no longer than :data:`STOP_S`: an episode that is played again has blocks
-        that may not return. What still runs then are threads that keep no process from ending.
+        Wait for them no longer than :data:`STOP_S`, since blocks of a replayed episode may not
+        return. Threads that still run then are daemons.
         """
         self._stopping.set()
         ending = threading.Thread(target=self._end, name="viewer end", daemon=True)
@@ -131,7 +130,7 @@ class Viewer:
         self.server.stop()
 
     def _rename(self, state: EditState) -> None:
-        """Another scene has another title."""
+        """Show the title of another scene."""
         if state.title != self._title:
             self._title = state.title
             self.server.gui.set_panel_label(state.title)
@@ -141,8 +140,8 @@ class Viewer:
         while not self._stopping.is_set():
             seen = self.runner.wait(seen, PAGE_POLL_S)
             began, processor_began = time.monotonic(), time.thread_time()
-            with self._complaints.caught():
-                self.viewer_clients.meet()
+            with self._error_log.caught():
+                self.viewer_clients.refresh()
                 if self.viewer_clients or seen.static_scene is not self._static_scene:
                     self.draw(seen)
             period = PAGE_POLL_S
@@ -155,7 +154,7 @@ class Viewer:
             self._stopping.wait(max(began + period - time.monotonic(), MIN_PAUSE_S))
 
     def _choose(self, client_id: int, body: str) -> None:
-        """On one page, looks at the agent with that body."""
+        """Show the agent with that body on one page."""
         viewer_client, static_scene = self.viewer_clients.get(client_id), self._static_scene
         if viewer_client is not None and static_scene is not None and body in static_scene.agent_of:
             viewer_client.agent = static_scene.agent_of[body]
@@ -173,11 +172,11 @@ class Viewer:
             for part in self.parts:
                 part.draw(snapshot)
         for viewer_client in self.viewer_clients.values():
-            with self._complaints.caught():
+            with self._error_log.caught():
                 viewer_client.view.update(snapshot, viewer_client.agent)
 
     def _aim(self, static_scene: StaticScene) -> None:
-        """Tells pages that are about to open where to look until their shape is known."""
+        """Aim the initial camera of new pages, until the shape of their window is known."""
         first, camera = (
             frame_arena(camera_bounds(static_scene), aspect=1.2),
             self.server.initial_camera,

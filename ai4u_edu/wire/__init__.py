@@ -1,1 +1,1 @@
-"""Bytes and messages: what goes over a network to a brain, and comes back. Knows no world."""
+"""The protocols of remote brains: messages and their bytes, without a world or a socket."""

@@ -22,15 +22,15 @@ KINDS = {
     "sstrings": Kind.TEXTS,
     "simage": Kind.TEXTS,
 }
-"""How a reading goes over the wire, by AI4U's type; all others are rows of floats."""
+"""Field types of readings on the wire, by AI4U's type; all others are rows of floats."""
 
 
-TEXTS = ("sstring", "sstrings")
-"""Types that are sent, but stand in no metadata: a script makes no space of words."""
+TEXT_TYPES = ("sstring", "sstrings")
+"""Types that are sent, but not part of the metadata: a script has no space for texts."""
 
 
 class Reading(Protocol):
-    """What one sensor puts into the percept."""
+    """The description of one sensor's reading in the percept."""
 
     @property
     def name(self) -> str:
@@ -42,73 +42,73 @@ class Reading(Protocol):
 
     @property
     def space(self) -> spaces.Space[Any]:
-        """Of what stands in the percept."""
+        """The space of the values in the percept."""
 
     @property
     def is_input(self) -> bool:
-        """Whether a policy gets it."""
+        """True if it is part of a policy's observation."""
 
 
 class Output(Protocol):
-    """What one actuator takes."""
+    """The description of one actuator's action."""
 
     @property
     def name(self) -> str:
-        """Its action's name."""
+        """The action's name."""
 
     @property
     def space(self) -> spaces.Space[Any]:
-        """Of its actions."""
+        """The space of its actions."""
 
     @property
     def is_output(self) -> bool:
-        """Whether a policy drives it."""
+        """True if a policy drives it."""
 
 
 class AgentCodec:
-    """Percepts to fields, replies to actions.
+    """Converts percepts to fields, and replies to actions.
 
-    Every sensor's reading is sent, and those that a policy gets stand in the metadata: rows of
-    numbers flat, in the order of memory; pictures as one grey PNG a channel; several texts joined
-    by spaces. Whole numbers are
-    declared as floats, since the script's side would make bytes of them. AI4U's environment has one
-    action: it is the first actuator's; a script can drive the others by their names, or by fields.
+    Every sensor's reading is sent; the metadata has those of a policy's observation. Rows of
+    numbers are flat, in C order; pictures are one grey PNG a channel; several texts are joined by
+    spaces. Integers are declared as floats, since the script's side would convert them to bytes.
+    AI4U's environment has one action, that of the first actuator; a script can drive the others by
+    their names, or by additional fields.
 
     Args:
         readings: of the agent's sensors.
         outputs: of its actuators.
 
     Raises:
-        WireError: AI4U's protocol has no words for what a sensor reads.
+        WireError: AI4U's protocol can't express what a sensor reads.
     """
 
     def __init__(self, readings: Sequence[Reading], outputs: Sequence[Output]) -> None:
         self._packers = [
             (each.name, _packer(each)) for each in readings if each.name not in STANDARD
         ]
-        inputs = [each for each in readings if each.is_input and each.kind not in TEXTS]
+        inputs = [each for each in readings if each.is_input and each.kind not in TEXT_TYPES]
         driven = [each for each in outputs if each.is_output][:1]
         self._known = {each.name for each in outputs}
         self.metadata = metadata(map(_input, inputs), map(_output, driven))
 
     def sensors(self, percept: Mapping[str, Any]) -> list[bytes]:
-        """The readings that a script is told, packed."""
+        """Return the encoded readings for a script."""
         return [pack(percept[name]) for name, pack in self._packers]
 
     def action(self, orders: Sequence[Order]) -> dict[str, tuple[str, ...]]:
-        """The action in a reply: its command, and of its fields those that name an actuator."""
+        """Return the action in a reply: its command, and the fields that name an actuator."""
         (name, args), *fields = orders
         return {each: numbers for each, numbers in fields if each in self._known} | {name: args}
 
 
 def _wire_kind(reading: Reading) -> Kind:
     if reading.kind == "sbytearray" and reading.is_input:
-        return Kind.FLOATS  # the script's side leaves the base64 of bytes as it is
+        return Kind.FLOATS  # the script's side does not decode the base64 of bytes
     return KINDS.get(reading.kind, Kind.FLOATS)
 
 
 def _packer(reading: Reading) -> Callable[[Any], bytes]:
-    """Makes a field of each of its readings."""
+    """Return a function that encodes a reading as a field."""
     kind = _wire_kind(reading)
     pack = packer(reading.name, kind)
     match kind:
@@ -119,12 +119,12 @@ def _packer(reading: Reading) -> Callable[[Any], bytes]:
         case Kind.BYTES:
             return lambda value: pack(np.asarray(value).tobytes())
         case Kind.FLOATS if not np.prod(reading.space.shape or (1,)):
-            return lambda _: pack(np.zeros(1))  # the script's side stumbles over a row of nothing
+            return lambda _: pack(np.zeros(1))  # the script's side fails on an empty row
     return pack
 
 
 def _channels_first(picture: Any) -> Any:
-    """A picture of shape (height, width) or (height, width, channels), channel by channel."""
+    """Return a picture of shape (height, width[, channels]) with the channels first."""
     return picture[None] if picture.ndim == 2 else np.moveaxis(picture, -1, 0)
 
 

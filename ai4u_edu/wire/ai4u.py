@@ -1,7 +1,7 @@
-"""AI4U's own protocol: UDP datagrams of text, one request and one reply at a time.
+"""Datagrams of AI4U's own protocol: text over UDP, one request and one reply at a time.
 
-The world asks, the script answers. A request is a row of named fields, each with a type; a reply is
-a row of commands, the first of which counts and the others are its fields::
+The world sends requests, the script replies. A request is a list of named fields, each with a type.
+A reply is a list of commands: the first one counts, the others are its fields::
 
     request     5  10__target__3      10envcontrol   2id3       10 ...
                 how many fields; of each: bytes of the name, name, type, bytes of the value, value
@@ -24,16 +24,16 @@ import numpy.typing as npt
 
 from ai4u_edu.wire.validation import WireError, shown
 
-LARGEST = 65_507
-"""Bytes of a datagram; more don't fit into one over IPv4."""
-LONG_ROW = 64
-"""Bytes of a row from which on it is quicker to know it again than to write it anew."""
+MAX_DATAGRAM_BYTES = 65_507
+"""The largest UDP datagram over IPv4."""
+MIN_CACHED_ROW_BYTES = 64
+"""Size of a row of numbers from which on caching its text is faster than writing it again."""
 HALT = "halt"
-"""The one reply that is no command: the script has ended."""
+"""The only reply that is not a command: the script has ended."""
 
 
 class Kind(IntEnum):
-    """A field's type, as the wire has it (the Python package has other names for the numbers)."""
+    """Types of fields (AI4U's Python package has other names for the numbers)."""
 
     FLOAT = 0
     INT = 1
@@ -65,10 +65,10 @@ class Order(NamedTuple):
 
 
 def encode_request(fields: Iterable[Field]) -> bytes:
-    """A request as a datagram.
+    """Return a request as a datagram.
 
     Raises:
-        WireError: a value is none of its kind, or what is to be sent is too large for a datagram.
+        WireError: a value does not have the type of its field, or the request is too large.
 
     >>> encode_request([Field("id", Kind.TEXT, "0"), Field("done", Kind.BOOL, True)])
     b'   2   2id3       10   4done2       11'
@@ -78,12 +78,12 @@ def encode_request(fields: Iterable[Field]) -> bytes:
 
 
 def packed(field: Field) -> bytes:
-    """One field of a request; for what stays the same from request to request."""
+    """Return an encoded field, for fields that are the same in many requests."""
     return packer(field.name, field.kind)(field.value)
 
 
 def packer(name: str, kind: Kind) -> Callable[[Any], bytes]:
-    """Makes a field of each value; for what is sent again and again under the same name."""
+    """Return a function that encodes values as a field with this name and type."""
     encoded, write = name.encode(), _WRITERS[kind]
     head = b"%4d%s%d" % (len(encoded), encoded, kind)
 
@@ -100,27 +100,27 @@ def packer(name: str, kind: Kind) -> Callable[[Any], bytes]:
 
 
 def joined(parts: Sequence[bytes]) -> bytes:
-    """A request of fields that are packed."""
+    """Return a request of encoded fields."""
     request = b"%4d%s" % (len(parts), b"".join(parts))
-    if len(request) > LARGEST:
+    if len(request) > MAX_DATAGRAM_BYTES:
         raise WireError(
-            f"expected a request of at most {LARGEST} bytes, got {len(request)}: make sensors that "
-            "read much smaller, or switch them off (is_active=False)"
+            f"expected a request of at most {MAX_DATAGRAM_BYTES} bytes, got {len(request)}: make "
+            "sensors that read much smaller, or switch them off (is_active=False)"
         )
     return request
 
 
 def decode_request(data: bytes) -> list[Field]:
-    """The fields of a request.
+    """Return the fields of a request.
 
     Raises:
-        WireError: it is none; nothing else is ever raised, whatever the bytes are.
+        WireError: the bytes are no request. No other error is raised for any bytes.
 
     >>> decode_request(b'   1   4eyes5       50.5 1')
     [Field(name='eyes', kind=<Kind.FLOATS: 5>, value=array([0.5, 1. ]))]
     """
-    if len(data) > LARGEST:
-        raise WireError(f"expected at most {LARGEST} bytes, got {len(data)}")
+    if len(data) > MAX_DATAGRAM_BYTES:
+        raise WireError(f"expected at most {MAX_DATAGRAM_BYTES} bytes, got {len(data)}")
     count, at = _size(data, 0, 4, "the number of fields")
     fields = []
     for _ in range(count):
@@ -138,23 +138,23 @@ def decode_request(data: bytes) -> list[Field]:
 
 
 def floats(numbers: npt.NDArray[Any]) -> str:
-    """Numbers as text; nine digits are read back as the same float32.
+    """Return numbers as text, with nine digits, which give the same float32 when parsed.
 
     >>> floats(np.array([0.5, 1, -2.5e-7], np.float32))
     '0.5 1 -2.49999999e-07'
     """
     data, kind, rows = numbers.tobytes(), numbers.dtype, numbers.ndim > 1 and len(numbers)
     size = len(data) // rows if rows else 0
-    if size < LONG_ROW:
+    if size < MIN_CACHED_ROW_BYTES:
         return _written(data, kind)
     return " ".join([_written(data[at : at + size], kind) for at in range(0, len(data), size)])
 
 
 @lru_cache(maxsize=256)
 def _written(data: bytes, kind: np.dtype[Any]) -> str:
-    """A row of numbers as text; it takes 0.1 us a number.
+    """Return a row of numbers as text, which takes 0.1 us a number.
 
-    Of a reading that is stacked only one row is new each time, and many don't change at all.
+    It is cached: a stacked reading has one new row each time, and many readings do not change.
     """
     values = np.frombuffer(data, kind).tolist()
     return _nine_digits(len(values)) % tuple(values)
@@ -166,7 +166,7 @@ def _nine_digits(count: int) -> str:
 
 
 def _float(value: Any) -> str:
-    int(value)  # refuses what is not finite: a script would stumble over it
+    int(value)  # raises for NaN and infinities, which a script can't parse
     return repr(float(value))
 
 
@@ -182,7 +182,7 @@ _WRITERS: dict[Kind, Callable[[Any], str]] = {
 }
 
 
-# each digit can be read in one way only: with two, 20,000 of them take more than a second
+# without ambiguity: if a digit could match in two ways, 20,000 digits would take over a second
 _NUMBER = re.compile(
     r"[+-]?(\d+(\.\d*)?|\.\d+)([eE][+-]?\d+)?|[+-]?(inf|nan|infinity)", re.I | re.A
 )
@@ -191,10 +191,10 @@ _SIZE = re.compile(rb" *\d+ *")
 
 
 def number(text: str) -> float:
-    """A number as a script writes it, ``nan`` and ``inf`` too.
+    """Parse a number as a script writes it, ``nan`` and ``inf`` too.
 
     Raises:
-        WireError: it is none.
+        WireError: the text is no number.
     """
     text = text.strip(" ")
     if not _NUMBER.fullmatch(text):
@@ -257,7 +257,7 @@ def _words(data: bytes, at: int, size: int, what: str) -> tuple[str, int]:
 
 
 def encode_reply(orders: Sequence[Order]) -> bytes:
-    """A reply as a datagram: a command, and its fields.
+    """Return a reply as a datagram: a command, and its fields.
 
     >>> encode_reply([Order("move", ("1.0", "0", "0", "0"))])
     b'move;4;1.0;0;0;0'
@@ -268,10 +268,10 @@ def encode_reply(orders: Sequence[Order]) -> bytes:
 
 
 def decode_reply(data: bytes) -> list[Order]:
-    """The commands of a reply: the first one counts, the others are its fields.
+    """Return the commands of a reply: the first one counts, the others are its fields.
 
     Raises:
-        WireError: it is none; nothing else is ever raised, whatever the bytes are.
+        WireError: the bytes are no reply. No other error is raised for any bytes.
 
     >>> decode_reply(b"move;2;1.0;0.5@speed;1;3")
     [Order(name='move', args=('1.0', '0.5')), Order(name='speed', args=('3',))]
@@ -280,8 +280,8 @@ def decode_reply(data: bytes) -> list[Order]:
     ...
     ai4u_edu.wire.validation.WireError: 'move': expected 2 arguments as it says, got 1
     """
-    if len(data) > LARGEST:
-        raise WireError(f"expected at most {LARGEST} bytes, got {len(data)}")
+    if len(data) > MAX_DATAGRAM_BYTES:
+        raise WireError(f"expected at most {MAX_DATAGRAM_BYTES} bytes, got {len(data)}")
     try:
         text = data.decode().strip()
     except UnicodeDecodeError:
@@ -293,7 +293,7 @@ def decode_reply(data: bytes) -> list[Order]:
 
 def _order(text: str) -> Order:
     name, *rest = text.strip().split(";")
-    if name and rest and rest[0] == str(len(rest) - 1):  # so it is with nearly all
+    if name and rest and rest[0] == str(len(rest) - 1):  # the common case
         return Order(name, tuple(rest[1:]))
     if not name or not rest or not re.fullmatch(r"\d{1,5}", rest[0], re.A):
         raise WireError(f"expected a command as in 'move;2;1.0;0.5', got {shown(text)}")

@@ -1,4 +1,4 @@
-"""What AI4U's handshake says of an agent: the shapes and ranges that a script makes spaces of."""
+"""The metadata of AI4U's handshake: shapes and ranges, of which a script makes its spaces."""
 
 import json
 from collections.abc import Iterable
@@ -15,11 +15,11 @@ SENSOR_TYPES = {
     "sstrings": 7,
     "simage": 8,
 }
-"""AI4U's types of readings as the metadata has them; not the numbers of :class:`Kind`."""
+"""Numbers of AI4U's types in the metadata; fields on the wire have other numbers (``Kind``)."""
 
 
 class ModelInput(NamedTuple):
-    """A reading that a policy gets."""
+    """A reading that is part of a policy's observation."""
 
     name: str
     shape: tuple[int, ...]
@@ -40,9 +40,9 @@ class ModelOutput(NamedTuple):
 
 
 def metadata(inputs: Iterable[ModelInput], outputs: Iterable[ModelOutput]) -> str:
-    """What a script makes its spaces of, as JSON.
+    """Return the metadata as JSON.
 
-    A bound that there is not is JavaScript's ``Infinity``, which Python reads.
+    An infinite bound is written as JavaScript's ``Infinity``, which Python reads.
 
     >>> metadata([ModelInput("eyes", (2,), "sfloatarray", 0.0, 1.0)], [])
     '{"inputs": [{"name": "eyes", "shape": [2], "type": 5, "rangeMin": 0.0, "rangeMax": 1.0, \

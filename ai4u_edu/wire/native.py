@@ -106,7 +106,7 @@ class Reading(_Record, frozen=True):
     """Highest value, in the same form."""
     unit: Text
     is_input: bool
-    """Whether it is part of a policy's observation."""
+    """True if it is part of a policy's observation."""
 
 
 class Output(_Record, frozen=True):
@@ -117,7 +117,7 @@ class Output(_Record, frozen=True):
     low: Annotated[tuple[float, ...], LIST]
     high: Annotated[tuple[float, ...], LIST]
     is_output: bool
-    """Whether a policy drives it."""
+    """True if a policy drives it."""
 
     def __post_init__(self) -> None:
         if any(map(math.isnan, (*self.low, *self.high))):

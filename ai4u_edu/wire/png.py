@@ -1,4 +1,4 @@
-"""Grey pictures as PNG files: what AI4U's scripts expect of a camera."""
+"""Grey pictures as PNG files, as AI4U's scripts expect them from a camera."""
 
 import struct
 import zlib
@@ -11,13 +11,13 @@ _SIGNATURE = b"\x89PNG\r\n\x1a\n"
 
 
 def grey_png(picture: npt.NDArray[Any]) -> bytes:
-    r"""A picture of shape (height, width), uint8, as a PNG file.
+    r"""Return a picture of shape (height, width), uint8, as a PNG file.
 
     >>> grey_png(np.zeros((2, 3), np.uint8))[:4]
     b'\x89PNG'
     """
     height, width = picture.shape
-    rows = np.zeros((height, width + 1), np.uint8)  # each begins with a 0: it is not filtered
+    rows = np.zeros((height, width + 1), np.uint8)  # each begins with its filter type: 0 for none
     rows[:, 1:] = picture
     return b"".join(
         (

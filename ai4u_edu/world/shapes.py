@@ -11,7 +11,7 @@ from typing import Annotated, Any, Literal, Self
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
 
 from ai4u_edu.base.errors import ParameterError, shown
-from ai4u_edu.base.parameters import MIN_LENGTH_M, Point, PositiveMetres, explain, listed
+from ai4u_edu.base.parameters import MIN_LENGTH_M, Point, PositiveMetres, explain, format_problems
 
 OUTLINE_CORNERS = 48
 
@@ -33,7 +33,7 @@ class Description(BaseModel):
         try:
             super().__init__(**fields)
         except ValidationError as error:
-            problems = listed(explain(error.errors(), type(self)))
+            problems = format_problems(explain(error.errors(), type(self)))
             problem = ParameterError(f"{type(self).__name__}: {problems}")
             problem.details = error
             raise problem from None

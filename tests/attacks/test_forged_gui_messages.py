@@ -90,7 +90,7 @@ def page(room: Room) -> Iterator[Page]:
         here = Page(connection)
         here.report_camera()
         until(lambda: len(room.viewer.server.get_clients()) == before + 1)
-        room.viewer.viewer_clients.meet()
+        room.viewer.viewer_clients.refresh()
         shown(room.viewer)
         yield here
 

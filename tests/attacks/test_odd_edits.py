@@ -17,7 +17,7 @@ from ai4u_edu.blocks import Actuator, Block, Brain, Controller, RewardFunc, Sens
 from ai4u_edu.blocks.block import is_built_in
 from ai4u_edu.editing import ChangeResult
 from ai4u_edu.editing.forms import block_form
-from ai4u_edu.editing.names import SceneNames
+from ai4u_edu.editing.scene_names import SceneNames
 from ai4u_edu.editing.settings import agent_form, scene_form
 from ai4u_edu.editing.suggestion import suggest_block
 from ai4u_edu.scenes.serialization import is_serializable

@@ -1,4 +1,4 @@
-"""What is around, nearest first."""
+"""AreaOrientationSensor: kinds, directions and nearness of bodies, nearest first."""
 
 import math
 from typing import Any
@@ -21,7 +21,7 @@ SMALL = CircleShape(radius=0.1)
 
 
 def field(**places: tuple[float, float]) -> World:
-    """A robot at the origin that looks along +x, and small things to smell."""
+    """A robot at the origin that faces +x, and small bodies around it."""
     world = World()
     world.add_body("robot", CircleShape(radius=0.5))
     for name, place in places.items():

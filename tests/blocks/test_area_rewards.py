@@ -1,4 +1,4 @@
-"""Paid for what lies, or stands, in an area."""
+"""Rewards for bodies in areas and for parking."""
 
 import math
 from typing import Any
@@ -89,7 +89,7 @@ def parked(
     jump: float = 0.0,
     **fields: Any,
 ) -> float:
-    """What a car of 2 m by 1 m is paid in a bay of 3 m by 2 m, at (5, 5), that looks up."""
+    """Return the reward of a 2 m x 1 m car in a bay of 3 m x 2 m at (5, 5) that faces +y."""
     world = World(damping=1)
     world.add_body("robot", BoxShape(size=(2, 1)), random=Variation(scale=(scale, scale)))
     world.add_area("bay", BoxShape(size=(3, 2)), position=(5, 5), heading_deg=bay)

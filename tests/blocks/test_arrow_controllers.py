@@ -1,4 +1,4 @@
-"""Arrow keys in, actions out."""
+"""Keyboard controllers with arrow keys: from keys to actions."""
 
 from typing import Any
 

@@ -1,4 +1,4 @@
-"""A car goes where its wheels point, and W A S D drive it as they drive all else."""
+"""CarActuator: motion from throttle and steering, and driving with W A S D."""
 
 import math
 from typing import Any

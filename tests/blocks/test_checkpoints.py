@@ -1,4 +1,4 @@
-"""A way is paid place by place, in its order, and each place once."""
+"""CheckpointsReward: each target is paid once, in order."""
 
 from collections.abc import Sequence
 

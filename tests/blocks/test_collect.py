@@ -1,4 +1,4 @@
-"""Collecting: what is touched is gone, feeds, is paid for, and comes back."""
+"""CollectActuator: touched bodies leave, change variables, are paid for, and come back."""
 
 from typing import Any
 
@@ -27,7 +27,7 @@ AHEAD, BACK, STAY = (1, 0, 0, 0), (-1, 0, 0, 0), (0, 0, 0, 0)
 
 
 def orchard(*places: tuple[float, float], **fields: Any) -> World:
-    """A robot at the origin that looks along +x, and apples."""
+    """A robot at the origin that faces +x, and apples."""
     world = World()
     world.add_body("robot", CircleShape(radius=0.5), mass=5)
     for number, place in enumerate(places, start=1):
@@ -45,7 +45,7 @@ def variable(name: str, **fields: Any) -> HomeostaticVariable:
 
 
 class Drive:
-    """Does what it was last told."""
+    """Repeats the last action that it was given."""
 
     def __init__(self, action: tuple[float, ...]) -> None:
         self.action = action

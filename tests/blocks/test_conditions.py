@@ -1,4 +1,4 @@
-"""And, Or, and the conditions that they ask."""
+"""AndRewardFunc, OrRewardFunc and conditions."""
 
 from typing import Any
 
@@ -28,7 +28,7 @@ from tests.builders import small_sim, small_world
 
 
 class Pays(RewardFunc):
-    """Pays what it is told, decision by decision."""
+    """Pays the amounts of a list, one per decision."""
 
     amounts: list[float]
     ticks: int = 0
@@ -54,7 +54,7 @@ def paid(rewards: list[RewardFunc], steps: int, **fields: Any) -> list[float]:
 
 
 def holds(condition: RewardFunc, **fields: Any) -> bool:
-    """Whether a condition holds after the first decision."""
+    """Return True if a condition holds after the first decision."""
     return paid([AndRewardFunc(children=[condition])], 1, **fields) == [1.0]
 
 
@@ -122,7 +122,7 @@ def test_a_reset_reaches_the_children() -> None:
 
 
 def test_touch_in_the_air() -> None:
-    """Paid only for what happens together: in the goal, and jumping."""
+    """And pays only if both hold: in the goal, and in the air."""
     world = small_world()
     world.add_area("goal", CircleShape(radius=1))
     children = [
@@ -308,7 +308,7 @@ def test_an_end_by_any_of_two() -> None:
 
 def test_ticks_are_passed_on_only_where_a_child_wants_them() -> None:
     class Counting(OrRewardFunc):
-        """Wants them itself."""
+        """Counts its own ticks."""
 
         def on_tick(self, body: Any, view: Any) -> None: ...
 

@@ -1,4 +1,4 @@
-"""Parameters are declared once; everything else follows from the declaration."""
+"""Declared parameters: construction, errors and schema follow from the declaration."""
 
 from typing import Any
 
@@ -77,7 +77,7 @@ def test_the_schema_has_range_and_unit() -> None:
 
 def test_blocks_may_carry_attributes_of_their_own() -> None:
     class Mine(Sensor):
-        """Remembers something."""
+        """A block with an attribute of its own."""
 
     mine = Mine()
     mine.best = 3  # type: ignore[attr-defined]  # that a student may is what is tested

@@ -1,4 +1,4 @@
-"""Driving by force, pay by the metre, and rays that tell distances alone."""
+"""ForceMoveActuator, ProgressReward, and rays that read only distances."""
 
 import math
 from typing import Any

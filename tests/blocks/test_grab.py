@@ -1,4 +1,4 @@
-"""A hand: it holds, carries, lets go."""
+"""GrabActuator: grabbing, carrying, releasing."""
 
 import math
 from typing import Any
@@ -25,7 +25,7 @@ def room(**box: Any) -> World:
 
 
 class Pilot:
-    """Does what it was last told."""
+    """Repeats the last action that it was given."""
 
     def __init__(self) -> None:
         self.action: dict[str, Any] = {}

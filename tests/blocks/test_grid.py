@@ -1,4 +1,4 @@
-"""The world as a grid: its map, the agent's cell, and moves from cell to cell."""
+"""The world as a grid: GridSensor, CellSensor and GridMoveActuator."""
 
 import math
 from typing import Any
@@ -25,7 +25,7 @@ CODES = {"floor": 1, "wall": 50, "dirty": 200}
 
 
 class Drive:
-    """Chooses what it was last told."""
+    """Repeats the last choice that it was given."""
 
     choice: int | None = STAY
 

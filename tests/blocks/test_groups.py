@@ -1,4 +1,4 @@
-"""A block whose groups nothing carries is refused; one table of groups may serve several worlds."""
+"""Groups that do not exist in the world: all missing is an error, some missing is not."""
 
 from typing import Any
 
@@ -24,7 +24,7 @@ TYPO = {"tragt": 1}
 
 
 def marked_world() -> World:
-    """The small one, with a floor and an area that carry tags."""
+    """The small world with a tagged floor and a tagged area."""
     world = World()
     world.add_floor("plate", BoxShape(size=(20, 20)), tags=("ice",))
     world.add_area("bay", CircleShape(radius=1), tags=("goal",))

@@ -1,4 +1,4 @@
-"""And and Or ask every reward function whether it holds, whatever it pays."""
+"""The ``holds`` of each reward function, for And and Or, whatever it pays."""
 
 from typing import Any
 
@@ -47,7 +47,7 @@ def world(box: tuple[float, float] = (2.0, 0.0), **fields: Any) -> World:
 
 
 def held(child: RewardFunc, actions: list[Any], place: World, **fields: Any) -> list[bool]:
-    """Whether a child held after each decision: And pays 1 then, and nothing for what it pays."""
+    """Return True for each decision after which a child held: And pays 1 then."""
     answers = iter(actions)
     sim = small_sim(
         rewards=[AndRewardFunc(name="and", children=[child])],
@@ -153,7 +153,7 @@ def test_balance() -> None:
 
 
 class Paying(RewardFunc):
-    """Pays what it is told to, and says nothing of holding."""
+    """Pays given amounts and does not override holds."""
 
     amounts: list[float]
 
@@ -165,7 +165,7 @@ class Paying(RewardFunc):
 
 
 class OftenTouched(TouchRewardFunc):
-    """Pays something else than its base, and says nothing of holding."""
+    """Overrides the payment of its base, and does not override holds."""
 
     def on_update(self, body: Any, view: Any) -> float:
         return 7.0

@@ -1,4 +1,4 @@
-"""Internal variables: their levels, what they are worth, and how they feel."""
+"""Internal variables: levels, drift, discomfort and reward."""
 
 from typing import Any
 

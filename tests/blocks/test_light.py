@@ -1,4 +1,4 @@
-"""An eye for lamps."""
+"""LightSensor: brightness of lamps."""
 
 import math
 

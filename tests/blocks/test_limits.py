@@ -1,4 +1,4 @@
-"""Parameters that would take up all memory, or that no physics can bear, are refused."""
+"""Parameters that would need too much memory, or break the physics, are refused."""
 
 from typing import Any
 

@@ -1,4 +1,4 @@
-"""Eyes that look at the ground."""
+"""LineSensor: a line of areas on the ground."""
 
 import math
 from typing import Any
@@ -11,7 +11,7 @@ from tests.builders import small_sim
 
 
 def painted() -> World:
-    """A line 0.2 m wide along the y axis, in two pieces, and an area that is no line."""
+    """A line 0.2 m wide along the y axis, in two areas, and another area."""
     world = World()
     world.add_body("robot", CircleShape(radius=0.4))
     corners = ((-0.1, -3), (0.1, -3), (0.1, 0), (-0.1, 0))

@@ -1,4 +1,4 @@
-"""The picture from above shows what is there, cell by cell."""
+"""LocalGridSensor: the image from above, compared with a slow reference."""
 
 import math
 from typing import Any
@@ -192,7 +192,7 @@ SHAPES: list[Any] = [
 
 
 def random_world(chance: np.random.Generator) -> World:
-    """All shapes anywhere, turned anyhow, tagged by their number, and three floors with holes."""
+    """A world of all shapes at random poses, tagged by number, and three floors with holes."""
     world = World()
     world.add_body(
         "robot",
@@ -223,7 +223,7 @@ def random_world(chance: np.random.Generator) -> World:
 def cell_by_cell(
     world: World, channels: list[str], width: int, height: int, cell: float
 ) -> Picture:
-    """The same picture the slow way: asks each thing about each cell's centre."""
+    """Compute the same image slowly: test each shape at each cell's centre."""
     picture = np.zeros((height, width, len(channels)), np.uint8)
     robot = world["robot"]
     cos, sin = math.cos(robot.heading), math.sin(robot.heading)

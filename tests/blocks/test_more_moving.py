@@ -1,4 +1,4 @@
-"""Omni wheels, two wheels, a table of motions, and motions that a script makes."""
+"""Actuators for omni wheels, two wheels, tables of motions and scripts."""
 
 import math
 from typing import Any
@@ -35,7 +35,7 @@ def sim_with(actuator: Actuator, heading: float = 0.0, action: Any = None) -> Co
 
 
 def set_by(actuator: Actuator, action: tuple[float, ...], heading: float = 0.0) -> list[float]:
-    """[forward, left, turning, upward] speed after an action, before any tick."""
+    """Return the [forward, left, turning, upward] speed after an action, before any tick."""
     body = sim_with(actuator, heading).agents[0].body
     actuator.act(body, action)
     vx, vy = body.velocity

@@ -1,4 +1,4 @@
-"""Who is there, and who is gone."""
+"""PresenceSensor: bodies that are in the world."""
 
 import pytest
 

@@ -1,4 +1,4 @@
-"""RBMoveActuator does what its parameters say."""
+"""RBMoveActuator: motion from its numbers and parameters."""
 
 import math
 from typing import Any

@@ -69,7 +69,7 @@ def test_a_script_that_is_silent_for_too_long_is_late() -> None:
 
 
 def silent_sim(link: ScriptedLink, **fields: Any) -> Any:
-    """A sim and its brain, in lockstep, whose script was silent for too long."""
+    """Return a sim and its brain in lockstep whose script has timed out."""
     sim, brain = sim_with_link(link, receive_timeout=200, **fields)
     sim.tick()
     until = time.monotonic() + 5

@@ -1,4 +1,4 @@
-"""What was done once is done again."""
+"""ReplayController: recorded actions lead to the same positions."""
 
 from typing import Any
 

@@ -1,4 +1,4 @@
-"""Where an agent begins."""
+"""RespawnActuator: poses at a reset."""
 
 import math
 from typing import Any

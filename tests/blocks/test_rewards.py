@@ -1,4 +1,4 @@
-"""Each reward function pays what it says it pays."""
+"""Payments of touch, fall and distance rewards."""
 
 from typing import Any
 

@@ -1,4 +1,4 @@
-"""A Python function drives."""
+"""ScriptController: a Python function as a controller."""
 
 from typing import Any
 

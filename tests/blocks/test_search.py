@@ -1,4 +1,4 @@
-"""Search on a map: the ways are shortest ones, and A* does no more work than it has to."""
+"""Search on a map: paths are shortest, and A* visits no more cells than needed."""
 
 from itertools import pairwise, product
 from typing import Any
@@ -32,7 +32,7 @@ def drawn(seed: int) -> tuple[Map, Cell, list[Cell]]:
 
 
 def steps_to(free: Map, start: Cell, goals: list[Cell]) -> int | None:
-    """How far the nearest goal is, by a flood that knows nothing of either search."""
+    """Return the distance to the nearest goal by an independent flood fill."""
     reached = np.zeros_like(free)
     reached[start] = True
     for steps in range(free.size):

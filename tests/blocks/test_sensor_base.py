@@ -1,4 +1,4 @@
-"""What the base does for every sensor: stack, normalise, noise, delay, dropout, on and off."""
+"""The base of sensors: stacking, normalising, noise, delay, dropout, on and off."""
 
 from typing import Any
 

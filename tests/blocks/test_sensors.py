@@ -1,4 +1,4 @@
-"""Each built-in sensor reads what it says it reads."""
+"""Readings of the built-in sensors."""
 
 import math
 from typing import Any
@@ -30,7 +30,7 @@ from tests.builders import small_sim, small_world
 
 
 def turned(degrees: float) -> Any:
-    """The small world, the robot turned."""
+    """Return the small world with a turned robot."""
     from ai4u_edu import World
 
     world = World()
@@ -214,7 +214,7 @@ def test_composite_refuses_what_leaves_the_range_later(stacked: int) -> None:
 
 def test_composite_takes_what_only_rounding_put_beyond() -> None:
     class Edge(Sensor):
-        """Reads a bit more than 1."""
+        """Reads slightly more than 1."""
 
         def space(self) -> Box:
             return Box(0.0, 2.0, (1,))

@@ -1,4 +1,4 @@
-"""Heading, cut-off, and what a script tells the agent."""
+"""HeadingSensor, TruncatedSensor and AgentArraySensor."""
 
 import math
 from typing import Any

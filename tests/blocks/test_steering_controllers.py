@@ -1,4 +1,4 @@
-"""The scripted drivers: where they want to go, and how they vary."""
+"""Scripted drivers: their target points and their variation."""
 
 import math
 from typing import Any
@@ -34,7 +34,7 @@ def position(key: str, target: str, *, normalized: bool = False) -> PositionSens
 def driven(
     controller: Controller, sensors: list[Any], places: dict[str, Place], heading_deg: float = 0
 ) -> ControlRequestor:
-    """A robot that the controller drives, in a world with things at places; "robot" is one."""
+    """Return a sim with a robot that the controller drives, and bodies at given positions."""
     world = World()
     robot = places.pop("robot", (0.0, 0.0))
     world.add_body("robot", CircleShape(radius=0.4), position=robot, heading_deg=heading_deg)
@@ -51,7 +51,7 @@ def driven(
 def wish(
     controller: Any, sensors: list[Any], places: dict[str, Place], **fields: Any
 ) -> tuple[float, float]:
-    """Where it wants to go, in the world; the robot is at the origin and looks along +x."""
+    """Return its target point, world frame; the robot is at the origin and faces +x."""
     sim = driven(controller, sensors, places, **fields)
     forward, left = controller.target_point(sim.agents[0].percept)
     return round(forward, 2), round(left, 2)
@@ -142,7 +142,7 @@ PITCH = {"goal": (8.0, 0.0), "home": (-8.0, 0.0)}
 
 
 def striker(robot: Place, ball: Place) -> tuple[float, float]:
-    """Where it wants to go, in the world."""
+    """Return its target point, world frame."""
     keys = ("ball", "goal", "home")
     sensors = [position(key, key) for key in keys]
     x, y = wish(StrikerController(), sensors, {"robot": robot, "ball": ball, **PITCH})

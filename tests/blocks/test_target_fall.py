@@ -1,4 +1,4 @@
-"""Somebody else falls."""
+"""TargetFallReward: the fall of another body."""
 
 import pytest
 

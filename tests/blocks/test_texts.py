@@ -26,7 +26,7 @@ from tests.server.rooms import served
 
 
 class Signs(Sensor):
-    """The words on the signs that the agent sees."""
+    """Reads the texts on signs."""
 
     words: list[Any] = Field(default_factory=lambda: ["to the left", "", "stop"])
 
@@ -45,7 +45,7 @@ class Two(Signs):
 
 
 class Named(Signs):
-    """Says its type itself."""
+    """Declares its own type."""
 
     kind = "sstrings"
 

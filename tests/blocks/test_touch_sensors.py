@@ -1,4 +1,4 @@
-"""What bumpers and feet feel."""
+"""Touch and ground sensors."""
 
 from typing import Any
 

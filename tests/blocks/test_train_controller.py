@@ -1,4 +1,4 @@
-"""A script requests actions, and a TrainController has them done."""
+"""TrainController: it executes a script's requests."""
 
 import math
 from typing import Any
@@ -23,7 +23,7 @@ AHEAD = (1.0, 0.0, 0.0, 0.0)
 
 
 class Diary(Trainer):
-    """Writes down what it is told; requests the actions of a list, one a decision."""
+    """Records its calls, and requests the actions of a list, one per decision."""
 
     def __init__(self, *actions: Any) -> None:
         self.told: list[Any] = []

@@ -15,7 +15,7 @@ SOON = 5000
 
 @pytest.fixture
 def other() -> Iterator[socket.socket]:
-    """Whom it speaks to."""
+    """Return the socket of the peer."""
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as other:
         other.bind(("127.0.0.1", 0))
         yield other
@@ -30,7 +30,7 @@ def udp(other: socket.socket) -> Iterator[UdpSocket]:
 
 
 def heard(other: socket.socket) -> Any:
-    """Hears the next datagram; gives the address it came from."""
+    """Receive the next datagram and return its sender's address."""
     other.settimeout(SOON / 1000)
     return other.recvfrom(99)[1]
 

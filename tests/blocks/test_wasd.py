@@ -1,4 +1,4 @@
-"""Keys in, actions out."""
+"""Keyboard controllers with W, A, S, D: from keys to actions."""
 
 from typing import Any
 

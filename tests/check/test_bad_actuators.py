@@ -15,7 +15,7 @@ from tests.check.reports import SHORT, failed, outcome
 
 
 class Wheel(Actuator):
-    """Drives ahead; the others here spoil it."""
+    """Drives forward; the other classes break one rule each."""
 
     action_name: str = "move"
 

@@ -17,7 +17,7 @@ from tests.check.reports import SHORT, failed, outcome
 
 
 class Ahead(Controller):
-    """Drives ahead; the others here spoil it."""
+    """Drives forward; the other classes break one rule each."""
 
     def get_action(self, percept: Any) -> Any:
         return {"move": [1, 0, 0, 0]}

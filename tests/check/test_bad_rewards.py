@@ -13,7 +13,7 @@ from tests.check.reports import SHORT, failed, outcome
 
 
 class Fee(RewardFunc):
-    """Costs the distance to the middle; the others here spoil it."""
+    """Costs the distance to the middle; the other classes break one rule each."""
 
     def on_update(self, body: Any, view: Any) -> Any:
         return -abs(body.position[0])

@@ -17,7 +17,7 @@ from tests.check.reports import SHORT, failed, outcome
 
 
 class Gauge(Sensor):
-    """Reads how far ahead the body is; the others here spoil it."""
+    """Reads the body's x; the other classes break one rule each."""
 
     def space(self) -> Box:
         return Box(-1e4, 1e4, (1,))
@@ -104,7 +104,7 @@ class Sharing(Gauge):
 
 
 class Unseeded(Gauge):
-    """Takes chance from nowhere."""
+    """Is random without a seed."""
 
     numbers = itertools.count()
 
@@ -113,7 +113,7 @@ class Unseeded(Gauge):
 
 
 class Remembering(Gauge):
-    """Counts on after a reset."""
+    """Keeps counting after a reset."""
 
     def on_setup(self, agent: Any, view: Any) -> None:
         self.count = 0
@@ -124,7 +124,7 @@ class Remembering(Gauge):
 
 
 class Pushing(Gauge):
-    """Pushes what it looks at."""
+    """Pushes the body that it reads."""
 
     def read(self, body: Any, view: Any) -> Any:
         view["ball"].set_velocity(1, 0)
@@ -276,7 +276,7 @@ def test_chance_from_nowhere_is_not_the_same_twice() -> None:
 
 
 class OnlyOnce(Gauge):
-    """Can be set up once, whoever does it."""
+    """Can be set up only once."""
 
     uses = itertools.count()
 

@@ -1,4 +1,4 @@
-"""A scene is checked as a whole."""
+"""The check of a whole scene."""
 
 from typing import Any
 

@@ -63,7 +63,7 @@ class EditorHarness:
         self.editor = SceneEditor(self.runner, self.scene, offers=offers)
 
     def done(self, future: "Future[T]") -> T:
-        """Carries out what was asked; ticks pass only until all decisions are over."""
+        """Run commands until a future is done; ticks only as long as decisions are under way."""
         self.runner._run_commands()
         while not future.done():
             self.tick()
@@ -85,7 +85,7 @@ class EditorHarness:
 
 
 def trace(sim: Any, seed: int, ticks: int = 60) -> list[Any]:
-    """All that can be seen of an episode, bit for bit."""
+    """Return everything observable of an episode, to be compared bit for bit."""
     sim.reset(seed)
     seen = []
     for _ in range(ticks):

@@ -8,7 +8,7 @@ from ai4u_edu import Scene
 from ai4u_edu.editing import ChangeError
 from ai4u_edu.editing.blocks import block_paths, types_of
 from ai4u_edu.editing.forms import NONE_LABEL, Field, block_form
-from ai4u_edu.editing.names import SceneNames
+from ai4u_edu.editing.scene_names import SceneNames
 from ai4u_edu.editing.suggestion import suggest_block
 from tests.editing.harness import TEXT, EditorHarness
 

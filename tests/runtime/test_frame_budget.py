@@ -1,4 +1,4 @@
-"""How often snapshots and frames are made."""
+"""Rates of frames, and turns of pages."""
 
 import pytest
 

@@ -309,7 +309,7 @@ def test_the_recorder_goes_along_to_another_world() -> None:
 
 
 def driven(runner: Runner, actions: list[dict[str, list[float]]]) -> list[tuple[Any, ...]]:
-    """What is sensed, paid and where all bodies are after each of some decisions."""
+    """Return percept, reward terms, poses and tick after each of some decisions."""
     sim, found = runner.sim, []
     sim.agents[0].use_brain(LocalBrain(controller=ReplayController(actions=actions)))
     for _ in actions:

@@ -36,7 +36,7 @@ def slowed(clock: Clock, times: list[float], **options: Any) -> Runner:
 
 
 def told(runner: Runner) -> float | None:
-    """How long the slowest tick took, if it is told."""
+    """Return how long the slowest tick took; None if none is reported."""
     slow = runner.latest.slow_tick
     return None if slow is None else slow.seconds
 

@@ -1,4 +1,4 @@
-"""When a stall is told of, by a clock that a test sets."""
+"""Stalls by a clock that a test sets."""
 
 import threading
 

@@ -12,7 +12,7 @@ from stable_baselines3.common.vec_env import VecEnv
 
 from ai4u_edu import Command, Scene
 from ai4u_edu.base.version import __version__
-from ai4u_edu.blocks.brains.network import ABOUT, Network, Port
+from ai4u_edu.blocks.brains.network import TRAINING_KEY, Network, Port
 from ai4u_edu.training.algorithms import load_model, new_model
 from ai4u_edu.training.exporting import export
 from ai4u_edu.training.prepare import prepare
@@ -104,8 +104,8 @@ def test_what_the_file_says_of_itself(tmp_path: Path) -> None:
     assert one.stat().st_size < 200_000
     network = onnx.load(one)
     entries = {entry.key: entry.value for entry in network.metadata_props}
-    assert set(entries) == {ABOUT}
-    about = json.loads(entries[ABOUT])
+    assert set(entries) == {TRAINING_KEY}
+    about = json.loads(entries[TRAINING_KEY])
     assert (about["scene"], about["version"], about["algorithm"]) == (
         "box_chase",
         __version__,

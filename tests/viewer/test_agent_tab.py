@@ -1,4 +1,4 @@
-"""Each page has its tab, in which one agent is open."""
+"""The "Agent" tab of each page."""
 
 from collections.abc import Iterator
 from dataclasses import replace

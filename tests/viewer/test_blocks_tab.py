@@ -1,4 +1,4 @@
-"""The tab for blocks, on pages without a browser."""
+"""The "Blocks" tab, on pages without a browser."""
 
 import gc
 from collections.abc import Iterator

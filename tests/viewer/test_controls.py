@@ -1,4 +1,4 @@
-"""What a page asks for reaches the runner; what a page makes up does not."""
+"""Valid commands of a page reach the runner; forged ones do not."""
 
 import math
 from collections.abc import Iterator

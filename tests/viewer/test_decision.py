@@ -1,4 +1,4 @@
-"""The strip that shows how a decision goes: sense, decide, act, reward."""
+"""The strip of a decision's parts: sense, decide, act, reward."""
 
 import re
 from dataclasses import replace

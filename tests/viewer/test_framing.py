@@ -19,7 +19,7 @@ TALL = ((-2.0, -40.0), (2.0, 0.0))
 
 
 def on_screen(shown: Frame, aspect: float, x: float, y: float) -> tuple[float, float]:
-    """Where a place of the world is in the window: 0..1 from the left and from the top."""
+    """Return a point's position in the window: 0..1 from the left and from the top."""
     return (
         0.5 + (x - shown.x) / (shown.height * aspect),
         0.5 - (y - shown.y) / shown.height,

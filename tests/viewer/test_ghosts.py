@@ -1,4 +1,4 @@
-"""A ghost is where the recorded agent was at the same time, and says so where that is unfair."""
+"""A ghost has the pose of the recorded agent at the same time; a warning says if it is unfair."""
 
 from collections.abc import Iterator
 from dataclasses import replace

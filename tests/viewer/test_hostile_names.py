@@ -1,4 +1,4 @@
-"""Names that would be scripts: whoever writes a scene file does not write our page."""
+"""Names in scene files can't inject HTML or scripts into the page."""
 
 import html
 import re

@@ -1,4 +1,4 @@
-"""Names in the scene, and how it stands with the scripts that should drive."""
+"""Labels in the scene, with the state of remote scripts."""
 
 from dataclasses import replace
 from typing import Any

@@ -1,10 +1,10 @@
-"""How often a part of the picture is drawn."""
+"""The rate at which a part of a frame is drawn."""
 
 import pytest
 
+from ai4u_edu.base.log_limit import ErrorLog
 from ai4u_edu.snapshot import Snapshot, StaticScene
 from ai4u_edu.viewer.backend import part
-from ai4u_edu.viewer.backend.log_once import Complaints
 from ai4u_edu.viewer.backend.part import RatedPart
 from tests.viewer.worlds import busy_sim, picture
 
@@ -42,7 +42,7 @@ def test_what_takes_long_is_drawn_less_often(
     clock = Clock()
     monkeypatch.setattr(part, "time", clock)
     drawn = Drawn(clock, takes)
-    paced = RatedPart(drawn, 60, Complaints())
+    paced = RatedPart(drawn, 60, ErrorLog())
     sim = busy_sim()
     sim.reset(1)
     snapshot = picture(sim)

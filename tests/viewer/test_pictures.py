@@ -1,4 +1,4 @@
-"""Readings that are pictures are shown as such, in the colours of the scene."""
+"""Picture readings in the panel, in the colours of the scene."""
 
 import re
 

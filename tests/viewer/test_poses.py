@@ -11,7 +11,7 @@ from tests.viewer.worlds import busy_sim, picture
 
 
 def robot_at(**changes: Any) -> tuple[Poses, Layers]:
-    """Where the robot (the first body) is drawn if it is like this."""
+    """Return the drawn poses with the robot (the first body) changed."""
     sim = busy_sim()
     sim.reset(seed=1)
     snapshot = picture(sim)
@@ -22,7 +22,7 @@ def robot_at(**changes: Any) -> tuple[Poses, Layers]:
 
 
 def reach(where: Poses) -> float:
-    """How far the robot's shadow lies from under it."""
+    """Return the distance from the robot to its shadow, seen from above."""
     return float(np.linalg.norm(where.shadow_positions[0, :2] - where.positions[0, :2]))
 
 

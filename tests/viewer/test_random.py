@@ -1,4 +1,4 @@
-"""What a scene leaves to chance is drawn on the page as it is in each episode."""
+"""The page draws randomized scenes as they are in each episode."""
 
 from collections.abc import Iterator
 from typing import Any
@@ -47,7 +47,7 @@ def episodes(runner: Runner, viewer: Viewer) -> "Iterator[Shown]":
 
 
 class Shown:
-    """What the page has of the box and the area."""
+    """The scene nodes of the box and the area on the page."""
 
     def __init__(self, viewer: Viewer, runner: Runner) -> None:
         scene = viewer.server.scene

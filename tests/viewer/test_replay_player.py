@@ -1,4 +1,4 @@
-"""The past as all see it."""
+"""The player of recorded episodes, which all pages share."""
 
 from collections.abc import Iterator
 

@@ -1,4 +1,4 @@
-"""The tab for the past: what it lists, what its widgets ask for, what it takes from strangers."""
+"""The "Past" tab: its list, its widgets, and uploads from untrusted pages."""
 
 from collections.abc import Iterator
 
@@ -42,7 +42,7 @@ def viewer(runner: Runner) -> Iterator[Viewer]:
 
 def tab_of(viewer: Viewer) -> ReplayTab:
     """The tab of the only page, as it is now."""
-    viewer.viewer_clients.meet()
+    viewer.viewer_clients.refresh()
     shown(viewer)
     (tab,) = tabs_of(viewer, ReplayTab)
     return tab
@@ -83,7 +83,7 @@ def test_the_slider_moves_what_all_see(viewer: Viewer, runner: Runner) -> None:
         assert "Seen now: episode 1, step 7 of 20" in tab.status.content
         with page(viewer):  # whoever comes later sees the same
             until(lambda: len(viewer.server.get_clients()) == 2)
-            viewer.viewer_clients.meet()
+            viewer.viewer_clients.refresh()
             shown(viewer)
             assert [each.step.value for each in tabs_of(viewer, ReplayTab)] == [7, 7]
         here.change(tab.actions, "Back to now")
@@ -198,7 +198,7 @@ def test_the_table_marks_what_was_chosen_and_shortens_what_is_long() -> None:
 def test_without_a_recorder_there_is_no_such_tab() -> None:
     viewer = Viewer(Runner(Scene.load("box_chase").build(), seed=1))
     with page(viewer):
-        viewer.viewer_clients.meet()
+        viewer.viewer_clients.refresh()
         shown(viewer)
         assert tabs_of(viewer, ReplayTab) == []
     viewer.stop()

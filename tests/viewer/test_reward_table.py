@@ -1,4 +1,4 @@
-"""Which term paid what, at which decision."""
+"""Rewards by term and decision in the panel."""
 
 from ai4u_edu.agent import Entry, Ledger
 from ai4u_edu.runtime.runner import Runner

@@ -1,4 +1,4 @@
-"""What a sensor is about shows in the scene of those who look at its agent."""
+"""Sensor overlays are drawn on the pages that show the sensor's agent."""
 
 import numpy as np
 import pytest
@@ -95,7 +95,7 @@ def test_what_a_picture_from_above_shows_is_framed_and_turns(runner: Runner) -> 
 
 
 def own_nodes(viewer: Viewer, here: int = 0) -> set[str]:
-    """What is drawn on one page alone."""
+    """Return the names of the scene nodes that exist on one page only."""
     client = sorted(viewer.server.get_clients().items())[here][1]
     names = client.scene._handle_from_node_name
     return {name.rstrip("/") for name, each in names.items() if getattr(each, "visible", True)}

@@ -1,4 +1,4 @@
-"""What stands in the panel of a reading: every number by its name, unit and range."""
+"""Readings in the panel: each number with its name, unit and range."""
 
 import re
 from typing import Any
@@ -32,7 +32,7 @@ EVIL = "<script>alert('&')</script>"
 
 
 def sense_of(sensor: Sensor) -> tuple[SensorInfo, Any]:
-    """What is known of a sensor, and what it reads."""
+    """Return a sensor's description and its reading."""
     sim = small_sim(sensors=[sensor])
     sim.reset(1)
     (agent,) = sim.agents

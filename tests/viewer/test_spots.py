@@ -1,4 +1,4 @@
-"""Where a line sensor looks is seen, and whether it sees the line."""
+"""The points that a line sensor probes are drawn, lit where they are on the line."""
 
 import numpy as np
 import pytest

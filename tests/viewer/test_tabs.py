@@ -1,4 +1,4 @@
-"""Whoever has something to show adds a tab; each page has its own."""
+"""Each page has its own tabs."""
 
 import pytest
 

@@ -10,7 +10,7 @@ from ai4u_edu.snapshot import Snapshot
 from ai4u_edu.viewer import Viewer
 from ai4u_edu.viewer.scene.arena import camera_bounds
 from ai4u_edu.viewer.scene.framing import Frame, frame_arena, frame_point
-from ai4u_edu.viewer.scene.view import FOLLOWED, Mode, View
+from ai4u_edu.viewer.scene.view import FOLLOW_HEIGHT_IN_RADII, Mode, View
 from tests.viewer.pages import Page, page, until
 
 PLACE = (1.0, -2.0, 80.0)
@@ -35,7 +35,7 @@ class Watched:
         until(lambda: self.camera.update_timestamp > before)
 
     def sent(self) -> int:
-        """How many messages were meant for this page alone."""
+        """The number of messages sent to this page alone."""
         return self.client._websock_connection.get_message_buffer().message_counter
 
 
@@ -54,7 +54,7 @@ def place(shown: Frame) -> tuple[float, float, float]:
 
 
 def middle(x: float, y: float, height: float) -> list[float]:
-    """What a camera looks at that has a place in the middle of the free part of its window."""
+    """Return the target of a camera that shows a point in the middle of the uncovered window."""
     shown = frame_point(x, y, height, 1.2)
     return [shown.x, shown.y, 0.0]
 
@@ -141,8 +141,10 @@ def test_a_followed_agent_comes_to_the_middle_smoothly(
     view.update(runner.latest, "0")
     view.choose(Mode.FOLLOW)
     view.update(runner.latest, "0")
-    assert watched.camera.look_at == pytest.approx(middle(0.0, 0.0, 0.4 * FOLLOWED))
-    assert watched.camera.position[2] == pytest.approx(Frame(0, 0, 0.4 * FOLLOWED).distance)
+    assert watched.camera.look_at == pytest.approx(middle(0.0, 0.0, 0.4 * FOLLOW_HEIGHT_IN_RADII))
+    assert watched.camera.position[2] == pytest.approx(
+        Frame(0, 0, 0.4 * FOLLOW_HEIGHT_IN_RADII).distance
+    )
     ways = []
     for _ in range(60):
         now += 1 / 60

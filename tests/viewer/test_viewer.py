@@ -20,13 +20,13 @@ def nodes(viewer: Viewer) -> list[str]:
 
 
 def buffered(viewer: Viewer) -> Counter[str]:
-    """What a page that connects now is sent, by type of message."""
+    """Return the buffered messages that a new page receives, counted by type."""
     buffer = viewer.server._websock_server._broadcast_buffer
     return Counter(type(message).__name__ for message in buffer.message_from_id.values())
 
 
 def pushed(viewer: Viewer) -> int:
-    """How many messages were sent to all pages so far."""
+    """Return the number of messages sent to all pages so far."""
     return viewer.server._websock_server._broadcast_buffer.message_counter
 
 
@@ -161,7 +161,7 @@ def test_an_error_beside_the_parts_does_not_end_the_thread(
         failed.set()
         raise OSError("no clients")
 
-    monkeypatch.setattr(viewer.viewer_clients, "meet", fail)
+    monkeypatch.setattr(viewer.viewer_clients, "refresh", fail)
     viewer.start()
     assert failed.wait(5)
     failed.clear()

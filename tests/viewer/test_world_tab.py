@@ -1,4 +1,4 @@
-"""The tab for the world, on pages without a browser."""
+"""The "World" tab, on pages without a browser."""
 
 import time
 from collections.abc import Iterator

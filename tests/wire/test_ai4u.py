@@ -11,7 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from ai4u_edu.wire.ai4u import (
-    LARGEST,
+    MAX_DATAGRAM_BYTES,
     Field,
     Kind,
     Order,
@@ -110,7 +110,7 @@ def test_what_does_not_fit_into_a_datagram_says_what_to_do() -> None:
         (b"   1   2id4       3abc", "'id': expected BYTES, got 'abc'"),
         (b"   1   2id5       5a b c", "'id': expected FLOATS, got 'a b c'"),
         (b"   0?", "expected the end after 0 fields, got 1 bytes more"),
-        (b"   0" + bytes(LARGEST), "expected at most 65507 bytes, got 65511"),
+        (b"   0" + bytes(MAX_DATAGRAM_BYTES), "expected at most 65507 bytes, got 65511"),
     ],
 )
 def test_what_is_no_request(data: bytes, says: str) -> None:
@@ -145,7 +145,7 @@ def test_replies(data: bytes, orders: list[Order]) -> None:
         (b"move;1;1;2", "'move': expected 1 arguments as it says, got 2"),
         (b"move;1;1@", "expected a command as in 'move;2;1.0;0.5', got ''"),
         (b"\xff\xfe", "expected a reply in UTF-8, got b'\\xff\\xfe'"),
-        (bytes(LARGEST + 1), "expected at most 65507 bytes, got 65508"),
+        (bytes(MAX_DATAGRAM_BYTES + 1), "expected at most 65507 bytes, got 65508"),
     ],
 )
 def test_what_is_no_reply(data: bytes, says: str) -> None:

@@ -1,4 +1,4 @@
-"""The brains, and what they can answer."""
+"""Brains, and their answers."""
 
 from ai4u_edu.blocks.brains.brain import Brain
 from ai4u_edu.blocks.brains.command import Action, Command

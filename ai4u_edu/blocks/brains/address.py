@@ -1,4 +1,4 @@
-"""Where a brain is, as one writes it on the command line."""
+"""Addresses of brains on the command line."""
 
 from typing import Any
 from urllib.parse import parse_qsl, urlsplit
@@ -10,7 +10,7 @@ EXAMPLE = "ai4u://127.0.0.1:8080"
 
 
 def brain_at(address: str) -> RemoteBrain:
-    """The brain at an address; its parameters may follow a question mark.
+    """Return the brain at an address; its parameters may follow a question mark.
 
     >>> brain_at("ai4u://127.0.0.1:8090?mode=realtime&on_missing=stop")
     RemoteBrain(port=8090, mode='realtime', on_missing='stop')

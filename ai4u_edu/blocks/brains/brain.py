@@ -1,4 +1,4 @@
-"""What every brain has: how often it decides, and the one door to acting."""
+"""The base class of brains."""
 
 from typing import Annotated
 
@@ -18,13 +18,13 @@ class Brain(Block):
     skip_frame: Annotated[int, Field(ge=0, le=10_000)] = 4
     """Ticks skipped between two decisions: it decides every ``skip_frame + 1`` ticks."""
     repeat_action: bool = True
-    """Whether the action is applied on every tick until the next decision, or on the first only."""
+    """True applies the action on every tick until the next decision, False on the first only."""
 
     def decide(self, percept: Percept) -> Answer:
-        """An action by the actuator's name, or a command.
+        """Return an action by the actuator's name, or a command.
 
         Args:
-            percept: what the agent senses now; all that a brain ever sees.
+            percept: of the agent; a brain gets nothing else.
         """
         raise BlockError(
             f"{type(self).__name__} has no decide(self, percept): it must return an action"
@@ -32,19 +32,19 @@ class Brain(Block):
 
     @property
     def keeps_waiting(self) -> bool:
-        """Whether it answers HOLD, until the runner is called; then to ask it is in vain."""
+        """True while :meth:`decide` can only return HOLD; the runner is notified of the answer."""
         return False
 
     def restart_seed(self) -> int | None:
-        """The seed of the episode that it asks for with RESTART; None: it follows from the last."""
+        """Return the seed for its RESTART; None: the seed follows from the last one."""
         return None
 
     def idle(self) -> None:
-        """Called now and then while the world stands still, and nothing is to be decided."""
+        """Do regular work while the world stands still, and there is nothing to decide."""
 
     def close(self) -> None:
-        """Called when another brain takes its place, or the world ends."""
+        """Release resources: another brain takes its place, or the world ends."""
 
     def title(self) -> str:
-        """What a person calls it."""
+        """Return its name for people."""
         return type(self).__name__

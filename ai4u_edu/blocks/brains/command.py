@@ -1,4 +1,4 @@
-"""What a brain can answer instead of an action."""
+"""Answers of brains: actions and commands."""
 
 from collections.abc import Mapping
 from enum import StrEnum
@@ -23,15 +23,15 @@ class Command(StrEnum):
     WAIT = "wait"
     """No answer yet: ask again at the next tick."""
     HOLD = "hold"
-    """No answer yet, and the world waits for it: no tick passes before it is asked again."""
+    """No answer yet, and the world waits for it: ask again before the next tick."""
 
 
 Action = Mapping[str, Any]
-"""An action by the actuator's name: numbers for each. What is left out gets no action."""
+"""Numbers by the actuator's name; actuators that are left out get no action."""
 
 
 class Accepted(dict[str, tuple[float, ...]]):
-    """An action whose numbers the agent's actuators have accepted; they aren't asked again."""
+    """An action whose numbers the agent's actuators have checked already."""
 
 
 Answer = Action | Command

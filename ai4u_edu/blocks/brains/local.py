@@ -17,9 +17,9 @@ from ai4u_edu.world import WorldView
 
 
 class LocalBrain(Brain):
-    """Asks its controller: a keyboard, a Python function, a network.
+    """Decides by its controller: a keyboard, a Python function, a network.
 
-    A plain function from percept to action may stand in the controller's place.
+    A plain function from percept to action may be given as the controller.
 
     >>> LocalBrain(controller=lambda percept: {"move": [1, 0, 0, 0]}).skip_frame
     4
@@ -45,23 +45,23 @@ class LocalBrain(Brain):
         return (self._controller,)
 
     def on_setup(self, agent: AgentView, view: WorldView) -> None:
-        """Sets the controller up."""
+        """Set the controller up."""
         self._controller.on_setup(agent, view)
 
     def on_reset(self, agent: AgentView, view: WorldView) -> None:
-        """Resets the controller."""
+        """Reset the controller."""
         self._controller.on_reset(agent, view)
 
     def decide(self, percept: Percept) -> Answer:
-        """What the controller says."""
+        """Return the controller's answer."""
         controller = self._controller
         controller.new_state_event(percept)
         return controller.get_action(percept)
 
     def title(self) -> str:
-        """Its own name and its controller's."""
+        """Return its own name and its controller's."""
         return f"{type(self).__name__}({type(self.controller).__name__})"
 
     @property
     def _controller(self) -> Controller:
-        return cast(Controller, self.controller)  # the validator wrapped whatever is not one
+        return cast(Controller, self.controller)  # the validator wraps functions

@@ -1,4 +1,4 @@
-"""A trained network in a file: what goes in, what comes out, and where it was trained."""
+"""A trained network in an ONNX file: its inputs, its outputs, and its metadata."""
 
 import json
 import math
@@ -16,28 +16,28 @@ from ai4u_edu import zoo
 from ai4u_edu.base.errors import BlockError, suggest
 from ai4u_edu.base.optional_deps import need
 
-LARGEST = 64 * 2**20
-"""Bytes that a network's file may have."""
+MAX_NETWORK_BYTES = 64 * 2**20
+"""Largest file of a network."""
 
 MAX_PORT_NUMBERS = 2**24
-"""Numbers that one input or output may have; more is no reading and no action."""
+"""Most numbers of one input or output."""
 
 MAX_REASON_CHARS = 300
-"""Length of onnxruntime's own words in a message."""
+"""Longest text of onnxruntime in an error."""
 
-NO_PARTS = "session.model_external_initializers_file_folder_path"
-"""The setting that names the folder in which onnxruntime looks for parts of a network."""
+EXTERNAL_DATA_SETTING = "session.model_external_initializers_file_folder_path"
+"""Name of onnxruntime's setting for the folder of external data of a network."""
 
-IN_THE_ZOO = "zoo:"
-"""What a path begins with that names a scene's network of the package."""
+ZOO_PREFIX = "zoo:"
+"""Prefix of a path that names a network of the package, by its scene."""
 
-ABOUT = "ai4u_edu"
-"""The name of the entry, among the file's own metadata, in which we say where it was trained."""
+TRAINING_KEY = "ai4u_edu"
+"""Key of our entry in the file's metadata, which describes the training."""
 
 _FOLDER: ContextVar[Path | None] = ContextVar("_FOLDER", default=None)
 
 RHYTHM = ("skip_frame", "repeat_action")
-"""The parameters of a brain that a network remembers."""
+"""Parameters of a brain that are part of a network's metadata."""
 
 DTYPES: dict[str, npt.DTypeLike] = {
     "tensor(float)": np.float32,
@@ -53,13 +53,13 @@ class Port(NamedTuple):
 
     name: str
     shape: tuple[int, ...]
-    """Of one decision; the batch that comes first is left out."""
+    """Shape for one decision, without the batch axis."""
     dtype: np.dtype[Any]
 
 
 @contextmanager
 def files_in(folder: Path | None) -> Iterator[None]:
-    """Blocks that are made meanwhile look for their files in a folder: a scene file's."""
+    """Resolve the relative paths of blocks that are made meanwhile in this folder."""
     before = _FOLDER.set(folder)
     try:
         yield
@@ -68,22 +68,22 @@ def files_in(folder: Path | None) -> Iterator[None]:
 
 
 def folder_of_files() -> Path | None:
-    """Where a block that is being made looks for its files; None for the current folder."""
+    """Return the folder for relative paths of blocks; None for the current folder."""
     return _FOLDER.get()
 
 
 def find_network(path: str, folder: Path | None = None) -> Path:
-    """The file that a path names.
+    """Return the file that a path names.
 
     Args:
         path: of an ONNX file, or ``zoo:`` and a scene.
-        folder: where a relative path begins; if it is not there, in the current folder.
+        folder: for relative paths; the current folder is searched too.
 
     Raises:
-        BlockError: there is none, or it is no ONNX file.
+        BlockError: there is no such file, or it is not an ONNX file.
     """
-    if path.startswith(IN_THE_ZOO):
-        scene = path.removeprefix(IN_THE_ZOO)
+    if path.startswith(ZOO_PREFIX):
+        scene = path.removeprefix(ZOO_PREFIX)
         if scene not in zoo.names():
             raise BlockError(f"the zoo has no network for {scene!r}; {suggest(scene, zoo.names())}")
         return zoo.network_of(scene)
@@ -103,14 +103,14 @@ def find_network(path: str, folder: Path | None = None) -> Path:
 class Network:
     """A network that onnxruntime runs, on one thread.
 
-    Nothing but ONNX is ever loaded: a file of numbers and of operations from a fixed list, in which
-    no program can hide.
+    Only ONNX is loaded: numbers, and operations from a fixed list; no code from the file is
+    executed.
 
     Args:
         path: the file.
 
     Raises:
-        BlockError: it can't be read, or onnxruntime can't run it.
+        BlockError: the file can't be read, or onnxruntime can't run the network.
         SetupError: onnxruntime is not installed.
     """
 
@@ -120,17 +120,17 @@ class Network:
 
         self.path = path
         options = onnxruntime.SessionOptions()
-        # a network as small as a policy's is done before a second thread is awake
+        # a policy's network is so small that it is done before a second thread wakes up
         options.intra_op_num_threads = options.inter_op_num_threads = 1
         options.log_severity_level = 4
-        # a folder that can't be: all of a network is in its own file, and it reads no other one
-        options.add_session_config_entry(NO_PARTS, str(path.absolute() / "no parts"))
+        # a folder that can't exist, so that no file but the network's own is ever read
+        options.add_session_config_entry(EXTERNAL_DATA_SETTING, str(path.absolute() / "no parts"))
         data = _bytes_of(path)
         try:
             session = onnxruntime.InferenceSession(
                 data, options, providers=["CPUExecutionProvider"], enable_fallback=0
             )
-            # names may be no text at all, which shows when they are read
+            # reading names raises if they are not valid text
             self.inputs = [_port(each, path) for each in session.get_inputs()]
             self.outputs = [_port(each, path) for each in session.get_outputs()]
             entries = dict(session.get_modelmeta().custom_metadata_map)
@@ -145,11 +145,11 @@ class Network:
         self._feeds = [(port.name, (1, *port.shape), port.dtype) for port in self.inputs]
         self._shapes = [(1, *port.shape) for port in self.outputs]
         self.about = _about(entries, path)
-        """Where it was trained; empty for a network from elsewhere."""
+        """Description of its training; empty for a network from elsewhere."""
 
     @property
     def rhythm(self) -> dict[str, Any]:
-        """How its brain decided where it was trained; empty for a network from elsewhere."""
+        """The brain's parameters in its training; empty for a network from elsewhere."""
         return {name: self.about[name] for name in RHYTHM if name in self.about}
 
     def decide(self, percept: Mapping[str, Any]) -> dict[str, npt.NDArray[Any]]:
@@ -182,11 +182,11 @@ class Network:
 def _bytes_of(path: Path) -> bytes:
     try:
         with path.open("rb") as file:
-            data = file.read(LARGEST + 1)
+            data = file.read(MAX_NETWORK_BYTES + 1)
     except OSError as error:
         raise BlockError(f"{path}: can't be read: {error.strerror}") from None
-    if len(data) > LARGEST:
-        raise BlockError(f"{path.name}: expected at most {LARGEST // 2**20} MB")
+    if len(data) > MAX_NETWORK_BYTES:
+        raise BlockError(f"{path.name}: expected at most {MAX_NETWORK_BYTES // 2**20} MB")
     return data
 
 
@@ -222,9 +222,9 @@ def _port(node: Any, path: Path) -> Port:
 
 def _about(entries: Mapping[str, str], path: Path) -> dict[str, Any]:
     try:
-        about = json.loads(entries.get(ABOUT, "{}"))
+        about = json.loads(entries.get(TRAINING_KEY, "{}"))
     except (ValueError, RecursionError):
         about = None
     if not isinstance(about, dict):
-        raise BlockError(f"{path.name}: its entry {ABOUT!r} is no JSON mapping")
+        raise BlockError(f"{path.name}: its entry {TRAINING_KEY!r} is no JSON mapping")
     return about

@@ -58,7 +58,7 @@ class RemoteBrain(Brain):
     """
 
     host: Annotated[str, Field(min_length=1, max_length=255)] = "127.0.0.1"
-    """Where the script listens."""
+    """Host on which the script listens."""
     port: Annotated[int, Field(ge=1, le=65535)] = 8080
     """Port at which the script listens."""
     receive_timeout: Annotated[int, quantity("ms", ge=200, le=600_000)] = 2000

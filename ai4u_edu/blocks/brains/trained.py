@@ -9,11 +9,11 @@ __all__ = ["trained_brain"]
 
 
 def trained_brain(model_path: str, **parameters: Any) -> LocalBrain:
-    """A LocalBrain that a network drives, in the rhythm in which it learned to.
+    """Return a LocalBrain driven by a network, with the decision interval of its training.
 
     Args:
-        model_path: of an ONNX file, or ``zoo:`` and a scene's name.
-        parameters: others of :class:`NeuralNetController`.
+        model_path: path of an ONNX file, or ``zoo:`` and a scene's name.
+        parameters: further parameters of :class:`NeuralNetController`.
 
     Raises:
         BlockError: there is no such network, or it can't be run.

@@ -17,7 +17,7 @@ class FallReward(RewardFunc):
 
     Source: AI4U's FallReward.
 
-    Differs from AI4U: axis and isLocal don't exist here: bodies fall along the world's z axis and
+    Differs from AI4U: axis and isLocal don't exist here. Bodies fall along the world's z axis and
     never tip over.
     """
 

@@ -32,7 +32,7 @@ class Rules:
     token: str = ""
     """Token that scripts and pages must send; empty: none is needed."""
     seeded_resets: bool = False
-    """Whether the script of one of several agents may begin a new episode for all of them."""
+    """True allows the script of one of several agents to reset the whole world with a seed."""
     lockstep: bool | None = None
     """True allows scripts to make the world wait for their actions; left out, this is allowed only
     if there is a single agent. A program that drives all agents in lockstep needs True."""

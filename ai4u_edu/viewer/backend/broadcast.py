@@ -17,9 +17,8 @@ from threading import get_ident
 import msgspec
 import viser
 import zstandard
-from viser.infra import WebsockClientConnection, _infra
+from viser.infra import Message, WebsockClientConnection, _infra
 from viser.infra._async_message_buffer import AsyncMessageBuffer
-from viser.infra._messages import Message
 from websockets.asyncio.server import ServerConnection, broadcast
 
 from ai4u_edu.base.log_limit import log_limited
@@ -219,7 +218,8 @@ def install_broadcaster(server: viser.ViserServer) -> bool:
     if viser.__version__ != VISER_VERSION:
         return False
     web = server._websock_server
-    setattr(web._broadcast_buffer, _BROADCASTER, Broadcaster(web._broadcast_buffer))
+    buffer = web.get_message_buffer()
+    setattr(buffer, _BROADCASTER, Broadcaster(buffer))
     web.on_client_connect(_mark_buffer)
     if _infra._message_producer is _visers_producer:
         _infra._message_producer = _produce

@@ -30,8 +30,7 @@ from viser._messages import (
     GuiFormSubmitMessage,
     GuiUpdateMessage,
 )
-from viser.infra import ClientId, WebsockClientConnection, WebsockServer
-from viser.infra._messages import Message
+from viser.infra import ClientId, Message, WebsockClientConnection, WebsockServer
 
 from ai4u_edu.base.log_limit import log_limited
 from ai4u_edu.viewer.backend.reporting import describe_error

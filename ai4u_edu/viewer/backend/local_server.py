@@ -26,7 +26,7 @@ class LocalServer(ViserServer):
             super().__init__(host="127.0.0.1", port=0, label=label, verbose=False)
         web = self._websock_server
         web.on_client_connect(lambda page: _mute_buffer(page.get_message_buffer()))
-        _mute_buffer(web._broadcast_buffer)
+        _mute_buffer(web.get_message_buffer())
         install_broadcaster(self)
         IncomingMessages(self)
 

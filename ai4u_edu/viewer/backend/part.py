@@ -3,9 +3,9 @@
 import time
 from typing import Protocol
 
-from ai4u_edu.runtime.frame_budget import EARLY, PART_SHARE
+from ai4u_edu.base.log_limit import ErrorLog
+from ai4u_edu.runtime.frame_budget import EARLY_FRACTION, PART_SHARE
 from ai4u_edu.snapshot import Snapshot, StaticScene
-from ai4u_edu.viewer.backend.log_once import Complaints
 
 
 class Part(Protocol):
@@ -24,20 +24,20 @@ class RatedPart:
     Args:
         part: what is drawn.
         rate: how many times a second, at most.
-        complaints: gets to know what went wrong.
+        error_log: logs errors of the part.
     """
 
-    def __init__(self, part: Part, rate: float, complaints: Complaints) -> None:
+    def __init__(self, part: Part, rate: float, error_log: ErrorLog) -> None:
         self.part = part
-        self._period = EARLY / rate
-        self._complaints = complaints
+        self._period = EARLY_FRACTION / rate
+        self._error_log = error_log
         self._drawn_at = self._draw_time = 0.0
         self._is_ready = False
 
     def build(self, static_scene: StaticScene) -> None:
         """Prepare the part for a static scene; it is drawn in the next frame."""
         self._drawn_at, self._is_ready = 0.0, False
-        with self._complaints.caught():
+        with self._error_log.caught():
             self.part.build(static_scene)
             self._is_ready = True
 
@@ -52,6 +52,6 @@ class RatedPart:
             self._period, self._draw_time / PART_SHARE
         ):
             self._drawn_at, began = now, time.thread_time()
-            with self._complaints.caught():
+            with self._error_log.caught():
                 self.part.draw(snapshot)
             self._draw_time = time.thread_time() - began

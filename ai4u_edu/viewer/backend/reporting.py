@@ -5,10 +5,10 @@ from functools import wraps
 from typing import Any, TypeVar
 
 from ai4u_edu.base.errors import AI4UError
-from ai4u_edu.viewer.backend.log_once import Complaints
+from ai4u_edu.base.log_limit import ErrorLog
 
 E = TypeVar("E")
-_complaints = Complaints()
+_error_log = ErrorLog()
 
 
 def describe_error(error: Exception) -> str:
@@ -18,7 +18,7 @@ def describe_error(error: Exception) -> str:
     """
     if isinstance(error, AI4UError):
         return str(error)
-    _complaints.write(error)
+    _error_log.write(error)
     return f"{type(error).__name__}: {error}"
 
 

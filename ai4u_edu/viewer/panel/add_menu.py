@@ -40,7 +40,7 @@ BODY_TEMPLATES: dict[str, dict[str, Any]] = {
 """Descriptions of new bodies, by the label of their button."""
 RING_SPACING_M = 0.5
 """Distance (m) between the rings of positions that are tried."""
-MAX_RINGS = 24
+MAX_RINGS = 23
 """Number of those rings."""
 MIN_DOWNWARD_SLOPE = 0.2
 """Slope from which a camera counts as looking down at the ground."""
@@ -117,7 +117,7 @@ def _distance_to_box(
 def _positions_around(x: float, y: float) -> Iterator[tuple[float, float]]:
     """Yield positions around (x, y), nearest first."""
     yield round(x, 1), round(y, 1)
-    for ring in range(1, MAX_RINGS):
+    for ring in range(1, MAX_RINGS + 1):
         for step in range(6 * ring):
             angle = step * math.pi / 3 / ring
             radius = RING_SPACING_M * ring

@@ -95,11 +95,11 @@ def strip(
     tops = 1 - np.maximum(zeros, tips)
     heights = np.maximum(np.abs(tips - zeros), MIN_BAR_HEIGHT)
     groups: dict[Rgb | None, list[str]] = {}
-    for place, (top, height) in enumerate(zip(tops.tolist(), heights.tolist(), strict=True)):
-        x = place + BAR_GAP / 2
+    for index, (top, height) in enumerate(zip(tops.tolist(), heights.tolist(), strict=True)):
+        x = index + BAR_GAP / 2
         y, width = min(top, 1 - MIN_BAR_HEIGHT), 1 - BAR_GAP
         path = f"M{x:.2f} {y:.2f}h{width}v{height:.2f}h-{width}z"
-        groups.setdefault(colours[place] if colours else None, []).append(path)
+        groups.setdefault(colours[index] if colours else None, []).append(path)
     paths = "".join(
         f'<path d="{"".join(each)}"' + (f' fill="rgb{colour}"/>' if colour else "/>")
         for colour, each in groups.items()

@@ -7,8 +7,8 @@ from typing import Any
 from viser import ClientHandle
 
 from ai4u_edu.editing.forms import block_form, block_summary
-from ai4u_edu.editing.names import SceneNames
 from ai4u_edu.editing.plain import BlockPath, Plain
+from ai4u_edu.editing.scene_names import SceneNames
 from ai4u_edu.viewer.panel.field_form import FieldForm
 
 

@@ -12,8 +12,8 @@ from ai4u_edu.base.parameters import Problem
 from ai4u_edu.editing import ChangeError, ChangeResult, SceneEditor
 from ai4u_edu.editing.blocks import block_at, is_enabled
 from ai4u_edu.editing.forms import Field
-from ai4u_edu.editing.names import SceneNames
 from ai4u_edu.editing.plain import BlockPath
+from ai4u_edu.editing.scene_names import SceneNames
 from ai4u_edu.editing.settings import agent_form
 from ai4u_edu.editing.suggestion import suggest_block
 from ai4u_edu.snapshot import Snapshot
@@ -90,7 +90,7 @@ class BlocksTab:
         self.add.on_click(self._on_add)
 
     _path: BlockPath | None
-    form: BlockForm | None
+    _form: BlockForm | None
     _problems: tuple[Problem, ...] | None
 
     def draw(self, snapshot: Snapshot) -> None:
@@ -101,13 +101,13 @@ class BlocksTab:
         if agent != self._agent:
             self._agent, self._path = agent, None
         brains = next(each.brain for each in snapshot.agents if each.id == agent)
-        seen = (editor.version, agent, self._kind, self._path, brains)
-        if seen != self._shown:
+        state = (editor.version, agent, self._kind, self._path, brains)
+        if state != self._shown:
             try:
                 self._show(agent)
             except AI4UError:
                 return  # the editor has another scene already; wait for its snapshot
-            self._shown = seen
+            self._shown = state
         self.settings.draw(agent, editor.version)
         if self._problems is not None and self.form is not None:
             problems, self._problems = self._problems, None
@@ -169,8 +169,8 @@ class BlocksTab:
         if (unsaved is not None) != self.unsaved_text.visible:
             self.unsaved_text.visible = self.unsaved_actions.visible = unsaved is not None
         if unsaved is not None:
-            told = f"<b>An unsaved scene from {escape(unsaved.when)} is there.</b>"
-            self.unsaved_text.content = f'<div class="ai4u">{told}</div>'
+            text = f"<b>An unsaved scene from {escape(unsaved.when)} is there.</b>"
+            self.unsaved_text.content = f'<div class="ai4u">{text}</div>'
 
     def _settings(self) -> list[Field]:
         return agent_form(self._editor.state.agent(self._viewer_client.agent))
@@ -215,9 +215,9 @@ class BlocksTab:
         if name is None:
             return
         state = self._editor.state
-        where, count = (self._kind,), len(state.agent(agent).get(self._kind, ()))
-        future = self._editor.add_block(agent, where, suggest_block(state, agent, name))
-        self._follow_change(future, (*where, count))
+        path, count = (self._kind,), len(state.agent(agent).get(self._kind, ()))
+        future = self._editor.add_block(agent, path, suggest_block(state, agent, name))
+        self._follow_change(future, (*path, count))
 
     async def _on_changes(self, event: GuiEvent[GuiButtonGroupHandle]) -> None:
         undoes = event.target.value == UNDO
@@ -270,7 +270,7 @@ class BlocksTab:
                 self._path = then or self._path
             elif isinstance(error, ChangeError) and of_form:
                 self._message, self._problems = (
-                    "That can't be; see what is edit_status below.",
+                    "That can't be; see what is said below.",
                     error.problems,
                 )
             elif error is not None:

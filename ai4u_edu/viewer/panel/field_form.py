@@ -14,7 +14,7 @@ from viser import (
     GuiTextHandle,
 )
 
-from ai4u_edu.base.parameters import Problem, dotted
+from ai4u_edu.base.parameters import Problem, format_path
 from ai4u_edu.editing import ChangeError
 from ai4u_edu.editing.forms import Field
 from ai4u_edu.viewer.panel.html_parts import section
@@ -113,7 +113,7 @@ class FieldForm:
         for problem in problems:
             name = str(problem.path[0]) if problem.path else ""
             if name in self.boxes:
-                inside = dotted(problem.path[1:])
+                inside = format_path(problem.path[1:])
                 texts.setdefault(name, []).append(
                     f"{inside}: {problem.text}" if inside else problem.text
                 )

@@ -46,12 +46,12 @@ def status(snapshot: Snapshot, stall: Stall | None = None) -> str:
     agents = snapshot.agents
     # several agents have steps of their own, which their tab shows
     steps = f"<span><small>step</small> {agents[0].steps}</span>" if len(agents) == 1 else ""
-    place = (
+    progress = (
         f"<span><small>Episode</small> {snapshot.episode}</span>{steps}"
         f"<span><small>time</small> {number(snapshot.time)} s</span>"
     )
     speed = _speed(snapshot) if stall is None else f"<strong>{escape(str(stall))}</strong>"
-    return section(place, speed, *map(_script, agents), kind="status bare")
+    return section(progress, speed, *map(_script, agents), kind="status bare")
 
 
 def goal(static_scene: StaticScene) -> str:
@@ -104,6 +104,6 @@ def _slow_tick(snapshot: Snapshot) -> str:
     slow = snapshot.slow_tick
     if slow is None:
         return ""
-    many = slow.contacts > len(snapshot.bodies) * MAX_USUAL_CONTACTS
-    why = f" with {slow.contacts} contacts: move bodies out of each other" if many else ""
+    overlap = slow.contacts > len(snapshot.bodies) * MAX_USUAL_CONTACTS
+    why = f" with {slow.contacts} contacts: move bodies out of each other" if overlap else ""
     return f"<br><strong>a tick took {1000 * slow.seconds:.0f} ms{why}</strong>"

@@ -5,9 +5,9 @@ from typing import NamedTuple, Protocol
 
 from viser import PanelHandle
 
+from ai4u_edu.base.log_limit import ErrorLog
 from ai4u_edu.runtime.frame_budget import TEXTS_PER_S, PageTurns
 from ai4u_edu.snapshot import Snapshot, StaticScene
-from ai4u_edu.viewer.backend.log_once import Complaints
 from ai4u_edu.viewer.viewer_client import ViewerClient, ViewerClients
 
 
@@ -38,18 +38,18 @@ class Tabs:
     Args:
         viewer_clients: the pages.
         kinds: the tabs, from left to right.
-        complaints: logs errors of a tab; the other tabs are drawn nevertheless.
+        error_log: logs errors of a tab; the other tabs are drawn nevertheless.
     """
 
     def __init__(
         self,
         viewer_clients: ViewerClients,
         kinds: Sequence[TabKind],
-        complaints: Complaints,
+        error_log: ErrorLog,
     ) -> None:
         self._viewer_clients = viewer_clients
         self.kinds = tuple(kinds)
-        self._complaints = complaints
+        self._error_log = error_log
         self.pages: dict[int, _Page] = {}
 
     def build(self, static_scene: StaticScene) -> None:  # noqa: ARG002 - tabs find it in snapshots
@@ -61,10 +61,10 @@ class Tabs:
         for gone in self.pages.keys() - self._viewer_clients.keys():
             del self.pages[gone]
         for new in self._viewer_clients.keys() - self.pages.keys():
-            self.pages[new] = _Page(self._viewer_clients[new], self.kinds, self._complaints)
+            self.pages[new] = _Page(self._viewer_clients[new], self.kinds, self._error_log)
         for number in self._turns.due(self.pages.keys()):
             for tab in self.pages[number].tabs:
-                with self._complaints.caught():
+                with self._error_log.caught():
                     tab.draw(snapshot)
 
 
@@ -72,12 +72,12 @@ class _Page:
     """The panel of one page."""
 
     def __init__(
-        self, viewer_client: ViewerClient, kinds: Sequence[TabKind], complaints: Complaints
+        self, viewer_client: ViewerClient, kinds: Sequence[TabKind], error_log: ErrorLog
     ) -> None:
         gui = viewer_client.client.gui
         self.tabs: list[Tab] = []
         self.panel: PanelHandle = gui.add_panel()
         for kind in kinds:
-            with complaints.caught(), self.panel.add_tab(kind.title):
+            with error_log.caught(), self.panel.add_tab(kind.title):
                 self.tabs.append(kind.open(viewer_client))
         self.panel.dock_below(gui.main_panel)

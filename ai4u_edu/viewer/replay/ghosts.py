@@ -1,6 +1,5 @@
 """Ghosts: the agents of a recorded episode, drawn translucent at the same time of the episode."""
 
-import math
 import threading
 from html import escape
 
@@ -12,7 +11,7 @@ from ai4u_edu.snapshot import Snapshot, StaticScene
 from ai4u_edu.snapshot.theme import Rgb, body_colour, mix_colours
 from ai4u_edu.viewer.backend.local_server import LocalServer
 from ai4u_edu.viewer.scene.face import face
-from ai4u_edu.viewer.scene.geometry import half_width, prism
+from ai4u_edu.viewer.scene.geometry import half_width, heading_wxyz, prism
 from ai4u_edu.viewer.scene.layers import Layers
 from ai4u_edu.viewer.scene.mesh_drawer import MeshDrawer
 from ai4u_edu.viewer.scene.subtree import Subtree
@@ -150,7 +149,7 @@ class _Body:
         if pose is not None and pose != self._pose:
             x, y, z, heading = pose
             self.frame.position = (x, y, z + layers.body)
-            self.frame.wxyz = (math.cos(heading / 2), 0.0, 0.0, math.sin(heading / 2))
+            self.frame.wxyz = heading_wxyz(heading)
             self.label.position = (x, y + LABEL_DISTANCE * self._radius, z + layers.body)
         if text != self._text:
             self._text = self.label.text = text

@@ -67,10 +67,10 @@ def action_marks(numbers: tuple[float, ...], radius: float) -> Array:
     """Return an action's line segments (n, 2, 2), in the frame of a body of that radius (m)."""
     forward, right, jump, forward_jump = (max(-1.0, min(1.0, number)) for number in numbers)
     marks = [np.empty((0, 2, 2))]
-    ahead = max(-1.0, min(1.0, forward + forward_jump))
-    if abs(ahead) >= MIN_DRAWN_VALUE:
-        start = math.copysign(1.15 * radius, ahead)
-        path = np.array([(start, 0.0), (start + 1.3 * radius * ahead, 0.0)])
+    drive = max(-1.0, min(1.0, forward + forward_jump))
+    if abs(drive) >= MIN_DRAWN_VALUE:
+        start = math.copysign(1.15 * radius, drive)
+        path = np.array([(start, 0.0), (start + 1.3 * radius * drive, 0.0)])
         marks.append(_arrow(path, radius))
     if abs(right) >= MIN_DRAWN_VALUE:
         angles = np.linspace(0.0, -right * MAX_TURN_ARROW_RAD, 9)
@@ -84,8 +84,9 @@ def action_marks(numbers: tuple[float, ...], radius: float) -> Array:
 def _arrow(path: Array, radius: float) -> Array:
     """Return a path's line segments, with an arrowhead at its end."""
     tip = path[-1]
-    way = (tip - path[-2]) / max(float(np.linalg.norm(tip - path[-2])), 1e-9)
+    direction = (tip - path[-2]) / max(float(np.linalg.norm(tip - path[-2])), 1e-9)
     head = [
-        np.stack([tip, tip - 0.28 * radius * rotate(way[None], side)[0]]) for side in (0.6, -0.6)
+        np.stack([tip, tip - 0.28 * radius * rotate(direction[None], side)[0]])
+        for side in (0.6, -0.6)
     ]
     return np.concatenate([np.stack([path[:-1], path[1:]], axis=1), np.stack(head)])

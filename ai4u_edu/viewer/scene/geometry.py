@@ -29,6 +29,11 @@ def rotate(points: Array, angle: float) -> Array:
     return rotated
 
 
+def heading_wxyz(heading: float) -> tuple[float, float, float, float]:
+    """Return the quaternion w, x, y, z of a rotation around z by an angle in radians."""
+    return math.cos(heading / 2), 0.0, 0.0, math.sin(heading / 2)
+
+
 def grow(outline: Outline, by: float) -> Array:
     """Move the edges of a convex outline outwards by a distance; inwards if it is negative.
 

@@ -21,7 +21,7 @@ from ai4u_edu.snapshot import BodyState, Snapshot, StaticScene
 from ai4u_edu.snapshot.theme import Rgb
 from ai4u_edu.viewer.backend.reporting import report_errors
 from ai4u_edu.viewer.scene.arena import arena_size
-from ai4u_edu.viewer.scene.geometry import Array, circle, grow, prism, segments
+from ai4u_edu.viewer.scene.geometry import Array, circle, grow, heading_wxyz, prism, segments
 from ai4u_edu.viewer.scene.layers import Layers
 from ai4u_edu.viewer.scene.light import line_colours
 from ai4u_edu.viewer.scene.mesh_drawer import MeshDrawer
@@ -175,7 +175,7 @@ class Handles:
     def _move_handles(self, static_scene: StaticScene) -> None:
         if self._boxes is not None:
             states = [self.states[body.name] for body in self._bodies]
-            wxyzs = np.array([_quaternion(state.heading) for state in states])
+            wxyzs = np.array([heading_wxyz(state.heading) for state in states])
             positions = np.array([self._box_position(i, state) for i, state in enumerate(states)])
             gone = np.array([state.fallen for state in states])
             self._boxes.batched_positions = positions
@@ -191,7 +191,7 @@ class Handles:
                 + 2 * HANDLE_MARGIN * arena_size(static_scene)
             )
             self._mark.position = (state.x, state.y, top)
-            self._mark.wxyz = _quaternion(state.heading)
+            self._mark.wxyz = heading_wxyz(state.heading)
 
     def _box_position(self, index: int, state: BodyState) -> tuple[float, float, float]:
         """Return the position of a body's handle, a flat box on top of it around its outline."""
@@ -303,7 +303,3 @@ def _extent(body: BodyDescription) -> tuple[Array, Array]:
     outline = np.asarray(body.shape.outline())
     low, high = outline.min(axis=0), outline.max(axis=0)
     return (low + high) / 2, high - low
-
-
-def _quaternion(heading: float) -> tuple[float, float, float, float]:
-    return math.cos(heading / 2), 0.0, 0.0, math.sin(heading / 2)

@@ -60,9 +60,9 @@ def line_colours(colours: npt.ArrayLike) -> npt.NDArray[np.uint8]:
 
 def tone_map(linear: npt.ArrayLike) -> Colours:
     """Apply the page's ACES tone mapping: linear light to sRGB (0..1)."""
-    seen = np.asarray(linear, np.float64) * _EXPOSURE @ _ACES_INPUT.T
-    curve = (seen * (seen + 0.0245786) - 0.000090537) / (
-        seen * (0.983729 * seen + 0.4329510) + 0.238081
+    exposed = np.asarray(linear, np.float64) * _EXPOSURE @ _ACES_INPUT.T
+    curve = (exposed * (exposed + 0.0245786) - 0.000090537) / (
+        exposed * (0.983729 * exposed + 0.4329510) + 0.238081
     )
     return _encode_srgb(curve @ _ACES_OUTPUT.T)
 
@@ -85,8 +85,8 @@ def _invert_tone_map(colours: npt.ArrayLike) -> Colours:
     a = 1 - 0.983729 * curve
     b = 0.0245786 - 0.4329510 * curve
     c = -0.000090537 - 0.238081 * curve
-    seen = (-b + np.sqrt(b * b - 4 * a * c)) / (2 * a)
-    back: Colours = seen @ np.linalg.inv(_ACES_INPUT).T / _EXPOSURE
+    exposed = (-b + np.sqrt(b * b - 4 * a * c)) / (2 * a)
+    back: Colours = exposed @ np.linalg.inv(_ACES_INPUT).T / _EXPOSURE
     return np.maximum(back, 0.0)
 
 

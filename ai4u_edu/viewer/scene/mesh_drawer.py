@@ -77,11 +77,11 @@ class MeshDrawer:
         self,
         name: str,
         text: str,
-        place: tuple[float, float, float] = (0.0, 0.0, 0.0),
+        offset: tuple[float, float, float] = (0.0, 0.0, 0.0),
         anchor: Literal["center-center", "top-center"] = "center-center",
     ) -> LabelHandle:
         """Add a text with a constant size on the screen."""
-        return self._scene.add_label(f"{self._parent}/{name}", text, position=place, anchor=anchor)
+        return self._scene.add_label(f"{self._parent}/{name}", text, position=offset, anchor=anchor)
 
     def finish(self) -> None:
         """Add the collected lines as one node."""

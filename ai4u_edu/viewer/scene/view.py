@@ -27,30 +27,30 @@ from ai4u_edu.viewer.scene.framing import (
 )
 from ai4u_edu.viewer.scene.geometry import Array
 
-FOLLOWED = 22.0
-"""A window in which an agent is followed is so many times as high as the agent's radius."""
-LAG = 0.18
-"""How long (s) the camera takes to catch up with most of an agent's lead."""
+FOLLOW_HEIGHT_IN_RADII = 22.0
+"""Height of the window that follows an agent, as a multiple of the agent's radius."""
+CAMERA_LAG_S = 0.18
+"""Time constant with which the camera follows an agent."""
 
 
 NORTH = (0.0, 1.0, 0.0)
 
 
 class Mode(StrEnum):
-    """Where a page's camera is."""
+    """Position of a page's camera."""
 
     ARENA = "Arena"
     """Over the whole arena."""
     FOLLOW = "Follow"
-    """Over the agent that the page looks at."""
+    """Over the agent that the page shows."""
     TURN = "Turn"
-    """The same, and turning with it: ahead is up."""
+    """Over the agent, and turning with it: ahead is up."""
     EYES = "Eyes"
     """In the agent's eye."""
 
 
 class View:
-    """The camera of one page. Once a person has moved it, it is theirs.
+    """The camera of one page. Once a user has moved it, it is no longer moved for another window.
 
     Args:
         client: the page.
@@ -64,44 +64,44 @@ class View:
         self.frame = Frame(0.0, 0.0, 1.0)
         self._known: deque[Array] = deque(maxlen=4)
         self._has_arrived = False
-        self._is_theirs = False
+        self._is_moved_by_user = False
         self._followed = ""
         self._daylight: Daylight | None = None
         self._moved_at = 0.0
         client.camera.on_update(self._on_report)
 
     def choose(self, mode: Mode) -> None:
-        """Takes the camera elsewhere, from the next update on."""
+        """Choose the camera's position, from the next update on."""
         self.mode, self._followed, self._bounds = mode, "", None
 
     def update(self, snapshot: Snapshot, agent_id: str) -> None:
-        """Moves the camera, if there is a reason to.
+        """Move the camera, if the mode, the arena, the agent or the window asks for it.
 
         Args:
             snapshot: what is shown.
-            agent_id: the agent that the page looks at.
+            agent_id: of the agent that the page shows.
         """
         agent = next((each for each in snapshot.agents if each.id == agent_id), None)
         if self.mode is Mode.ARENA or agent is None:
             self._show_all(snapshot)
             return
         (body,) = (each for each in snapshot.bodies if each.name == agent.body)
-        begins, self._followed = agent.body != self._followed, agent.body
+        is_new, self._followed = agent.body != self._followed, agent.body
         if self.mode is Mode.EYES:
-            self._look_out(snapshot, agent, body, begins=begins)
-        elif begins:
+            self._look_out(snapshot, agent, body, is_new=is_new)
+        elif is_new:
             self._begin(snapshot, body)
         else:
             self._follow(body, self._shape())
 
     def _shape(self) -> float:
-        """The window's width / height; a window that is folded away has neither."""
+        """Return the window's width / height; a window that is minimized reports 0 for both."""
         camera = self._client.camera
         return max(camera.image_width, 1) / max(camera.image_height, 1)
 
     def _show_all(self, snapshot: Snapshot) -> None:
         bounds, aspect = camera_bounds(snapshot.static_scene), self._shape()
-        reshaped = abs(aspect - self._aspect) > 0.02 * self._aspect and not self._is_theirs
+        reshaped = abs(aspect - self._aspect) > 0.02 * self._aspect and not self._is_moved_by_user
         if bounds != self._bounds or reshaped:
             self._bounds, self._aspect = bounds, aspect
             self._put(frame_arena(bounds, aspect))
@@ -110,17 +110,17 @@ class View:
         aspect = self._shape()
         (reach,) = (b.shape.reach for b in snapshot.static_scene.bodies if b.name == body.name)
         whole = frame_arena(camera_bounds(snapshot.static_scene), aspect).height
-        height = min(whole, FOLLOWED * reach)
+        height = min(whole, FOLLOW_HEIGHT_IN_RADII * reach)
         self._put(frame_point(body.x, body.y, height, aspect), self._up(body))
 
     def _look_out(
-        self, snapshot: Snapshot, agent: AgentState, body: BodyState, *, begins: bool
+        self, snapshot: Snapshot, agent: AgentState, body: BodyState, *, is_new: bool
     ) -> None:
-        """Through the agent's eye, ahead."""
+        """Put the camera in the agent's eye."""
         camera = self._client.camera
         place, ahead = eye_pose(snapshot.static_scene, agent, body)
         with self._client.atomic():
-            if begins:
+            if is_new:
                 self._daylight = Daylight(self._client.scene)
                 camera.min_orbit_distance, camera.max_orbit_distance = 0.01, 100.0
                 camera.up_direction = (0.0, 0.0, 1.0)
@@ -133,22 +133,22 @@ class View:
             camera.look_at = ahead
 
     def _up(self, body: BodyState) -> tuple[float, float, float]:
-        """Which way is up on the screen."""
+        """Return the direction that is up on the screen."""
         if self.mode is not Mode.TURN:
             return NORTH
         return math.cos(body.heading), math.sin(body.heading), 0.0
 
     async def _on_report(self, camera: CameraHandle) -> None:
-        """Finds out from what the page reports whether a person has moved the camera.
+        """Find out from a page's report whether its user has moved the camera.
 
-        A slow page may still speak of where the camera was before: until a pose that we sent has
-        come back, and, as a report is read while the camera is being put elsewhere, even later.
+        A slow page may report an older position: until a pose that we sent has come back and, since
+        a report may be read while we move the camera, for a while after that.
         """
         ours = np.array([self.frame.x, self.frame.y, self.frame.distance])
         if _same(camera.position, ours):
             self._has_arrived = True
         elif self._has_arrived and not any(_same(camera.position, each) for each in self._known):
-            self._is_theirs = True
+            self._is_moved_by_user = True
 
     def _leave_eye(self) -> None:
         if self._daylight is not None:
@@ -158,7 +158,7 @@ class View:
     def _put(self, wanted: Frame, up: tuple[float, float, float] = NORTH) -> None:
         camera, distance = self._client.camera, wanted.distance
         self._known.append(camera.position)
-        self.frame, self._has_arrived, self._is_theirs = wanted, False, False
+        self.frame, self._has_arrived, self._is_moved_by_user = wanted, False, False
         self._moved_at = time.monotonic()
         self._leave_eye()
         with self._client.atomic():
@@ -171,14 +171,14 @@ class View:
 
     def _follow(self, body: BodyState, aspect: float) -> None:
         camera, now, up = self._client.camera, time.monotonic(), self._up(body)
-        # from how far and from which side is the person's choice
+        # distance and side are the user's choice
         offset: Array = camera.position - camera.look_at
         goal = frame_point(body.x, body.y, visible_height(float(np.linalg.norm(offset))), aspect)
         if self.mode is Mode.TURN:
-            # what covers the lower part of the window covers what is behind the agent
+            # the overlay covers the lower part of the window: there is what is behind the agent
             short = goal.y - body.y
             goal = Frame(body.x + short * up[0], body.y + short * up[1], goal.height)
-        share = 1.0 - math.exp((self._moved_at - now) / LAG)
+        share = 1.0 - math.exp((self._moved_at - now) / CAMERA_LAG_S)
         dx, dy = share * (goal.x - self.frame.x), share * (goal.y - self.frame.y)
         self._moved_at = now
         stands = math.hypot(dx, dy) < 1e-4 * goal.height

@@ -19,4 +19,4 @@ class Sample:
     script: Any = None
     """Called before each decision with the agent and the decision's number."""
     always_same: str = ""
-    """Why what it reads, pays or answers never changes in the check; empty if it changes."""
+    """Reason for a reading, reward or answer that never changes in the check; empty if it does."""

@@ -33,7 +33,7 @@ class ReadingSpec(NamedTuple):
     """The space of the values in the percept, normalised and stacked."""
     unit: str
     is_input: bool
-    """Whether it is part of a policy's observation."""
+    """True if it is part of a policy's observation."""
 
 
 class OutputSpec(NamedTuple):
@@ -43,7 +43,7 @@ class OutputSpec(NamedTuple):
     is_continuous: bool
     space: spaces.Space[Any]
     is_output: bool
-    """Whether a policy has to give it an action."""
+    """True if a policy has to give it an action."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,7 +59,7 @@ class AgentSpec:
     tick: float
     """Duration of a tick in seconds."""
     readings: tuple[ReadingSpec, ...]
-    """Of the agent's own sensors; every percept has ``done`` and ``id`` too."""
+    """Readings of the agent's own sensors; every percept has ``done`` and ``id`` too."""
     outputs: tuple[OutputSpec, ...]
     rewards: tuple[str, ...]
     """Names of the reward's terms."""
@@ -74,7 +74,7 @@ class Observation(NamedTuple):
     """Counted by the agent, from 1."""
     percept: Percept
     reward: float
-    """Of the last decision."""
+    """Reward of the last decision."""
     terms: Mapping[str, float]
     """The same reward by named term."""
     steps: int
@@ -82,9 +82,9 @@ class Observation(NamedTuple):
     tick: int
     """Ticks of the world since its reset."""
     done: bool
-    """Whether the episode is over: terminated or truncated."""
+    """True if the episode is over: terminated or truncated."""
     truncated: bool
-    """Whether it was cut off: by its limit, or by a reset that the script did not ask for."""
+    """True if the episode was cut off: by its limit, or by a reset that is not the script's."""
     paused: bool
     stopped: bool
 
@@ -115,7 +115,7 @@ class Link(Protocol):
 
     @property
     def state(self) -> LinkState:
-        """Whether a script is connected."""
+        """The state of the connection."""
 
     @property
     def reason(self) -> str:

@@ -1,4 +1,4 @@
-"""Every block explains itself."""
+"""Lesson pages of all blocks."""
 
 import pytest
 
