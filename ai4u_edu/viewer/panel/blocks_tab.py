@@ -90,7 +90,7 @@ class BlocksTab:
         self.add.on_click(self._on_add)
 
     _path: BlockPath | None
-    _form: BlockForm | None
+    form: BlockForm | None
     _problems: tuple[Problem, ...] | None
 
     def draw(self, snapshot: Snapshot) -> None:
