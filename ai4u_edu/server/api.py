@@ -30,7 +30,7 @@ Reading = TypeAliasType("Reading", "bool | int | float | str | list[Reading] | N
 
 
 class _View(BaseModel):
-    model_config = ConfigDict(extra="forbid")  # so that the schema says that this is all
+    model_config = ConfigDict(extra="forbid")  # the schema then allows no other fields
 
 
 class BodyView(_View):
@@ -59,7 +59,7 @@ class AgentView(_View):
     angular_velocity: Spin
     percept: dict[str, Reading]
     action: dict[str, list[Number]]
-    reward: Number = Field(description="of the last decision that is over, not of one under way")
+    reward: Number = Field(description="of the last finished decision")
     reward_terms: Mapping[str, Number]
     episode_reward: Number
     episode_terms: Mapping[str, Number]
@@ -91,7 +91,7 @@ class SlowTickView(_View):
     """A tick that took too long."""
 
     seconds: Number
-    contacts: int = Field(description="how many pairs of bodies touched, about")
+    contacts: int = Field(description="pairs of bodies that touched, approximately")
 
 
 class SnapshotView(_View):
@@ -102,13 +102,13 @@ class SnapshotView(_View):
     seed: int
     episode: int
     paused: bool
-    time_scale: Number = Field(description="1 is real time; null: as fast as it goes")
+    time_scale: Number = Field(description="1 is real time; null: unlimited")
     real_time_factor: Number
-    error: str = Field(description="what stopped the world; empty while all is well")
+    error: str = Field(description="error that stopped the world; empty if there is none")
     slow_tick: SlowTickView | None = Field(
         description="the slowest tick of the last 5 s, if one took more than 0.05 s"
     )
-    past: str = Field(description="which moment of the past it is; empty for now")
+    past: str = Field(description="moment of a replay that is shown; empty for the present")
     agents: list[AgentView]
     bodies: list[BodyView]
 
@@ -146,7 +146,9 @@ class Health(_View):
     scene: str
     uptime: float = Field(description="seconds", ge=0)
     block: str = Field(description="the block that does not return, and where; empty if none")
-    since: datetime | None = Field(description="when it was called; null if all is well")
+    since: datetime | None = Field(
+        description="time of the call that does not return; null if there is none"
+    )
 
     @classmethod
     def of(

@@ -1,9 +1,9 @@
 """uvicorn's WebSocket protocol with timeouts, and with a callback for frames.
 
-The callback is for scripts in lockstep, where world and script wait for each other: a frame that
-goes through ASGI takes two more turns of the event loop, which makes a decision take 12% more of
-the server's time (``python -m tests.benchmarks.remote_native``). Handshake, pings and close remain
-uvicorn's and ASGI's. See ``docs/adr/0003-limits-of-connections.md``.
+The callback is for scripts in lockstep, where world and script wait for each other: through ASGI a
+frame takes two more turns of the event loop, and a decision 7 to 14% more of the server's time
+(``python -m tests.benchmarks.remote_native``). Handshake, pings and close remain uvicorn's and
+ASGI's. See ``docs/adr/0003-limits-of-connections.md``.
 """
 
 import asyncio

@@ -34,7 +34,7 @@ MAX_PENDING_COMMANDS = 4
 MAX_ERROR_CHARS = 2000
 """Length of an error that is sent to a page; it may repeat the page's own message."""
 MAX_AWAITED = 50
-"""Requests of one page that may be under way; a page is not told of errors in any beyond."""
+"""Requests of one page whose errors are reported at a time; errors of further ones are not."""
 WORLD_REPLACED = "another world"
 """Reason of the close (1012) when another world has replaced this one; the page reconnects."""
 RECONNECT_PARAM = "after_another"

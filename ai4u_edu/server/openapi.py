@@ -49,7 +49,7 @@ def _get(summary: str, schema: dict[str, Any]) -> dict[str, Any]:
                 "200": {"description": "OK", "content": content},
                 "401": {"description": "The room has a token, and the request does not."},
                 "403": {"description": "The host name is not allowed, or another site asks."},
-                "429": {"description": "Too many wrong tokens; says when to try again."},
+                "429": {"description": "Too many wrong tokens; Retry-After gives the delay."},
             },
         }
     }
@@ -70,8 +70,8 @@ def _file(summary: str) -> dict[str, Any]:
     ]
     found["responses"]["200"]["content"] = {"*/*": {}}
     found["responses"] |= {
-        "404": {"description": "No such episode is kept; says which are."},
-        "409": {"description": "It can't be made; says why."},
-        "503": {"description": "Too many files are being made; says when to try again."},
+        "404": {"description": "No such episode is kept; the text lists those that are."},
+        "409": {"description": "The file can't be made; the text gives the reason."},
+        "503": {"description": "Too many files are being made; Retry-After gives the delay."},
     }
     return described

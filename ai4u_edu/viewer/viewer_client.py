@@ -37,25 +37,25 @@ class ViewerClient:
         """Its camera."""
         self.agent = asked
         """Id of the agent that is shown."""
-        self._lit: dict[tuple[str, str], bool] = {}
+        self._sensor_choices: dict[tuple[str, str], bool] = {}
 
     def settle(self, ids: Sequence[str]) -> None:
         """Show the first of these agents, unless the one that is shown is among them."""
         if self.agent not in ids:
             self.agent = ids[0]
 
-    def lights(self, key: str, *, by_itself: bool) -> bool:
+    def shows_sensor(self, key: str, *, is_default: bool) -> bool:
         """Return True if a sensor of the agent is shown in the scene.
 
         Args:
             key: the sensor's perception key.
-            by_itself: True for a sensor that is shown unless the user has switched it off.
+            is_default: True for a sensor that is shown unless the user has switched it off.
         """
-        return self._lit.get((self.agent, key), by_itself)
+        return self._sensor_choices.get((self.agent, key), is_default)
 
-    def light(self, key: str, on: bool) -> None:
+    def show_sensor(self, key: str, on: bool) -> None:
         """Show a sensor of the agent in the scene, or hide it."""
-        self._lit[self.agent, key] = on
+        self._sensor_choices[self.agent, key] = on
 
 
 class ViewerClients(Mapping[int, ViewerClient]):

@@ -22,7 +22,7 @@ pytestmark = [
 
 def test_a_page_drives_on_and_the_server_ends_at_once(tmp_path: Path) -> None:
     with program(tmp_path, episodes=EPISODES) as server, Page(server.url + "ws/input") as page:
-        page.hear("hello")
+        page.receive("hello")
 
         async def attack() -> tuple[int, str]:
             async with httpx.AsyncClient(base_url=server.url, timeout=60, limits=MANY) as client:
@@ -58,7 +58,7 @@ def _drive(url: str, page: Page) -> None:
     held: list[str] = []
     while held != ["KeyW"]:
         page.hold("KeyW")
-        held = page.hear("state")["held"]
+        held = page.receive("state")["held"]
     for _ in range(5):
         assert httpx.get(url + "healthz").json()["status"] == "ok"
     assert httpx.get(url).status_code == 200

@@ -31,7 +31,7 @@ def test_a_page_drives_on_and_new_ones_come_in(tmp_path: Path) -> None:
         program(tmp_path) as server,
         Page(server.url + "ws/input") as page,
     ):
-        page.hear("hello")
+        page.receive("hello")
 
         async def attack() -> tuple[int, str]:
             async with Crowd(server.url, COUNT, IDLE) as crowd:
@@ -54,11 +54,11 @@ def _drive(url: str, page: Page) -> None:
         held: list[str] = []
         while held != [code]:
             page.hold(code)  # as a page does, which says it ten times a second
-            held = page.hear("state")["held"]
+            held = page.receive("state")["held"]
     for _ in range(5):
         assert httpx.get(url + "healthz").json()["status"] == "ok"
     assert httpx.get(url).status_code == 200
     with Page(url + "ws/input") as another:
-        another.hear("hello")
+        another.receive("hello")
     while httpx.get(url + "api/snapshot").json()["tick"] <= before:
         pass

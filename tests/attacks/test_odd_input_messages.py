@@ -100,15 +100,15 @@ def test_odd_messages_leave_the_room_as_it_was(
         messages_said: list[str | bytes] = [*spoilt(), *OTHERS]
         for message in messages_said:
             here.socket.send(message)
-        here.say("command", name="nobody")
-        while "nobody" not in str(here.hear("error")):
+        here.send("command", name="nobody")
+        while "nobody" not in str(here.receive("error")):
             pass
         other.hold("KeyA")
         until(lambda: room.held == ["KeyA"])
-        other.say("take")
-        other.say("command", name="resume")
+        other.send("take")
+        other.send("command", name="resume")
         until(lambda: not runner.latest.paused)
-        other.say("command", name="pause")
+        other.send("command", name="pause")
         until(lambda: runner.latest.paused)
     assert runner.latest.seed == seed
     assert [each for each in caplog.records if each.levelno >= logging.WARNING] == []
@@ -160,13 +160,13 @@ def test_a_page_that_floods_a_world_that_goes_is_sent_away_once(
     with served() as room:
         pages = [opened(room) for _ in range(8)]
         for page in pages:
-            page.hear("hello")
+            page.receive("hello")
         room.runner.replace_sim(small_sim())
         for page in pages:
             with page:
                 with suppress(ConnectionClosed):
                     for _ in range(1000):
-                        page.say("take")
+                        page.send("take")
                 assert page.end()[0] in (1008, 1012, 1006)
     names = [each.name for each in caplog.records if each.exc_info]
     assert "uvicorn.error" not in names

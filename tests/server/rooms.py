@@ -19,12 +19,12 @@ from ai4u_edu.server import ServerThread, room_app
 from tests.builders import small_sim
 
 NOWHERE = 9
-"""A port at which no viser listens."""
+"""Port at which no viser listens."""
 
 
 @dataclass
 class Room:
-    """A room that is served."""
+    """Room that is served."""
 
     runner: Runner
     url: str
@@ -35,7 +35,7 @@ class Room:
 
     @property
     def held(self) -> list[str]:
-        """The keys that the first agent's world sees now."""
+        """Keys that the first agent's keyboard holds now."""
         return sorted(self.sim.agents[0].keyboard.held())
 
     def page(self, query: str = "") -> "Page":
@@ -51,7 +51,7 @@ def served(
     wrap: Callable[[ASGIApp], ASGIApp] = lambda app: app,
     **options: Any,
 ) -> Iterator[Room]:
-    """A room at a free port; ``wrap`` may put something around its app."""
+    """Serve a room at a free port; ``wrap`` may wrap its app."""
     runner = Runner(sim or small_sim(controller=WASDRBMoveController()), seed=1)
     app = room_app(runner, viser_port=viser_port, title=title, **options)
     runner.start()
@@ -63,7 +63,7 @@ def served(
 
 
 class Page:
-    """A page's input socket."""
+    """Client of the input socket."""
 
     def __init__(self, url: str, **options: Any) -> None:
         self.socket = connect(url.replace("http", "ws", 1), proxy=None, **options)
@@ -75,14 +75,14 @@ class Page:
     def __exit__(self, *_: object) -> None:
         self.socket.close()
 
-    def say(self, kind: str, **rest: Any) -> None:
+    def send(self, kind: str, **rest: Any) -> None:
         self.socket.send(json.dumps({"type": kind, **rest}))
 
     def hold(self, *codes: str) -> None:
-        self.say("keys", held=list(codes))
+        self.send("keys", held=list(codes))
 
-    def hear(self, kind: str, **wanted: Any) -> dict[str, Any]:
-        """The next frame of a kind that says what is wanted."""
+    def receive(self, kind: str, **wanted: Any) -> dict[str, Any]:
+        """Return the next event of a type with the given fields; skip others."""
         deadline = time.monotonic() + 5
         while True:
             frame = json.loads(self.socket.recv(deadline - time.monotonic()))
@@ -91,7 +91,7 @@ class Page:
                 return dict(frame)
 
     def end(self) -> tuple[int, str]:
-        """How the server closes the connection."""
+        """Wait for the close, and return its code and reason."""
         deadline = time.monotonic() + 5
         while True:
             try:
@@ -101,7 +101,7 @@ class Page:
 
 
 def until(condition: Callable[[], object], timeout: float = 5) -> None:
-    """Waits for something to become true."""
+    """Wait for a condition to become true."""
     deadline = time.monotonic() + timeout
     while not condition():
         assert time.monotonic() < deadline, "it did not happen in time"
@@ -116,7 +116,7 @@ def free_port() -> int:
 
 
 def raw_request(url: str, *lines: str) -> socket.socket:
-    """A connection on which a request was sent, with exactly these headers."""
+    """Return a connection after a request with exactly these headers."""
     parts = urlsplit(url)
     connection = socket.create_connection((parts.hostname, parts.port or 80), timeout=5)
     connection.sendall("\r\n".join([f"GET {parts.path} HTTP/1.1", *lines, "", ""]).encode())
@@ -132,7 +132,7 @@ UPGRADE = (
 
 
 def raw_answer(url: str, *lines: str) -> tuple[int, str]:
-    """Status and text of what such a request is answered with."""
+    """Return the status and the text of the answer to such a request."""
     with raw_request(url, *lines) as connection:
         answer = b""
         while b"\r\n\r\n" not in answer:

@@ -145,7 +145,7 @@ def test_a_page_is_told_to_come_again_later(room: Room) -> None:
         with Page(room.url + "ws/input?token=guess") as page:
             assert page.end()[0] == code
     with Page(room.url + "ws/input?token=sesame%20sesame") as page:
-        page.hear("hello")
+        page.receive("hello")
 
 
 def test_scripts_that_guess_are_slowed_down_too(

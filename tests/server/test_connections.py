@@ -115,14 +115,14 @@ def small(monkeypatch: pytest.MonkeyPatch) -> Iterator[Room]:
 
 def test_idle_connections_make_room_for_those_who_ask(small: Room) -> None:
     with small.page() as page:
-        page.hear("hello")
+        page.receive("hello")
         with crowd(small, 100):
             for _ in range(30):
                 assert httpx.get(small.url + "healthz").status_code == 200
             with small.page() as another:
-                another.hear("hello")
+                another.receive("hello")
             page.hold("KeyW")
-            page.hear("state", held=["KeyW"])
+            page.receive("state", held=["KeyW"])
 
 
 def test_beyond_the_limit_a_connection_is_refused_with_a_sentence(
@@ -142,7 +142,7 @@ def test_beyond_the_limit_a_connection_is_refused_with_a_sentence(
     assert len(caplog.messages) <= 1
     until(lambda: httpx.get(small.url + "healthz").status_code == 200)
     with Page(small.url + "ws/input") as page:
-        page.hear("hello")
+        page.receive("hello")
 
 
 def test_a_lack_of_descriptors_costs_the_new_connection_and_one_line(

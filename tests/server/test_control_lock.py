@@ -31,7 +31,7 @@ def room() -> Iterator[Room]:
 
 def test_a_page_is_told_who_it_is_and_which_keys_drive(room: Room) -> None:
     with room.page() as page:
-        hello = page.hear("hello")
+        hello = page.receive("hello")
         assert hello["you"] == 1
         assert hello["agent"] == "0"
         assert hello["brain"] == "LocalBrain(WASDRBMoveController)"
@@ -39,8 +39,8 @@ def test_a_page_is_told_who_it_is_and_which_keys_drive(room: Room) -> None:
         assert set(hello["keys"]) == {
             *("forward", "backward", "left", "right", "jump", "jump_forward", "restart")
         }
-        assert page.hear("seat") == {"type": "seat", "driver": None, "pages": 1}
-        state = page.hear("state")
+        assert page.receive("seat") == {"type": "seat", "driver": None, "pages": 1}
+        state = page.receive("state")
         assert not state["paused"]
         assert not state["terminated"]
         assert state["error"] == ""
@@ -50,9 +50,9 @@ def test_who_presses_first_drives_and_nobody_else(room: Room) -> None:
     with room.page() as first, room.page() as second:
         second.hold("KeyW")
         until(lambda: room.held == ["KeyW"])
-        driver = second.hear("seat", pages=2, driver=second.hear("hello")["you"])["driver"]
+        driver = second.receive("seat", pages=2, driver=second.receive("hello")["you"])["driver"]
         first.hold("KeyS")
-        first.hear("seat", driver=driver)
+        first.receive("seat", driver=driver)
         second.hold("KeyW", "KeyD")
         until(lambda: room.held == ["KeyD", "KeyW"])
         first.hold()
@@ -60,21 +60,21 @@ def test_who_presses_first_drives_and_nobody_else(room: Room) -> None:
         until(lambda: room.held == ["KeyW"])
 
 
-def test_holding_nothing_does_not_take_the_seat(room: Room) -> None:
+def test_holding_nothing_does_not_take_control(room: Room) -> None:
     with room.page() as page:
         page.hold()
         page.hold("KeyW")
-        first = page.hear("seat", driver=None)
+        first = page.receive("seat", driver=None)
         assert first["driver"] is None
-        page.hear("seat", driver=1)
+        page.receive("seat", driver=1)
 
 
 def test_the_seat_can_be_taken_and_the_old_drivers_keys_are_let_go(room: Room) -> None:
     with room.page() as old, room.page() as new:
         old.hold("KeyW")
         until(lambda: room.held == ["KeyW"])
-        new.say("take")
-        seat = old.hear("seat", driver=new.hear("hello")["you"])
+        new.send("take")
+        seat = old.receive("seat", driver=new.receive("hello")["you"])
         assert seat["pages"] == 2
         until(lambda: room.held == [])
         old.hold("KeyW")
@@ -82,23 +82,23 @@ def test_the_seat_can_be_taken_and_the_old_drivers_keys_are_let_go(room: Room) -
         until(lambda: room.held == ["KeyA"])
 
 
-def test_a_page_that_goes_lets_go_and_frees_the_seat(room: Room) -> None:
+def test_a_page_that_goes_lets_go_and_frees_control(room: Room) -> None:
     with room.page() as staying:
         with room.page() as going:
             going.hold("KeyW")
             until(lambda: room.held == ["KeyW"])
         until(lambda: room.held == [])
-        staying.hear("seat", driver=None, pages=1)
+        staying.receive("seat", driver=None, pages=1)
         staying.hold("KeyD")
         until(lambda: room.held == ["KeyD"])
 
 
-def test_a_page_that_is_cut_off_frees_the_seat_too(room: Room) -> None:
+def test_a_page_that_is_cut_off_releases_control_too(room: Room) -> None:
     with room.page() as page, room.page() as other:
         page.hold("KeyW")
-        other.hear("seat", driver=1)
+        other.receive("seat", driver=1)
         page.socket.socket.shutdown(socket.SHUT_RDWR)
-        other.hear("seat", driver=None, pages=1)
+        other.receive("seat", driver=None, pages=1)
         until(lambda: room.held == [])
 
 
@@ -108,15 +108,15 @@ def test_a_silent_page_keeps_the_seat_but_not_the_keys(room: Room) -> None:
         until(lambda: room.held == ["KeyW"])
         until(lambda: room.held == [], 3 * KEY_TIMEOUT_S)
         other.hold("KeyS")
-        other.say("nonsense")
-        other.hear("error")
+        other.send("nonsense")
+        other.receive("error")
         assert room.held == []
 
 
 def test_the_world_tells_which_keys_it_sees(room: Room) -> None:
     with room.page() as driver, room.page() as watcher:
         driver.hold("KeyW", "KeyA")
-        watcher.hear("state", held=["KeyA", "KeyW"])
+        watcher.receive("state", held=["KeyA", "KeyW"])
 
 
 def test_a_tap_that_is_over_before_the_next_decision_counts() -> None:
@@ -125,8 +125,8 @@ def test_a_tap_that_is_over_before_the_next_decision_counts() -> None:
         with room.page() as page:
             page.hold("KeyW")
             page.hold()
-            page.say("nonsense")  # its answer shows that the tap has come through
-            page.hear("error")
+            page.send("nonsense")  # its answer shows that the tap has come through
+            page.receive("error")
             room.runner.step().result(5)
             assert room.runner.latest.agents[0].action["move"][0] == 1.0
 
@@ -134,15 +134,15 @@ def test_a_tap_that_is_over_before_the_next_decision_counts() -> None:
 def test_pause_resume_and_reset(room: Room) -> None:
     with room.page() as page:
         page.hold("KeyW")
-        page.say("command", name="pause")
-        page.hear("state", paused=True)
+        page.send("command", name="pause")
+        page.receive("state", paused=True)
         until(lambda: room.held == [])
         episode = room.runner.latest.episode
-        page.say("command", name="reset", seed=7)
-        page.hear("state", episode=episode + 1)
+        page.send("command", name="reset", seed=7)
+        page.receive("state", episode=episode + 1)
         assert room.runner.latest.seed == 7
-        page.say("command", name="resume")
-        page.hear("state", paused=False)
+        page.send("command", name="resume")
+        page.receive("state", paused=False)
 
 
 def test_a_reset_that_fails_says_so_and_keys_go_on(room: Room) -> None:
@@ -151,8 +151,8 @@ def test_a_reset_that_fails_says_so_and_keys_go_on(room: Room) -> None:
 
     room.sim.agents[0].before_the_reset.connect(broken)
     with room.page() as page:
-        page.say("command", name="reset")
-        assert page.hear("error")["text"] == "RuntimeError: this block can't be reset"
+        page.send("command", name="reset")
+        assert page.receive("error")["text"] == "RuntimeError: this block can't be reset"
         page.hold("KeyW")
         until(lambda: room.held == ["KeyW"])
 
@@ -165,18 +165,18 @@ def test_an_error_in_the_world_reaches_the_page_and_a_reset_clears_it(room: Room
     event.connect(broken)
     with room.page() as page:
         told = "RuntimeError: odd (while handler broken of end_of_step of agent '0' was called)"
-        page.hear("state", error=told)
+        page.receive("state", error=told)
         event.disconnect(broken)
-        page.say("command", name="reset")
-        page.hear("state", error="")
+        page.send("command", name="reset")
+        page.receive("state", error="")
 
 
 def test_the_end_of_an_episode_is_told(room: Room) -> None:
     with room.page() as page:
-        page.hear("state", terminated=False)
+        page.receive("state", terminated=False)
         agent = room.sim.agents[0]
         room.runner.submit(lambda: agent.add_reward(100, request_done=True, name="goal"))
-        state = page.hear("state", terminated=True)
+        state = page.receive("state", terminated=True)
         assert state["reward"] == 100
         assert state["terms"] == {"goal": 100}
         assert not state["fallen"]
@@ -195,14 +195,14 @@ def two_agents() -> ControlRequestor:
     return ControlRequestor(world, agents)
 
 
-def test_each_agent_has_its_own_seat_and_keys() -> None:
+def test_each_agent_has_its_own_lock_and_keys() -> None:
     with served(two_agents()) as room:
         still_agent, driven = (agent.keyboard for agent in room.sim.agents)
         with room.page() as page, room.page("?agent=agent%200") as other:
-            assert page.hear("hello")["agent"] == "agent 1"
+            assert page.receive("hello")["agent"] == "agent 1"
             assert page.last["hello"]["keys"]["forward"] == ["KeyI"]
-            assert other.hear("hello")["keys"] == {}
-            other.hear("seat", pages=1)
+            assert other.receive("hello")["keys"] == {}
+            other.receive("seat", pages=1)
             other.hold("KeyX")
             until(lambda: still_agent.held() == {"KeyX"})
             assert driven.held() == set()
@@ -210,17 +210,17 @@ def test_each_agent_has_its_own_seat_and_keys() -> None:
 
 def test_an_unknown_agent_is_refused_with_the_known_ones(room: Room) -> None:
     with room.page("?agent=7") as page:
-        assert page.hear("error")["text"] == "no agent has the id '7'; known are '0'"
+        assert page.receive("error")["text"] == "no agent has the id '7'; known are '0'"
         assert page.end() == (1008, "there is no such agent")
 
 
 def test_another_brain_is_told_to_the_page(room: Room) -> None:
     with room.page() as page:
-        page.hear("hello", brain="LocalBrain(WASDRBMoveController)")
+        page.receive("hello", brain="LocalBrain(WASDRBMoveController)")
         brain = LocalBrain(controller=WASDRBMoveController(forward=["KeyZ"]))
         agent = room.sim.agents[0]
         room.runner.submit(lambda: agent.use_brain(brain)).result(5)
-        keys = page.hear("hello")["keys"]
+        keys = page.receive("hello")["keys"]
         assert keys["forward"] == ["KeyZ"]
 
 

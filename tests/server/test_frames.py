@@ -90,12 +90,12 @@ def test_a_message_of_bytes_is_read_like_text() -> None:
 def test_single_mistakes_are_forgiven_but_not_five_in_a_row() -> None:
     with served() as room, room.page() as page:
         for _ in range(MAX_MISTAKES - 1):
-            page.say("kyes")
-            assert page.hear("error")["text"] == "unknown type 'kyes'; did you mean 'keys'?"
+            page.send("kyes")
+            assert page.receive("error")["text"] == "unknown type 'kyes'; did you mean 'keys'?"
         page.hold("KeyW")
         until(lambda: room.held == ["KeyW"])
         for _ in range(MAX_MISTAKES):
-            page.say("kyes")
+            page.send("kyes")
         assert page.end() == (1008, "5 malformed messages in a row")
         until(lambda: room.held == [])
 
@@ -103,7 +103,7 @@ def test_single_mistakes_are_forgiven_but_not_five_in_a_row() -> None:
 def test_a_message_that_is_too_large_ends_the_connection() -> None:
     with served() as room, room.page() as page:
         page.socket.send("x" * (MAX_MESSAGE_BYTES + 1))
-        assert page.hear("error")["text"] == "expected at most 4096 bytes, got 4097"
+        assert page.receive("error")["text"] == "expected at most 4096 bytes, got 4097"
         code, reason = page.end()
         assert code == 1009
         assert "4096" in reason

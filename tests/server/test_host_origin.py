@@ -112,7 +112,7 @@ def test_a_socket_under_another_name_is_refused(room: Room, path: str) -> None:
 def test_our_own_page_and_programs_open_sockets(room: Room) -> None:
     for headers in ({"Origin": room.url.rstrip("/")}, {}):
         with Page(room.url + "ws/input", additional_headers=headers) as page:
-            page.hear("hello")
+            page.receive("hello")
 
 
 def test_answers_are_not_for_other_pages(room: Room) -> None:
@@ -130,7 +130,7 @@ def test_a_name_can_be_allowed_and_then_drives_through_a_proxy_too() -> None:
         with Page(
             room.url + "ws/input", additional_headers={"Origin": "https://hub.example"}
         ) as page:
-            page.hear("hello")
+            page.receive("hello")
         lines = ("Host: hub.example", "Origin: https://hub.example:443", *UPGRADE)
         assert raw_answer(room.url + "ws/input", *lines)[0] == 101
 

@@ -52,16 +52,16 @@ def test_a_key_takes_over_and_letting_go_gives_back(room: Room) -> None:
     agent = room.sim.agents[0]
     script = agent.brain
     with room.page() as page:
-        hello = page.hear("hello")
+        hello = page.receive("hello")
         assert (hello["others"], hello["instead"]) == ("A script", "")
         assert hello["keys"]["forward"] == ["KeyW", "ArrowUp"]
         page.hold("KeyW")
-        page.hear("hello", others="", instead="A script")
+        page.receive("hello", others="", instead="A script")
         until(lambda: room.runner.latest.agents[0].action["move"][0] == 1)
         assert brain_of(room) == "LocalBrain(WASDRBMoveController)"
         page.hold()
-        page.say("let_go")
-        page.hear("hello", others="A script", instead="")
+        page.send("let_go")
+        page.receive("hello", others="A script", instead="")
         assert agent.brain is script
         assert agent.brains == [script], "what was made for this is gone again"
         until(lambda: room.runner.latest.agents[0].action["move"][1] == 0.5)
@@ -70,7 +70,7 @@ def test_a_key_takes_over_and_letting_go_gives_back(room: Room) -> None:
 def test_a_page_that_is_gone_gives_back(room: Room) -> None:
     with room.page() as page:
         page.hold("KeyW")
-        page.hear("hello", others="")
+        page.receive("hello", others="")
     until(lambda: brain_of(room) == "LocalBrain(ScriptController)")
 
 
@@ -78,51 +78,51 @@ def test_a_page_that_lets_go_and_leaves_at_once_gives_back(room: Room) -> None:
     may_go = threading.Event()
     with room.page() as page:
         page.hold("KeyW")
-        page.hear("hello", others="")
+        page.receive("hello", others="")
         room.runner.submit(lambda: may_go.wait(5))
         for _ in range(50):  # one of them is carried out, they are not heaped up
-            page.say("let_go")
-            page.say("take")
-        page.say("let_go")
-        page.say("nonsense")
-        page.hear("error")
+            page.send("let_go")
+            page.send("take")
+        page.send("let_go")
+        page.send("nonsense")
+        page.receive("error")
         waiting = len(room.runner._queue)
     may_go.set()
     until(lambda: brain_of(room) == "LocalBrain(ScriptController)")
     assert waiting < 5
 
 
-def test_it_stays_taken_over_while_another_page_takes_the_seat(room: Room) -> None:
+def test_it_stays_taken_over_while_another_page_takes_control(room: Room) -> None:
     with room.page() as first, room.page() as second:
         first.hold("KeyW")
-        second.hear("hello", others="")
-        second.say("take")
+        second.receive("hello", others="")
+        second.send("take")
         second.hold("KeyS")
         until(lambda: room.held == ["KeyS"])
-        first.say("let_go")
-        first.say("nonsense")
-        first.hear("error")
+        first.send("let_go")
+        first.send("nonsense")
+        first.receive("error")
         assert brain_of(room) == "LocalBrain(WASDRBMoveController)"
-        second.say("let_go")
-        second.hear("hello", others="A script")
+        second.send("let_go")
+        second.receive("hello", others="A script")
 
 
 def test_a_click_and_a_stick_take_over_as_well(room: Room) -> None:
     with room.page() as page:
-        page.say("take")
-        page.hear("hello", others="")
-        page.say("let_go")
-        page.hear("hello", others="A script")
-        page.say("keys", held=[], stick={"forward": 0.5, "turn": -0.25})
-        page.hear("hello", others="")
+        page.send("take")
+        page.receive("hello", others="")
+        page.send("let_go")
+        page.receive("hello", others="A script")
+        page.send("keys", held=[], stick={"forward": 0.5, "turn": -0.25})
+        page.receive("hello", others="")
         until(lambda: room.runner.latest.agents[0].action["move"][:2] == (0.5, -0.25))
 
 
 def test_neither_restarting_nor_a_key_that_means_nothing_takes_over(room: Room) -> None:
     with room.page() as page:
         page.hold("KeyR", "KeyX")
-        page.say("nonsense")
-        page.hear("error")
+        page.send("nonsense")
+        page.receive("error")
         assert page.last["seat"]["driver"] is None
         assert brain_of(room) == "LocalBrain(ScriptController)"
 
@@ -132,11 +132,11 @@ def test_a_brain_that_lies_ready_is_used_and_stays() -> None:
     mine = LocalBrain(controller=spin)
     with served(small_sim(brains=[mine, ready])) as room, room.page() as page:
         agent = room.sim.agents[0]
-        assert page.hear("hello")["keys"]["jump_forward"] == ["Enter"]
+        assert page.receive("hello")["keys"]["jump_forward"] == ["Enter"]
         page.hold("ArrowUp")
         until(lambda: agent.brain is ready)
         until(lambda: room.runner.latest.agents[0].action["move"][0] == 0.25)
-        page.say("let_go")
+        page.send("let_go")
         until(lambda: agent.brain is mine)
         assert agent.brains == [mine, ready]
 
@@ -146,14 +146,14 @@ def test_where_a_script_is_waited_for_a_person_may_drive() -> None:
     ready = LocalBrain(controller=WASDRBMoveController(), enabled=False)
     with served(small_sim(brains=[remote, ready])) as room, room.page() as page:
         agent = room.sim.agents[0]
-        hello = page.hear("hello")
+        hello = page.receive("hello")
         assert (hello["others"], hello["keys"]["forward"][0]) == ("A script elsewhere", "KeyW")
         page.hold("KeyW")
-        page.hear("hello", others="", instead="A script elsewhere")
+        page.receive("hello", others="", instead="A script elsewhere")
         until(lambda: room.runner.latest.agents[0].action["move"][0] == 1)
         assert agent.brain is remote
-        page.say("let_go")
-        page.hear("hello", others="A script elsewhere", instead="")
+        page.send("let_go")
+        page.receive("hello", others="A script elsewhere", instead="")
         assert agent.brains == [remote, ready]
 
 
@@ -177,7 +177,7 @@ def test_a_script_elsewhere_is_not_listened_to_while_a_person_drives(mode: Any) 
             script.start()
             until(lambda: does(-0.5))
             page.hold("KeyW")
-            page.hear("hello", others="", instead="A script elsewhere")
+            page.receive("hello", others="", instead="A script elsewhere")
             until(lambda: does(1))
             brain = agent.brain
             assert isinstance(brain, RemoteBrain)
@@ -187,8 +187,8 @@ def test_a_script_elsewhere_is_not_listened_to_while_a_person_drives(mode: Any) 
             assert does(1)
             assert "a person drives" in brain.status().reason
             page.hold()
-            page.say("let_go")
-            page.hear("hello", others="A script elsewhere", instead="")
+            page.send("let_go")
+            page.receive("hello", others="A script elsewhere", instead="")
             until(lambda: does(-0.5))
             assert agent.brain is brain
             assert brain.status().reason == ""
@@ -201,12 +201,12 @@ def test_a_script_that_leaves_meanwhile_takes_nobody_along() -> None:
     sim = small_sim(controller=still)
     with served(sim) as room, connect(room.url) as robot, room.page() as page:
         page.hold("KeyW")
-        page.hear("hello", others="", instead="A script elsewhere")
+        page.receive("hello", others="", instead="A script elsewhere")
         robot.close()
         until(lambda: brain_of(room) == "LocalBrain(ScriptController)")
         page.hold()  # a page says again and again what it holds
-        page.say("let_go")
-        page.hear("hello", others="A script", instead="")
+        page.send("let_go")
+        page.receive("hello", others="A script", instead="")
         assert brain_of(room) == "LocalBrain(ScriptController)"
 
 
@@ -215,12 +215,12 @@ def test_whoever_changes_the_brain_meanwhile_has_the_last_word(room: Room) -> No
     third = LocalBrain(controller=still)
     with room.page() as page:
         page.hold("KeyW")
-        page.hear("hello", others="")
+        page.receive("hello", others="")
         room.runner.submit(lambda: agent.use_brain(third)).result(5)
-        page.hear("hello", others="A script", instead="")
-        page.say("let_go")
-        page.say("nonsense")
-        page.hear("error")
+        page.receive("hello", others="A script", instead="")
+        page.send("let_go")
+        page.send("nonsense")
+        page.receive("error")
         room.runner.submit(lambda: None).result(5)
         assert agent.brain is third
 
@@ -231,8 +231,8 @@ def test_the_world_stays_as_it_is(room: Room, paused: bool) -> None:
         room.runner.pause().result(5)
     before = room.runner.latest
     with room.page() as page:
-        page.say("take")
-        page.hear("hello", others="")
+        page.send("take")
+        page.receive("hello", others="")
         after = room.runner.latest
         assert (after.episode, after.seed) == (before.episode, before.seed)
         assert after.paused == paused
@@ -256,12 +256,12 @@ def test_the_world_stays_as_it_is(room: Room, paused: bool) -> None:
 def test_a_brain_is_made_that_fits_the_body(actuator: Actuator, actions: set[str]) -> None:
     sim = small_sim(actuators=[actuator])
     (agent,) = sim.agents
-    hands = HumanOverride(Runner(sim), agent)
-    found = usable_keys(agent, hands.brain)
+    override = HumanOverride(Runner(sim), agent)
+    found = usable_keys(agent, override.brain)
     assert found.keys() - {"restart"} >= actions
     assert found.keys() - {"restart", "jump", "jump_forward"} == actions - {"jump", "jump_forward"}
     if actions:
-        agent.use_brain(hands.brain)
+        agent.use_brain(override.brain)
         codes = next(iter(found.values()))
         agent.keyboard.hold(codes[:1])
         sim.step()
@@ -290,11 +290,11 @@ def test_a_network_goes_on_after_it_was_taken_over() -> None:
     sim.reset(1)
     agent.use_brain(network)
     with served(sim) as room, room.page() as page:
-        assert page.hear("hello")["others"] == "A network"
+        assert page.receive("hello")["others"] == "A network"
         page.hold("KeyS")
         until(lambda: agent.brain is keys)
         until(lambda: room.runner.latest.agents[0].action["move"][:2] == (-1, 0))
-        page.say("let_go")
+        page.send("let_go")
         until(lambda: agent.brain is network)
         until(lambda: room.runner.latest.agents[0].action["move"][:2] != (-1, 0))
 

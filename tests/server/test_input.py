@@ -60,20 +60,20 @@ def test_another_world_sends_pages_away_and_has_them_back() -> None:
             room.runner.replace_sim(new).result(5)
             assert page.end() == (1012, "another world")
         with room.page("?after_another&agent=0") as page:
-            assert page.hear("hello")["agent"] == "0"
+            assert page.receive("hello")["agent"] == "0"
             page.hold("KeyW")
             until(lambda: new.agent("0").keyboard.held() == {"KeyW"})
             assert old.keyboard.held() == set()
-            page.hear("state", held=["KeyW"])
+            page.receive("state", held=["KeyW"])
         with room.page("?after_another&agent=gone") as page:
-            assert page.hear("hello")["agent"] == "first"
+            assert page.receive("hello")["agent"] == "first"
 
 
 def test_an_agent_of_the_old_world_is_not_given_back(room: Room) -> None:
     agent = room.sim.agents[0]
     with room.page() as page:
         page.hold("KeyW")
-        page.hear("hello", others="")
+        page.receive("hello", others="")
         ours = agent.brain
         room.runner.replace_sim(another("0")).result(5)
         assert page.end()[0] == 1012
@@ -97,20 +97,20 @@ def test_a_stick_can_be_pushed_to_its_rim_and_no_further(
     room: Room, stick: dict[str, Any], told: str
 ) -> None:
     with room.page() as page:
-        page.say("keys", held=[], stick=stick)
-        assert told in page.hear("error")["text"]
+        page.send("keys", held=[], stick=stick)
+        assert told in page.receive("error")["text"]
 
 
 def test_a_stick_is_finite(room: Room) -> None:
     with room.page() as page:
         page.socket.send('{"type": "keys", "held": [], "stick": {"forward": NaN}}')
-        assert "finite" in page.hear("error")["text"]
+        assert "finite" in page.receive("error")["text"]
 
 
 def test_a_stick_rests_when_its_page_falls_silent(room: Room) -> None:
     keyboard = room.sim.agents[0].keyboard
     with room.page() as page:
-        page.say("keys", held=[], stick={"forward": 0.5})
+        page.send("keys", held=[], stick={"forward": 0.5})
         until(lambda: keyboard.stick() == Stick(0.5, 0))
         until(lambda: keyboard.stick() == Stick(0, 0), 2)
 
@@ -140,14 +140,14 @@ def deaf_from_the_third_word_on(app: ASGIApp) -> ASGIApp:
 def test_a_page_that_stops_reading_slows_nobody() -> None:
     with served(wrap=deaf_from_the_third_word_on) as room, room.page() as other:
         with room.page("?agent=0") as deaf:
-            deaf.hear("seat")
+            deaf.receive("seat")
             deaf.hold("KeyW")
-            other.hear("seat", pages=2, driver=2)
+            other.receive("seat", pages=2, driver=2)
             until(lambda: room.held == ["KeyW"])  # it speaks all the same
-            other.hear("state", held=["KeyW"])
+            other.receive("state", held=["KeyW"])
             before = room.runner.latest.tick
             until(lambda: room.runner.latest.tick > before + 30)
-            other.say("take")
+            other.send("take")
             other.hold("KeyS")
-            other.hear("state", held=["KeyS"])
-        other.hear("seat", pages=1)
+            other.receive("state", held=["KeyS"])
+        other.receive("seat", pages=1)

@@ -27,7 +27,7 @@ def test_everything_works_under_a_prefix(prefix: str) -> None:
             assert httpx.get(base + path).status_code == 200
         assert httpx.get(base, follow_redirects=True).url.path == prefix + "/"
         with Page(base + "/ws/input?agent=0") as page:
-            assert page.hear("hello")["agent"] == "0"
+            assert page.receive("hello")["agent"] == "0"
         assert httpx.get(room.url).status_code == 404
         assert raw_answer(room.url + "healthz", "Host: localhost")[0] == 404
 
@@ -43,8 +43,8 @@ def test_two_rooms_under_one_port_know_nothing_of_each_other() -> None:
             for path, title in (("one/healthz", "one"), ("healthz", "two")):
                 assert httpx.get(two.url + path).json()["scene"] == title
             with Page(two.url + "one/ws/input") as page, two.page() as other:
-                assert page.hear("hello")["you"] == other.hear("hello")["you"] == 1
+                assert page.receive("hello")["you"] == other.receive("hello")["you"] == 1
                 page.hold("KeyW")
-                other.hear("state", held=[])
-                page.hear("state", held=["KeyW"])
+                other.receive("state", held=[])
+                page.receive("state", held=["KeyW"])
                 assert two.held == []

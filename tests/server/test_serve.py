@@ -18,6 +18,7 @@ from starlette.requests import Request
 from starlette.responses import PlainTextResponse, Response
 from starlette.routing import Route
 
+from ai4u_edu import server
 from ai4u_edu.base.errors import AI4UError
 from ai4u_edu.server import AddressError, PortTakenError, ServerThread, serve
 from ai4u_edu.server.frames import FramesProtocol
@@ -73,9 +74,9 @@ posix = pytest.mark.skipif(os.name != "posix", reason="sends signals as POSIX ha
 def test_a_signal_ends_it_cleanly_with_pages_open(number: signal.Signals) -> None:
     with program() as (process, url):
         with Page(url + "ws/input") as page, raw_request(url, "Host: localhost", *UPGRADE):
-            page.hear("hello")
+            page.receive("hello")
             page.hold("KeyW")
-            page.hear("state", held=["KeyW"])
+            page.receive("state", held=["KeyW"])
             began = time.monotonic()
             process.send_signal(number)
             code, _ = page.end()
@@ -193,11 +194,11 @@ def test_small_frames_wait_for_no_others(monkeypatch: pytest.MonkeyPatch) -> Non
     assert all(at_once)
 
 
-def test_stopping_with_pages_open_takes_little_time_and_frees_the_seat() -> None:
+def test_stopping_with_pages_open_takes_little_time_and_frees_control() -> None:
     with served() as room:
         page = room.page()
         page.hold("KeyW")
-        page.hear("seat", driver=1)
+        page.receive("seat", driver=1)
         stopping = time.monotonic()
     assert time.monotonic() - stopping < 3
     assert room.held == []
@@ -231,3 +232,11 @@ def _suppressed_get(url: str) -> None:
 
 async def _nothing(scope: object, receive: object, send: object) -> None:
     await PlainTextResponse("fine")(scope, receive, send)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize(
+    ("old", "new"), [("announcement", "startup_banner"), ("shut_side_door", "lock_viser_port")]
+)
+def test_an_old_name_warns(old: str, new: str) -> None:
+    with pytest.warns(DeprecationWarning, match=new):
+        assert getattr(server, old) is getattr(server, new)

@@ -89,7 +89,7 @@ def test_a_browser_gets_a_cookie_and_an_address_without_the_token(
         assert browser.get(path).status_code == 200
     said = "; ".join(f"{name}={value}" for name, value in browser.cookies.items())
     with Page(room.url + "ws/input", additional_headers={"Cookie": said}) as page:
-        page.hear("hello")
+        page.receive("hello")
 
 
 def test_another_worlds_cookie_opens_nothing(browser: httpx.Client) -> None:
@@ -114,7 +114,7 @@ def test_a_program_says_the_token_with_each_request(room: Room, given: dict[str,
     assert answer.status_code == 200
     assert "Set-Cookie" not in answer.headers
     with Page(room.url + "ws/input" + QUERY) as page:
-        page.hear("hello")
+        page.receive("hello")
 
 
 def test_secrets_are_compared_in_constant_time(room: Room, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -142,7 +142,7 @@ def test_without_a_token_nothing_is_asked() -> None:
         answer = httpx.get(room.url + "?token=whatever", follow_redirects=False)
         assert answer.status_code == 200
         with room.page() as page:
-            page.hear("hello")
+            page.receive("hello")
 
 
 def test_who_gets_a_token() -> None:
@@ -167,7 +167,7 @@ def test_a_frame_that_nobody_means_is_not_even_read(room: Room) -> None:
     with Page(room.url + "ws/input" + QUERY, compression=None) as page:
         page.socket.send("x" * (2**20 + 1))
         with pytest.raises(ConnectionClosed, match="1009"):
-            page.hear("error")
+            page.receive("error")
 
 
 def test_whatever_an_address_says_is_answered(room: Room) -> None:

@@ -147,11 +147,11 @@ def test_a_sensor_is_shown_and_hidden_by_its_button(viewer: Viewer, runner: Runn
         button = tab.sensors.buttons["fan"]
         assert button.icon == SHOWN
         here.press(button)
-        until(lambda: not viewer_client.lights("fan", by_itself=True))
+        until(lambda: not viewer_client.shows_sensor("fan", is_default=True))
         shown(viewer)
         assert button.icon == HIDDEN
         here.press(button)
-        until(lambda: viewer_client.lights("fan", by_itself=True))
+        until(lambda: viewer_client.shows_sensor("fan", is_default=True))
 
 
 def test_each_agent_has_a_row_of_its_own(crowd: Runner) -> None:

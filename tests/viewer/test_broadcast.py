@@ -26,19 +26,19 @@ from ai4u_edu.viewer.backend.local_server import LocalServer
 from tests.load.clients import CAMERA
 from tests.server.rooms import served, until
 
-DOORS: dict[int, str] = {}
+PROXY_URLS: dict[int, str] = {}
 """Where pages go to, by viser's port, if not to viser itself."""
 
 
-@pytest.fixture(params=["to viser", "to our port"])
+@pytest.fixture(params=["to viser", "through the proxy"])
 def server(request: pytest.FixtureRequest) -> Iterator[LocalServer]:
     server = LocalServer("AI4U Edu")
     with ExitStack() as stack:
         stack.callback(server.stop)
-        if request.param == "to our port":
+        if request.param == "through the proxy":
             room = stack.enter_context(served(viser_port=server.get_port()))
-            DOORS[server.get_port()] = room.url
-            stack.callback(DOORS.clear)
+            PROXY_URLS[server.get_port()] = room.url
+            stack.callback(PROXY_URLS.clear)
         yield server
 
 
@@ -56,9 +56,9 @@ def packings(monkeypatch: pytest.MonkeyPatch) -> list[list[Message]]:
     return made
 
 
-def client(server: viser.ViserServer, door: str = "") -> ClientConnection:
+def client(server: viser.ViserServer) -> ClientConnection:
     port = server.get_port()
-    url = door or DOORS.get(port) or f"http://127.0.0.1:{port}"
+    url = PROXY_URLS.get(port) or f"http://127.0.0.1:{port}"
     return connect(
         url.rstrip("/").replace("http", "ws", 1),
         subprotocols=[Subprotocol(f"viser-v{viser.__version__}")],

@@ -114,18 +114,18 @@ def test_a_sensor_lights_up_at_a_click_and_goes_out_again(viewer: Viewer) -> Non
         shown(viewer)
         (viewer_client,) = viewer.viewer_clients.values()
         assert "/pointers" not in own_nodes(viewer)
-        viewer_client.light("bearing", True)
+        viewer_client.show_sensor("bearing", True)
         shown(viewer)
         assert "/pointers" in own_nodes(viewer)
-        viewer_client.light("bearing", False)
-        viewer_client.light("fan", False)
+        viewer_client.show_sensor("bearing", False)
+        viewer_client.show_sensor("fan", False)
         shown(viewer)
         assert "/pointers" not in own_nodes(viewer)
         assert "/rays1/lines" not in own_nodes(viewer)
         viewer_client.agent = "1"
         viewer_client.agent = "0"
         shown(viewer)
-        assert not viewer_client.lights("fan", by_itself=True)  # it stays as it was chosen
+        assert not viewer_client.shows_sensor("fan", is_default=True)  # it stays as it was chosen
 
 
 def test_who_fell_out_of_the_world_sees_nothing(viewer: Viewer, runner: Runner) -> None:

@@ -139,7 +139,9 @@ class _SensorList:
             sensor.key
             for sensor in agent.sensor_infos
             if is_drawable(sensor, agent)
-            and self._viewer_client.lights(sensor.key, by_itself=is_shown_by_default(sensor, agent))
+            and self._viewer_client.shows_sensor(
+                sensor.key, is_default=is_shown_by_default(sensor, agent)
+            )
         }
         for key, button in self.buttons.items():
             icon = SHOWN if key in shown else HIDDEN
@@ -152,12 +154,14 @@ class _SensorList:
             self.readings[key].content = html
 
     def _add_button(self, agent: AgentState, sensor: SensorInfo) -> None:
-        key, by_itself = sensor.key, is_shown_by_default(sensor, agent)
+        key, is_default = sensor.key, is_shown_by_default(sensor, agent)
         hint = f"Shows in the scene what {key} is about, or hides it"
         button = self._client.gui.add_button(key, icon=HIDDEN, hint=hint)
 
         async def toggle(_event: object) -> None:
-            self._viewer_client.light(key, not self._viewer_client.lights(key, by_itself=by_itself))
+            self._viewer_client.show_sensor(
+                key, not self._viewer_client.shows_sensor(key, is_default=is_default)
+            )
 
         button.on_click(toggle)
         self.buttons[key] = button

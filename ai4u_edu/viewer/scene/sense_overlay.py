@@ -72,7 +72,9 @@ class _Page:
             sensor
             for sensor in agent.sensor_infos
             if not body.fallen
-            and self._viewer_client.lights(sensor.key, by_itself=is_shown_by_default(sensor, agent))
+            and self._viewer_client.shows_sensor(
+                sensor.key, is_default=is_shown_by_default(sensor, agent)
+            )
         ]
         keys = [sensor.key for sensor in shown]
         with self._viewer_client.client.atomic():
