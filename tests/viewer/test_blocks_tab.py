@@ -126,6 +126,8 @@ def test_deeds(viewer: Viewer, harness: EditorHarness) -> None:
 def test_a_controller_has_no_place_in_a_list(
     viewer: Viewer, harness: EditorHarness, caplog: pytest.LogCaptureFixture
 ) -> None:
+    gc.collect()  # tasks of viewers that earlier tests stopped
+    caplog.clear()
     with page(viewer) as here:
         tab = tab_of(viewer)
         here.change(tab.kind, "Brains")
