@@ -47,7 +47,7 @@ def drag(
     lets_go: bool = True,
 ) -> None:
     """Takes something up at the first place and lets go of it at the last."""
-    owner = tab._viewer_client.client.scene._owner_id
+    owner = tab.viewer_client.client.scene._owner_id
     phases = ["start", *["update"] * (len(path) - 1), *(["end"] if lets_go else [])]
     for phase, place in zip(phases, (*path, path[-1]), strict=False):
         here.say(
@@ -67,9 +67,9 @@ def drag(
 
 def chosen(viewer: Viewer, here: Page, tab: WorldTab, name: str) -> BodyForm:
     here.change(tab.body_list, name)
-    seen(viewer, lambda: tab._form is not None and tab._form.body.name == name)
-    assert tab._form is not None
-    return tab._form
+    seen(viewer, lambda: tab.form is not None and tab.form.body.name == name)
+    assert tab.form is not None
+    return tab.form
 
 
 def applied(here: Page, form: BodyForm, **values: str) -> None:
@@ -137,13 +137,13 @@ def test_a_click_chooses(viewer: Viewer, harness: EditorHarness) -> None:
     with page(viewer) as here:
         tab = tab_of(viewer)
         moving(viewer, here, tab)
-        owner = tab._viewer_client.client.scene._owner_id
+        owner = tab.viewer_client.client.scene._owner_id
         here.click(tab.handles.node, index(harness, "box"), owner=owner)
         seen(viewer, lambda: tab.body_list.value == "box")
-        assert tab._form is not None
+        assert tab.form is not None
         here.click(tab.handles.node, 77, owner=owner)
         here.change(tab.body_list, NO_BODY)
-        seen(viewer, lambda: tab._form is None and tab.handles.knob is None)
+        seen(viewer, lambda: tab.form is None and tab.handles.knob is None)
 
 
 def test_a_page_can_drag_what_it_likes(viewer: Viewer, harness: EditorHarness) -> None:
@@ -178,7 +178,7 @@ def test_escape_puts_back_what_is_held(viewer: Viewer, harness: EditorHarness) -
         here.say("CommandTriggerMessage", uuid=escape._impl.uuid)
         until(lambda: harness.world["wall"].position == (-4, 0))
         harness.runner.submit(lambda: None).result(5)
-        seen(viewer, lambda: tab.handles._states["wall"].x == -4)
+        seen(viewer, lambda: tab.handles.states["wall"].x == -4)
         drag(here, tab, node, wall, (-4, 0), (-2, 2))  # the next time it is held as ever
         until(lambda: harness.editor.undo_label == "move wall")
         assert harness.world["wall"].position == (-2, 2)
@@ -256,19 +256,19 @@ def test_things_are_added_where_there_is_room(
         name = harness.editor.free_name(BODY_TEMPLATES[word]["name"])
         here.change(tab.new, word)
         until(lambda: name in harness.world.bodies)
-        seen(viewer, lambda: tab._form is not None and tab._form.body.name == name)
+        seen(viewer, lambda: tab.form is not None and tab.form.body.name == name)
         assert tab.delete.label == f"Delete {name}"
         assert tab.handles.node  # it can be dragged at once
         here.press(tab.delete)
         until(lambda: name not in harness.world.bodies)
-        seen(viewer, lambda: tab._form is None)
+        seen(viewer, lambda: tab.form is None)
         assert not tab.delete.visible
 
 
 def test_a_thing_comes_where_the_page_looks(viewer: Viewer, harness: EditorHarness) -> None:
     with page(viewer) as here:
         tab = tab_of(viewer)
-        camera = tab._viewer_client.client.camera
+        camera = tab.viewer_client.client.camera
         for number, place in enumerate([(3.0, 3.0), (-3.0, 4.0)]):
             here.report_camera(position=(*place, 30.0))
             until(lambda place=place: tuple(camera.look_at[:2]) == place)  # type: ignore[misc]
