@@ -8,6 +8,7 @@ from typing import Any
 import pytest
 
 import ai4u_edu
+from tests import architecture
 from tests.builders import small_sim
 from tests.components import AI4U, AI4U_SETTINGS
 from tests.names import AI4U_PAGE, table_in
@@ -120,3 +121,8 @@ WORDS = {"Box", "Discrete", "handler", "default_time_scale"} | {
     f"__{each}__" for each in ("restart", "pause", "resume", "stop")
 }
 """What stands in the rows and is not a name of the package."""
+
+
+def test_the_picture_of_the_architecture_is_drawn_from_the_code() -> None:
+    drawn = architecture.PICTURE.read_text(encoding="utf-8")
+    assert drawn == architecture.draw(), "draw it again: python -m tests.architecture"

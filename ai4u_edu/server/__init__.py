@@ -1,4 +1,4 @@
-"""One port for everything: the page, viser behind it, the keyboard, and a read-only API."""
+"""The web server: one port for page, viser, keys, scripts and API."""
 
 import warnings
 from typing import Any

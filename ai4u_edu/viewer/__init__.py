@@ -1,4 +1,4 @@
-"""The page: draws snapshots with viser, and sends what people do to the runner and the editor."""
+"""The page: snapshots drawn with viser, and its side panel."""
 
 from ai4u_edu.viewer.viewer import Viewer
 

@@ -1,4 +1,4 @@
-"""The physics: the only room in which pymunk lives."""
+"""The physics; no other package uses pymunk."""
 
 from ai4u_edu.world.body import Body, BodyView
 from ai4u_edu.world.descriptions import (
