@@ -149,10 +149,18 @@ def _names(piece: ast.stmt) -> Iterator[str]:
 
 
 def _is_skipped(piece: ast.stmt) -> bool:
-    """Return True for a skipped test or mark: skip, skipif, xfail, nightly."""
-    return not {"skip", "skipif", "xfail", "nightly"}.isdisjoint(
-        node.attr for node in ast.walk(piece) if isinstance(node, ast.Attribute)
-    )
+    """Return True for a mark of the whole module or of a test: skip, skipif, xfail, nightly."""
+    match piece:
+        case ast.Assign(targets=[ast.Name(id="pytestmark")], value=value):
+            marks: list[ast.AST] = list(ast.walk(value))
+        case ast.FunctionDef() | ast.ClassDef():
+            marks = [
+                each.func if isinstance(each, ast.Call) else each for each in piece.decorator_list
+            ]
+        case _:
+            return False
+    names = {mark.attr for mark in marks if isinstance(mark, ast.Attribute)}
+    return not {"skip", "skipif", "xfail", "nightly"}.isdisjoint(names)
 
 
 def table() -> str:

@@ -3,6 +3,7 @@
 from pathlib import Path
 
 import pytest
+from hypothesis import settings
 
 ROOT = Path(__file__).parent.parent
 LONG_FOLDERS = ("browser", "attacks", "training", "remote", "lessons", "load")
@@ -13,6 +14,10 @@ NOT_FAST = ("attacks", "benchmarks", "browser", "envs", "fuzz", "lessons", "load
 NOT_FAST_MARKERS = {"alone", "browser", "slow"}
 COMPONENT_TABLE = "components"
 LEFT_OUT = pytest.StashKey[int]()
+
+# A busy machine makes an example slow, and no test asserts a time.
+settings.register_profile("project", deadline=None)
+settings.load_profile("project")
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:

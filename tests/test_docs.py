@@ -13,6 +13,8 @@ from tests.components import AI4U, AI4U_SETTINGS
 from tests.names import AI4U_PAGE, table_in
 from tests.playing import played
 
+pytestmark = pytest.mark.slow
+
 ROOT = Path(__file__).parents[1]
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
 FROM_AI4U = AI4U_PAGE.read_text(encoding="utf-8")

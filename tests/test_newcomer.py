@@ -120,9 +120,7 @@ def test_all_of_it_appears_in_the_viewer(sim: ai4u_edu.ControlRequestor) -> None
         names = list(viewer.server.scene._handle_from_node_name)
         assert len([name for name in names if name.endswith("/body")]) == 2, "mouse and cheese"
         texts = [
-            label.handle.text
-            for part in viewer._parts
-            for label in getattr(part.part, "_labels", ())
+            label.handle.text for part in viewer.parts for label in getattr(part.part, "labels", ())
         ]
         assert sorted(texts) == ["cheese", "mouse"]
     finally:

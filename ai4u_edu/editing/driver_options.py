@@ -9,7 +9,7 @@ from ai4u_edu.base.parameters import Problem
 from ai4u_edu.blocks import Block, Brain, LocalBrain, NeuralNetController
 from ai4u_edu.blocks.brains.address import brain_at
 from ai4u_edu.blocks.brains.network import ZOO_PREFIX, files_in
-from ai4u_edu.editing.blocks import types_of
+from ai4u_edu.editing.blocks import types_of, with_enabled
 from ai4u_edu.editing.drivers import NETWORK, REMOTE, Driver, DriverRegistry
 from ai4u_edu.editing.errors import ChangeError
 from ai4u_edu.editing.plain import Plain
@@ -138,12 +138,8 @@ def _plain_brain(state: EditState, name: str, rhythm: dict[str, Any]) -> Plain:
 def _with_enabled_brain(
     state: EditState, agent_id: str, brains: list[Plain], index: int
 ) -> EditState:
-    switched = [
-        {k: v for k, v in brain.items() if k != "enabled"}
-        | ({} if number == index else {"enabled": False})
-        for number, brain in enumerate(brains)
-    ]
-    return state.with_agent(agent_id, {**state.agent(agent_id), "brains": switched})
+    agent = {**state.agent(agent_id), "brains": brains}
+    return state.with_agent(agent_id, with_enabled(agent, ("brains", index), True))
 
 
 def _rhythm(brains: list[Plain]) -> dict[str, Any]:

@@ -68,11 +68,11 @@ class Viewer:
         self.runner = runner
         self.server = server = LocalServer(title)
         self._title = title
-        self._viewer_clients = viewer_clients = ViewerClients(server, first=runner.sim.agents[0].id)
+        self.viewer_clients = viewer_clients = ViewerClients(server, first=runner.sim.agents[0].id)
         self._static_scene: StaticScene | None = None
         self._error_log = ErrorLog()
         self._stopping = threading.Event()
-        self._thread = threading.Thread(target=self._run, name="viewer", daemon=True)
+        self.thread = threading.Thread(target=self._run, name="viewer", daemon=True)
         server.gui.configure_theme(show_logo=False, show_share_button=False)
         server.gui.main_panel.dock_right()
         server.gui.main_panel.set_width(PANEL_WIDTH_PX)
@@ -84,9 +84,9 @@ class Viewer:
         if editor is not None:
             kinds += [blocks_tab(editor), world_tab(editor)]
             editor.listeners.append(self._rename)
-        self._player, self.ghosts = ReplayPlayer(runner), Ghosts(server)
+        self.player, self.ghosts = ReplayPlayer(runner), Ghosts(server)
         if runner.recorder is not None:
-            kinds.append(replay_tab(runner, self._player, self.ghosts))
+            kinds.append(replay_tab(runner, self.player, self.ghosts))
 
         parts: list[tuple[Part, float]] = [
             (viewer_clients, MAX_FRAMES_PER_S),
@@ -100,8 +100,8 @@ class Viewer:
             (SenseOverlay(viewer_clients), MAX_FRAMES_PER_S),
             (Tabs(viewer_clients, kinds, self._error_log), MAX_FRAMES_PER_S),
         ]
-        self._parts = [RatedPart(part, rate, self._error_log) for part, rate in parts]
-        self._draw(runner.latest)
+        self.parts = [RatedPart(part, rate, self._error_log) for part, rate in parts]
+        self.draw(runner.latest)
 
     @property
     def port(self) -> int:
@@ -110,7 +110,7 @@ class Viewer:
 
     def start(self) -> None:
         """Start to draw."""
-        self._thread.start()
+        self.thread.start()
 
     def stop(self) -> None:
         """End the thread and viser's server.
@@ -124,9 +124,9 @@ class Viewer:
         ending.join(STOP_S)
 
     def _end(self) -> None:
-        if self._thread.is_alive():
-            self._thread.join()
-        self._player.stop()
+        if self.thread.is_alive():
+            self.thread.join()
+        self.player.stop()
         self.server.stop()
 
     def _rename(self, state: EditState) -> None:
@@ -141,13 +141,13 @@ class Viewer:
             seen = self.runner.wait(seen, PAGE_POLL_S)
             began, processor_began = time.monotonic(), time.thread_time()
             with self._error_log.caught():
-                self._viewer_clients.refresh()
-                if self._viewer_clients or seen.static_scene is not self._static_scene:
-                    self._draw(seen)
+                self.viewer_clients.refresh()
+                if self.viewer_clients or seen.static_scene is not self._static_scene:
+                    self.draw(seen)
             period = PAGE_POLL_S
-            if self._viewer_clients:
+            if self.viewer_clients:
                 period = self.runner.frame_budget.frame_period(
-                    pages=len(self._viewer_clients),
+                    pages=len(self.viewer_clients),
                     tick_lateness=self.runner.lateness,
                     draw_time=time.thread_time() - processor_began,
                 )
@@ -155,22 +155,23 @@ class Viewer:
 
     def _choose(self, client_id: int, body: str) -> None:
         """Show the agent with that body on one page."""
-        viewer_client, static_scene = self._viewer_clients.get(client_id), self._static_scene
+        viewer_client, static_scene = self.viewer_clients.get(client_id), self._static_scene
         if viewer_client is not None and static_scene is not None and body in static_scene.agent_of:
             viewer_client.agent = static_scene.agent_of[body]
 
-    def _draw(self, snapshot: Snapshot) -> None:
+    def draw(self, snapshot: Snapshot) -> None:
+        """Draw what is due of a snapshot; the viewer's thread does, once it has started."""
         for agent in self.runner.sim.agents:
             agent.ledger.keep_history(MAX_PLOTTED_DECISIONS)
         with self.server.atomic():
             if snapshot.static_scene is not self._static_scene:
                 self._static_scene = snapshot.static_scene
                 self._aim(snapshot.static_scene)
-                for part in self._parts:
+                for part in self.parts:
                     part.build(snapshot.static_scene)
-            for part in self._parts:
+            for part in self.parts:
                 part.draw(snapshot)
-        for viewer_client in self._viewer_clients.values():
+        for viewer_client in self.viewer_clients.values():
             with self._error_log.caught():
                 viewer_client.view.update(snapshot, viewer_client.agent)
 

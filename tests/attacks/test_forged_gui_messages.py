@@ -90,7 +90,7 @@ def page(room: Room) -> Iterator[Page]:
         here = Page(connection)
         here.report_camera()
         until(lambda: len(room.viewer.server.get_clients()) == before + 1)
-        room.viewer._viewer_clients.refresh()
+        room.viewer.viewer_clients.refresh()
         shown(room.viewer)
         yield here
 
@@ -104,7 +104,7 @@ def all_open(room: Room, here: Page) -> None:
     here.press(world.settings.button)
     here.change(world.body_list, "wall")
     here.change(world.drag_enabled, True)
-    seen(viewer, lambda: blocks._form and world._form and blocks.settings.form)
+    seen(viewer, lambda: blocks.form and world.form and blocks.settings.form)
     seen(viewer, lambda: world.settings.form and world.handles.node)
 
 
@@ -152,11 +152,11 @@ def unharmed(caplog: pytest.LogCaptureFixture, capfd: pytest.CaptureFixture[str]
 def in_order(room: Room, other: Page) -> None:
     """All that a page can do for everybody works from another one, and it shows."""
     controls, runner = part_of(room.viewer, Controls), room.harness.runner
-    seen(room.viewer, lambda: "Resume" in controls._time.options)
-    other.change(controls._time, "Resume")
+    seen(room.viewer, lambda: "Resume" in controls.time_buttons.options)
+    other.change(controls.time_buttons, "Resume")
     until(lambda: not runner.latest.paused)
-    seen(room.viewer, lambda: "Pause" in controls._time.options)
-    other.change(controls._time, "Pause")
+    seen(room.viewer, lambda: "Pause" in controls.time_buttons.options)
+    other.change(controls.time_buttons, "Pause")
     until(lambda: runner.latest.paused)
     with connected(room) as late:
         kinds: set[Any] = set()
@@ -233,8 +233,8 @@ def test_no_widget_takes_a_value_that_is_not_of_its_kind(
 
 def test_a_number_is_within_the_bounds_of_its_widget(room: Room) -> None:
     with page(room) as here:
-        (past,), seed = tabs_of(room.viewer, ReplayTab), part_of(room.viewer, Controls)._seed
-        for widget, odd in ((seed, (-1, 2**53, 1e20, 1.5)), (past._step, (0, 77, 1.5, -1e9))):
+        (past,), seed = tabs_of(room.viewer, ReplayTab), part_of(room.viewer, Controls).seed
+        for widget, odd in ((seed, (-1, 2**53, 1e20, 1.5)), (past.step, (0, 77, 1.5, -1e9))):
             was = widget.value
             for value in odd:
                 here.change(widget, value)

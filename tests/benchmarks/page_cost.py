@@ -82,7 +82,7 @@ def serve(there: Connection) -> None:
     """Run the world until the other process ends it."""
     runner = Runner(crowd(), seed=1)
     viewer = Viewer(runner)
-    drawn, draw = [0, 0.0], viewer._draw
+    drawn, draw = [0, 0.0], viewer.draw
 
     def timed(snapshot: Snapshot) -> None:
         began = time.thread_time()
@@ -90,7 +90,7 @@ def serve(there: Connection) -> None:
         drawn[0] += 1
         drawn[1] += time.thread_time() - began
 
-    viewer._draw = timed  # type: ignore[method-assign]
+    viewer.draw = timed  # type: ignore[method-assign]
     runner.start()
     viewer.start()
     there.send(viewer.port)

@@ -47,11 +47,9 @@ def steps_to(free: Map, start: Cell, goals: list[Cell]) -> int | None:
     return None
 
 
-NIGHTLY = pytest.mark.nightly
-
-
 @pytest.mark.parametrize(
-    "seed", [seed if seed < 12 else pytest.param(seed, marks=NIGHTLY) for seed in range(60)]
+    "seed",
+    [seed if seed < 12 else pytest.param(seed, marks=pytest.mark.nightly) for seed in range(60)],
 )
 def test_a_shortest_way_to_the_nearest_goal(seed: int) -> None:
     free, start, goals = drawn(seed)
@@ -103,7 +101,8 @@ def driven(controller: Any, seed: int) -> BasicAgent:
 
 
 @pytest.mark.parametrize(
-    "seed", [seed if seed < 3 else pytest.param(seed, marks=NIGHTLY) for seed in range(20)]
+    "seed",
+    [seed if seed < 3 else pytest.param(seed, marks=pytest.mark.nightly) for seed in range(20)],
 )
 def test_both_clean_the_grid_world_in_the_same_time(seed: int) -> None:
     one, other = (driven(kind(), seed) for kind in (BreadthFirstController, AStarController))

@@ -13,6 +13,7 @@ from websockets.sync.client import connect
 from websockets.sync.connection import Connection
 from websockets.typing import Subprotocol
 
+from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.viewer import Viewer
 from ai4u_edu.viewer.panel.tabs import Tabs
 from ai4u_edu.viewer.scene.sense_overlay import SenseOverlay
@@ -101,13 +102,13 @@ def page(viewer: Viewer, agent: str = "", *, dark: bool = False) -> Iterator[Pag
 
 def shown(viewer: Viewer) -> None:
     """Draws the latest snapshot on all pages, whatever was drawn when."""
-    for part in viewer._parts:
-        part._drawn_at = 0.0
+    for part in viewer.parts:
+        part.make_due()
         if isinstance(part.part, SenseOverlay | Tabs):
             turns = part.part._turns
             turns._drawn_at.clear()
             turns._processor_clock = lambda: 0.0  # so that all pages have their turn
-    viewer._draw(viewer.runner.latest)
+    viewer.draw(viewer.runner.latest)
 
 
 def seen(viewer: Viewer, condition: Callable[[], Any]) -> None:
@@ -122,13 +123,13 @@ def seen(viewer: Viewer, condition: Callable[[], Any]) -> None:
 
 def part_of(viewer: Viewer, kind: type[P]) -> P:
     """The viewer's part of that kind."""
-    (part,) = (each.part for each in viewer._parts if isinstance(each.part, kind))
+    (part,) = (each.part for each in viewer.parts if isinstance(each.part, kind))
     return part
 
 
 def tabs_of(viewer: Viewer, kind: type[P]) -> list[P]:
     """The tabs of that kind, page by page."""
-    pages = part_of(viewer, Tabs)._pages
+    pages = part_of(viewer, Tabs).pages
     return [tab for _, each in sorted(pages.items()) for tab in each.tabs if isinstance(tab, kind)]
 
 
@@ -138,3 +139,8 @@ def until(condition: Callable[[], Any], patience: float = 10.0) -> None:
     while not condition():
         assert time.monotonic() < end, "it never came to that"
         time.sleep(0.01)
+
+
+def publish(runner: Runner) -> None:
+    """Take a snapshot of the world of a runner that stands still."""
+    runner._publish()

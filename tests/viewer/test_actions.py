@@ -39,8 +39,8 @@ def test_the_arrow_turns_with_the_body(viewer: Viewer) -> None:
     actions = Actions(viewer.server)
     actions.build(runner.latest.static_scene)
     actions.draw(runner.latest)
-    assert actions._lines is not None
-    shaft = actions._lines.points[0]
+    assert actions.lines is not None
+    shaft = actions.lines.points[0]
     assert shaft[1, 1] - shaft[0, 1] > 0.4
     assert shaft[:, 0] == pytest.approx([1.0, 1.0], abs=0.05)
 
@@ -50,5 +50,5 @@ def test_other_actions_are_not_drawn(viewer: Viewer) -> None:
     actions = Actions(viewer.server)
     actions.build(runner.latest.static_scene)
     actions.draw(runner.latest)
-    assert actions._lines is not None
-    assert len(actions._lines.points) == 1  # the stroke that can't be seen
+    assert actions.lines is not None
+    assert len(actions.lines.points) == 1  # the stroke that can't be seen

@@ -37,9 +37,7 @@ def crowded(crowd: Runner) -> Iterator[Viewer]:
 def text_of(viewer: Viewer) -> str:
     """All HTML in the tab of the only page."""
     (tab,) = tabs_of(viewer, AgentTab)
-    html = [tab._legend, tab._state, tab._decision, tab._needs, *tab.sensors.readings.values()]
-    html += [tab._one_value_sensors, tab._action, tab._rewards]
-    return "".join(each.content for each in html)
+    return tab.html
 
 
 def test_an_agent_has_its_senses_action_and_reward(viewer: Viewer) -> None:
@@ -89,7 +87,7 @@ def test_only_what_changed_is_sent(viewer: Viewer, runner: Runner) -> None:
 def test_a_page_opens_with_its_own_agent(crowded: Viewer, asked: str, opened: str) -> None:
     with page(crowded, asked):
         shown(crowded)
-        assert [each.agent for each in crowded._viewer_clients.values()] == [opened]
+        assert [each.agent for each in crowded.viewer_clients.values()] == [opened]
         assert f"<p>{opened}</p>" in text_of(crowded)
 
 
@@ -97,7 +95,7 @@ def test_another_agent_is_chosen_from_the_list(crowded: Viewer) -> None:
     with page(crowded) as here, page(crowded, "five"):
         until(lambda: len(crowded.server.get_clients()) == 2)
         shown(crowded)
-        first, second = crowded._viewer_clients.values()
+        first, second = crowded.viewer_clients.values()
         tab = tabs_of(crowded, AgentTab)[0]
         here.change(tab.list, "four")
         until(lambda: first.agent == "four")
@@ -114,7 +112,7 @@ def test_another_agent_is_chosen_from_the_list(crowded: Viewer) -> None:
 def test_another_agent_is_chosen_by_a_click_on_it(crowded: Viewer) -> None:
     with page(crowded) as here:
         shown(crowded)
-        (viewer_client,) = crowded._viewer_clients.values()
+        (viewer_client,) = crowded.viewer_clients.values()
         here.click("/bodies1/0/body", 2)
         until(lambda: viewer_client.agent == "three")
         for nothing in (None, 17):
@@ -131,10 +129,10 @@ def test_other_agents_are_looked_at_as_soon_as_they_are_there(
 ) -> None:
     with page(viewer):
         shown(viewer)
-        (viewer_client,) = viewer._viewer_clients.values()
+        (viewer_client,) = viewer.viewer_clients.values()
         (tab,) = tabs_of(viewer, AgentTab)
         static_scene = replace(runner.latest.static_scene, agent_of={"robot": "7"})
-        viewer._draw(
+        viewer.draw(
             replace(runner.latest, static_scene=static_scene)
         )  # the agents of before are no error
         assert viewer_client.agent == "7"
@@ -145,7 +143,7 @@ def test_a_sensor_is_shown_and_hidden_by_its_button(viewer: Viewer, runner: Runn
     with page(viewer) as here:
         shown(viewer)
         (tab,) = tabs_of(viewer, AgentTab)
-        (viewer_client,) = viewer._viewer_clients.values()
+        (viewer_client,) = viewer.viewer_clients.values()
         button = tab.sensors.buttons["fan"]
         assert button.icon == SHOWN
         here.press(button)

@@ -30,18 +30,18 @@ def tab_of(viewer: Viewer, number: int = 0) -> BlocksTab:
 
 def chosen(viewer: Viewer, here: Page, tab: BlocksTab, line: str) -> BlockForm:
     here.change(tab.block, line)
-    seen(viewer, lambda: tab._form is not None and tab.block.value == line)
-    assert tab._form is not None
-    return tab._form
+    seen(viewer, lambda: tab.form is not None and tab.block.value == line)
+    assert tab.form is not None
+    return tab.form
 
 
 def applied(viewer: Viewer, here: Page, tab: BlocksTab, **values: Any) -> None:
-    assert tab._form is not None
+    assert tab.form is not None
     for name, value in values.items():
-        box: Any = tab._form.boxes[name]
+        box: Any = tab.form.boxes[name]
         here.change(box, value)
         until(partial(_holds, box, value))
-    here.change(tab._form.apply, True)
+    here.change(tab.form.apply, True)
 
 
 def _holds(box: Any, value: Any) -> bool:
@@ -56,7 +56,7 @@ def test_lists_of_blocks_and_of_who_may_drive(viewer: Viewer) -> None:
         assert "Keyboard: WASDRBMoveController" in tab.driver.options
         assert "Program: TrainController" not in tab.driver.options  # by itself it does nothing
         assert any(line.startswith("RayCastingSensor: Codes and") for line in tab.new.options)
-        assert tab._form is None  # made when it is asked for
+        assert tab.form is None  # made when it is asked for
         assert not tab.block_actions.visible
 
 
@@ -68,8 +68,8 @@ def test_a_form_is_filled_in_and_handed_in(viewer: Viewer, harness: EditorHarnes
         applied(viewer, here, tab, noise="0,5", target="wall")
         until(lambda: harness.agent.sensors[0].target == "wall")
         assert harness.agent.sensors[0].noise == 0.5
-        seen(viewer, lambda: "it applies at the next decision" in tab._status.content)
-        assert tab._form is form  # the same boxes
+        seen(viewer, lambda: "it applies at the next decision" in tab.status.content)
+        assert tab.form is form  # the same boxes
         assert form.boxes["noise"].value == "0.5"
 
 
@@ -120,12 +120,14 @@ def test_deeds(viewer: Viewer, harness: EditorHarness) -> None:
         until(lambda: len(harness.agent.rewards) == 1)
         here.change(tab.changes, "Undo")
         until(lambda: len(harness.agent.rewards) == 2)
-        seen(viewer, lambda: "redo: remove ProgressReward" in tab._status.content)
+        seen(viewer, lambda: "redo: remove ProgressReward" in tab.status.content)
 
 
 def test_a_controller_has_no_place_in_a_list(
     viewer: Viewer, harness: EditorHarness, caplog: pytest.LogCaptureFixture
 ) -> None:
+    gc.collect()  # tasks of viewers that earlier tests stopped
+    caplog.clear()
     with page(viewer) as here:
         tab = tab_of(viewer)
         here.change(tab.kind, "Brains")
@@ -151,8 +153,8 @@ def test_a_new_block_is_added_and_looked_at(viewer: Viewer, harness: EditorHarne
         here.change(tab.add, True)
         until(lambda: "linear_ray_casting" in harness.agent.percept)
         seen(viewer, lambda: tab.block.value == "2 LinearRayCastingSensor")
-        assert tab._form is not None
-        assert tab._form.boxes["group_code"].value == "{target: 1, wall: 2}"
+        assert tab.form is not None
+        assert tab.form.boxes["group_code"].value == "{target: 1, wall: 2}"
 
 
 def test_a_page_can_send_what_it_likes(viewer: Viewer, harness: EditorHarness) -> None:
@@ -182,7 +184,7 @@ def test_two_pages_have_a_form_each_and_see_each_others_changes(
         assert form is not other
         applied(viewer, mine, one, noise="0.25")
         seen(viewer, lambda: other.boxes["noise"].value == "0.25")
-        assert "undo: change BearingSensor" in two._status.content
+        assert "undo: change BearingSensor" in two.status.content
 
 
 def test_another_scene_has_other_lists(viewer: Viewer, harness: EditorHarness) -> None:
@@ -195,7 +197,7 @@ def test_another_scene_has_other_lists(viewer: Viewer, harness: EditorHarness) -
         harness.editor.load(other).result(5)
         seen(viewer, lambda: "1 HeadingSensor" in tab.block.options)
         assert viewer._title == "Another one"
-        seen(viewer, lambda: tab._form is None or tab._form._block["type"] == "HeadingSensor")
+        seen(viewer, lambda: tab.form is None or tab.form._block["type"] == "HeadingSensor")
 
 
 def test_what_was_left_is_offered(viewer: Viewer, harness: EditorHarness, tmp_path: Any) -> None:
@@ -203,10 +205,10 @@ def test_what_was_left_is_offered(viewer: Viewer, harness: EditorHarness, tmp_pa
     harness.editor.recovery.unsaved = Unsaved(tmp_path / "x", text, None, 0.0)
     with page(viewer) as here:
         tab = tab_of(viewer)
-        assert tab._unsaved_text.visible
-        here.change(tab._unsaved_actions, "Bring it back")
+        assert tab.unsaved_text.visible
+        here.change(tab.unsaved_actions, "Bring it back")
         until(lambda: harness.world["box"].position == (3, 3))
-        seen(viewer, lambda: not tab._unsaved_text.visible)
+        seen(viewer, lambda: not tab.unsaved_text.visible)
 
 
 def test_an_agents_own_settings_have_a_form(viewer: Viewer, harness: EditorHarness) -> None:
@@ -222,7 +224,7 @@ def test_an_agents_own_settings_have_a_form(viewer: Viewer, harness: EditorHarne
         assert harness.agent.max_steps_per_episode == 50
         assert harness.agent.brain.repeat_action is False
         seen(
-            viewer, lambda: "change agent 0: it applies at the next decision" in tab._status.content
+            viewer, lambda: "change agent 0: it applies at the next decision" in tab.status.content
         )
         hand_in(here, form, skip_frame=-2)
         seen(viewer, lambda: "skip frame: expected at least 0, got -2" in form.message.content)
@@ -232,7 +234,7 @@ def test_an_agents_own_settings_have_a_form(viewer: Viewer, harness: EditorHarne
         assert tab.settings.form is form
         assert harness.agent.brain.skip_frame == 0
         hand_in(here, form, priority=2)
-        seen(viewer, lambda: "it applies at the next reset" in tab._status.content)
+        seen(viewer, lambda: "it applies at the next reset" in tab.status.content)
         here.press(tab.settings.button)
         seen(viewer, lambda: tab.settings.form is None)
 

@@ -11,7 +11,7 @@ from ai4u_edu.recording import Episode, Recorder
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.viewer import Viewer
 from tests.recording.recorded_drives import take
-from tests.viewer.pages import shown, until
+from tests.viewer.pages import publish, shown, until
 
 
 def driving(seed: int, steps: int, turn: float) -> tuple[Runner, list[Any], Episode]:
@@ -34,7 +34,7 @@ def viewer() -> Iterator[Viewer]:
     runner, poses, episode = driving(1, 30, 0.5)
     viewer = Viewer(runner)
     viewer.ghosts.race(episode, "episode <1>")
-    until(lambda: viewer.ghosts._ghost is not None)
+    until(lambda: viewer.ghosts.ghost is not None)
     viewer.poses, viewer.episode = poses, episode  # type: ignore[attr-defined]
     yield viewer
     viewer.stop()
@@ -44,7 +44,7 @@ def step(viewer: Viewer, times: int = 1) -> None:
     runner = viewer.runner
     for _ in range(times):
         runner.sim.step()
-    runner._publish()
+    publish(runner)
     shown(viewer)
 
 
@@ -54,30 +54,28 @@ def test_it_follows_the_run_in_time_and_begins_anew_with_the_world(viewer: Viewe
     for round_ in range(2):
         for number, pose in enumerate(viewer.poses[:20]):  # type: ignore[attr-defined]
             step(viewer)
-            (body,) = viewer.ghosts._bodies
+            (body,) = viewer.ghosts.bodies
             if number % 2:  # its poses are those of every other tick
-                assert body._frame.position[:2] == pytest.approx(pose[:2], abs=1e-5), round_
-            assert body._frame.visible
+                assert body.frame.position[:2] == pytest.approx(pose[:2], abs=1e-5), round_
+            assert body.frame.visible
         sim.reset(1)
-    x, y, _ = body._frame.position
-    assert body._label.position[0] == pytest.approx(x)
-    assert body._label.position[1] > y
-    assert body._label.text == "ghost"
+    x, y, _ = body.frame.position
+    assert body.label.position[0] == pytest.approx(x)
+    assert body.label.position[1] > y
+    assert body.label.text == "ghost"
 
 
 def test_it_stays_at_the_end_of_its_run(viewer: Viewer) -> None:
     step(viewer, 32)
-    end = tuple(viewer.ghosts._bodies[0]._frame.position)
+    end = tuple(viewer.ghosts.bodies[0].frame.position)
     step(viewer, 5)
-    assert tuple(viewer.ghosts._bodies[0]._frame.position) == end
+    assert tuple(viewer.ghosts.bodies[0].frame.position) == end
 
 
 def test_nothing_is_sent_while_it_stands(viewer: Viewer, monkeypatch: pytest.MonkeyPatch) -> None:
     step(viewer)
-    body = viewer.ghosts._bodies[0]
-    monkeypatch.setattr(
-        type(body._frame), "position", property(fset=lambda *_: pytest.fail("sent"))
-    )
+    body = viewer.ghosts.bodies[0]
+    monkeypatch.setattr(type(body.frame), "position", property(fset=lambda *_: pytest.fail("sent")))
     viewer.ghosts.draw(viewer.runner.latest)
 
 
@@ -88,12 +86,12 @@ def test_it_says_whose_it_is_and_where_that_is_unfair(viewer: Viewer) -> None:
     runner.sim.reset(2)
     step(viewer)
     assert "It began otherwise: with seed 1." in ghosts.message(runner.latest)
-    assert ghosts._bodies[0]._label.text == "ghost of another start"
+    assert ghosts.bodies[0].label.text == "ghost of another start"
     ghosts.race(take("donut", decisions=5).episode, "donut")
-    until(lambda: ghosts._ghost is not None)
+    until(lambda: ghosts.ghost is not None)
     step(viewer)
     assert "It ran in another scene." in ghosts.message(runner.latest)
-    assert ghosts._bodies == []
+    assert ghosts.bodies == []
     ghosts.race(None)
     step(viewer)
     assert ghosts.message(runner.latest) == ""

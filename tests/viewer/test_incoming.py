@@ -179,6 +179,6 @@ def test_a_window_without_a_size_has_a_picture(viewer: Viewer) -> None:
         here.report_camera(size=(0, 0))
         (client,) = viewer.server.get_clients().values()
         until(lambda: client.camera.image_width == 0)
-        viewer._viewer_clients.refresh()
-        (viewer_client,) = viewer._viewer_clients.values()
+        viewer.viewer_clients.refresh()
+        (viewer_client,) = viewer.viewer_clients.values()
         viewer_client.view.update(viewer.runner.latest, viewer_client.agent)

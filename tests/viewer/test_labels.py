@@ -20,7 +20,7 @@ def with_script(snapshot: Snapshot, state: Any) -> Snapshot:
 
 
 def written(viewer: Viewer) -> list[str]:
-    handles: Any = part_of(viewer, Labels)._labels
+    handles: Any = part_of(viewer, Labels).labels
     return [label.handle.text for label in handles]
 
 

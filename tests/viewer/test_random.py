@@ -10,6 +10,7 @@ from ai4u_edu import Scene
 from ai4u_edu.blocks import LocalGridSensor
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.viewer import Viewer
+from tests.viewer.pages import publish
 
 SCENE = """
 name: varied
@@ -38,8 +39,8 @@ def episodes(runner: Runner, viewer: Viewer) -> "Iterator[Shown]":
     def each() -> "Iterator[Shown]":
         for seed in range(1, 6):
             runner.sim.reset(seed)
-            runner._publish()
-            viewer._draw(runner.latest)
+            publish(runner)
+            viewer.draw(runner.latest)
             yield Shown(viewer, runner)
 
     return each()

@@ -40,10 +40,10 @@ def test_rays_have_the_colours_of_what_they_met(rays: Rays, runner: Runner) -> N
     rays.draw([fan])
     colours = {"": RAY_MISS, "target": rgb("orange"), "wall": WALL}
     expected = [colours[group] for group in fan.groups]
-    assert (rays._lines.colors[:, 0] == line_colours(expected)).all()
-    assert (rays._dots.batched_colors == surface_colours(expected)).all()
-    assert rays._dots.batched_scales is not None
-    assert rays._dots.batched_scales.tolist() == [float(group != "") for group in fan.groups]
+    assert (rays.lines.colors[:, 0] == line_colours(expected)).all()
+    assert (rays.dots.batched_colors == surface_colours(expected)).all()
+    assert rays.dots.batched_scales is not None
+    assert rays.dots.batched_scales.tolist() == [float(group != "") for group in fan.groups]
 
 
 def test_more_and_fewer_rays(rays: Rays, runner: Runner) -> None:
@@ -51,14 +51,14 @@ def test_more_and_fewer_rays(rays: Rays, runner: Runner) -> None:
         few = RayPicture(PICTURE.origin, PICTURE.ends[:count], PICTURE.groups[:count])
         rays.draw([few])
         if count:
-            assert rays._lines.points.shape == (count, 2, 3)
-    lines = rays._lines
+            assert rays.lines.points.shape == (count, 2, 3)
+    lines = rays.lines
     rays.build(RayStyle(runner.latest.static_scene))
     rays.draw([few])
     assert lines._impl.removed
-    assert not rays._lines._impl.removed
+    assert not rays.lines._impl.removed
     rays.draw(())
-    assert rays._lines._impl.removed
+    assert rays.lines._impl.removed
 
 
 def test_every_group_of_the_stage_has_a_colour(viewer: Viewer) -> None:

@@ -17,7 +17,7 @@ from tests.viewer.pages import Page, page, shown, tabs_of, until
 def lines_on(viewer: Viewer) -> list[str]:
     """The lines on each page."""
     shown(viewer)
-    return [tab._lines.lines.content for tab in tabs_of(viewer, AgentTab)]
+    return [tab.remote_lines.lines.content for tab in tabs_of(viewer, AgentTab)]
 
 
 def test_the_lines_are_python_for_this_agent() -> None:
@@ -79,7 +79,7 @@ def test_they_are_those_of_the_agent_that_the_page_looks_at() -> None:
     viewer = Viewer(runner)
     with page(viewer):
         assert "agent='a'" in lines_on(viewer)[0]
-        (viewer_client,) = viewer._viewer_clients.values()
+        (viewer_client,) = viewer.viewer_clients.values()
         viewer_client.agent = "b"
         assert "agent='b'" in lines_on(viewer)[0]
     viewer.stop()

@@ -13,7 +13,7 @@ from ai4u_edu.viewer.panel.uploads import limit_uploads
 from ai4u_edu.viewer.replay.episode_list import download_links, episode_table, short_brain_title
 from ai4u_edu.viewer.replay.replay_tab import ReplayTab
 from tests.recording.recorded_drives import take
-from tests.viewer.pages import Page, page, shown, tabs_of, until
+from tests.viewer.pages import Page, page, seen, shown, tabs_of, until
 
 
 @pytest.fixture
@@ -42,7 +42,7 @@ def viewer(runner: Runner) -> Iterator[Viewer]:
 
 def tab_of(viewer: Viewer) -> ReplayTab:
     """The tab of the only page, as it is now."""
-    viewer._viewer_clients.refresh()
+    viewer.viewer_clients.refresh()
     shown(viewer)
     (tab,) = tabs_of(viewer, ReplayTab)
     return tab
@@ -51,42 +51,42 @@ def tab_of(viewer: Viewer) -> ReplayTab:
 def opened(viewer: Viewer, here: Page) -> ReplayTab:
     """The tab, in which episode 1 was chosen."""
     tab = tab_of(viewer)
-    here.change(tab._episode, "1")
-    until(lambda: viewer._player.number == 1)
-    frame_cache = viewer._player.frame_cache
+    here.change(tab.episode, "1")
+    until(lambda: viewer.player.number == 1)
+    frame_cache = viewer.player.frame_cache
     assert frame_cache is not None
     until(lambda: frame_cache.snapshot(frame_cache.last) is not None)
-    shown(viewer)
+    seen(viewer, lambda: tab.step.visible)
     return tab
 
 
 def test_it_lists_what_is_kept(viewer: Viewer) -> None:
     with page(viewer):
         tab = tab_of(viewer)
-        assert tab._episode.options == ("choose one", "this one, so far", "1")
-        assert "<th>1</th><td>5</td><td>1.7 s</td>" in tab._list.content
-        assert not tab._step.visible
-        assert tab._links.content == ""
+        assert tab.episode.options == ("choose one", "this one, so far", "1")
+        assert "<th>1</th><td>5</td><td>1.7 s</td>" in tab.table.content
+        assert not tab.step.visible
+        assert tab.links.content == ""
 
 
 def test_the_slider_moves_what_all_see(viewer: Viewer, runner: Runner) -> None:
     with page(viewer) as here:
         tab = opened(viewer, here)
-        assert (tab._step.visible, tab._step.max, tab._step.value) == (True, 21, 1)
-        assert 'href="api/past/1.episode"' in tab._links.content
-        here.change(tab._step, 8)
+        assert (tab.step.visible, tab.step.max, tab.step.value) == (True, 21, 1)
+        assert 'href="api/past/1.episode"' in tab.links.content
+        here.change(tab.step, 8)
         until(lambda: runner.latest.past == "episode 1, step 8 of 20")
-        here.change(tab._steps, "Step back")
+        here.change(tab.step_buttons, "Step back")
         until(lambda: runner.latest.past == "episode 1, step 7 of 20")
         shown(viewer)
-        assert tab._step.value == 7
-        assert "Seen now: episode 1, step 7 of 20" in tab._status.content
+        assert tab.step.value == 7
+        assert "Seen now: episode 1, step 7 of 20" in tab.status.content
         with page(viewer):  # whoever comes later sees the same
             until(lambda: len(viewer.server.get_clients()) == 2)
-            viewer._viewer_clients.refresh()
+            viewer.viewer_clients.refresh()
             shown(viewer)
-            assert [each._step.value for each in tabs_of(viewer, ReplayTab)] == [7, 7]
-        here.change(tab._actions, "Back to now")
+            assert [each.step.value for each in tabs_of(viewer, ReplayTab)] == [7, 7]
+        here.change(tab.actions, "Back to now")
         until(lambda: runner.latest.past == "")
         assert runner.latest.seed == 6
 
@@ -94,20 +94,20 @@ def test_the_slider_moves_what_all_see(viewer: Viewer, runner: Runner) -> None:
 def test_it_continues(viewer: Viewer, runner: Runner) -> None:
     with page(viewer) as here:
         tab = opened(viewer, here)
-        here.change(tab._step, 8)
-        here.change(tab._actions, "Continue here")
+        here.change(tab.step, 8)
+        here.change(tab.actions, "Continue here")
         until(lambda: not runner.paused and runner.latest.seed == 5 and runner.latest.tick > 35)
 
 
 def test_a_race_begins_with_the_same_seed(viewer: Viewer, runner: Runner) -> None:
     with page(viewer) as here:
         tab = opened(viewer, here)
-        here.change(tab._actions, "Race it")
+        here.change(tab.actions, "Race it")
         until(lambda: runner.latest.seed == 5 and not runner.paused)
         shown(viewer)
         assert viewer.ghosts.message(runner.latest) == "Ghost: episode 1"
-        assert tab._no_ghost.visible
-        here.press(tab._no_ghost)
+        assert tab.no_ghost.visible
+        here.press(tab.no_ghost)
         until(lambda: viewer.ghosts.message(runner.latest) == "")
 
 
@@ -115,7 +115,7 @@ def send(
     here: Page, tab: ReplayTab, name: str, content: bytes, declared: int | None = None
 ) -> None:
     size = len(content) if declared is None else declared
-    uuid = tab._upload._impl.uuid
+    uuid = tab.upload._impl.uuid
     here.say(
         "FileTransferStartUpload",
         source_component_uuid=uuid,
@@ -140,11 +140,11 @@ def test_a_friends_recording_is_taken(viewer: Viewer) -> None:
     with page(viewer) as here:
         tab = tab_of(viewer)
         send(here, tab, "<friend>.episode", encode(take("donut", decisions=9).episode))
-        until(lambda: viewer._player.number == 2)
+        until(lambda: viewer.player.number == 2)
         shown(viewer)
-        assert "<td>&lt;friend&gt;.episode</td>" in tab._list.content
-        assert viewer._player.archive is not None
-        entry = viewer._player.archive.find(2)
+        assert "<td>&lt;friend&gt;.episode</td>" in tab.table.content
+        assert viewer.player.archive is not None
+        entry = viewer.player.archive.find(2)
         assert entry is not None
         assert entry.episode.scene.name == "donut"
 
@@ -159,7 +159,7 @@ def test_what_is_no_recording_or_too_large_is_refused(
         def note(title: str, body: str, **_: object) -> None:
             told.append(f"{title}: {body}")
 
-        monkeypatch.setattr(tab._client, "add_notification", note)
+        monkeypatch.setattr(tab.client, "add_notification", note)
         send(here, tab, "x.pickle", b"cos\nsystem\n(S'x'\ntR.")
         until(lambda: len(told) == 1)
         assert told[0].startswith("That is no recording: x.pickle: expected a recorded episode")
@@ -169,10 +169,10 @@ def test_what_is_no_recording_or_too_large_is_refused(
         send(here, tab, "liar", b"x" * 5000, declared=10)
         until(lambda: len(told) == 3)
         assert told[2] == "That file can't be taken: it is larger than it said"
-        assert not tab._client.gui._current_file_upload_states
-        limit_uploads(tab._client, 2**30)  # another tab takes larger files
+        assert not tab.client.gui._current_file_upload_states
+        limit_uploads(tab.client, 2**30)  # another tab takes larger files
         send(here, tab, "big", b"", declared=17 * 2**20)
-        until(lambda: tab._client.gui._current_file_upload_states or len(told) > 3)
+        until(lambda: tab.client.gui._current_file_upload_states or len(told) > 3)
         assert len(told) == 3
 
 
@@ -198,7 +198,7 @@ def test_the_table_marks_what_was_chosen_and_shortens_what_is_long() -> None:
 def test_without_a_recorder_there_is_no_such_tab() -> None:
     viewer = Viewer(Runner(Scene.load("box_chase").build(), seed=1))
     with page(viewer):
-        viewer._viewer_clients.refresh()
+        viewer.viewer_clients.refresh()
         shown(viewer)
         assert tabs_of(viewer, ReplayTab) == []
     viewer.stop()

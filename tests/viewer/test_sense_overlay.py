@@ -22,7 +22,7 @@ from ai4u_edu.snapshot.block_info import SensorInfo
 from ai4u_edu.viewer import Viewer
 from ai4u_edu.viewer.scene.pointers import RING_RADIUS, pointer
 from ai4u_edu.viewer.scene.sense_overlay import is_drawable
-from tests.viewer.pages import Page, page, shown, until
+from tests.viewer.pages import Page, page, publish, shown, until
 
 
 def two() -> ControlRequestor:
@@ -88,7 +88,7 @@ def test_an_area_is_outlined(runner: Runner) -> None:
 
 def test_what_a_picture_from_above_shows_is_framed_and_turns(runner: Runner) -> None:
     runner.sim.agents[0].body.move_to(1.0, 0.0, heading=np.pi / 2)
-    runner._publish()
+    publish(runner)
     (frame,) = pointer(runner.latest, runner.latest.bodies[0], senses(runner)["map"])
     corners = sorted({(round(x), round(y)) for x, y in frame[:, 0, :2]})
     assert corners == [(-1, -1), (-1, 1), (3, -1), (3, 1)]
@@ -112,7 +112,7 @@ def test_each_page_shows_the_agent_that_it_looks_at(viewer: Viewer) -> None:
 def test_a_sensor_lights_up_at_a_click_and_goes_out_again(viewer: Viewer) -> None:
     with page(viewer):
         shown(viewer)
-        (viewer_client,) = viewer._viewer_clients.values()
+        (viewer_client,) = viewer.viewer_clients.values()
         assert "/pointers" not in own_nodes(viewer)
         viewer_client.show_sensor("bearing", True)
         shown(viewer)
@@ -133,7 +133,7 @@ def test_who_fell_out_of_the_world_sees_nothing(viewer: Viewer, runner: Runner) 
         shown(viewer)
         assert "/rays1/lines" in own_nodes(viewer)
         runner.sim.world["robot"].fallen = True
-        runner._publish()
+        publish(runner)
         shown(viewer)
         assert "/rays1/lines" not in own_nodes(viewer)
 
@@ -142,7 +142,7 @@ def test_another_stage_is_drawn_anew(viewer: Viewer, runner: Runner) -> None:
     with page(viewer):
         shown(viewer)
         runner.sim.world.add_body("late", CircleShape(radius=3), position=(20, 0), tags=("new",))
-        runner._publish()
+        publish(runner)
         shown(viewer)
         assert {"/rays0/lines", "/rays0/dots"} <= own_nodes(viewer)
         assert "/rays1/lines" not in own_nodes(viewer)
@@ -154,4 +154,4 @@ def test_a_page_that_is_gone_is_forgotten(viewer: Viewer) -> None:
         shown(viewer)
     until(lambda: not viewer.server.get_clients())
     shown(viewer)
-    assert not viewer._viewer_clients
+    assert not viewer.viewer_clients

@@ -33,7 +33,7 @@ def test_spots_light_up_and_go(viewer: Viewer, picture: Snapshot) -> None:
     part = Spots(viewer.server.scene)
     part.draw([some], height=1.5)
     expected = surface_colours([SPOT_LIT, SPOT_UNLIT, SPOT_UNLIT, SPOT_LIT, SPOT_UNLIT])
-    dots = part._dots
+    dots = part.dots
     assert (dots.batched_colors == expected).all()
     assert dots.batched_positions[:, 1] == pytest.approx(-3.5)
     assert dots.batched_positions[:, 2].min() > 1.0

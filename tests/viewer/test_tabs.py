@@ -38,14 +38,14 @@ def tabs(viewer: Viewer) -> Tabs:
     """The viewer's tabs, with some of ours."""
     tabs = part_of(viewer, Tabs)
     mine = (TabKind("Odd", Broken), TabKind("None", broken), TabKind("Mine", Counter))
-    tabs._kinds = (*tabs._kinds, *mine)
+    tabs.kinds = (*tabs.kinds, *mine)
     return tabs
 
 
 def mine_of(tabs: Tabs) -> list[Counter]:
     return [
         tab
-        for _, each in sorted(tabs._pages.items())
+        for _, each in sorted(tabs.pages.items())
         for tab in each.tabs
         if isinstance(tab, Counter) and not isinstance(tab, Broken)
     ]
@@ -59,7 +59,7 @@ def test_each_page_has_all_tabs_and_what_is_broken_stops_no_other(
         shown(viewer)
         shown(viewer)
         assert [tab.drawn for tab in mine_of(tabs)] == [2, 2]
-        titles = [each.panel._tab_labels for _, each in sorted(tabs._pages.items())]
+        titles = [each.panel._tab_labels for _, each in sorted(tabs.pages.items())]
         assert titles[0] == titles[1]
         assert titles[0][0] == "Agent"
         assert titles[0][-1] == "Mine"
@@ -70,14 +70,14 @@ def test_what_a_page_adds_stands_in_its_own_tab(viewer: Viewer, tabs: Tabs) -> N
     with page(viewer):
         shown(viewer)
         (mine,) = mine_of(tabs)
-        (opened,) = tabs._pages.values()
+        (opened,) = tabs.pages.values()
         assert mine.html._impl.parent_container_id == opened.panel._tab_container_ids[-1]
 
 
 def test_a_page_that_is_gone_is_forgotten(viewer: Viewer, tabs: Tabs) -> None:
     with page(viewer):
         shown(viewer)
-        assert tabs._pages
+        assert tabs.pages
     until(lambda: not viewer.server.get_clients())
     shown(viewer)
-    assert not tabs._pages
+    assert not tabs.pages

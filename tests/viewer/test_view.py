@@ -180,7 +180,7 @@ def test_following_goes_on_with_the_agent_that_is_looked_at_and_ends(
     for agent_id, expected in (("0", "robot"), ("1", "box"), ("0", "robot")):
         view.update(both, agent_id)
         body = next(body for body in runner.latest.bodies if body.name == expected)
-        height = watched.view._frame.height
+        height = watched.view.frame.height
         assert watched.camera.look_at == pytest.approx(middle(body.x, body.y, height))
     view.choose(Mode.ARENA)
     view.update(runner.latest, "0")

@@ -10,7 +10,7 @@ from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.snapshot import Snapshot
 from ai4u_edu.viewer import Viewer
 from ai4u_edu.viewer.scene.bodies import Bodies
-from tests.viewer.pages import page, until
+from tests.viewer.pages import page, publish, until
 from tests.viewer.worlds import busy_sim
 
 
@@ -56,8 +56,8 @@ def test_bodies_that_look_alike_share_a_batch(viewer: Viewer) -> None:
 
 def test_only_what_changed_is_sent(viewer: Viewer, runner: Runner) -> None:
     before = pushed(viewer)
-    for part in viewer._parts:
-        part._drawn_at = 0.0
+    for part in viewer.parts:
+        part.make_due()
         part.draw(runner.latest)
     assert pushed(viewer) == before
 
@@ -69,9 +69,9 @@ def test_what_is_kept_for_later_pages_does_not_grow(viewer: Viewer) -> None:
     def play() -> int:
         for _ in range(30):
             runner._tick()
-            for part in viewer._parts:
-                part._drawn_at = 0.0
-            viewer._draw(runner.latest)
+            for part in viewer.parts:
+                part.make_due()
+            viewer.draw(runner.latest)
         return sum(buffered(viewer).values())
 
     play()
@@ -82,8 +82,8 @@ def test_a_changed_stage_is_built_anew_and_the_old_one_goes(viewer: Viewer, runn
     kept = [name for name in nodes(viewer) if name.startswith("/ground")]
     world = runner.sim.world
     world.add_body("late", BoxShape(size=(1, 2)), position=(-3, 3), label="late")
-    runner._publish()
-    viewer._draw(runner.latest)
+    publish(runner)
+    viewer.draw(runner.latest)
     names = nodes(viewer)
     assert "/bodies2/0/body" not in names  # two names are used by turns
     assert not [name for name in names if name.startswith(("/bodies1", "/labels1"))]
@@ -95,8 +95,8 @@ def test_an_area_whose_label_is_blank_has_no_label(viewer: Viewer, runner: Runne
     for name, label in (("quiet", " "), ("nameless", "")):
         shape = BoxShape(size=(1, 1))
         runner.sim.world.add_area(name, shape, position=(-3, -3), label=label)
-    runner._publish()
-    viewer._draw(runner.latest)
+    publish(runner)
+    viewer.draw(runner.latest)
     found = [name.split("/area ")[1] for name in nodes(viewer) if "/area " in name]
     assert "quiet/fill" in found
     assert "quiet/label" not in found
@@ -108,8 +108,8 @@ def test_paint_is_opaque_and_has_neither_outline_nor_label(viewer: Viewer, runne
     strokes = len(before.points)
     shape = BoxShape(size=(1, 1))
     runner.sim.world.add_area("line", shape, position=(-3, -3), paint=True, label="unseen")
-    runner._publish()
-    viewer._draw(runner.latest)
+    publish(runner)
+    viewer.draw(runner.latest)
     scene = viewer.server.scene
     fill: Any = scene.get_handle_by_name("/ground0/area line/fill")
     goal: Any = scene.get_handle_by_name("/ground0/area goal/fill")
@@ -122,8 +122,8 @@ def test_paint_is_opaque_and_has_neither_outline_nor_label(viewer: Viewer, runne
 def test_a_reset_builds_nothing_anew(viewer: Viewer, runner: Runner) -> None:
     before = nodes(viewer)
     runner.sim.reset(2)
-    runner._publish()
-    viewer._draw(runner.latest)
+    publish(runner)
+    viewer.draw(runner.latest)
     assert nodes(viewer) == before
 
 
@@ -145,7 +145,7 @@ def test_an_error_is_told_once_and_drawing_goes_on(
     viewer.start()
     with page(viewer):
         assert drawn.wait(10)
-        assert viewer._thread.is_alive()
+        assert viewer.thread.is_alive()
     runner.stop()
     told = capsys.readouterr().err
     assert told.count("ValueError: no bodies at tick") == 1
@@ -161,7 +161,7 @@ def test_an_error_beside_the_parts_does_not_end_the_thread(
         failed.set()
         raise OSError("no clients")
 
-    monkeypatch.setattr(viewer._viewer_clients, "refresh", fail)
+    monkeypatch.setattr(viewer.viewer_clients, "refresh", fail)
     viewer.start()
     assert failed.wait(5)
     failed.clear()
@@ -187,9 +187,9 @@ def test_pages_come_and_go(viewer: Viewer, runner: Runner) -> None:
     viewer.start()
     for _ in range(3):
         with page(viewer) as first, page(viewer) as second:
-            until(lambda: len(viewer._viewer_clients) == 2)
+            until(lambda: len(viewer.viewer_clients) == 2)
             until(lambda: min(first.received, second.received) > 1000)
-        until(lambda: not viewer._viewer_clients)
+        until(lambda: not viewer.viewer_clients)
         assert not viewer.server.get_clients()
     runner.stop()
 

@@ -88,15 +88,20 @@ def check(tally: Tally, cases: int) -> None:
     assert tally.hits > 0.2 * tally.rays, "enough of them met something"
 
 
-@pytest.mark.parametrize("seed", range(5))
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    "seed", [0, *(pytest.param(seed, marks=pytest.mark.nightly) for seed in range(1, 5))]
+)
 def test_rays_meet_what_they_should(seed: int) -> None:
     check(run(seed, 2000, sticks=False), 2000)
 
 
+@pytest.mark.slow
 def test_rays_meet_sticks_where_they_should() -> None:
     check(run(99, 2000, sticks=True), 2000)
 
 
+@pytest.mark.slow
 def test_rays_meet_walls_that_they_are_in_line_with() -> None:
     """Walls and eyes on whole metres, as in a scene that somebody wrote down."""
     rng, tally = random.Random(8), Tally()

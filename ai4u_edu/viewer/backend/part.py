@@ -41,6 +41,10 @@ class RatedPart:
             self.part.build(static_scene)
             self._is_ready = True
 
+    def make_due(self) -> None:
+        """Draw the next snapshot, however soon it comes."""
+        self._drawn_at = 0.0
+
     def draw(self, snapshot: Snapshot) -> None:
         """Show a snapshot, if that is due."""
         now = time.monotonic()

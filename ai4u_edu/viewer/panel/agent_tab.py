@@ -55,7 +55,15 @@ class AgentTab:
         self._one_value_sensors = gui.add_html("")
         self._action, self._rewards = gui.add_html(""), gui.add_html("")
         self._plot = RewardPlot(gui)
-        self._lines = RemoteLines(viewer_client, runner)
+        self.remote_lines = RemoteLines(viewer_client, runner)
+
+    @property
+    def html(self) -> str:
+        """All HTML of the tab, from top to bottom."""
+        above = [self._legend, self._state, self._decision, self._needs]
+        below = [self._one_value_sensors, self._action, self._rewards]
+        parts = [*above, *self.sensors.readings.values(), *below]
+        return "".join(each.content for each in parts)
 
     def draw(self, snapshot: Snapshot) -> None:
         """Show the agent's last decision."""
@@ -78,7 +86,7 @@ class AgentTab:
         self._action.content, self._rewards.content = html.action, html.rewards
         self.sensors.show(html.sensors)
         self._plot.draw(agent.history, lambda: self._html_cache.curves(agent))
-        self._lines.draw()
+        self.remote_lines.draw()
 
     def _read_static_scene(self, static_scene: StaticScene) -> None:
         self._static_scene, self._colours = static_scene, group_colours(static_scene)

@@ -55,12 +55,12 @@ class BlocksTab:
     def __init__(self, viewer_client: ViewerClient, editor: SceneEditor) -> None:
         gui = viewer_client.client.gui
         self._viewer_client, self._editor = viewer_client, editor
-        self._kind, self._path, self._form = "sensors", None, None
+        self._kind, self._path, self.form = "sensors", None, None
         self._shown: tuple[object, ...] = ()
         self._message, self._problems, self._agent = "", None, viewer_client.agent
-        self._unsaved_text = gui.add_html("", visible=False)
-        self._unsaved_actions = gui.add_button_group("", (BRING_BACK, FORGET), visible=False)
-        self._status = gui.add_html("")
+        self.unsaved_text = gui.add_html("", visible=False)
+        self.unsaved_actions = gui.add_button_group("", (BRING_BACK, FORGET), visible=False)
+        self.status = gui.add_html("")
         gui.add_html(BARE)
         self.changes = gui.add_button_group("Changes", (UNDO, REDO))
         self.driver = gui.add_dropdown("Driven by", ("",))
@@ -80,7 +80,7 @@ class BlocksTab:
         self._type_names: dict[str, str] = {}
         self._paths: dict[str, BlockPath] = {}
         self._drivers: dict[str, str] = {}
-        self._unsaved_actions.on_click(self._on_unsaved)
+        self.unsaved_actions.on_click(self._on_unsaved)
         self.changes.on_click(self._on_changes)
         self.driver.on_update(self._on_driver)
         self.kind.on_click(self._on_kind)
@@ -90,7 +90,7 @@ class BlocksTab:
         self.add.on_click(self._on_add)
 
     _path: BlockPath | None
-    _form: BlockForm | None
+    form: BlockForm | None
     _problems: tuple[Problem, ...] | None
 
     def draw(self, snapshot: Snapshot) -> None:
@@ -109,16 +109,16 @@ class BlocksTab:
                 return  # the editor has another scene already; wait for its snapshot
             self._shown = state
         self.settings.draw(agent, editor.version)
-        if self._problems is not None and self._form is not None:
+        if self._problems is not None and self.form is not None:
             problems, self._problems = self._problems, None
-            self._form.explain(problems)
+            self.form.explain(problems)
             if not problems:
-                self._form.show_message(self._message)
+                self.form.show_message(self._message)
         html = edit_status(
             editor, next(each for each in snapshot.agents if each.id == agent), self._message
         )
-        if self._status.content != html:
-            self._status.content = html
+        if self.status.content != html:
+            self.status.content = html
         self._show_unsaved()
 
     # -- drawing; on the viewer's thread ---------------------------------------------------------
@@ -150,15 +150,15 @@ class BlocksTab:
     def _show_form(self, state: Any, agent: Any, agent_id: str) -> None:
         path = self._path
         block = None if path is None else block_at(agent, path)
-        if self._form is not None and not self._form.show_block(block, path):
-            self._form.remove()
-            self._form = None
+        if self.form is not None and not self.form.show_block(block, path):
+            self.form.remove()
+            self.form = None
         if block is not None and path is not None:
-            if self._form is None:
+            if self.form is None:
                 with self._form_folder:
                     names = SceneNames(state, agent_id)
                     client = self._viewer_client.client
-                    self._form = BlockForm(client, block, path, names, self._on_apply)
+                    self.form = BlockForm(client, block, path, names, self._on_apply)
             self.block_actions.options = (OFF if is_enabled(path, block) else ON, UP, DOWN, REMOVE)
         self._actions_mark.visible = self.block_actions.visible = path is not None and isinstance(
             path[-1], int
@@ -166,11 +166,11 @@ class BlocksTab:
 
     def _show_unsaved(self) -> None:
         unsaved = self._editor.recovery.unsaved
-        if (unsaved is not None) != self._unsaved_text.visible:
-            self._unsaved_text.visible = self._unsaved_actions.visible = unsaved is not None
+        if (unsaved is not None) != self.unsaved_text.visible:
+            self.unsaved_text.visible = self.unsaved_actions.visible = unsaved is not None
         if unsaved is not None:
             text = f"<b>An unsaved scene from {escape(unsaved.when)} is there.</b>"
-            self._unsaved_text.content = f'<div class="ai4u">{text}</div>'
+            self.unsaved_text.content = f'<div class="ai4u">{text}</div>'
 
     def _settings(self) -> list[Field]:
         return agent_form(self._editor.state.agent(self._viewer_client.agent))
@@ -178,7 +178,7 @@ class BlocksTab:
     # -- events; in viser's event loop, one after the other --------------------------------------
 
     async def _on_apply(self, _event: Any) -> None:
-        form, path = self._form, self._path
+        form, path = self.form, self._path
         if form is None or path is None:
             return
         try:

@@ -39,17 +39,17 @@ class Controls:
         gui.add_html(STYLE)
         self._goal = gui.add_html("")
         self._status = gui.add_html("")
-        self._time = gui.add_button_group("Time", RUNNING_BUTTONS)
-        self._speed = gui.add_dropdown("Speed", tuple(SPEEDS))
-        self._form = gui.add_form(None)
-        with self._form:
+        self.time_buttons = gui.add_button_group("Time", RUNNING_BUTTONS)
+        self.speed = gui.add_dropdown("Speed", tuple(SPEEDS))
+        self.seed_form = gui.add_form(None)
+        with self.seed_form:
             hint = "Enter begins an episode with this seed"
             # JavaScript rounds larger integers, so the page would show another number
             limit = MAX_EXACT_INT
-            self._seed = gui.add_number("Seed", 0, min=0, max=limit, step=1, hint=hint)
-        self._time.on_click(self._on_time)
-        self._speed.on_update(self._on_speed)
-        self._form.on_submit(self._on_seed)
+            self.seed = gui.add_number("Seed", 0, min=0, max=limit, step=1, hint=hint)
+        self.time_buttons.on_click(self._on_time)
+        self.speed.on_update(self._on_speed)
+        self.seed_form.on_submit(self._on_seed)
 
     def build(self, static_scene: StaticScene) -> None:
         """Show the scene's goal."""
@@ -58,19 +58,19 @@ class Controls:
     def draw(self, snapshot: Snapshot) -> None:
         """Show the state of the simulation."""
         self._status.content = status(snapshot, self._runner.stall)
-        self._time.options = PAUSED_BUTTONS if snapshot.paused else RUNNING_BUTTONS
+        self.time_buttons.options = PAUSED_BUTTONS if snapshot.paused else RUNNING_BUTTONS
         # only after a change: a person may be choosing another value just now
         if snapshot.time_scale != self._scale_shown:
             self._scale_shown = snapshot.time_scale
             name = speed_name(snapshot.time_scale)
-            self._speed.options = tuple(dict.fromkeys([*SPEEDS, name]))
-            set_value(self._speed, name)
+            self.speed.options = tuple(dict.fromkeys([*SPEEDS, name]))
+            set_value(self.speed, name)
         if snapshot.seed != self._seed_shown:
             self._seed_shown = snapshot.seed
             is_exact = snapshot.seed <= MAX_EXACT_INT
-            self._seed.label = "Seed" if is_exact else f"Seed (now {snapshot.seed})"
+            self.seed.label = "Seed" if is_exact else f"Seed (now {snapshot.seed})"
             if is_exact:
-                set_value(self._seed, snapshot.seed)
+                set_value(self.seed, snapshot.seed)
 
     # coroutines, because viser runs them in its event loop one after the other, so clicks keep
     # their order
@@ -103,4 +103,4 @@ class Controls:
 
     async def _on_seed(self, event: GuiEvent[Any]) -> None:
         await asyncio.sleep(NUMBER_DELAY_S)
-        notify_failure(event.client, self._runner, self._runner.reset(int(self._seed.value)))
+        notify_failure(event.client, self._runner, self._runner.reset(int(self.seed.value)))

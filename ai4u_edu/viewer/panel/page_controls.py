@@ -15,24 +15,24 @@ class PageControls:
 
     def __init__(self, viewer_clients: ViewerClients) -> None:
         self._viewer_clients = viewer_clients
-        self._pages: dict[int, _Page] = {}
+        self.pages: dict[int, _Page] = {}
 
     def build(self, static_scene: StaticScene) -> None:
         """Do nothing: the settings don't depend on the scene."""
 
     def draw(self, _snapshot: Snapshot) -> None:
         """Add widgets to new pages, and forget closed ones."""
-        for gone in self._pages.keys() - self._viewer_clients.keys():
-            del self._pages[gone]
-        for new in self._viewer_clients.keys() - self._pages.keys():
-            self._pages[new] = _Page(self._viewer_clients[new])
+        for gone in self.pages.keys() - self._viewer_clients.keys():
+            del self.pages[gone]
+        for new in self._viewer_clients.keys() - self.pages.keys():
+            self.pages[new] = _Page(self._viewer_clients[new])
 
 
 class _Page:
     def __init__(self, viewer_client: ViewerClient) -> None:
         gui = viewer_client.client.gui
         self._viewer_client = viewer_client
-        self._mark = gui.add_html("")
+        self.mark = gui.add_html("")
         self.camera = gui.add_button_group("Camera", MODES)
         # web/dark.js finds this box by its label, to store the choice in the browser
         self.dark = gui.add_checkbox("Dark", initial_value=viewer_client.is_dark)
@@ -58,4 +58,4 @@ class _Page:
     def _show_mode(self) -> None:
         """Highlight the button of the current camera mode."""
         position = 1 + MODES.index(self._viewer_client.view.mode)
-        self._mark.content = selected_button_mark(position)
+        self.mark.content = selected_button_mark(position)

@@ -51,7 +51,7 @@ class SaveWindow:
         if self._window is not None:
             return
         self._taken, gui = "", self._client.gui
-        with self._client.atomic(), gui.add_modal("Save the scene") as self._window:
+        with self._client.atomic(), gui.add_modal("Save the scene") as window:
             with gui.add_form(None) as form:
                 self.name = gui.add_text("Name", name)
                 self.message = gui.add_html("")
@@ -60,6 +60,7 @@ class SaveWindow:
         form.on_submit(self._on_save)
         self.save.on_click(self._on_save)
         cancel.on_click(self._on_cancel)
+        self._window = window
 
     def close(self) -> None:
         """Close the window."""

@@ -48,9 +48,9 @@ class Tabs:
         error_log: ErrorLog,
     ) -> None:
         self._viewer_clients = viewer_clients
-        self._kinds = tuple(kinds)
+        self.kinds = tuple(kinds)
         self._error_log = error_log
-        self._pages: dict[int, _Page] = {}
+        self.pages: dict[int, _Page] = {}
 
     def build(self, static_scene: StaticScene) -> None:  # noqa: ARG002 - tabs find it in snapshots
         """Draw all pages anew, at once."""
@@ -58,12 +58,12 @@ class Tabs:
 
     def draw(self, snapshot: Snapshot) -> None:
         """Show a snapshot in all tabs of the pages whose turn it is; add tabs to new pages."""
-        for gone in self._pages.keys() - self._viewer_clients.keys():
-            del self._pages[gone]
-        for new in self._viewer_clients.keys() - self._pages.keys():
-            self._pages[new] = _Page(self._viewer_clients[new], self._kinds, self._error_log)
-        for number in self._turns.due(self._pages.keys()):
-            for tab in self._pages[number].tabs:
+        for gone in self.pages.keys() - self._viewer_clients.keys():
+            del self.pages[gone]
+        for new in self._viewer_clients.keys() - self.pages.keys():
+            self.pages[new] = _Page(self._viewer_clients[new], self.kinds, self._error_log)
+        for number in self._turns.due(self.pages.keys()):
+            for tab in self.pages[number].tabs:
                 with self._error_log.caught():
                     tab.draw(snapshot)
 

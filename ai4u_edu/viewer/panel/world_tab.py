@@ -61,10 +61,10 @@ class WorldTab:
 
     def __init__(self, viewer_client: ViewerClient, editor: SceneEditor) -> None:
         gui = viewer_client.client.gui
-        self._viewer_client, self._editor = viewer_client, editor
+        self.viewer_client, self._editor = viewer_client, editor
         self._chosen, self._message, self._is_wrong = "", "", False
         self._problems: tuple[Problem, ...] | None = None
-        self._form: BodyForm | None = None
+        self.form: BodyForm | None = None
         self._is_applied = False
         self._shown: tuple[object, ...] = ()
         self._latest: Snapshot | None = None
@@ -125,8 +125,8 @@ class WorldTab:
                 self._unsaved_text.content = section(text)
         if self._problems is not None:
             problems, self._problems = self._problems, None
-            if self._form is not None:
-                self._form.explain(problems)
+            if self.form is not None:
+                self.form.explain(problems)
 
     # -- drawing; on the viewer's thread ---------------------------------------------------------
 
@@ -150,12 +150,12 @@ class WorldTab:
 
     def _show_form(self, body: BodyDescription | None) -> None:
         overwrite, self._is_applied = self._is_applied, False
-        if self._form is not None and not self._form.show_body(body, overwrite=overwrite):
-            self._form.remove()
-            self._form = None
-        if body is not None and self._form is None:
+        if self.form is not None and not self.form.show_body(body, overwrite=overwrite):
+            self.form.remove()
+            self.form = None
+        if body is not None and self.form is None:
             with self._form_folder:
-                self._form = BodyForm(self._viewer_client.client, body, self._on_apply)
+                self.form = BodyForm(self.viewer_client.client, body, self._on_apply)
         self.delete.visible = body is not None
         if body is not None:
             self.delete.label = f"Delete {body.name}"
@@ -190,7 +190,7 @@ class WorldTab:
             self.saving.open(_file_name(self._editor.scene))
         elif event.target.value == DOWNLOAD:
             scene = self._editor.scene
-            self._viewer_client.client.send_file_download(
+            self.viewer_client.client.send_file_download(
                 f"{_file_name(scene)}.yaml", scene.dumps().encode(), save_immediately=True
             )
             self._editor.recovery.mark_saved()
@@ -213,7 +213,7 @@ class WorldTab:
         template, snapshot = BODY_TEMPLATES.get(event.target.value), self._latest
         if template is None or snapshot is None:
             return
-        camera = self._viewer_client.client.camera
+        camera = self.viewer_client.client.camera
         center = ground_at_center(camera.position, camera.look_at)
         position = free_position(snapshot, template, *center)
         if position is None:
@@ -232,7 +232,7 @@ class WorldTab:
         return future
 
     async def _on_apply(self, _event: Any) -> None:
-        form = self._form
+        form = self.form
         if form is None:
             return
         try:
@@ -273,7 +273,7 @@ class WorldTab:
     def _show_message(self, message: str, *, is_wrong: bool = False) -> None:
         self._message, self._is_wrong = message, is_wrong
         if is_wrong:
-            client = self._viewer_client.client
+            client = self.viewer_client.client
             client.add_notification("That didn't work", message, auto_close_seconds=8.0)
 
     def _follow_change(
@@ -286,7 +286,7 @@ class WorldTab:
             then: name of the body to choose after success.
             of_form: True if problems belong into the body's form.
         """
-        notify_stall(self._viewer_client.client, self._editor.stall, future)
+        notify_stall(self.viewer_client.client, self._editor.stall, future)
 
         def on_done(done: "Future[ChangeResult]") -> None:
             if done.cancelled():

@@ -43,9 +43,9 @@ class Ghosts:
         self.problem = ""
         """The reason why a requested ghost can't be shown; else empty."""
         self._episode: Episode | None = None
-        self._ghost: Ghost | None = None
+        self.ghost: Ghost | None = None
         self._built_ghost: Ghost | None = None
-        self._bodies: list[_Body] = []
+        self.bodies: list[_Body] = []
         self._layers: Layers | None = None
 
     def race(self, episode: Episode | None, name: str = "") -> None:
@@ -55,7 +55,7 @@ class Ghosts:
             episode: the recorded episode; None removes the ghost.
             name: the episode's name.
         """
-        self._episode, self._ghost, self.problem = episode, None, ""
+        self._episode, self.ghost, self.problem = episode, None, ""
         self.name = name if episode is not None else ""
         if episode is not None:
             threading.Thread(target=self._play, args=(episode,), name="ghost", daemon=True).start()
@@ -80,7 +80,7 @@ class Ghosts:
 
     def draw(self, snapshot: Snapshot) -> None:
         """Move the ghost to its pose at the snapshot's time."""
-        ghost, layers = self._ghost, self._layers
+        ghost, layers = self.ghost, self._layers
         if ghost is not self._built_ghost and layers is not None:
             self._build_bodies(ghost, snapshot.static_scene, layers)
         if ghost is None or layers is None:
@@ -88,11 +88,11 @@ class Ghosts:
         now = ghost.at(snapshot.time + 1e-4)  # a bit later, because its times are rounded
         is_fair = self._episode is not None and snapshot.seed == self._episode.seed
         text = "ghost" if is_fair else "ghost of another start"
-        for body in self._bodies:
+        for body in self.bodies:
             body.move(now.get(body.name), layers, text)
 
     def _build_bodies(self, ghost: Ghost | None, static_scene: StaticScene, layers: Layers) -> None:
-        self._built_ghost, self._bodies = ghost, []
+        self._built_ghost, self.bodies = ghost, []
         episode = self._episode
         with self._subtree.rebuild() as parent:
             if ghost is None or episode is None or self._is_of_other_scene(static_scene):
@@ -101,7 +101,7 @@ class Ghosts:
             for number, body in enumerate(episode.scene.bodies):
                 if body.name in drivers:
                     node = f"{parent}/{number}"
-                    self._bodies.append(_Body(self._scene, node, body, layers))
+                    self.bodies.append(_Body(self._scene, node, body, layers))
 
     def _play(self, episode: Episode) -> None:
         try:
@@ -111,7 +111,7 @@ class Ghosts:
                 self.problem, self.name, self._episode = str(error), "", None
             return
         if self._episode is episode:
-            self._ghost = ghost
+            self.ghost = ghost
 
     def _is_of_other_scene(self, static_scene: StaticScene) -> bool:
         """Return True if the episode has other bodies or floors; positions may be random."""
@@ -131,26 +131,26 @@ class _Body:
         outline = body.shape.outline()
         self._radius = radius = half_width(outline)
         colour = mix_colours(body_colour(body, is_agent=True), PALE, 0.35)
-        self._frame: FrameHandle = scene.add_frame(node, show_axes=False, visible=False)
+        self.frame: FrameHandle = scene.add_frame(node, show_axes=False, visible=False)
         drawer = MeshDrawer(scene, node)
         # a bit lower than a real body, against z-fighting between the two
         shape = prism(outline, body.height, 0.16 * radius)
         drawer.mesh("body", shape, -layers.unit, colour, OPACITY)
         drawer.mesh("face", face(radius, body.height), 0.0, PALE, OPACITY)
-        self._label: LabelHandle = MeshDrawer(scene, f"{node}-name").label("label", "")
-        self._label.visible = False
+        self.label: LabelHandle = MeshDrawer(scene, f"{node}-name").label("label", "")
+        self.label.visible = False
         self._pose: Pose | None = None
         self._text = ""
 
     def move(self, pose: Pose | None, layers: Layers, text: str) -> None:
         """Move the body; None, for a pose outside the world, hides it."""
         if (pose is None) != (self._pose is None):
-            self._frame.visible = self._label.visible = pose is not None
+            self.frame.visible = self.label.visible = pose is not None
         if pose is not None and pose != self._pose:
             x, y, z, heading = pose
-            self._frame.position = (x, y, z + layers.body)
-            self._frame.wxyz = heading_wxyz(heading)
-            self._label.position = (x, y + LABEL_DISTANCE * self._radius, z + layers.body)
+            self.frame.position = (x, y, z + layers.body)
+            self.frame.wxyz = heading_wxyz(heading)
+            self.label.position = (x, y + LABEL_DISTANCE * self._radius, z + layers.body)
         if text != self._text:
-            self._text = self._label.text = text
+            self._text = self.label.text = text
         self._pose = pose

@@ -50,7 +50,7 @@ class ReplayTab:
         self, viewer_client: ViewerClient, runner: Runner, player: ReplayPlayer, ghosts: Ghosts
     ) -> None:
         gui = viewer_client.client.gui
-        self._viewer_client, self._client, self._runner = (
+        self._viewer_client, self.client, self._runner = (
             viewer_client,
             viewer_client.client,
             runner,
@@ -58,26 +58,26 @@ class ReplayTab:
         self._player, self._ghosts = player, ghosts
         self._listed: tuple[object, ...] = ()
         self._numbers: dict[str, int] = {}
-        self._list = gui.add_html("")
-        self._episode = gui.add_dropdown("Episode", (NONE, RUNNING))
-        self._step = gui.add_slider("Moment", 1, 2, 1, 1, visible=False)
-        self._status = gui.add_html(BARE)
-        self._steps = gui.add_button_group("Go", (BACK, PLAY, ON), visible=False)
+        self.table = gui.add_html("")
+        self.episode = gui.add_dropdown("Episode", (NONE, RUNNING))
+        self.step = gui.add_slider("Moment", 1, 2, 1, 1, visible=False)
+        self.status = gui.add_html(BARE)
+        self.step_buttons = gui.add_button_group("Go", (BACK, PLAY, ON), visible=False)
         self._speed = gui.add_dropdown("Pace", tuple(SPEEDS), initial_value="1x", visible=False)
         gui.add_html(BARE)
-        self._actions = gui.add_button_group("Then", (BACK_TO_NOW, GO_ON, RACE), visible=False)
-        self._no_ghost = gui.add_button("No ghost", visible=False)
-        self._links = gui.add_html("")
+        self.actions = gui.add_button_group("Then", (BACK_TO_NOW, GO_ON, RACE), visible=False)
+        self.no_ghost = gui.add_button("No ghost", visible=False)
+        self.links = gui.add_html("")
         hint = "An .episode file, of a friend's or your own"
-        self._upload = gui.add_upload_button("Open a recording", hint=hint)
-        limit_uploads(self._client, MAX_FILE_BYTES)
-        self._episode.on_update(self._on_episode)
-        self._step.on_update(self._on_step)
-        self._steps.on_click(self._on_steps)
+        self.upload = gui.add_upload_button("Open a recording", hint=hint)
+        limit_uploads(self.client, MAX_FILE_BYTES)
+        self.episode.on_update(self._on_episode)
+        self.step.on_update(self._on_step)
+        self.step_buttons.on_click(self._on_steps)
         self._speed.on_update(self._on_speed)
-        self._actions.on_click(self._on_action)
-        self._no_ghost.on_click(self._on_no_ghost)
-        self._upload.on_upload(report_errors(self._on_upload))
+        self.actions.on_click(self._on_action)
+        self.no_ghost.on_click(self._on_no_ghost)
+        self.upload.on_upload(report_errors(self._on_upload))
 
     def draw(self, snapshot: Snapshot) -> None:
         """Show the episodes, the chosen one, and the shown decision."""
@@ -94,31 +94,31 @@ class ReplayTab:
         chosen = self._player.number
         archive = self._player.archive
         best = archive.best if archive is not None and len(entries) > 1 else None
-        self._list.content = episode_table(entries, chosen, best)
+        self.table.content = episode_table(entries, chosen, best)
         numbers = {str(entry.number): entry.number for entry in reversed(entries)}
         self._numbers = {RUNNING: RUNNING_EPISODE} | numbers
-        set_options(self._episode, (NONE, *self._numbers))
+        set_options(self.episode, (NONE, *self._numbers))
         name = next((name for name, each in self._numbers.items() if each == chosen), NONE)
-        set_value(self._episode, name)
+        set_value(self.episode, name)
         is_kept = chosen in numbers.values()
         formats = [each for each in FORMATS if each != "mp4" or has("imageio_ffmpeg")]
-        self._links.content = download_links(chosen, formats) if is_kept and chosen else ""
+        self.links.content = download_links(chosen, formats) if is_kept and chosen else ""
 
     def _show_player(self, snapshot: Snapshot) -> None:
         """Show the player's state, which any page may have changed."""
         player, frame_cache = self._player, self._player.frame_cache
         recorder = self._runner.recorder
         has_frames = frame_cache is not None and frame_cache.last >= 0
-        for handle in (self._step, self._steps, self._speed, self._actions):
+        for handle in (self.step, self.step_buttons, self._speed, self.actions):
             handle.visible = has_frames
         if frame_cache is not None and has_frames:
             # the slider counts from 1, and has the end after the last decision
             last = max(frame_cache.last, 1) + 1
-            if self._step.max != last:
-                self._step.max = last
-            set_value(self._step, player.step + 1)
-        set_options(self._steps, (BACK, STOP if player.is_playing else PLAY, ON))
-        self._no_ghost.visible = bool(self._ghosts.name)
+            if self.step.max != last:
+                self.step.max = last
+            set_value(self.step, player.step + 1)
+        set_options(self.step_buttons, (BACK, STOP if player.is_playing else PLAY, ON))
+        self.no_ghost.visible = bool(self._ghosts.name)
         texts = [
             snapshot.past and f"Seen now: {snapshot.past}",
             escape(player.problem or (frame_cache.problem if frame_cache is not None else "")),
@@ -126,7 +126,7 @@ class ReplayTab:
             escape(recorder.problem or recorder.save_problem) if recorder is not None else "",
         ]
         lines = "<br>".join(f"<small>{each}</small>" for each in texts if each)
-        self._status.content = section(lines, kind="bare")
+        self.status.content = section(lines, kind="bare")
 
     # -- events; in viser's event loop, one after the other --------------------------------------
 
@@ -155,19 +155,19 @@ class ReplayTab:
         player = self._player
         match event.target.value:
             case "Back to now" if player.is_showing:
-                notify_failure(self._client, self._runner, player.return_to_present())
+                notify_failure(self.client, self._runner, player.return_to_present())
             case "Continue here":
                 notify_failure(
-                    self._client, self._runner, await asyncio.to_thread(player.continue_from_here)
+                    self.client, self._runner, await asyncio.to_thread(player.continue_from_here)
                 )
             case "Race it" if player.frame_cache is not None:
                 frame_cache = player.frame_cache
                 player.cancel()
                 self._ghosts.race(frame_cache.episode, f"episode {frame_cache.number}")
                 notify_failure(
-                    self._client, self._runner, self._runner.reset(frame_cache.episode.seed)
+                    self.client, self._runner, self._runner.reset(frame_cache.episode.seed)
                 )
-                notify_failure(self._client, self._runner, self._runner.resume())
+                notify_failure(self.client, self._runner, self._runner.resume())
 
     async def _on_no_ghost(self, _event: GuiEvent[GuiButtonHandle]) -> None:
         self._ghosts.race(None)
@@ -179,7 +179,7 @@ class ReplayTab:
         try:
             episode = await asyncio.to_thread(decode, Episode, file.content, file.name[:80])
         except AI4UError as error:
-            self._client.add_notification("That is no recording", str(error))
+            self.client.add_notification("That is no recording", str(error))
             return
         self._player.open(archive.append(episode, file.name[:80]).number)
 

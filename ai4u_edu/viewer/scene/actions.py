@@ -26,7 +26,7 @@ class Actions:
 
     def __init__(self, server: LocalServer) -> None:
         self._scene = server.scene
-        self._lines: LineSegmentsHandle | None = None
+        self.lines: LineSegmentsHandle | None = None
 
     def build(self, static_scene: StaticScene) -> None:
         """Read the agents' sizes from a static scene."""
@@ -45,11 +45,11 @@ class Actions:
         # an invisible segment: given no segments at all, the page would keep the previous ones
         marks.append(np.array([[(0.0, 0.0, below), (1.0, 0.0, below)]]))
         lines = np.concatenate(marks).astype(np.float32)
-        if self._lines is None:
-            self._lines = self._scene.add_line_segments(
+        if self.lines is None:
+            self.lines = self._scene.add_line_segments(
                 "/actions", lines, line_colours(ACTION), thickness=2.5, thickness_units="screen"
             )
-        self._lines.points = lines
+        self.lines.points = lines
 
     def _marks(self, agent: AgentState, body: BodyState) -> Array:
         numbers = agent.action.get(ACTION_NAME, ())

@@ -87,7 +87,7 @@ class Handles:
         self._goal: tuple[float, float, float | None] | None = None
         self._pending: Future[None] | None = None
         self._bodies: tuple[BodyDescription, ...] = ()
-        self._states: dict[str, BodyState] = {}
+        self.states: dict[str, BodyState] = {}
         self._boxes: BatchedMeshHandle | None = None
         self.knob: BatchedMeshHandle | None = None
         self._mark: FrameHandle | None = None
@@ -109,7 +109,7 @@ class Handles:
             on: False removes all handles.
         """
         static_scene = snapshot.static_scene
-        self._states = {state.name: state for state in snapshot.bodies}
+        self.states = {state.name: state for state in snapshot.bodies}
         is_on = on and not snapshot.past and self._viewer_client.view.mode is not Mode.EYES
         wanted = static_scene.bodies if is_on else ()
         body = next((each for each in wanted if each.name == chosen), None)
@@ -174,7 +174,7 @@ class Handles:
 
     def _move_handles(self, static_scene: StaticScene) -> None:
         if self._boxes is not None:
-            states = [self._states[body.name] for body in self._bodies]
+            states = [self.states[body.name] for body in self._bodies]
             wxyzs = np.array([heading_wxyz(state.heading) for state in states])
             positions = np.array([self._box_position(i, state) for i, state in enumerate(states)])
             gone = np.array([state.fallen for state in states])
@@ -182,7 +182,7 @@ class Handles:
             self._boxes.batched_wxyzs = wxyzs
             self._boxes.batched_scales = np.where(gone[:, None], 0.0, self._sizes)
         if self._mark is not None and self._marked is not None:
-            state = self._states[self._marked.name]
+            state = self.states[self._marked.name]
             self._mark.visible = not state.fallen
             top = (
                 state.z
@@ -210,7 +210,7 @@ class Handles:
     async def _on_drag(self, event: SceneNodeDragEvent[BatchedMeshHandle]) -> None:
         if event.phase == "start":
             name = self._name(event.instance_index)
-            state = self._states.get(name)
+            state = self.states.get(name)
             if state is not None:
                 x, y, _ = event.start_position
                 self._start_drag(Drag(name, state.x - x, state.y - y, is_rotation=False))
@@ -219,7 +219,7 @@ class Handles:
 
     async def _on_rotate(self, event: SceneNodeDragEvent[BatchedMeshHandle]) -> None:
         if event.phase == "start" and self._marked is not None:
-            state = self._states.get(self._marked.name)
+            state = self.states.get(self._marked.name)
             if state is not None:
                 self._start_drag(Drag(state.name, state.x, state.y, is_rotation=True))
         self._update_drag(event)

@@ -26,7 +26,7 @@ class Labels:
         self._scene = server.scene
         self._subtree = Subtree(server.scene, "labels")
         self._built_for: object = None
-        self._labels: list[_Label] = []
+        self.labels: list[_Label] = []
 
     def build(self, static_scene: StaticScene) -> None:
         """Create the labels, if they have changed."""
@@ -45,12 +45,12 @@ class Labels:
                     handle = drawer.label(str(index), text, anchor="top-center")
                     label = _Label(index, text, centre, 1.08 * reach, body.height, handle)
                     labels.append(label)
-        self._labels, self._built_for = labels, wanted
+        self.labels, self._built_for = labels, wanted
 
     def draw(self, snapshot: Snapshot) -> None:
         """Move the labels with their bodies, and update their texts."""
         problems = {agent.body: script_problem(agent) for agent in snapshot.agents}
-        for label in self._labels:
+        for label in self.labels:
             body = snapshot.bodies[label.number]
             problem = problems.get(body.name)
             label.handle.text = f"{label.text}  {problem}" if problem else label.text

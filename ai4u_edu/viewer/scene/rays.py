@@ -62,20 +62,20 @@ class Rays:
         lines[..., 2] += style.layers.body
         indices = np.array([style.index_of_group.get(group, 0) for group in groups])
         has_hit = np.array([group != "" for group in groups])
-        self._lines.points = lines
-        self._lines.colors = style.line_colours[indices][:, None].repeat(2, axis=1)
-        self._dots.batched_positions = ray_dots(lines, style.dot_radius)
-        self._dots.batched_scales = has_hit.astype(np.float32)
+        self.lines.points = lines
+        self.lines.colors = style.line_colours[indices][:, None].repeat(2, axis=1)
+        self.dots.batched_positions = ray_dots(lines, style.dot_radius)
+        self.dots.batched_scales = has_hit.astype(np.float32)
         # meshes, because the page recompiles a point cloud's shader at every change of colour
-        self._dots.batched_colors = style.dot_colours[indices]
+        self.dots.batched_colors = style.dot_colours[indices]
 
     def _rebuild(self, count: int) -> None:
         with self._subtree.rebuild() as parent:
             if count:
                 drawer = MeshDrawer(self._scene, parent)
-                self._lines = drawer.moving_lines("lines", count)
+                self.lines = drawer.moving_lines("lines", count)
                 dot = cap(circle(self._style.dot_radius, corners=12))
-                self._dots = drawer.batch("dots", dot, count * [RAY_MISS])
+                self.dots = drawer.batch("dots", dot, count * [RAY_MISS])
         self._count = count
 
 

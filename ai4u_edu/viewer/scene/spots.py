@@ -37,18 +37,16 @@ class Spots:
         if len(lit) != self._count:
             self._rebuild(len(lit))
         if len(lit):
-            self._dots.batched_positions = np.concatenate(
+            self.dots.batched_positions = np.concatenate(
                 [spots.places + np.array([0.0, 0.0, height]) for spots in pictures],
                 dtype=np.float32,
             )
-            self._dots.batched_colors = self._colours[lit]
+            self.dots.batched_colors = self._colours[lit]
 
     def _rebuild(self, count: int) -> None:
         with self._subtree.rebuild() as parent:
             if count:
                 dot = cap(circle(SPOT_RADIUS_M, corners=16))
-                self._dots = MeshDrawer(self._scene, parent).batch(
-                    "dots", dot, count * [SPOT_UNLIT]
-                )
-                self._dots.batched_scales = np.ones(count, np.float32)
+                self.dots = MeshDrawer(self._scene, parent).batch("dots", dot, count * [SPOT_UNLIT])
+                self.dots.batched_scales = np.ones(count, np.float32)
         self._count = count

@@ -61,7 +61,7 @@ class View:
         self.mode = Mode.ARENA
         self._bounds: Bounds | None = None
         self._aspect = 0.0
-        self._frame = Frame(0.0, 0.0, 1.0)
+        self.frame = Frame(0.0, 0.0, 1.0)
         self._known: deque[Array] = deque(maxlen=4)
         self._has_arrived = False
         self._is_moved_by_user = False
@@ -144,7 +144,7 @@ class View:
         A slow page may report an older position: until a pose that we sent has come back and, since
         a report may be read while we move the camera, for a while after that.
         """
-        ours = np.array([self._frame.x, self._frame.y, self._frame.distance])
+        ours = np.array([self.frame.x, self.frame.y, self.frame.distance])
         if _same(camera.position, ours):
             self._has_arrived = True
         elif self._has_arrived and not any(_same(camera.position, each) for each in self._known):
@@ -158,7 +158,7 @@ class View:
     def _put(self, wanted: Frame, up: tuple[float, float, float] = NORTH) -> None:
         camera, distance = self._client.camera, wanted.distance
         self._known.append(camera.position)
-        self._frame, self._has_arrived, self._is_moved_by_user = wanted, False, False
+        self.frame, self._has_arrived, self._is_moved_by_user = wanted, False, False
         self._moved_at = time.monotonic()
         self._leave_eye()
         with self._client.atomic():
@@ -179,13 +179,13 @@ class View:
             short = goal.y - body.y
             goal = Frame(body.x + short * up[0], body.y + short * up[1], goal.height)
         share = 1.0 - math.exp((self._moved_at - now) / CAMERA_LAG_S)
-        dx, dy = share * (goal.x - self._frame.x), share * (goal.y - self._frame.y)
+        dx, dy = share * (goal.x - self.frame.x), share * (goal.y - self.frame.y)
         self._moved_at = now
         stands = math.hypot(dx, dy) < 1e-4 * goal.height
         if stands and np.allclose(camera.up_direction, up, atol=1e-4):
             return
-        self._frame = Frame(self._frame.x + dx, self._frame.y + dy, goal.height)
-        centre = np.array([self._frame.x, self._frame.y, 0.0])
+        self.frame = Frame(self.frame.x + dx, self.frame.y + dy, goal.height)
+        centre = np.array([self.frame.x, self.frame.y, 0.0])
         with self._client.atomic():
             if self.mode is Mode.TURN:
                 camera.up_direction = up
