@@ -34,8 +34,8 @@ for (const kind of [self.WebGLRenderingContext, self.WebGL2RenderingContext]) {
     }
 }
 """
-"""For a page whose picture of the world nobody looks at: viser's code runs, WebGL draws nothing.
-Without a graphics card, to draw takes most of a page's time."""
+"""Page script that turns WebGL's drawing calls into no-ops; all of viser's code still runs.
+Without a graphics card, drawing takes most of a page's time."""
 
 
 @contextlib.contextmanager

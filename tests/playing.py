@@ -27,11 +27,11 @@ class Played:
     """Every line that it wrote."""
 
     def snapshot(self) -> dict[str, Any]:
-        """What ``/api/snapshot`` answers."""
+        """Return the answer of ``/api/snapshot``."""
         return self._get("api/snapshot")
 
     def health(self) -> dict[str, Any]:
-        """What ``/healthz`` answers, whatever its status."""
+        """Return the answer of ``/healthz``, whatever its status."""
         return self._get("healthz")
 
     def restart(self, seed: int) -> None:

@@ -37,8 +37,8 @@ SLOPE_AFTER_MIN = 30.0
 class Player:
     """One page that comes, plays and goes."""
 
-    def __init__(self, chromium: Browser, url: str, chance: random.Random) -> None:
-        self._chromium, self._url, self._chance = chromium, url, chance
+    def __init__(self, chromium: Browser, url: str, rng: random.Random) -> None:
+        self._chromium, self._url, self._rng = chromium, url, rng
         self.page: Page | None = None
         self.errors: list[str] = []
         self.visits = 0
@@ -47,7 +47,7 @@ class Player:
         """Does something random for about half a second."""
         if self.page is None:
             self._come()
-        elif self._chance.random() < 0.02:
+        elif self._rng.random() < 0.02:
             self.page.context.close()
             self.page = None
         else:
@@ -60,21 +60,21 @@ class Player:
         self.visits += 1
 
     def _press(self, page: Page) -> None:
-        keys = self._chance.sample(KEYS, self._chance.randint(1, 3))
+        keys = self._rng.sample(KEYS, self._rng.randint(1, 3))
         for key in keys:
             page.keyboard.down(key)
-        page.wait_for_timeout(self._chance.uniform(50, 600))
+        page.wait_for_timeout(self._rng.uniform(50, 600))
         for key in keys:
             page.keyboard.up(key)
-        if self._chance.random() < 0.2:
+        if self._rng.random() < 0.2:
             page.keyboard.press("KeyR")
 
 
 class LightPlayer:
     """A page without a browser: the two sockets of one, which come, play and go."""
 
-    def __init__(self, url: str, chance: random.Random) -> None:
-        self._url, self._chance = url, chance
+    def __init__(self, url: str, rng: random.Random) -> None:
+        self._url, self._rng = url, rng
         self._page: tuple[Panel, ClientConnection] | None = None
         self.errors: list[str] = []
         self.visits = 0
@@ -88,17 +88,17 @@ class LightPlayer:
             self.visits += 1
             return
         panel, keys = self._page
-        if self._chance.random() < 0.02 or not panel.is_open:
+        if self._rng.random() < 0.02 or not panel.is_open:
             panel.close()
             keys.close()
             self._page = None
             return
-        held = self._chance.sample(KEYS, self._chance.randint(1, 3))
+        held = self._rng.sample(KEYS, self._rng.randint(1, 3))
         for _ in range(5):  # a page says again what it holds
             keys.send(json.dumps({"type": "keys", "held": held}))
             self._read(keys, until=time.monotonic() + 0.1)
         keys.send(json.dumps({"type": "keys", "held": []}))
-        if self._chance.random() < 0.2:
+        if self._rng.random() < 0.2:
             keys.send(json.dumps({"type": "command", "name": "reset"}))
 
     def _read(self, keys: ClientConnection, until: float) -> None:
@@ -111,8 +111,8 @@ class LightPlayer:
 class Script:
     """A remote script that drives for some seconds, leaves, and connects anew."""
 
-    def __init__(self, url: str, chance: random.Random) -> None:
-        self._url, self._chance = url, chance
+    def __init__(self, url: str, rng: random.Random) -> None:
+        self._url, self._rng = url, rng
         self._over = threading.Event()
         self._thread = threading.Thread(target=self._run, daemon=True)
         self.connections = 0
@@ -126,9 +126,9 @@ class Script:
         self._thread.join(10)
 
     def _run(self) -> None:
-        while not self._over.wait(self._chance.uniform(0.5, 5.0)):
+        while not self._over.wait(self._rng.uniform(0.5, 5.0)):
             try:
-                self._drive(self._chance.uniform(0.5, 5.0))
+                self._drive(self._rng.uniform(0.5, 5.0))
             except RemoteError:  # refused while a page drives
                 continue
 
@@ -139,7 +139,7 @@ class Script:
             end = time.monotonic() + seconds
             while time.monotonic() < end and not self._over.is_set():
                 try:
-                    robot.act(move=[1, self._chance.uniform(-1, 1), 0, 0])
+                    robot.act(move=[1, self._rng.uniform(-1, 1), 0, 0])
                     robot.sense()
                 except RemoteError:
                     raise
@@ -149,7 +149,7 @@ class Script:
 
 def soak(minutes: float, scene: str, seed: int, *, light: bool) -> list[str]:
     """Plays and looks; what went wrong, in sentences."""
-    chance = random.Random(seed)
+    rng = random.Random(seed)
     memory: list[tuple[float, int]] = []  # (seconds, bytes)
     wrong: list[str] = []
     players: list[Player | LightPlayer]
@@ -157,16 +157,16 @@ def soak(minutes: float, scene: str, seed: int, *, light: bool) -> list[str]:
         server = ending.enter_context(played(scene, "--no-autosave"))
         script = ending.enter_context(Script(server.url, random.Random(seed + 1)))
         if light:
-            players = [LightPlayer(server.url, chance) for _ in range(2)]
+            players = [LightPlayer(server.url, rng) for _ in range(2)]
         else:
             chromium = ending.enter_context(browser())
-            players = [Player(chromium, server.url, chance) for _ in range(2)]
+            players = [Player(chromium, server.url, rng) for _ in range(2)]
         process = psutil.Process(server.process.pid)
         began = time.monotonic()
         told = 0.0
         episodes = 0
         while (elapsed := time.monotonic() - began) < minutes * 60:
-            chance.choice(players).act()
+            rng.choice(players).act()
             memory.append((elapsed, process.memory_info().rss))
             snapshot = server.snapshot()
             episodes = max(episodes, snapshot["episode"])

@@ -32,7 +32,7 @@ def normal(name: str) -> str:
 
 
 def imported(folder: Path) -> dict[str, str]:
-    """Where each foreign package is imported first, by the module's name."""
+    """Return the file that first imports each foreign package, by the module's name."""
     found: dict[str, str] = {}
     for path in sorted(folder.rglob("*.py")):
         for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):

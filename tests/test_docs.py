@@ -107,7 +107,7 @@ def settings() -> list[tuple[str, str]]:
 
 
 def is_known(name: str) -> bool:
-    """Whether there is such a class, attribute, parameter, event or method."""
+    """Return True if there is such a class, attribute, parameter, event or method."""
     owner, _, member = name.rpartition(".")
     if owner == "BasicAgent":
         return hasattr(small_sim().agents[0], member)
@@ -120,7 +120,7 @@ def is_known(name: str) -> bool:
 WORDS = {"Box", "Discrete", "handler", "default_time_scale"} | {
     f"__{each}__" for each in ("restart", "pause", "resume", "stop")
 }
-"""What stands in the rows and is not a name of the package."""
+"""Words in the rows that are no names of the package."""
 
 
 def test_the_picture_of_the_architecture_is_drawn_from_the_code() -> None:

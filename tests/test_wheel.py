@@ -1,4 +1,4 @@
-"""What a student gets from `pip install`: the wheel, alone in an empty environment."""
+"""The wheel, installed alone in an empty environment, as by `pip install`."""
 
 import os
 import subprocess

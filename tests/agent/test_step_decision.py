@@ -16,7 +16,7 @@ from ai4u_edu import (
 )
 from ai4u_edu.agent.cycle import ControlRequestor
 from tests.builders import small_sim, small_world
-from tests.scenes.test_solvers import chance
+from tests.scenes.test_solvers import random_driver
 
 ALONE = [name for name in Scene.names() if len(Scene.load(name).description.agents) == 1]
 
@@ -24,7 +24,7 @@ ALONE = [name for name in Scene.names() if len(Scene.load(name).description.agen
 def drive(name: str, stepwise: bool, repeat: bool) -> bytes:
     sim = Scene.load(name).build()
     agent = sim.agents[0]
-    wander, skip = chance(agent, 7), agent.brain.skip_frame
+    wander, skip = random_driver(agent, 7), agent.brain.skip_frame
     agent.use_brain(LocalBrain(controller=wander, skip_frame=skip, repeat_action=repeat))
     sim.reset(seed=3)
     seen = b""

@@ -79,55 +79,53 @@ def hammer(seconds: float, scene: str, seed: int) -> Tally:
     return tally
 
 
-def use_panel(server: Played, chance: random.Random, tally: Tally, over: threading.Event) -> None:
+def use_panel(server: Played, rng: random.Random, tally: Tally, over: threading.Event) -> None:
     """Use the elements of a panel; leave and come back now and then."""
     while not over.is_set():
         with Panel(server.url) as panel:
             over.wait(0.3)
-            for _ in range(chance.randint(20, 200)):
+            for _ in range(rng.randint(20, 200)):
                 if over.is_set() or not panel.is_open:
                     break
-                panel.use_any(chance)
+                panel.use_any(rng)
                 tally.count("uses of an element")
-                over.wait(chance.uniform(0.0, 0.05))
+                over.wait(rng.uniform(0.0, 0.05))
 
 
-def drive_by_keys(
-    server: Played, chance: random.Random, tally: Tally, over: threading.Event
-) -> None:
+def drive_by_keys(server: Played, rng: random.Random, tally: Tally, over: threading.Event) -> None:
     """Hold keys, take over, let go, reset, pause and resume."""
     url = server.url.replace("http", "ws", 1) + "ws/input"
     orders = ("reset", "pause", "resume", "resume")
     while not over.is_set():
         with open_socket(url, origin=Origin(server.url.rstrip("/")), proxy=None) as page:
-            for _ in range(chance.randint(20, 100)):
+            for _ in range(rng.randint(20, 100)):
                 if over.is_set():
                     break
-                said: dict[str, Any] = {"type": "keys", "held": chance.sample(KEYS, 2)}
-                if chance.random() < 0.1:
-                    said = {"type": "command", "name": chance.choice(orders)}
-                elif chance.random() < 0.1:
-                    said = {"type": chance.choice(("take", "let_go"))}
+                said: dict[str, Any] = {"type": "keys", "held": rng.sample(KEYS, 2)}
+                if rng.random() < 0.1:
+                    said = {"type": "command", "name": rng.choice(orders)}
+                elif rng.random() < 0.1:
+                    said = {"type": rng.choice(("take", "let_go"))}
                 page.send(json.dumps(said))
                 tally.count("messages of a keyboard")
-                over.wait(chance.uniform(0.01, 0.05))
+                over.wait(rng.uniform(0.01, 0.05))
 
 
 def drive_by_script(
-    server: Played, chance: random.Random, tally: Tally, over: threading.Event
+    server: Played, rng: random.Random, tally: Tally, over: threading.Event
 ) -> None:
     """Drive the first agent that is free, in either mode; reset, and come back."""
     while not over.is_set():
-        mode = chance.choice(("realtime", "lockstep"))
+        mode = rng.choice(("realtime", "lockstep"))
         try:
             with connect(server.url, agent="0", mode=mode, patience=2.0) as robot:  # type: ignore[arg-type]  # one of two
-                if chance.random() < 0.5:
+                if rng.random() < 0.5:
                     robot.reset()
-                for _ in range(chance.randint(1, 100)):
+                for _ in range(rng.randint(1, 100)):
                     if over.is_set():
                         break
                     try:
-                        robot.act(move=[1, chance.uniform(-1, 1), 0, 0])
+                        robot.act(move=[1, rng.uniform(-1, 1), 0, 0])
                         robot.sense()
                         tally.count("decisions of a script")
                     except ActionError:  # the episode is over, or a page took the actuator away
@@ -206,13 +204,13 @@ def _until(condition: Callable[[], object], timeout: float = 10.0) -> None:
 def _guarded(
     work: Callable[[Played, random.Random, Tally, threading.Event], None],
     server: Played,
-    chance: random.Random,
+    rng: random.Random,
     tally: Tally,
     over: threading.Event,
 ) -> None:
     while not over.is_set():
         try:
-            work(server, chance, tally, over)
+            work(server, rng, tally, over)
         except GONE as error:
             tally.count(f"{work.__name__}: {error}")
             over.wait(0.1)

@@ -23,7 +23,7 @@ class Element:
     props: dict[str, Any] = field(default_factory=dict)
     value: Any = None
 
-    def likely_value(self, chance: random.Random) -> Any:
+    def likely_value(self, rng: random.Random) -> Any:
         """Return a value such as the element's widget can send; None if it sends none."""
         props = self.props
         match self.kind:
@@ -31,23 +31,23 @@ class Element:
                 return True
             case "GuiButtonGroupMessage" | "GuiDropdownMessage":
                 options = list(props.get("options") or ())
-                return chance.choice(options) if options else None
+                return rng.choice(options) if options else None
             case "GuiCheckboxMessage":
-                return chance.random() < 0.5
+                return rng.random() < 0.5
             case "GuiTextMessage":
-                return chance.choice(TEXTS)
+                return rng.choice(TEXTS)
             case "GuiSliderMessage" | "GuiNumberMessage":
-                return self._likely_number(chance)
+                return self._likely_number(rng)
             case "GuiVector2Message" | "GuiVector3Message":
-                return [chance.uniform(-10, 10) for _ in range(int(self.kind[9]))]
+                return [rng.uniform(-10, 10) for _ in range(int(self.kind[9]))]
         return None
 
-    def _likely_number(self, chance: random.Random) -> float:
+    def _likely_number(self, rng: random.Random) -> float:
         low, high = self.props.get("min"), self.props.get("max")
         low = -5.0 if low is None else low
         high = low + 10.0 if high is None else high
         step = self.props.get("step") or 0.0
-        value = chance.uniform(low, min(high, low + 1000.0))
+        value = rng.uniform(low, min(high, low + 1000.0))
         return low + round((value - low) / step) * step if step else value
 
 
@@ -113,16 +113,16 @@ class Panel:
         """Set an element's value, as its widget does."""
         self.say("GuiUpdateMessage", uuid=uuid, updates={"value": value})
 
-    def use_any(self, chance: random.Random) -> None:
+    def use_any(self, rng: random.Random) -> None:
         """Use a random element with a likely value."""
         elements = self.elements()
         if not elements:
             return
-        uuid = chance.choice(list(elements))
+        uuid = rng.choice(list(elements))
         if elements[uuid].kind == "GuiFormMessage":
             self.say("GuiFormSubmitMessage", uuid=uuid)
             return
-        value = elements[uuid].likely_value(chance)
+        value = elements[uuid].likely_value(rng)
         if value is not None:
             self.set_value(uuid, value)
 

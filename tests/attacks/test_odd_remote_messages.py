@@ -130,7 +130,7 @@ def _put(tree: Any, path: tuple[Any, ...], odd: Any) -> Any:
 
 
 def pack(value: Any) -> bytes:
-    """As msgpack packs it, without a limit to how deep it is."""
+    """Pack a value like msgpack does, without its limit on nesting depth."""
     packer = msgpack.Packer()
     if isinstance(value, Packed):
         return value.data
@@ -163,7 +163,7 @@ def numbers_in(value: Any, name: str = "") -> Iterator[tuple[str, float]]:
 
 
 def is_sane(message: native.Message) -> bool:
-    """Whether all numbers are of use, but for an action's, which the world refuses."""
+    """Return True if every number is usable; an action's numbers are checked by the world."""
     return all(
         math.isfinite(number) or name == "values" or (name in {"low", "high"} and abs(number) > 0)
         for name, number in numbers_in(message)
@@ -229,7 +229,7 @@ def begin(room: Room) -> tuple[Script, native.Percept]:
 
 
 def samples(percept: native.Percept) -> list[native.Message]:
-    """What a script may say, right but for what a test makes of it; and what it may not."""
+    """Return valid messages of a script for tests to alter, and some that only a world may send."""
     seq, place = percept.seq, (percept.episode, percept.step)
     return [
         native.Action(*place, seq, {"log": (1.0,)}),

@@ -70,11 +70,11 @@ import numpy
 from pettingzoo.sisl import waterworld_v4
 env = waterworld_v4.parallel_env(n_pursuers=2, n_sensors=30)
 env.reset(seed=1)
-chance = numpy.random.default_rng(1)
+rng = numpy.random.default_rng(1)
 def step(i):
     if not env.agents:
         env.reset()
-    env.step({name: chance.uniform(-1, 1, 2).astype("f4") for name in env.agents})
+    env.step({name: rng.uniform(-1, 1, 2).astype("f4") for name in env.agents})
 """,
     ),
     "ir-sim": Peer(

@@ -191,31 +191,31 @@ SHAPES: list[Any] = [
 ]
 
 
-def random_world(chance: np.random.Generator) -> World:
+def random_world(rng: np.random.Generator) -> World:
     """A world of all shapes at random poses, tagged by number, and three floors with holes."""
     world = World()
     world.add_body(
         "robot",
         CircleShape(radius=0.1),
         kind="static",
-        position=tuple(chance.uniform(-2, 2, 2)),
-        heading_deg=float(chance.uniform(-180, 180)),
+        position=tuple(rng.uniform(-2, 2, 2)),
+        heading_deg=float(rng.uniform(-180, 180)),
     )
     for number in range(12):
         world.add_body(
             f"thing{number}",
             SHAPES[number % len(SHAPES)],
             kind="static",
-            position=tuple(chance.uniform(-4, 4, 2)),
-            heading_deg=float(chance.uniform(-180, 180)),
+            position=tuple(rng.uniform(-4, 4, 2)),
+            heading_deg=float(rng.uniform(-180, 180)),
             tags=(f"shape{number % len(SHAPES)}",),
         )
     for number, shape in enumerate((RingShape(inner=1, outer=2.5), *SHAPES[1:4])):
         world.add_floor(
             f"floor{number}",
             shape,
-            position=tuple(chance.uniform(-3, 3, 2)),
-            heading_deg=float(chance.uniform(-180, 180)),
+            position=tuple(rng.uniform(-3, 3, 2)),
+            heading_deg=float(rng.uniform(-180, 180)),
         )
     return world
 

@@ -11,8 +11,8 @@ from tests.builders import small_sim, small_world
 
 
 def test_the_same_actions_lead_to_the_same_places() -> None:
-    chance = np.random.default_rng(3)
-    sim = small_sim(controller=lambda percept: {"move": chance.uniform(-1, 1, 4)}, skip_frame=4)
+    rng = np.random.default_rng(3)
+    sim = small_sim(controller=lambda percept: {"move": rng.uniform(-1, 1, 4)}, skip_frame=4)
     agent = sim.agents[0]
     actions, poses = [], []
     for _ in range(50):

@@ -24,10 +24,10 @@ SEARCHES = (breadth_first, a_star)
 
 def drawn(seed: int) -> tuple[Map, Cell, list[Cell]]:
     """A map with walls at random, a start and up to three goals."""
-    chance = np.random.default_rng(seed)
-    free = chance.random((9, 12)) > 0.3
+    rng = np.random.default_rng(seed)
+    free = rng.random((9, 12)) > 0.3
     cells = [(int(row), int(column)) for row, column in np.argwhere(free)]
-    start, *goals = (cells[index] for index in chance.permutation(len(cells))[: 2 + seed % 3])
+    start, *goals = (cells[index] for index in rng.permutation(len(cells))[: 2 + seed % 3])
     return free, start, goals
 
 

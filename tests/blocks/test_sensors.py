@@ -330,10 +330,10 @@ def test_grid_columns_go_from_left_to_right() -> None:
     ids=lambda sensor: type(sensor).__name__,
 )
 def test_readings_stay_in_their_space_over_a_random_drive(sensor: Any) -> None:
-    chance = np.random.default_rng(1)
+    rng = np.random.default_rng(1)
 
     def wander(_percept: Any) -> dict[str, Any]:
-        return {"move": chance.uniform(-1, 1, 4)}
+        return {"move": rng.uniform(-1, 1, 4)}
 
     sim = small_sim([sensor], controller=wander, skip_frame=4, world=small_world(plate=14))
     space = sensor.observation_space()

@@ -109,7 +109,7 @@ class Unseeded(Gauge):
     numbers = itertools.count()
 
     def read(self, body: Any, view: Any) -> Any:
-        return float(next(self.numbers))  # as unforeseeable as chance, but the text is the same
+        return float(next(self.numbers))  # unpredictable, but the text is the same
 
 
 class Remembering(Gauge):

@@ -20,7 +20,7 @@ import time
 from pathlib import Path
 from ai4u_edu import Scene
 from ai4u_edu.editing import EditState, autosave
-autosave.WRITE_DELAY_S = autosave.LONGEST = 0.0
+autosave.WRITE_DELAY_S = autosave.MAX_WRITE_DELAY_S = 0.0
 scene = Scene.load("soccer")
 saver = autosave.Autosave(Path(sys.argv[1]), "soccer")
 print("saving", flush=True)
@@ -35,7 +35,7 @@ while True:
 
 def run(times: int, seed: int = 1, saver: str = SAVER) -> list[str]:
     """Kills so often; what was wrong."""
-    chance = random.Random(seed)
+    rng = random.Random(seed)
     wrong, found = [], 0
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
@@ -45,7 +45,7 @@ def run(times: int, seed: int = 1, saver: str = SAVER) -> list[str]:
             ) as process:
                 assert process.stdout is not None
                 process.stdout.readline()
-                time.sleep(chance.uniform(0.0, 0.15))
+                time.sleep(rng.uniform(0.0, 0.15))
                 process.kill()
             files = list(folder.glob("*.unsaved"))
             if not files:

@@ -1,4 +1,4 @@
-"""What nobody saved is there again."""
+"""Autosave: unsaved edits can be restored."""
 
 import errno
 import json

@@ -1,4 +1,4 @@
-"""Who drives is changed live."""
+"""Changing the driver of an agent while the world runs."""
 
 from pathlib import Path
 

@@ -75,7 +75,7 @@ def test_a_function_drives_on_whatever_is_changed(harness: EditorHarness) -> Non
 
 
 def test_a_body_that_does_not_fit_the_brain_is_not_given_to_it(harness: EditorHarness) -> None:
-    """What is wrong comes out last, when the brain is set up: all is put back, flags too."""
+    """The brain's setup, the last step, fails: everything is rolled back, flags too."""
     harness.done(harness.editor.set_driver("0", "keys:Picky"))
     with pytest.raises(AI4UError, match="where is my move"):
         harness.done(harness.editor.change_block("0", ("actuators", 0), {"action_name": "go"}))

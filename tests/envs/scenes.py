@@ -1,4 +1,4 @@
-"""Which scenes are environments of one kind or the other."""
+"""Names of the scenes with one agent and of those with several."""
 
 from ai4u_edu import Scene
 from ai4u_edu.scenes import SceneDescription

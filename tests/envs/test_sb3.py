@@ -1,4 +1,4 @@
-"""What Stable-Baselines3 says of the environments, and its own view of many worlds."""
+"""Stable-Baselines3's environment checker, and its vectorized environment of several worlds."""
 
 import warnings
 from typing import Any
@@ -46,11 +46,11 @@ def test_it_gives_what_its_own_gives(form: str) -> None:
     for env in (ours, theirs):
         env.seed(12)
     one, other = ours.reset(), theirs.reset()
-    chance = np.random.default_rng(0)
+    rng = np.random.default_rng(0)
     ends = 0
     for _ in range(300):
         _same(one, other)
-        actions = chance.uniform([-1, -1, 0, 0], 1, (COUNT, 4)).astype(np.float32)
+        actions = rng.uniform([-1, -1, 0, 0], 1, (COUNT, 4)).astype(np.float32)
         actions[:, 0] = 1.0
         one, *mine = ours.step(actions)
         other, *yours = theirs.step(actions)

@@ -17,7 +17,7 @@ from tests.fuzz.targets import TARGETS, guided_targets, run_named
 
 
 def main() -> None:
-    """Reads the command line, and tells what was found."""
+    """Read the command line, fuzz, and print the findings."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--frames", type=int, default=MILLION, help="for each decoder")
     parser.add_argument("--seed", type=int, default=0)
@@ -52,7 +52,7 @@ def main() -> None:
 
 
 def _guide(name: str, count: int) -> bool:
-    """Runs atheris; whether it found something."""
+    """Run atheris; return True if it found something."""
     done = subprocess.run(
         [sys.executable, "-m", "tests.fuzz.guided", name, str(count)],
         capture_output=True,

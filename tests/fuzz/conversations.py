@@ -1,6 +1,6 @@
 """Whole conversations with the sockets for scripts and for pages, in the process.
 
-The world is let go on between two frames by hand, so that what happens depends on chance's seed
+The world is let go on between two frames by hand, so that what happens depends on the seed
 alone.
 """
 
@@ -35,19 +35,19 @@ def _room() -> tuple[Runner, Starlette]:
 
 
 class Talk:
-    """One connection, and somebody at its other end who says whatever comes to mind."""
+    """One connection whose client sends random messages."""
 
-    def __init__(self, chance: random.Random) -> None:
-        self.chance = chance
-        self.is_remote = chance.random() < 0.8
+    def __init__(self, rng: random.Random) -> None:
+        self.rng = rng
+        self.is_remote = rng.random() < 0.8
         self.percept: native.Percept | None = None
         self.closed = False
-        self._left = chance.randrange(2 * FRAMES)
+        self._left = rng.randrange(2 * FRAMES)
         self._hello = self._right_hello()
         self._started = False
 
     def scope(self) -> dict[str, Any]:
-        subprotocols = [native.SUBPROTOCOL] if self.chance.random() < 0.97 else ["other.v1"]
+        subprotocols = [native.SUBPROTOCOL] if self.rng.random() < 0.97 else ["other.v1"]
         return {
             "type": "websocket",
             "asgi": {"version": "3.0"},
@@ -55,7 +55,7 @@ class Talk:
             "path": "/ws/remote" if self.is_remote else "/ws/input",
             "raw_path": b"",
             "root_path": "",
-            "query_string": self.chance.choice((b"", b"", b"agent=a", b"agent=x", b"agent=%ff&&")),
+            "query_string": self.rng.choice((b"", b"", b"agent=a", b"agent=x", b"agent=%ff&&")),
             "headers": [(b"host", b"localhost")],
             "subprotocols": subprotocols,
             "extensions": {},
@@ -67,15 +67,15 @@ class Talk:
         if not self._started:
             self._started = True
             return {"type": "websocket.connect"}
-        for _ in range(self.chance.choice((1, 3, 3, 6))):
+        for _ in range(self.rng.choice((1, 3, 3, 6))):
             await asyncio.sleep(0)
         self._left -= 1
         if self._left < 0 or self.closed:
             return {"type": "websocket.disconnect", "code": 1006}
         if self.is_remote:
             return {"type": "websocket.receive", "bytes": self._frame()}
-        words = make_words(self.chance)
-        if self.chance.random() < 0.1:
+        words = make_words(self.rng)
+        if self.rng.random() < 0.1:
             return {"type": "websocket.receive", "bytes": words}
         return {"type": "websocket.receive", "text": words.decode(errors="replace")}
 
@@ -91,28 +91,28 @@ class Talk:
             json.loads(message["text"])
 
     def _right_hello(self) -> native.Message:
-        mode: native.Mode = self.chance.choice(("lockstep", "realtime"))
-        on_missing: native.OnMissing = self.chance.choice(("", "hold", "coast", "stop"))
+        mode: native.Mode = self.rng.choice(("lockstep", "realtime"))
+        on_missing: native.OnMissing = self.rng.choice(("", "hold", "coast", "stop"))
         return native.Hello(native.VERSION, "a", "", mode, (), "", "s" * 20, on_missing)
 
     def _frame(self) -> bytes:
-        roll = self.chance.random()
+        roll = self.rng.random()
         if self.percept is None:
-            return make_frame(self.chance) if roll < 0.1 else native.encode(self._hello)
+            return make_frame(self.rng) if roll < 0.1 else native.encode(self._hello)
         if roll < 0.15:
-            return make_frame(self.chance)
+            return make_frame(self.rng)
         if roll < 0.3:
-            return native.encode(example(self.chance.choice(KINDS), self.chance))
+            return native.encode(example(self.rng.choice(KINDS), self.rng))
         if roll < 0.5 and not self.percept.terminated and not self.percept.truncated:
-            number = self.chance.choice((1.0, -5.0, 1e300, math.nan, math.inf, 3.0))
+            number = self.rng.choice((1.0, -5.0, 1e300, math.nan, math.inf, 3.0))
             percept = self.percept
             return native.encode(
                 native.Action(percept.episode, percept.step, percept.seq, {"log": (number,)})
             )
         if roll < 0.6:
-            return native.encode(native.Reset(self.percept.seq, self.chance.choice((None, 3))))
-        seq = max(0, self.percept.seq + self.chance.choice((-1, 0, 0, 1)))
-        return native.encode(native.Action(1, self.chance.randrange(3), seq, {"log": (2.0,)}))
+            return native.encode(native.Reset(self.percept.seq, self.rng.choice((None, 3))))
+        seq = max(0, self.percept.seq + self.rng.choice((-1, 0, 0, 1)))
+        return native.encode(native.Action(1, self.rng.randrange(3), seq, {"log": (2.0,)}))
 
 
 async def _go_on(runner: Runner) -> None:
@@ -123,9 +123,9 @@ async def _go_on(runner: Runner) -> None:
         await asyncio.sleep(0)
 
 
-async def _talk(chance: random.Random) -> None:
+async def _talk(rng: random.Random) -> None:
     runner, app = _room()
-    talk = Talk(chance)
+    talk = Talk(rng)
     world = asyncio.create_task(_go_on(runner))
     try:
         await asyncio.wait_for(app(talk.scope(), talk.receive, talk.send), 20)
@@ -143,15 +143,15 @@ async def _talk(chance: random.Random) -> None:
         assert len(agent.brains) == 1
 
 
-def make_talk(chance: random.Random) -> bytes:
-    """The seed of a conversation."""
-    return chance.randbytes(8)
+def make_talk(rng: random.Random) -> bytes:
+    """Return the seed of a conversation."""
+    return rng.randbytes(8)
 
 
 def read_talk(data: bytes) -> None:
-    """Holds it: the world goes on, no odd number reaches it, and afterwards the seat is free."""
+    """Hold it: the world runs on, no invalid number reaches it, and the agent is released."""
     loop().run_until_complete(_talk(random.Random(data)))
 
 
 TALK = Target("conversations", make_talk, read_talk, (), count=MANY // FRAMES)
-"""Of about ``FRAMES`` frames each."""
+"""Conversations of about ``FRAMES`` frames each."""

@@ -1,4 +1,4 @@
-"""The decoders: our own frames in both directions, AI4U's requests and replies, a page's words."""
+"""The decoders: native frames in both directions, AI4U's requests and replies, page messages."""
 
 import json
 import random
@@ -27,7 +27,7 @@ from tests.fuzz.mutate import bent, bent_and_packed, mangled
 from tests.fuzz.target import MANY, Target
 
 SAMPLES = tuple(example(kind, random.Random(number)) for kind in KINDS for number in range(4))
-"""Right messages: all that a script or a world can say."""
+"""Valid messages: every kind that a script or a world sends."""
 
 PACKED = (
     b"\xc0", b"\xc1", b"\xc2", b"\x80", b"\x90", b"\x91" * 1018 + b"\xc0",
@@ -41,18 +41,18 @@ PACKED = (
 FRAMES = tuple(map(native.encode, SAMPLES))
 
 
-def make_frame(chance: random.Random) -> bytes:
-    """A frame of our own protocol with something wrong in it."""
-    frame = chance.choice(FRAMES)
-    if chance.random() < 0.5:
-        return mangled(frame, chance, PACKED)
-    if chance.random() < 0.1:
+def make_frame(rng: random.Random) -> bytes:
+    """Return a frame of the native protocol with a fault in it."""
+    frame = rng.choice(FRAMES)
+    if rng.random() < 0.5:
+        return mangled(frame, rng, PACKED)
+    if rng.random() < 0.1:
         # one field is what no packer writes, and all around it is right
         fields = [msgpack.packb(field) for field in msgpack.unpackb(frame)]
-        fields[chance.randrange(len(fields))] = chance.choice(PACKED)
+        fields[rng.randrange(len(fields))] = rng.choice(PACKED)
         head: bytes = msgpack.Packer().pack_array_header(len(fields))
         return head + b"".join(fields)
-    return bent_and_packed(msgpack.unpackb(frame), chance)
+    return bent_and_packed(msgpack.unpackb(frame), rng)
 
 
 def _read_frame(largest: int) -> Any:
@@ -64,15 +64,15 @@ def _read_frame(largest: int) -> Any:
     return read
 
 
-def make_percept(chance: random.Random) -> bytes:
-    """A welcome and a percept that need not fit each other, as one frame each."""
+def make_percept(rng: random.Random) -> bytes:
+    """Return a welcome and a percept, one frame each, which need not match."""
     parts = []
     for kind in (native.Welcome, native.Percept):
-        tree = msgpack.unpackb(native.encode(example(kind, chance)))
-        if chance.random() < 0.7:
+        tree = msgpack.unpackb(native.encode(example(kind, rng)))
+        if rng.random() < 0.7:
             # most other places only have it refused as a frame
             at = tree.index(next((part for part in tree[::-1] if isinstance(part, list)), tree[-1]))
-            tree[at] = bent(tree[at], chance)
+            tree[at] = bent(tree[at], rng)
         try:
             parts.append(msgpack.packb(tree, unicode_errors="replace"))
         except (OverflowError, ValueError):
@@ -81,7 +81,7 @@ def make_percept(chance: random.Random) -> bytes:
 
 
 def read_percept(data: bytes) -> None:
-    """Reads it as a script does: every reading, and the spaces."""
+    """Read a welcome and a percept as a script does: every reading, and the spaces."""
     size = int(data[:8])
     welcome = native.decode(data[8 : 8 + size], native.MAX_WORLD_FRAME_BYTES)
     percept = native.decode(data[8 + size :], native.MAX_WORLD_FRAME_BYTES)
@@ -133,15 +133,15 @@ TEXT = (
 )  # fmt: skip
 
 
-def _make_request(chance: random.Random) -> bytes:
-    if chance.random() < 0.7:
-        return mangled(chance.choice(REQUESTS), chance, TEXT)
-    # lengths that are right, around what is not: a chance of getting as far as the values
+def _make_request(rng: random.Random) -> bytes:
+    if rng.random() < 0.7:
+        return mangled(rng.choice(REQUESTS), rng, TEXT)
+    # right lengths around wrong contents, so that the decoder gets as far as the values
     parts = []
-    for _ in range(chance.randrange(5)):
-        name = mangled(b"eyes", chance, TEXT)[:9999]
-        text = mangled(chance.choice((b"1 2.5 -3e4", b"7", b"AAEC", b"true")), chance, TEXT)
-        kind = chance.randrange(10)
+    for _ in range(rng.randrange(5)):
+        name = mangled(b"eyes", rng, TEXT)[:9999]
+        text = mangled(rng.choice((b"1 2.5 -3e4", b"7", b"AAEC", b"true")), rng, TEXT)
+        kind = rng.randrange(10)
         parts.append(b"%4d%s%d%8d%s" % (len(name), name, kind, len(text), text))
     return b"%4d%s" % (len(parts), b"".join(parts))
 
@@ -151,12 +151,12 @@ def _read_request(data: bytes) -> None:
     decode_request(encode_request(fields))
 
 
-def _make_reply(chance: random.Random) -> bytes:
-    if chance.random() < 0.7:
-        return mangled(chance.choice(REPLIES), chance, TEXT)
+def _make_reply(rng: random.Random) -> bytes:
+    if rng.random() < 0.7:
+        return mangled(rng.choice(REPLIES), rng, TEXT)
     orders = []
-    for _ in range(chance.randrange(1, 4)):
-        args = [mangled(b"0.5", chance, TEXT) for _ in range(chance.randrange(4))]
+    for _ in range(rng.randrange(1, 4)):
+        args = [mangled(b"0.5", rng, TEXT) for _ in range(rng.randrange(4))]
         orders.append(b";".join((b"move", b"%d" % len(args), *args)))
     return b"@".join(orders)
 
@@ -178,12 +178,12 @@ WORDS: tuple[Any, ...] = (
 )
 
 
-def make_words(chance: random.Random) -> bytes:
-    """What a page says, with something wrong in it."""
-    words = chance.choice(WORDS)
-    if chance.random() < 0.5:
-        return mangled(json.dumps(words).encode(), chance, (b"[" * 900, b'"', b"\\ud800", *TEXT))
-    return json.dumps(bent(words, chance), default=repr).encode()
+def make_words(rng: random.Random) -> bytes:
+    """Return a message of a page with a fault in it."""
+    words = rng.choice(WORDS)
+    if rng.random() < 0.5:
+        return mangled(json.dumps(words).encode(), rng, (b"[" * 900, b'"', b"\\ud800", *TEXT))
+    return json.dumps(bent(words, rng), default=repr).encode()
 
 
 WIRE = ("ai4u_edu.wire",)

@@ -1,4 +1,4 @@
-"""The API held against its own description, by schemathesis."""
+"""The API checked against its OpenAPI document, by schemathesis."""
 
 import math
 from typing import Any
@@ -11,10 +11,10 @@ from tests.builders import small_sim
 
 
 def hold_against_description(examples: int) -> str:
-    """Asks for each operation so many times, in every odd way; what was done, as a sentence.
+    """Send generated requests to each operation, and return a summary sentence.
 
     Raises:
-        AssertionError: an answer is none that the description has.
+        AssertionError: an answer does not fit the description.
     """
     import schemathesis  # not everybody has it
 

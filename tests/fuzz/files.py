@@ -1,4 +1,4 @@
-"""Files that somebody sends: scenes, and recorded episodes."""
+"""Untrusted files: scenes and recorded episodes."""
 
 import json
 import random
@@ -63,7 +63,7 @@ YAML_TOKENS = (
 
 @cache
 def _scenes() -> tuple[tuple[bytes, ...], tuple[Any, ...], tuple[Any, ...]]:
-    """Texts, the same as plain data, and what may stand in its places."""
+    """Return scene texts, the same as plain data, and values to insert."""
     texts = [SMALL, TINY, *(path.read_text() for path in sorted(LIBRARY.glob("*.yaml")))]
     weights = [SMALL] * 30 + [TINY] * 100 + texts  # most are small: they are read much faster
     trees = [YAML(typ="safe").load(text) for text in weights]
@@ -73,7 +73,7 @@ def _scenes() -> tuple[tuple[bytes, ...], tuple[Any, ...], tuple[Any, ...]]:
 
 
 def _blocks(tree: Any) -> list[Any]:
-    """Everything with a type in some scenes: blocks and shapes, to be put where they don't fit."""
+    """Return all typed parts of some scenes, blocks and shapes, to insert in wrong places."""
     found: list[Any] = []
     for each in tree.values() if isinstance(tree, dict) else tree:
         if isinstance(each, dict | list):
@@ -82,17 +82,17 @@ def _blocks(tree: Any) -> list[Any]:
     return found[:400]
 
 
-def make_scene(chance: random.Random) -> bytes:
-    """A scene file with something wrong in it."""
+def make_scene(rng: random.Random) -> bytes:
+    """Return a scene file with a fault in it."""
     texts, trees, odd = _scenes()
-    if chance.random() < 0.4:
-        return mangled(chance.choice(texts), chance, YAML_TOKENS)
-    tree = chance.choice(trees)
-    for _ in range(chance.choice((1, 1, 2, 4))):
-        tree = bent(tree, chance, odd)
+    if rng.random() < 0.4:
+        return mangled(rng.choice(texts), rng, YAML_TOKENS)
+    tree = rng.choice(trees)
+    for _ in range(rng.choice((1, 1, 2, 4))):
+        tree = bent(tree, rng, odd)
     # of what JSON can't say, YAML has names of its own
     try:
-        text = json.dumps(tree, default=repr, ensure_ascii=chance.random() < 0.5)
+        text = json.dumps(tree, default=repr, ensure_ascii=rng.random() < 0.5)
     except RecursionError:
         text = "name: deep\nbodies: " + "[" * 900 + "]" * 900
     text = text.replace("NaN", ".nan").replace("Infinity", ".inf")
@@ -100,7 +100,7 @@ def make_scene(chance: random.Random) -> bytes:
 
 
 def read_scene(data: bytes) -> None:
-    """Loads it; what is loaded can be written, read again, and played."""
+    """Load a scene; if that succeeds, write it, read it again, and play it."""
     try:
         text = data.decode()
     except UnicodeDecodeError:  # as when a file is opened
@@ -119,7 +119,7 @@ def read_scene(data: bytes) -> None:
 
 @cache
 def _episodes() -> tuple[tuple[bytes, Any], ...]:
-    """Recorded files, and what is in them."""
+    """Return recorded files, and their contents."""
     found = []
     for text in (TINY, SMALL):
         scene = Scene.loads(text)
@@ -136,28 +136,28 @@ def _episodes() -> tuple[tuple[bytes, Any], ...]:
     return tuple(found)
 
 
-def make_recording(chance: random.Random) -> bytes:
-    """A recorded episode with something wrong: in the file, in what is packed, in the data."""
-    whole, tree = chance.choice(_episodes())
-    match chance.randrange(5):
+def make_recording(rng: random.Random) -> bytes:
+    """Return a recorded episode with a fault in the file, in the packed part or in the data."""
+    whole, tree = rng.choice(_episodes())
+    match rng.randrange(5):
         case 0:
-            return mangled(whole, chance, (HEADER, b"\x78\xda", b"ai4u-edu episode 2\n"))
+            return mangled(whole, rng, (HEADER, b"\x78\xda", b"ai4u-edu episode 2\n"))
         case 1:
-            plain = mangled(zlib.decompress(whole[len(HEADER) :]), chance)
+            plain = mangled(zlib.decompress(whole[len(HEADER) :]), rng)
         case 2:
-            deep = chance.choice((b"\x91", b"\x81\xa1x")) * chance.choice((30, 400, 1018))
-            odd = chance.choice(list(tree))
+            deep = rng.choice((b"\x91", b"\x81\xa1x")) * rng.choice((30, 400, 1018))
+            odd = rng.choice(list(tree))
             plain = msgpack.Packer().pack_map_header(len(tree))
             for key, each in tree.items():
                 value = deep + b"\xc0" if key == odd else msgpack.packb(each)
                 plain += msgpack.packb(key) + value
         case _:
-            plain = bent_and_packed(tree, chance)
+            plain = bent_and_packed(tree, rng)
     return HEADER + zlib.compress(plain, 1)
 
 
 def read_recording(data: bytes) -> None:
-    """Reads it, looks at every decision, and writes it again."""
+    """Read an episode, its every decision, and write it again."""
     episode = decode(Episode, data, "x.episode")
     for record in episode.agents:
         for decision in record:
@@ -168,7 +168,7 @@ def read_recording(data: bytes) -> None:
 
 
 def read_packed(data: bytes) -> None:
-    """The same for what is packed in a file: a fuzzer that knows no zlib gets no further."""
+    """Read the unpacked part of a file, since a fuzzer without zlib gets no further."""
     read_recording(HEADER + zlib.compress(data[:MAX_FILE_BYTES], 1))
 
 

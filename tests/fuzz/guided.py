@@ -10,7 +10,7 @@ from pathlib import Path
 
 
 def main() -> None:
-    """Fuzzes; does not return."""
+    """Fuzz; does not return."""
     import atheris  # not everybody has it
 
     with atheris.instrument_imports(include=["ai4u_edu.wire"]):

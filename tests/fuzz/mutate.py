@@ -1,4 +1,4 @@
-"""Inputs that are nearly right: bytes, texts and plain data with something wrong in them."""
+"""Nearly valid inputs: bytes, texts and plain data with random faults."""
 
 import random
 from collections.abc import Sequence
@@ -44,47 +44,47 @@ ODD: tuple[Any, ...] = (
     {"": None},
     {"type": "x"},
 )
-"""What stands where something else is expected."""
+"""Values of wrong types, sizes and contents, put in place of the expected ones."""
 
 
-def mangled(data: bytes, chance: random.Random, tokens: Sequence[bytes] = ()) -> bytes:
-    """Bytes after one to six small accidents."""
+def mangled(data: bytes, rng: random.Random, tokens: Sequence[bytes] = ()) -> bytes:
+    """Return the bytes with one to six random faults."""
     out = bytearray(data)
-    for _ in range(chance.choice((1, 1, 1, 2, 3, 6))):
-        at = chance.randrange(len(out) + 1)
-        span = chance.choice((1, 1, 2, 4, 8, 32))
-        match chance.randrange(9):
+    for _ in range(rng.choice((1, 1, 1, 2, 3, 6))):
+        at = rng.randrange(len(out) + 1)
+        span = rng.choice((1, 1, 2, 4, 8, 32))
+        match rng.randrange(9):
             case 0:
-                out[at:at] = chance.randbytes(span)
+                out[at:at] = rng.randbytes(span)
             case 1:
                 del out[at : at + span]
             case 2 if out:
-                out[at % len(out)] ^= 1 << chance.randrange(8)
+                out[at % len(out)] ^= 1 << rng.randrange(8)
             case 3:
-                out[at : at + span] = chance.randbytes(span)
+                out[at : at + span] = rng.randbytes(span)
             case 4:
-                begin = chance.randrange(len(out) + 1)
+                begin = rng.randrange(len(out) + 1)
                 out[at:at] = out[begin : begin + span]
             case 5:
-                out[at:at] = out[at : at + span] * chance.choice((2, 3, 200))
+                out[at:at] = out[at : at + span] * rng.choice((2, 3, 200))
             case 6 if tokens:
-                out[at:at] = chance.choice(tokens)
+                out[at:at] = rng.choice(tokens)
             case 7 if tokens:
-                token = chance.choice(tokens)
+                token = rng.choice(tokens)
                 out[at : at + len(token)] = token
             case 8:
                 del out[at:]
             case _ if out:
-                out[at % len(out)] = chance.choice(b"\x00\x01\x7f\x80\xff09 -")
+                out[at % len(out)] = rng.choice(b"\x00\x01\x7f\x80\xff09 -")
     return bytes(out)
 
 
-def bent_and_packed(tree: Any, chance: random.Random) -> bytes:
-    """Plain data with something wrong in it, as msgpack."""
+def bent_and_packed(tree: Any, rng: random.Random) -> bytes:
+    """Return plain data with a fault in it, as msgpack."""
     while True:
-        odd = bent(tree, chance)
-        if chance.random() < 0.3:
-            odd = bent(odd, chance)
+        odd = bent(tree, rng)
+        if rng.random() < 0.3:
+            odd = bent(odd, rng)
         try:
             packed: bytes = msgpack.packb(odd, unicode_errors="replace")
         except (OverflowError, ValueError):  # msgpack has no words for it
@@ -92,65 +92,65 @@ def bent_and_packed(tree: Any, chance: random.Random) -> bytes:
         return packed
 
 
-def bent(tree: Any, chance: random.Random, odd: Sequence[Any] = ODD) -> Any:
-    """Plain data in which one thing is another one; what is not touched is shared."""
-    if isinstance(tree, dict) and tree and chance.random() < 0.9:
-        return _bent_mapping(tree, chance, odd)
-    if isinstance(tree, list | tuple) and tree and chance.random() < 0.9:
-        return _bent_list(list(tree), chance, odd)
-    return _other(tree, chance, odd)
+def bent(tree: Any, rng: random.Random, odd: Sequence[Any] = ODD) -> Any:
+    """Return plain data with one value replaced; the rest is shared with the original."""
+    if isinstance(tree, dict) and tree and rng.random() < 0.9:
+        return _bent_mapping(tree, rng, odd)
+    if isinstance(tree, list | tuple) and tree and rng.random() < 0.9:
+        return _bent_list(list(tree), rng, odd)
+    return _other(tree, rng, odd)
 
 
-def _bent_mapping(tree: dict[Any, Any], chance: random.Random, odd: Sequence[Any]) -> Any:
+def _bent_mapping(tree: dict[Any, Any], rng: random.Random, odd: Sequence[Any]) -> Any:
     out = dict(tree)
-    key = chance.choice(list(out))
-    match chance.randrange(12):
+    key = rng.choice(list(out))
+    match rng.randrange(12):
         case 0:
             del out[key]
         case 1:
-            out[_name(chance.choice(odd))] = chance.choice(odd)
+            out[_name(rng.choice(odd))] = rng.choice(odd)
         case 2:
-            out[_name(chance.choice(odd))] = out.pop(key)
+            out[_name(rng.choice(odd))] = out.pop(key)
         case 3:
-            out[key] = out[chance.choice(list(out))]
+            out[key] = out[rng.choice(list(out))]
         case _:
-            out[key] = bent(out[key], chance, odd)
+            out[key] = bent(out[key], rng, odd)
     return out
 
 
-def _bent_list(out: list[Any], chance: random.Random, odd: Sequence[Any]) -> Any:
-    at = chance.randrange(len(out))
-    match chance.randrange(12):
+def _bent_list(out: list[Any], rng: random.Random, odd: Sequence[Any]) -> Any:
+    at = rng.randrange(len(out))
+    match rng.randrange(12):
         case 0:
             del out[at]
         case 1:
-            out.insert(at, chance.choice(odd))
+            out.insert(at, rng.choice(odd))
         case 2:
-            out.insert(at, out[chance.randrange(len(out))])
+            out.insert(at, out[rng.randrange(len(out))])
         case 3:
-            other = chance.randrange(len(out))
+            other = rng.randrange(len(out))
             out[at], out[other] = out[other], out[at]
         case _:
-            out[at] = bent(out[at], chance, odd)
+            out[at] = bent(out[at], rng, odd)
     return out
 
 
-def _other(leaf: Any, chance: random.Random, odd: Sequence[Any]) -> Any:
-    if chance.random() < 0.6:
-        return chance.choice(odd)
+def _other(leaf: Any, rng: random.Random, odd: Sequence[Any]) -> Any:
+    if rng.random() < 0.6:
+        return rng.choice(odd)
     match leaf:
         case bool():
             return not leaf
         case int():
-            return leaf + chance.choice((-1, 1, 2, 2**16, -(2**33)))
+            return leaf + rng.choice((-1, 1, 2, 2**16, -(2**33)))
         case float():
-            return leaf * chance.choice((-1.0, 0.0, 1e9, 1e-9, float("nan")))
+            return leaf * rng.choice((-1.0, 0.0, 1e9, 1e-9, float("nan")))
         case str():
-            return leaf[: chance.randrange(len(leaf) + 1)] + chance.choice(("", "x", "\n", "é"))
+            return leaf[: rng.randrange(len(leaf) + 1)] + rng.choice(("", "x", "\n", "é"))
         case bytes():
-            return mangled(leaf, chance)
+            return mangled(leaf, rng)
     nested: Any = leaf
-    for _ in range(chance.choice((1, 3, 30, 600))):
+    for _ in range(rng.choice((1, 3, 30, 600))):
         nested = [nested]
     return nested
 

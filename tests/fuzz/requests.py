@@ -1,4 +1,4 @@
-"""Requests to the page's server, in the process: as odd as a client can make them."""
+"""Malformed requests to the page's server, in the process."""
 
 import asyncio
 import json
@@ -44,33 +44,33 @@ def _room() -> Starlette:
 
 @cache
 def loop() -> asyncio.AbstractEventLoop:
-    """One for all, in this thread."""
+    """Return the server that all requests share, in this thread."""
     return asyncio.new_event_loop()
 
 
-def make_request(chance: random.Random) -> bytes:
-    """A request: its first line, a line for each header, its body."""
-    path = chance.choice(PATHS)
-    if chance.random() < 0.3:
-        path = mangled(path, chance, PATHS)
-    if chance.random() < 0.3:
-        path += b"?" + chance.choice((b"agent=0", b"token=%ff", b"&&=", chance.randbytes(9)))
-    host = HOSTS[0] if chance.random() < 0.6 else chance.choice(HOSTS)
-    lines = [chance.choice(METHODS) + b" " + path]
-    lines += [b"host: " + host] if chance.random() < 0.95 else []
-    for _ in range(chance.choice((0, 0, 1, 2, 5))):
-        lines.append(chance.choice(NAMES) + b": " + chance.choice(VALUES))
-    body = chance.choice((b"", b"", b"{}", b"\x00" * 100))
+def make_request(rng: random.Random) -> bytes:
+    """Return a request: its first line, a line for each header, its body."""
+    path = rng.choice(PATHS)
+    if rng.random() < 0.3:
+        path = mangled(path, rng, PATHS)
+    if rng.random() < 0.3:
+        path += b"?" + rng.choice((b"agent=0", b"token=%ff", b"&&=", rng.randbytes(9)))
+    host = HOSTS[0] if rng.random() < 0.6 else rng.choice(HOSTS)
+    lines = [rng.choice(METHODS) + b" " + path]
+    lines += [b"host: " + host] if rng.random() < 0.95 else []
+    for _ in range(rng.choice((0, 0, 1, 2, 5))):
+        lines.append(rng.choice(NAMES) + b": " + rng.choice(VALUES))
+    body = rng.choice((b"", b"", b"{}", b"\x00" * 100))
     return b"\n".join(line.replace(b"\n", b"") for line in lines) + b"\n\n" + body
 
 
 def ask(data: bytes) -> tuple[int, bytes]:
-    """Status and body of the answer."""
+    """Return status and body of the answer."""
     return loop().run_until_complete(_answer(data))
 
 
 def read_request(data: bytes) -> None:
-    """Asks: an answer is one, and what says that it is JSON is JSON."""
+    """Send a request; check that the answer is valid HTTP, and JSON if it claims to be."""
     status, body = ask(data)
     assert 200 <= status < 500, status
     if status == 200 and b" /api/snapshot" in data[:20] and data.startswith(b"GET"):

@@ -1,4 +1,4 @@
-"""Feeding a target, and watching what it does: errors, time, memory."""
+"""Feed a target and measure errors, time and memory."""
 
 import gc
 import random
@@ -14,21 +14,21 @@ from types import FrameType
 
 from tests.fuzz.target import Target
 
-HANG = 1.0
-"""Seconds of processor time that one input may take."""
-LEAK = 0.1
-"""Objects that an input may leave behind: a leak leaves one or more, caches that fill up fewer."""
-ENOUGH = 5
-"""Findings after which it goes no further."""
+MAX_INPUT_CPU_S = 1.0
+"""Longest processor time (s) of one input."""
+MAX_LEAKED_OBJECTS = 0.1
+"""Most objects left behind per input. A leak leaves one or more, a cache that fills up fewer."""
+MAX_FINDINGS = 5
+"""Findings after which a run stops."""
 
 
 class HangError(BaseException):
-    """An input took too long. No ordinary exception, so that nobody catches it on the way."""
+    """An input took too long. A BaseException, so that no ``except Exception`` catches it."""
 
 
 @dataclass
 class Report:
-    """What a run came to."""
+    """Result of a run."""
 
     name: str
     inputs: int = 0
@@ -38,7 +38,7 @@ class Report:
     left: float = 0.0
     """Objects left behind by an input, on average."""
     megabytes: float = 0.0
-    """By which the process grew after the first fifth."""
+    """Growth of the process's memory after the first fifth of the inputs."""
     seconds: float = 0.0
     findings: list[str] = field(default_factory=list)
 
@@ -52,21 +52,21 @@ class Report:
 
 
 def run(target: Target, inputs: int, seed: int = 0) -> Report:
-    """Feeds a target with inputs that depend on the seed alone."""
-    chance = random.Random(seed)
+    """Feed a target with inputs that depend on the seed alone."""
+    rng = random.Random(seed)
     report = Report(target.name)
     began = time.perf_counter()
     warm = max(inputs // 5, 1)
     blocks, memory = 0, 0.0
     with _watched():
-        while report.inputs < inputs and len(report.findings) < ENOUGH:
+        while report.inputs < inputs and len(report.findings) < MAX_FINDINGS:
             if report.inputs == warm:
                 blocks, memory = _blocks(), _megabytes()
-            _feed(target, target.make(chance), report)
+            _feed(target, target.make(rng), report)
     if report.inputs > warm:
         report.left = max(0, _blocks() - blocks) / (report.inputs - warm)
         report.megabytes = _megabytes() - memory
-        if report.left > LEAK and report.inputs >= 10_000:
+        if report.left > MAX_LEAKED_OBJECTS and report.inputs >= 10_000:
             report.findings.append(f"{report.left:.3f} objects stay after each input")
     report.seconds = time.perf_counter() - began
     return report
@@ -75,19 +75,19 @@ def run(target: Target, inputs: int, seed: int = 0) -> Report:
 def _feed(target: Target, data: bytes, report: Report) -> None:
     report.inputs += 1
     before = time.process_time()
-    signal.setitimer(signal.ITIMER_VIRTUAL, HANG)
+    signal.setitimer(signal.ITIMER_VIRTUAL, MAX_INPUT_CPU_S)
     try:
         report.right += target.reads(data)
     except HangError as hang:
-        report.findings.append(_told("more than a second", data, hang))
+        report.findings.append(_finding("more than a second", data, hang))
     except Exception as error:
-        report.findings.append(_told(repr(error), data, error))
+        report.findings.append(_finding(repr(error), data, error))
     finally:
         signal.setitimer(signal.ITIMER_VIRTUAL, 0)
     report.slowest = max(report.slowest, time.process_time() - before)
 
 
-def _told(what: str, data: bytes, error: BaseException) -> str:
+def _finding(what: str, data: bytes, error: BaseException) -> str:
     frames = [each for each in traceback.extract_tb(error.__traceback__) if "fuzz" not in each[0]]
     where = frames[-1] if frames else traceback.extract_tb(error.__traceback__)[-1]
     shown = repr(data) if len(data) <= 3000 else f"{data[:3000]!r}... ({len(data)} bytes)"

@@ -1,4 +1,4 @@
-"""What is fuzzed: where its inputs come from, what reads them, and what it may raise."""
+"""A fuzz target: generator of inputs, reader, and the errors that the reader may raise."""
 
 import random
 from collections.abc import Callable
@@ -9,23 +9,23 @@ MILLION, MANY = 1_000_000, 100_000
 
 @dataclass(frozen=True)
 class Target:
-    """One reader of what somebody else wrote."""
+    """One reader of untrusted input."""
 
     name: str
     make: Callable[[random.Random], bytes]
-    """An input, by chance."""
+    """Return a random input."""
     read: Callable[[bytes], object]
     allowed: tuple[type[Exception], ...]
-    """The errors that it declares; anything else is a finding."""
+    """Errors that the reader declares; any other one is a finding."""
     count: int = MILLION
     """Inputs of a long run."""
     packages: tuple[str, ...] = ()
-    """Whose branches a coverage-guided fuzzer looks at."""
+    """Packages whose branches a coverage-guided fuzzer instruments."""
     seeds: tuple[bytes, ...] = ()
-    """Inputs for it to begin with."""
+    """Initial corpus of the coverage-guided fuzzer."""
 
     def reads(self, data: bytes) -> bool:
-        """Whether an input is a right one; what it must not raise, it raises."""
+        """Return True if an input is accepted, False on a declared error; raise any other error."""
         try:
             self.read(data)
         except self.allowed:

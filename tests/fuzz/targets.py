@@ -1,4 +1,4 @@
-"""All that is fuzzed, by name."""
+"""All fuzz targets, by name."""
 
 from tests.fuzz import conversations, decoders, files, requests
 from tests.fuzz.run import Report, run
@@ -22,11 +22,11 @@ TARGETS: dict[str, Target] = {
 
 
 def guided_targets() -> tuple[str, ...]:
-    """Those whose inputs a coverage-guided fuzzer can make: bytes, and fast to read."""
+    """Return the names of targets that suit a coverage-guided fuzzer: bytes, and fast to read."""
     return tuple(name for name, target in TARGETS.items() if target.packages)
 
 
 def run_named(task: tuple[str, int, int]) -> Report:
-    """Feeds a target: its name, how many inputs, the seed."""
+    """Feed a target, given its name, the number of inputs, and the seed."""
     name, count, seed = task
     return run(TARGETS[name], count, seed)

@@ -1,4 +1,4 @@
-"""The state machines of both protocols, against what their pictures in the code say."""
+"""The state machines of both protocols, checked against their diagrams in the code."""
 
 import asyncio
 import math
@@ -42,11 +42,11 @@ MEANT = {
     ReplyKind.RESET: Phase.PLAYING,
     ReplyKind.RESTART: Phase.PLAYING,
 }
-"""What a script that is knocked at says is done after the handshake."""
+"""Phase that a reply to the first contact leads to after the handshake."""
 
 
 class AI4USession(RuleBasedStateMachine):
-    """Whatever comes, the phase is the one of the picture, and what is sent can be read."""
+    """After any input the phase is the state diagram's, and each message sent can be decoded."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -96,7 +96,7 @@ class AI4USession(RuleBasedStateMachine):
 
 
 class _World:
-    """What a session needs of a runner."""
+    """Stub of the runner methods that a session calls."""
 
     sim = SimpleNamespace(agents=[None])
 
@@ -113,7 +113,7 @@ class _Subset:
 
 
 class NativeSession(RuleBasedStateMachine):
-    """Frames get lost, come twice and late: each answer counts once, for what it answers."""
+    """Frames are lost, duplicated and delayed: each answer counts once, for its percept."""
 
     def __init__(self) -> None:
         super().__init__()

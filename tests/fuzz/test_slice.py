@@ -45,12 +45,12 @@ FOUND = [
 
 @pytest.mark.parametrize(("name", "data"), FOUND)
 def test_what_was_found_once(name: str, data: bytes) -> None:
-    given = replace(TARGETS[name], make=lambda chance: data)
+    given = replace(TARGETS[name], make=lambda rng: data)
     assert run(given, 1).findings == []
 
 
 def target(read: object) -> Target:
-    return Target("mine", lambda chance: chance.randbytes(4), read, (ValueError,))  # type: ignore[arg-type]
+    return Target("mine", lambda rng: rng.randbytes(4), read, (ValueError,))  # type: ignore[arg-type]
 
 
 def test_what_is_not_declared_is_a_finding_with_its_input() -> None:

@@ -14,8 +14,8 @@ from ai4u_edu.lessons.notebook import dumps
 from ai4u_edu.lessons.progress_file import Entry, ProgressFile
 from tests.lessons.workbook import solved
 
-LONGEST = 120
-"""Seconds that a cell may take."""
+CELL_TIMEOUT_S = 120
+"""Longest time (s) that a cell may take."""
 
 
 @dataclass
@@ -43,7 +43,7 @@ def executed(lesson: Lesson, folder: Path) -> Executed:
     times: list[float] = []
     client = NotebookClient(
         book,
-        timeout=LONGEST,
+        timeout=CELL_TIMEOUT_S,
         kernel_name="python3",
         resources={"metadata": {"path": str(folder)}},
         on_cell_start=lambda **_: times.append(time.perf_counter()),

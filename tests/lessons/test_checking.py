@@ -1,4 +1,4 @@
-"""What a student is told, and what is kept of it."""
+"""Feedback of an exercise's check, and the progress that is saved."""
 
 import json
 import threading

@@ -38,7 +38,7 @@ JUNK = [
     lambda *_: np.full(2, math.nan),
     lambda *_: {"move": [math.nan, math.inf, 0, 0]},
 ]
-"""What nobody means, or has not thought about."""
+"""Answers of wrong types and values, which every check must reject without failing."""
 WRONG = [(each, number) for each in IDS for number in range(len(answers_to(each).wrong))]
 
 

@@ -1,4 +1,4 @@
-"""What a student wrote is never overwritten."""
+"""Handing out lessons never overwrites a student's work."""
 
 import json
 import subprocess

@@ -27,7 +27,7 @@ def ended() -> Iterator[None]:
 
 @pytest.fixture
 def shown(monkeypatch: pytest.MonkeyPatch) -> list[tuple[str, str, str]]:
-    """What a notebook would show: what was done, the HTML, the handle."""
+    """Record the output of a notebook: operation, HTML, display handle."""
     cells: list[tuple[str, str, str]] = []
     for module in (showing, filming):
         monkeypatch.setattr(module, "put", lambda p, w, h="": cells.append(("put", p, h)))

@@ -31,7 +31,7 @@ def run(cell: Cell, names: dict[str, Any], file: str) -> None:
 
 
 def handed_in(lesson: Lesson, exercise: str) -> str:
-    """What the exercise's check in the notebook gets, as an expression."""
+    """Return the answer passed to the exercise's check in the notebook, as an expression."""
     pattern = re.compile(rf'^check\("{re.escape(exercise)}"', re.MULTILINE)
     calls = [
         node

@@ -34,7 +34,7 @@ _CORES: dict[str, set[int]] = {"server": set(), "clients": set()}
 
 
 def main() -> None:
-    """Measures and prints."""
+    """Measure and print."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--brains", default="30,60,100")
     parser.add_argument("--seconds", type=float, default=20)
@@ -75,7 +75,7 @@ def measure(
     flooding: bool = False,
     serve: Callable[[int, Connection], None] = world.serve,
 ) -> str:
-    """One line of the table."""
+    """Return one line of the table."""
     here, there = multiprocessing.Pipe()
     served = multiprocessing.Process(target=serve, args=(brains, there), daemon=True)
     served.start()
@@ -85,7 +85,7 @@ def measure(
     parties += [(clients.viewers, viewers, stopped)] if viewers else []
     parties += [(clients.flood, 1, 0)] if flooding else []
     ends = [_begin(party, url, count, odd, seconds) for party, count, odd in parties]
-    _wait(ends[0], clients.WARM + 1)
+    _wait(ends[0], clients.WARMUP_S + 1)
     here.send("begin")
     here.recv()
     found = [end.recv() for end in ends]
@@ -100,12 +100,12 @@ def measure(
     ages = [
         age
         for number, each in enumerate(found[0].ages.values())
-        for age in each[15 * int(clients.WARM) :]
+        for age in each[15 * int(clients.WARMUP_S) :]
         if number >= slow
     ]
     frames = sorted(found[1].frames) if viewers else []
     seen = f"{frames[0]:.0f} / {np.median(frames):.0f}" if frames else "-"
-    took = clients.WARM + seconds
+    took = clients.WARMUP_S + seconds
     used = [told.processor / seconds, *(each.processor / took for each in found)]
     late = told.late[: int(60 * (seconds - 1))]  # then they all go at once
     return (
@@ -125,7 +125,7 @@ def _begin(party: Any, url: str, count: Any, odd: int, seconds: float) -> Connec
 
 
 def _pin(process: multiprocessing.process.BaseProcess, kind: str) -> None:
-    """Has a process stay on its cores; what it starts later stays there as well."""
+    """Pin a process, and the ones that it starts later, to some cores."""
     if _CORES[kind] and process.pid is not None:
         os.sched_setaffinity(process.pid, _CORES[kind])
 

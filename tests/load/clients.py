@@ -1,4 +1,4 @@
-"""Those who make the load, in processes of their own: brains, viewers, and some who misbehave."""
+"""Load clients in processes of their own: scripts, viewers, and some that misbehave."""
 
 import asyncio
 import gc
@@ -18,35 +18,35 @@ from websockets.typing import Subprotocol
 from ai4u_edu.remote import AsyncRobot
 from ai4u_edu.wire import native
 
-ROUND = 256.0
+CLOCK_PERIOD_S = 256.0
 VISER = Subprotocol(f"viser-v{viser.__version__}")
 REMOTE = Subprotocol(native.SUBPROTOCOL)
-SLOW = 0.5
-"""Seconds that a slow script thinks."""
+SLOW_DECISION_S = 0.5
+"""Time (s) that a slow script takes for a decision."""
 
 
 class Found(NamedTuple):
-    """What some clients saw."""
+    """Measurements of a process of clients."""
 
     ages: dict[str, list[float]]
-    """Seconds between sensing and having it, by agent."""
+    """Seconds from sensing to receipt of the percept, by agent."""
     frames: list[float]
-    """Pictures a second, of each viewer that reads."""
+    """Frames per second of each viewer that reads."""
     closes: list[tuple[int, str]]
-    """How clients were sent away."""
+    """Code and reason of each connection that the server closed."""
     processor: float
-    """Seconds."""
+    """Processor time (s)."""
 
 
 def brains(url: str, agents: list[int], slow: int, seconds: float, ends: Connection) -> None:
-    """Drives agents; the first ``slow`` of them with scripts that think for long."""
+    """Drive agents; the scripts of the first ``slow`` of them decide slowly."""
     ages: dict[str, list[float]] = {str(number): [] for number in agents}
 
     async def drive(name: str, pause: float, end: float) -> None:
         async with AsyncRobot(url, name, mode="realtime") as robot:
             while time.monotonic() < end:
                 percept = await robot.sense()
-                ages[name].append((time.monotonic() - float(percept["clock"][0])) % ROUND)
+                ages[name].append((time.monotonic() - float(percept["clock"][0])) % CLOCK_PERIOD_S)
                 if pause:
                     await asyncio.sleep(pause)
                 await robot.act(move=[0.2, 0.5, 0.0, 0.0])
@@ -54,7 +54,7 @@ def brains(url: str, agents: list[int], slow: int, seconds: float, ends: Connect
     async def main(end: float) -> None:
         await asyncio.gather(
             *(
-                drive(str(number), SLOW if index < slow else 0.0, end)
+                drive(str(number), SLOW_DECISION_S if index < slow else 0.0, end)
                 for index, number in enumerate(agents)
             )
         )
@@ -124,7 +124,7 @@ def flood(url: str, _count: int, _unused: int, seconds: float, ends: Connection)
 
 
 def is_picture(frame: bytes) -> bool:
-    """Whether the bodies have moved in a page's frame; others have what a page alone gets."""
+    """Return True for a frame with moved bodies, False for one with data of a single page."""
     plain, small = (int.from_bytes(frame[at : at + 8], "little") for at in (0, 8))
     return b"/bodies" in zstandard.decompress(frame[16 : 16 + small], max_output_size=plain)
 
@@ -155,16 +155,16 @@ CAMERA = msgspec.msgpack.encode(
     }
 )
 
-WARM = 6.0
-"""Seconds for all to come, before anything counts."""
+WARMUP_S = 6.0
+"""Time (s) for all clients to connect before measurements count."""
 
 
 def _run(main: Any, seconds: float, ends: Connection, found: Any) -> None:
-    # each would be a script of its own, whose garbage holds up nobody else
+    # in reality each script is a process, whose garbage collection delays no other one
     gc.collect()
     gc.freeze()
     begin = resource.getrusage(resource.RUSAGE_SELF)
-    asyncio.run(main(time.monotonic() + WARM + seconds))
+    asyncio.run(main(time.monotonic() + WARMUP_S + seconds))
     end = resource.getrusage(resource.RUSAGE_SELF)
     used = end.ru_utime + end.ru_stime - begin.ru_utime - begin.ru_stime
     ends.send(found()._replace(processor=used))

@@ -1,9 +1,8 @@
-"""The least that a server has to do: no world, no viewer, the same bytes to the same clients.
+"""Baseline of the load test: no world and no viewer, but the same bytes to the same clients.
 
-One thread says to every script 15 times a second what the real server would say, and to every page
-30 times a second as many bytes as a picture has, in one call for all of them. How late its ticks
-are, and how old what a script senses, is what the machine and the clients cost, before anything of
-ours.
+One thread sends every script the real server's messages 15 times a second, and every page as many
+bytes as a frame has 30 times a second, in one call for all of them. The lateness of its ticks and
+the age of its percepts are the cost of the machine and of the clients alone.
 """
 
 import asyncio
@@ -22,13 +21,13 @@ from websockets.typing import Subprotocol
 from ai4u_edu.runtime.clock import MAX_LAG_S
 from ai4u_edu.wire import native
 from tests.load.clients import REMOTE, VISER
-from tests.load.world import RAYS, ROUND, SKIP, Told
+from tests.load.world import CLOCK_PERIOD_S, RAYS, SKIP, WorldReport
 
 TICK = 1 / 60
 PICTURE = 2
-"""Ticks between two pictures."""
-BYTES = 500, 150
-"""Of a picture: with no agent, and for each one."""
+"""Ticks between two frames."""
+FRAME_BYTES = 500, 150
+"""Bytes of a frame without agents, and for each agent."""
 READINGS = (
     native.Reading("clock", "box", "sfloat", "<f4", (1,), 0, b"", b"", "s", True),
     native.Reading("rays", "box", "sfloatarray", "<f4", (2 * RAYS,), 4, b"", b"", "", True),
@@ -37,24 +36,24 @@ OUTPUTS = (native.Output("move", "box", (-1.0,) * 4, (1.0,) * 4, True),)
 
 
 class Floor:
-    """Everybody who has come, and the ticks.
+    """All connected clients, and the ticks.
 
     Args:
-        agents: how many scripts there may be.
+        agents: most scripts.
     """
 
     def __init__(self, agents: int) -> None:
         self.late: list[float] = []
-        plain = b"/bodies" + os.urandom(BYTES[0] + agents * BYTES[1])
+        plain = b"/bodies" + os.urandom(FRAME_BYTES[0] + agents * FRAME_BYTES[1])
         small = zstandard.compress(plain)
         sizes = (len(each).to_bytes(8, "little") for each in (plain, small))
         self._picture = b"".join((*sizes, small))
         self._pages: set[ServerConnection] = set()
         self._owed: dict[ServerConnection, int] = {}
-        """The number of each script's last percept, if it has answered that."""
+        """Number of each script's last percept, if it was answered."""
 
     async def meet(self, socket: ServerConnection) -> None:
-        """One client, until it goes."""
+        """Serve one client until it disconnects."""
         try:
             if socket.subprotocol == REMOTE:
                 await self._hear(socket)
@@ -82,7 +81,7 @@ class Floor:
                 self._owed[socket] = said.seq
 
     async def tick(self) -> None:
-        """Ticks for ever."""
+        """Run ticks forever."""
         due, number = time.perf_counter(), 0
         while True:
             due = max(due + TICK, time.perf_counter() - MAX_LAG_S)
@@ -91,7 +90,7 @@ class Floor:
             number += 1
             if number % (SKIP + 1) == 0:
                 for socket, answered in self._owed.items():
-                    now = np.array([time.monotonic() % ROUND], np.float32).tobytes()
+                    now = np.array([time.monotonic() % CLOCK_PERIOD_S], np.float32).tobytes()
                     percept = native.Percept(
                         1, number, answered + 1, number, 0.0, {}, False, False, False, False,
                         now + bytes(8 * RAYS), (),
@@ -102,7 +101,7 @@ class Floor:
 
 
 def serve_floor(agents: int, ends: Connection) -> None:
-    """As :func:`tests.load.world.serve`, without a world."""
+    """Serve like :func:`tests.load.world.serve`, without a world."""
     floor, loop = Floor(agents), asyncio.new_event_loop()
 
     async def main() -> None:
@@ -123,5 +122,5 @@ def serve_floor(agents: int, ends: Connection) -> None:
         late, floor.late = floor.late, []
         usage = resource.getrusage(resource.RUSAGE_SELF)
         used = usage.ru_utime + usage.ru_stime
-        ends.send(Told(late, used - before, {}))
+        ends.send(WorldReport(late, used - before, {}))
         before = used

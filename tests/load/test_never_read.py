@@ -1,4 +1,4 @@
-"""A hundred connections whose other ends never read: nobody else is the worse for it."""
+"""A hundred clients that never read do not affect the others."""
 
 import json
 import socket
@@ -23,31 +23,31 @@ pytestmark = pytest.mark.alone
 BRAINS, VIEWERS = 20, 80
 
 
-def said(frame: bytes) -> bytes:
-    """A frame as a client sends it over a WebSocket."""
+def masked(frame: bytes) -> bytes:
+    """Return a frame as a client sends it over a WebSocket."""
     size = len(frame)
     head = bytes((0x80 | size,)) if size < 126 else b"\xfe" + struct.pack(">H", size)
     return b"\x82" + head + bytes(4) + frame
 
 
 def hello(number: int) -> bytes:
-    """What a script says first."""
+    """Return a script's first message."""
     return native.encode(
         native.Hello(native.VERSION, str(number), "", "realtime", (), "", "s" * 20)
     )
 
 
 def opened(url: str, subprotocol: str, first: bytes) -> socket.socket:
-    """A connection that shakes hands, says one thing, and never reads."""
+    """Open a connection that completes the handshake, sends one message, and never reads."""
     lines = (*UPGRADE, "Host: localhost", f"Sec-WebSocket-Protocol: {subprotocol}")
     connection = raw_request(url, *lines)
     connection.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
     assert connection.recv(12) == b"HTTP/1.1 101"
-    connection.sendall(said(first))
+    connection.sendall(masked(first))
     return connection
 
 
-def test_a_hundred_who_never_read_stop_nobody() -> None:
+def test_a_hundred_clients_that_never_read_stop_no_other() -> None:
     process = psutil.Process()
     before = process.num_fds(), process.num_threads()
     runner = Runner(crowd(BRAINS), seed=1)

@@ -29,22 +29,22 @@ from tests.builders import still
 RAYS = 16
 SKIP = 3
 """Ticks between two decisions: 60 / (3 + 1) are 15 a second."""
-ROUND = 256.0
-"""Seconds after which a :class:`Clock` begins anew: a float32 then has steps of 0.02 ms."""
+CLOCK_PERIOD_S = 256.0
+"""Time (s) after which a :class:`Clock` wraps around: its float32 has steps of 0.02 ms."""
 
 
 class Clock(Sensor):
-    """When it was sensed, by a clock that all processes of this machine share."""
+    """Time of sensing (s), by a clock that all processes of this machine share."""
 
     def space(self) -> Box:
-        return Box(0.0, ROUND, (1,))
+        return Box(0.0, CLOCK_PERIOD_S, (1,))
 
     def read(self, body: Any, view: Any) -> Any:
-        return time.monotonic() % ROUND
+        return time.monotonic() % CLOCK_PERIOD_S
 
 
 class TimedRunner(Runner):
-    """Notes how late each tick begins."""
+    """Runner that records how late each tick begins."""
 
     late: list[float]
 
@@ -53,19 +53,19 @@ class TimedRunner(Runner):
         super()._tick(whole_decision=whole_decision)
 
 
-class Told(NamedTuple):
-    """What happened in the world since it was asked last."""
+class WorldReport(NamedTuple):
+    """Measurements of the world since the last report."""
 
     late: list[float]
-    """Seconds, of every tick."""
+    """Lateness (s) of every tick."""
     processor: float
-    """Seconds."""
+    """Processor time (s)."""
     missing: dict[str, int]
-    """Decisions without an action of the script, by agent."""
+    """Decisions without an action from the script, by agent."""
 
 
 def crowd(agents: int, *, in_turn: bool = True) -> ControlRequestor:
-    """So many robots on a plate, each with 16 rays, which decide in turn or in the same tick."""
+    """Return robots on a plate, each with 16 rays, which decide in turn or in the same tick."""
     world = World()
     side = int(np.ceil(np.sqrt(agents)))
     world.add_floor("plate", BoxShape(size=(4.0 * side + 8, 4.0 * side + 8)))
@@ -93,7 +93,7 @@ def crowd(agents: int, *, in_turn: bool = True) -> ControlRequestor:
 
 
 def serve(agents: int, ends: Connection, *, in_turn: bool = True) -> None:
-    """Serves such a world; each word that comes is answered with what happened, until it ends."""
+    """Serve such a world; answer each message with a report, until "end" comes."""
     runner = TimedRunner.__new__(TimedRunner)
     runner.late = []
     runner.__init__(crowd(agents, in_turn=in_turn), seed=1)  # type: ignore[misc]
@@ -110,7 +110,7 @@ def serve(agents: int, ends: Connection, *, in_turn: bool = True) -> None:
             before, processor = processor, time.process_time()
             states = {agent.id: agent.remote for agent in runner.latest.agents}
             ends.send(
-                Told(
+                WorldReport(
                     late,
                     processor - before,
                     {name: state.missing for name, state in states.items() if state},

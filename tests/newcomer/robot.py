@@ -8,7 +8,7 @@ from ai4u_edu import Actuator, Controller, RewardFunc, Sensor
 
 
 class Smell(Sensor):
-    """How strongly a body smells from here: 1 right at it, 0 far away."""
+    """Strength of a body's smell: 1 right at it, 0 far away."""
 
     source: str
     reach: float = 8.0

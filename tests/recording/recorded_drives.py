@@ -61,7 +61,7 @@ class Take:
 
 
 def take(name: str, seed: int = 11, decisions: int = 120) -> Take:
-    """A drive by chance, in which every agent has a rhythm of its own."""
+    """Record a random drive in which every agent has its own decision interval."""
     scene = Scene.load(name)
     sim = scene.build()
     recorder = Recorder(sim, scene=scene.description)

@@ -8,7 +8,7 @@ from ai4u_edu.recording import Episode, Replay
 
 
 def digest(episode: Episode) -> str:
-    """Of every percept, pose, action and reward of every agent."""
+    """Return a hash of every percept, pose, action and reward of every agent."""
     found = hashlib.sha256()
     replay = Replay(episode)
     assert replay.verdict.exact, replay.verdict.why

@@ -45,10 +45,10 @@ def test_there_and_back(tmp_path: Path) -> None:
 def test_a_thousand_decisions_of_random_numbers_take_less_than_100_kb() -> None:
     scene = Scene.load("box_chase")
     sim = scene.build()
-    chance = np.random.default_rng(1)
+    rng = np.random.default_rng(1)
 
     def turning(percept: object) -> dict[str, Any]:  # it stays where it is, and lasts
-        return {"move": [0.01 * chance.random(), 1 - 0.1 * chance.random(), *chance.random(2)]}
+        return {"move": [0.01 * rng.random(), 1 - 0.1 * rng.random(), *rng.random(2)]}
 
     sim.agents[0].use_brain(LocalBrain(controller=turning))
     recorder = Recorder(sim, scene=scene.description)

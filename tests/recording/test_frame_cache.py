@@ -1,4 +1,4 @@
-"""What a frame_cache shows of the past is what was seen then, bit for bit."""
+"""The frames that a cache replays equal the recorded ones, bit for bit."""
 
 from dataclasses import replace
 
@@ -14,7 +14,7 @@ from tests.recording.recorded_drives import GO, HOLD, LEFT, RESPAWN, WAIT, drive
 
 
 def lived(name: str, decisions: int) -> tuple[Episode, dict[int, Snapshot]]:
-    """A drive by chance, and all that was to be seen meanwhile, by tick."""
+    """Return a random drive, and the frames that were shown meanwhile, by tick."""
     sim = Scene.load(name).build()
     for number, agent in enumerate(sim.agents):
         drive = RandomDrive(agent)

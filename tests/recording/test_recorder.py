@@ -1,4 +1,4 @@
-"""What the recorder keeps, what it notices, and that it is gone when it is off."""
+"""The recorder: contents of an episode, errors, and no cost while it is off."""
 
 import errno
 import os

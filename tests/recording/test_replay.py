@@ -1,4 +1,4 @@
-"""What was recorded happens again, byte for byte."""
+"""Replays reproduce a recording byte for byte."""
 
 import subprocess
 import sys

@@ -121,7 +121,7 @@ def _accept(listener: socket.socket) -> socket.socket:
 
 
 def loss_of(call: Callable[[], object]) -> ConnectionLostError:
-    """How a connection is found to be lost, by what is tried until then."""
+    """Repeat a call until the connection is lost, and return that error."""
     while True:
         try:
             call()

@@ -27,11 +27,11 @@ from tests.server.rooms import Room, served
 TOKEN = "open sesame"
 EPISODE = 60
 OPTIONS: dict[str, Any] = {"token": TOKEN, "patience": 3.0}
-"""Of a bridge."""
+"""Options of a bridge."""
 
 
 class Seen:
-    """What the world recorded of an agent while a script drove it."""
+    """Steps of an agent while a script drove it, recorded in the world."""
 
     def __init__(self, agent: BasicAgent) -> None:
         self.steps: list[dict[str, Any]] = []

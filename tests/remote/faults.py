@@ -29,14 +29,14 @@ BAD = Faults(
     reset=0.005,
     half_open=0.0005,
 )
-"""What a school's network never is, we hope."""
+"""Faults far worse than those of a school's network."""
 EPISODE = 50
 
 Entry = tuple[int, int, float]
 
 
 def drive(url: str, decisions: int) -> list[Entry]:
-    """Decides so often; gives back which number was decided on which step."""
+    """Drive for some decisions, and return the number sent on each step."""
     decided: list[Entry] = []
     with connect(url, mode="lockstep", patience=60) as robot:
         percept = robot.reset()

@@ -19,13 +19,13 @@ from urllib.parse import urlsplit
 
 @dataclass(frozen=True)
 class Faults:
-    """How often what happens, by frame, and how bad it is."""
+    """Probability of each fault per frame, and its size."""
 
     drop: float = 0.0
     duplicate: float = 0.0
     reorder: float = 0.0
     latency: float = 0.0
-    """Seconds, from none to this."""
+    """Longest random delay (s)."""
     single_bytes: float = 0.0
     stall: float = 0.0
     stall_seconds: float = 2.0
@@ -39,7 +39,7 @@ class FaultyProxy:
     Args:
         url: of the server.
         faults: what may happen.
-        seed: of chance.
+        seed: seed of the random faults.
     """
 
     def __init__(self, url: str, faults: Faults, seed: int = 1) -> None:

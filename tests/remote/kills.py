@@ -77,17 +77,17 @@ class Driver:
 
 def run(times: int, seed: int = 1, grace: float = GRACE) -> tuple[Times, list[str]]:
     """Kills so often; how long everything took, and what was wrong beside that."""
-    chance = random.Random(seed)
+    rng = random.Random(seed)
     found, wrong = Times(), []
     with log_room(time_scale=1.0, grace=grace) as room:
         agent = room.sim.agents[0]
         before = agent.brain
-        once(room, agent, chance, found, resumes=True)  # what is loaded once stays
-        once(room, agent, chance, found, resumes=False)
+        once(room, agent, rng, found, resumes=True)  # what is loaded once stays
+        once(room, agent, rng, found, resumes=False)
         held = holdings()
         found = Times()
         for number in range(times):
-            once(room, agent, chance, found, resumes=number % 2 == 0)
+            once(room, agent, rng, found, resumes=number % 2 == 0)
             if agent.brain is not before or agent.brains != [before]:
                 wrong.append(f"after kill {number}: expected the brain from before")
         wait_for(lambda: holdings() <= held, 15)
@@ -98,7 +98,7 @@ def run(times: int, seed: int = 1, grace: float = GRACE) -> tuple[Times, list[st
 
 
 def too_late(found: Times) -> list[str]:
-    """What took longer than it may."""
+    """Return a line for each time that exceeds its limit."""
     wrong = []
     for name, limit in (("stopped", STOPPED), ("free", FREE), ("resumed", RESUMED)):
         taken: list[float] = getattr(found, name)
@@ -108,15 +108,13 @@ def too_late(found: Times) -> list[str]:
     return wrong
 
 
-def once(
-    room: Room, agent: BasicAgent, chance: random.Random, found: Times, *, resumes: bool
-) -> None:
-    """A script that is killed, and perhaps another one that goes on, and is killed too."""
+def once(room: Room, agent: BasicAgent, rng: random.Random, found: Times, *, resumes: bool) -> None:
+    """Kill a script, and perhaps a second one that has resumed its session."""
     before = agent.brain
     driver, heir = Driver(room.url), Driver(room.url)
     session = driver.begin()
     wait_for(lambda: agent.last_action.get("log") == (5.0,))
-    time.sleep(chance.uniform(0.0, 0.1))
+    time.sleep(rng.uniform(0.0, 0.1))
     killed = driver.kill()
     if resumes:
         assert heir.begin(session).startswith(session.partition(":")[0])

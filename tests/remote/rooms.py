@@ -83,7 +83,7 @@ def log_sim(agents: int = 1, *, max_steps: int = 0, skip_frame: int = 0) -> Cont
 
 
 def log_of(room: Room, agent_id: str = "a") -> list[tuple[int, int, float]]:
-    """What an agent was told to do: (episode, step, number)."""
+    """Return the actions of an agent, as (episode, step, number)."""
     log = room.sim.agent(agent_id).actuators[0]
     assert isinstance(log, Log)
     return log.entries
@@ -145,7 +145,7 @@ class Script:
         return message
 
     def silence(self, seconds: float = 0.15) -> bool:
-        """Whether nothing comes for a while."""
+        """Return True if no message comes for a while."""
         try:
             self.hear(seconds)
         except TimeoutError:
@@ -161,7 +161,7 @@ class Script:
         self.say(native.Action(**(fields | changes), values={"log": (number,)}))
 
     def end(self) -> tuple[int, str]:
-        """How the world closes the connection."""
+        """Wait for the world to close the connection, and return the code and the reason."""
         while True:
             try:
                 self.socket.recv(5)

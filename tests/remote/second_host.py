@@ -36,7 +36,7 @@ REFUSED = (
 
 
 def is_possible() -> bool:
-    """Whether this machine lets us make one."""
+    """Return True if this machine allows network namespaces."""
     if sys.platform != "linux" or os.geteuid() != 0 or not shutil.which("ip"):
         return False
     name = f"ai4u-{token_hex(3)}"
@@ -48,7 +48,7 @@ def is_possible() -> bool:
 
 @contextlib.contextmanager
 def second_host() -> Iterator[list[str]]:
-    """A host at :data:`THERE`; gives the words that have a command run on it."""
+    """Make a host at :data:`THERE`; yield the prefix of a command that is to run on it."""
     name = token_hex(3)
     host, near, far = f"ai4u-{name}", f"ai4u{name}a", f"ai4u{name}b"
     run("ip", "netns", "add", host)
@@ -61,12 +61,12 @@ def second_host() -> Iterator[list[str]]:
         run(*inside, "ip", "link", "set", far, "up")
         yield inside
     finally:
-        run("ip", "netns", "del", host)  # and the cable with it
+        run("ip", "netns", "del", host)  # removes its network cable too
 
 
 @contextlib.contextmanager
 def open_world() -> Iterator[tuple[Played, str, str]]:
-    """A world that other machines can reach: its process, its port and its token."""
+    """Play a world that other machines can reach; yield its process, port and token."""
     with played("box_chase", "--host", "0.0.0.0") as server:  # noqa: S104 - that is what is tried
         found = re.search(r"http://127.0.0.1:(\d+)/\?token=([\w-]+)", "".join(server.told))
         assert found, server.told
@@ -74,13 +74,13 @@ def open_world() -> Iterator[tuple[Played, str, str]]:
 
 
 def script(url: str, *prefix: str) -> str:
-    """What a script says that drives the world at an address."""
+    """Run a script that drives the world at an address, and return its output."""
     done = run(*prefix, sys.executable, "-c", SCRIPT, url)
     return done.strip()
 
 
 def run(*command: str) -> str:
-    """Runs a command; what it said."""
+    """Run a command and return its output."""
     done = subprocess.run(command, capture_output=True, text=True, check=False, timeout=60)
     assert done.returncode == 0, (command, done.stdout, done.stderr)
     return done.stdout

@@ -66,7 +66,7 @@ def run_script(name: str, *args: object, given: bytes | None = None) -> Any:
 
 
 class Record:
-    """What the world saw of an agent."""
+    """Steps and percepts of an agent, recorded in the world."""
 
     def __init__(self, agent: BasicAgent) -> None:
         self.steps: list[tuple[int, float, bool]] = []

@@ -1,4 +1,4 @@
-"""What a script notices when its world is replaced, or goes back in time."""
+"""Remote scripts when their world is replaced, or goes back in time."""
 
 import threading
 

@@ -49,7 +49,7 @@ def test_pause_resume_and_stop_go_through() -> None:
 
 
 def offered(sim: ControlRequestor) -> AI4UCodec:
-    """How an agent is described to a script that stands beside its world."""
+    """Return the codec of an agent for a script on the world's machine."""
     agent, found = sim.agents[0], []
 
     class Link(RemoteBrain):

@@ -22,7 +22,7 @@ def bridge(*args: str) -> "subprocess.Popen[str]":
 
 
 def refused(*args: str) -> str:
-    """Why it ends at once."""
+    """Run a bridge that ends at once, and return its error text."""
     with bridge(*args) as process:
         said, why = process.communicate(timeout=30)
     assert (process.returncode, said) == (1, "")

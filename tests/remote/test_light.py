@@ -1,4 +1,4 @@
-"""Who drives a robot elsewhere loads nothing that a world needs."""
+"""A remote script imports no package that only a world needs."""
 
 import subprocess
 import sys

@@ -142,9 +142,9 @@ def test_in_realtime_the_world_does_not_wait_and_an_action_counts_once() -> None
 
 
 def answered_in_realtime(room: Room, script: Script) -> native.Percept:
-    """What a script is told that has answered with 1 in the middle of the decision before.
+    """Return the percept after a script answered with 1 in the middle of the decision before.
 
-    The world stands still; the decision before went on without the script.
+    The world is paused; the decision before went on without the script.
     """
     room.runner.pause().result(5)
     script.hello(mode="realtime")
@@ -156,7 +156,7 @@ def answered_in_realtime(room: Room, script: Script) -> native.Percept:
 
 
 def answers(room: Room) -> int:
-    """How many of the script's answers lie there."""
+    """Return the number of queued answers of the script."""
     return len(room.sim.agents[0].brain._link.exchange)  # type: ignore[attr-defined]
 
 

@@ -17,7 +17,7 @@ from tests.server.rooms import UPGRADE, Room, free_port, raw_answer, served
 
 
 def refused(room: Room, code: str, **hello: object) -> str:
-    """How a hello is refused: the problem, and the close that follows."""
+    """Send a hello that is refused; check the problem and the close, and return the text."""
     with Script(room) as script:
         problem = script.hello(**hello)
         assert isinstance(problem, native.Problem), problem

@@ -91,7 +91,7 @@ def begin_in_realtime(room: Room, script: Script) -> tuple[native.Welcome, nativ
 
 
 def heard(room: Room) -> bool:
-    """Whether an answer of the script waits for the next decision."""
+    """Return True if an answer of the script is queued for the next decision."""
     brain: Any = room.sim.agents[0].brain
     return len(brain._link.exchange) == 1
 

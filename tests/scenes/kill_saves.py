@@ -15,8 +15,8 @@ from pathlib import Path
 from ai4u_edu.base.atomic_write import remove_leftovers
 from ai4u_edu.scenes import Scene
 
-PADDING = 280_000
-"""Characters by which a scene is longer, so that to write it takes a while."""
+PADDING_CHARS = 280_000
+"""Length of a comment that makes writing the scene file slow enough to interrupt."""
 SAVER = """
 import sys
 from pathlib import Path
@@ -36,14 +36,14 @@ while True:
 
 def run(times: int, seed: int = 1, saver: str = SAVER) -> list[str]:
     """Kills so often; what was wrong."""
-    chance = random.Random(seed)
+    rng = random.Random(seed)
     wrong = []
     found: dict[str, int] = {}
     with tempfile.TemporaryDirectory() as folder:
         texts = {}
         for name in ("box_chase", "sample_scene"):
             text = Scene.load(name).dumps()
-            padding = ("# " + "x" * 97 + "\n") * (PADDING // 100)
+            padding = ("# " + "x" * 97 + "\n") * (PADDING_CHARS // 100)
             texts[name] = text + padding
             Path(folder, f"{name}.yaml").write_text(texts[name], encoding="utf-8")
         sources = [str(Path(folder, f"{name}.yaml")) for name in texts]
@@ -59,7 +59,7 @@ def run(times: int, seed: int = 1, saver: str = SAVER) -> list[str]:
             with process:
                 assert process.stdout is not None
                 process.stdout.readline()
-                time.sleep(chance.uniform(0.0, 0.15))
+                time.sleep(rng.uniform(0.0, 0.15))
                 process.kill()
             saved = file.read_text(encoding="utf-8")
             name = next((name for name, text in texts.items() if text == saved), "")

@@ -1,4 +1,4 @@
-"""Grid world: wherever chance puts things, there is a way to all the dirt."""
+"""Grid world: in every random layout there is a way to all the dirt."""
 
 from itertools import product
 

@@ -1,4 +1,4 @@
-"""What does not fit together in a scene file is told with its place in the file."""
+"""Errors of a scene file's setup name the place in the file."""
 
 import pytest
 

@@ -34,7 +34,7 @@ def room() -> Iterator[Room]:
 
 
 def checker(document: dict[str, Any], schema: dict[str, Any]) -> jsonschema.Draft202012Validator:
-    """What says whether something fits a schema of a document."""
+    """Return a validator of one schema of a document."""
     jsonschema.Draft202012Validator.check_schema(schema)
     return jsonschema.Draft202012Validator({"components": document["components"], **schema})
 

@@ -1,4 +1,4 @@
-"""Who guesses tokens is slowed down; who knows the token is not kept out."""
+"""Rate limit of wrong tokens; a client with the right token is not locked out."""
 
 import asyncio
 from collections.abc import Iterator

@@ -1,4 +1,4 @@
-"""Who drives: real sockets, a world that runs."""
+"""The control lock, over real sockets and with a running world."""
 
 import socket
 from collections.abc import Iterator

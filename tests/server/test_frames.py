@@ -1,4 +1,4 @@
-"""What is no message: said what was expected, and not listened to for ever."""
+"""Invalid frames: the answer states what was expected; large ones and floods close the socket."""
 
 import asyncio
 import json

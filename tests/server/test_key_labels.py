@@ -34,7 +34,7 @@ def driven(scene: str, agent_id: str) -> tuple[ControlRequestor, BasicAgent]:
 
 @cache
 def path(scene: str, agent_id: str, *held: str) -> tuple[BodyState, ...]:
-    """How the agent's body is after each decision."""
+    """Return the state of the agent's body after each decision."""
     sim, agent = driven(scene, agent_id)
     states = []
     for _ in range(PATIENCE):

@@ -47,7 +47,7 @@ def test_the_title_follows_the_scene() -> None:
 
 
 def title_in(socket: Connection) -> str:
-    """What the next message says that the scene is called; "" if it doesn't."""
+    """Return the scene's title in the next message; "" if it has none."""
     return str(json.loads(socket.recv(timeout=10)).get("title", ""))
 
 

@@ -1,4 +1,4 @@
-"""How an episode ended is told in a word: whoever is told must be able to believe it."""
+"""Messages to the page about the end of an episode are true."""
 
 from dataclasses import replace
 from typing import Any

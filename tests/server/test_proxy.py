@@ -273,7 +273,7 @@ def test_viser_closing_closes_the_page_with_its_words() -> None:
 
 
 def test_frames_keep_their_order_whether_the_page_is_slow_or_not() -> None:
-    """What waits for a slow page is not overtaken by what could go at once."""
+    """Frames queued for a slow page are not overtaken by later ones."""
     frames = [str(number).encode() * (1 + number * 977 % 20_011) for number in range(600)]
 
     async def pour(connection: ServerConnection) -> None:

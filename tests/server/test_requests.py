@@ -107,7 +107,7 @@ def test_a_reader_that_takes_nothing_is_given_up(
         unsent = ask * 100
 
         def ended() -> bool:
-            """Whether the server has closed its end; the client's may learn of it only later."""
+            """Return True if the server closed its end, of which the client may learn later."""
             nonlocal unsent
             with suppress(OSError):
                 unsent = unsent[connection.send(unsent) :] or ask * 100

@@ -1,4 +1,4 @@
-"""What is known of an agent for those who look."""
+"""Information about an agent's blocks in a snapshot."""
 
 import gc
 from collections.abc import Callable

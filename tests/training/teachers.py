@@ -1,4 +1,4 @@
-"""Who teaches a network: the few lines that solve a scene."""
+"""Scripted teachers of a network: a few lines that solve a scene."""
 
 import math
 from collections.abc import Callable, Sequence

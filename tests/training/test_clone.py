@@ -133,7 +133,7 @@ def test_a_whole_number_has_an_input_for_each_value() -> None:
 
 
 def test_the_ends_of_a_range_are_reached_and_not_more() -> None:
-    """What nobody did must not be done a little: a small jump is a jump."""
+    """A clone must not output small values where the teacher output 0: a small jump is a jump."""
     from gymnasium.spaces import Box
 
     seen = np.linspace(-1, 1, 64, dtype=np.float32)[:, None]

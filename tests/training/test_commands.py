@@ -237,7 +237,7 @@ def test_watching_hands_the_policy_on(tmp_path: Path) -> None:
 
 
 def turning(agent: dict[str, Any]) -> bool:
-    """Whether its last action was exactly a turn to the right."""
+    """Return True if the agent's last action was exactly a turn to the right."""
     return bool(agent["action"].get("move") == [0.0, 1.0, 0.0, 0.0])
 
 

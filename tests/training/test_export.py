@@ -35,22 +35,22 @@ def untrained(scene: Scene, algorithm: Algorithm, settings: Settings) -> tuple[A
     return model, worlds
 
 
-def drawn(port: Port, chance: np.random.Generator) -> Any:
+def drawn(port: Port, rng: np.random.Generator) -> Any:
     """A reading at random."""
     if port.dtype.kind == "f":
-        return chance.normal(0, 1, port.shape).astype(port.dtype)
-    return chance.integers(0, 2, port.shape).astype(port.dtype)
+        return rng.normal(0, 1, port.shape).astype(port.dtype)
+    return rng.integers(0, 2, port.shape).astype(port.dtype)
 
 
 def disagreement(model: Any, network: Network, worlds: VecEnv, keys: list[str]) -> float:
-    """How far apart model and network ever are, on 1,000 observations drawn at random."""
+    """Return the largest difference of model and network on 1,000 random observations."""
     flat = not isinstance(worlds.observation_space, spaces.Dict)
     table = worlds.table if isinstance(worlds, Choices) else None
-    chance = np.random.default_rng(0)
+    rng = np.random.default_rng(0)
     ports = {port.name: port for port in network.inputs}
     worst = 0.0
     for _ in range(1000):
-        percept = {key: drawn(ports[key], chance) for key in keys}
+        percept = {key: drawn(ports[key], rng) for key in keys}
         seen: Any = percept
         if flat:
             seen = np.concatenate([percept[key].ravel().astype(np.float32) for key in keys])

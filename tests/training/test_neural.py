@@ -118,7 +118,7 @@ def test_actuators_that_do_not_fit(tmp_path: Path) -> None:
 
 
 class Evil:
-    """What a pickle can do."""
+    """Object whose pickle creates a file when it is loaded."""
 
     def __reduce__(self) -> tuple[object, tuple[str, ...]]:
         return (open, ("owned", "w"))

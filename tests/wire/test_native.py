@@ -184,25 +184,25 @@ def test_a_text_that_is_no_unicode_does_not_stop_the_world() -> None:
 @settings(max_examples=50)
 @given(messages, st.integers(0, 2**32))
 def test_nothing_else_is_ever_raised(message: Message, seed: int) -> None:
-    chance = random.Random(seed)
+    rng = random.Random(seed)
     whole = encode(message)
     for _ in range(100):
         frame = bytearray(whole)
-        for _ in range(chance.randint(1, 4)):
-            place = chance.randrange(len(frame) + 1)
-            match chance.randrange(3):
+        for _ in range(rng.randint(1, 4)):
+            place = rng.randrange(len(frame) + 1)
+            match rng.randrange(3):
                 case 0:
-                    frame[place:place] = chance.randbytes(chance.randint(1, 5))
+                    frame[place:place] = rng.randbytes(rng.randint(1, 5))
                 case 1:
-                    del frame[place : place + chance.randint(1, 5)]
+                    del frame[place : place + rng.randint(1, 5)]
                 case _:
-                    frame[place : place + 1] = chance.randbytes(1)
+                    frame[place : place + 1] = rng.randbytes(1)
         with suppress(WireError):
             decode(bytes(frame), MAX_WORLD_FRAME_BYTES)
 
 
 OLD_HELLO = ("hello", 1, "red", "", "lockstep", (), "", "s" * 20)
-"""As it was before a script could say what is done when its action is missing."""
+"""Hello of version 1 before the field ``on_missing`` was added."""
 
 
 def test_a_field_that_came_later_is_said_only_if_it_is_not_the_default() -> None:

@@ -57,8 +57,8 @@ def test_in_a_new_world(trajectory: bytes) -> None:
 def test_after_a_reset_and_other_worlds(trajectory: bytes) -> None:
     world = make()
     run(world, 77)
-    chance = random.Random(1)
-    others = [make_world(chance, sticks=True) for _ in range(5)]
+    rng = random.Random(1)
+    others = [make_world(rng, sticks=True) for _ in range(5)]
     for other in others:
         for _ in range(60):
             other.tick()

@@ -12,15 +12,15 @@ from ai4u_edu.world.native.chipmunk import MOTION, PUBLIC_MOTION, Motion, step_f
 
 def make_space() -> tuple[pymunk.Space, list[pymunk.Body]]:
     """Boxes of odd shapes in a ring, some of which touch."""
-    chance = random.Random(3)
+    rng = random.Random(3)
     space = pymunk.Space()
     space.damping = 0.3
     bodies = []
     for i in range(12):
         body = pymunk.Body()
         body.position = 1.2 * math.cos(i), 1.2 * math.sin(i)
-        body.angle = chance.uniform(-9, 9)
-        corners = [(chance.uniform(0.1, 0.5), chance.uniform(-0.5, 0.5)) for _ in range(3)]
+        body.angle = rng.uniform(-9, 9)
+        corners = [(rng.uniform(0.1, 0.5), rng.uniform(-0.5, 0.5)) for _ in range(3)]
         shape = pymunk.Poly(body, [(-0.3, 0.1), *corners])
         shape.mass, shape.friction = 1 + i / 7, 0.5
         space.add(body, shape)
@@ -29,12 +29,12 @@ def make_space() -> tuple[pymunk.Space, list[pymunk.Body]]:
 
 
 def drive(way: Motion, tick: Any, bodies: list[pymunk.Body]) -> list[tuple[float, ...]]:
-    chance = random.Random(5)
+    rng = random.Random(5)
     handles, vector, where = [way.handle(body) for body in bodies], way.vector(), way.vector()
     seen: list[tuple[float, ...]] = []
     for _ in range(120):
         for i, handle in enumerate(handles):
-            vector.x, vector.y = chance.uniform(-9, 9), chance.uniform(-9, 9)
+            vector.x, vector.y = rng.uniform(-9, 9), rng.uniform(-9, 9)
             if i % 3 == 0:
                 way.apply_force(handle, vector, where)
             elif i % 3 == 1:

@@ -14,10 +14,10 @@ from tests.world.random_worlds import SIDE, _body_shape, _region_shape
 
 
 def test_what_meets_is_near() -> None:
-    chance, places = random.Random(3), Places(1)
+    rng, places = random.Random(3), Places(1)
     met = apart = 0
     for _ in range(3000):
-        one, other = (places._form(_thing(chance)).grown(chance.choice((0.0, 0.3))) for _ in "12")
+        one, other = (places._form(_thing(rng)).grown(rng.choice((0.0, 0.3))) for _ in "12")
         space = pymunk.Space()
         space.add(*one.solid)
         if space.shape_query(other.solid[1]):
@@ -30,11 +30,11 @@ def test_what_meets_is_near() -> None:
 
 
 def test_what_touches_is_what_a_space_finds(monkeypatch: pytest.MonkeyPatch) -> None:
-    chance, places = random.Random(4), Places(1)
+    rng, places = random.Random(4), Places(1)
     pairs = [
         (
-            places._form(_thing(chance)).grown(chance.choice((0.0, 0.3))),
-            places._form(_thing(chance)),
+            places._form(_thing(rng)).grown(rng.choice((0.0, 0.3))),
+            places._form(_thing(rng)),
         )
         for _ in range(3000)
     ]
@@ -84,11 +84,11 @@ def test_in_a_ring_is_near() -> None:
     assert ring.near(inside)
 
 
-def _thing(chance: random.Random) -> BodyDescription | AreaDescription:
-    place = chance.uniform(-SIDE, SIDE), chance.uniform(-SIDE, SIDE)
-    heading = chance.choice((0.0, chance.uniform(-180, 180)))
-    if chance.random() < 0.1:
-        shape = _region_shape(chance)
+def _thing(rng: random.Random) -> BodyDescription | AreaDescription:
+    place = rng.uniform(-SIDE, SIDE), rng.uniform(-SIDE, SIDE)
+    heading = rng.choice((0.0, rng.uniform(-180, 180)))
+    if rng.random() < 0.1:
+        shape = _region_shape(rng)
         return AreaDescription(name="x", shape=shape, position=place, heading_deg=heading)
-    body = _body_shape(chance, True)
+    body = _body_shape(rng, True)
     return BodyDescription(name="x", shape=body, position=place, heading_deg=heading)

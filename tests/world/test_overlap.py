@@ -23,18 +23,18 @@ SHAPES: list[Any] = [
 
 @pytest.mark.parametrize("seed", range(8))
 def test_a_wall_finds_what_the_physics_finds(seed: int) -> None:
-    chance = random.Random(seed)
+    rng = random.Random(seed)
     layers = [(1, 0xFFFFFFFF), (2, 0xFFFFFFFF), (1, 2), (4, 1)]
 
     def body(name: str, kind: Any) -> BodyDescription:
-        layer, mask = chance.choice(layers)
+        layer, mask = rng.choice(layers)
         return BodyDescription(
             name=name,
             kind=kind,
-            shape=chance.choice(SHAPES),
-            position=(chance.uniform(-2, 2), chance.uniform(-2, 2)),
-            heading_deg=chance.uniform(-180, 180),
-            z=chance.choice([0.0, 0.5, 1.0, 2.0]),
+            shape=rng.choice(SHAPES),
+            position=(rng.uniform(-2, 2), rng.uniform(-2, 2)),
+            heading_deg=rng.uniform(-180, 180),
+            z=rng.choice([0.0, 0.5, 1.0, 2.0]),
             collision_layer=layer,
             collision_mask=mask,
         )
@@ -43,7 +43,7 @@ def test_a_wall_finds_what_the_physics_finds(seed: int) -> None:
     for _ in range(20):
         world = World()
         world.add(body("mover", "dynamic"))
-        wall = body("wall", chance.choice(["static", "kinematic"]))
+        wall = body("wall", rng.choice(["static", "kinematic"]))
         try:
             world.add(wall)
             found.append(False)

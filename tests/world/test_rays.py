@@ -26,15 +26,15 @@ class Tally:
         self.wrong: list[str] = []
 
 
-def casters(world: World, chance: random.Random) -> tuple[RayFan, RayGrid, int, bool]:
-    reach = chance.uniform(2.0, 15.0)
-    eye = (0.0, 0.0, chance.uniform(0.05, 1.0))
-    if chance.random() < 0.5:
-        eye = (chance.uniform(-1, 1), chance.uniform(-1, 1), chance.uniform(-0.5, 1.5))
-    mask = chance.choice((ANY, 1, 2))
-    exclude = chance.random() < 0.7
-    angles = [chance.uniform(-math.pi, math.pi) for _ in range(8)]
-    pitches = [0.0, *(chance.uniform(-spread, spread) for spread in (0.3, 1.0, 1.57))]
+def casters(world: World, rng: random.Random) -> tuple[RayFan, RayGrid, int, bool]:
+    reach = rng.uniform(2.0, 15.0)
+    eye = (0.0, 0.0, rng.uniform(0.05, 1.0))
+    if rng.random() < 0.5:
+        eye = (rng.uniform(-1, 1), rng.uniform(-1, 1), rng.uniform(-0.5, 1.5))
+    mask = rng.choice((ANY, 1, 2))
+    exclude = rng.random() < 0.7
+    angles = [rng.uniform(-math.pi, math.pi) for _ in range(8)]
+    pitches = [0.0, *(rng.uniform(-spread, spread) for spread in (0.3, 1.0, 1.57))]
     fan = RayFan(world, angles, reach, code_of, eye=eye, mask=mask, exclude_self=exclude)
     grid = RayGrid(
         world, angles[:4], pitches, reach, code_of, eye=eye, mask=mask, exclude_self=exclude
@@ -70,13 +70,13 @@ def compare(world: World, caster: RayFan | RayGrid, mask: int, exclude: bool, ou
 
 
 def run(seed: int, cases: int, *, sticks: bool) -> Tally:
-    chance, tally = random.Random(seed), Tally()
+    rng, tally = random.Random(seed), Tally()
     while tally.cases < cases:
-        world = make_world(chance, sticks=sticks)
-        fan, grid, mask, exclude = casters(world, chance)
+        world = make_world(rng, sticks=sticks)
+        fan, grid, mask, exclude = casters(world, rng)
         for _ in range(CASES_A_WORLD // 2):
             for caster in (fan, grid):
-                shuffle(world, chance)
+                shuffle(world, rng)
                 compare(world, caster, mask, exclude, tally)
     return tally
 
@@ -104,18 +104,18 @@ def test_rays_meet_sticks_where_they_should() -> None:
 @pytest.mark.slow
 def test_rays_meet_walls_that_they_are_in_line_with() -> None:
     """Walls and eyes on whole metres, as in a scene that somebody wrote down."""
-    chance, tally = random.Random(8), Tally()
+    rng, tally = random.Random(8), Tally()
     angles = [math.pi * i / 4 for i in range(8)] + [0.02, -0.01, math.pi + 0.03]
     for _ in range(40):
         world = World()
         eye = world.add_body("eye", CircleShape(radius=0.3), kind="kinematic", tags=("n1",))
         for i in range(2, 8):
-            end = chance.choice(((3.0, 0.0), (0.0, 3.0), (1.0, 0.0), (2.0, 2.0)))
+            end = rng.choice(((3.0, 0.0), (0.0, 3.0), (1.0, 0.0), (2.0, 2.0)))
             wall = SegmentShape(a=(0.0, 0.0), b=end)
-            place = chance.randint(-5, 5), chance.randint(-5, 5)
+            place = rng.randint(-5, 5), rng.randint(-5, 5)
             world.add_body(f"wall {i}", wall, kind="static", position=place, tags=(f"n{i}",))
         fan = RayFan(world, angles, 20.0, code_of)
         for _ in range(25):
-            eye.move_to(chance.randint(-12, 12) / 2, chance.randint(-12, 12) / 2, heading=0.0)
+            eye.move_to(rng.randint(-12, 12) / 2, rng.randint(-12, 12) / 2, heading=0.0)
             compare(world, fan, ANY, True, tally)
     check(tally, 1000)

@@ -25,17 +25,17 @@ WAYS = [
 
 @pytest.mark.parametrize("way", WAYS)
 def test_a_faster_way_gives_exactly_what_the_public_one_gives(way: type[Segments]) -> None:
-    chance = random.Random(5)
+    rng = random.Random(5)
     met = 0
     for _ in range(40):
-        world = make_world(chance, sticks=True)
+        world = make_world(rng, sticks=True)
         quick, public = way(20), Segments(20)
         for _ in range(25):
-            shuffle(world, chance)
-            x, y = chance.uniform(-SIDE, SIDE), chance.uniform(-SIDE, SIDE)
-            accept = world.filter_for(world["eye"], chance.choice((0xFFFFFFFF, 1, 2)))
-            reach = chance.choice((0.5, 3.0, 8.0, 30.0))
-            turned = np.random.default_rng(chance.randrange(1000)).uniform(-4, 4, 20)
+            shuffle(world, rng)
+            x, y = rng.uniform(-SIDE, SIDE), rng.uniform(-SIDE, SIDE)
+            accept = world.filter_for(world["eye"], rng.choice((0xFFFFFFFF, 1, 2)))
+            reach = rng.choice((0.5, 3.0, 8.0, 30.0))
+            turned = np.random.default_rng(rng.randrange(1000)).uniform(-4, 4, 20)
             public.directions[:] = quick.directions[:] = np.array(
                 [np.cos(turned), np.sin(turned)]
             ).T
@@ -63,14 +63,14 @@ def test_sensors_read_the_same_in_every_scene(
 
 def _told(name: str) -> list[bytes]:
     """All that the agents of a scene sense, where nobody drives them and they are pushed about."""
-    chance, sim = random.Random(name), Scene.load(name).build(seed=3)
+    rng, sim = random.Random(name), Scene.load(name).build(seed=3)
     sim.reset(seed=3)
     told = []
     for _ in range(25):
         for agent in sim.agents:
             if not agent.body.fallen and agent.body.moves:
-                agent.body.set_velocity(chance.uniform(-4, 4), chance.uniform(-4, 4))
-                agent.body.set_angular_velocity(chance.uniform(-4, 4))
+                agent.body.set_velocity(rng.uniform(-4, 4), rng.uniform(-4, 4))
+                agent.body.set_angular_velocity(rng.uniform(-4, 4))
         sim.tick()
         told += [agent.sense().data for agent in sim.agents]
     return told
@@ -78,7 +78,7 @@ def _told(name: str) -> list[bytes]:
 
 @needs_compiler
 def test_fans_and_grids_see_the_same(monkeypatch: pytest.MonkeyPatch) -> None:
-    chance, every, asked = random.Random(8), pymunk.Space.segment_query, [0]
+    rng, every, asked = random.Random(8), pymunk.Space.segment_query, [0]
 
     def counting(*args: Any) -> Any:
         asked[0] += 1
@@ -86,16 +86,16 @@ def test_fans_and_grids_see_the_same(monkeypatch: pytest.MonkeyPatch) -> None:
 
     monkeypatch.setattr(pymunk.Space, "segment_query", counting)
     for _ in range(20):
-        world = make_world(chance, sticks=True)
-        eye = (0.0, 0.0, chance.uniform(0.1, 1.0))
-        angles = [chance.uniform(-4, 4) for _ in range(9)]
+        world = make_world(rng, sticks=True)
+        eye = (0.0, 0.0, rng.uniform(0.1, 1.0))
+        angles = [rng.uniform(-4, 4) for _ in range(9)]
         pairs: list[list[Any]] = []
         for way in (CompiledSegments, CffiSegments):
             monkeypatch.setattr(rays, "make_segments", way)
             fan = RayFan(world, angles, 9.0, _code_of, eye=eye)
             pairs.append([fan, RayGrid(world, angles, [0.2, 0.0, -0.3], 9.0, _code_of, eye=eye)])
         for _ in range(20):
-            shuffle(world, chance)
+            shuffle(world, rng)
             for compiled, quick in zip(*pairs, strict=True):
                 times = []
                 for caster in (compiled, quick):

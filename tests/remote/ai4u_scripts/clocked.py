@@ -1,4 +1,4 @@
-"""How many steps a second an AI4U script takes, with actions that it has ready."""
+"""Measure the steps per second of an AI4U script whose actions are computed beforehand."""
 
 import json
 import os

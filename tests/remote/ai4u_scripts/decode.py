@@ -1,4 +1,4 @@
-"""What AI4U's package makes of a request, field by field."""
+"""Print the fields of a request as AI4U's package decodes them."""
 
 import json
 import sys

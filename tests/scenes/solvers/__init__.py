@@ -1,4 +1,4 @@
-"""For each scene a few lines that solve it, and see only what the agent senses.
+"""Solvers of the scenes, each a few lines that see only what the agent senses.
 
 One module a scene, by the scene's name; its ``solver()`` makes a driver for one episode.
 """

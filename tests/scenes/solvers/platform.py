@@ -13,7 +13,7 @@ from tests.scenes.solvers import Driver
 NOTHING, RIGHT, LEFT, AHEAD, LEAP = range(5)
 FRUIT, SPIKE = 1, 3
 BOUNDS = np.array([37.0, 10.5])
-"""By what the position is divided."""
+"""Divisors of the sensed position."""
 EDGES = ((3.5, 1.0), (13.0, 1.0), (22.5, -1.0))
 """(x of the eastern edge, y at which there is a platform on both sides of the gap)."""
 
@@ -22,14 +22,14 @@ Point = tuple[float, float]
 
 @dataclass
 class Memory:
-    """Where things were when they were seen."""
+    """Last seen positions."""
 
     fruit: Point | None = None
     spike: Point | None = None
 
 
 def found(percept: Percept, code: int, place: Point, heading: float) -> Point | None:
-    """Where in the world a thing is, if it can be seen; the rays that see it lie around it."""
+    """Return a visible thing's position in the world, the mean of the rays that hit it."""
     codes, distances = percept["around"].reshape(-1, 2).T
     seen = np.round(3 * codes) == code
     if not seen.any():

@@ -1,4 +1,4 @@
-"""What several solvers do: turn to where they want to go, and go."""
+"""Shared helper of several solvers: turn towards a target, and go."""
 
 import math
 from typing import Any
