@@ -20,7 +20,7 @@ for _ in range(50):
 """
 
 # Building and installing fetch the build tool and every dependency.
-pytestmark = pytest.mark.timeout(600)
+pytestmark = [pytest.mark.slow, pytest.mark.timeout(600)]
 
 
 def run(*command: str | Path, cwd: Path) -> str:

@@ -103,6 +103,7 @@ def test_too_large(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
         Episode.load(path)
 
 
+@pytest.mark.slow
 def test_what_is_unpacked_is_capped_while_it_is_unpacked() -> None:
     packer = zlib.compressobj(9)
     nothing = bytes(2**20)

@@ -305,6 +305,7 @@ def test_no_viser_is_no_connection() -> None:
         client(room)
 
 
+@pytest.mark.slow
 def test_a_slow_page_slows_its_stream_down_and_nothing_piles_up(
     caplog: pytest.LogCaptureFixture,
 ) -> None:

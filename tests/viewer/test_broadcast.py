@@ -212,6 +212,7 @@ def test_what_one_page_has_said_goes_to_all_others(server: LocalServer) -> None:
         assert "mine" not in str(heard)
 
 
+@pytest.mark.slow
 def test_a_page_that_does_not_read_gets_the_newest_when_it_does(server: LocalServer) -> None:
     slow, quick = client(server), client(server)
     out = settled(server, 2)
@@ -320,6 +321,7 @@ def test_the_event_is_set_in_its_own_thread_only() -> None:
     asyncio.run(main())
 
 
+@pytest.mark.slow
 def test_nothing_is_left_of_pages_that_are_gone(server: LocalServer) -> None:
     with client(server), client(server):
         out = settled(server, 2)
