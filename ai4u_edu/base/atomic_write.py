@@ -160,7 +160,11 @@ def _new_partial(path: Path, mode: int) -> FileLock:
     """Create a temporary file, locked."""
     while True:
         beside = path.with_name(f"{PREFIX}{secrets.token_hex(8)}{_suffix(path)}")
-        fd = os.open(beside, os.O_RDWR | os.O_CREAT | os.O_EXCL, mode)
+        try:
+            fd = os.open(beside, os.O_RDWR | os.O_CREAT | os.O_EXCL, mode)
+        except OSError as error:
+            error.filename = str(path)  # the name that the user gave
+            raise
         try:
             lock = FileLock(beside, fd)
         except LockedError:  # somebody who removes leftovers looks at it just now

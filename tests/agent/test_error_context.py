@@ -116,7 +116,7 @@ def test_a_reward_function(when: str) -> None:
 
 
 def test_a_brain_a_controller_and_a_function() -> None:
-    class Lost(Controller):
+    class Clueless(Controller):
         """Doesn't know the way."""
 
         def get_action(self, percept: Any) -> Any:
@@ -133,9 +133,9 @@ def test_a_brain_a_controller_and_a_function() -> None:
     )
     assert note_of(small_sim(brains=[Odd()]).step) == "while Odd of agent '0' was deciding"
     with pytest.raises(AI4UError) as caught:
-        small_sim(controller=Lost()).step()
+        small_sim(controller=Clueless()).step()
     assert str(caught.value).startswith(
-        "agent '0', LocalBrain(Lost): no reading is called 'exit'; known are"
+        "agent '0', LocalBrain(Clueless): no reading is called 'exit'; known are"
     )
 
 

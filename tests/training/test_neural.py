@@ -232,10 +232,16 @@ def test_a_network_whose_output_is_other_than_its_file_says(tmp_path: Path) -> N
 
 
 def test_a_network_of_more_numbers_than_any_sensor_gives(tmp_path: Path) -> None:
-    for shape in ((2**20, 2**20), (2**32, 2**32)):
-        file = network(tmp_path / "wide.onnx", {"heading": shape})
-        with pytest.raises(BlockError, match=r"wide\.onnx: 'heading' .* at most 16777216 numbers"):
-            sim_with(file, HeadingSensor())
+    file = network(tmp_path / "wide.onnx", {"heading": (2**20, 2**20)})
+    with pytest.raises(BlockError, match=r"wide\.onnx: 'heading' .* at most 16777216 numbers"):
+        sim_with(file, HeadingSensor())
+
+
+def test_a_network_whose_size_overflows(tmp_path: Path) -> None:
+    file = network(tmp_path / "wide.onnx", {"heading": (2**32, 2**32)})
+    # some versions of onnxruntime refuse it before its inputs are looked at
+    with pytest.raises(BlockError, match=r"wide\.onnx: ('heading' .* at most|expected a network)"):
+        sim_with(file, HeadingSensor())
 
 
 def test_a_damaged_file_is_told_of_whatever_is_wrong_with_it(tmp_path: Path) -> None:
