@@ -10,7 +10,7 @@ LONG_FOLDERS = ("browser", "attacks", "training", "remote", "lessons", "load")
 """Their files take longest and are started first, so that no core is idle at the end."""
 NOT_FAST = ("attacks", "benchmarks", "browser", "envs", "fuzz", "lessons", "load", "remote",
             "training", "chromium.py", "screenshot.py", "soak.py")  # fmt: skip
-"""What ``--fast`` does not even import: it trains, serves, or needs Chromium or torch."""
+"""Paths that ``--fast`` does not import, since they train, serve, or need Chromium or torch."""
 NOT_FAST_MARKERS = {"alone", "browser", "slow"}
 COMPONENT_TABLE = "components"
 LEFT_OUT = pytest.StashKey[int]()

@@ -8,7 +8,7 @@ from playwright.sync_api import Browser
 
 from ai4u_edu import CircleShape, ControlRequestor, RBMoveActuator, WASDRBMoveController, World
 from ai4u_edu.server import lock_viser_port
-from tests.browser.theatre import SPEED, TURN, Theatre
+from tests.browser.served_viser import SPEED, TURN, ServedViser
 from tests.builders import small_sim
 from tests.chromium import browser
 from tests.server.rooms import served
@@ -43,16 +43,16 @@ def sim() -> ControlRequestor:
 
 
 @pytest.fixture
-def theatre(
+def site(
     chromium: Browser, inner: viser.ViserServer, sim: ControlRequestor
-) -> Iterator[Theatre]:
+) -> Iterator[ServedViser]:
     clicks: list[str] = []
     name = inner.gui.add_text("Name", initial_value="")
     button = inner.gui.add_button("Press me")
     button.on_click(lambda _: clicks.append("click"))
     with served(sim, viser_port=inner.get_port()) as room:
-        theatre = Theatre(room, inner, name, clicks, chromium)
-        yield theatre
-        for context in theatre.contexts:
+        site = ServedViser(room, inner, name, clicks, chromium)
+        yield site
+        for context in site.contexts:
             context.close()
-    assert theatre.complaints == []
+    assert site.complaints == []

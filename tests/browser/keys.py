@@ -17,7 +17,7 @@ def whole(page: Page) -> None:
 
 
 def spot(page: Page, place: Place, half: float) -> Place:
-    """Where a place (metres) is on the screen, if the arena reaches from -half to half."""
+    """Return where a place (metres) is on the screen, if the arena reaches from -half to half."""
     box = page.locator("canvas[data-engine]").bounding_box()
     assert box is not None
     seen = frame_arena(((-half, -half), (half, half)), box["width"] / box["height"])

@@ -11,7 +11,7 @@ from starlette.applications import Starlette
 from ai4u_edu import ControlRequestor
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.server import RoomMount, ServerThread, room_app
-from tests.browser.theatre import Theatre, ready, seat
+from tests.browser.served_viser import ServedViser, driver_status, ready
 from tests.chromium import new_page
 from tests.server.rooms import Room, free_port, served, until
 
@@ -32,7 +32,7 @@ def test_a_room_under_a_path(
         page.goto(f"{room.url}user/ann/room{end}")
         ready(page)
         page.keyboard.down("KeyW")
-        expect(seat(page)).to_have_text("You drive")
+        expect(driver_status(page)).to_have_text("You drive")
         until(lambda: room.held == ["KeyW"])
         page.keyboard.up("KeyW")
         page.get_by_role("textbox").first.fill("hello")
@@ -54,10 +54,10 @@ def test_a_page_comes_back_after_the_server_did(
         ready(page)
         page.keyboard.down("KeyW")
         until(lambda: room.held == ["KeyW"])
-    expect(seat(page)).to_have_text("Connecting …")
+    expect(driver_status(page)).to_have_text("Connecting …")
     until(lambda: room.held == [])
     with ServerThread(app, port=port):
-        expect(seat(page)).to_have_text("Press a key to drive", timeout=10_000)
+        expect(driver_status(page)).to_have_text("Press a key to drive", timeout=10_000)
         time.sleep(0.3)
         assert room.held == [], "a key that was lost has to be pressed anew"
         page.keyboard.up("KeyW")
@@ -77,10 +77,10 @@ def other() -> Iterator[viser.ViserServer]:
 
 @pytest.mark.parametrize("guarded", [True, False])
 def test_a_link_cannot_send_the_page_to_another_viser(
-    theatre: Theatre, other: viser.ViserServer, guarded: bool
+    site: ServedViser, other: viser.ViserServer, guarded: bool
 ) -> None:
-    page = new_page(theatre.chromium, bypass_csp=not guarded)
-    page.goto(f"{theatre.room.url}?websocket=ws://127.0.0.1:{other.get_port()}")
+    page = new_page(site.chromium, bypass_csp=not guarded)
+    page.goto(f"{site.room.url}?websocket=ws://127.0.0.1:{other.get_port()}")
     ready(page)
     if guarded:
         page.wait_for_timeout(1000)
@@ -91,9 +91,9 @@ def test_a_link_cannot_send_the_page_to_another_viser(
 
 
 def test_a_foreign_page_neither_drives_nor_reads(
-    theatre: Theatre, other: viser.ViserServer
+    site: ServedViser, other: viser.ViserServer
 ) -> None:
-    page = new_page(theatre.chromium)
+    page = new_page(site.chromium)
     page.route("http://evil.example/", lambda route: route.fulfill(body="<p>evil</p>"))
     page.goto("http://evil.example/")
     listen = """([url, protocols]) => new Promise((done) => {
@@ -102,12 +102,12 @@ def test_a_foreign_page_neither_drives_nor_reads(
         socket.onclose = () => done("refused");
     })"""
     version = [f"viser-v{viser.__version__}"]
-    address = theatre.room.url.replace("http", "ws", 1)
-    inner = f"ws://127.0.0.1:{theatre.inner.get_port()}"
+    address = site.room.url.replace("http", "ws", 1)
+    inner = f"ws://127.0.0.1:{site.inner.get_port()}"
     for url, protocols in [(address, version), (address + "ws/input", []), (inner, version)]:
         assert page.evaluate(listen, [url, protocols]) == "refused"
     unguarded = f"ws://127.0.0.1:{other.get_port()}"
     assert page.evaluate(listen, [unguarded, version]) == "heard", "the browser forbids nothing"
     read = "url => fetch(url).then(() => 'read', () => 'refused')"
-    assert page.evaluate(read, theatre.room.url + "api/snapshot") == "refused"
+    assert page.evaluate(read, site.room.url + "api/snapshot") == "refused"
     page.context.close()

@@ -9,30 +9,30 @@ from playwright.sync_api import Page, expect
 from ai4u_edu import BasicAgent
 from ai4u_edu.blocks.brains.controllers.keyboard import Stick
 from ai4u_edu.snapshot import BodyState
-from tests.browser.theatre import SPEED, TURN, Theatre, seat
+from tests.browser.served_viser import SPEED, TURN, ServedViser, driver_status
 from tests.server.rooms import until
 
 pytestmark = pytest.mark.browser
 
 
-def held(theatre: Theatre) -> list[str]:
-    return theatre.room.held
+def held(site: ServedViser) -> list[str]:
+    return site.room.held
 
 
-def stays_still(theatre: Theatre, seconds: float = 0.4) -> bool:
+def stays_still(site: ServedViser, seconds: float = 0.4) -> bool:
     time.sleep(0.2)  # the decision that is under way, and one more
-    before = theatre.pose()[:3]
+    before = site.pose()[:3]
     time.sleep(seconds)
-    return theatre.pose()[:3] == before
+    return site.pose()[:3] == before
 
 
-def stretch(theatre: Theatre, code: str) -> list[BodyState]:
+def stretch(site: ServedViser, code: str) -> list[BodyState]:
     """The robot at each of thirty ticks on end in which a key is held.
 
     On a machine that is busy with other things a page may fall silent for so long that its keys
     count as released; then it begins anew.
     """
-    runner = theatre.room.runner
+    runner = site.room.runner
     found: list[BodyState] = []
     seen, deadline = runner.latest, time.monotonic() + 20
     while len(found) < 30:
@@ -44,28 +44,28 @@ def stretch(theatre: Theatre, code: str) -> list[BodyState]:
     return found[5:]  # what was held in the decision before counts to its end
 
 
-def test_w_drives_ahead_at_its_speed(theatre: Theatre) -> None:
-    page = theatre.page()
+def test_w_drives_ahead_at_its_speed(site: ServedViser) -> None:
+    page = site.page()
     page.keyboard.down("KeyW")
-    first, *_, last = states = stretch(theatre, "KeyW")
+    first, *_, last = states = stretch(site, "KeyW")
     page.keyboard.up("KeyW")
     assert last.x - first.x == pytest.approx(SPEED * (len(states) - 1) / 60, rel=0.1)
     assert (last.y, last.heading) == (0, 0)
 
 
 @pytest.mark.parametrize(("key", "sign"), [("KeyD", -1), ("KeyA", 1), ("ArrowRight", -1)])
-def test_d_turns_clockwise_and_a_the_other_way(theatre: Theatre, key: str, sign: int) -> None:
-    page = theatre.page()
+def test_d_turns_clockwise_and_a_the_other_way(site: ServedViser, key: str, sign: int) -> None:
+    page = site.page()
     page.keyboard.down(key)
-    first, *_, last = states = stretch(theatre, key)
+    first, *_, last = states = stretch(site, key)
     page.keyboard.up(key)
     turned = (last.heading - first.heading + math.pi) % math.tau - math.pi
     assert turned == pytest.approx(sign * TURN * (len(states) - 1) / 60, rel=0.1)
     assert (last.x, last.y) == (0, 0)
 
 
-def test_letting_go_stops_within_two_decisions(theatre: Theatre) -> None:
-    agent = theatre.room.sim.agents[0]
+def test_letting_go_stops_within_two_decisions(site: ServedViser) -> None:
+    agent = site.room.sim.agents[0]
     moved: list[int] = []
     released: list[int] = []
 
@@ -82,22 +82,22 @@ def test_letting_go_stops_within_two_decisions(theatre: Theatre) -> None:
 
     agent.end_of_step.connect(note)
     agent.keyboard.hold = noted_hold  # type: ignore[method-assign,assignment]
-    page = theatre.page()
+    page = site.page()
     page.keyboard.down("KeyW")
     until(lambda: len(moved) > 5)
     page.keyboard.up("KeyW")
     until(lambda: released)
     until(lambda: agent.steps > released[0] + 5)
     assert moved[-1] <= released[0] + 2
-    assert stays_still(theatre)
+    assert stays_still(site)
 
 
-def test_a_tap_is_never_missed(theatre: Theatre) -> None:
-    page = theatre.page()
+def test_a_tap_is_never_missed(site: ServedViser) -> None:
+    page = site.page()
     for _ in range(5):
-        x = theatre.pose()[0]
+        x = site.pose()[0]
         page.keyboard.press("KeyW")
-        until(lambda x=x: theatre.pose()[0] > x)  # type: ignore[misc]
+        until(lambda x=x: site.pose()[0] > x)  # type: ignore[misc]
 
 
 @pytest.mark.parametrize(
@@ -109,138 +109,140 @@ def test_a_tap_is_never_missed(theatre: Theatre) -> None:
         "document.dispatchEvent(new Event('visibilitychange'))",
     ],
 )
-def test_a_page_that_loses_sight_lets_go(theatre: Theatre, loss: str) -> None:
-    page = theatre.page()
+def test_a_page_that_loses_sight_lets_go(site: ServedViser, loss: str) -> None:
+    page = site.page()
     page.keyboard.down("KeyW")
-    until(lambda: held(theatre) == ["KeyW"])
+    until(lambda: held(site) == ["KeyW"])
     page.evaluate(loss)
-    until(lambda: held(theatre) == [], 0.25)
-    assert stays_still(theatre)
+    until(lambda: held(site) == [], 0.25)
+    assert stays_still(site)
 
 
-def test_a_pause_lets_go_until_the_key_is_pressed_anew(theatre: Theatre) -> None:
-    page = theatre.page()
+def test_a_pause_lets_go_until_the_key_is_pressed_anew(site: ServedViser) -> None:
+    page = site.page()
     page.keyboard.down("KeyW")
-    until(lambda: held(theatre) == ["KeyW"])
-    theatre.room.runner.pause().result(5)
+    until(lambda: held(site) == ["KeyW"])
+    site.room.runner.pause().result(5)
     expect(page.get_by_text("Paused")).to_be_visible()
     page.get_by_role("button", name="Resume").click()
-    until(lambda: not theatre.room.runner.latest.paused)
+    until(lambda: not site.room.runner.latest.paused)
     time.sleep(0.3)
-    assert held(theatre) == []
+    assert held(site) == []
     page.keyboard.up("KeyW")
     page.keyboard.down("KeyW")
-    until(lambda: held(theatre) == ["KeyW"])
+    until(lambda: held(site) == ["KeyW"])
 
 
 MOVING = ["KeyW", "KeyA", "KeyS", "KeyD", "KeyQ", "KeyE"]
 ARROWS = ["ArrowUp", "ArrowLeft", "ArrowDown", "ArrowRight"]
 
 
-def test_visers_camera_does_not_move(theatre: Theatre) -> None:
-    page = theatre.page(has_viser=True)
-    before = theatre.camera()
+def test_visers_camera_does_not_move(site: ServedViser) -> None:
+    page = site.page(has_viser=True)
+    before = site.camera()
     for code in MOVING + ARROWS:
         page.keyboard.down(code)
         page.wait_for_timeout(150)
         page.keyboard.up(code)
     page.keyboard.press("Control+KeyA")
     page.wait_for_timeout(300)
-    assert theatre.camera() == before
+    assert site.camera() == before
 
 
-def test_without_our_script_it_would_have_moved(theatre: Theatre) -> None:
+def test_without_our_script_it_would_have_moved(site: ServedViser) -> None:
     def leave_out(page: Page) -> None:
         page.route("**/web/main.js", lambda route: route.fulfill(body=""))
 
-    page = theatre.page(has_viser=True, prepare=leave_out, wait=False)
+    page = site.page(has_viser=True, prepare=leave_out, wait=False)
     page.get_by_text("Name", exact=True).wait_for()
-    before = theatre.camera()
+    before = site.camera()
     page.keyboard.down("KeyW")
-    until(lambda: theatre.camera() != before)
+    until(lambda: site.camera() != before)
 
 
-def test_typing_drives_nothing_and_arrives(theatre: Theatre) -> None:
-    page = theatre.page(has_viser=True)
+def test_typing_drives_nothing_and_arrives(site: ServedViser) -> None:
+    page = site.page(has_viser=True)
     page.get_by_role("textbox").first.click()
     page.keyboard.type("wasd r", delay=30)
-    until(lambda: theatre.name.value == "wasd r")
-    assert theatre.pose()[:3] == (0, 0, 0)
-    expect(seat(page)).to_have_text("Press a key to drive")
+    until(lambda: site.name.value == "wasd r")
+    assert site.pose()[:3] == (0, 0, 0)
+    expect(driver_status(page)).to_have_text("Press a key to drive")
 
 
-def test_going_to_a_text_box_lets_go(theatre: Theatre) -> None:
-    page = theatre.page()
+def test_going_to_a_text_box_lets_go(site: ServedViser) -> None:
+    page = site.page()
     page.keyboard.down("KeyW")
-    until(lambda: held(theatre) == ["KeyW"])
+    until(lambda: held(site) == ["KeyW"])
     page.get_by_role("textbox").first.focus()
-    until(lambda: held(theatre) == [], 0.25)
-    assert stays_still(theatre)
+    until(lambda: held(site) == [], 0.25)
+    assert stays_still(site)
 
 
-def test_leaving_the_text_box_drives_again(theatre: Theatre) -> None:
-    page = theatre.page()
+def test_leaving_the_text_box_drives_again(site: ServedViser) -> None:
+    page = site.page()
     page.get_by_role("textbox").first.click()
     page.mouse.click(400, 400)
     page.keyboard.down("KeyW")
-    until(lambda: held(theatre) == ["KeyW"])
+    until(lambda: held(site) == ["KeyW"])
 
 
-def test_another_layout_drives_by_place(theatre: Theatre) -> None:
-    page = theatre.page()
+def test_another_layout_drives_by_place(site: ServedViser) -> None:
+    page = site.page()
     event = "new KeyboardEvent('{kind}', {{code: '{code}', key: '{key}', bubbles: true}})"
     for code, key in (("KeyW", "z"), ("KeyA", "q")):
         pressed = event.format(kind="keydown", code=code, key=key)
         page.evaluate(f"document.body.dispatchEvent({pressed})")
-        until(lambda code=code: held(theatre) == [code])  # type: ignore[misc]
+        until(lambda code=code: held(site) == [code])  # type: ignore[misc]
         released = event.format(kind="keyup", code=code, key=key)
         page.evaluate(f"document.body.dispatchEvent({released})")
-        until(lambda: held(theatre) == [])
+        until(lambda: held(site) == [])
     wrong = event.format(kind="keydown", code="KeyZ", key="w")
     page.evaluate(f"document.body.dispatchEvent({wrong})")
     time.sleep(0.2)
-    assert held(theatre) == []
+    assert held(site) == []
 
 
 @pytest.mark.parametrize("modifier", ["Control", "Meta", "Alt"])
-def test_chords_drive_nothing_and_let_go(theatre: Theatre, modifier: str) -> None:
-    page = theatre.page()
+def test_chords_drive_nothing_and_let_go(site: ServedViser, modifier: str) -> None:
+    page = site.page()
     page.keyboard.press(f"{modifier}+KeyD")
-    assert stays_still(theatre, 0.3)
+    assert stays_still(site, 0.3)
     page.keyboard.down("KeyW")
-    until(lambda: held(theatre) == ["KeyW"])
+    until(lambda: held(site) == ["KeyW"])
     page.keyboard.down(modifier)
     page.keyboard.down("KeyD")
-    until(lambda: held(theatre) == [])
+    until(lambda: held(site) == [])
 
 
-def test_space_jumps_and_presses_no_button_that_was_clicked_before(theatre: Theatre) -> None:
-    page = theatre.page(has_viser=True)
+def test_space_jumps_and_presses_no_button_that_was_clicked_before(
+    site: ServedViser,
+) -> None:
+    page = site.page(has_viser=True)
     page.get_by_role("button", name="Press me").click()
-    until(lambda: len(theatre.clicks) == 1)
+    until(lambda: len(site.clicks) == 1)
     page.keyboard.down("Space")
-    until(lambda: held(theatre) == ["Space"])
+    until(lambda: held(site) == ["Space"])
     page.keyboard.up("Space")
-    until(lambda: held(theatre) == [])
+    until(lambda: held(site) == [])
     page.wait_for_timeout(300)
-    assert len(theatre.clicks) == 1
+    assert len(site.clicks) == 1
 
 
-def test_who_walks_by_tab_presses_buttons_with_space(theatre: Theatre) -> None:
-    page = theatre.page(has_viser=True)
+def test_who_walks_by_tab_presses_buttons_with_space(site: ServedViser) -> None:
+    page = site.page(has_viser=True)
     page.get_by_role("textbox").first.focus()
     page.keyboard.press("Tab")
     page.wait_for_timeout(100)
     expect(page.get_by_role("button", name="Press me")).to_be_focused()
     page.keyboard.press("Space")
-    until(lambda: len(theatre.clicks) == 1)
-    assert theatre.pose()[:3] == (0, 0, 0)
+    until(lambda: len(site.clicks) == 1)
+    assert site.pose()[:3] == (0, 0, 0)
     page.keyboard.down("KeyW")
-    until(lambda: held(theatre) == ["KeyW"])
+    until(lambda: held(site) == ["KeyW"])
 
 
-def test_restart_begins_a_new_episode(theatre: Theatre) -> None:
-    page = theatre.page()
-    episode = theatre.room.runner.latest.episode
+def test_restart_begins_a_new_episode(site: ServedViser) -> None:
+    page = site.page()
+    episode = site.room.runner.latest.episode
     page.keyboard.press("KeyR")
-    until(lambda: theatre.room.runner.latest.episode == episode + 1)
+    until(lambda: site.room.runner.latest.episode == episode + 1)

@@ -19,7 +19,7 @@ from ai4u_edu import (
 )
 from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.blocks.brains.controllers.keyboard import Stick
-from tests.browser.theatre import SPEED, Theatre, connected, ready, seat
+from tests.browser.served_viser import SPEED, ServedViser, connected, driver_status, ready
 from tests.builders import small_sim
 from tests.chromium import new_page
 from tests.playing import Played, played
@@ -34,8 +34,8 @@ def zoo() -> Iterator[Played]:
         yield server
 
 
-def agent_of(theatre: Theatre) -> BasicAgent:
-    return theatre.room.sim.agents[0]
+def agent_of(site: ServedViser) -> BasicAgent:
+    return site.room.sim.agents[0]
 
 
 def cap(page: Page, action: str) -> Locator:
@@ -46,8 +46,8 @@ def binding(page: Page, action: str) -> Locator:
     return page.locator(f".ai4u-binding[data-action={action}]")
 
 
-def pushed(theatre: Theatre) -> Stick:
-    return agent_of(theatre).keyboard.stick()
+def pushed(site: ServedViser) -> Stick:
+    return agent_of(site).keyboard.stick()
 
 
 # -- gamepads ------------------------------------------------------------------------------------
@@ -61,8 +61,8 @@ PAD = """() => {
 }"""
 
 
-def with_pad(theatre: Theatre) -> Page:
-    page = theatre.page()
+def with_pad(site: ServedViser) -> Page:
+    page = site.page()
     page.evaluate(PAD)
     return page
 
@@ -71,33 +71,33 @@ def press(page: Page, button: int, *, down: bool = True) -> None:
     page.evaluate("([button, down]) => pad.buttons[button].pressed = down", [button, down])
 
 
-def test_a_gamepad_drives_by_halves_jumps_and_restarts(theatre: Theatre) -> None:
-    page = with_pad(theatre)
+def test_a_gamepad_drives_by_halves_jumps_and_restarts(site: ServedViser) -> None:
+    page = with_pad(site)
     page.evaluate("pad.axes = [0.05, -0.6]")
-    until(lambda: 0.4 < pushed(theatre).forward < 0.7 and pushed(theatre).turn == 0)
-    until(lambda: theatre.pose()[0] > 0.1)
-    expect(seat(page)).to_have_text("You drive")
+    until(lambda: 0.4 < pushed(site).forward < 0.7 and pushed(site).turn == 0)
+    until(lambda: site.pose()[0] > 0.1)
+    expect(driver_status(page)).to_have_text("You drive")
     page.evaluate("pad.axes = [1, 0]")
-    until(lambda: pushed(theatre) == Stick(0, 1))
+    until(lambda: pushed(site) == Stick(0, 1))
     page.evaluate("pad.axes = [0, 0.1]")
-    until(lambda: pushed(theatre) == Stick())
+    until(lambda: pushed(site) == Stick())
     for button, code in ((0, "Space"), (1, "KeyJ"), (12, "KeyW"), (15, "KeyD")):
         press(page, button)
-        until(lambda code=code: theatre.room.held == [code])  # type: ignore[misc]
+        until(lambda code=code: site.room.held == [code])  # type: ignore[misc]
         press(page, button, down=False)
-        until(lambda: theatre.room.held == [])
-    episode = theatre.room.runner.latest.episode
+        until(lambda: site.room.held == [])
+    episode = site.room.runner.latest.episode
     press(page, 9)
-    until(lambda: theatre.room.runner.latest.episode == episode + 1)
+    until(lambda: site.room.runner.latest.episode == episode + 1)
 
 
-def test_a_gamepad_that_is_unplugged_lets_go(theatre: Theatre) -> None:
-    page = with_pad(theatre)
+def test_a_gamepad_that_is_unplugged_lets_go(site: ServedViser) -> None:
+    page = with_pad(site)
     page.evaluate("pad.axes = [0, -1]")
     press(page, 0)
-    until(lambda: (theatre.room.held, pushed(theatre)) == (["Space"], Stick(1, 0)))
+    until(lambda: (site.room.held, pushed(site)) == (["Space"], Stick(1, 0)))
     page.evaluate("pad.connected = false; dispatchEvent(new Event('gamepaddisconnected'))")
-    until(lambda: (theatre.room.held, pushed(theatre)) == ([], Stick()))
+    until(lambda: (site.room.held, pushed(site)) == ([], Stick()))
 
 
 class TestOneThingAtATime:
@@ -109,13 +109,13 @@ class TestOneThingAtATime:
             controller=DiscreteArrowController(), actuators=[DiscreteActuator(turn_amount=2)]
         )
 
-    def test_the_stick_of_a_gamepad_is_a_key_there(self, theatre: Theatre) -> None:
-        page = with_pad(theatre)
+    def test_the_stick_of_a_gamepad_is_a_key_there(self, site: ServedViser) -> None:
+        page = with_pad(site)
         for axes, code in (([0, -1], "ArrowUp"), ([0.9, 0.2], "ArrowRight")):
             page.evaluate("axes => pad.axes = axes", axes)
-            until(lambda code=code: theatre.room.held == [code])  # type: ignore[misc]
+            until(lambda code=code: site.room.held == [code])  # type: ignore[misc]
         page.evaluate("pad.axes = [0.2, 0]")
-        until(lambda: theatre.room.held == [])
+        until(lambda: site.room.held == [])
 
 
 # -- keys of one's own ---------------------------------------------------------------------------
@@ -130,8 +130,8 @@ def give(page: Page, action: str, code: str) -> None:
     page.keyboard.press(code)
 
 
-def test_a_key_of_ones_own_drives_and_is_remembered(theatre: Theatre) -> None:
-    page = theatre.page()
+def test_a_key_of_ones_own_drives_and_is_remembered(site: ServedViser) -> None:
+    page = site.page()
     give(page, "forward", "KeyI")
     expect(binding(page, "forward")).to_have_text("I")
     page.keyboard.press("Escape")
@@ -139,9 +139,9 @@ def test_a_key_of_ones_own_drives_and_is_remembered(theatre: Theatre) -> None:
         expect(cap(page, "forward").locator("kbd")).to_have_text("I")
         page.keyboard.down("KeyW")
         page.keyboard.down("KeyI")
-        until(lambda: theatre.room.held == ["KeyW"])  # what the agent knows as forward
+        until(lambda: site.room.held == ["KeyW"])  # what the agent knows as forward
         page.keyboard.up("KeyI")
-        until(lambda: theatre.room.held == [])
+        until(lambda: site.room.held == [])
         page.keyboard.up("KeyW")
         page.reload()
         ready(page)
@@ -150,11 +150,11 @@ def test_a_key_of_ones_own_drives_and_is_remembered(theatre: Theatre) -> None:
     expect(binding(page, "forward")).to_have_text("W or ↑")
     page.keyboard.press("Escape")
     page.keyboard.down("KeyW")
-    until(lambda: theatre.room.held == ["KeyW"])
+    until(lambda: site.room.held == ["KeyW"])
 
 
-def test_a_key_that_another_action_has_is_said_and_both_have_one(theatre: Theatre) -> None:
-    page = theatre.page()
+def test_a_key_that_another_action_has_is_said_and_both_have_one(site: ServedViser) -> None:
+    page = site.page()
     give(page, "forward", "KeyR")
     told = page.locator(".ai4u-status")
     expect(told).to_have_text("R was “restart”, which is W, ↑ now.")
@@ -166,14 +166,14 @@ def test_a_key_that_another_action_has_is_said_and_both_have_one(theatre: Theatr
     page.keyboard.press("F5")
     expect(told).to_have_text("F5 is needed elsewhere; press another key.")
     expect(binding(page, "jump")).to_have_text("A")
-    episode = theatre.room.runner.latest.episode
+    episode = site.room.runner.latest.episode
     page.keyboard.press("Escape")
     page.keyboard.press("KeyW")
-    until(lambda: theatre.room.runner.latest.episode == episode + 1)
+    until(lambda: site.room.runner.latest.episode == episode + 1)
 
 
-def test_escape_leaves_a_key_as_it_was_and_the_help_open(theatre: Theatre) -> None:
-    page = theatre.page()
+def test_escape_leaves_a_key_as_it_was_and_the_help_open(site: ServedViser) -> None:
+    page = site.page()
     give(page, "jump", "Escape")
     expect(binding(page, "jump")).to_have_text("Space or U")
     expect(page.locator(".ai4u-help")).to_be_visible()
@@ -187,43 +187,43 @@ def test_escape_leaves_a_key_as_it_was_and_the_help_open(theatre: Theatre) -> No
     ],
 )
 def test_where_nothing_can_be_remembered_keys_can_be_changed_all_the_same(
-    theatre: Theatre, storage: str
+    site: ServedViser, storage: str
 ) -> None:
-    page = theatre.page(prepare=lambda page: page.add_init_script(storage))
+    page = site.page(prepare=lambda page: page.add_init_script(storage))
     expect(cap(page, "forward").locator("kbd")).to_have_text("W")
     give(page, "forward", "KeyI")
     page.keyboard.press("Escape")
     page.keyboard.down("KeyI")
-    until(lambda: theatre.room.held == ["KeyW"])
+    until(lambda: site.room.held == ["KeyW"])
 
 
 # -- help ----------------------------------------------------------------------------------------
 
 
-def test_help_opens_on_a_question_mark_and_takes_the_keys(theatre: Theatre) -> None:
-    page = theatre.page(has_viser=True)
-    camera = theatre.camera()
+def test_help_opens_on_a_question_mark_and_takes_the_keys(site: ServedViser) -> None:
+    page = site.page(has_viser=True)
+    camera = site.camera()
     page.keyboard.down("KeyW")
-    until(lambda: theatre.room.held == ["KeyW"])
+    until(lambda: site.room.held == ["KeyW"])
     page.keyboard.press("?")
     dialog = page.get_by_role("dialog", name="Help")
     expect(dialog).to_be_visible()
-    until(lambda: theatre.room.held == [])
+    until(lambda: site.room.held == [])
     page.keyboard.up("KeyW")
     page.keyboard.press("KeyD")
     page.keyboard.press("KeyQ")
     page.wait_for_timeout(300)
-    assert theatre.room.held == []
-    assert theatre.camera() == camera
+    assert site.room.held == []
+    assert site.camera() == camera
     expect(dialog).to_contain_text("To change one, click it and press another key.")
     page.keyboard.press("Escape")
     expect(dialog).to_be_hidden()
     page.keyboard.down("KeyD")
-    until(lambda: theatre.room.held == ["KeyD"])
+    until(lambda: site.room.held == ["KeyD"])
 
 
-def test_the_focus_stays_in_the_help_and_comes_back(theatre: Theatre) -> None:
-    page = theatre.page()
+def test_the_focus_stays_in_the_help_and_comes_back(site: ServedViser) -> None:
+    page = site.page()
     ask = page.get_by_role("button", name="Help")
     ask.focus()
     page.keyboard.press("Enter")
@@ -243,11 +243,11 @@ def test_the_focus_stays_in_the_help_and_comes_back(theatre: Theatre) -> None:
     expect(page.get_by_role("dialog")).to_be_hidden()
 
 
-def test_a_question_mark_in_a_text_is_one(theatre: Theatre) -> None:
-    page = theatre.page(has_viser=True)
+def test_a_question_mark_in_a_text_is_one(site: ServedViser) -> None:
+    page = site.page(has_viser=True)
     page.get_by_role("textbox").first.click()
     page.keyboard.type("why?")
-    until(lambda: theatre.name.value == "why?")
+    until(lambda: site.name.value == "why?")
     expect(page.get_by_role("dialog")).to_have_count(0)
 
 
@@ -291,25 +291,23 @@ CONTRAST = """() => {
 
 
 @pytest.mark.parametrize("scheme", ["light", "dark"])
-def test_all_that_is_written_can_be_read(theatre: Theatre, scheme: str) -> None:
+def test_all_that_is_written_can_be_read(site: ServedViser, scheme: str) -> None:
     def dress(page: Page) -> None:
         # a colour that is still on its way can be any
         page.emulate_media(color_scheme=scheme, reduced_motion="reduce")  # type: ignore[arg-type]
 
     dimmed = "color: var(--mantine-color-dimmed)"
-    theatre.inner.gui.add_html(f"<div class='ai4u'><small style='{dimmed}'>dimmed</small></div>")
+    site.inner.gui.add_html(f"<div class='ai4u'><small style='{dimmed}'>dimmed</small></div>")
     query = "?darkMode" if scheme == "dark" else ""
-    page, watcher = (
-        theatre.page(query, has_viser=True, prepare=dress, wait=False) for _ in range(2)
-    )
+    page, watcher = (site.page(query, has_viser=True, prepare=dress, wait=False) for _ in range(2))
     for each in (page, watcher):
         connected(each)
         each.get_by_text("dimmed").wait_for(state="attached")
     page.keyboard.down("KeyW")
-    expect(seat(watcher)).to_have_text("Page 1 drives")
+    expect(driver_status(watcher)).to_have_text("Page 1 drives")
     found = page.evaluate(CONTRAST) + watcher.evaluate(CONTRAST)
     page.keyboard.up("KeyW")
-    theatre.room.runner.pause().result(5)
+    site.room.runner.pause().result(5)
     expect(page.get_by_text("Paused")).to_be_visible()
     found += page.evaluate(CONTRAST)
     page.keyboard.press("?")
@@ -402,14 +400,14 @@ def test_all_that_can_be_used_has_a_name(chromium: Browser, zoo: Played) -> None
     page.context.close()
 
 
-def test_an_address_may_ask_for_the_dark(theatre: Theatre) -> None:
-    page = theatre.page("?darkMode", has_viser=True, wait=False)
+def test_an_address_may_ask_for_the_dark(site: ServedViser) -> None:
+    page = site.page("?darkMode", has_viser=True, wait=False)
     connected(page)
     expect(page.locator("html")).to_have_attribute(SCHEME, "dark")
     assert max(page.evaluate(LIGHTNESS, ".ai4u-keycap")) < 80
 
 
-def test_who_wants_no_motion_has_none(theatre: Theatre) -> None:
+def test_who_wants_no_motion_has_none(site: ServedViser) -> None:
     def calm(page: Page) -> None:
         page.emulate_media(reduced_motion="reduce")
 
@@ -417,12 +415,14 @@ def test_who_wants_no_motion_has_none(theatre: Theatre) -> None:
         .map((part) => getComputedStyle(part))
         .filter((style) => style.animationName !== "none" || parseFloat(style.transitionDuration))
         .length"""
-    assert theatre.page().evaluate(moves) > 0
-    assert theatre.page(prepare=calm).evaluate(moves) == 0
+    assert site.page().evaluate(moves) > 0
+    assert site.page(prepare=calm).evaluate(moves) == 0
 
 
-def test_everything_is_reached_by_tab_has_a_name_and_shows_the_focus(theatre: Theatre) -> None:
-    page = theatre.page()
+def test_everything_is_reached_by_tab_has_a_name_and_shows_the_focus(
+    site: ServedViser,
+) -> None:
+    page = site.page()
     page.get_by_role("button", name="Press me").focus()
     reached: list[list[str]] = []
     for _ in range(40):
@@ -463,33 +463,33 @@ class TestScripted:
             world=world, controller=spin, actuators=[RBMoveActuator(move_amount=SPEED)]
         )
 
-    def test_a_key_takes_over_and_let_go_gives_back(self, theatre: Theatre) -> None:
-        page = theatre.page()
-        expect(seat(page)).to_have_text("A script drives \u2013 press W to take over")
-        before = theatre.room.runner.latest.episode
+    def test_a_key_takes_over_and_let_go_gives_back(self, site: ServedViser) -> None:
+        page = site.page()
+        expect(driver_status(page)).to_have_text("A script drives \u2013 press W to take over")
+        before = site.room.runner.latest.episode
         page.keyboard.press("KeyR")
-        until(lambda: theatre.room.runner.latest.episode == before + 1)
-        expect(seat(page)).to_have_text("A script drives \u2013 press W to take over")
+        until(lambda: site.room.runner.latest.episode == before + 1)
+        expect(driver_status(page)).to_have_text("A script drives \u2013 press W to take over")
         page.keyboard.down("KeyW")
-        until(lambda: theatre.room.held == ["KeyW"])
-        expect(seat(page)).to_have_text("You drive")
-        until(lambda: theatre.room.runner.latest.agents[0].action["move"] == (1, 0, 0, 0))
+        until(lambda: site.room.held == ["KeyW"])
+        expect(driver_status(page)).to_have_text("You drive")
+        until(lambda: site.room.runner.latest.agents[0].action["move"] == (1, 0, 0, 0))
         page.keyboard.up("KeyW")
-        until(lambda: theatre.room.runner.latest.agents[0].action["move"] == (0, 0, 0, 0))
+        until(lambda: site.room.runner.latest.agents[0].action["move"] == (0, 0, 0, 0))
         page.get_by_role("button", name="Let go").click()
-        expect(seat(page)).to_have_text("A script drives \u2013 press W to take over")
-        until(lambda: theatre.room.runner.latest.agents[0].action["move"][1] == -0.5)
+        expect(driver_status(page)).to_have_text("A script drives \u2013 press W to take over")
+        until(lambda: site.room.runner.latest.agents[0].action["move"][1] == -0.5)
 
-    def test_a_click_takes_over_and_a_closed_page_gives_back(self, theatre: Theatre) -> None:
-        page = theatre.page()
+    def test_a_click_takes_over_and_a_closed_page_gives_back(self, site: ServedViser) -> None:
+        page = site.page()
         page.get_by_role("button", name="Take over").click()
-        expect(seat(page)).to_have_text("You drive")
+        expect(driver_status(page)).to_have_text("You drive")
         page.context.close()
-        until(lambda: theatre.room.runner.latest.agents[0].action["move"][1] == -0.5)
+        until(lambda: site.room.runner.latest.agents[0].action["move"][1] == -0.5)
 
 
-def test_a_network_of_the_zoo_is_taken_over_and_goes_on(zoo: Played, theatre: Theatre) -> None:
-    page = new_page(theatre.chromium)
+def test_a_network_of_the_zoo_is_taken_over_and_goes_on(zoo: Played, site: ServedViser) -> None:
+    page = new_page(site.chromium)
     page.goto(zoo.url)
     connected(page)
 
@@ -497,15 +497,15 @@ def test_a_network_of_the_zoo_is_taken_over_and_goes_on(zoo: Played, theatre: Th
         move: list[float] = zoo.snapshot()["agents"][0]["action"].get("move", [])
         return move[:2]  # nothing after a reset
 
-    expect(seat(page)).to_have_text("A network drives \u2013 press W to take over")
+    expect(driver_status(page)).to_have_text("A network drives \u2013 press W to take over")
     page.keyboard.press("KeyR")
     page.keyboard.down("KeyS")
     until(lambda: action() == [-1, 0], 20)
-    expect(seat(page)).to_have_text("You drive")
+    expect(driver_status(page)).to_have_text("You drive")
     page.keyboard.up("KeyS")
     page.keyboard.press("KeyR")
     page.get_by_role("button", name="Let go").click()
-    expect(seat(page)).to_have_text("A network drives \u2013 press W to take over")
+    expect(driver_status(page)).to_have_text("A network drives \u2013 press W to take over")
     until(lambda: action() not in ([], [-1, 0], [0, 0]), 20)
     page.context.close()
 
@@ -513,7 +513,7 @@ def test_a_network_of_the_zoo_is_taken_over_and_goes_on(zoo: Played, theatre: Th
 # -- another world -------------------------------------------------------------------------------
 
 
-def worlds_robot(theatre: Theatre) -> BasicAgent:
+def worlds_robot(site: ServedViser) -> BasicAgent:
     world = World()
     world.add_body("other", CircleShape(radius=0.5))
     world.add_body("robot", CircleShape(radius=0.5), position=(3, 0))
@@ -526,17 +526,17 @@ def worlds_robot(theatre: Theatre) -> BasicAgent:
         )
         for body, agent_id in (("other", "1"), ("robot", "0"))
     ]
-    theatre.room.runner.replace_sim(ControlRequestor(world, agents)).result(5)
+    site.room.runner.replace_sim(ControlRequestor(world, agents)).result(5)
     return agents[1]
 
 
 @pytest.mark.parametrize("query", ["", "?agent=0"])
-def test_a_page_follows_into_another_world(theatre: Theatre, query: str) -> None:
-    page = theatre.page(query)
+def test_a_page_follows_into_another_world(site: ServedViser, query: str) -> None:
+    page = site.page(query)
     page.keyboard.down("KeyW")
-    until(lambda: theatre.room.held == ["KeyW"])
-    new = worlds_robot(theatre)
-    expect(seat(page)).to_have_text("Press a key to drive", timeout=10_000)
+    until(lambda: site.room.held == ["KeyW"])
+    new = worlds_robot(site)
+    expect(driver_status(page)).to_have_text("Press a key to drive", timeout=10_000)
     page.keyboard.up("KeyW")
     page.keyboard.down("KeyW")
     until(lambda: new.keyboard.held() == {"KeyW"})
@@ -546,8 +546,8 @@ def test_a_page_follows_into_another_world(theatre: Theatre, query: str) -> None
 # -- nobody else is asked ------------------------------------------------------------------------
 
 
-def test_the_whole_page_comes_from_here(zoo: Played, theatre: Theatre) -> None:
-    page = new_page(theatre.chromium)
+def test_the_whole_page_comes_from_here(zoo: Played, site: ServedViser) -> None:
+    page = new_page(site.chromium)
     asked: list[str] = []
     page.on("request", lambda request: asked.append(request.url))
     page.on("websocket", lambda socket: asked.append(socket.url))

@@ -1,4 +1,4 @@
-"""How long it takes from a key to the first tick that obeys it. Measured and told, not judged."""
+"""Latency from a key to the first tick that obeys it: measured and printed, not asserted."""
 
 import statistics
 import time
@@ -6,7 +6,7 @@ import time
 import pytest
 
 from ai4u_edu import BasicAgent
-from tests.browser.theatre import Theatre
+from tests.browser.served_viser import ServedViser
 from tests.server.rooms import until
 
 pytestmark = [pytest.mark.browser, pytest.mark.alone]
@@ -15,9 +15,9 @@ PRESSES = 30
 
 
 def test_from_a_key_to_the_tick_that_obeys(
-    theatre: Theatre, capsys: pytest.CaptureFixture[str]
+    site: ServedViser, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    agent = theatre.room.sim.agents[0]
+    agent = site.room.sim.agents[0]
     agent.brain.skip_frame = 0
     obeyed: list[float] = []
     before = [0.0]
@@ -29,7 +29,7 @@ def test_from_a_key_to_the_tick_that_obeys(
         before[0] = ahead
 
     agent.begin_of_apply_action.connect(note)
-    page = theatre.page(has_viser=True, draws=True)
+    page = site.page(has_viser=True, draws=True)
     page.evaluate(
         """() => {
             window.pressed = [];

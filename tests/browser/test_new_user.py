@@ -1,4 +1,4 @@
-"""Somebody new, with no help: from a picture in the gallery to a scene of their own."""
+"""A new user without help: from a picture in the gallery to a scene of their own."""
 
 from collections.abc import Iterator
 from pathlib import Path
@@ -9,7 +9,7 @@ from playwright.sync_api import Browser, Locator, Page
 
 from ai4u_edu import Scene
 from tests.browser.keys import body, carry, take, where, whole
-from tests.browser.theatre import ready
+from tests.browser.served_viser import ready
 from tests.chromium import new_page
 from tests.playing import Played, played
 from tests.server.rooms import until
@@ -17,7 +17,7 @@ from tests.server.rooms import until
 pytestmark = pytest.mark.browser
 
 HALF = 5.0
-"""Of box_chase's plate, metres."""
+"""Half the side of box_chase's plate (m)."""
 MIDDLE = "5"
 """A seed with which box_chase puts the robot into the middle, looking along +x."""
 RAYS = "linear_ray_casting"

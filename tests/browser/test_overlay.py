@@ -1,4 +1,4 @@
-"""The keys on the screen, the seat and the banners."""
+"""The keys on the screen, the driver status and the banners."""
 
 import re
 
@@ -6,7 +6,7 @@ import pytest
 from playwright.sync_api import Locator, Page, expect
 
 from ai4u_edu import ArrowController, BasicAgent, LocalBrain, RemoteBrain, WASDRBMoveController
-from tests.browser.theatre import Theatre, seat
+from tests.browser.served_viser import ServedViser, driver_status
 from tests.builders import still
 from tests.server.rooms import free_port, until
 
@@ -23,8 +23,10 @@ def centre(page: Page, name: str) -> tuple[float, float]:
     return box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
 
 
-def test_a_cap_lights_up_while_its_key_is_held_here_and_elsewhere(theatre: Theatre) -> None:
-    page, watcher = theatre.page(), theatre.page()
+def test_a_cap_lights_up_while_its_key_is_held_here_and_elsewhere(
+    site: ServedViser,
+) -> None:
+    page, watcher = site.page(), site.page()
     for each in (page, watcher):
         expect(cap(each, "forward")).not_to_have_attribute("data-held", "")
     page.keyboard.down("ArrowUp")
@@ -36,74 +38,76 @@ def test_a_cap_lights_up_while_its_key_is_held_here_and_elsewhere(theatre: Theat
         expect(cap(each, "forward")).not_to_have_attribute("data-held", "")
 
 
-def test_two_pages_and_one_seat(theatre: Theatre) -> None:
-    first, second = theatre.page(), theatre.page()
-    expect(seat(first)).to_have_text("Press a key to drive")
+def test_two_pages_and_one_seat(site: ServedViser) -> None:
+    first, second = site.page(), site.page()
+    expect(driver_status(first)).to_have_text("Press a key to drive")
     first.keyboard.down("KeyW")
-    expect(seat(first)).to_have_text("You drive (page 1)")
-    expect(seat(second)).to_have_text("Page 1 drives")
+    expect(driver_status(first)).to_have_text("You drive (page 1)")
+    expect(driver_status(second)).to_have_text("Page 1 drives")
     second.keyboard.press("KeyS")
-    expect(seat(first)).to_have_text("You drive (page 1)")
+    expect(driver_status(first)).to_have_text("You drive (page 1)")
     second.get_by_role("button", name="Take over").click()
-    expect(seat(second)).to_have_text("You drive (page 2)")
-    expect(seat(first)).to_have_text("Page 2 drives")
-    until(lambda: theatre.room.held == [])
+    expect(driver_status(second)).to_have_text("You drive (page 2)")
+    expect(driver_status(first)).to_have_text("Page 2 drives")
+    until(lambda: site.room.held == [])
     second.keyboard.down("KeyD")
-    until(lambda: theatre.room.held == ["KeyD"])
+    until(lambda: site.room.held == ["KeyD"])
     second.context.close()
-    theatre.contexts.remove(second.context)
-    expect(seat(first)).to_have_text("Press a key to drive")
+    site.contexts.remove(second.context)
+    expect(driver_status(first)).to_have_text("Press a key to drive")
 
 
-def test_a_cap_can_be_pressed_with_the_mouse(theatre: Theatre) -> None:
-    page = theatre.page()
+def test_a_cap_can_be_pressed_with_the_mouse(site: ServedViser) -> None:
+    page = site.page()
     page.mouse.move(*centre(page, "forward"))
     page.mouse.down()
-    until(lambda: theatre.room.held == ["KeyW"])
+    until(lambda: site.room.held == ["KeyW"])
     expect(cap(page, "forward")).to_have_attribute("data-held", "")
     page.mouse.up()
-    until(lambda: theatre.room.held == [])
+    until(lambda: site.room.held == [])
     page.mouse.down()
-    until(lambda: theatre.room.held == ["KeyW"])
+    until(lambda: site.room.held == ["KeyW"])
     page.mouse.move(640, 400)
-    until(lambda: theatre.room.held == [])
+    until(lambda: site.room.held == [])
     page.mouse.up()
 
 
-def test_a_cap_is_a_button_for_whoever_uses_no_pointer(theatre: Theatre) -> None:
-    page = theatre.page()
+def test_a_cap_is_a_button_for_whoever_uses_no_pointer(site: ServedViser) -> None:
+    page = site.page()
     cap(page, "forward").focus()
     page.keyboard.press("Enter")
-    until(lambda: theatre.pose()[0] > 0)
-    until(lambda: theatre.room.held == [])
+    until(lambda: site.pose()[0] > 0)
+    until(lambda: site.room.held == [])
 
 
-def test_caps_show_what_is_printed_on_this_keyboard(theatre: Theatre) -> None:
+def test_caps_show_what_is_printed_on_this_keyboard(site: ServedViser) -> None:
     azerty = "navigator.keyboard.getLayoutMap = async () => new Map([['KeyW', 'z'], ['KeyA', 'q']])"
-    page = theatre.page(prepare=lambda page: page.add_init_script(azerty))
+    page = site.page(prepare=lambda page: page.add_init_script(azerty))
     assert cap(page, "forward").locator("kbd").inner_text() == "Z"
     assert cap(page, "left").locator("kbd").inner_text() == "Q"
     assert cap(page, "right").locator("kbd").inner_text() == "D"
 
 
-def test_another_brain_can_be_taken_over_and_one_elsewhere_too(theatre: Theatre) -> None:
-    page = theatre.page()
-    agent = theatre.room.sim.agents[0]
-    theatre.room.runner.submit(lambda: agent.use_brain(LocalBrain(controller=still)))
-    expect(seat(page)).to_have_text("A script drives \u2013 press W to take over")
+def test_another_brain_can_be_taken_over_and_one_elsewhere_too(site: ServedViser) -> None:
+    page = site.page()
+    agent = site.room.sim.agents[0]
+    site.room.runner.submit(lambda: agent.use_brain(LocalBrain(controller=still)))
+    expect(driver_status(page)).to_have_text("A script drives \u2013 press W to take over")
     expect(page.locator(".ai4u-keycap")).to_have_count(7)
-    theatre.room.runner.submit(lambda: agent.use_brain(RemoteBrain(port=free_port())))
-    expect(seat(page)).to_have_text("A script elsewhere drives \u2013 press W to take over")
+    site.room.runner.submit(lambda: agent.use_brain(RemoteBrain(port=free_port())))
+    expect(driver_status(page)).to_have_text(
+        "A script elsewhere drives \u2013 press W to take over"
+    )
     expect(page.locator(".ai4u-keycap")).to_have_count(7)
     expect(page.get_by_role("button", name="Take over")).to_be_visible()
 
 
-def test_the_caps_lie_as_the_keys_do(theatre: Theatre) -> None:
-    page = theatre.page()
-    agent = theatre.room.sim.agents[0]
+def test_the_caps_lie_as_the_keys_do(site: ServedViser) -> None:
+    page = site.page()
+    agent = site.room.sim.agents[0]
     for controller, left in ((WASDRBMoveController(), "A"), (ArrowController(), "←")):
         brain = LocalBrain(controller=controller)
-        theatre.room.runner.submit(lambda brain=brain: agent.use_brain(brain))  # type: ignore[misc]
+        site.room.runner.submit(lambda brain=brain: agent.use_brain(brain))  # type: ignore[misc]
         expect(cap(page, "left").locator("kbd")).to_have_text(left)
         forward, back, left_one, right = (
             centre(page, name) for name in ("forward", "back", "left", "right")
@@ -114,12 +118,12 @@ def test_the_caps_lie_as_the_keys_do(theatre: Theatre) -> None:
         assert centre(page, "jump")[0] > right[0]
 
 
-def test_the_end_of_an_episode_and_a_new_one(theatre: Theatre) -> None:
-    page = theatre.page()
-    agent = theatre.room.sim.agents[0]
+def test_the_end_of_an_episode_and_a_new_one(site: ServedViser) -> None:
+    page = site.page()
+    agent = site.room.sim.agents[0]
 
     def pay(amount: float) -> None:
-        theatre.room.runner.submit(
+        site.room.runner.submit(
             lambda: agent.add_reward(amount, request_done=True, name="goal")
         ).result(5)
 
@@ -134,13 +138,13 @@ def test_the_end_of_an_episode_and_a_new_one(theatre: Theatre) -> None:
     expect(banner).to_have_count(0)
 
 
-def test_an_error_is_told_as_text_and_can_be_reset(theatre: Theatre) -> None:
-    page = theatre.page()
+def test_an_error_is_told_as_text_and_can_be_reset(site: ServedViser) -> None:
+    page = site.page()
 
     def broken(_: BasicAgent) -> None:
         raise RuntimeError("<img src=x onerror=alert(1)> is no number")
 
-    event = theatre.room.sim.agents[0].end_of_step
+    event = site.room.sim.agents[0].end_of_step
     event.connect(broken)
     alert = page.locator(".ai4u-banners[role=alert]")
     expect(alert).to_contain_text("RuntimeError: <img src=x onerror=alert(1)> is no number")
@@ -154,14 +158,16 @@ def test_an_error_is_told_as_text_and_can_be_reset(theatre: Theatre) -> None:
     expect(alert).to_be_empty()
 
 
-def test_an_agent_that_is_not_there_is_told(theatre: Theatre) -> None:
-    page = theatre.page("?agent=7", wait=False)
+def test_an_agent_that_is_not_there_is_told(site: ServedViser) -> None:
+    page = site.page("?agent=7", wait=False)
     expect(page.locator(".ai4u-banners[role=alert]")).to_contain_text("there is no such agent")
 
 
 @pytest.mark.parametrize(("width", "height"), [(390, 844), (844, 390), (1280, 800)])
-def test_the_caps_are_free_and_the_middle_is_too(theatre: Theatre, width: int, height: int) -> None:
-    page = theatre.page(has_viser=True, width=width, height=height)
+def test_the_caps_are_free_and_the_middle_is_too(
+    site: ServedViser, width: int, height: int
+) -> None:
+    page = site.page(has_viser=True, width=width, height=height)
     page.wait_for_timeout(600)
     inside = "([x, y]) => document.elementFromPoint(x, y)?.closest('.ai4u-keycap')?.dataset.action"
     for name, action in (("forward", "forward"), ("back", "backward"), ("restart", "restart")):

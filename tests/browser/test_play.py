@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 from playwright.sync_api import Browser, Page, expect
 
-from tests.browser.theatre import connected, ready
+from tests.browser.served_viser import connected, ready
 from tests.chromium import new_page
 from tests.playing import Played, played
 

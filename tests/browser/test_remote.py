@@ -10,8 +10,8 @@ from typing import Any
 import pytest
 from playwright.sync_api import Browser, Page, expect
 
+from tests.browser.served_viser import connected, driver_status
 from tests.browser.test_world import SCENE
-from tests.browser.theatre import connected, seat
 from tests.chromium import new_page
 from tests.playing import Played, played
 from tests.server.rooms import free_port, until
@@ -81,17 +81,17 @@ def test_how_it_stands_with_a_script_is_seen_on_the_page(
 def test_a_key_takes_the_agent_over_from_a_script_elsewhere_and_lets_it_go(
     page: Page, server: Played, script: "subprocess.Popen[bytes]"
 ) -> None:
-    expect(seat(page)).to_have_text(
+    expect(driver_status(page)).to_have_text(
         "A script elsewhere drives \u2013 press W to take over", timeout=SOON
     )
     until(lambda: does(server, 0, 0.25, 0, 0), timeout=40)
     page.keyboard.down("KeyW")
-    expect(seat(page)).to_have_text("You drive", timeout=SOON)
+    expect(driver_status(page)).to_have_text("You drive", timeout=SOON)
     until(lambda: does(server, 1, 0, 0, 0), timeout=40)
     page.keyboard.up("KeyW")
     expect(page.get_by_text("a person drives; its actions are ignored")).to_be_visible(timeout=SOON)
     assert script.poll() is None
     page.get_by_role("button", name="Let go").click()
-    expect(seat(page)).to_contain_text("A script elsewhere drives", timeout=SOON)
+    expect(driver_status(page)).to_contain_text("A script elsewhere drives", timeout=SOON)
     until(lambda: does(server, 0, 0.25, 0, 0), timeout=40)
     assert script.poll() is None

@@ -12,7 +12,7 @@ from playwright.sync_api import Browser, Page, expect
 
 from ai4u_edu import LocalBrain, ReplayController, Scene
 from ai4u_edu.recording import Episode, Recorder, Replay
-from tests.browser.theatre import ready
+from tests.browser.served_viser import ready
 from tests.chromium import new_page
 from tests.playing import Played, played
 

@@ -69,17 +69,17 @@ def page(server: Played, chromium: Browser, draws: bool) -> Iterator[Page]:
 
 
 drawn = pytest.mark.parametrize("draws", [True], ids=["drawn"])
-"""For tests that look at the picture of the world."""
+"""Marker of tests that look at the picture of the world."""
 
 
 def scene(page: Page) -> npt.NDArray[Any]:
-    """What is drawn left of the panel, without the keys: (height, width, 3)."""
+    """Return the picture left of the panel, without the keys: (height, width, 3)."""
     clip = {"x": 250, "y": 80, "width": 650, "height": 520}
     return np.asarray(Image.open(io.BytesIO(page.screenshot(clip=clip))).convert("RGB"))  # type: ignore[arg-type]
 
 
 def share(picture: npt.NDArray[Any], colour: Rgb, slack: int = 25) -> float:
-    """How much of a picture has about that colour."""
+    """Return the share of a picture that has about that colour."""
     close = np.abs(picture.astype(int) - np.array(colour)).max(axis=-1) <= slack
     return float(close.mean())
 
@@ -331,7 +331,7 @@ def test_any_agent_is_looked_at_by_list_or_click(crowded: Played, chromium: Brow
 
 
 def on_screen(page: Page, server: Played, agent_id: str) -> tuple[float, float]:
-    """Where an agent of soccer is on the screen, in pixels, while all of the arena is shown."""
+    """Return an agent's place on the screen of soccer (pixels), while all of the arena is shown."""
     (x, y, *_), *_ = [
         each["pose"] for each in server.snapshot()["agents"] if each["id"] == agent_id
     ]

@@ -8,7 +8,7 @@ from playwright.sync_api import CDPSession, Locator, Page, expect
 from ai4u_edu import DiscreteActuator, DiscreteArrowController, LocalBrain
 from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.blocks.brains.controllers.keyboard import Stick
-from tests.browser.theatre import Theatre, centre, connected, seat
+from tests.browser.served_viser import ServedViser, centre, connected, driver_status
 from tests.builders import small_sim, still
 from tests.server.rooms import until
 
@@ -34,8 +34,8 @@ def stick_of(page: Page) -> Locator:
     return page.locator(".ai4u-stick")
 
 
-def pushed(theatre: Theatre) -> Stick:
-    return theatre.room.sim.agents[0].keyboard.stick()
+def pushed(site: ServedViser) -> Stick:
+    return site.room.sim.agents[0].keyboard.stick()
 
 
 def button(page: Page, name: str) -> Locator:
@@ -43,71 +43,73 @@ def button(page: Page, name: str) -> Locator:
 
 
 @pytest.fixture
-def phone(theatre: Theatre) -> Page:
-    return theatre.page(width=390, height=844, touch=True)
+def phone(site: ServedViser) -> Page:
+    return site.page(width=390, height=844, touch=True)
 
 
-def test_the_stick_drives_by_halves_and_rests_when_let_go(theatre: Theatre, phone: Page) -> None:
+def test_the_stick_drives_by_halves_and_rests_when_let_go(site: ServedViser, phone: Page) -> None:
     fingers, (x, y) = Fingers(phone), centre(stick_of(phone))
-    expect(seat(phone)).to_have_text("Push the stick to drive")
+    expect(driver_status(phone)).to_have_text("Push the stick to drive")
     fingers.touch("touchStart", a=(x, y))
     fingers.touch("touchMove", a=(x, y - 25))
-    until(lambda: 0.3 < pushed(theatre).forward < 0.8)
-    expect(seat(phone)).to_have_text("You drive")
-    until(lambda: theatre.pose()[0] > 0.1)
-    assert theatre.pose()[1] == 0, "a push that is nearly straight is straight"
+    until(lambda: 0.3 < pushed(site).forward < 0.8)
+    expect(driver_status(phone)).to_have_text("You drive")
+    until(lambda: site.pose()[0] > 0.1)
+    assert site.pose()[1] == 0, "a push that is nearly straight is straight"
     fingers.touch("touchMove", a=(x + 4, y - 300))
-    until(lambda: pushed(theatre) == Stick(1, 0))
+    until(lambda: pushed(site) == Stick(1, 0))
     fingers.touch("touchMove", a=(x + 200, y))
-    until(lambda: pushed(theatre) == Stick(0, 1))
-    until(lambda: theatre.pose()[2] < -0.1)
+    until(lambda: pushed(site) == Stick(0, 1))
+    until(lambda: site.pose()[2] < -0.1)
     fingers.touch("touchMove", a=(x - 100, y + 100))
-    until(lambda: pushed(theatre) == Stick(-1, -1))
+    until(lambda: pushed(site) == Stick(-1, -1))
     fingers.touch("touchEnd")
-    until(lambda: pushed(theatre) == Stick())
+    until(lambda: pushed(site) == Stick())
 
 
-def test_the_other_thumb_jumps_and_slides_meanwhile(theatre: Theatre, phone: Page) -> None:
+def test_the_other_thumb_jumps_and_slides_meanwhile(site: ServedViser, phone: Page) -> None:
     fingers, (x, y) = Fingers(phone), centre(stick_of(phone))
     jump, leap = (centre(button(phone, name)) for name in ("jump", "jump_forward"))
     fingers.touch("touchStart", a=(x, y - 55))
     fingers.touch("touchStart", a=(x, y - 55), b=jump)
-    until(lambda: (theatre.room.held, pushed(theatre)) == (["Space"], Stick(1, 0)))
+    until(lambda: (site.room.held, pushed(site)) == (["Space"], Stick(1, 0)))
     fingers.touch("touchMove", a=(x, y + 100), b=leap)
-    until(lambda: (theatre.room.held, pushed(theatre)) == (["KeyJ"], Stick(-1, 0)))
+    until(lambda: (site.room.held, pushed(site)) == (["KeyJ"], Stick(-1, 0)))
     fingers.touch("touchEnd", a=(x, y + 100))
-    until(lambda: pushed(theatre) == Stick())
-    assert theatre.room.held == ["KeyJ"]
+    until(lambda: pushed(site) == Stick())
+    assert site.room.held == ["KeyJ"]
     fingers.touch("touchCancel")
-    until(lambda: theatre.room.held == [])
+    until(lambda: site.room.held == [])
 
 
-def test_a_page_that_is_put_away_lets_go_of_its_stick(theatre: Theatre, phone: Page) -> None:
+def test_a_page_that_is_put_away_lets_go_of_its_stick(site: ServedViser, phone: Page) -> None:
     fingers, (x, y) = Fingers(phone), centre(stick_of(phone))
     fingers.touch("touchStart", a=(x, y - 55))
-    until(lambda: pushed(theatre) == Stick(1, 0))
+    until(lambda: pushed(site) == Stick(1, 0))
     phone.evaluate("window.dispatchEvent(new Event('blur'))")
-    until(lambda: pushed(theatre) == Stick())
+    until(lambda: pushed(site) == Stick())
 
 
-def test_a_push_takes_an_agent_over_and_let_go_gives_it_back(theatre: Theatre, phone: Page) -> None:
-    agent = theatre.room.sim.agents[0]
+def test_a_push_takes_an_agent_over_and_let_go_gives_it_back(
+    site: ServedViser, phone: Page
+) -> None:
+    agent = site.room.sim.agents[0]
     script = LocalBrain(controller=still)
-    theatre.room.runner.submit(lambda: agent.use_brain(script)).result(5)
-    expect(seat(phone)).to_contain_text("A script drives")
+    site.room.runner.submit(lambda: agent.use_brain(script)).result(5)
+    expect(driver_status(phone)).to_contain_text("A script drives")
     fingers, (x, y) = Fingers(phone), centre(stick_of(phone))
     fingers.touch("touchStart", a=(x, y - 55))
-    until(lambda: theatre.pose()[0] > 0.1)
+    until(lambda: site.pose()[0] > 0.1)
     fingers.touch("touchEnd")
     phone.get_by_role("button", name="Let go").tap()
     until(lambda: agent.brain is script)
 
 
 @pytest.mark.parametrize("size", SIZES)
-def test_all_is_in_reach_and_nothing_in_the_way(theatre: Theatre, size: str) -> None:
+def test_all_is_in_reach_and_nothing_in_the_way(site: ServedViser, size: str) -> None:
     width, height = SIZES[size]
-    theatre.inner.gui.main_panel.dock_right()  # as in every scene
-    page = theatre.page(has_viser=True, width=width, height=height, touch=True, wait=False)
+    site.inner.gui.main_panel.dock_right()  # as in every scene
+    page = site.page(has_viser=True, width=width, height=height, touch=True, wait=False)
     connected(page)
     page.wait_for_timeout(1500)  # the sheet folds
     things = [
@@ -147,7 +149,7 @@ def test_all_is_in_reach_and_nothing_in_the_way(theatre: Theatre, size: str) -> 
 
 
 class TestOneThingAtATime:
-    """Where an agent takes no halves there are four keys, one cell or turn for each tap."""
+    """Four buttons for an agent with whole actions only: one cell or turn for each tap."""
 
     @pytest.fixture
     def sim(self) -> ControlRequestor:
@@ -155,27 +157,27 @@ class TestOneThingAtATime:
             controller=DiscreteArrowController(), actuators=[DiscreteActuator(turn_amount=2)]
         )
 
-    def test_fingers_press_keys_and_slide_between_them(self, theatre: Theatre) -> None:
-        page = theatre.page(width=390, height=844, touch=True)
+    def test_fingers_press_keys_and_slide_between_them(self, site: ServedViser) -> None:
+        page = site.page(width=390, height=844, touch=True)
         expect(stick_of(page)).to_have_count(0)
-        expect(seat(page)).to_have_text("Tap a key to drive")
+        expect(driver_status(page)).to_have_text("Tap a key to drive")
         fingers = Fingers(page)
         up, right, restart = (centre(button(page, each)) for each in ("up", "right", "restart"))
         fingers.touch("touchStart", a=up)
-        until(lambda: theatre.room.held == ["ArrowUp"])
+        until(lambda: site.room.held == ["ArrowUp"])
         fingers.touch("touchMove", a=right)
-        until(lambda: theatre.room.held == ["ArrowRight"])
-        until(lambda: theatre.pose()[2] < -0.1)
-        episode = theatre.room.runner.latest.episode
+        until(lambda: site.room.held == ["ArrowRight"])
+        until(lambda: site.pose()[2] < -0.1)
+        episode = site.room.runner.latest.episode
         fingers.touch("touchStart", a=right, b=restart)
-        until(lambda: theatre.room.held == ["ArrowRight", "KeyR"])
-        until(lambda: theatre.room.runner.latest.episode > episode)
+        until(lambda: site.room.held == ["ArrowRight", "KeyR"])
+        until(lambda: site.room.runner.latest.episode > episode)
         fingers.touch("touchCancel")
-        until(lambda: theatre.room.held == [])
+        until(lambda: site.room.held == [])
 
 
-def test_a_mouse_has_keys_and_no_stick(theatre: Theatre) -> None:
-    page = theatre.page(width=1024, height=768)
+def test_a_mouse_has_keys_and_no_stick(site: ServedViser) -> None:
+    page = site.page(width=1024, height=768)
     expect(stick_of(page)).to_have_count(0)
     expect(button(page, "forward").locator("kbd")).to_be_visible()
     page.context.new_cdp_session(page).send(

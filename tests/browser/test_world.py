@@ -9,7 +9,7 @@ import pytest
 from playwright.sync_api import Browser, Locator, Page, expect
 
 from tests.browser.keys import body, carry, drag, take, where, whole
-from tests.browser.theatre import ready
+from tests.browser.served_viser import ready
 from tests.chromium import new_page
 from tests.playing import Played, played
 from tests.server.rooms import until

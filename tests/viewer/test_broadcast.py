@@ -27,7 +27,7 @@ from tests.load.clients import CAMERA
 from tests.server.rooms import served, until
 
 PROXY_URLS: dict[int, str] = {}
-"""Where pages go to, by viser's port, if not to viser itself."""
+"""Addresses that pages use in place of viser's own, by viser's port."""
 
 
 @pytest.fixture(params=["to viser", "through the proxy"])
@@ -44,7 +44,7 @@ def server(request: pytest.FixtureRequest) -> Iterator[LocalServer]:
 
 @pytest.fixture
 def packings(monkeypatch: pytest.MonkeyPatch) -> list[list[Message]]:
-    """What was packed."""
+    """Record the messages of each packing."""
     made: list[list[Message]] = []
     pack = broadcast.pack
 
@@ -88,13 +88,13 @@ def frame_with(page: Connection, text: str) -> bytes:
 
 
 def marks(messages: list[dict[str, Any]]) -> list[str]:
-    """What stands in angle brackets in each message, if anything does."""
+    """Return the text in angle brackets of each message that has one."""
     found = (re.search(r"<(\w+)>", str(message)) for message in messages)
     return [each[1] for each in found if each]
 
 
 def said(page: Connection) -> bool:
-    """Whether a page is told anything within a moment."""
+    """Return True if a page receives anything within 0.3 s."""
     try:
         page.recv(0.3)
     except TimeoutError:

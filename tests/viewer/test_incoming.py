@@ -1,4 +1,4 @@
-"""What pages send, before viser and our callbacks get it: where no proxy stands before viser."""
+"""Checks of what pages send, before viser and our callbacks get it; no proxy before viser."""
 
 import gc
 from collections.abc import Iterator
@@ -25,7 +25,7 @@ def here(viewer: Viewer) -> Iterator[Page]:
 
 @pytest.fixture
 def told(here: Page, viewer: Viewer, monkeypatch: pytest.MonkeyPatch) -> list[str]:
-    """What the page is told."""
+    """Record the texts of the page's notifications."""
     texts: list[str] = []
     (client,) = viewer.server.get_clients().values()
     monkeypatch.setattr(client, "add_notification", lambda _, text, **__: texts.append(text))

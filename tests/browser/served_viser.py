@@ -11,7 +11,7 @@ from tests.chromium import new_page
 from tests.server.rooms import Room, until
 
 SPEED, TURN = 5.0, 2.0
-"""What W and D mean in these rooms, in m/s and rad/s."""
+"""Speeds that W and D ask for in these tests (m/s, rad/s)."""
 
 VISERS_CODE = re.compile(r"<script(?![^>]*\bsrc=)[^>]*>.*?</script>", re.DOTALL)
 ROOT = '<div id="root">'
@@ -20,11 +20,11 @@ PLAIN = f"""{ROOT}
 <label>Name <input></label>
 <button onclick="this.dataset.clicks = 1 + Number(this.dataset.clicks ?? 0)">Press me</button>
 """
-"""What a page has in place of viser's scene and panel."""
+"""HTML in place of viser's scene and panel."""
 
 
 @dataclass
-class Theatre:
+class ServedViser:
     """A room with a viser, and pages that look at it."""
 
     room: Room
@@ -72,7 +72,7 @@ class Theatre:
         return robot.x, robot.y, robot.heading, latest.tick
 
     def camera(self) -> tuple[float, ...]:
-        """Where viser's camera of the only page is."""
+        """Return position and orientation of the only page's camera."""
         until(lambda: len(self.inner.get_clients()) == 1)
         (client,) = self.inner.get_clients().values()
         return (*client.camera.position.tolist(), *client.camera.wxyz.tolist())
@@ -118,13 +118,13 @@ def ready(page: Page) -> None:
     page.evaluate(CALM)
 
 
-def seat(page: Page) -> Locator:
-    """Where a page says who drives."""
+def driver_status(page: Page) -> Locator:
+    """Return the element in which a page says who drives."""
     return page.locator(".ai4u-driver [role=status]")
 
 
 def centre(thing: Locator) -> tuple[float, float]:
-    """Where the middle of something is on its page."""
+    """Return the middle of an element on its page."""
     box = thing.bounding_box()
     assert box is not None
     return box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
