@@ -2,7 +2,7 @@
 
 viser lets every page gather, pack and compress the same messages anew, which takes most of a core
 with thirty pages. Here all pages that are up to date share one packing. A page that can't keep up
-skips outdated messages. See ``docs/adr/0006-one-packing-for-all-pages.md``.
+skips outdated messages. See ``docs/adr/0006-serialize-once-for-all-pages.md``.
 """
 
 import asyncio
