@@ -128,4 +128,4 @@ BLOCK_WORDS: dict[str, BlockWords] = {
     **_PARTS,
     "": BlockWords("", OWN_BLOCKS, "own"),
 }
-"""By class name; in the order in which a page shows the questions."""
+"""Words by class name, in the order in which a page shows the questions."""
