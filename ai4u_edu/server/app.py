@@ -6,7 +6,7 @@ from functools import partial
 from starlette.applications import Starlette
 from starlette.middleware import Middleware
 from starlette.routing import Match, Mount, Route, WebSocketRoute
-from starlette.types import Scope
+from starlette.types import ASGIApp, Scope
 
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.server.attempts import Attempts, LimitScripts
@@ -29,6 +29,7 @@ def room_app(
     allowed_hosts: Collection[str] = LOOPBACK,
     proxy_hosts: Collection[str] = (),
     rules: Rules | None = None,
+    panel: ASGIApp | None = None,
 ) -> Starlette:
     """Return the ASGI app of one room; mount it under a path with :class:`RoomMount`.
 
@@ -40,6 +41,7 @@ def room_app(
         proxy_hosts: host names of a reverse proxy in front; see there.
         rules: for scripts that drive agents from other machines; the page and the API ask for
             their token too.
+        panel: serves the sockets of the pages' panels; left out, pages have viser's panel only.
     """
     rules = rules or Rules()
     current_title = title if callable(title) else partial(str, title)
@@ -61,6 +63,7 @@ def room_app(
             Route("/api/openapi.json", state.describe, middleware=auth),
             WebSocketRoute("/", ViserProxy(viser_port, rules.token), middleware=auth),
             WebSocketRoute("/ws/input", Inputs(runner, current_title), middleware=auth),
+            *([WebSocketRoute("/ws/panel", panel, middleware=auth)] if panel is not None else []),
             # scripts send the token in their hello
             WebSocketRoute(
                 "/ws/remote", RemoteSockets(runner, current_title, rules), middleware=script_limit

@@ -5,18 +5,12 @@ from typing import NamedTuple
 import numpy as np
 from viser import LabelHandle
 
-from ai4u_edu.snapshot import AgentState, Snapshot, StaticScene
+from ai4u_edu.snapshot import Snapshot, StaticScene
+from ai4u_edu.snapshot.agent_words import script_problem
 from ai4u_edu.viewer.backend.local_server import LocalServer
 from ai4u_edu.viewer.scene.geometry import Array, rotate
 from ai4u_edu.viewer.scene.mesh_drawer import MeshDrawer
 from ai4u_edu.viewer.scene.subtree import Subtree
-
-SCRIPT_PROBLEMS = {
-    "waiting": "⌛ waits for its script",
-    "late": "⚠ script is late",
-    "lost": "✖ script is lost",
-}
-"""Texts for agents whose script is not driving them, by the state of the remote brain."""
 
 
 class Labels:
@@ -57,11 +51,6 @@ class Labels:
             dx, dy = rotate(label.centre[None], body.heading)[0]
             label.handle.position = (body.x + dx, body.y + dy - label.reach, body.z + label.height)
             label.handle.visible = not body.fallen
-
-
-def script_problem(agent: AgentState) -> str:
-    """Return the problem with the script that should drive an agent; empty if there is none."""
-    return SCRIPT_PROBLEMS.get(agent.remote.state, "") if agent.remote is not None else ""
 
 
 class _Label(NamedTuple):
