@@ -12,6 +12,7 @@ from ai4u_edu.editing.driver_options import driver_of, driver_options
 from ai4u_edu.editing.drivers import Driver, DriverRegistry
 from ai4u_edu.editing.plain import BlockPath, Plain
 from ai4u_edu.editing.proposals import Proposal
+from ai4u_edu.editing.reasons import reason_against_driver
 from ai4u_edu.editing.recovery import Recovery
 from ai4u_edu.editing.scene_store import SceneStore
 from ai4u_edu.editing.state import EditState
@@ -132,6 +133,13 @@ class SceneEditor:
     def driver_of(self, agent_id: str) -> str:
         """Return the name of an agent's driver, as in :meth:`drivers`; "" for any other one."""
         return driver_of(self.state, self._runner.sim.agent(agent_id))
+
+    def reason_against_driver(self, agent_id: str, name: str) -> str:
+        """Return why a driver can't drive an agent, as a sentence; empty if it can.
+
+        It takes a decision in a copy of the world, which takes a few milliseconds.
+        """
+        return reason_against_driver(self.state, agent_id, name, self._drivers)
 
     def change_block(self, agent_id: str, path: BlockPath, values: Plain) -> "Future[ChangeResult]":
         """Change parameters of a block.
