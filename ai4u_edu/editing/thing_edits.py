@@ -85,8 +85,8 @@ class ThingEdits:
         return x, y, heading
 
     def _apply_regions(self, old: SceneDescription, new: SceneDescription) -> None:
-        before: dict[str, AnyRegion] = {region.name: region for region in (*old.floors, *old.areas)}
-        after: dict[str, AnyRegion] = {region.name: region for region in (*new.floors, *new.areas)}
+        before = _regions(old)
+        after = _regions(new)
         for name in dict.fromkeys((*before, *after)):
             if before.get(name) != after.get(name):
                 self._change_region(name, before.get(name), after.get(name))
@@ -128,3 +128,9 @@ class ThingEdits:
             pose = (*new.position, math.radians(new.heading_deg))
         edit_body(self._world, new, pose)
         self._undo_steps.append(lambda: edit_body(self._world, old, pose_before))
+
+
+def _regions(scene: SceneDescription) -> dict[str, AnyRegion]:
+    """Return a scene's floors and areas by name."""
+    regions: tuple[AnyRegion, ...] = (*scene.floors, *scene.areas)
+    return {region.name: region for region in regions}
