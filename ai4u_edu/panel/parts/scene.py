@@ -46,7 +46,12 @@ def hex_colour(colour: Rgb) -> str:
 def _legend(static_scene: StaticScene) -> list[dict[str, str]]:
     groups = dict(tuple(group_colours(static_scene).items())[:MAX_LEGEND_GROUPS])
     groups |= {"other": UNKNOWN_GROUP, "nothing": RAY_MISS}
-    return [{"name": name, "colour": hex_colour(colour)} for name, colour in groups.items()]
+    names: dict[Rgb, list[str]] = {}
+    for group, colour in groups.items():
+        names.setdefault(colour, []).append(group)
+    return [
+        {"name": ", ".join(alike), "colour": hex_colour(colour)} for colour, alike in names.items()
+    ]
 
 
 def _agents(context: PanelContext, static_scene: StaticScene) -> list[dict[str, Any]]:
