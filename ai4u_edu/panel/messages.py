@@ -134,17 +134,7 @@ def read(text: str | bytes) -> Show | Command:
     ValueError: no command is called 'puase'; did you mean 'pause'?
     """
     try:
-        kind = _ENVELOPE.decode(text)
-        if kind.type == "show":
-            return _SHOW.decode(text)
-        if kind.type != "do":
-            raise ValueError(f"expected the type 'show' or 'do', got {kind.type!r:.80}")
-        if kind.command not in NAMES:
-            raise ValueError(
-                f"no command is called {kind.command!r:.80}; {suggest(kind.command[:80], NAMES)}"
-            )
-        command: Command = _COMMAND.decode(text)
-        return command
+        return _decoded(text)
     except msgspec.ValidationError as error:
         raise ValueError(_sentence(str(error))) from None
     except (msgspec.DecodeError, RecursionError, UnicodeError) as error:
@@ -157,6 +147,19 @@ def id_in(text: str | bytes) -> int | None:
         return _ENVELOPE.decode(text).id
     except (msgspec.MsgspecError, RecursionError, UnicodeError):
         return None
+
+
+def _decoded(text: str | bytes) -> Show | Command:
+    kind = _ENVELOPE.decode(text)
+    if kind.type == "show":
+        return _SHOW.decode(text)
+    if kind.type != "do":
+        raise ValueError(f"expected the type 'show' or 'do', got {kind.type!r:.80}")
+    if kind.command not in NAMES:
+        hint = suggest(kind.command[:80], NAMES)
+        raise ValueError(f"no command is called {kind.command!r:.80}; {hint}")
+    command: Command = _COMMAND.decode(text)
+    return command
 
 
 class _Envelope(Struct):

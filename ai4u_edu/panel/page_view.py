@@ -33,7 +33,8 @@ class PageView:
         self.is_move_mode = False
         self.shows_trail = False
         self._is_dark: bool | None = None
-        self._sensors: dict[tuple[str, str], bool] = {}
+        self.sensors: dict[tuple[str, str], bool] = {}
+        """Sensors that were switched on or off, by agent and key."""
 
     @property
     def agent(self) -> str:
@@ -47,7 +48,7 @@ class PageView:
 
     @property
     def client(self) -> ViewerClient | None:
-        """viser's client of this page; None while there is none."""
+        """Viser's client of this page; None while there is none."""
         return self._client
 
     def refresh(self) -> None:
@@ -83,15 +84,11 @@ class PageView:
         self._is_dark = is_dark
         self._apply(lambda client: client.set_dark(is_dark))
 
-    def shows_sensor(self, key: str, *, is_default: bool) -> bool:
-        """Return True if a sensor of the agent is drawn in the picture."""
-        return self._sensors.get((self.agent, key), is_default)
-
     def show_sensor(self, key: str, on: bool) -> None:
         """Draw a sensor of the agent in the picture, or hide it."""
-        if len(self._sensors) >= MAX_SENSOR_CHOICES:
-            self._sensors.clear()
-        self._sensors[self.agent, key] = on
+        if len(self.sensors) >= MAX_SENSOR_CHOICES:
+            self.sensors.clear()
+        self.sensors[self.agent, key] = on
         self._apply(lambda client: client.show_sensor(key, on))
 
     def show_trail(self, on: bool) -> None:
@@ -126,5 +123,5 @@ class PageView:
             client.view.choose(self.camera)
         if self._is_dark is not None and self._is_dark != client.is_dark:
             client.set_dark(self._is_dark)
-        for (agent, key), on in self._sensors.items():
+        for (agent, key), on in self.sensors.items():
             client.show_sensor(key, on, agent)

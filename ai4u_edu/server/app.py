@@ -31,11 +31,8 @@ def room_app(
     allowed_hosts: Collection[str] = LOOPBACK,
     proxy_hosts: Collection[str] = (),
     rules: Rules | None = None,
-<<<<<<< HEAD
     panel: ASGIApp | None = None,
-=======
     editor: SceneEditor | None = None,
->>>>>>> main
 ) -> Starlette:
     """Return the ASGI app of one room; mount it under a path with :class:`RoomMount`.
 
@@ -47,11 +44,8 @@ def room_app(
         proxy_hosts: host names of a reverse proxy in front; see there.
         rules: for scripts that drive agents from other machines; the page and the API ask for
             their token too.
-<<<<<<< HEAD
         panel: serves the sockets of the pages' panels; left out, pages have viser's panel only.
-=======
         editor: lets pages open and share scenes; without it the scene stays as it is.
->>>>>>> main
     """
     rules = rules or Rules()
     current_title = title if callable(title) else partial(str, title)

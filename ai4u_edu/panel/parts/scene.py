@@ -4,6 +4,7 @@ from typing import Any
 
 from ai4u_edu.agent import BasicAgent
 from ai4u_edu.panel.context import PanelContext
+from ai4u_edu.panel.parts.colours import hex_colour
 from ai4u_edu.server.bindings import keys_of
 from ai4u_edu.server.human_override import driver_title
 from ai4u_edu.snapshot import Snapshot, StaticScene
@@ -32,15 +33,6 @@ def scene_part(context: PanelContext, snapshot: Snapshot) -> dict[str, Any]:
         "can_edit": editor is not None,
         "has_past": context.runner.recorder is not None,
     }
-
-
-def hex_colour(colour: Rgb) -> str:
-    """Return a colour as CSS has it.
-
-    >>> hex_colour((0, 114, 178))
-    '#0072b2'
-    """
-    return "#" + "".join(f"{channel:02x}" for channel in colour)
 
 
 def _legend(static_scene: StaticScene) -> list[dict[str, str]]:
