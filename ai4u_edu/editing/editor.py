@@ -283,15 +283,22 @@ class SceneEditor:
 
         It is read in the caller's thread. The file's errors come with their lines.
         """
-        if not isinstance(text, str):
-            return failed(SetupError(f"expected a scene as text (YAML), got {shown(text)}"))
         try:
-            agents = YamlFile(text, name).data.get("agents", ())
-            self._transactions.permissions.check(agents)
-            scene = Scene.loads(text, name=name, folder=self.state.folder)
+            return self.open(self.read(text, name))
         except AI4UError as error:
             return failed(error)
-        return self.open(scene)
+
+    def read(self, text: object, name: str = "scene.yaml") -> Scene:
+        """Read a scene that somebody wrote, as :meth:`load` does, without running it.
+
+        Raises:
+            AI4UError: it can't be used here.
+        """
+        if not isinstance(text, str):
+            raise SetupError(f"expected a scene as text (YAML), got {shown(text)}")
+        agents = YamlFile(text, name).data.get("agents", ())
+        self._transactions.permissions.check(agents)
+        return Scene.loads(text, name=name, folder=self.state.folder)
 
     def undo(self) -> "Future[ChangeResult]":
         """Take back the last change; the world's time goes on."""
