@@ -8,6 +8,7 @@ from starlette.middleware import Middleware
 from starlette.routing import Match, Mount, Route, WebSocketRoute
 from starlette.types import Scope
 
+from ai4u_edu.editing import SceneEditor
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.server.attempts import Attempts, LimitScripts
 from ai4u_edu.server.host_origin import LOOPBACK, HostOriginCheck
@@ -15,6 +16,7 @@ from ai4u_edu.server.input import Inputs
 from ai4u_edu.server.page import Page
 from ai4u_edu.server.past import Past
 from ai4u_edu.server.proxy import ViserProxy
+from ai4u_edu.server.scene_routes import SceneRoutes
 from ai4u_edu.server.scripts import RemoteSockets, Rules
 from ai4u_edu.server.state_routes import StateRoutes
 from ai4u_edu.server.token_auth import TokenAuth
@@ -29,6 +31,7 @@ def room_app(
     allowed_hosts: Collection[str] = LOOPBACK,
     proxy_hosts: Collection[str] = (),
     rules: Rules | None = None,
+    editor: SceneEditor | None = None,
 ) -> Starlette:
     """Return the ASGI app of one room; mount it under a path with :class:`RoomMount`.
 
@@ -40,6 +43,7 @@ def room_app(
         proxy_hosts: host names of a reverse proxy in front; see there.
         rules: for scripts that drive agents from other machines; the page and the API ask for
             their token too.
+        editor: lets pages open and share scenes; without it the scene stays as it is.
     """
     rules = rules or Rules()
     current_title = title if callable(title) else partial(str, title)
@@ -49,7 +53,8 @@ def room_app(
     page_auth = [Middleware(TokenAuth, token=rules.token, attempts=attempts, is_page=True)]
     script_limit = [Middleware(LimitScripts, attempts=attempts, code=PROBLEMS["bad_token"])]
     past = Past(runner)
-    state = StateRoutes(runner, current_title)
+    state = StateRoutes(runner, current_title, can_open=editor is not None)
+    scenes = [] if editor is None else _scene_routes(SceneRoutes(runner, editor), auth)
     return Starlette(
         routes=[
             Route("/", page.index, middleware=page_auth),
@@ -59,6 +64,7 @@ def room_app(
             Route("/api/past", past.list, middleware=auth),
             Route("/api/past/{file}", past.file, middleware=auth),
             Route("/api/openapi.json", state.describe, middleware=auth),
+            *scenes,
             WebSocketRoute("/", ViserProxy(viser_port, rules.token), middleware=auth),
             WebSocketRoute("/ws/input", Inputs(runner, current_title), middleware=auth),
             # scripts send the token in their hello
@@ -70,6 +76,15 @@ def room_app(
             Middleware(HostOriginCheck, allowed_hosts=allowed_hosts, proxy_hosts=proxy_hosts)
         ],
     )
+
+
+def _scene_routes(scenes: SceneRoutes, auth: list[Middleware]) -> list[Route]:
+    return [
+        Route("/api/scene", scenes.present, methods=["GET"], middleware=auth),
+        Route("/api/scene", scenes.open, methods=["POST"], middleware=auth),
+        Route("/api/scene/link", scenes.link, methods=["GET"], middleware=auth),
+        Route("/api/scene/link", scenes.describe, methods=["POST"], middleware=auth),
+    ]
 
 
 class RoomMount(Mount):

@@ -22,6 +22,7 @@ _OURS = """<title>{title}</title>
     <link rel="stylesheet" href="./web/dock.css" />
     <link rel="stylesheet" href="./web/banners.css" />
     <link rel="stylesheet" href="./web/help.css" />
+    <link rel="stylesheet" href="./web/question.css" />
     <script type="module" src="./web/main.js"></script>
     <script type="module" src="./web/accessible_names.js"></script>"""
 # a system's own media types are not reliable: some call a .js plain text

@@ -52,3 +52,23 @@ def test_other_actions_are_not_drawn(viewer: Viewer) -> None:
     actions.draw(runner.latest)
     assert actions.lines is not None
     assert len(actions.lines.points) == 1  # the stroke that can't be seen
+
+
+def test_what_has_no_effect_is_not_drawn(viewer: Viewer) -> None:
+    def drawn(**powers: float) -> int:
+        sim = busy_sim(controller=lambda _percept: {"move": [0.0, 1.0, 1.0, 1.0]})
+        for name, value in powers.items():
+            setattr(sim.agents[0].bound_blocks.actuators["move"], name, value)
+        runner = Runner(sim, seed=1)
+        runner._tick()
+        actions = Actions(viewer.server)
+        actions.build(runner.latest.static_scene)
+        actions.draw(runner.latest)
+        assert actions.lines is not None
+        return len(actions.lines.points) - 1  # without the invisible one
+
+    arrow, bend, ring = 3, 10, 24
+    assert drawn() == arrow + bend + ring
+    assert drawn(jump_power=0.0) == arrow + bend  # a forward jump still drives
+    assert drawn(jump_power=0.0, jump_forward_power=0.0) == bend
+    assert drawn(jump_power=0.0, jump_forward_power=0.0, turn_amount=0.0) == 0

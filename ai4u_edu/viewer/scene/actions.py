@@ -52,7 +52,7 @@ class Actions:
         self.lines.points = lines
 
     def _marks(self, agent: AgentState, body: BodyState) -> Array:
-        numbers = agent.action.get(ACTION_NAME, ())
+        numbers = _effective(agent)
         if len(numbers) != 4 or body.fallen:
             return np.empty((0, 2, 3))
         radius, height = self._sizes[agent.body]
@@ -60,6 +60,20 @@ class Actions:
         z = body.z + height + self._layers.body + 3 * self._layers.unit
         points = np.column_stack([flat + np.array([body.x, body.y]), np.full(len(flat), z)])
         return points.reshape(-1, 2, 3)
+
+
+def _effective(agent: AgentState) -> tuple[float, ...]:
+    """Return the numbers of an agent's action, 0 for those that have no effect."""
+    numbers = agent.action.get(ACTION_NAME, ())
+    for info in agent.actuator_infos:
+        if info.name == ACTION_NAME and len(info.components) == len(numbers) == 4:
+            names = (each.name for each in info.components)
+            drives, turns, jumps, leaps = (name not in info.without_effect for name in names)
+            forward, turn, jump, leap = numbers
+            # without upward speed, a forward jump is a drive
+            ahead = forward * drives + leap * (leaps and not jumps)
+            return ahead, turn * turns, jump * jumps, leap * jumps
+    return numbers
 
 
 @lru_cache(maxsize=1024)
