@@ -1,4 +1,4 @@
-"""What an environment warns of, once: an agent that nobody chose, an action out of range."""
+"""Warnings that an environment gives once: of an agent nobody chose, of an action out of range."""
 
 import warnings
 from collections.abc import Iterator
