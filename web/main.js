@@ -12,6 +12,7 @@ import { Keycaps } from "./keycaps.js";
 import { label, loadLayout } from "./labels.js";
 import { collapseMobilePanel } from "./mobile_panel.js";
 import { trackCanvasEdges } from "./canvas_edges.js";
+import { watchSharedScene } from "./share.js";
 import { InputSocket } from "./socket.js";
 
 const query = new URLSearchParams(location.search);
@@ -136,3 +137,4 @@ loadLayout().then(arrange);
 socket.open();
 trackCanvasEdges();
 collapseMobilePanel();
+watchSharedScene();

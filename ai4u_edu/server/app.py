@@ -8,6 +8,7 @@ from starlette.middleware import Middleware
 from starlette.routing import Match, Mount, Route, WebSocketRoute
 from starlette.types import Scope
 
+from ai4u_edu.editing import SceneEditor
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.server.attempts import Attempts, LimitScripts
 from ai4u_edu.server.host_origin import LOOPBACK, HostOriginCheck
@@ -15,9 +16,11 @@ from ai4u_edu.server.input import Inputs
 from ai4u_edu.server.page import Page
 from ai4u_edu.server.past import Past
 from ai4u_edu.server.proxy import ViserProxy
+from ai4u_edu.server.scene_routes import SceneRoutes
 from ai4u_edu.server.scripts import RemoteSockets, Rules
 from ai4u_edu.server.state_routes import StateRoutes
 from ai4u_edu.server.token_auth import TokenAuth
+from ai4u_edu.server.token_page import PUBLIC_FILES, TokenPage
 from ai4u_edu.wire.native import PROBLEMS
 
 
@@ -29,6 +32,7 @@ def room_app(
     allowed_hosts: Collection[str] = LOOPBACK,
     proxy_hosts: Collection[str] = (),
     rules: Rules | None = None,
+    editor: SceneEditor | None = None,
 ) -> Starlette:
     """Return the ASGI app of one room; mount it under a path with :class:`RoomMount`.
 
@@ -40,25 +44,31 @@ def room_app(
         proxy_hosts: host names of a reverse proxy in front; see there.
         rules: for scripts that drive agents from other machines; the page and the API ask for
             their token too.
+        editor: lets pages open and share scenes; without it the scene stays as it is.
     """
     rules = rules or Rules()
     current_title = title if callable(title) else partial(str, title)
     page = Page(current_title)
     attempts = Attempts()
     auth = [Middleware(TokenAuth, token=rules.token, attempts=attempts)]
-    page_auth = [Middleware(TokenAuth, token=rules.token, attempts=attempts, is_page=True)]
+    page_auth = [
+        Middleware(TokenAuth, token=rules.token, attempts=attempts, token_page=TokenPage())
+    ]
     script_limit = [Middleware(LimitScripts, attempts=attempts, code=PROBLEMS["bad_token"])]
     past = Past(runner)
-    state = StateRoutes(runner, current_title)
+    state = StateRoutes(runner, current_title, can_open=editor is not None)
+    scenes = [] if editor is None else _scene_routes(SceneRoutes(runner, editor), auth)
     return Starlette(
         routes=[
             Route("/", page.index, middleware=page_auth),
+            *[Route(f"/web/{name}", page.public_file(name)) for name in PUBLIC_FILES],
             Route("/web/{file}", page.file, middleware=auth),
             Route("/healthz", state.health, middleware=auth),
             Route("/api/snapshot", state.snapshot, middleware=auth),
             Route("/api/past", past.list, middleware=auth),
             Route("/api/past/{file}", past.file, middleware=auth),
             Route("/api/openapi.json", state.describe, middleware=auth),
+            *scenes,
             WebSocketRoute("/", ViserProxy(viser_port, rules.token), middleware=auth),
             WebSocketRoute("/ws/input", Inputs(runner, current_title), middleware=auth),
             # scripts send the token in their hello
@@ -70,6 +80,15 @@ def room_app(
             Middleware(HostOriginCheck, allowed_hosts=allowed_hosts, proxy_hosts=proxy_hosts)
         ],
     )
+
+
+def _scene_routes(scenes: SceneRoutes, auth: list[Middleware]) -> list[Route]:
+    return [
+        Route("/api/scene", scenes.present, methods=["GET"], middleware=auth),
+        Route("/api/scene", scenes.open, methods=["POST"], middleware=auth),
+        Route("/api/scene/link", scenes.link, methods=["GET"], middleware=auth),
+        Route("/api/scene/link", scenes.describe, methods=["POST"], middleware=auth),
+    ]
 
 
 class RoomMount(Mount):
