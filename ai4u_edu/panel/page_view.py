@@ -1,4 +1,4 @@
-"""What one page looks at, and its link to the page's picture in viser."""
+"""The things that one page looks at, and the link to the page's picture in viser."""
 
 from collections.abc import Callable
 

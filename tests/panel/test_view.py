@@ -1,4 +1,4 @@
-"""What one page shows: an agent's readings, and its own picture."""
+"""The view of one page: an agent's readings, and its own picture."""
 
 import base64
 from collections.abc import Iterator
