@@ -42,7 +42,7 @@ class PartCache:
 
 @dataclass(frozen=True)
 class PanelContext:
-    """What parts and commands work with.
+    """The running world, its viewer and its editor, for parts and commands.
 
     Args:
         runner: runs the world.

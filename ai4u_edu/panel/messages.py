@@ -30,7 +30,7 @@ Tab = Literal["agent", "blocks", "world", "past"]
 
 
 class Show(Struct, forbid_unknown_fields=True):
-    """What a page looks at, as a whole; only the parts of open tabs are sent."""
+    """The whole of what a page looks at; only the parts of open tabs are sent."""
 
     type: Literal["show"]
     agent: Name

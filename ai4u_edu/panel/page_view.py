@@ -11,7 +11,7 @@ MAX_SENSOR_CHOICES = 200
 
 
 class PageView:
-    """What one page looks at.
+    """The things that one page looks at, and its choices.
 
     viser's connection of the page may come later than the panel's, and may come again: choices are
     kept here and applied whenever there is another client. Belongs to the server's event loop.
