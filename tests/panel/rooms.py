@@ -22,9 +22,9 @@ from ai4u_edu.recording import Recorder
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.server import ServerThread, lock_viser_port, room_app
 from ai4u_edu.viewer import Viewer
+from ai4u_edu.viewer.viewer_client import ViewerClient
 from tests.server.rooms import until
 
-PAGE_ID = "0123456789abcdef"
 Message = dict[str, Any]
 
 
@@ -139,19 +139,18 @@ class PanelPage:
 
 
 @contextmanager
-def picture(room: PanelRoom, page_id: str = PAGE_ID) -> Iterator[None]:
+def picture(room: PanelRoom, page_id: str) -> Iterator[ViewerClient]:
     """Open viser's socket of a page through the proxy, as its picture does."""
     address = room.url.replace("http", "ws", 1) + f"?page={page_id}"
     protocol = Subprotocol(f"viser-v{viser.__version__}")
-    before = len(room.viewer.server.get_clients())
     with connect(address, subprotocols=[protocol], max_size=None, proxy=None) as connection:
         connection.send(msgspec.msgpack.encode(CAMERA))
-        until(lambda: len(room.viewer.server.get_clients()) > before)
-        room.runner.submit(lambda: None).result(5)
         until(lambda: room.viewer.viewer_clients.find(page_id))
+        client = room.viewer.viewer_clients.find(page_id)
+        assert client is not None
         reader = threading.Thread(target=_read, args=(connection,), daemon=True)
         reader.start()
-        yield
+        yield client
 
 
 def _read(connection: Connection) -> None:

@@ -2,11 +2,12 @@
 
 import base64
 from collections.abc import Iterator
+from uuid import uuid4
 
 import pytest
 
 from ai4u_edu.viewer.scene.view import Mode
-from tests.panel.rooms import PAGE_ID, PanelRoom, panel_room, picture
+from tests.panel.rooms import PanelRoom, panel_room, picture
 from tests.server.rooms import until
 
 
@@ -71,37 +72,38 @@ def test_a_picture_is_sent_as_png() -> None:
         assert data.startswith(b"\x89PNG")
 
 
-def test_choices_reach_the_picture_of_the_same_page(room: PanelRoom) -> None:
-    with room.page(f"?page={PAGE_ID}") as page:
+@pytest.fixture
+def page_id() -> str:
+    return uuid4().hex
+
+
+def test_choices_reach_the_picture_of_the_same_page(room: PanelRoom, page_id: str) -> None:
+    with room.page(f"?page={page_id}") as page:
         page.done("camera", mode="follow")  # before viser's connection
-        with picture(room):
-            client = room.viewer.viewer_clients.find(PAGE_ID)
-            assert client is not None
+        with picture(room, page_id) as client:
             until(lambda: client.view.mode is Mode.FOLLOW)
             page.done("camera", mode="turn")
             assert client.view.mode is Mode.TURN
             page.done("dark", on=True)
             assert client.is_dark
-        until(lambda: room.viewer.viewer_clients.find(PAGE_ID) is None)
-        with picture(room):  # again, as after a lost connection
-            again = room.viewer.viewer_clients.find(PAGE_ID)
-            assert again is not None
+        until(lambda: room.viewer.viewer_clients.find(page_id) is None)
+        with picture(room, page_id) as again:  # as after a lost connection
             until(lambda: again.view.mode is Mode.TURN and again.is_dark)
 
 
-def test_other_pages_keep_their_view(room: PanelRoom) -> None:
-    other = "another-page-1"
-    with room.page(f"?page={PAGE_ID}") as page, picture(room), picture(room, other):
+def test_other_pages_keep_their_view(room: PanelRoom, page_id: str) -> None:
+    with (
+        room.page(f"?page={page_id}") as page,
+        picture(room, page_id) as mine,
+        picture(room, uuid4().hex) as other,
+    ):
         page.done("camera", mode="eyes")
-        client = room.viewer.viewer_clients.find(other)
-        assert client is not None
-        assert client.view.mode is Mode.ARENA
+        until(lambda: mine.view.mode is Mode.EYES)
+        assert other.view.mode is Mode.ARENA
 
 
-def test_a_click_in_the_picture_chooses_an_agent(several: PanelRoom) -> None:
-    with several.page(f"?page={PAGE_ID}") as page, picture(several):
-        client = several.viewer.viewer_clients.find(PAGE_ID)
-        assert client is not None
+def test_a_click_in_the_picture_chooses_an_agent(several: PanelRoom, page_id: str) -> None:
+    with several.page(f"?page={page_id}") as page, picture(several, page_id) as client:
         page.show("0", "agent")
         until(lambda: client.panel is not None)
         body, agent = next(
