@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from ai4u_edu.recording import Episode
     from ai4u_edu.runtime.runner import Runner
     from ai4u_edu.scenes import Scene
-    from ai4u_edu.server import Rules
+    from ai4u_edu.server import LessonView, Rules
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -160,6 +160,7 @@ def serve_scene(settings: PlaySettings) -> None:
         proxy_hosts=settings.allowed_hosts,
         rules=settings.rules,
         editor=editor,
+        lessons=_lessons,
     )
     runner.start()
     viewer.start()
@@ -217,6 +218,20 @@ def _make_editor(
     if settings.saved_scenes is not None:
         editor.scene_store = SceneStore(settings.saved_scenes)
     return editor
+
+
+def _lessons() -> "list[LessonView]":
+    from ai4u_edu.lessons.course import lessons
+    from ai4u_edu.server import LessonView
+
+    return [
+        LessonView(
+            number=each.number,
+            title=each.title.removeprefix(each.number).strip(),
+            duration=each.duration,
+        )
+        for each in lessons()
+    ]
 
 
 def _announcer(
