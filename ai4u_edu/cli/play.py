@@ -118,7 +118,6 @@ def serve_scene(settings: PlaySettings) -> None:
         AI4UError: the scene, a file or the address can't be used; the message says why.
     """
     from ai4u_edu.editing.autosave import Autosave, unsaved_folder, unsaved_scenes
-    from ai4u_edu.editing.unsaved import choose_unsaved
     from ai4u_edu.panel import PanelSockets
     from ai4u_edu.recording import Episode, recorder_into
     from ai4u_edu.runtime.process_tuning import tuned_process
@@ -129,11 +128,7 @@ def serve_scene(settings: PlaySettings) -> None:
 
     is_unsaved_wanted = settings.autosave or settings.restore
     unsaved = unsaved_scenes(unsaved_folder()) if is_unsaved_wanted else []
-    restored = (
-        choose_unsaved(unsaved, settings.scene if settings.is_scene_named else "")
-        if settings.restore
-        else None
-    )
+    restored = _restored(settings, unsaved)
     scene, linked_seed = _scene_of(settings, restored)
     title = scene.description.title or scene.description.name
     sim, scene = _build(scene, settings.drivers)
@@ -185,6 +180,14 @@ def _build(scene: "Scene", drivers: list[str]) -> "tuple[ControlRequestor, Scene
     from ai4u_edu.training.assigned import with_drivers  # loads packages that most don't need
 
     return with_drivers(scene, drivers, is_served=True)
+
+
+def _restored(settings: PlaySettings, unsaved: "list[Unsaved]") -> "Unsaved | None":
+    from ai4u_edu.editing.unsaved import choose_unsaved
+
+    if not settings.restore:
+        return None
+    return choose_unsaved(unsaved, settings.scene if settings.is_scene_named else "")
 
 
 def _scene_of(settings: PlaySettings, restored: "Unsaved | None") -> "SharedScene":

@@ -63,9 +63,9 @@ def room_app(
     script_limit = [Middleware(LimitScripts, attempts=attempts, code=PROBLEMS["bad_token"])]
     past = Past(runner)
     state = StateRoutes(runner, current_title, can_open=editor is not None)
-    scenes = [] if editor is None else _scene_routes(SceneRoutes(runner, editor), auth)
+    scenes: list[Route] = []
     if editor is not None:
-        scenes += _start_routes(StartPage(lessons), auth, page_auth)
+        scenes = _scene_routes(SceneRoutes(runner, editor), StartPage(lessons), auth, page_auth)
     return Starlette(
         routes=[
             Route("/", page.index, middleware=page_auth),
@@ -91,20 +91,15 @@ def room_app(
     )
 
 
-def _scene_routes(scenes: SceneRoutes, auth: list[Middleware]) -> list[Route]:
+def _scene_routes(
+    scenes: SceneRoutes, start: StartPage, auth: list[Middleware], page_auth: list[Middleware]
+) -> list[Route]:
     return [
+        Route("/start", start.page, middleware=page_auth),
         Route("/api/scene", scenes.present, methods=["GET"], middleware=auth),
         Route("/api/scene", scenes.open, methods=["POST"], middleware=auth),
         Route("/api/scene/link", scenes.link, methods=["GET"], middleware=auth),
         Route("/api/scene/link", scenes.describe, methods=["POST"], middleware=auth),
-    ]
-
-
-def _start_routes(
-    start: StartPage, auth: list[Middleware], page_auth: list[Middleware]
-) -> list[Route]:
-    return [
-        Route("/start", start.page, middleware=page_auth),
         Route("/api/scenes", start.scenes, middleware=auth),
         Route("/api/scenes/{file}", start.picture, middleware=auth),
         Route("/api/lessons", start.lessons, middleware=auth),
