@@ -38,6 +38,7 @@ class ViewerClient:
         self.agent = asked
         """Id of the agent that is shown."""
         self._sensor_choices: dict[tuple[str, str], bool] = {}
+        self._trail_choices: dict[str, bool] = {}
 
     def settle(self, ids: Sequence[str]) -> None:
         """Show the first of these agents, unless the one that is shown is among them."""
@@ -56,6 +57,19 @@ class ViewerClient:
     def show_sensor(self, key: str, on: bool) -> None:
         """Show a sensor of the agent in the scene, or hide it."""
         self._sensor_choices[self.agent, key] = on
+
+    def shows_trail(self, agent_id: str, *, is_default: bool) -> bool:
+        """Return True if the trail behind an agent is shown.
+
+        Args:
+            agent_id: the agent's id.
+            is_default: True for an agent whose trail is shown unless the user has switched it off.
+        """
+        return self._trail_choices.get(agent_id, is_default)
+
+    def show_trail(self, agent_id: str, on: bool) -> None:
+        """Show the trail behind an agent on this page, or hide it."""
+        self._trail_choices[agent_id] = on
 
 
 class ViewerClients(Mapping[int, ViewerClient]):
