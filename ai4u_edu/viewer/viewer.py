@@ -161,6 +161,8 @@ class Viewer:
         viewer_client, static_scene = self.viewer_clients.get(client_id), self._static_scene
         if viewer_client is not None and static_scene is not None and body in static_scene.agent_of:
             viewer_client.agent = static_scene.agent_of[body]
+            if viewer_client.panel is not None:
+                viewer_client.panel.on_selected(body)
 
     def draw(self, snapshot: Snapshot) -> None:
         """Draw what is due of a snapshot; the viewer's thread does, once it has started."""
