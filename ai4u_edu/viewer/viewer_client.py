@@ -62,8 +62,6 @@ class ViewerClient:
         """Name of the selected body."""
         self.is_move_mode = False
         """True if its user may drag bodies."""
-        self.shows_trail = False
-        """True if the agent's trail is drawn."""
         self.view = View(client)
         """Its camera."""
         self.agent = asked
