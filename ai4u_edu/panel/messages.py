@@ -15,14 +15,13 @@ MAX_NAME_CHARS = 200
 MAX_PATH_PARTS = 12
 MAX_FIELDS = 200
 """Most values of a form."""
-MAX_BODIES = 500
-"""Most bodies that one command moves."""
 
 Name = Annotated[str, Meta(max_length=MAX_NAME_CHARS)]
 Number = Annotated[int, Meta(ge=0, le=MAX_EXACT_INT)]
-Steps = Annotated[int, Meta(ge=-MAX_EXACT_INT, le=MAX_EXACT_INT)]
 Path = Annotated[list[str | int], Meta(min_length=1, max_length=MAX_PATH_PARTS)]
 Values = Annotated[dict[str, Any], Meta(max_length=MAX_FIELDS)]
+Metres = Annotated[float, Meta(ge=-1e4, le=1e4)]
+Degrees = Annotated[float, Meta(ge=-3600, le=3600)]
 Seed = Annotated[str, Meta(pattern=r"^[0-9]{1,40}$")]
 """A whole number as text: JavaScript rounds those above 2**53."""
 Kind = Literal["sensors", "actuators", "rewards", "brains"]
@@ -192,6 +191,112 @@ class Redo(Command, tag="redo"):
     """Make the change again that was undone last."""
 
 
+class MoveMode(Command, tag="move_mode"):
+    """Let the user move things with the mouse, or not."""
+
+    on: bool
+
+
+class Snap(Command, tag="snap"):
+    """Set the grid (m) to which moved things snap; 0 for none."""
+
+    distance: Annotated[float, Meta(ge=0, le=100)]
+
+
+class SelectBody(Command, tag="select"):
+    """Select a thing."""
+
+    body: Name | None
+
+
+class AddBody(Command, tag="add_body"):
+    """Add a thing, by default where there is room in the picture (m)."""
+
+    template: Name
+    x: Metres | None = None
+    y: Metres | None = None
+
+
+class DuplicateBody(Command, tag="duplicate_body"):
+    """Add a copy of a thing."""
+
+    name: Name
+
+
+class ChangeBody(Command, tag="change_body"):
+    """Change properties of a thing."""
+
+    name: Name
+    values: Values
+
+
+class MoveBody(Command, tag="move_body"):
+    """Put a thing somewhere (m, degrees)."""
+
+    name: Name
+    x: Metres
+    y: Metres
+    heading_deg: Degrees | None = None
+
+
+class Nudge(Command, tag="nudge"):
+    """Move a thing a bit (m, degrees)."""
+
+    name: Name
+    dx: Metres = 0.0
+    dy: Metres = 0.0
+    turn_deg: Degrees = 0.0
+
+
+class RemoveBody(Command, tag="remove_body"):
+    """Delete a thing; the body of an agent goes with its agent."""
+
+    name: Name
+
+
+class ChangeSettings(Command, tag="change_settings"):
+    """Change texts or settings of the scene."""
+
+    values: Values
+
+
+class ListScenes(Command, tag="scenes"):
+    """List the scenes that can be opened."""
+
+
+class OpenScene(Command, tag="open_scene"):
+    """Open a scene of the library, or a saved one."""
+
+    name: Name
+    is_saved: bool = False
+
+
+class SaveScene(Command, tag="save_scene"):
+    """Save the scene under a name."""
+
+    name: Name
+    over: bool = False
+
+
+class Download(Command, tag="download"):
+    """Return the scene's file."""
+
+
+class LoadText(Command, tag="load_text"):
+    """Open the scene file that was sent in binary messages before."""
+
+    name: Name
+    size: Number
+
+
+class Restore(Command, tag="restore"):
+    """Open the unsaved scene."""
+
+
+class Discard(Command, tag="discard"):
+    """Delete the unsaved scene."""
+
+
 def read(text: str | bytes) -> Show | Command:
     """Return the message in a JSON text.
 
@@ -278,6 +383,23 @@ _AnyCommand = Union[  # noqa: UP007 - a union of so many is read more easily as 
     ChangeAgent,
     Undo,
     Redo,
+    MoveMode,
+    Snap,
+    SelectBody,
+    AddBody,
+    DuplicateBody,
+    ChangeBody,
+    MoveBody,
+    Nudge,
+    RemoveBody,
+    ChangeSettings,
+    ListScenes,
+    OpenScene,
+    SaveScene,
+    Download,
+    LoadText,
+    Restore,
+    Discard,
 ]
 NAMES = {str(each.__struct_config__.tag): each for each in get_args(_AnyCommand)}
 """Commands by name."""

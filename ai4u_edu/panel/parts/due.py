@@ -11,6 +11,7 @@ from ai4u_edu.panel.parts.agent import agent_part, curve_part, python_part, show
 from ai4u_edu.panel.parts.blocks import blocks_part
 from ai4u_edu.panel.parts.run import run_part
 from ai4u_edu.panel.parts.scene import scene_part
+from ai4u_edu.panel.parts.world import world_part
 
 Parts = Iterator[tuple[str, bytes]]
 
@@ -63,3 +64,11 @@ def _editor_parts(context: PanelContext, editor: SceneEditor, view: PageView) ->
             "blocks",
             context.cache.by_key(key, lambda: blocks_part(editor, agent_id, driver, path)),
         )
+    if "world" in tabs:
+        autosave, recovery = editor.recovery.autosave, editor.recovery
+        world_key = (
+            *("world", editor.version, show.body, editor.waits_for_reset, editor.is_dragging),
+            *(view.is_move_mode, view.snap_m, recovery.unsaved),
+            "" if autosave is None else autosave.problem,
+        )
+        yield "world", context.cache.by_key(world_key, lambda: world_part(editor, view))
