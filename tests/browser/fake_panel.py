@@ -68,7 +68,7 @@ class FakePanel:
 
     @property
     def shown(self) -> Json:
-        """What the page looked at last."""
+        """The last message about what the page looks at."""
         return [each for each in self.received if each["type"] == "show"][-1]
 
     def _connect(self, socket: WebSocketRoute) -> None:
