@@ -18,6 +18,7 @@ from ai4u_edu.viewer.panel.controls import Controls
 from ai4u_edu.viewer.panel.page_controls import PageControls
 from ai4u_edu.viewer.panel.reward_table import MAX_PLOTTED_DECISIONS
 from ai4u_edu.viewer.panel.tabs import TabKind, Tabs
+from ai4u_edu.viewer.panel.training_block import TrainingBlock
 from ai4u_edu.viewer.panel.world_tab import world_tab
 from ai4u_edu.viewer.replay.ghosts import Ghosts
 from ai4u_edu.viewer.replay.replay_player import ReplayPlayer
@@ -88,6 +89,7 @@ class Viewer:
         if runner.recorder is not None:
             kinds.append(replay_tab(runner, self.player, self.ghosts))
 
+        training = runner.training
         parts: list[tuple[Part, float]] = [
             (viewer_clients, MAX_FRAMES_PER_S),
             (Ground(server), TEXTS_PER_S),
@@ -97,6 +99,7 @@ class Viewer:
             (Actions(server), SENSES_PER_S),
             (Controls(server, runner, viewer_clients), TEXTS_PER_S),
             (PageControls(viewer_clients), TEXTS_PER_S),
+            *([(TrainingBlock(server, runner, training), TEXTS_PER_S)] if training else []),
             (SenseOverlay(viewer_clients), MAX_FRAMES_PER_S),
             (Tabs(viewer_clients, kinds, self._error_log), MAX_FRAMES_PER_S),
         ]
