@@ -119,6 +119,7 @@ def serve_scene(settings: PlaySettings) -> None:
     """
     from ai4u_edu.editing.autosave import Autosave, unsaved_folder, unsaved_scenes
     from ai4u_edu.editing.unsaved import choose_unsaved
+    from ai4u_edu.panel import PanelSockets
     from ai4u_edu.recording import Episode, recorder_into
     from ai4u_edu.runtime.process_tuning import tuned_process
     from ai4u_edu.runtime.runner import Runner
@@ -160,6 +161,7 @@ def serve_scene(settings: PlaySettings) -> None:
         proxy_hosts=settings.allowed_hosts,
         rules=settings.rules,
         editor=editor,
+        panel=PanelSockets(runner, viewer, editor),
     )
     runner.start()
     viewer.start()

@@ -6,7 +6,7 @@ from functools import partial
 from starlette.applications import Starlette
 from starlette.middleware import Middleware
 from starlette.routing import Match, Mount, Route, WebSocketRoute
-from starlette.types import Scope
+from starlette.types import ASGIApp, Scope
 
 from ai4u_edu.editing import SceneEditor
 from ai4u_edu.runtime.runner import Runner
@@ -32,6 +32,7 @@ def room_app(
     allowed_hosts: Collection[str] = LOOPBACK,
     proxy_hosts: Collection[str] = (),
     rules: Rules | None = None,
+    panel: ASGIApp | None = None,
     editor: SceneEditor | None = None,
 ) -> Starlette:
     """Return the ASGI app of one room; mount it under a path with :class:`RoomMount`.
@@ -44,6 +45,7 @@ def room_app(
         proxy_hosts: host names of a reverse proxy in front; see there.
         rules: for scripts that drive agents from other machines; the page and the API ask for
             their token too.
+        panel: serves the sockets of the pages' panels; left out, pages have viser's panel only.
         editor: lets pages open and share scenes; without it the scene stays as it is.
     """
     rules = rules or Rules()
@@ -72,6 +74,7 @@ def room_app(
             *scenes,
             WebSocketRoute("/", ViserProxy(viser_port, rules.token), middleware=auth),
             WebSocketRoute("/ws/input", Inputs(runner, current_title), middleware=auth),
+            *([WebSocketRoute("/ws/panel", panel, middleware=auth)] if panel is not None else []),
             # scripts send the token in their hello
             WebSocketRoute(
                 "/ws/remote", RemoteSockets(runner, current_title, rules), middleware=script_limit

@@ -18,6 +18,7 @@ from ai4u_edu.base.errors import SetupError
 _PLACE = "<title>Viser</title>"
 _OURS = """<title>{title}</title>
     <script src="./web/dark.js"></script>
+    <script src="./web/page_id.js"></script>
     <link rel="stylesheet" href="./web/page.css" />
     <link rel="stylesheet" href="./web/dock.css" />
     <link rel="stylesheet" href="./web/banners.css" />

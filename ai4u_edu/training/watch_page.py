@@ -18,6 +18,7 @@ from stable_baselines3.common.base_class import BaseAlgorithm
 from ai4u_edu.blocks import LocalBrain, Percept
 from ai4u_edu.blocks.brains.command import Answer, Command
 from ai4u_edu.blocks.loading import load_blocks
+from ai4u_edu.panel import PanelSockets
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.runtime.training_progress import TrainingProgress
 from ai4u_edu.server import PortTakenError, lock_viser_port, open_on_desktop, room_app, serve
@@ -84,7 +85,8 @@ def show(run: Run, port: int, *, open_page: bool) -> None:
     runner.training = latest.progress
     viewer = Viewer(runner, title=title)
     lock_viser_port(viewer.server)
-    room = room_app(runner, viser_port=viewer.port, title=title)
+    panel = PanelSockets(runner, viewer)
+    room = room_app(runner, viser_port=viewer.port, title=title, panel=panel)
 
     def ready(url: str) -> None:
         sys.stderr.write(f"watch it learn at {url}\n")

@@ -89,14 +89,14 @@ class Viewer:
         if runner.recorder is not None:
             kinds.append(replay_tab(runner, self.player, self.ghosts))
 
-        training = runner.training
+        bodies, training = Bodies(server, self._choose), runner.training
         parts: list[tuple[Part, float]] = [
             (viewer_clients, MAX_FRAMES_PER_S),
             (Ground(server), TEXTS_PER_S),
-            (Bodies(server, self._choose), MAX_FRAMES_PER_S),
+            (bodies, MAX_FRAMES_PER_S),
             (Labels(server), MAX_FRAMES_PER_S),
             (self.ghosts, SENSES_PER_S),
-            (Actions(server), SENSES_PER_S),
+            (Actions(server, bodies), SENSES_PER_S),
             (Controls(server, runner, viewer_clients), TEXTS_PER_S),
             (PageControls(viewer_clients), TEXTS_PER_S),
             *([(TrainingBlock(server, runner, training), TEXTS_PER_S)] if training else []),
@@ -161,6 +161,8 @@ class Viewer:
         viewer_client, static_scene = self.viewer_clients.get(client_id), self._static_scene
         if viewer_client is not None and static_scene is not None and body in static_scene.agent_of:
             viewer_client.agent = static_scene.agent_of[body]
+            if viewer_client.panel is not None:
+                viewer_client.panel.on_selected(body)
 
     def draw(self, snapshot: Snapshot) -> None:
         """Draw what is due of a snapshot; the viewer's thread does, once it has started."""
