@@ -31,7 +31,8 @@ class PageView:
         self.show = Show(type="show", agent=agent)
         self.camera = Mode.ARENA
         self.is_move_mode = False
-        self.shows_trail = False
+        self.trails: dict[str, bool] = {}
+        """Trails that were switched on or off, by agent."""
         self._is_dark: bool | None = None
         self.sensors: dict[tuple[str, str], bool] = {}
         """Sensors that were switched on or off, by agent and key."""
@@ -93,7 +94,7 @@ class PageView:
 
     def show_trail(self, on: bool) -> None:
         """Draw the agent's trail, or hide it."""
-        self.shows_trail = on
+        self.trails[self.show.agent] = on
         self._apply(self._choose_shown)
 
     def set_move_mode(self, on: bool) -> None:
@@ -114,7 +115,8 @@ class PageView:
         client.agent = self.show.agent
         client.selected = self.show.body or ""
         client.is_move_mode = self.is_move_mode
-        client.shows_trail = self.shows_trail
+        for agent, on in self.trails.items():
+            client.show_trail(agent, on)
 
     def _choose_all(self, client: ViewerClient) -> None:
         client.panel = self._panel

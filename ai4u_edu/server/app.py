@@ -18,6 +18,7 @@ from ai4u_edu.server.past import Past
 from ai4u_edu.server.proxy import ViserProxy
 from ai4u_edu.server.scene_routes import SceneRoutes
 from ai4u_edu.server.scripts import RemoteSockets, Rules
+from ai4u_edu.server.start_page import LessonView, StartPage
 from ai4u_edu.server.state_routes import StateRoutes
 from ai4u_edu.server.token_auth import TokenAuth
 from ai4u_edu.server.token_page import PUBLIC_FILES, TokenPage
@@ -34,6 +35,7 @@ def room_app(
     rules: Rules | None = None,
     panel: ASGIApp | None = None,
     editor: SceneEditor | None = None,
+    lessons: Callable[[], list[LessonView]] = list,
 ) -> Starlette:
     """Return the ASGI app of one room; mount it under a path with :class:`RoomMount`.
 
@@ -46,7 +48,9 @@ def room_app(
         rules: for scripts that drive agents from other machines; the page and the API ask for
             their token too.
         panel: serves the sockets of the pages' panels; left out, pages have viser's panel only.
-        editor: lets pages open and share scenes; without it the scene stays as it is.
+        editor: lets pages open and share scenes; without it the scene stays as it is, and there is
+            no start page.
+        lessons: returns the lessons that the start page lists.
     """
     rules = rules or Rules()
     current_title = title if callable(title) else partial(str, title)
@@ -59,7 +63,9 @@ def room_app(
     script_limit = [Middleware(LimitScripts, attempts=attempts, code=PROBLEMS["bad_token"])]
     past = Past(runner)
     state = StateRoutes(runner, current_title, can_open=editor is not None)
-    scenes = [] if editor is None else _scene_routes(SceneRoutes(runner, editor), auth)
+    scenes: list[Route] = []
+    if editor is not None:
+        scenes = _scene_routes(SceneRoutes(runner, editor), StartPage(lessons), auth, page_auth)
     return Starlette(
         routes=[
             Route("/", page.index, middleware=page_auth),
@@ -86,12 +92,18 @@ def room_app(
     )
 
 
-def _scene_routes(scenes: SceneRoutes, auth: list[Middleware]) -> list[Route]:
+def _scene_routes(
+    scenes: SceneRoutes, start: StartPage, auth: list[Middleware], page_auth: list[Middleware]
+) -> list[Route]:
     return [
+        Route("/start", start.page, middleware=page_auth),
         Route("/api/scene", scenes.present, methods=["GET"], middleware=auth),
         Route("/api/scene", scenes.open, methods=["POST"], middleware=auth),
         Route("/api/scene/link", scenes.link, methods=["GET"], middleware=auth),
         Route("/api/scene/link", scenes.describe, methods=["POST"], middleware=auth),
+        Route("/api/scenes", start.scenes, middleware=auth),
+        Route("/api/scenes/{file}", start.picture, middleware=auth),
+        Route("/api/lessons", start.lessons, middleware=auth),
     ]
 
 

@@ -15,6 +15,7 @@ from ai4u_edu.server.scene_routes import (
     SceneView,
     SharedView,
 )
+from ai4u_edu.server.start_page import LessonsView, ScenesView
 
 _ANSWERS: dict[str, tuple[str, type[BaseModel]]] = {
     "/healthz": ("Whether the room is well.", Health),
@@ -26,6 +27,8 @@ _ANSWERS: dict[str, tuple[str, type[BaseModel]]] = {
 _SCENE_ANSWERS: dict[str, tuple[str, type[BaseModel]]] = {
     "/api/scene": ("The scene that runs.", SceneView),
     "/api/scene/link": ("A link to the scene that runs.", LinkView),
+    "/api/scenes": ("The library's scenes.", ScenesView),
+    "/api/lessons": ("The lessons of the course.", LessonsView),
 }
 _SCENE_REQUESTS: dict[str, tuple[str, type[BaseModel]]] = {
     "/api/scene": ("Open a scene.", OpenRequest),
@@ -54,6 +57,7 @@ def openapi(*, can_open: bool = False) -> dict[str, Any]:
     if can_open:
         for path, (summary, model) in _SCENE_REQUESTS.items():
             paths[path] |= _post(summary, model)
+        paths["/api/scenes/{file}"] = _picture("A picture of a scene of the library.")
     health = paths["/healthz"]["get"]["responses"]
     health["503"] = {**health["200"], "description": "A block of the world does not return."}
     paths["/api/past/{file}"] = _file("A kept episode as a file.")
@@ -96,6 +100,23 @@ def _post(summary: str, model: type[BaseModel]) -> dict[str, Any]:
         "503": {"description": "The world does not answer, or too many scenes wait."},
     }
     return {"post": post}
+
+
+def _picture(summary: str) -> dict[str, Any]:
+    described = _get(summary, {})
+    found = described["get"]
+    found["parameters"] = [
+        {
+            "name": "file",
+            "in": "path",
+            "required": True,
+            "description": "the scene's name and .png",
+            "schema": {"type": "string", "pattern": r"^[a-z0-9_]+\.png$"},
+        }
+    ]
+    found["responses"]["200"]["content"] = {"image/png": {}}
+    found["responses"]["404"] = {"description": "No scene has that name."}
+    return described
 
 
 def _file(summary: str) -> dict[str, Any]:

@@ -31,6 +31,7 @@ from ai4u_edu.viewer.scene.ground import Ground
 from ai4u_edu.viewer.scene.labels import Labels
 from ai4u_edu.viewer.scene.light import set_up_lights
 from ai4u_edu.viewer.scene.sense_overlay import SenseOverlay
+from ai4u_edu.viewer.scene.trails import Trails
 from ai4u_edu.viewer.viewer_client import ViewerClients
 
 PANEL_WIDTH_PX = 320
@@ -100,6 +101,7 @@ class Viewer:
             (Controls(server, runner, viewer_clients), TEXTS_PER_S),
             (PageControls(viewer_clients), TEXTS_PER_S),
             *([(TrainingBlock(server, runner, training), TEXTS_PER_S)] if training else []),
+            (Trails(viewer_clients), SENSES_PER_S),
             (SenseOverlay(viewer_clients), MAX_FRAMES_PER_S),
             (Tabs(viewer_clients, kinds, self._error_log), MAX_FRAMES_PER_S),
         ]

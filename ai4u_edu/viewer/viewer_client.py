@@ -62,13 +62,12 @@ class ViewerClient:
         """Name of the selected body."""
         self.is_move_mode = False
         """True if its user may drag bodies."""
-        self.shows_trail = False
-        """True if the agent's trail is drawn."""
         self.view = View(client)
         """Its camera."""
         self.agent = asked
         """Id of the agent that is shown."""
         self._sensor_choices: dict[tuple[str, str], bool] = {}
+        self._trail_choices: dict[str, bool] = {}
 
     def settle(self, ids: Sequence[str]) -> None:
         """Show the first of these agents, unless the one that is shown is among them."""
@@ -92,6 +91,19 @@ class ViewerClient:
     def show_sensor(self, key: str, on: bool, agent: str = "") -> None:
         """Show a sensor in the scene, or hide it; by default one of the agent that is shown."""
         self._sensor_choices[agent or self.agent, key] = on
+
+    def shows_trail(self, agent_id: str, *, is_default: bool) -> bool:
+        """Return True if the trail behind an agent is shown.
+
+        Args:
+            agent_id: the agent's id.
+            is_default: True for an agent whose trail is shown unless the user has switched it off.
+        """
+        return self._trail_choices.get(agent_id, is_default)
+
+    def show_trail(self, agent_id: str, on: bool) -> None:
+        """Show the trail behind an agent on this page, or hide it."""
+        self._trail_choices[agent_id] = on
 
 
 class ViewerClients(Mapping[int, ViewerClient]):

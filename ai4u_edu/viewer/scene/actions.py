@@ -87,7 +87,8 @@ class Actions:
         for agent in snapshot.agents:
             body = bodies[agent.body]
             radius, height = self._sizes[body.name]
-            numbers = () if body.fallen else _effective(agent)
+            is_over = body.fallen or agent.terminated or agent.truncated
+            numbers = () if is_over else _effective(agent)
             marks = action_marks(numbers, radius) if len(numbers) == 4 else NO_MARKS
             z = height + 3 * self._layers.unit
             lines = self.below_bodies.get(body.name)
