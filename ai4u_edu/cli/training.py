@@ -11,14 +11,8 @@ from rich.console import Console
 from ai4u_edu.base.atomic_write import write_atomically
 from ai4u_edu.base.errors import SetupError
 from ai4u_edu.base.seeding import seeds_from
-from ai4u_edu.cli.options import (
-    MAX_EPISODES,
-    MAX_TRAINING_STEPS,
-    OwnBlocks,
-    load_own_blocks,
-    seed_option,
-    training_seed_option,
-)
+from ai4u_edu.cli import training_options as o
+from ai4u_edu.cli.options import OwnBlocks, load_own_blocks
 
 if TYPE_CHECKING:
     from ai4u_edu.training.learning import Trained
@@ -33,58 +27,18 @@ def add_to(app: typer.Typer) -> None:
 
 
 def train(
-    scene: Annotated[
-        str, typer.Argument(help="Scene name or YAML file. Default: box_chase. Not with --resume.")
-    ] = "",
-    algo: Annotated[str, typer.Option(help="sac, ppo or dqn. Default: as in the settings.")] = "",
-    steps: Annotated[
-        int | None,
-        typer.Option(
-            help="Number of decisions to learn from. Default: as in the settings.",
-            min=1,
-            max=MAX_TRAINING_STEPS,
-        ),
-    ] = None,
-    seed: Annotated[
-        int, training_seed_option("Random seed; the same seed gives the same model.")
-    ] = 0,
-    out: Annotated[
-        Path | None, typer.Option(help="Folder for the results. Default: runs/SCENE-ALGO-SEED.")
-    ] = None,
-    settings: Annotated[
-        Path | None, typer.Option(help="YAML file to use instead of the scene's own settings.")
-    ] = None,
-    policy: Annotated[
-        str,
-        typer.Option(
-            help="Kind of network: MlpPolicy, CnnPolicy (one picture) or MultiInputPolicy. "
-            "Default: as in the settings."
-        ),
-    ] = "",
-    observe: Annotated[
-        list[str] | None,
-        typer.Option(
-            help="Perception key that the policy observes. Repeat the option for several. "
-            "Default: as in the settings."
-        ),
-    ] = None,
-    resume: Annotated[
-        bool, typer.Option("--resume", help="Continue the training in --out.")
-    ] = False,
-    overwrite: Annotated[
-        bool, typer.Option("--overwrite", help="Start again and delete the training in --out.")
-    ] = False,
-    watch: Annotated[
-        bool,
-        typer.Option(
-            "--watch",
-            help="Show the policy in the browser while it learns and afterwards; Ctrl-C ends it.",
-        ),
-    ] = False,
-    port: Annotated[
-        int,
-        typer.Option(help="Port of the page with --watch; 0 for any free port.", min=0, max=65535),
-    ] = 8080,
+    scene: o.TrainedScene = "",
+    algo: o.Algorithm = "",
+    steps: o.Steps = None,
+    seed: o.TrainingSeed = 0,
+    out: o.TrainingFolder = None,
+    settings: o.SettingsFile = None,
+    policy: o.PolicyKind = "",
+    observe: o.Observed = None,
+    resume: o.Resume = False,
+    overwrite: o.Overwrite = False,
+    watch: o.WatchFlag = False,
+    port: o.WatchPort = 8080,
     own_blocks: OwnBlocks = None,
 ) -> None:
     r"""Train an agent in a scene. Ctrl-C ends it early and keeps what was learned.
@@ -139,30 +93,13 @@ def _summary(result: "Trained") -> str:
 
 
 def evaluate(
-    who: Annotated[
-        str,
-        typer.Argument(
-            help="The driver: a training's folder, a model (.zip), a network (.onnx, zoo:SCENE, or "
-            "zoo for the scene's own), a controller, FILE.py:NAME (a function or a Controller), "
-            "random, or scene (the scene's own controller)."
-        ),
-    ],
-    scene: Annotated[
-        str,
-        typer.Option(help="Scene name or YAML file. Default: the one that the driver is made for."),
-    ] = "",
-    compare: Annotated[
-        list[str] | None,
-        typer.Option(help="Another driver, on the same seeds. Repeat the option for several."),
-    ] = None,
-    episodes: Annotated[
-        int, typer.Option(help="Number of episodes.", min=1, max=MAX_EPISODES)
-    ] = 100,
-    seed: Annotated[int, seed_option("Seed of the first episode; the next ones count up.")] = 0,
-    json_file: Annotated[
-        Path | None, typer.Option("--json", help="Write the results to a JSON file; - prints them.")
-    ] = None,
-    plot: Annotated[Path | None, typer.Option(help="Draw the results into a PNG file.")] = None,
+    who: o.Driver,
+    scene: o.EvaluatedScene = "",
+    compare: o.Others = None,
+    episodes: o.Episodes = 100,
+    seed: o.FirstSeed = 0,
+    json_file: o.JsonFile = None,
+    plot: o.Plot = None,
     own_blocks: OwnBlocks = None,
 ) -> None:
     """Measure how well a driver does, on seeds not used for training.
