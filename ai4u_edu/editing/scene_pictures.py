@@ -53,7 +53,7 @@ def scene_picture(scene: Scene, longest_px: int) -> bytes:
 def library_scenes() -> tuple[LibraryScene, ...]:
     """Return the library's scenes, the easiest first; cached, because reading takes a moment."""
     scenes = [_in_words(name) for name in Scene.names()]
-    order = ("", *LEVELS)
+    order = (*LEVELS, "")
     return tuple(sorted(scenes, key=lambda each: (order.index(each.level), each.title.lower())))
 
 

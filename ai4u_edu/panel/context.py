@@ -1,5 +1,6 @@
 """The running world that all pages' panels share."""
 
+import asyncio
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any
@@ -54,6 +55,8 @@ class PanelContext:
     viewer: Viewer
     editor: SceneEditor | None = None
     cache: PartCache = field(default_factory=PartCache)
+    slow_work: asyncio.Semaphore = field(default_factory=lambda: asyncio.Semaphore(1))
+    """Held by a page whose command does slow work in another thread."""
 
     def required_editor(self) -> SceneEditor:
         """Return the editor.

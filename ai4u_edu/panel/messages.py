@@ -120,6 +120,78 @@ class Dark(Command, tag="dark"):
     on: bool
 
 
+class ListDrivers(Command, tag="drivers"):
+    """List the drivers that the agent can have."""
+
+
+class SetDriver(Command, tag="driver"):
+    """Choose the agent's driver."""
+
+    name: Name
+    agent: Name | None = None
+
+
+class ListBlocks(Command, tag="gallery"):
+    """List the blocks that can be added."""
+
+    kind: Kind
+
+
+class AddBlock(Command, tag="add_block"):
+    """Add a block to the agent, or to one of its blocks."""
+
+    type_name: Name = msgspec.field(name="class")
+    parent: Path
+    index: Annotated[int, Meta(ge=0, le=1000)] | None = None
+
+
+class RemoveBlock(Command, tag="remove_block"):
+    """Remove a block of the agent."""
+
+    path: Path
+
+
+class MoveBlock(Command, tag="move_block"):
+    """Move a block of the agent up (-1) or down (1)."""
+
+    path: Path
+    by: Annotated[int, Meta(ge=-1000, le=1000)]
+
+
+class SwitchBlock(Command, tag="switch_block"):
+    """Switch a block of the agent on or off."""
+
+    path: Path
+    on: bool
+
+
+class DuplicateBlock(Command, tag="duplicate_block"):
+    """Add a copy of a block of the agent."""
+
+    path: Path
+
+
+class ChangeBlock(Command, tag="change_block"):
+    """Change parameters of a block of the agent."""
+
+    path: Path
+    values: Values
+
+
+class ChangeAgent(Command, tag="change_agent"):
+    """Change parameters of the agent itself."""
+
+    values: Values
+
+
+class Undo(Command, tag="undo"):
+    """Take back the last change."""
+
+
+class Redo(Command, tag="redo"):
+    """Make the change again that was undone last."""
+
+
 def read(text: str | bytes) -> Show | Command:
     """Return the message in a JSON text.
 
@@ -194,6 +266,18 @@ _AnyCommand = Union[  # noqa: UP007 - a union of so many is read more easily as 
     ShowSensor,
     ShowTrail,
     Dark,
+    ListDrivers,
+    SetDriver,
+    ListBlocks,
+    AddBlock,
+    RemoveBlock,
+    MoveBlock,
+    SwitchBlock,
+    DuplicateBlock,
+    ChangeBlock,
+    ChangeAgent,
+    Undo,
+    Redo,
 ]
 NAMES = {str(each.__struct_config__.tag): each for each in get_args(_AnyCommand)}
 """Commands by name."""

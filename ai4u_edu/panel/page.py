@@ -27,6 +27,11 @@ class Page:
     view: PageView
     note: Callable[[Level, str], None]
 
+    async def in_thread(self, work: Callable[[], T]) -> T:
+        """Do slow work in another thread; all pages' work is done one after another."""
+        async with self.context.slow_work:
+            return await asyncio.to_thread(work)
+
     async def result(self, future: "Future[T]") -> T:
         """Wait for a result of the runner; it does what was asked for also if the page leaves."""
         stall = self.context.runner.stall

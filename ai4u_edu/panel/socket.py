@@ -14,7 +14,7 @@ from ai4u_edu.base.log_limit import ErrorLog
 from ai4u_edu.editing import ChangeResult, SceneEditor
 from ai4u_edu.panel import messages
 from ai4u_edu.panel.answers import MAX_ERROR_CHARS, Answer, failure
-from ai4u_edu.panel.commands import run, view
+from ai4u_edu.panel.commands import blocks, run, view
 from ai4u_edu.panel.commands.handler import Handler
 from ai4u_edu.panel.context import PanelContext
 from ai4u_edu.panel.page import Level, Page
@@ -37,7 +37,11 @@ MAX_PENDING_COMMANDS = 16
 MIN_SEND_S = 0.03
 """Shortest time (s) between two looks for changed parts, after commands."""
 
-HANDLERS: Mapping[type[messages.Command], Handler] = {**run.HANDLERS, **view.HANDLERS}
+HANDLERS: Mapping[type[messages.Command], Handler] = {
+    **run.HANDLERS,
+    **view.HANDLERS,
+    **blocks.HANDLERS,
+}
 """Handlers of all commands by the type of their message."""
 
 _error_log = ErrorLog()

@@ -3,7 +3,7 @@
 import json
 import threading
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from typing import Any, Self
@@ -107,16 +107,20 @@ class PanelPage:
         assert answer["type"] == "failed", answer
         return answer
 
-    def part(self, name: str, **wanted: Any) -> Message:
-        """Return a part, as soon as its fields have these values."""
-        found = self.parts.get(name)
-        if found is not None and wanted.items() <= found.items():
-            return found
-        return self.receive(
-            lambda m: m["type"] == "part" and m["name"] == name and wanted.items() <= m.items()
-        )
+    def part(
+        self, name: str, condition: Callable[[Message], Any] = lambda _: True, **wanted: Any
+    ) -> Message:
+        """Return a part, as soon as its fields have these values and a condition holds."""
 
-    def receive(self, condition: Any) -> Message:
+        def fits(message: Message) -> Any:
+            return wanted.items() <= message.items() and condition(message)
+
+        found = self.parts.get(name)
+        if found is not None and fits(found):
+            return found
+        return self.receive(lambda m: m["type"] == "part" and m["name"] == name and fits(m))
+
+    def receive(self, condition: Callable[[Message], Any]) -> Message:
         """Return the next message for which a condition holds; keep all parts."""
         deadline = time.monotonic() + 10
         while True:

@@ -35,7 +35,7 @@ def room(editor: SceneEditor) -> Iterator[Room]:
 def test_all_scenes_are_listed_the_easiest_first(room: Room) -> None:
     scenes = httpx.get(room.url + "api/scenes", timeout=60).json()["scenes"]
     assert sorted(each["name"] for each in scenes) == Scene.names()
-    levels = [("", *LEVELS).index(each["level"]) for each in scenes]
+    levels = [(*LEVELS, "").index(each["level"]) for each in scenes]
     assert levels == sorted(levels)
     for each in scenes:
         about = Scene.load(each["name"]).description
@@ -106,3 +106,10 @@ def test_the_token_is_asked_for_and_leads_back_to_the_page(editor: SceneEditor) 
 def test_a_room_without_an_editor_has_no_start_page() -> None:
     with served() as room:
         assert httpx.get(room.url + "start").status_code == 404
+
+
+def test_scenes_of_the_library_have_a_level_and_minutes() -> None:
+    for name in ("box_chase", "soccer"):
+        about = Scene.load(name).description
+        assert about.level in LEVELS
+        assert about.minutes is not None

@@ -1,10 +1,14 @@
 """The parts of the panel that a page needs now, as JSON."""
 
 from collections.abc import Iterator
+from contextlib import suppress
 
+from ai4u_edu.base.errors import AI4UError
+from ai4u_edu.editing import SceneEditor
 from ai4u_edu.panel.context import PanelContext
 from ai4u_edu.panel.page_view import PageView
 from ai4u_edu.panel.parts.agent import agent_part, curve_part, python_part, shown_sensors
+from ai4u_edu.panel.parts.blocks import blocks_part
 from ai4u_edu.panel.parts.run import run_part
 from ai4u_edu.panel.parts.scene import scene_part
 
@@ -22,6 +26,9 @@ def due_parts(context: PanelContext, view: PageView) -> Parts:
     yield "scene", cache.of_snapshot(snapshot, "scene", lambda: scene_part(context, snapshot))
     if "agent" in view.show.tabs:
         yield from _agent_parts(context, view)
+    if context.editor is not None:
+        with suppress(AI4UError):  # the editor has another scene already
+            yield from _editor_parts(context, context.editor, view)
 
 
 def _agent_parts(context: PanelContext, view: PageView) -> Parts:
@@ -44,3 +51,15 @@ def _agent_parts(context: PanelContext, view: PageView) -> Parts:
             lambda: python_part(context, agent.id, address),
         ),
     )
+
+
+def _editor_parts(context: PanelContext, editor: SceneEditor, view: PageView) -> Parts:
+    tabs, agent_id, show = view.show.tabs, view.agent, view.show
+    if "blocks" in tabs:
+        path = None if show.block is None else tuple(show.block)
+        driver = editor.driver_of(agent_id)
+        key = ("blocks", editor.version, agent_id, driver, path, editor.waits_for_reset)
+        yield (
+            "blocks",
+            context.cache.by_key(key, lambda: blocks_part(editor, agent_id, driver, path)),
+        )
