@@ -21,7 +21,7 @@ class Card(NamedTuple):
     png: bytes
     """The scene from above at the start of an episode; empty if it can't be read."""
     level: str = ""
-    """How hard it is; empty if nobody has said so."""
+    """Level of difficulty; empty if nobody has given one."""
     minutes: int | None = None
     """Time (minutes) that a person needs to reach the goal for the first time."""
 
