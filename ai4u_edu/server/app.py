@@ -20,6 +20,7 @@ from ai4u_edu.server.scene_routes import SceneRoutes
 from ai4u_edu.server.scripts import RemoteSockets, Rules
 from ai4u_edu.server.state_routes import StateRoutes
 from ai4u_edu.server.token_auth import TokenAuth
+from ai4u_edu.server.token_page import PUBLIC_FILES, TokenPage
 from ai4u_edu.wire.native import PROBLEMS
 
 
@@ -50,7 +51,9 @@ def room_app(
     page = Page(current_title)
     attempts = Attempts()
     auth = [Middleware(TokenAuth, token=rules.token, attempts=attempts)]
-    page_auth = [Middleware(TokenAuth, token=rules.token, attempts=attempts, is_page=True)]
+    page_auth = [
+        Middleware(TokenAuth, token=rules.token, attempts=attempts, token_page=TokenPage())
+    ]
     script_limit = [Middleware(LimitScripts, attempts=attempts, code=PROBLEMS["bad_token"])]
     past = Past(runner)
     state = StateRoutes(runner, current_title, can_open=editor is not None)
@@ -58,6 +61,7 @@ def room_app(
     return Starlette(
         routes=[
             Route("/", page.index, middleware=page_auth),
+            *[Route(f"/web/{name}", page.public_file(name)) for name in PUBLIC_FILES],
             Route("/web/{file}", page.file, middleware=auth),
             Route("/healthz", state.health, middleware=auth),
             Route("/api/snapshot", state.snapshot, middleware=auth),

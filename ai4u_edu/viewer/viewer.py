@@ -88,13 +88,14 @@ class Viewer:
         if runner.recorder is not None:
             kinds.append(replay_tab(runner, self.player, self.ghosts))
 
+        bodies = Bodies(server, self._choose)
         parts: list[tuple[Part, float]] = [
             (viewer_clients, MAX_FRAMES_PER_S),
             (Ground(server), TEXTS_PER_S),
-            (Bodies(server, self._choose), MAX_FRAMES_PER_S),
+            (bodies, MAX_FRAMES_PER_S),
             (Labels(server), MAX_FRAMES_PER_S),
             (self.ghosts, SENSES_PER_S),
-            (Actions(server), SENSES_PER_S),
+            (Actions(server, bodies), SENSES_PER_S),
             (Controls(server, runner, viewer_clients), TEXTS_PER_S),
             (PageControls(viewer_clients), TEXTS_PER_S),
             (SenseOverlay(viewer_clients), MAX_FRAMES_PER_S),

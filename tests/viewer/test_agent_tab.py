@@ -113,11 +113,11 @@ def test_another_agent_is_chosen_by_a_click_on_it(crowded: Viewer) -> None:
     with page(crowded) as here:
         shown(crowded)
         (viewer_client,) = crowded.viewer_clients.values()
-        here.click("/bodies1/0/body", 2)
+        here.click("/bodies1/2/body", 0)
         until(lambda: viewer_client.agent == "three")
         for nothing in (None, 17):
             here.click("/bodies1/0/body", nothing)
-        here.click("/bodies1/0/body", 3)
+        here.click("/bodies1/3/body", 0)
         until(lambda: viewer_client.agent == "four")
         shown(crowded)
         (tab,) = tabs_of(crowded, AgentTab)
