@@ -60,7 +60,7 @@ class NewThing(NamedTuple):
     template: Mapping[str, Any]
     """Its description, without a place."""
     like: str = ""
-    """For an agent, the id of the agent whose blocks it gets."""
+    """Id of the agent whose blocks a new agent gets."""
 
     @property
     def name(self) -> str:
