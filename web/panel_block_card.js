@@ -13,7 +13,7 @@ export class BlockCard {
   #summary = element("p", { className: "ai4u-hint-text" });
   #form;
   #tools = element("div", { className: "ai4u-tools", role: "toolbar" });
-  #parts = element("div", { className: "ai4u-cards" });
+  #parts = element("div", { className: "ai4u-card-list" });
   #adds = element("div", { className: "ai4u-tools" });
   #card;
 

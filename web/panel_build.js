@@ -27,7 +27,7 @@ export class BuildTab {
     this.#driver = choice("Driven by", (name) => this.#setDriver(name));
     root.append(this.#driver.element);
     for (const [kind, words] of Object.entries(KINDS)) {
-      const cards = element("div", { className: "ai4u-cards" });
+      const cards = element("div", { className: "ai4u-card-list" });
       const none = element("p", { className: "ai4u-hint-text", textContent: words.none });
       const add = button(words.one, () => this.#openGallery(kind), { icon: "add", label: words.add, kind: "quiet" });
       const { detailsOnly = false } = words;

@@ -20,7 +20,7 @@ export class EpisodeCard {
     this.#card = new Card({ onToggle: (isOpen) => this.#choose(isOpen) });
     const { driver, steps, seed } = this.#facts;
     seed.element.append(this.#copy);
-    const list = element("dl", { className: "ai4u-facts" }, driver.element, steps.element, seed.element);
+    const list = element("dl", { className: "ai4u-episode-facts" }, driver.element, steps.element, seed.element);
     this.#card.body.append(list, this.#downloads);
   }
 

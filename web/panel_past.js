@@ -78,7 +78,7 @@ export class PastTab {
 }
 
 function group(key, title, isIn) {
-  const list = element("div", { className: "ai4u-cards" });
+  const list = element("div", { className: "ai4u-card-list" });
   return { element: section(key, title, {}, list), list, isIn };
 }
 

@@ -15,7 +15,7 @@ const HINT_ON =
 export class WorldTab {
   #panel;
   #cards = new Map();
-  #list = element("div", { className: "ai4u-cards" });
+  #list = element("div", { className: "ai4u-card-list" });
   #moves;
   #snaps;
   #hint = element("p", { className: "ai4u-hint-text" });

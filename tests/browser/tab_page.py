@@ -4,16 +4,17 @@ import json
 from pathlib import Path
 from typing import Any
 
-from playwright.sync_api import Browser, Page, Route
+from playwright.sync_api import Browser, ConsoleMessage, Page, Route
 
 from ai4u_edu.server.page import web_folder
 from tests.chromium import new_page
 
 ADDRESS = "http://panel.test/"
-STYLES = sorted(path.name for path in web_folder().glob("*.css"))
+STYLES = sorted(path.name for path in web_folder().glob("pa*.css"))
 MEDIA_TYPES = {".css": "text/css", ".js": "text/javascript", ".html": "text/html"}
 INDEX = """<!doctype html>
-<html lang="en" data-mantine-color-scheme="{scheme}" {attributes}>
+<html lang="en" data-mantine-color-scheme="{scheme}" data-ai4u-scheme="{scheme}" {attributes}>
+<meta name="viewport" content="width=device-width, initial-scale=1" />
 <title>Tab</title>
 {styles}
 <body style="margin: 0">
@@ -97,9 +98,7 @@ class TabPage:
         self.page: Page = new_page(chromium, *size, draws=True, **options)
         self.errors: list[str] = []
         self.page.on("pageerror", lambda error: self.errors.append(str(error)))
-        self.page.on(
-            "console", lambda message: message.type == "error" and self.errors.append(message.text)
-        )
+        self.page.on("console", self._on_console)
         self.page.route(f"{ADDRESS}**", self._serve)
         self.page.goto(ADDRESS)
         self.page.wait_for_function("window.isReady")
@@ -147,6 +146,10 @@ class TabPage:
           .map(each => each.outerHTML.slice(0, 120))"""
         found: list[str] = self.page.evaluate(script)
         return found
+
+    def _on_console(self, message: ConsoleMessage) -> None:
+        if message.type == "error":
+            self.errors.append(message.text)
 
     def _serve(self, route: Route) -> None:
         path = route.request.url.removeprefix(ADDRESS)
