@@ -96,6 +96,7 @@ export class Help {
       element("h3", { textContent: "Share this scene" }),
       element("p", { textContent: "The link holds the whole scene and its seed. Nothing is uploaded." }),
       share,
+      element("a", { href: "./start", className: "ai4u-plain", textContent: "All scenes and lessons" }),
       shared,
       element("h3", { textContent: "Keys" }),
       element("p", { textContent: "To change one, click it and press another key." }),

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from ai4u_edu.recording import Episode
     from ai4u_edu.runtime.runner import Runner
     from ai4u_edu.scenes import Scene
-    from ai4u_edu.server import Rules
+    from ai4u_edu.server import LessonView, Rules
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -118,7 +118,7 @@ def serve_scene(settings: PlaySettings) -> None:
         AI4UError: the scene, a file or the address can't be used; the message says why.
     """
     from ai4u_edu.editing.autosave import Autosave, unsaved_folder, unsaved_scenes
-    from ai4u_edu.editing.unsaved import choose_unsaved
+    from ai4u_edu.panel import PanelSockets
     from ai4u_edu.recording import Episode, recorder_into
     from ai4u_edu.runtime.process_tuning import tuned_process
     from ai4u_edu.runtime.runner import Runner
@@ -128,11 +128,7 @@ def serve_scene(settings: PlaySettings) -> None:
 
     is_unsaved_wanted = settings.autosave or settings.restore
     unsaved = unsaved_scenes(unsaved_folder()) if is_unsaved_wanted else []
-    restored = (
-        choose_unsaved(unsaved, settings.scene if settings.is_scene_named else "")
-        if settings.restore
-        else None
-    )
+    restored = _restored(settings, unsaved)
     scene, linked_seed = _scene_of(settings, restored)
     title = scene.description.title or scene.description.name
     sim, scene = _build(scene, settings.drivers)
@@ -160,6 +156,8 @@ def serve_scene(settings: PlaySettings) -> None:
         proxy_hosts=settings.allowed_hosts,
         rules=settings.rules,
         editor=editor,
+        lessons=_lessons,
+        panel=PanelSockets(runner, viewer, editor),
     )
     runner.start()
     viewer.start()
@@ -182,6 +180,14 @@ def _build(scene: "Scene", drivers: list[str]) -> "tuple[ControlRequestor, Scene
     from ai4u_edu.training.assigned import with_drivers  # loads packages that most don't need
 
     return with_drivers(scene, drivers, is_served=True)
+
+
+def _restored(settings: PlaySettings, unsaved: "list[Unsaved]") -> "Unsaved | None":
+    from ai4u_edu.editing.unsaved import choose_unsaved
+
+    if not settings.restore:
+        return None
+    return choose_unsaved(unsaved, settings.scene if settings.is_scene_named else "")
 
 
 def _scene_of(settings: PlaySettings, restored: "Unsaved | None") -> "SharedScene":
@@ -219,6 +225,20 @@ def _make_editor(
     return editor
 
 
+def _lessons() -> "list[LessonView]":
+    from ai4u_edu.lessons.course import lessons
+    from ai4u_edu.server import LessonView
+
+    return [
+        LessonView(
+            number=each.number,
+            title=each.title.removeprefix(each.number).strip(),
+            duration=each.duration,
+        )
+        for each in lessons()
+    ]
+
+
 def _announcer(
     settings: PlaySettings, title: str, editor: "SceneEditor", unsaved: "list[Unsaved]"
 ) -> Callable[[str], None]:
@@ -229,9 +249,12 @@ def _announcer(
         typer.echo(startup_banner(title, settings.host, url, settings.rules.token))
         if editor.recovery.unsaved is not None:
             when = editor.recovery.unsaved.when
-            typer.echo(f"an unsaved scene from {when} is there: ai4u-edu play --restore")
+            typer.echo(
+                f"You have an unsaved scene from {when}. To reopen it: ai4u-edu play --restore"
+            )
         if len(unsaved) > 1:
-            typer.echo(f"unsaved scenes: {format_unsaved(unsaved)}: ai4u-edu play SCENE --restore")
+            known = format_unsaved(unsaved)
+            typer.echo(f"All unsaved scenes: {known}. To reopen one: ai4u-edu play SCENE --restore")
         if settings.open_page:
             open_on_desktop(with_token(url, settings.rules.token))
 

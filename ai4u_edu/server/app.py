@@ -6,7 +6,7 @@ from functools import partial
 from starlette.applications import Starlette
 from starlette.middleware import Middleware
 from starlette.routing import Match, Mount, Route, WebSocketRoute
-from starlette.types import Scope
+from starlette.types import ASGIApp, Scope
 
 from ai4u_edu.editing import SceneEditor
 from ai4u_edu.runtime.runner import Runner
@@ -18,6 +18,7 @@ from ai4u_edu.server.past import Past
 from ai4u_edu.server.proxy import ViserProxy
 from ai4u_edu.server.scene_routes import SceneRoutes
 from ai4u_edu.server.scripts import RemoteSockets, Rules
+from ai4u_edu.server.start_page import LessonView, StartPage
 from ai4u_edu.server.state_routes import StateRoutes
 from ai4u_edu.server.token_auth import TokenAuth
 from ai4u_edu.server.token_page import PUBLIC_FILES, TokenPage
@@ -32,7 +33,9 @@ def room_app(
     allowed_hosts: Collection[str] = LOOPBACK,
     proxy_hosts: Collection[str] = (),
     rules: Rules | None = None,
+    panel: ASGIApp | None = None,
     editor: SceneEditor | None = None,
+    lessons: Callable[[], list[LessonView]] = list,
 ) -> Starlette:
     """Return the ASGI app of one room; mount it under a path with :class:`RoomMount`.
 
@@ -44,7 +47,10 @@ def room_app(
         proxy_hosts: host names of a reverse proxy in front; see there.
         rules: for scripts that drive agents from other machines; the page and the API ask for
             their token too.
-        editor: lets pages open and share scenes; without it the scene stays as it is.
+        panel: serves the sockets of the pages' panels; left out, pages have viser's panel only.
+        editor: lets pages open and share scenes; without it the scene stays as it is, and there is
+            no start page.
+        lessons: returns the lessons that the start page lists.
     """
     rules = rules or Rules()
     current_title = title if callable(title) else partial(str, title)
@@ -57,7 +63,9 @@ def room_app(
     script_limit = [Middleware(LimitScripts, attempts=attempts, code=PROBLEMS["bad_token"])]
     past = Past(runner)
     state = StateRoutes(runner, current_title, can_open=editor is not None)
-    scenes = [] if editor is None else _scene_routes(SceneRoutes(runner, editor), auth)
+    scenes: list[Route] = []
+    if editor is not None:
+        scenes = _scene_routes(SceneRoutes(runner, editor), StartPage(lessons), auth, page_auth)
     return Starlette(
         routes=[
             Route("/", page.index, middleware=page_auth),
@@ -65,12 +73,14 @@ def room_app(
             Route("/web/{file}", page.file, middleware=auth),
             Route("/healthz", state.health, middleware=auth),
             Route("/api/snapshot", state.snapshot, middleware=auth),
+            Route("/api/training", state.training, middleware=auth),
             Route("/api/past", past.list, middleware=auth),
             Route("/api/past/{file}", past.file, middleware=auth),
             Route("/api/openapi.json", state.describe, middleware=auth),
             *scenes,
             WebSocketRoute("/", ViserProxy(viser_port, rules.token), middleware=auth),
             WebSocketRoute("/ws/input", Inputs(runner, current_title), middleware=auth),
+            *([WebSocketRoute("/ws/panel", panel, middleware=auth)] if panel is not None else []),
             # scripts send the token in their hello
             WebSocketRoute(
                 "/ws/remote", RemoteSockets(runner, current_title, rules), middleware=script_limit
@@ -82,12 +92,18 @@ def room_app(
     )
 
 
-def _scene_routes(scenes: SceneRoutes, auth: list[Middleware]) -> list[Route]:
+def _scene_routes(
+    scenes: SceneRoutes, start: StartPage, auth: list[Middleware], page_auth: list[Middleware]
+) -> list[Route]:
     return [
+        Route("/start", start.page, middleware=page_auth),
         Route("/api/scene", scenes.present, methods=["GET"], middleware=auth),
         Route("/api/scene", scenes.open, methods=["POST"], middleware=auth),
         Route("/api/scene/link", scenes.link, methods=["GET"], middleware=auth),
         Route("/api/scene/link", scenes.describe, methods=["POST"], middleware=auth),
+        Route("/api/scenes", start.scenes, middleware=auth),
+        Route("/api/scenes/{file}", start.picture, middleware=auth),
+        Route("/api/lessons", start.lessons, middleware=auth),
     ]
 
 

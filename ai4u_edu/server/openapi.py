@@ -6,7 +6,7 @@ from pydantic import BaseModel
 from pydantic.json_schema import models_json_schema
 
 from ai4u_edu.base.version import __version__
-from ai4u_edu.server.api import Health, SnapshotView
+from ai4u_edu.server.api import Health, SnapshotView, TrainingView
 from ai4u_edu.server.past import RECORDING, WRITERS, PastView
 from ai4u_edu.server.scene_routes import (
     LinkRequest,
@@ -15,16 +15,20 @@ from ai4u_edu.server.scene_routes import (
     SceneView,
     SharedView,
 )
+from ai4u_edu.server.start_page import LessonsView, ScenesView
 
 _ANSWERS: dict[str, tuple[str, type[BaseModel]]] = {
     "/healthz": ("Whether the room is well.", Health),
     "/api/snapshot": ("Everything at the last tick.", SnapshotView),
+    "/api/training": ("Progress of the training whose policy drives.", TrainingView),
     "/api/past": ("The kept episodes.", PastView),
 }
 
 _SCENE_ANSWERS: dict[str, tuple[str, type[BaseModel]]] = {
     "/api/scene": ("The scene that runs.", SceneView),
     "/api/scene/link": ("A link to the scene that runs.", LinkView),
+    "/api/scenes": ("The library's scenes.", ScenesView),
+    "/api/lessons": ("The lessons of the course.", LessonsView),
 }
 _SCENE_REQUESTS: dict[str, tuple[str, type[BaseModel]]] = {
     "/api/scene": ("Open a scene.", OpenRequest),
@@ -53,6 +57,7 @@ def openapi(*, can_open: bool = False) -> dict[str, Any]:
     if can_open:
         for path, (summary, model) in _SCENE_REQUESTS.items():
             paths[path] |= _post(summary, model)
+        paths["/api/scenes/{file}"] = _picture("A picture of a scene of the library.")
     health = paths["/healthz"]["get"]["responses"]
     health["503"] = {**health["200"], "description": "A block of the world does not return."}
     paths["/api/past/{file}"] = _file("A kept episode as a file.")
@@ -95,6 +100,23 @@ def _post(summary: str, model: type[BaseModel]) -> dict[str, Any]:
         "503": {"description": "The world does not answer, or too many scenes wait."},
     }
     return {"post": post}
+
+
+def _picture(summary: str) -> dict[str, Any]:
+    described = _get(summary, {})
+    found = described["get"]
+    found["parameters"] = [
+        {
+            "name": "file",
+            "in": "path",
+            "required": True,
+            "description": "the scene's name and .png",
+            "schema": {"type": "string", "pattern": r"^[a-z0-9_]+\.png$"},
+        }
+    ]
+    found["responses"]["200"]["content"] = {"image/png": {}}
+    found["responses"]["404"] = {"description": "No scene has that name."}
+    return described
 
 
 def _file(summary: str) -> dict[str, Any]:

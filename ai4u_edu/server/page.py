@@ -18,10 +18,18 @@ from ai4u_edu.base.errors import SetupError
 _PLACE = "<title>Viser</title>"
 _OURS = """<title>{title}</title>
     <script src="./web/dark.js"></script>
+    <script src="./web/page_id.js"></script>
     <link rel="stylesheet" href="./web/page.css" />
     <link rel="stylesheet" href="./web/dock.css" />
     <link rel="stylesheet" href="./web/banners.css" />
     <link rel="stylesheet" href="./web/help.css" />
+    <link rel="stylesheet" href="./web/panel.css" />
+    <link rel="stylesheet" href="./web/panel_layout.css" />
+    <link rel="stylesheet" href="./web/panel_controls.css" />
+    <link rel="stylesheet" href="./web/panel_run.css" />
+    <link rel="stylesheet" href="./web/panel_cards.css" />
+    <link rel="stylesheet" href="./web/panel_windows.css" />
+    <link rel="stylesheet" href="./web/panel_drive.css" />
     <link rel="stylesheet" href="./web/question.css" />
     <script type="module" src="./web/main.js"></script>
     <script type="module" src="./web/accessible_names.js"></script>"""

@@ -13,9 +13,9 @@ from ai4u_edu.agent.block_errors import message_of
 from ai4u_edu.base.errors import AI4UError
 from ai4u_edu.base.seeding import MAX_SEED
 from ai4u_edu.editing import SceneEditor
+from ai4u_edu.editing.scene_pictures import load_by_name
 from ai4u_edu.editing.sharing import SharedScene, shared_link
 from ai4u_edu.runtime.runner import Runner
-from ai4u_edu.scenes import Scene
 from ai4u_edu.scenes.scene_link import LINK, MAX_LINK_CHARS, decode_link
 from ai4u_edu.server.json_body import read_json
 
@@ -67,7 +67,7 @@ class LinkRequest(BaseModel):
 
 
 class OpenRequest(BaseModel):
-    """The scene to open: from a link, or of the library by its name."""
+    """The scene to open: from a link, or by its name; ``my_scene`` is an empty one."""
 
     model_config = ConfigDict(extra="forbid", strict=True)
 
@@ -130,10 +130,8 @@ class SceneRoutes:
         wanted = await read_json(request, OpenRequest, MAX_BODY_BYTES)
         if wanted.link:
             shared = await self._read(lambda: self._shared(wanted.link))
-        elif wanted.name in Scene.names():  # a path would lead out of the library
-            shared = await self._read(lambda: SharedScene(Scene.load(wanted.name), None))
         else:
-            raise HTTPException(404, f"no scene is called {wanted.name[:80]!r}; see api/scenes")
+            shared = await self._read(lambda: _named(wanted.name))
         try:
             async with asyncio.timeout(OPEN_TIMEOUT_S):
                 await asyncio.wrap_future(self._editor.open(shared.scene))
@@ -164,6 +162,13 @@ class SceneRoutes:
             raise HTTPException(422, str(error)) from None
         finally:
             self._waiting -= 1
+
+
+def _named(name: str) -> SharedScene:
+    scene = load_by_name(name)
+    if scene is None:
+        raise HTTPException(404, f"no scene is called {name[:80]!r}; see api/scenes")
+    return SharedScene(scene, None)
 
 
 def _view(shared: SharedScene) -> SharedView:

@@ -5,25 +5,14 @@ import html
 from starlette.requests import HTTPConnection
 from starlette.responses import HTMLResponse, Response
 
-from ai4u_edu.server.page import FRAME_ANCESTORS, web_folder
+from ai4u_edu.server.page import web_folder
+from ai4u_edu.server.standalone import STANDALONE_POLICY
 
 WRONG = "That token is wrong."
 TOO_MANY = "Too many wrong tokens came from this address. Try again in {seconds} s."
-PUBLIC_FILES = ("standalone.css", "token.js")
+PUBLIC_FILES = ("scheme.js", "standalone.css", "token.js")
 """Files of the page, which a browser gets without a token."""
 _PLACE = "<!--problem-->"
-_POLICY = "; ".join(
-    [
-        "default-src 'none'",
-        "script-src 'self'",
-        "style-src 'self'",
-        "connect-src 'self'",
-        "img-src data:",
-        "base-uri 'none'",
-        "form-action 'self'",
-        FRAME_ANCESTORS,
-    ]
-)
 
 
 class TokenPage:
@@ -41,7 +30,7 @@ class TokenPage:
         """
         problem = TOO_MANY.format(seconds=wait_s) if wait_s else WRONG if is_wrong else ""
         text = self._text.replace(_PLACE, html.escape(problem))
-        headers = {"Content-Security-Policy": _POLICY, "Vary": "Accept"}
+        headers = {"Content-Security-Policy": STANDALONE_POLICY, "Vary": "Accept"}
         return HTMLResponse(text, headers=headers)
 
 

@@ -7,8 +7,9 @@ import pytest
 
 from ai4u_edu import BasicAgent, CircleShape, ControlRequestor, LocalBrain, World
 from ai4u_edu.runtime.runner import Runner
+from ai4u_edu.snapshot.agent_words import title
 from ai4u_edu.viewer import Viewer
-from ai4u_edu.viewer.panel.agent_html import overview, state, title
+from ai4u_edu.viewer.panel.agent_html import overview, state
 from ai4u_edu.viewer.panel.agent_tab import HIDDEN, SHOWN, AgentTab
 from tests.viewer.pages import page, shown, tabs_of, until
 

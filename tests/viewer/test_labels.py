@@ -8,9 +8,10 @@ import pytest
 from ai4u_edu.blocks import RemoteStatus
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.snapshot import Snapshot
+from ai4u_edu.snapshot.agent_words import script_problem
 from ai4u_edu.viewer import Viewer
 from ai4u_edu.viewer.panel.agent_html import state
-from ai4u_edu.viewer.scene.labels import Labels, script_problem
+from ai4u_edu.viewer.scene.labels import Labels
 from tests.viewer.pages import part_of
 
 

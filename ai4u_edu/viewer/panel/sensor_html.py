@@ -9,8 +9,9 @@ import numpy.typing as npt
 
 from ai4u_edu.blocks import RayPicture
 from ai4u_edu.snapshot.block_info import SensorInfo
+from ai4u_edu.snapshot.numbers import number
 from ai4u_edu.snapshot.theme import RAY_MISS, UNKNOWN_GROUP, Rgb
-from ai4u_edu.viewer.panel.bars import bars, number, strip
+from ai4u_edu.viewer.panel.bars import bars, strip
 from ai4u_edu.viewer.panel.html_parts import section
 from ai4u_edu.viewer.panel.pictures import MAX_OLDER_READINGS, pictures
 from ai4u_edu.viewer.panel.readings import reading

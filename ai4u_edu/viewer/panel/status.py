@@ -4,8 +4,8 @@ from html import escape
 
 from ai4u_edu.runtime.tick_monitor import Stall
 from ai4u_edu.snapshot import AgentState, Snapshot, StaticScene
+from ai4u_edu.snapshot.numbers import number
 from ai4u_edu.snapshot.theme import RAY_MISS, UNKNOWN_GROUP, Rgb, group_colours
-from ai4u_edu.viewer.panel.bars import number
 from ai4u_edu.viewer.panel.html_parts import section
 
 MAX_LEGEND_GROUPS = 12

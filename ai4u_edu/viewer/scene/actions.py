@@ -8,13 +8,13 @@ import numpy.typing as npt
 from viser import LineSegmentsHandle
 
 from ai4u_edu.snapshot import AgentState, Snapshot, StaticScene
+from ai4u_edu.snapshot.marks import half_width
 from ai4u_edu.snapshot.theme import ACTION
 from ai4u_edu.viewer.backend.local_server import LocalServer
 from ai4u_edu.viewer.scene.bodies import Bodies
 from ai4u_edu.viewer.scene.geometry import (
     Array,
     circle,
-    half_width,
     rotate,
     segments,
 )
@@ -87,7 +87,8 @@ class Actions:
         for agent in snapshot.agents:
             body = bodies[agent.body]
             radius, height = self._sizes[body.name]
-            numbers = () if body.fallen else _effective(agent)
+            is_over = body.fallen or agent.terminated or agent.truncated
+            numbers = () if is_over else _effective(agent)
             marks = action_marks(numbers, radius) if len(numbers) == 4 else NO_MARKS
             z = height + 3 * self._layers.unit
             lines = self.below_bodies.get(body.name)
