@@ -12,7 +12,8 @@ import { Keycaps } from "./keycaps.js";
 import { label, loadLayout } from "./labels.js";
 import { collapseMobilePanel } from "./mobile_panel.js";
 import { trackCanvasEdges } from "./canvas_edges.js";
-import { InputSocket } from "./socket.js";
+import { watchSharedScene } from "./share.js";
+import { JsonSocket } from "./socket.js";
 
 const query = new URLSearchParams(location.search);
 const agent = query.get("agent");
@@ -29,7 +30,7 @@ const setAgentCookie = () => (document.cookie = `ai4u_edu_agent=${encodeURICompo
 setAgentCookie();
 addEventListener("focus", setAgentCookie);
 
-const socket = new InputSocket("ws/input" + (agent === null ? "" : `?agent=${encodeURIComponent(agent)}`));
+const socket = new JsonSocket("ws/input" + (agent === null ? "" : `?agent=${encodeURIComponent(agent)}`));
 const keymap = new KeyMap();
 const keys = new HeldKeys(() => {
   socket.send({ type: "keys", held: keys.held, stick: keys.stick });
@@ -40,14 +41,14 @@ const dock = element("section", { className: "ai4u-dock", ariaLabel: "Drive" });
 document.body.append(dock);
 const keycaps = new Keycaps(dock, keys, keymap);
 dock.append(row);
-const driverStatus = new DriverStatus(
-  row,
-  () => socket.send({ type: "take" }),
-  () => {
-    keys.releaseAll();
-    socket.send({ type: "let_go" });
-  },
-);
+const take = () => socket.send({ type: "take" });
+const letGo = () => {
+  keys.releaseAll();
+  socket.send({ type: "let_go" });
+};
+const driverStatus = new DriverStatus(row, take, letGo);
+/** Our panel; null while viser's is shown. */
+let panel = null;
 const gamepads = new Gamepads(keys);
 const help = new Help(row, keys, keymap, arrange);
 const banners = new Banners((name) => socket.send({ type: "command", name }));
@@ -110,7 +111,9 @@ function draw() {
   const isMine = control.driver === hello.you;
   const { held } = keys;
   keycaps.draw(isMine || held.length ? held : (state?.held ?? []));
-  driverStatus.draw({ connected, hello, control, howToDrive: howToDrive() });
+  const status = { connected, hello, control, howToDrive: howToDrive() };
+  driverStatus.draw(status);
+  panel?.drawDriver(status);
   help.setGoal(state?.goal || "This scene has none: look around.");
   const isDriven = Object.keys(hello.keys).length > 0 && !hello.others;
   banners.draw(connected ? state : null, {
@@ -135,4 +138,11 @@ draw();
 loadLayout().then(arrange);
 socket.open();
 trackCanvasEdges();
-collapseMobilePanel();
+if ("ai4uPanel" in document.documentElement.dataset) {
+  const { startPanel } = await import("./panel.js");
+  panel = startPanel({ agent, take, letGo }, dock);
+  draw();
+} else {
+  collapseMobilePanel();
+}
+watchSharedScene();

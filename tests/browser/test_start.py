@@ -1,0 +1,129 @@
+"""The start page leads to a scene, to an empty plate, and to the lessons."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import pytest
+from playwright.sync_api import Browser, Page, expect
+
+from ai4u_edu.editing import SceneEditor
+from ai4u_edu.editing.autosave import Autosave
+from ai4u_edu.runtime.runner import Runner
+from ai4u_edu.scenes import Scene
+from ai4u_edu.server import LessonView, ServerThread, room_app
+from tests.chromium import new_page
+from tests.server.rooms import NOWHERE
+
+pytestmark = pytest.mark.browser
+
+MIN_SIDE_PX, MIN_TOUCH_PX = 28, 40
+SIZES = [(1920, 1080, False), (820, 1180, True), (390, 844, True), (844, 390, True)]
+LESSONS = [
+    LessonView(number="00", title="Start here", duration="45 minutes"),
+    LessonView(number="15", title="Project: <your> own world", duration="Three to five hours"),
+]
+PATIENCE_MS = 30_000
+
+
+@dataclass
+class World:
+    """A served world, and its editor."""
+
+    editor: SceneEditor
+    url: str
+
+    @property
+    def scene(self) -> str:
+        return self.editor.state.description.name
+
+
+@pytest.fixture
+def world(tmp_path: Path) -> Iterator[World]:
+    scene = Scene.load("maze")
+    runner = Runner(scene.build(), seed=1)
+    editor = SceneEditor(runner, scene)
+    editor.recovery.autosave = Autosave(tmp_path, "maze")
+    app = room_app(
+        runner,
+        viser_port=NOWHERE,
+        title=lambda: editor.title,
+        editor=editor,
+        lessons=lambda: LESSONS,
+    )
+    runner.start()
+    try:
+        with ServerThread(app) as server:
+            yield World(editor, server.url)
+    finally:
+        runner.stop()
+        editor.recovery.autosave.stop()
+
+
+@pytest.fixture
+def page(chromium: Browser, world: World) -> Iterator[Page]:
+    page = new_page(chromium)
+    open_start(page, world)
+    yield page
+    page.context.close()
+
+
+def open_start(page: Page, world: World) -> None:
+    page.goto(f"{world.url}start")
+    expect(page.locator("#scenes li")).to_have_count(len(Scene.names()), timeout=PATIENCE_MS)
+
+
+def test_a_scene_is_played_by_keyboard_alone(world: World, page: Page) -> None:
+    for name in ("Back to “Maze”", "Play", "Build", "Learn"):
+        page.keyboard.press("Tab")
+        expect(page.get_by_role("link" if "Back" in name else "button", name=name)).to_be_focused()
+    scene = page.get_by_role("button", name="Sumo", exact=True)
+    while not scene.evaluate("button => button === document.activeElement"):
+        page.keyboard.press("Tab")
+    page.keyboard.press("Enter")
+    page.wait_for_url(world.url)
+    assert world.scene == "sumo"
+
+
+def test_build_opens_an_empty_plate(world: World, page: Page) -> None:
+    page.get_by_role("button", name="Build").click()
+    page.wait_for_url(world.url)
+    assert [body.name for body in world.editor.state.description.bodies] == ["robot"]
+
+
+def test_learn_lists_the_lessons(page: Page) -> None:
+    page.get_by_role("button", name="Learn").click()
+    expect(page.get_by_role("heading", name="Lessons")).to_be_visible()
+    expect(page.get_by_role("heading", name="Scenes")).to_be_hidden()
+    rows = [f"{each.number}{each.title}{each.duration}" for each in LESSONS]
+    expect(page.locator("#lessons li")).to_have_text(rows)
+
+
+def test_unsaved_changes_are_asked_about(world: World, page: Page) -> None:
+    world.editor.change_settings({"title": "My maze"}).result(10)
+    tag = page.get_by_role("button", name="Tag", exact=True)
+    tag.click()
+    question = page.get_by_role("dialog", name="Open “Tag”?")
+    expect(question).to_contain_text("Your present scene is kept among the unsaved ones.")
+    question.get_by_role("button", name="Cancel").click()
+    expect(question).to_be_hidden()
+    assert world.scene == "maze"
+    tag.click()
+    question.get_by_role("button", name="Open").click()
+    page.wait_for_url(world.url)
+    assert world.scene == "tag"
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_it_fits_each_screen(world: World, chromium: Browser, scheme: Any) -> None:
+    for width, height, is_touch in SIZES:
+        page = new_page(chromium, width, height, color_scheme=scheme, has_touch=is_touch)
+        open_start(page, world)
+        assert page.evaluate("document.documentElement.scrollWidth") <= width
+        sides = page.locator("button:visible, a:visible").evaluate_all(
+            "all => all.map(each => each.getBoundingClientRect()).map(b => [b.width, b.height])"
+        )
+        assert len(sides) == len(Scene.names()) + 4
+        assert min(map(min, sides)) >= (MIN_TOUCH_PX if is_touch else MIN_SIDE_PX)
+        page.context.close()
