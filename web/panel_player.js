@@ -31,7 +31,7 @@ export class Player {
     this.#forward = button("", () => this.#step(1), { icon: "forward", label: "Step forward" });
     this.#speeds = segments(
       "Speed",
-      SPEEDS.map((speed) => ({ value: String(speed), text: `${speed}×`, title: `Speed ${speed}` })),
+      SPEEDS.map((speed) => ({ value: String(speed), text: `${speed}x`, title: `Speed ${speed}` })),
       (speed) => send("speed", { speed: Number(speed) }),
     );
     this.#live = button("Back to live", () => panel.send("back_to_live"), { icon: "live", kind: "main" });
