@@ -20,6 +20,8 @@ const INPUT_TYPES_WITHOUT_TEXT = "button, checkbox, color, file, image, radio, r
 export class HeldKeys {
   /** Called with the code of each newly pressed key. */
   onpress = (_code) => {};
+  /** Called with the event of a newly pressed key that is not the agent's; returns true if it was used. */
+  onotherpress = (_event) => false;
   /** Overridden by a dialog: while it returns true, keyboard events are ignored. */
   isSuspended = () => false;
 
@@ -110,28 +112,40 @@ export class HeldKeys {
     const { code } = event;
     if (code === "Tab") requestAnimationFrame(() => (this.#reachedByTab = document.activeElement));
     if (this.#isForOthers(event)) return;
+    if (!this.#isOurs(code)) {
+      const isShortcut = event.repeat || event.ctrlKey || event.metaKey || event.altKey;
+      if (!isShortcut && this.onotherpress(event)) event.preventDefault();
+      return;
+    }
     event.stopPropagation();
     if (event.ctrlKey || event.metaKey || event.altKey) {
       this.releaseAll(); // macOS sends no keyup events while Meta is held
       return;
     }
     const sent = this.#sentCodes.get(code);
-    if (sent === undefined) return;
+    if (sent === undefined) {
+      if (!event.repeat) this.onotherpress(event);
+      return;
+    }
     event.preventDefault();
     if (!event.repeat) this.press(code, sent);
   }
 
   #up(event) {
     this.release(event.code);
-    if (this.#isForOthers(event)) return;
+    if (this.#isForOthers(event) || !this.#isOurs(event.code)) return;
     event.stopPropagation();
     if (this.#sentCodes.has(event.code)) event.preventDefault(); // Space would press a button
+  }
+
+  /** Return true for a key that drives, or would move viser's camera. */
+  #isOurs(code) {
+    return this.#sentCodes.has(code) || CAMERA_CODES.includes(code);
   }
 
   /** Return true if the browser or the focused control has to handle a keyboard event. */
   #isForOthers({ code, target, isComposing }) {
     if (this.isSuspended() || isComposing || isTextInput(target)) return true;
-    if (!this.#sentCodes.has(code) && !CAMERA_CODES.includes(code)) return true;
     // a control reached by Tab needs its own keys
     const usesControl = this.#reachedByTab === target && target !== document.body;
     return usesControl && (code === "Space" || code === "Enter" || code.startsWith("Arrow"));

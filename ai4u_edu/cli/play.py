@@ -35,6 +35,7 @@ class PlaySettings:
     open_page: bool
     seed: int | None
     time_scale: float | None
+    wait_for_key: bool
     allowed_hosts: list[str]
     connections: int
     rules: "Rules"
@@ -56,6 +57,7 @@ def play(
     open_page: o.OpenPage = True,
     seed: o.Seed = None,
     time_scale: o.TimeScale = None,
+    wait_for_key: o.WaitForKey = True,
     allow_host: o.AllowHost = None,
     token: o.Token = "",
     connections: o.Connections = 120,
@@ -95,6 +97,7 @@ def play(
         open_page=open_page,
         seed=seed,
         time_scale=time_scale,
+        wait_for_key=wait_for_key,
         allowed_hosts=allow_host or [],
         connections=connections,
         rules=rules,
@@ -139,7 +142,11 @@ def serve_scene(settings: PlaySettings) -> None:
     recorder = recorder_into(settings.record, sim, scene, settings.keep)
     ghost = Episode.load(settings.ghost) if settings.ghost else None
     runner = Runner(
-        sim, seed=_first_seed(settings, ghost), time_scale=settings.time_scale, recorder=recorder
+        sim,
+        seed=_first_seed(settings, ghost),
+        time_scale=settings.time_scale,
+        recorder=recorder,
+        wait_for_key=settings.wait_for_key,
     )
     autosave = (
         Autosave(unsaved_folder(), scene.description.name, _warn) if settings.autosave else None
