@@ -53,6 +53,7 @@ def test_the_wheel_holds_the_page_and_the_scenes_and_no_tests(wheel: Path) -> No
         names = packed.namelist()
     assert any(name.startswith("ai4u_edu/web/") for name in names)
     assert "ai4u_edu/scenes/library/box_chase.yaml" in names
+    assert "ai4u_edu/lessons/course/01_drive.py" in names
     assert "ai4u_edu/py.typed" in names
     assert "ai4u_edu/world/native/rays.c" in names
     assert {name.partition("/")[0] for name in names} == {

@@ -4,6 +4,7 @@ import { element } from "./dom.js";
 import { isDrawnBySoftware } from "./graphics.js";
 import { isTextInput } from "./keys.js";
 import { label } from "./labels.js";
+import { copyLink } from "./share.js";
 
 const PAGE_PARTS = {
   "The picture": "The world from above. Scroll or pinch to come nearer; Camera in the panel brings all of it back.",
@@ -49,7 +50,8 @@ export class Help {
     button.addEventListener("click", () => this.open());
     row.append(button);
     this.#build();
-    keys.isSuspended = () => this.#dialog.open; // asked at each key: the dialog's close event comes too late
+    // asked at each key: a dialog's close event comes too late
+    keys.isSuspended = () => document.querySelector("dialog:modal") !== null;
     document.body.append(this.#dialog);
     addEventListener("keydown", (event) => this.#openOnQuestionMark(event), { capture: true });
   }
@@ -86,6 +88,9 @@ export class Help {
       this.#keymap.reset();
       this.#setStatus("All keys are as the scene has them.");
     });
+    const share = element("button", { type: "button", className: "ai4u-plain", textContent: "Copy link" });
+    const shared = element("p", { className: "ai4u-status", role: "status" });
+    share.addEventListener("click", async () => (shared.textContent = await copyLink()));
     const descriptions = Object.entries(PAGE_PARTS).flatMap(([name, text]) => [
       element("dt", { textContent: name }),
       element("dd", { textContent: text }),
@@ -95,6 +100,11 @@ export class Help {
       element("header", {}, title, close),
       element("h3", { textContent: "The goal" }),
       this.#goal,
+      element("h3", { textContent: "Share this scene" }),
+      element("p", { textContent: "The link holds the whole scene and its seed. Nothing is uploaded." }),
+      share,
+      element("a", { href: "./start", className: "ai4u-plain", textContent: "All scenes and lessons" }),
+      shared,
       element("h3", { textContent: "Keys" }),
       element("p", { textContent: "To change one, click it and press another key." }),
       this.#list,

@@ -13,6 +13,7 @@ import { Keycaps } from "./keycaps.js";
 import { label, loadLayout } from "./labels.js";
 import { collapseMobilePanel } from "./mobile_panel.js";
 import { trackCanvasEdges } from "./canvas_edges.js";
+import { watchSharedScene } from "./share.js";
 import { InputSocket } from "./socket.js";
 
 /** Code of the key for a new start, unless the agent or the person uses it for something else. */
@@ -152,3 +153,4 @@ loadLayout().then(arrange);
 socket.open();
 trackCanvasEdges();
 collapseMobilePanel();
+watchSharedScene();

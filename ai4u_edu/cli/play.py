@@ -16,11 +16,12 @@ if TYPE_CHECKING:
     from ai4u_edu.agent import ControlRequestor
     from ai4u_edu.editing import SceneEditor
     from ai4u_edu.editing.autosave import Autosave
+    from ai4u_edu.editing.sharing import SharedScene
     from ai4u_edu.editing.unsaved import Unsaved
     from ai4u_edu.recording import Episode
     from ai4u_edu.runtime.runner import Runner
     from ai4u_edu.scenes import Scene
-    from ai4u_edu.server import Rules
+    from ai4u_edu.server import LessonView, Rules
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -120,30 +121,25 @@ def serve_scene(settings: PlaySettings) -> None:
         AI4UError: the scene, a file or the address can't be used; the message says why.
     """
     from ai4u_edu.editing.autosave import Autosave, unsaved_folder, unsaved_scenes
-    from ai4u_edu.editing.unsaved import choose_unsaved
+    from ai4u_edu.panel import PanelSockets
     from ai4u_edu.recording import Episode, recorder_into
     from ai4u_edu.runtime.process_tuning import tuned_process
     from ai4u_edu.runtime.runner import Runner
-    from ai4u_edu.scenes import Scene
     from ai4u_edu.server import hosts_for, lock_viser_port, room_app, serve
     from ai4u_edu.server.process_exit import HAS_SERVED
     from ai4u_edu.viewer import Viewer
 
     is_unsaved_wanted = settings.autosave or settings.restore
     unsaved = unsaved_scenes(unsaved_folder()) if is_unsaved_wanted else []
-    restored = (
-        choose_unsaved(unsaved, settings.scene if settings.is_scene_named else "")
-        if settings.restore
-        else None
-    )
-    scene = Scene.load(settings.scene) if restored is None else restored.scene()
+    restored = _restored(settings, unsaved)
+    scene, linked_seed = _scene_of(settings, restored)
     title = scene.description.title or scene.description.name
     sim, scene = _build(scene, settings.drivers)
     recorder = recorder_into(settings.record, sim, scene, settings.keep)
     ghost = Episode.load(settings.ghost) if settings.ghost else None
     runner = Runner(
         sim,
-        seed=_first_seed(settings, ghost),
+        seed=_first_seed(settings, ghost, linked_seed),
         time_scale=settings.time_scale,
         recorder=recorder,
         wait_for_key=settings.wait_for_key,
@@ -167,6 +163,9 @@ def serve_scene(settings: PlaySettings) -> None:
         allowed_hosts=hosts_for(settings.host),
         proxy_hosts=settings.allowed_hosts,
         rules=settings.rules,
+        editor=editor,
+        lessons=_lessons,
+        panel=PanelSockets(runner, viewer, editor),
     )
     runner.start()
     viewer.start()
@@ -191,10 +190,31 @@ def _build(scene: "Scene", drivers: list[str]) -> "tuple[ControlRequestor, Scene
     return with_drivers(scene, drivers, is_served=True)
 
 
-def _first_seed(settings: PlaySettings, ghost: "Episode | None") -> int | None:
-    if settings.seed is None and ghost is not None:
-        return ghost.seed
-    return settings.seed
+def _restored(settings: PlaySettings, unsaved: "list[Unsaved]") -> "Unsaved | None":
+    from ai4u_edu.editing.unsaved import choose_unsaved
+
+    if not settings.restore:
+        return None
+    return choose_unsaved(unsaved, settings.scene if settings.is_scene_named else "")
+
+
+def _scene_of(settings: PlaySettings, restored: "Unsaved | None") -> "SharedScene":
+    """Return the scene to serve, and the seed that comes with it in a link."""
+    from ai4u_edu.editing.sharing import SharedScene, read_shared
+    from ai4u_edu.scenes import Scene
+    from ai4u_edu.scenes.scene_link import is_link
+
+    if restored is not None:
+        return SharedScene(restored.scene(), None)
+    if is_link(settings.scene):
+        return read_shared(settings.scene)
+    return SharedScene(Scene.load(settings.scene), None)
+
+
+def _first_seed(settings: PlaySettings, ghost: "Episode | None", linked: int | None) -> int | None:
+    if settings.seed is not None:
+        return settings.seed
+    return linked if ghost is None else ghost.seed
 
 
 def _make_editor(
@@ -211,6 +231,20 @@ def _make_editor(
     if settings.saved_scenes is not None:
         editor.scene_store = SceneStore(settings.saved_scenes)
     return editor
+
+
+def _lessons() -> "list[LessonView]":
+    from ai4u_edu.lessons.course import lessons
+    from ai4u_edu.server import LessonView
+
+    return [
+        LessonView(
+            number=each.number,
+            title=each.title.removeprefix(each.number).strip(),
+            duration=each.duration,
+        )
+        for each in lessons()
+    ]
 
 
 def _announcer(

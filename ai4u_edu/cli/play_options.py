@@ -7,7 +7,12 @@ import typer
 
 from ai4u_edu.cli.options import MAX_TIME_SCALE, MIN_TIME_SCALE, OnMissing, finite, seed_option
 
-SceneName = Annotated[str, typer.Argument(help="A scene of the library, or a YAML file.")]
+SceneName = Annotated[
+    str,
+    typer.Argument(
+        help="A scene of the library, a YAML file, or a link to a shared scene, in quotes."
+    ),
+]
 Host = Annotated[str, typer.Option(help="The address to listen on.")]
 Port = Annotated[int, typer.Option(help="The port; 0 for any free one.", min=0, max=65535)]
 OpenPage = Annotated[bool, typer.Option("--open/--no-open", help="Open the page in the browser.")]

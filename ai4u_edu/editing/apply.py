@@ -8,11 +8,11 @@ from ai4u_edu.agent.rebind import Blocks, rebind, sense_again
 from ai4u_edu.base.errors import AI4UError
 from ai4u_edu.blocks import RemoteBrain
 from ai4u_edu.editing.agent_edits import AgentEdits, set_runtime_parameters
-from ai4u_edu.editing.body_edits import BodyEdits
 from ai4u_edu.editing.change_result import When
 from ai4u_edu.editing.drivers import DriverRegistry
 from ai4u_edu.editing.state import EditState
 from ai4u_edu.editing.state_difference import StateDifference
+from ai4u_edu.editing.thing_edits import ThingEdits
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.world import Pose
 
@@ -96,9 +96,9 @@ class RunningScene:
 
     def _apply_now(self, state: EditState, poses: Mapping[str, Pose]) -> None:
         sim, before = self._sim, self.shown
-        bodies = BodyEdits(sim.world)
+        things = ThingEdits(sim.world)
         is_unstarted = self._is_unstarted()
-        world_changed = bodies.apply(before.description, state.description, poses)
+        world_changed = things.apply(before.description, state.description, poses)
         done: list[tuple[BasicAgent, Blocks]] = []
         try:
             for agent in sim.agents:
@@ -106,7 +106,7 @@ class RunningScene:
                 if self._edits(agent).apply(before, state, world_changed=world_changed):
                     done.append((agent, blocks))
         except BaseException:
-            bodies.undo()
+            things.undo()
             for agent in sim.agents:
                 set_runtime_parameters(agent, before.agent(agent.id))
             for agent, blocks in done:
@@ -116,8 +116,8 @@ class RunningScene:
             return  # a recording does not depend on which brain drives
         if is_unstarted:
             sim.reset(sim.world.seeds.seed)
-            bodies.restore_poses(poses)
-        if not is_unstarted or bodies.has_moved_back:
+            things.restore_poses(poses)
+        if not is_unstarted or things.has_moved_back:
             self.mark_edited(sense=world_changed)
 
     def _edits(self, agent: BasicAgent) -> AgentEdits:

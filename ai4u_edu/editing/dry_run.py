@@ -16,8 +16,8 @@ from ai4u_edu.scenes.setup_errors import field_named_in
 from ai4u_edu.world import World
 
 
-class _IdleBrain(Brain):
-    """Does nothing, so that a dry run opens no socket and loads no network."""
+class IdleBrain(Brain):
+    """A brain that does nothing, so that a dry run opens no socket and loads no network."""
 
     abstract = True
 
@@ -44,7 +44,7 @@ def dry_run(state: EditState, path: BlockPath = (), *, resets: int = 1) -> Contr
         with files_in(state.folder):
             agents = make_agents(description)
         for agent in agents:
-            agent.brains = [_IdleBrain()]
+            agent.brains = [IdleBrain()]
         check_success(description.success, agents)
         sim = ControlRequestor(world, agents)
         for seed in range(resets if any(each.random for each in description.things) else 1):

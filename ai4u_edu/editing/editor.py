@@ -6,12 +6,13 @@ from pathlib import Path
 from typing import Any
 
 from ai4u_edu.base.errors import AI4UError, SetupError, shown
-from ai4u_edu.editing import blocks, bodies, proposals
+from ai4u_edu.editing import blocks, proposals, things
 from ai4u_edu.editing.change_result import ChangeResult, failed
 from ai4u_edu.editing.driver_options import driver_of, driver_options
 from ai4u_edu.editing.drivers import Driver, DriverRegistry
 from ai4u_edu.editing.plain import BlockPath, Plain
 from ai4u_edu.editing.proposals import Proposal
+from ai4u_edu.editing.reasons import reason_against_driver
 from ai4u_edu.editing.recovery import Recovery
 from ai4u_edu.editing.scene_store import SceneStore
 from ai4u_edu.editing.state import EditState
@@ -133,6 +134,13 @@ class SceneEditor:
         """Return the name of an agent's driver, as in :meth:`drivers`; "" for any other one."""
         return driver_of(self.state, self._runner.sim.agent(agent_id))
 
+    def reason_against_driver(self, agent_id: str, name: str) -> str:
+        """Return why a driver can't drive an agent, as a sentence; empty if it can.
+
+        It takes a decision in a copy of the world, which takes a few milliseconds.
+        """
+        return reason_against_driver(self.state, agent_id, name, self._drivers)
+
     def change_block(self, agent_id: str, path: BlockPath, values: Plain) -> "Future[ChangeResult]":
         """Change parameters of a block.
 
@@ -203,10 +211,12 @@ class SceneEditor:
     def move_body(
         self, name: str, x: float, y: float, heading_deg: float | None = None
     ) -> "Future[ChangeResult]":
-        """Put a body somewhere, at rest, now and at each reset from now on.
+        """Put a body, a floor or an area somewhere, now and at each reset from now on.
+
+        A body is at rest then.
 
         Args:
-            name: of the body.
+            name: of the body, the floor or the area.
             x: metres.
             y: metres.
             heading_deg: degrees; by default the present heading.
@@ -218,21 +228,38 @@ class SceneEditor:
 
     def add_body(self, body: BodyDescription | Mapping[str, Any]) -> "Future[ChangeResult]":
         """Add a body, from its description; :meth:`free_name` returns an unused name."""
-        return self._submit(lambda: proposals.add_body(self.state, body))
+        return self._submit(lambda: proposals.add_thing(self.state, body, "bodies"))
+
+    def add_region(
+        self, region: things.Thing | Mapping[str, Any], kind: things.ThingKind
+    ) -> "Future[ChangeResult]":
+        """Add a floor (``floors``) or an area (``areas``) from its description."""
+        return self._submit(lambda: proposals.add_thing(self.state, region, kind))
+
+    def add_agent(self, body: Mapping[str, Any], like: str) -> "Future[ChangeResult]":
+        """Add an agent with copies of another one's blocks; another episode begins.
+
+        Args:
+            body: description of its body.
+            like: id of the agent whose blocks are copied.
+        """
+        return self._submit(lambda: proposals.add_agent(self.state, body, like))
+
+    def remove_agent(self, agent_id: str) -> "Future[ChangeResult]":
+        """Remove an agent and its body; another episode begins. The last one stays."""
+        return self._submit(lambda: proposals.remove_agent(self.state, agent_id))
 
     def remove_body(self, name: str) -> "Future[ChangeResult]":
-        """Remove a body; refused if an agent or a block needs it."""
-        return self._submit(
-            lambda: Proposal(bodies.without_body(self.state, name), f"remove {name}")
-        )
+        """Remove a body, a floor or an area; refused if an agent or a block needs it."""
+        return self._submit(lambda: proposals.remove_thing(self.state, name))
 
     def change_body(self, name: str, values: Mapping[str, Any]) -> "Future[ChangeResult]":
-        """Change parameters of a body, those of :class:`BodyDescription`."""
-        return self._submit(lambda: proposals.change_body(self.state, name, values))
+        """Change parameters of a body, a floor or an area, those of its description."""
+        return self._submit(lambda: proposals.change_thing(self.state, name, values))
 
     def free_name(self, like: str) -> str:
         """Return a name that nothing in the scene has."""
-        return bodies.free_name(self.state, like)
+        return things.free_name(self.state, like)
 
     def change_scene(self, values: Mapping[str, Any]) -> "Future[ChangeResult]":
         """Change entries of the scene file: ``title``, ``goal``, ``world``, ``floors``..."""
@@ -256,15 +283,22 @@ class SceneEditor:
 
         It is read in the caller's thread. The file's errors come with their lines.
         """
-        if not isinstance(text, str):
-            return failed(SetupError(f"expected a scene as text (YAML), got {shown(text)}"))
         try:
-            agents = YamlFile(text, name).data.get("agents", ())
-            self._transactions.permissions.check(agents)
-            scene = Scene.loads(text, name=name, folder=self.state.folder)
+            return self.open(self.read(text, name))
         except AI4UError as error:
             return failed(error)
-        return self.open(scene)
+
+    def read(self, text: object, name: str = "scene.yaml") -> Scene:
+        """Read a scene that somebody wrote, as :meth:`load` does, without running it.
+
+        Raises:
+            AI4UError: it can't be used here.
+        """
+        if not isinstance(text, str):
+            raise SetupError(f"expected a scene as text (YAML), got {shown(text)}")
+        agents = YamlFile(text, name).data.get("agents", ())
+        self._transactions.permissions.check(agents)
+        return Scene.loads(text, name=name, folder=self.state.folder)
 
     def undo(self) -> "Future[ChangeResult]":
         """Take back the last change; the world's time goes on."""

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from inspect import get_annotations
 from typing import Any, Literal, get_args
 
-from ai4u_edu.base.errors import SceneError
+from ai4u_edu.base.errors import SceneError, suggest
 from ai4u_edu.base.parameters import Problem, is_open
 from ai4u_edu.blocks import Actuator, Block, Brain, Controller, RewardFunc, Sensor
 from ai4u_edu.blocks.docs import summary
@@ -37,6 +37,12 @@ class Field:
     choices: tuple[Any, ...] = ()
     is_common: bool = False
     """True if every block of the kind has it; such fields come last."""
+    unit: str = ""
+    """Unit of a number; empty if it has none."""
+    low: float | None = None
+    """Lower bound of a number; None if it has none."""
+    high: float | None = None
+    """Upper bound, likewise."""
 
     @property
     def shown(self) -> str:
@@ -66,6 +72,36 @@ class Field:
         if self.kind in {"number", "whole"}:
             return _number(entered)
         return _data(self.name, str(entered)) if self.kind == "data" else str(entered)
+
+
+def read_values(fields: Iterable[Field], entered: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the values of a form that differ from the fields', as plain data.
+
+    Args:
+        fields: the form.
+        entered: what a person entered, by name: texts are parsed, other values are kept.
+
+    Raises:
+        ChangeError: some can't be parsed, or no field has such a name.
+    """
+    known = {field.name: field for field in fields}
+    values: dict[str, Any] = {}
+    problems: list[Problem] = []
+    for name, value in entered.items():
+        field = known.get(name)
+        if field is None:
+            problems.append(Problem((name,), f"expected a field, {suggest(name, known)}"))
+            continue
+        try:
+            read = field.read(value) if isinstance(value, str | bool) else value
+        except ChangeError as error:
+            problems += error.problems
+            continue
+        if read != field.value and (read, field.value) != (None, ""):
+            values[name] = read
+    if problems:
+        raise ChangeError(problems)
+    return values
 
 
 def block_form(block: Plain, names: SceneNames) -> list[Field]:
@@ -149,7 +185,29 @@ def field_of(
         kind = "whole" if what["type"] == "integer" else "number"
     if kind == "choice" and (can_be_none or value is None):
         choices = (NONE_LABEL, *(each for each in choices if each != ""))
-    return Field(name, label, kind, value, hint.removesuffix(": "), choices, is_common)
+    low, high = (_bound(what, end) if is_number else None for end in ("inimum", "aximum"))
+    return Field(
+        name,
+        label,
+        kind,
+        value,
+        hint.removesuffix(": "),
+        choices,
+        is_common,
+        unit if is_number and unit != "1" else "",
+        low,
+        high,
+    )
+
+
+def _bound(what: Mapping[str, Any], end: str) -> float | None:
+    """Return a parameter's minimum or maximum; None if it has none.
+
+    >>> _bound({"exclusiveMinimum": 0}, "inimum"), _bound({"maximum": 4}, "inimum")
+    (0, None)
+    """
+    given: float | None = what.get(f"m{end}", what.get(f"exclusiveM{end}"))
+    return None if given is None or is_open(given) else given
 
 
 def _range(what: Mapping[str, Any]) -> str:

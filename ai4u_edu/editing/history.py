@@ -22,9 +22,14 @@ class Step:
     poses_after: Mapping[str, Pose]
     """Poses to which the change moved them."""
     replaces_world: bool = False
-    """True if the change opened another scene."""
+    """True if the change opened another scene, or other agents made a new world necessary."""
     opened_before: EditState | None = None
-    """The state that had been opened last before this change."""
+    """The state that had been opened last, if the change opened another scene."""
+
+    @property
+    def opens(self) -> bool:
+        """True if the change opened another scene."""
+        return self.opened_before is not None
 
 
 class History:

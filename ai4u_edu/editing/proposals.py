@@ -6,7 +6,7 @@ from dataclasses import replace
 from types import MappingProxyType
 from typing import Any, NamedTuple
 
-from ai4u_edu.editing import blocks, bodies, settings
+from ai4u_edu.editing import agents, blocks, settings, things
 from ai4u_edu.editing.driver_options import with_driver
 from ai4u_edu.editing.drivers import DriverRegistry
 from ai4u_edu.editing.input_checks import check_name, check_plain
@@ -14,7 +14,7 @@ from ai4u_edu.editing.plain import BlockPath, Plain
 from ai4u_edu.editing.state import EditState
 from ai4u_edu.scenes import Scene
 from ai4u_edu.scenes.yaml.file import write_yaml
-from ai4u_edu.world import BodyDescription, Pose
+from ai4u_edu.world import Pose
 
 Poses = Mapping[str, Pose]
 
@@ -29,6 +29,8 @@ class Proposal(NamedTuple):
     """The changed part of the scene; problems are told relative to it."""
     poses: Poses = MappingProxyType({})
     """Poses to which bodies are moved, by name."""
+    restarts: bool = False
+    """True if the world has to be built anew at once, which begins another episode."""
 
 
 def change_block(
@@ -75,26 +77,51 @@ def move_body(
     heading_deg: float | None,
     pose_of: Callable[[str], Pose],
 ) -> Proposal:
-    """Propose another pose of a body; without a heading it keeps its present one."""
-    bodies.check_place(x, y, heading_deg)
-    bodies.body_named(state, name)
+    """Propose another pose of a thing; without a heading it keeps its present one."""
+    things.check_place(x, y, heading_deg)
+    thing, path = things.thing_named(state, name), state.description.where_is(name)
+    if things.kind_of(thing) != "bodies":
+        degrees = thing.heading_deg if heading_deg is None else heading_deg
+        return Proposal(things.with_pose(state, name, x, y, degrees), f"move {name}", path)
     degrees = math.degrees(pose_of(name)[2]) if heading_deg is None else heading_deg
-    moved = bodies.with_pose(state, name, x, y, degrees)
+    moved = things.with_pose(state, name, x, y, degrees)
     pose = (x, y, math.radians(degrees))
-    return Proposal(moved, f"move {name}", state.description.where_is(name), {name: pose})
+    return Proposal(moved, f"move {name}", path, {name: pose})
 
 
-def add_body(state: EditState, body: BodyDescription | Mapping[str, Any]) -> Proposal:
-    """Propose another body."""
-    description = bodies.checked_description(body)
-    path = ("bodies", len(state.description.bodies))
-    return Proposal(bodies.with_body(state, description), f"add {description.name}", path)
+def add_thing(
+    state: EditState, given: things.Thing | Mapping[str, Any], kind: things.ThingKind
+) -> Proposal:
+    """Propose another body, floor or area."""
+    thing = things.checked_description(given, kind)
+    path = (kind, len(getattr(state.description, kind)))
+    return Proposal(things.with_thing(state, thing), f"add {thing.name}", path)
 
 
-def change_body(state: EditState, name: str, values: Mapping[str, Any]) -> Proposal:
-    """Propose other parameters of a body."""
+def remove_thing(state: EditState, name: str) -> Proposal:
+    """Propose the scene without a body, a floor or an area."""
+    return Proposal(things.without_thing(state, name), f"remove {name}")
+
+
+def change_thing(state: EditState, name: str, values: Mapping[str, Any]) -> Proposal:
+    """Propose other parameters of a body, a floor or an area."""
     path = state.description.where_is(name)
-    return Proposal(bodies.with_changed_body(state, name, values), f"change {name}", path)
+    verb = "resize" if set(values) == {"shape"} else "change"
+    return Proposal(things.with_changed_thing(state, name, values), f"{verb} {name}", path)
+
+
+def add_agent(state: EditState, body: Mapping[str, Any], like: str) -> Proposal:
+    """Propose another agent with a new body and copies of another agent's blocks."""
+    added = things.with_thing(state, things.checked_description(body))
+    agent = agents.copy_of(state.agent(like), state, str(body["name"]))
+    proposed = added.describing(agents=(*state.description.agents, agent))
+    return Proposal(proposed, f"add {body['name']}", restarts=True)
+
+
+def remove_agent(state: EditState, agent_id: str) -> Proposal:
+    """Propose the scene without an agent and its body."""
+    name = str(state.agent(agent_id)["body"])
+    return Proposal(agents.without(state, agent_id), f"remove {name}", restarts=True)
 
 
 def change_scene(state: EditState, values: Mapping[str, Any]) -> Proposal:

@@ -1,6 +1,6 @@
 """Forms for, and changes of, the parameters of an agent and of a scene themselves."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 from typing import Any
 
@@ -38,6 +38,12 @@ def agent_form(agent: Plain) -> list[Field]:
         *_fields(schema, RUNTIME_PARAMETERS, agent),
         *_applying_later(_fields(schema, ("priority",), agent)),
     ]
+
+
+def problems_in_agent_form(problems: Iterable[Problem]) -> Iterator[Problem]:
+    """Move problems of a brain's parameters to the agent's form, which shows them as its own."""
+    for path, text in problems:
+        yield Problem(path[-1:] if path[:1] == ("brains",) else path, text)
 
 
 def scene_form(scene: SceneDescription) -> list[Field]:

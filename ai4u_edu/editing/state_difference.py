@@ -34,7 +34,7 @@ class StateDifference:
 
     @property
     def concerns_no_agent(self) -> bool:
-        """True if only bodies and texts differ."""
+        """True if only bodies, floors, areas and texts differ."""
         same = self._old.description.agents == self._new.description.agents
         return same and self._old.drivers == self._new.drivers
 
@@ -44,17 +44,17 @@ class StateDifference:
         new = self._new.description
         fields = {name: getattr(new, name) for name in _OF_PAGE}
         state = self._old.describing(**fields)
-        if self._differs_in_one_body():
-            state = state.describing(bodies=new.bodies)
+        if self._differs_in_one_thing():
+            state = state.describing(floors=new.floors, areas=new.areas, bodies=new.bodies)
         if self._has_same_agents():
             state = state.describing(agents=new.agents, success=new.success)
             state = replace(self._new, description=state.description)
         return state
 
-    def _differs_in_one_body(self) -> bool:
-        """Return True if at most one body was added, removed or changed."""
-        old = {body.name: body for body in self._old.description.bodies}
-        new = {body.name: body for body in self._new.description.bodies}
+    def _differs_in_one_thing(self) -> bool:
+        """Return True if at most one body, floor or area was added, removed or changed."""
+        old = {thing.name: thing for thing in self._old.description.things}
+        new = {thing.name: thing for thing in self._new.description.things}
         names = dict.fromkeys((*old, *new))
         return sum(old.get(name) != new.get(name) for name in names) <= 1
 

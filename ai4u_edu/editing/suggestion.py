@@ -43,6 +43,15 @@ def suggest_block(state: EditState, agent_id: str, type_name: str) -> Plain:
     return block
 
 
+def copy_of_block(state: EditState, agent_id: str, block: Plain) -> Plain:
+    """Return a copy of an agent's block with a name that no other block of its kind has."""
+    cls, names, copy = Block.types[str(block["type"])], SceneNames(state, agent_id), dict(block)
+    for base, (kind, parameter) in NAMED.items():
+        if issubclass(cls, base):
+            _make_name_unique(copy, parameter, names.of_blocks(kind, parameter))
+    return copy
+
+
 def _value(name: str, state: EditState, names: SceneNames) -> Any:
     body = next(each for each in state.description.bodies if each.name == names.agent.get("body"))
     target = next(iter(names.things), None)

@@ -6,7 +6,7 @@ from concurrent.futures import Future
 
 from ai4u_edu.base.errors import AI4UError
 from ai4u_edu.base.parameters import Problem
-from ai4u_edu.editing import bodies
+from ai4u_edu.editing import things
 from ai4u_edu.editing.apply import RunningScene
 from ai4u_edu.editing.change_result import ChangeResult, When
 from ai4u_edu.editing.drivers import DriverRegistry
@@ -78,8 +78,10 @@ class Transactions:
         step = self.history.last
         if step is None:
             raise ChangeError([Problem((), "there is nothing to undo")])
-        when = self._apply(step.before, step.poses_before, step.replaces_world)
-        if step.replaces_world and step.opened_before is not None:
+        when = self._apply(
+            step.before, step.poses_before, step.replaces_world, self._seed(step.opens)
+        )
+        if step.opened_before is not None:
             self.opened = step.opened_before
         self.history.move_back()
         self._set_state(step.before)
@@ -91,8 +93,10 @@ class Transactions:
         step = self.history.next
         if step is None:
             raise ChangeError([Problem((), "there is nothing to do again")])
-        when = self._apply(step.after, step.poses_after, step.replaces_world)
-        if step.replaces_world:
+        when = self._apply(
+            step.after, step.poses_after, step.replaces_world, self._seed(step.opens)
+        )
+        if step.opens:
             self.opened = step.after
         self.history.move_forward()
         self._set_state(step.after)
@@ -100,9 +104,9 @@ class Transactions:
 
     def drag(self, name: str, x: float, y: float, heading_deg: float | None) -> None:
         """Move a body without recording a change, and remember where the drag began."""
-        bodies.check_dragged(x, y, heading_deg)
+        things.check_dragged(x, y, heading_deg)
         self._adopt_other_world()
-        bodies.body_named(self.state, name)
+        things.body_named(self.state, name)
         body, before = self._runner.sim.world[name], self.pose(name)
         heading = None if heading_deg is None else math.radians(heading_deg)
         body.move_to(x, y, heading=heading)
@@ -130,6 +134,7 @@ class Transactions:
         try:
             proposal = _checked(propose)
             after, poses = proposal.state, proposal.poses
+            rebuilds = whole or proposal.restarts
             if after == before and driver_of:
                 self._running.restore_driver(driver_of)
                 self._set_state(after)
@@ -140,7 +145,7 @@ class Transactions:
             has_moved = after.description.things != before.description.things
             dry_run(after, proposal.path, resets=RANDOM_RESETS if has_moved else 1)
             poses_before = {name: self._dragged.get(name) or self.pose(name) for name in poses}
-            when = self._apply(after, poses, whole)
+            when = self._apply(after, poses, rebuilds, self._seed(whole))
         except BaseException as error:
             for name in poses:
                 self.cancel_drag(name)
@@ -148,17 +153,22 @@ class Transactions:
                 raise ChangeError(error.problems) from None
             raise
         self._dragged = {name: pose for name, pose in self._dragged.items() if name not in poses}
-        step = Step(proposal.label, before, after, poses_before, poses, whole, self.opened)
+        opened_before = self.opened if whole else None
+        step = Step(proposal.label, before, after, poses_before, poses, rebuilds, opened_before)
         self.history.add(step)
         if whole:
             self.opened = after
         self._set_state(after)
         return ChangeResult(when, proposal.label, _warnings(step))
 
-    def _apply(self, state: EditState, poses: Poses, whole: bool) -> When:
-        if whole:
+    def _seed(self, opens: bool) -> int | None:
+        """Return the seed of a rebuilt world: another one if a scene is opened."""
+        return None if opens else self._runner.sim.world.seeds.seed
+
+    def _apply(self, state: EditState, poses: Poses, rebuilds: bool, seed: int | None) -> When:
+        if rebuilds:
             self._dragged = {}
-            self._running.rebuild(state)
+            self._running.rebuild(state, seed)
             return "now"
         return self._running.apply(state, poses)
 
@@ -197,4 +207,8 @@ def _warnings(step: Step) -> str:
     warnings = [move_warnings(after, step.poses_after)]
     if before.success and not after.success and not step.replaces_world:
         warnings.append(f"nothing pays {before.success!r} any more: no goal is left")
+    if not step.replaces_world and not before.floors and after.floors:
+        warnings.append("the ground was endless; now there is ground on the floors only")
+    if not step.replaces_world and before.floors and not after.floors:
+        warnings.append("without a floor the ground is endless")
     return "; ".join(filter(None, warnings))

@@ -4,6 +4,7 @@ from ai4u_edu.agent import BasicAgent
 from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.base.errors import AI4UError
 from ai4u_edu.blocks import Percept
+from ai4u_edu.panel import PanelSockets
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.server import ServerThread, lock_viser_port, open_on_desktop, room_app
 from ai4u_edu.viewer import Viewer
@@ -24,7 +25,8 @@ class LivePage:
         self._viewer = Viewer(self._runner, title=title)
         lock_viser_port(self._viewer.server)
         self._viewer.start()
-        room = room_app(self._runner, viser_port=self._viewer.port, title=title)
+        panel = PanelSockets(self._runner, self._viewer)
+        room = room_app(self._runner, viser_port=self._viewer.port, title=title, panel=panel)
         self._server = ServerThread(room).start()
         self.url = self._server.url
         """Where the page is."""

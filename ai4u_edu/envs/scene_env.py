@@ -8,6 +8,8 @@ import gymnasium
 from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.base.errors import SetupError
 from ai4u_edu.blocks import Percept
+from ai4u_edu.envs.description import Description, describe_agent
+from ai4u_edu.envs.env_warnings import RangeWarning, warn_of_default_agent
 from ai4u_edu.envs.external_brain import take_over
 from ai4u_edu.envs.spaces_of import Observer, action_space_of, outputs_of
 from ai4u_edu.scenes import Scene
@@ -28,7 +30,8 @@ def load_scene(scene: SceneLike) -> Scene:
 class SceneEnv(gymnasium.Env[Any, Any]):
     """Gymnasium environment for one agent of a scene.
 
-    A step hands its action to the agent's brain and runs the same decision cycle as the page.
+    A step hands its action to the agent's brain and runs the same decision cycle as the page. An
+    action out of range is clipped; the first one gives a warning.
     ``info`` has ``reward_terms`` (by name) and ``success`` (True once the scene's goal was reached
     in this episode).
 
@@ -36,7 +39,8 @@ class SceneEnv(gymnasium.Env[Any, Any]):
         scene: a name out of the library, a YAML file, or a :class:`Scene`.
         observation: ``"dict"``: by perception key; ``"flat"``: one float32 array; ``"image"``: the
             picture of the only sensor, uint8, for policies that look at pictures.
-        agent: the id of the agent that learns; left out, the one that acts first.
+        agent: the id of the agent that learns; left out, the one that acts first, with a warning
+            that names it if there are several.
         render_mode: ``"rgb_array"``: drawn without a browser; ``"human"``: serves the page
             (``page_url``), at the pace of the wall clock.
 
@@ -66,6 +70,9 @@ class SceneEnv(gymnasium.Env[Any, Any]):
             )
         self.scene = load_scene(scene)
         self.sim: ControlRequestor = self.scene.build()
+        if agent is None and len(self.sim.agents) > 1:
+            ids = [each.id for each in self.sim.agents]
+            warn_of_default_agent(self.scene.description.name, ids)
         self.agent = self.sim.agents[0] if agent is None else self.sim.agent(agent)
         self._brain = take_over(self.agent)
         self.observer = Observer(self.agent, observation)
@@ -73,6 +80,9 @@ class SceneEnv(gymnasium.Env[Any, Any]):
         self.action_space = action_space_of(self.agent)
         self._output = next(iter(outputs_of(self.agent)))
         self._one_output = not isinstance(self.action_space, gymnasium.spaces.Dict)
+        self.range_warning = RangeWarning()
+        """Warning that an action was clipped; many worlds share one."""
+        self.range_warning.watch(self.agent)
         self._goal = self.scene.description.success
         self._ledger = self.agent.ledger
         self.render_mode = render_mode
@@ -97,6 +107,30 @@ class SceneEnv(gymnasium.Env[Any, Any]):
         """True once the scene's goal was reached in this episode."""
         goal = self._goal
         return goal is not None and self._ledger.episode_terms.get(goal, 0.0) > 0
+
+    def describe(self) -> Description:
+        """Return what each number of an observation and of an action is, as a table.
+
+        In a dict observation, the index counts the numbers of each sensor on their own.
+
+        >>> described = SceneEnv("forage", observation="flat").describe()
+        >>> described.observations[96]
+        Element(index=96, key='velocity', element='forward', unit='m/s', low=-5.0, high=5.0)
+        >>> print(described)  # doctest: +ELLIPSIS
+        index  sensor    element           unit   low  high
+            0  vision    code, ray 0                0     1
+            1  vision    distance, ray 0            0     1
+        ...
+           97  velocity  left              m/s     -5     5
+           98  velocity  turning           rad/s  -20    20
+        <BLANKLINE>
+        index  actuator  element       unit  low  high
+            0  move      forward              -1     1
+            1  move      turn                 -1     1
+            2  move      jump                  0     1
+            3  move      forward jump          0     1
+        """
+        return describe_agent(self.agent, self.observation_space, self.action_space)
 
     def reset(
         self, *, seed: int | None = None, options: dict[str, Any] | None = None

@@ -7,6 +7,8 @@ from pettingzoo import ParallelEnv
 
 from ai4u_edu.agent import BasicAgent
 from ai4u_edu.base.errors import ActionError, SetupError, suggest
+from ai4u_edu.envs.description import Description, describe_agent
+from ai4u_edu.envs.env_warnings import RangeWarning
 from ai4u_edu.envs.external_brain import take_over
 from ai4u_edu.envs.scene_env import SceneLike, load_scene
 from ai4u_edu.envs.spaces_of import Observer, action_space_of, outputs_of
@@ -66,6 +68,9 @@ class SceneParallelEnv(ParallelEnv):  # type: ignore[misc]  # PettingZoo has no 
         skip_frame = max(brain.skip_frame for brain in self._brains.values())
         for brain in self._brains.values():
             brain.skip_frame = skip_frame
+        range_warning = RangeWarning()
+        for each in self._agents.values():
+            range_warning.watch(each)
         self._observers = {
             name: Observer(agent, observation) for name, agent in self._agents.items()
         }
@@ -88,6 +93,12 @@ class SceneParallelEnv(ParallelEnv):  # type: ignore[misc]  # PettingZoo has no 
     def action_space(self, agent: str) -> spaces.Space[Any]:
         """Return an agent's action space."""
         return self._action_spaces[agent]
+
+    def describe(self, agent: str) -> Description:
+        """Return what each number of an agent's observations and actions is, as a table."""
+        return describe_agent(
+            self._agents[agent], self.observation_space(agent), self.action_space(agent)
+        )
 
     def reset(
         self, seed: int | None = None, options: dict[str, Any] | None = None

@@ -30,8 +30,12 @@ class Worlds:
         if count < 1:
             raise SetupError(f"num_envs: expected at least 1, got {count}")
         loaded = load_scene(scene)
-        self.envs = [SceneEnv(loaded, **options) for _ in range(count)]
-        one = self.envs[0]
+        one = SceneEnv(loaded, **options)
+        # what one world warns of, the others need not
+        options["agent"] = one.agent.id
+        self.envs = [one, *(SceneEnv(loaded, **options) for _ in range(count - 1))]
+        for env in self.envs:
+            one.range_warning.watch(env.agent)
         self.space = batch_space(one.observation_space, count)
         self.action_space = batch_space(one.action_space, count)
         self.observations: Any = create_empty_array(one.observation_space, count)

@@ -1,5 +1,6 @@
 """Location and contents of the course, in the package or in a checkout."""
 
+import re
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -33,6 +34,13 @@ class Lesson:
     def title(self) -> str:
         """Return the first heading."""
         return self.cells[0].source.splitlines()[0].lstrip("# ")
+
+    @property
+    def duration(self) -> str:
+        """Return the time that a class needs, in words: the first cell's "About 45 minutes"."""
+        text = self.cells[0].source + self.cells[1].source
+        found = re.search(r"^\*(?:About )?([\w ]+(?:minutes|hours))\b", text, re.MULTILINE)
+        return found[1] if found else ""
 
     @property
     def exercises(self) -> list[str]:

@@ -39,6 +39,7 @@ class Live:
         self, sim: ControlRequestor, recorder: Recorder, title: str, seed: int | None = None
     ) -> None:
         # loaded when a world is shown: exercises can be checked without a page
+        from ai4u_edu.panel import PanelSockets
         from ai4u_edu.server import Rules, ServerThread, lock_viser_port, room_app, with_token
         from ai4u_edu.viewer import Viewer
 
@@ -54,6 +55,7 @@ class Live:
             title=title,
             allowed_hosts=("*",),  # the token is asked for; a proxy passes any name on
             rules=Rules(token=TOKEN, lockstep=True),  # the world is whose notebook it is
+            panel=PanelSockets(self.runner, self._viewer),
         )
         self._server = ServerThread(room)
         self.url = with_token(self._server.url, TOKEN)

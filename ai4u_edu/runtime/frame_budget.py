@@ -31,6 +31,8 @@ MAX_SNAPSHOT_DELAY_S = 0.032
 60 a second, so that there are :data:`MIN_FRAMES_PER_S`."""
 SENSES_PER_S = 30.0
 """Rate at which sensors, actions and ghosts are drawn; floors and bodies are in every frame."""
+TRAILS_PER_S = 4.0
+"""Rate at which the trails behind agents are drawn on each page."""
 TEXTS_PER_S = 8.0
 """Rate at which the texts of the panel are drawn: faster than anybody reads."""
 

@@ -1,7 +1,7 @@
 """The content of a scene file as data."""
 
 from collections.abc import Mapping, Sequence
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal, get_args
 
 from pydantic import Field
 
@@ -14,6 +14,9 @@ from ai4u_edu.scenes.serialization import PlainDataError, make
 from ai4u_edu.world import AreaDescription, BodyDescription, FloorDescription, WorldSettings
 from ai4u_edu.world.shapes import Description
 
+Level = Literal["easy", "medium", "hard"]
+LEVELS: tuple[Level, ...] = get_args(Level)
+"""Difficulties of a scene, the lowest first."""
 Text = Annotated[str, Field(max_length=2000)]
 
 
@@ -23,6 +26,10 @@ class SceneDescription(Description):
     name: Name
     title: Text = ""
     goal: Text = ""
+    level: Level | None = None
+    """The difficulty of the goal for a person."""
+    minutes: Annotated[int, Field(ge=1, le=600)] | None = None
+    """Time (minutes) that a person needs to reach the goal for the first time."""
     controls: Text = ""
     rewards: Text = ""
     """The rewards in words."""

@@ -9,6 +9,7 @@ from ai4u_edu.server.desktop import open_on_desktop
 from ai4u_edu.server.host_origin import LOOPBACK, hosts_for
 from ai4u_edu.server.scripts import Rules
 from ai4u_edu.server.serve import ServerThread, serve
+from ai4u_edu.server.start_page import LessonView
 from ai4u_edu.server.startup_banner import startup_banner
 from ai4u_edu.server.token_auth import token_for, with_token
 from ai4u_edu.server.viser_lockdown import lock_viser_port
@@ -16,6 +17,7 @@ from ai4u_edu.server.viser_lockdown import lock_viser_port
 __all__ = [
     "LOOPBACK",
     "AddressError",
+    "LessonView",
     "PortTakenError",
     "RoomMount",
     "Rules",

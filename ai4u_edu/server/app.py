@@ -6,8 +6,9 @@ from functools import partial
 from starlette.applications import Starlette
 from starlette.middleware import Middleware
 from starlette.routing import Match, Mount, Route, WebSocketRoute
-from starlette.types import Scope
+from starlette.types import ASGIApp, Scope
 
+from ai4u_edu.editing import SceneEditor
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.server.attempts import Attempts, LimitScripts
 from ai4u_edu.server.host_origin import LOOPBACK, HostOriginCheck
@@ -15,9 +16,12 @@ from ai4u_edu.server.input import Inputs
 from ai4u_edu.server.page import Page
 from ai4u_edu.server.past import Past
 from ai4u_edu.server.proxy import ViserProxy
+from ai4u_edu.server.scene_routes import SceneRoutes
 from ai4u_edu.server.scripts import RemoteSockets, Rules
+from ai4u_edu.server.start_page import LessonView, StartPage
 from ai4u_edu.server.state_routes import StateRoutes
 from ai4u_edu.server.token_auth import TokenAuth
+from ai4u_edu.server.token_page import PUBLIC_FILES, TokenPage
 from ai4u_edu.wire.native import PROBLEMS
 
 
@@ -29,6 +33,9 @@ def room_app(
     allowed_hosts: Collection[str] = LOOPBACK,
     proxy_hosts: Collection[str] = (),
     rules: Rules | None = None,
+    panel: ASGIApp | None = None,
+    editor: SceneEditor | None = None,
+    lessons: Callable[[], list[LessonView]] = list,
 ) -> Starlette:
     """Return the ASGI app of one room; mount it under a path with :class:`RoomMount`.
 
@@ -40,27 +47,39 @@ def room_app(
         proxy_hosts: host names of a reverse proxy in front; see there.
         rules: for scripts that drive agents from other machines; the page and the API ask for
             their token too.
+        panel: serves the sockets of the pages' panels; left out, pages have viser's panel only.
+        editor: lets pages open and share scenes; without it the scene stays as it is, and there is
+            no start page.
+        lessons: returns the lessons that the start page lists.
     """
     rules = rules or Rules()
     current_title = title if callable(title) else partial(str, title)
     page = Page(current_title)
     attempts = Attempts()
     auth = [Middleware(TokenAuth, token=rules.token, attempts=attempts)]
-    page_auth = [Middleware(TokenAuth, token=rules.token, attempts=attempts, is_page=True)]
+    page_auth = [
+        Middleware(TokenAuth, token=rules.token, attempts=attempts, token_page=TokenPage())
+    ]
     script_limit = [Middleware(LimitScripts, attempts=attempts, code=PROBLEMS["bad_token"])]
     past = Past(runner)
-    state = StateRoutes(runner, current_title)
+    state = StateRoutes(runner, current_title, can_open=editor is not None)
+    scenes: list[Route] = []
+    if editor is not None:
+        scenes = _scene_routes(SceneRoutes(runner, editor), StartPage(lessons), auth, page_auth)
     return Starlette(
         routes=[
             Route("/", page.index, middleware=page_auth),
+            *[Route(f"/web/{name}", page.public_file(name)) for name in PUBLIC_FILES],
             Route("/web/{file}", page.file, middleware=auth),
             Route("/healthz", state.health, middleware=auth),
             Route("/api/snapshot", state.snapshot, middleware=auth),
             Route("/api/past", past.list, middleware=auth),
             Route("/api/past/{file}", past.file, middleware=auth),
             Route("/api/openapi.json", state.describe, middleware=auth),
+            *scenes,
             WebSocketRoute("/", ViserProxy(viser_port, rules.token), middleware=auth),
             WebSocketRoute("/ws/input", Inputs(runner, current_title), middleware=auth),
+            *([WebSocketRoute("/ws/panel", panel, middleware=auth)] if panel is not None else []),
             # scripts send the token in their hello
             WebSocketRoute(
                 "/ws/remote", RemoteSockets(runner, current_title, rules), middleware=script_limit
@@ -70,6 +89,21 @@ def room_app(
             Middleware(HostOriginCheck, allowed_hosts=allowed_hosts, proxy_hosts=proxy_hosts)
         ],
     )
+
+
+def _scene_routes(
+    scenes: SceneRoutes, start: StartPage, auth: list[Middleware], page_auth: list[Middleware]
+) -> list[Route]:
+    return [
+        Route("/start", start.page, middleware=page_auth),
+        Route("/api/scene", scenes.present, methods=["GET"], middleware=auth),
+        Route("/api/scene", scenes.open, methods=["POST"], middleware=auth),
+        Route("/api/scene/link", scenes.link, methods=["GET"], middleware=auth),
+        Route("/api/scene/link", scenes.describe, methods=["POST"], middleware=auth),
+        Route("/api/scenes", start.scenes, middleware=auth),
+        Route("/api/scenes/{file}", start.picture, middleware=auth),
+        Route("/api/lessons", start.lessons, middleware=auth),
+    ]
 
 
 class RoomMount(Mount):

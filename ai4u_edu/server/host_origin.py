@@ -28,6 +28,7 @@ MAX_SHOWN_CHARS = 200
 
 _PORTS = {"http": 80, "https": 443}
 _OWN_SITES = {"same-origin", "none"}  # "none": typed in, or opened from a bookmark
+_PAGES = {"", "/", "/start"}
 _NAVIGATION_DESTS = {"document", "iframe", "frame"}
 _HOST = re.compile(r"(\[[0-9a-f:.]+\]|[a-z0-9._-]+)(:\d{1,5})?")
 
@@ -166,7 +167,7 @@ def _is_navigation(scope: Scope, headers: Headers) -> bool:
     return (
         scope["type"] == "http"
         and scope["method"] in ("GET", "HEAD")
-        and path in ("", "/")
+        and path in _PAGES
         and headers.get("sec-fetch-mode") == "navigate"
         and headers.get("sec-fetch-dest", "document") in _NAVIGATION_DESTS
     )

@@ -8,6 +8,14 @@ from pydantic.json_schema import models_json_schema
 from ai4u_edu.base.version import __version__
 from ai4u_edu.server.api import Health, SnapshotView
 from ai4u_edu.server.past import RECORDING, WRITERS, PastView
+from ai4u_edu.server.scene_routes import (
+    LinkRequest,
+    LinkView,
+    OpenRequest,
+    SceneView,
+    SharedView,
+)
+from ai4u_edu.server.start_page import LessonsView, ScenesView
 
 _ANSWERS: dict[str, tuple[str, type[BaseModel]]] = {
     "/healthz": ("Whether the room is well.", Health),
@@ -15,17 +23,40 @@ _ANSWERS: dict[str, tuple[str, type[BaseModel]]] = {
     "/api/past": ("The kept episodes.", PastView),
 }
 
+_SCENE_ANSWERS: dict[str, tuple[str, type[BaseModel]]] = {
+    "/api/scene": ("The scene that runs.", SceneView),
+    "/api/scene/link": ("A link to the scene that runs.", LinkView),
+    "/api/scenes": ("The library's scenes.", ScenesView),
+    "/api/lessons": ("The lessons of the course.", LessonsView),
+}
+_SCENE_REQUESTS: dict[str, tuple[str, type[BaseModel]]] = {
+    "/api/scene": ("Open a scene.", OpenRequest),
+    "/api/scene/link": ("Read a link, and open nothing.", LinkRequest),
+}
 
-def openapi() -> dict[str, Any]:
-    """Return the OpenAPI 3.1 document."""
+
+def openapi(*, can_open: bool = False) -> dict[str, Any]:
+    """Return the OpenAPI 3.1 document.
+
+    Args:
+        can_open: True if the room has the routes that open scenes.
+    """
+    answers = _ANSWERS | (_SCENE_ANSWERS if can_open else {})
+    models = [model for _, model in answers.values()]
+    if can_open:
+        models += [SharedView, *(model for _, model in _SCENE_REQUESTS.values())]
     _, schemas = models_json_schema(
-        [(model, "serialization") for _, model in _ANSWERS.values()],
+        [(model, "serialization") for model in models],
         ref_template="#/components/schemas/{model}",
     )
     paths = {
         path: _get(summary, {"$ref": f"#/components/schemas/{model.__name__}"})
-        for path, (summary, model) in _ANSWERS.items()
+        for path, (summary, model) in answers.items()
     }
+    if can_open:
+        for path, (summary, model) in _SCENE_REQUESTS.items():
+            paths[path] |= _post(summary, model)
+        paths["/api/scenes/{file}"] = _picture("A picture of a scene of the library.")
     health = paths["/healthz"]["get"]["responses"]
     health["503"] = {**health["200"], "description": "A block of the world does not return."}
     paths["/api/past/{file}"] = _file("A kept episode as a file.")
@@ -53,6 +84,38 @@ def _get(summary: str, schema: dict[str, Any]) -> dict[str, Any]:
             },
         }
     }
+
+
+def _post(summary: str, model: type[BaseModel]) -> dict[str, Any]:
+    post = _get(summary, {"$ref": f"#/components/schemas/{SharedView.__name__}"})["get"]
+    schema = {"$ref": f"#/components/schemas/{model.__name__}"}
+    post["requestBody"] = {"required": True, "content": {"application/json": {"schema": schema}}}
+    post["responses"] |= {
+        "404": {"description": "No scene has that name."},
+        "409": {"description": "The world can't open the scene; the text gives the reason."},
+        "413": {"description": "The body is too large."},
+        "415": {"description": "The body is not JSON."},
+        "422": {"description": "The link or its scene can't be used; the text gives the reason."},
+        "503": {"description": "The world does not answer, or too many scenes wait."},
+    }
+    return {"post": post}
+
+
+def _picture(summary: str) -> dict[str, Any]:
+    described = _get(summary, {})
+    found = described["get"]
+    found["parameters"] = [
+        {
+            "name": "file",
+            "in": "path",
+            "required": True,
+            "description": "the scene's name and .png",
+            "schema": {"type": "string", "pattern": r"^[a-z0-9_]+\.png$"},
+        }
+    ]
+    found["responses"]["200"]["content"] = {"image/png": {}}
+    found["responses"]["404"] = {"description": "No scene has that name."}
+    return described
 
 
 def _file(summary: str) -> dict[str, Any]:

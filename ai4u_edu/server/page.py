@@ -5,7 +5,7 @@ It is one document without frames, so that no frame keeps keys from the others.
 
 import hashlib
 import html
-from collections.abc import Callable
+from collections.abc import Awaitable, Callable
 from importlib.util import find_spec
 from pathlib import Path
 from typing import NamedTuple
@@ -18,14 +18,18 @@ from ai4u_edu.base.errors import SetupError
 _PLACE = "<title>Viser</title>"
 _OURS = """<title>{title}</title>
     <script src="./web/dark.js"></script>
+    <script src="./web/page_id.js"></script>
     <link rel="stylesheet" href="./web/page.css" />
     <link rel="stylesheet" href="./web/dock.css" />
     <link rel="stylesheet" href="./web/banners.css" />
     <link rel="stylesheet" href="./web/help.css" />
+    <link rel="stylesheet" href="./web/question.css" />
     <script type="module" src="./web/main.js"></script>
     <script type="module" src="./web/accessible_names.js"></script>"""
 # a system's own media types are not reliable: some call a .js plain text
 _KINDS = {".css": "text/css", ".js": "text/javascript", ".svg": "image/svg+xml"}
+FRAME_ANCESTORS = "frame-ancestors 'self' http://localhost:* http://127.0.0.1:*"
+"""Policy for pages that notebooks show in a frame."""
 _FRESH = {"Cache-Control": "no-cache"}
 
 
@@ -59,7 +63,17 @@ class Page:
 
     async def file(self, request: Request) -> Response:
         """Return one of our files. Names are compared, so no path leads out of their folder."""
-        wanted = request.path_params["file"]
+        return self._file(request.path_params["file"])
+
+    def public_file(self, name: str) -> Callable[[Request], Awaitable[Response]]:
+        """Return the route of one file."""
+
+        async def route(_: Request) -> Response:
+            return self._file(name)
+
+        return route
+
+    def _file(self, wanted: str) -> Response:
         for path in self._folder.iterdir():
             if path.name == wanted and path.suffix in _KINDS and path.is_file():
                 return FileResponse(path, media_type=_KINDS[path.suffix], headers=_FRESH)
@@ -111,6 +125,6 @@ def _policy(host: str) -> str:
             "object-src 'none'",
             "base-uri 'none'",
             "form-action 'none'",
-            "frame-ancestors 'self' http://localhost:* http://127.0.0.1:*",  # notebooks
+            FRAME_ANCESTORS,
         ]
     )

@@ -35,6 +35,10 @@ TOO_BIG = 1009
 
 PAGE_HEADER = "X-AI4U-Edu-Page"
 """Header to viser: the address under which a browser has the page."""
+PAGE_ID_HEADER = "X-AI4U-Edu-Page-Id"
+"""Header to viser: the page's random id, which its panel's socket has too; empty without one."""
+PAGE_ID_PARAM = "page"
+"""Query parameter of a page's sockets with the same; see ``web/page_id.js``."""
 AGENT_HEADER = "X-AI4U-Edu-Agent"
 """Header to viser: the agent that the page shows, percent-encoded; empty for none."""
 AGENT_COOKIE = "ai4u_edu_agent"
@@ -44,6 +48,7 @@ DARK_HEADER = "X-AI4U-Edu-Dark"
 DARK_COOKIE = "ai4u_edu_dark"
 """Cookie from the page: not empty for a dark page."""
 _SUBPROTOCOL = re.compile(r"[A-Za-z0-9._+-]{1,64}")
+_PAGE_ID = re.compile(r"[A-Za-z0-9-]{8,64}")
 
 _logger = logging.getLogger(__name__)
 
@@ -74,6 +79,7 @@ class ViserProxy:
                 self._url,
                 additional_headers={
                     PAGE_HEADER: with_token(page_address(scope), self._token),
+                    PAGE_ID_HEADER: page_id(scope),
                     AGENT_HEADER: page_agent(scope),
                     DARK_HEADER: "1" if HTTPConnection(scope).cookies.get(DARK_COOKIE) else "",
                     PROXY_SECRET_HEADER: PROXY_SECRET,
@@ -109,6 +115,18 @@ def page_address(scope: Scope) -> str:
     secure = scope.get("scheme") in ("wss", "https")
     host = f"{'https' if secure else 'http'}://{headers.get('host', '')}"
     return _as_header(f"{headers.get('origin', host)}{scope.get('root_path', '')}")
+
+
+def page_id(scope: Scope) -> str:
+    """Return the id in the query of a page's socket; empty if there is none.
+
+    >>> page_id({"type": "websocket", "query_string": b"page=0123-abcd", "headers": []})
+    '0123-abcd'
+    >>> page_id({"type": "websocket", "query_string": b"page=%0d%0aOrigin:x", "headers": []})
+    ''
+    """
+    found = HTTPConnection(scope).query_params.get(PAGE_ID_PARAM, "")
+    return found if _PAGE_ID.fullmatch(found) else ""
 
 
 def page_agent(scope: Scope) -> str:

@@ -20,12 +20,13 @@ class StateRoutes:
     Args:
         runner: runs the world.
         title: returns the scene's present title.
+        can_open: True if the room has the routes that open scenes.
     """
 
-    def __init__(self, runner: Runner, title: Callable[[], str]) -> None:
+    def __init__(self, runner: Runner, title: Callable[[], str], *, can_open: bool) -> None:
         self._runner, self._title = runner, title
         self._began = time.monotonic()
-        self._document = openapi()
+        self._document = openapi(can_open=can_open)
         self._cached: tuple[Snapshot | None, str] = None, ""
 
     async def health(self, _: Request) -> Response:

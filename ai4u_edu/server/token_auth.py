@@ -1,9 +1,9 @@
 """Token authentication for a room that other machines can reach, as in Jupyter.
 
 The terminal shows an address with the token. A browser that opens it gets a cookie, and is
-redirected to the address without the token. Programs send the token with each request, in the
-address or as ``Authorization: Bearer``. Scripts send it in their hello, see
-:mod:`ai4u_edu.server.scripts.lease_registry`.
+redirected to the address without the token; without a token it gets a page with a box for it.
+Programs send the token with each request, in the address or as ``Authorization: Bearer``. Scripts
+send it in their hello, see :mod:`ai4u_edu.server.scripts.lease_registry`.
 """
 
 import hashlib
@@ -17,8 +17,9 @@ from starlette.types import ASGIApp, Receive, Scope, Send
 from starlette.websockets import WebSocket
 
 from ai4u_edu.base.errors import SetupError
-from ai4u_edu.server.attempts import TOO_MANY, Attempts, Verdict, client_address, too_many
+from ai4u_edu.server.attempts import TOO_MANY, Attempts, Verdict, client_address
 from ai4u_edu.server.host_origin import is_loopback
+from ai4u_edu.server.token_page import TokenPage, wants_page
 
 MIN_TOKEN_CHARS = 8
 """Length of a token that a person chooses."""
@@ -71,7 +72,8 @@ class TokenAuth:
         app: the protected app.
         token: the room's token; empty to ask for none.
         attempts: rate limit for wrong tokens, shared by all routes of a room.
-        is_page: True for the page's route, which sets the cookie.
+        token_page: for the routes of pages, which set the cookie: what a browser without the token
+            gets. Others get a line of text.
     """
 
     def __init__(
@@ -80,12 +82,12 @@ class TokenAuth:
         token: str,
         *,
         attempts: Attempts | None = None,
-        is_page: bool = False,
+        token_page: TokenPage | None = None,
     ) -> None:
         self._app = app
         self._token = token
         self._attempts = attempts or Attempts()
-        self._is_page = is_page
+        self._token_page = token_page
         # browsers send a cookie to all ports of a machine: so its name differs for each token;
         # its value is a digest, since a token may have characters that a cookie can't
         digest = hashlib.sha256(b"ai4u-edu page " + token.encode()).hexdigest()
@@ -103,7 +105,7 @@ class TokenAuth:
             verdict = await self._attempts.check(address, lambda: self._is_known(given))
         if verdict is not Verdict.RIGHT:
             await self._refuse(given, verdict, scope, receive, send)
-        elif self._is_page and scope["type"] == "http" and self._is_in_address(given):
+        elif self._token_page and scope["type"] == "http" and self._is_in_address(given):
             await self._redirect(given)(scope, receive, send)
         else:
             await self._app(scope, receive, send)
@@ -124,9 +126,10 @@ class TokenAuth:
 
     def _redirect(self, given: HTTPConnection) -> Response:
         """Return a redirect to the page's address without the token, with the cookie."""
+        page = given.url.path.rpartition("/")[2]
         rest = [(name, value) for name, value in given.query_params.multi_items()]
         query = urlencode([(name, value) for name, value in rest if name != "token"])
-        response = RedirectResponse(f"./?{query}" if query else "./", 303)
+        response = RedirectResponse(f"./{page}?{query}" if query else f"./{page}", 303)
         response.headers["Cache-Control"] = "no-store"
         response.set_cookie(
             self._cookie,
@@ -146,21 +149,29 @@ class TokenAuth:
         receive: Receive,
         send: Send,
     ) -> None:
-        why = REASON_401.format(got="another one" if _has_token(given) else "none")
+        is_limited = verdict is Verdict.TOO_MANY
         seconds = self._attempts.retry_after(client_address(scope)) or 1
-        if verdict is Verdict.TOO_MANY:
+        why = REASON_401.format(got="another one" if _has_token(given) else "none")
+        if is_limited:
             why = TOO_MANY.format(seconds=seconds)
         if scope["type"] == "websocket":
             socket = WebSocket(scope, receive, send)
             # a browser tells a script why a socket was closed, but not why a handshake failed
             await socket.accept(next(iter(scope["subprotocols"]), None))
-            await socket.close(1013 if verdict is Verdict.TOO_MANY else 1008, why)
+            await socket.close(1013 if is_limited else 1008, why)
             return
-        if verdict is Verdict.TOO_MANY:
-            await too_many(seconds)(scope, receive, send)
-            return
-        headers = {"WWW-Authenticate": "Bearer", "Cache-Control": "no-store"}
-        await PlainTextResponse(f"token: {why}\n", 401, headers)(scope, receive, send)
+        response: Response = PlainTextResponse(f"token: {why}\n")
+        if self._token_page and wants_page(given):
+            response = self._token_page.response(
+                is_wrong=_has_token(given), wait_s=is_limited * seconds
+            )
+        response.status_code = 429 if is_limited else 401
+        response.headers["Cache-Control"] = "no-store"
+        if is_limited:
+            response.headers["Retry-After"] = str(seconds)
+        else:
+            response.headers["WWW-Authenticate"] = "Bearer"
+        await response(scope, receive, send)
 
 
 def _has_token(given: HTTPConnection) -> bool:

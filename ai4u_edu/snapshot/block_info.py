@@ -23,9 +23,19 @@ from ai4u_edu.blocks import (
     Sensor,
     SpotPicture,
 )
+from ai4u_edu.blocks.actuators.ground_motion import GroundMotion
 
 MIN_VISIBLE = {"cosine": -1.0, "distance": 0.0}
 """Least readings of an OrientationSensor for a visible target."""
+
+POWERS = {
+    "forward": ("move_amount",),
+    "strafe": ("move_amount",),
+    "turn": ("turn_amount",),
+    "jump": ("jump_power",),
+    "forward jump": ("jump_power", "jump_forward_power"),
+}
+"""Parameters of a GroundMotion that each number of its action is multiplied by."""
 
 Floats = npt.NDArray[np.float64]
 
@@ -88,6 +98,8 @@ class ActuatorInfo:
     components: tuple[Component, ...]
     is_choice: bool
     """True if the number is one of several discrete choices."""
+    without_effect: frozenset[str] = frozenset()
+    """Names of the components that do nothing with its parameters, as a jump of power 0."""
 
 
 class BlockInfo(NamedTuple):
@@ -230,4 +242,10 @@ def _control(actuator: Actuator) -> ActuatorInfo:
         block=type(actuator).__name__,
         components=tuple(map(Component, names, low, high)),
         is_choice=isinstance(actuator.space(), spaces.Discrete),
+        without_effect=frozenset(name for name in names if not _has_effect(actuator, name)),
     )
+
+
+def _has_effect(actuator: Actuator, slot: str) -> bool:
+    powers = POWERS.get(slot, ()) if isinstance(actuator, GroundMotion) else ()
+    return not powers or any(getattr(actuator, power) > 0 for power in powers)

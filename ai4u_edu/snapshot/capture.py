@@ -6,10 +6,13 @@ from ai4u_edu.agent import BasicAgent
 from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.agent.decision_cycle import Phase
 from ai4u_edu.blocks import (
+    ArrowController,
+    DiscreteArrowController,
     FallReward,
     HomeostaticReward,
     RemoteBrain,
     RewardFunc,
+    WASDRBMoveController,
 )
 from ai4u_edu.snapshot.block_info import block_info_of, sensor_pictures_of
 from ai4u_edu.snapshot.types import (
@@ -22,6 +25,8 @@ from ai4u_edu.snapshot.types import (
     StaticScene,
 )
 from ai4u_edu.world import AreaDescription
+
+KEY_CONTROLLERS = ArrowController, DiscreteArrowController, WASDRBMoveController
 
 
 def capture_snapshot(
@@ -139,6 +144,7 @@ def capture_agent(agent: BasicAgent, success: str = "", phase: Phase = NOWHERE) 
         truncated=agent.truncated,
         paused=agent.paused,
         held_keys=agent.keyboard.held(),
+        is_driven_by_keys=_is_driven_by_keys(agent),
         rays=pictures.rays,
         remote=agent.brain.status() if isinstance(agent.brain, RemoteBrain) else None,
         episode=agent.episode,
@@ -152,6 +158,13 @@ def capture_agent(agent: BasicAgent, success: str = "", phase: Phase = NOWHERE) 
         sensor_infos=info.sensor_infos,
         actuator_infos=info.actuator_infos,
     )
+
+
+def _is_driven_by_keys(agent: BasicAgent) -> bool:
+    brain = agent.brain
+    if isinstance(brain, RemoteBrain) and brain.override is not None:
+        brain = brain.override
+    return isinstance(getattr(brain, "controller", None), KEY_CONTROLLERS)
 
 
 def _fell(agent: BasicAgent) -> bool:

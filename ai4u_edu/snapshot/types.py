@@ -94,6 +94,8 @@ class AgentState(NamedTuple):
     truncated: bool
     paused: bool
     held_keys: frozenset[str]
+    is_driven_by_keys: bool
+    """True if a person drives it, False for a script or network."""
     rays: Mapping[str, RayPicture]
     """Rays of the last reading, by perception key."""
     remote: RemoteStatus | None = None

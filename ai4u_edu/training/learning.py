@@ -1,5 +1,6 @@
 """Training of an agent in a scene with Stable-Baselines3."""
 
+import sys
 from dataclasses import dataclass
 from importlib.metadata import version
 from importlib.util import find_spec
@@ -19,7 +20,7 @@ from ai4u_edu.scenes import Scene
 from ai4u_edu.training.algorithms import check_actions, load_model, new_model
 from ai4u_edu.training.eval_callback import EvalCallback
 from ai4u_edu.training.interrupt import Interrupt
-from ai4u_edu.training.prepare import prepare
+from ai4u_edu.training.prepare import prepare, with_learner
 from ai4u_edu.training.progress import ProgressCallback
 from ai4u_edu.training.run import Check, Config, Run
 from ai4u_edu.training.settings import Algorithm, Settings
@@ -106,6 +107,13 @@ def train(
             f"{seed}"
         )
     own = settings.of(algorithm)
+    named, settings = settings.agent, with_learner(scene, settings)
+    if settings.agent != named and not quiet:
+        ids = ", ".join(agent.id for agent in scene.build().agents)
+        sys.stderr.write(
+            f"{settings.agent!r} learns, the first of several agents ({ids}); to choose another "
+            "one, write agent: ID into a settings file\n"
+        )
     prepared = prepare(scene, settings)
     check_actions(algorithm, _env(prepared, settings).action_space)
     worlds = make_worlds(prepared, settings, algorithm)
@@ -148,7 +156,7 @@ def resume(
     """
     run = Run(folder)
     config = run.config()
-    settings = config.settings
+    settings = with_learner(run.scene(), config.settings)
     prepared = prepare(run.scene(), settings)
     worlds = make_worlds(prepared, settings, config.algorithm)
     model = load_model(config.algorithm, run.last, worlds)
@@ -156,7 +164,7 @@ def resume(
     worlds.seed(ABOVE + 1000 * config.seed + 7919 * (1 + model.num_timesteps))
     if isinstance(model, OffPolicyAlgorithm) and run.replay.is_file():
         model.load_replay_buffer(run.replay)
-    config = config.model_copy(update={"steps": steps or config.steps})
+    config = config.model_copy(update={"steps": steps or config.steps, "settings": settings})
     if model.num_timesteps >= config.steps:
         raise SetupError(
             f"{folder} has learned from {model.num_timesteps} steps already; "

@@ -32,6 +32,13 @@ def prepare(scene: Scene, settings: Settings, *, learning: bool = True) -> Scene
     return Scene(described, scene.folder)
 
 
+def with_learner(scene: Scene, settings: Settings) -> Settings:
+    """Return settings that name the agent that learns, if the scene has several."""
+    if settings.agent or len(scene.description.agents) == 1:
+        return settings
+    return settings.model_copy(update={"agent": scene.build().agents[0].id})
+
+
 def index_of_learner(scene: Scene, settings: Settings) -> int:
     """Return the learning agent's index, as in the file."""
     ids = [str(agent.get("id", "0")) for agent in scene.description.agents]

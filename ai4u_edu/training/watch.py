@@ -84,6 +84,7 @@ class Watch(BaseCallback):  # type: ignore[misc]  # seen without its types
 def show(folder: Path, port: int, *, open_page: bool) -> None:
     """Serve the page until somebody ends it; use another port if that one is taken."""
     from ai4u_edu.blocks import LocalBrain
+    from ai4u_edu.panel import PanelSockets
     from ai4u_edu.runtime.runner import Runner
     from ai4u_edu.server import (
         PortTakenError,
@@ -110,7 +111,8 @@ def show(folder: Path, port: int, *, open_page: bool) -> None:
     runner = Runner(sim)
     viewer = Viewer(runner, title=title)
     lock_viser_port(viewer.server)
-    room = room_app(runner, viser_port=viewer.port, title=title)
+    panel = PanelSockets(runner, viewer)
+    room = room_app(runner, viser_port=viewer.port, title=title, panel=panel)
 
     def ready(url: str) -> None:
         sys.stderr.write(f"watch it learn at {url}\n")

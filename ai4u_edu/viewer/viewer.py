@@ -30,6 +30,7 @@ from ai4u_edu.viewer.scene.ground import Ground
 from ai4u_edu.viewer.scene.labels import Labels
 from ai4u_edu.viewer.scene.light import set_up_lights
 from ai4u_edu.viewer.scene.sense_overlay import SenseOverlay
+from ai4u_edu.viewer.scene.trails import Trails
 from ai4u_edu.viewer.viewer_client import ViewerClients
 
 PANEL_WIDTH_PX = 320
@@ -88,15 +89,17 @@ class Viewer:
         if runner.recorder is not None:
             kinds.append(replay_tab(runner, self.player, self.ghosts))
 
+        bodies = Bodies(server, self._choose)
         parts: list[tuple[Part, float]] = [
             (viewer_clients, MAX_FRAMES_PER_S),
             (Ground(server), TEXTS_PER_S),
-            (Bodies(server, self._choose), MAX_FRAMES_PER_S),
+            (bodies, MAX_FRAMES_PER_S),
             (Labels(server), MAX_FRAMES_PER_S),
             (self.ghosts, SENSES_PER_S),
-            (Actions(server), SENSES_PER_S),
+            (Actions(server, bodies), SENSES_PER_S),
             (Controls(server, runner, viewer_clients), TEXTS_PER_S),
             (PageControls(viewer_clients), TEXTS_PER_S),
+            (Trails(viewer_clients), SENSES_PER_S),
             (SenseOverlay(viewer_clients), MAX_FRAMES_PER_S),
             (Tabs(viewer_clients, kinds, self._error_log), MAX_FRAMES_PER_S),
         ]
@@ -158,6 +161,8 @@ class Viewer:
         viewer_client, static_scene = self.viewer_clients.get(client_id), self._static_scene
         if viewer_client is not None and static_scene is not None and body in static_scene.agent_of:
             viewer_client.agent = static_scene.agent_of[body]
+            if viewer_client.panel is not None:
+                viewer_client.panel.on_selected(body)
 
     def draw(self, snapshot: Snapshot) -> None:
         """Draw what is due of a snapshot; the viewer's thread does, once it has started."""

@@ -1,10 +1,13 @@
 """Pages in browsers, each with the agent and the sensors that its user has chosen to see."""
 
 from collections.abc import Iterator, Mapping, Sequence
+from concurrent.futures import Future
+from typing import Protocol
 from urllib.parse import unquote
 
 from viser import ClientHandle
 
+from ai4u_edu.editing import ChangeResult
 from ai4u_edu.snapshot import Snapshot, StaticScene
 from ai4u_edu.viewer.backend.local_server import LocalServer
 from ai4u_edu.viewer.scene.view import View
@@ -13,8 +16,20 @@ AGENT_HEADER = "X-AI4U-Edu-Agent"
 """Request header from our proxy: id of the agent that a page is about, percent-encoded."""
 PAGE_HEADER = "X-AI4U-Edu-Page"
 """Request header from our proxy: address of the page in the browser."""
+PAGE_ID_HEADER = "X-AI4U-Edu-Page-Id"
+"""Request header from our proxy: the page's random id; empty for a page with viser's panel."""
 DARK_HEADER = "X-AI4U-Edu-Dark"
 """Request header from our proxy: not empty for a dark page."""
+
+
+class PagePanel(Protocol):
+    """The panel of a page, which is told what its user does in the picture; in viser's loop."""
+
+    def on_selected(self, body: str) -> None:
+        """Note that somebody clicked on a body."""
+
+    def on_dropped(self, change: "Future[ChangeResult]") -> None:
+        """Report the result of a move with the mouse."""
 
 
 class ViewerClient:
@@ -24,20 +39,35 @@ class ViewerClient:
         client: the page.
         asked: id of the agent that the page is about; empty if it is about none.
         address: of the page in the browser; empty if it is not known.
+        page_id: the page's random id, if its panel is ours; else empty.
         is_dark: True for dark colours.
     """
 
     def __init__(
-        self, client: ClientHandle, asked: str = "", address: str = "", *, is_dark: bool = False
+        self,
+        client: ClientHandle,
+        asked: str = "",
+        address: str = "",
+        page_id: str = "",
+        *,
+        is_dark: bool = False,
     ) -> None:
         self.client = client
         self.address = address
+        self.page_id = page_id
         self.is_dark = is_dark
+        self.panel: PagePanel | None = None
+        """Its panel, once that has a connection; None with viser's panel."""
+        self.selected = ""
+        """Name of the selected body."""
+        self.is_move_mode = False
+        """True if its user may drag bodies."""
         self.view = View(client)
         """Its camera."""
         self.agent = asked
         """Id of the agent that is shown."""
         self._sensor_choices: dict[tuple[str, str], bool] = {}
+        self._trail_choices: dict[str, bool] = {}
 
     def settle(self, ids: Sequence[str]) -> None:
         """Show the first of these agents, unless the one that is shown is among them."""
@@ -53,9 +83,27 @@ class ViewerClient:
         """
         return self._sensor_choices.get((self.agent, key), is_default)
 
-    def show_sensor(self, key: str, on: bool) -> None:
-        """Show a sensor of the agent in the scene, or hide it."""
-        self._sensor_choices[self.agent, key] = on
+    def set_dark(self, is_dark: bool) -> None:
+        """Draw the page's picture in dark or light colours."""
+        self.is_dark = is_dark
+        self.client.gui.configure_theme(show_logo=False, show_share_button=False, dark_mode=is_dark)
+
+    def show_sensor(self, key: str, on: bool, agent: str = "") -> None:
+        """Show a sensor in the scene, or hide it; by default one of the agent that is shown."""
+        self._sensor_choices[agent or self.agent, key] = on
+
+    def shows_trail(self, agent_id: str, *, is_default: bool) -> bool:
+        """Return True if the trail behind an agent is shown.
+
+        Args:
+            agent_id: the agent's id.
+            is_default: True for an agent whose trail is shown unless the user has switched it off.
+        """
+        return self._trail_choices.get(agent_id, is_default)
+
+    def show_trail(self, agent_id: str, on: bool) -> None:
+        """Show the trail behind an agent on this page, or hide it."""
+        self._trail_choices[agent_id] = on
 
 
 class ViewerClients(Mapping[int, ViewerClient]):
@@ -81,6 +129,11 @@ class ViewerClients(Mapping[int, ViewerClient]):
     def __len__(self) -> int:
         return len(self._all)
 
+    def find(self, page_id: str) -> ViewerClient | None:
+        """Return the latest page with a page id; None if there is none."""
+        found = [each for each in tuple(self._all.values()) if each.page_id == page_id]
+        return found[-1] if found and page_id else None
+
     def build(self, static_scene: StaticScene) -> None:
         """Take over which agents there are."""
         ids = list(static_scene.agent_of.values())
@@ -103,7 +156,8 @@ class ViewerClients(Mapping[int, ViewerClient]):
                 self._header(new, PAGE_HEADER),
             )
             is_dark = bool(self._header(new, DARK_HEADER))
-            viewer_client = ViewerClient(clients[new], asked, address, is_dark=is_dark)
+            page_id = self._header(new, PAGE_ID_HEADER)
+            viewer_client = ViewerClient(clients[new], asked, address, page_id, is_dark=is_dark)
             viewer_client.settle(self._ids)
             self._all[new] = viewer_client
 

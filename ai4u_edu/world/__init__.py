@@ -8,7 +8,14 @@ from ai4u_edu.world.descriptions import (
     RegionDescription,
     WorldSettings,
 )
-from ai4u_edu.world.edit import Pose, edit_body, insert_body, reorder
+from ai4u_edu.world.edit import (
+    Pose,
+    edit_body,
+    insert_body,
+    put_region,
+    reorder,
+    sampled_region,
+)
 from ai4u_edu.world.ray_grid import RayGrid
 from ai4u_edu.world.rays import Cast, RayFan
 from ai4u_edu.world.region import Region
@@ -48,5 +55,7 @@ __all__ = [
     "WorldView",
     "edit_body",
     "insert_body",
+    "put_region",
     "reorder",
+    "sampled_region",
 ]

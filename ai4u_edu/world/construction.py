@@ -44,7 +44,7 @@ def add_now(world: "World", thing: Thing) -> None:
     else:
         registry.put_region(place_now(world, thing))
         if isinstance(thing, FloorDescription):
-            _update_heights(world)
+            update_heights(world)
         world._physics.generation += 1
     registry.register(thing)
 
@@ -89,7 +89,7 @@ def rebuild(world: "World") -> None:
         if not registry.has_random:
             body.sampled = body.description  # an edit may have changed it in its place
         world._physics.add(body)
-    _update_heights(world)
+    update_heights(world)
 
 
 def _add_and_rebuild(world: "World", things: list[Thing]) -> None:
@@ -138,7 +138,7 @@ def _sample_all(world: "World") -> None:
     world._physics.generation += 1
 
 
-def _update_heights(world: "World") -> None:
+def update_heights(world: "World") -> None:
     """Find out what every body stands on, after the floors have changed."""
     height = world._physics.height
     height.rebuild(world._registry.floors.values())

@@ -2,11 +2,11 @@
 
 import math
 from collections.abc import Iterable
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, cast
 
 from ai4u_edu.base.errors import WorldError
-from ai4u_edu.world.construction import add_now
-from ai4u_edu.world.descriptions import BodyDescription
+from ai4u_edu.world.construction import add_now, update_heights
+from ai4u_edu.world.descriptions import AreaDescription, BodyDescription, FloorDescription
 from ai4u_edu.world.overlap import find_overlap
 
 if TYPE_CHECKING:
@@ -69,6 +69,46 @@ def edit_body(world: "World", description: BodyDescription, pose: Pose | None = 
             thing=body.name,
         )
     return body
+
+
+def sampled_region(world: "World", name: str) -> FloorDescription | AreaDescription:
+    """Return a floor or an area as sampled for this episode."""
+    registry = world._registry
+    sampled = registry.floors[name][0] if name in registry.floors else None
+    if sampled is not None:
+        return sampled
+    return cast(AreaDescription, registry.areas[name].description)
+
+
+def put_region(
+    world: "World",
+    name: str,
+    description: FloorDescription | AreaDescription | None,
+    sampled: FloorDescription | AreaDescription | None,
+) -> None:
+    """Add, change or remove a floor or an area; no body is lifted, and some may fall.
+
+    Args:
+        world: the world to change.
+        name: of the floor or the area.
+        description: of this and all later episodes; None removes it.
+        sampled: the floor or the area of this episode.
+
+    Raises:
+        WorldError: the name of a new one is taken.
+    """
+    registry = world._registry
+    is_floor = name in registry.floors or isinstance(description, FloorDescription)
+    if description is None or sampled is None:
+        registry.forget(name)
+    else:
+        if name not in registry.floors and name not in registry.areas:
+            registry.check_name(description)
+        registry.replace(description)
+        registry.put_region(sampled)
+    if is_floor:
+        update_heights(world)
+    world._physics.generation += 1
 
 
 def reorder(world: "World", names: Iterable[str]) -> None:

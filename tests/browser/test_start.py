@@ -1,170 +1,129 @@
-"""A start waits for a key, is repeated or drawn anew; keys work after the panel was used."""
+"""The start page leads to a scene, to an empty plate, and to the lessons."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
 
 import pytest
-from playwright.sync_api import Locator, Page, expect
+from playwright.sync_api import Browser, Page, expect
 
-from tests.browser.served_viser import ServedViser, centre, driver_status
-from tests.server.rooms import until
+from ai4u_edu.editing import SceneEditor
+from ai4u_edu.editing.autosave import Autosave
+from ai4u_edu.runtime.runner import Runner
+from ai4u_edu.scenes import Scene
+from ai4u_edu.server import LessonView, ServerThread, room_app
+from tests.chromium import new_page
+from tests.server.rooms import NOWHERE
 
 pytestmark = pytest.mark.browser
 
+MIN_SIDE_PX, MIN_TOUCH_PX = 28, 40
+SIZES = [(1920, 1080, False), (820, 1180, True), (390, 844, True), (844, 390, True)]
+LESSONS = [
+    LessonView(number="00", title="Start here", duration="45 minutes"),
+    LessonView(number="15", title="Project: <your> own world", duration="Three to five hours"),
+]
+PATIENCE_MS = 30_000
+
+
+@dataclass
+class World:
+    """A served world, and its editor."""
+
+    editor: SceneEditor
+    url: str
+
+    @property
+    def scene(self) -> str:
+        return self.editor.state.description.name
+
 
 @pytest.fixture
-def waits_for_key() -> bool:
-    return True
+def world(tmp_path: Path) -> Iterator[World]:
+    scene = Scene.load("maze")
+    runner = Runner(scene.build(), seed=1)
+    editor = SceneEditor(runner, scene)
+    editor.recovery.autosave = Autosave(tmp_path, "maze")
+    app = room_app(
+        runner,
+        viser_port=NOWHERE,
+        title=lambda: editor.title,
+        editor=editor,
+        lessons=lambda: LESSONS,
+    )
+    runner.start()
+    try:
+        with ServerThread(app) as server:
+            yield World(editor, server.url)
+    finally:
+        runner.stop()
+        editor.recovery.autosave.stop()
 
 
-def banner(page: Page) -> Locator:
-    return page.locator(".ai4u-banner")
+@pytest.fixture
+def page(chromium: Browser, world: World) -> Iterator[Page]:
+    page = new_page(chromium)
+    open_start(page, world)
+    yield page
+    page.context.close()
 
 
-def tick(site: ServedViser) -> int:
-    return site.room.runner.latest.tick
+def open_start(page: Page, world: World) -> None:
+    page.goto(f"{world.url}start")
+    expect(page.locator("#scenes li")).to_have_count(len(Scene.names()), timeout=PATIENCE_MS)
 
 
-def waits(site: ServedViser) -> bool:
-    latest = site.room.runner.latest
-    return latest.tick == 0 and latest.waiting == "key"
-
-
-def drives(site: ServedViser, page: Page) -> None:
-    """Check that W drives now."""
-    x = site.pose()[0]
-    page.keyboard.down("KeyW")
-    until(lambda: site.pose()[0] > x)
-    page.keyboard.up("KeyW")
-
-
-def test_a_key_starts_and_drives_and_r_repeats_the_start(site: ServedViser) -> None:
-    page = site.page()
-    expect(driver_status(page)).to_have_text("Press a key to start")
-    expect(banner(page)).to_have_text("Press a key to start")
-    assert waits(site)
-    drives(site, page)
-    expect(driver_status(page)).to_have_text("You drive")
-    expect(banner(page)).to_have_count(0)
-    page.keyboard.press("KeyR")
-    expect(driver_status(page)).to_have_text("Press a key to start")
-    assert waits(site)
-    assert site.room.runner.latest.seed == 1
-    drives(site, page)
-
-
-@pytest.mark.parametrize("key", ["Enter", "KeyH", "KeyQ"])
-def test_a_key_that_drives_nothing_starts_too(site: ServedViser, key: str) -> None:
-    page = site.page()
-    page.keyboard.press(key)
-    until(lambda: tick(site) > 0)
-    expect(driver_status(page)).to_have_text("You drive")
-
-
-@pytest.mark.parametrize("key", ["?", "Escape", "Tab", "Shift", "F9", "Control+KeyB"])
-def test_keys_of_the_browser_and_of_the_help_do_not_start(site: ServedViser, key: str) -> None:
-    page = site.page()
-    page.keyboard.press(key)
-    page.keyboard.press("Escape")
-    page.keyboard.press("KeyR")  # handled after the other one
-    first = site.room.runner.latest.episode
-    until(lambda: site.room.runner.latest.episode >= first)
-    assert waits(site)
-
-
-def test_a_touch_screen_is_told_to_push_the_stick(site: ServedViser) -> None:
-    page = site.page(touch=True)
-    expect(driver_status(page)).to_have_text("Push the stick to start")
-    expect(banner(page)).to_have_text("Push the stick to start")
-
-
-def test_the_result_offers_the_same_start_and_a_new_one(site: ServedViser) -> None:
-    page = site.page()
-    runner, agent = site.room.runner, site.room.sim.agents[0]
-
-    def end() -> None:
-        page.keyboard.press("KeyW")
-        until(lambda: tick(site) > 0)
-        runner.submit(lambda: agent.add_reward(1, request_done=True)).result(5)
-
-    seeds = []
-    for name in ("Try again", "New start", "Try again"):
-        end()
-        page.get_by_role("button", name=name).click()
-        until(lambda: waits(site))
-        seeds.append(runner.latest.seed)
-    end()
-    page.keyboard.press("KeyN")
-    until(lambda: waits(site))
-    assert seeds[0] == 1
-    assert seeds[1] == seeds[2]
-    assert len({*seeds, runner.latest.seed}) == 3
-
-
-def test_another_page_says_that_a_player_has_to_start(site: ServedViser) -> None:
-    page, other = site.page(), site.page()
-    page.keyboard.press("KeyW")
-    page.keyboard.press("KeyR")
-    expect(banner(page)).to_have_text("Press a key to start")
-    expect(banner(other)).to_have_text("Waits until a player presses a key")
-    expect(driver_status(other)).to_have_text("Page 1 drives")
-
-
-# -- the focus -----------------------------------------------------------------------------------
-
-
-def test_keys_drive_again_after_a_text_was_entered(site: ServedViser) -> None:
-    page = site.page(has_viser=True)
-    for leave in ("Enter", "Escape", "picture"):
-        page.get_by_label("Name").click()
-        expect(driver_status(page)).to_have_text("Click the picture to drive")
-        page.keyboard.type("w")
-        if leave == "picture":
-            page.mouse.click(250, 250)
-        else:
-            page.keyboard.press(leave)
-        expect(driver_status(page)).not_to_have_text("Click the picture to drive")
-        drives(site, page)
-    until(lambda: site.name.value == "www")
-
-
-def test_keys_drive_again_after_a_choice_a_number_and_a_slider(site: ServedViser) -> None:
-    gui = site.inner.gui
-    choice = gui.add_dropdown("Choice", ("one", "two"))
-    number = gui.add_number("Number", 1, step=1)
-    slider = gui.add_slider("Slider", 0.0, 1.0, 0.1, 0.0)
-    page = site.page(has_viser=True)
-    page.get_by_role("combobox", name="Choice").click()
-    expect(driver_status(page)).to_have_text("Click the picture to drive")
-    page.get_by_role("option", name="two").click()
-    until(lambda: choice.value == "two")
-    drives(site, page)
-    page.get_by_label("Number").fill("7")
+def test_a_scene_is_played_by_keyboard_alone(world: World, page: Page) -> None:
+    for name in ("Back to “Maze”", "Play", "Build", "Learn"):
+        page.keyboard.press("Tab")
+        expect(page.get_by_role("link" if "Back" in name else "button", name=name)).to_be_focused()
+    scene = page.get_by_role("button", name="Sumo", exact=True)
+    while not scene.evaluate("button => button === document.activeElement"):
+        page.keyboard.press("Tab")
     page.keyboard.press("Enter")
-    until(lambda: number.value == 7)
-    drives(site, page)
-    page.locator(".mantine-NumberInput-control").first.click()
-    until(lambda: number.value == 8)
-    drives(site, page)
-    page.mouse.click(*centre(page.locator(".mantine-Slider-track")))
-    until(lambda: slider.value > 0)
-    before = slider.value
-    drives(site, page)
-    page.keyboard.press("ArrowUp")
-    page.keyboard.press("KeyW")
-    assert slider.value == before
+    page.wait_for_url(world.url)
+    assert world.scene == "sumo"
 
 
-def test_space_does_not_click_a_button_again(site: ServedViser) -> None:
-    page = site.page(has_viser=True)
-    page.get_by_role("button", name="Press me").click()
-    until(lambda: site.clicks == ["click"])
-    page.keyboard.press("Enter")
-    until(lambda: tick(site) > 0)
-    assert site.clicks == ["click"]
+def test_build_opens_an_empty_plate(world: World, page: Page) -> None:
+    page.get_by_role("button", name="Build").click()
+    page.wait_for_url(world.url)
+    assert [body.name for body in world.editor.state.description.bodies] == ["robot"]
 
 
-def test_the_notice_about_the_graphics_card_is_in_the_help(site: ServedViser) -> None:
-    page = site.page(has_viser=True)
-    notice = page.locator("#webgl-software-rendering")
-    notice.wait_for(state="attached")
-    expect(notice).to_be_hidden()
-    page.get_by_role("button", name="Help").click()
-    expect(page.get_by_text("Drawn without a graphics card")).to_be_visible()
+def test_learn_lists_the_lessons(page: Page) -> None:
+    page.get_by_role("button", name="Learn").click()
+    expect(page.get_by_role("heading", name="Lessons")).to_be_visible()
+    expect(page.get_by_role("heading", name="Scenes")).to_be_hidden()
+    rows = [f"{each.number}{each.title}{each.duration}" for each in LESSONS]
+    expect(page.locator("#lessons li")).to_have_text(rows)
+
+
+def test_unsaved_changes_are_asked_about(world: World, page: Page) -> None:
+    world.editor.change_settings({"title": "My maze"}).result(10)
+    tag = page.get_by_role("button", name="Tag", exact=True)
+    tag.click()
+    question = page.get_by_role("dialog", name="Open “Tag”?")
+    expect(question).to_contain_text("Your present scene is kept among the unsaved ones.")
+    question.get_by_role("button", name="Cancel").click()
+    expect(question).to_be_hidden()
+    assert world.scene == "maze"
+    tag.click()
+    question.get_by_role("button", name="Open").click()
+    page.wait_for_url(world.url)
+    assert world.scene == "tag"
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_it_fits_each_screen(world: World, chromium: Browser, scheme: Any) -> None:
+    for width, height, is_touch in SIZES:
+        page = new_page(chromium, width, height, color_scheme=scheme, has_touch=is_touch)
+        open_start(page, world)
+        assert page.evaluate("document.documentElement.scrollWidth") <= width
+        sides = page.locator("button:visible, a:visible").evaluate_all(
+            "all => all.map(each => each.getBoundingClientRect()).map(b => [b.width, b.height])"
+        )
+        assert len(sides) == len(Scene.names()) + 4
+        assert min(map(min, sides)) >= (MIN_TOUCH_PX if is_touch else MIN_SIDE_PX)
+        page.context.close()

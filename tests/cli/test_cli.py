@@ -17,7 +17,9 @@ from ai4u_edu.base.seeding import MAX_SEED, MAX_TRAINING_SEED
 from ai4u_edu.base.version import __version__
 from ai4u_edu.cli.main import app
 from ai4u_edu.cli.options import finite
+from ai4u_edu.editing.sharing import shared_link
 from ai4u_edu.scenes import Scene
+from tests.playing import played
 
 pytestmark = pytest.mark.slow
 
@@ -185,3 +187,18 @@ def test_a_file_that_cant_be_written_is_told_in_a_sentence(tmp_path: Path) -> No
         "evaluate", "random", "--scene", "box_chase", "--episodes", "1", "--json", str(place)
     )
     assert (told.returncode, told.stderr) == (1, f"error: {place}: No such file or directory\n")
+
+
+def test_play_serves_a_shared_scene_with_its_seed() -> None:
+    link = shared_link(Scene.load("maze"), 2**62).fragment
+    with played(f"http://elsewhere:8080/#{link}") as server:
+        assert server.health()["scene"] == "Maze"
+        assert server.snapshot()["seed"] == 2**62
+
+
+def test_play_says_what_is_wrong_with_a_link() -> None:
+    link = shared_link(Scene.load("maze"), 7).fragment
+    told = run("play", f"#{link[:90]}", "--no-open")
+    assert told.returncode != 0
+    assert "the link is damaged" in told.stderr
+    assert "Traceback" not in told.stderr

@@ -7,6 +7,11 @@ SCENES = Scene.names()
 MULTI_AGENT = [name for name in SCENES if len(Scene.load(name).description.agents) > 1]
 
 
+def first_agent(scene: str) -> str:
+    """Return the id of the agent that acts first."""
+    return Scene.load(scene).build().agents[0].id
+
+
 def without_blocks(kind: str) -> Scene:
     """box_chase without its sensors, or without its actuators."""
     plain = {**Scene.load("box_chase").plain(), "success": None}

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from gymnasium.utils.env_checker import check_env
 
+from ai4u_edu import Scene
 from ai4u_edu.envs import SceneEnv
 from ai4u_edu.registration import env_id
 from tests.envs.scenes import MULTI_AGENT
@@ -16,7 +17,7 @@ STAND = np.zeros(4, np.float32)
 
 @pytest.mark.parametrize("scene", MULTI_AGENT)
 def test_any_agent_can_be_the_one_that_learns(scene: str) -> None:
-    learner = SceneEnv(scene).sim.agents[-1].id
+    learner = Scene.load(scene).build().agents[-1].id
     env: Any = gymnasium.make(env_id(scene), agent=learner, observation="flat").unwrapped
     check_env(env, skip_render_check=True)
     brains = [agent.brain.title() for agent in env.sim.agents]

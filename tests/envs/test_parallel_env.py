@@ -12,7 +12,7 @@ from pettingzoo.utils import parallel_to_aec
 from ai4u_edu import Scene
 from ai4u_edu.base.errors import ActionError, SetupError
 from ai4u_edu.envs import SceneEnv, parallel_env
-from tests.envs.scenes import MULTI_AGENT
+from tests.envs.scenes import MULTI_AGENT, first_agent
 
 FORMS = ["dict", "flat"]
 each_scene = pytest.mark.parametrize("scene", MULTI_AGENT)
@@ -103,7 +103,7 @@ def test_pictures(scene: str) -> None:
 @each_scene
 def test_it_takes_the_same_decisions_as_the_learner_of_one_agent(scene: str) -> None:
     # everybody but the first does what their brains say in SceneEnv; here we do it for them
-    one, all_of_them = SceneEnv(scene), parallel_env(scene)
+    one, all_of_them = SceneEnv(scene, agent=first_agent(scene)), parallel_env(scene)
     observation, _ = one.reset(seed=5)
     observations, _ = all_of_them.reset(seed=5)
     first, *others = all_of_them.possible_agents

@@ -14,7 +14,7 @@ from stable_baselines3.common.vec_env import DummyVecEnv
 from ai4u_edu.envs import SceneEnv
 from ai4u_edu.envs.sb3 import SceneVecEnv
 from ai4u_edu.registration import env_id
-from tests.envs.scenes import SCENES
+from tests.envs.scenes import SCENES, first_agent
 
 COUNT = 3
 
@@ -31,7 +31,12 @@ COUNT = 3
     ],
 )
 def test_its_checker_is_content(scene: str, form: str) -> None:
-    env = gymnasium.make(env_id(scene), observation=form, render_mode="rgb_array").unwrapped
+    options: dict[str, Any] = {
+        "observation": form,
+        "render_mode": "rgb_array",
+        "agent": first_agent(scene),
+    }
+    env = gymnasium.make(env_id(scene), **options).unwrapped
     with warnings.catch_warnings():
         # it advises on the form of spaces, which are the scene's own; what is wrong, it asserts
         checker = r"stable_baselines3\.common\.env_checker"

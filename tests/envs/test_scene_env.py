@@ -13,7 +13,7 @@ from gymnasium.wrappers import RecordEpisodeStatistics
 from ai4u_edu import LocalBrain, Scene
 from ai4u_edu.base.errors import SetupError
 from ai4u_edu.registration import env_id
-from tests.envs.scenes import SCENES, without_blocks
+from tests.envs.scenes import SCENES, first_agent, without_blocks
 
 FORMS = ["dict", "flat"]
 
@@ -30,7 +30,12 @@ FORMS = ["dict", "flat"]
     ],
 )
 def test_gymnasiums_checker_is_content(scene: str, form: str) -> None:
-    env = gymnasium.make(env_id(scene), observation=form, render_mode="rgb_array")
+    options: dict[str, Any] = {
+        "observation": form,
+        "render_mode": "rgb_array",
+        "agent": first_agent(scene),
+    }
+    env = gymnasium.make(env_id(scene), **options)
     check_env(env.unwrapped)
     env.close()
 

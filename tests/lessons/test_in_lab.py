@@ -120,6 +120,7 @@ def test_where_there_is_no_server_a_picture_stands(
     context.close()
 
 
+@pytest.mark.nightly  # installs JupyterLab anew
 def test_from_the_wheel_lesson_01_is_driven_in_jupyterlab(
     chromium: Browser, tmp_path: Path
 ) -> None:

@@ -1,6 +1,7 @@
 """A room with a token: who knows it comes in, everybody else hears why not."""
 
 import asyncio
+import re
 from collections.abc import Iterator
 from hmac import compare_digest
 from typing import Any
@@ -22,6 +23,7 @@ PATHS = ("", "healthz", "api/snapshot", "api/openapi.json", "web/main.js")
 WHY = (
     "expected this world's token, got {}; open the address with ?token=... that its terminal shows"
 )
+BROWSER = "text/html,application/xhtml+xml,application/xml;q=0.9,*/*;q=0.8"
 WILDCARD_HOSTS = "0.0.0.0"  # noqa: S104 - nothing listens there
 
 
@@ -56,6 +58,30 @@ def test_page_and_api_are_refused_with_a_sentence(
     assert (answer.status_code, answer.text) == (401, f"token: {WHY.format(got)}\n")
     assert answer.headers["WWW-Authenticate"] == "Bearer"
     assert "Set-Cookie" not in answer.headers
+
+
+@pytest.mark.parametrize(
+    ("query", "problem"),
+    [("", ""), ("?token=guess&agent=0", "That token is wrong."), ("?agent=0", "")],
+)
+def test_a_browser_gets_a_page_with_a_box_for_the_token(
+    room: Room, query: str, problem: str
+) -> None:
+    answer = httpx.get(room.url + query, headers={"Accept": BROWSER})
+    assert (answer.status_code, answer.headers["WWW-Authenticate"]) == (401, "Bearer")
+    assert answer.headers["Content-Type"].startswith("text/html")
+    assert answer.headers["Cache-Control"] == "no-store"
+    assert "script-src 'self'; style-src 'self'" in answer.headers["Content-Security-Policy"]
+    assert "This world is protected" in answer.text
+    assert f'<p role="alert" id="problem">{problem}</p>' in answer.text
+    assert "guess" not in answer.text
+    files = re.findall(r'(?:href|src)="\./(web/[^"]*)"', answer.text)
+    assert files
+    for file in files:  # without the token
+        assert httpx.get(room.url + file).status_code == 200
+    for path in PATHS[1:]:  # nothing but a page is a page
+        answer = httpx.get(room.url + path, headers={"Accept": BROWSER})
+        assert answer.headers["Content-Type"].startswith("text/plain")
 
 
 @pytest.mark.parametrize("path", ["", "ws/input"])

@@ -174,6 +174,20 @@ def test_it_learns(tmp_path: Path) -> None:
     assert json.loads(text)[-1]["steps"] == done.checks[-1].steps
 
 
+def test_it_says_which_of_several_agents_learns(
+    tmp_path: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    """It gives no warning of an environment, whose advice is for scripts."""
+    scene = Scene.load("sumo")
+    done = train(scene, "ppo", small_settings("sumo"), tmp_path / "one", steps=64)
+    told = capfd.readouterr().err
+    assert "'blue' learns, the first of several agents (blue, orange)" in told
+    assert "agent: ID" in told
+    assert done.run.config().settings.agent == "blue"
+    train(scene, "ppo", small_settings("sumo", agent="orange"), tmp_path / "two", steps=64)
+    assert "learns" not in capfd.readouterr().err
+
+
 def test_what_sac_and_one_actuator_can_not_do(tmp_path: Path) -> None:
     from tests.training.small import CHOICES
 

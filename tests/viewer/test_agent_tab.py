@@ -7,8 +7,9 @@ import pytest
 
 from ai4u_edu import BasicAgent, CircleShape, ControlRequestor, LocalBrain, World
 from ai4u_edu.runtime.runner import Runner
+from ai4u_edu.snapshot.agent_words import title
 from ai4u_edu.viewer import Viewer
-from ai4u_edu.viewer.panel.agent_html import overview, state, title
+from ai4u_edu.viewer.panel.agent_html import overview, state
 from ai4u_edu.viewer.panel.agent_tab import HIDDEN, SHOWN, AgentTab
 from tests.viewer.pages import page, shown, tabs_of, until
 
@@ -113,11 +114,11 @@ def test_another_agent_is_chosen_by_a_click_on_it(crowded: Viewer) -> None:
     with page(crowded) as here:
         shown(crowded)
         (viewer_client,) = crowded.viewer_clients.values()
-        here.click("/bodies1/0/body", 2)
+        here.click("/bodies1/2/body", 0)
         until(lambda: viewer_client.agent == "three")
         for nothing in (None, 17):
             here.click("/bodies1/0/body", nothing)
-        here.click("/bodies1/0/body", 3)
+        here.click("/bodies1/3/body", 0)
         until(lambda: viewer_client.agent == "four")
         shown(crowded)
         (tab,) = tabs_of(crowded, AgentTab)

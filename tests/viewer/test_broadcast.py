@@ -66,6 +66,7 @@ def client(server: viser.ViserServer) -> ClientConnection:
         max_size=None,
         max_queue=1,
         proxy=None,
+        close_timeout=0.2,  # the queue is full, so the close is not seen otherwise
     )
 
 

@@ -8,9 +8,10 @@ import pytest
 from ai4u_edu.blocks import RemoteStatus
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.snapshot import Snapshot
+from ai4u_edu.snapshot.agent_words import script_problem
 from ai4u_edu.viewer import Viewer
 from ai4u_edu.viewer.panel.agent_html import state
-from ai4u_edu.viewer.scene.labels import Labels, script_problem
+from ai4u_edu.viewer.scene.labels import Labels
 from tests.viewer.pages import part_of
 
 
@@ -45,3 +46,23 @@ def test_the_state_of_a_script_stands_at_its_agent_in_words(
 
 def test_who_has_no_script_has_no_trouble(runner: Runner) -> None:
     assert script_problem(runner.latest.agents[0]) == ""
+
+
+def test_the_label_of_a_driven_agent_is_hidden(viewer: Viewer, runner: Runner) -> None:
+    part, snapshot = part_of(viewer, Labels), runner.latest
+    handles: Any = part.labels
+
+    def shows(held: str, time: float, state: str = "connected") -> bool:
+        held_keys = frozenset(held.split())
+        now = with_script(replace(snapshot, time=time), state)
+        part.draw(replace(now, agents=(now.agents[0]._replace(held_keys=held_keys),)))
+        assert handles[1].handle.visible  # the box
+        return bool(handles[0].handle.visible)
+
+    assert shows("", 3.0)
+    assert not shows("KeyW", 3.1)
+    assert shows("KeyW", 3.2, state="lost")
+    assert not shows("", 3.5)
+    assert shows("", 4.5)
+    assert not shows("KeyW", 4.6)
+    assert shows("", 0.0)  # after a reset

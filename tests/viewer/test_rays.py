@@ -46,6 +46,17 @@ def test_rays_have_the_colours_of_what_they_met(rays: Rays, runner: Runner) -> N
     assert rays.dots.batched_scales.tolist() == [float(group != "") for group in fan.groups]
 
 
+def test_rays_are_drawn_around_the_eye(viewer: Viewer, rays: Rays) -> None:
+    ends = np.array([[4.0, 1.0, 0.5], [1.0, 5.0, 0.5]])
+    rays.draw([RayPicture((1.0, 1.0, 0.5), ends, ("target", ""))], heading=np.pi / 2)
+    node = viewer.server.scene.get_handle_by_name("/rays1")
+    assert node is not None
+    assert node.position[:2] == pytest.approx([1.0, 1.0])
+    assert rays.lines.points[:, 0] == pytest.approx(np.zeros((2, 3)))
+    assert rays.lines.points[:, 1] == pytest.approx(np.array([[0, -3, 0], [4, 0, 0]]), abs=1e-6)
+    assert node.wxyz == pytest.approx([np.cos(np.pi / 4), 0.0, 0.0, np.sin(np.pi / 4)])
+
+
 def test_more_and_fewer_rays(rays: Rays, runner: Runner) -> None:
     for count in (1, 3, 0, 2):
         few = RayPicture(PICTURE.origin, PICTURE.ends[:count], PICTURE.groups[:count])

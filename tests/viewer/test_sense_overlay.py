@@ -1,5 +1,7 @@
 """Sensor overlays are drawn on the pages that show the sensor's agent."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -73,6 +75,23 @@ def test_a_target_has_a_ring_and_a_line_that_ends_at_it(runner: Runner) -> None:
 def test_all_of_a_group_are_pointed_at(runner: Runner) -> None:
     marks = pointer(runner.latest, runner.latest.bodies[0], senses(runner)["group_touch"])
     assert len(marks) == 4  # a ring and a line for the box and the ball
+
+
+def test_paint_is_outlined_only_if_a_sensor_names_it(runner: Runner) -> None:
+    sim = two()
+    for number in (0, 1):
+        sim.world.add_area(
+            f"line {number}",
+            BoxShape(size=(1, 0.2)),
+            position=(number, -4),
+            tags=("toy",),
+            paint=True,
+        )
+    painted, body = Runner(sim, seed=1).latest, runner.latest.bodies[0]
+    of_group = senses(runner)["group_touch"]
+    assert len(pointer(painted, body, of_group)) == len(pointer(runner.latest, body, of_group))
+    named = replace(senses(runner)["position"], targets=("line 0",))
+    assert len(pointer(painted, body, named)) == 2
 
 
 def test_an_area_is_outlined(runner: Runner) -> None:

@@ -122,13 +122,19 @@ def test_rays_have_the_colours_of_what_they_met_and_their_distances_apart() -> N
         perception_key="fan", number_of_rays=9, group_code={"target": 1}, return_distance=True
     )
     sense, value = sense_of(sensor)
-    groups = ("",) * 4 + ("target",) + ("",) * 4
+    groups = ("target",) + ("",) * 8
     rays = RayPicture((0, 0, 0), np.zeros((9, 3)), groups)
+    value = np.zeros(18)
+    value[:2] = 1.0, 0.5
     html = sensor_html(sense, value, {"target": (1, 2, 3)}, rays)
     assert html.count("<svg") == 2
     assert html.count('fill="rgb(1, 2, 3)"') == 2
     assert html.count(f'fill="rgb{RAY_MISS}"') == 2
-    assert "how far away" in html
+    assert "what each ray hit" in html
+    assert "distance (left to right)" in html
+    # the sensor reads its rightmost ray first
+    hits = re.findall(r'd="M([0-9.]+) ([0-9.]+)h0.85v([0-9.]+)h-0.85z" fill="rgb\(1, 2, 3\)"', html)
+    assert hits == [("8.07", "0.00", "1.00"), ("8.07", "0.50", "0.50")]
 
 
 def test_pictures_replace_the_numbers() -> None:

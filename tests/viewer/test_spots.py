@@ -35,7 +35,9 @@ def test_spots_light_up_and_go(viewer: Viewer, picture: Snapshot) -> None:
     expected = surface_colours([SPOT_LIT, SPOT_UNLIT, SPOT_UNLIT, SPOT_LIT, SPOT_UNLIT])
     dots = part.dots
     assert (dots.batched_colors == expected).all()
-    assert dots.batched_positions[:, 1] == pytest.approx(-3.5)
-    assert dots.batched_positions[:, 2].min() > 1.0
+    places = dots.batched_positions + dots.position
+    assert places[:, 0] == pytest.approx([-1.3, -1.15, -1.0, -0.85, -0.7])
+    assert places[:, 1] == pytest.approx(-3.5)
+    assert places[:, 2].min() > 1.0
     part.draw([], height=1.5)
     assert dots._impl.removed

@@ -1,11 +1,14 @@
 import math
+import re
 from dataclasses import replace
 
+from ai4u_edu import CircleShape
 from ai4u_edu.agent.block_frames import Place
 from ai4u_edu.blocks import RemoteStatus
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.runtime.tick_monitor import Stall
 from ai4u_edu.viewer.panel.status import goal, legend, speed_name, status
+from tests.viewer.worlds import busy_world, static_scene_of
 
 
 def test_an_error_is_shown_escaped(runner: Runner) -> None:
@@ -70,3 +73,14 @@ def test_a_block_that_does_not_return_is_named_escaped(runner: Runner) -> None:
     html = status(runner.latest, Stall(since=1.0, seconds=5.2, place=place))
     told = "Sensor Wall '&lt;wall&gt;' of agent '0' has not answered for 5 s (mine.py, line 12)"
     assert told in html.replace("&#x27;", "'")
+
+
+def test_the_legend_names_each_colour_once() -> None:
+    world = busy_world()
+    world.add_body("cone", CircleShape(radius=0.2), position=(3, -2), tags=("target", "cone"))
+    world.add_body("post", CircleShape(radius=0.2), position=(3, -1), tags=("post",), colour="blue")
+    html = legend(static_scene_of(world))
+    colours = re.findall(r"background: (rgb\(.*?\))", html)
+    assert len(colours) == len(set(colours))
+    assert "agent, post</span>" in html
+    assert "target, cone</span>" in html

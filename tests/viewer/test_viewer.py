@@ -40,9 +40,9 @@ def test_the_scene_is_complete_before_anybody_watches(viewer: Viewer) -> None:
         "/ground1/lines",
         "/bodies1/0/body",
         "/bodies1/0/face",
-        "/bodies1/0/shadow",
+        "/bodies1/0 shadow/shadow",
         "/bodies1/1/rings",
-        "/actions",
+        "/bodies1/0/action",
         "/labels1/0",
     ):
         assert expected in names

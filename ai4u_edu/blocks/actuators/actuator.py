@@ -1,7 +1,7 @@
 """Base class of actuators: name, space, and the check of an action's numbers."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any, ClassVar
 
 import numpy as np
@@ -94,6 +94,8 @@ class Actuator(Block):
         self._within_all = max(low, default=0.0), min(high, default=0.0)
         self.clipped = 0
         """Count of numbers that were outside their range and were clipped."""
+        self.on_clip: Callable[[tuple[float, ...], tuple[float, ...]], None] | None = None
+        """Called with the numbers of an action as given and as clipped, where they differ."""
 
     def accept(self, values: Any) -> tuple[float, ...]:
         """Check the numbers of an action; clip and count those out of range.
@@ -123,6 +125,8 @@ class Actuator(Block):
         )
         if cut != numbers:
             self.clipped += sum(a != b for a, b in zip(cut, numbers, strict=True))
+            if self.on_clip is not None:
+                self.on_clip(numbers, cut)
         return cut
 
     def _numbers(self, values: Any) -> tuple[float, ...]:

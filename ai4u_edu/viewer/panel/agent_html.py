@@ -5,15 +5,15 @@ from html import escape
 from typing import NamedTuple
 
 from ai4u_edu.snapshot import AgentState, Snapshot
+from ai4u_edu.snapshot.agent_words import ending, script_problem, title
+from ai4u_edu.snapshot.numbers import number
 from ai4u_edu.snapshot.theme import Rgb, body_colour
-from ai4u_edu.viewer.panel.bars import number
 from ai4u_edu.viewer.panel.decision import decision
 from ai4u_edu.viewer.panel.html_parts import heading, section
 from ai4u_edu.viewer.panel.needs import needs
 from ai4u_edu.viewer.panel.readings import action, reading
 from ai4u_edu.viewer.panel.reward_table import Curves, curves, reward_table
 from ai4u_edu.viewer.panel.sensor_html import sensor_html
-from ai4u_edu.viewer.scene.labels import script_problem
 from ai4u_edu.viewer.scene.sense_overlay import is_drawable
 
 ONE_VALUE_SENSORS = {"DoneSensor", "TruncatedSensor", "IDSensor", "StepSensor"}
@@ -115,16 +115,6 @@ def _one_value_sensors(agent: AgentState) -> str:
     return section(*readings) if readings else ""
 
 
-def title(agent_id: str, body: str) -> str:
-    """Return an agent's name for people.
-
-    >>> title("0", "robot"), title("runner_1", "runner 1")
-    ('Agent 0: robot', 'runner 1')
-    """
-    alike = agent_id.replace("_", " ") == body.replace("_", " ")
-    return body if alike else f"Agent {agent_id}: {body}"
-
-
 def state(agent: AgentState) -> str:
     """Return an agent's name, its brain, and the state of its episode."""
     words = [heading(title(agent.id, agent.body)), f"<small>Brain</small> {escape(agent.brain)}"]
@@ -136,18 +126,6 @@ def state(agent: AgentState) -> str:
     if agent.clipped:
         words.append(f"<br>{agent.clipped} numbers out of range, cut")
     return section(*words)
-
-
-def ending(agent: AgentState) -> str:
-    """Return in a few words how an agent's episode ended; empty while it runs."""
-    done = agent.terminated or agent.truncated
-    if done and agent.succeeded:
-        return "reached the goal"
-    if agent.terminated:
-        return "fell" if agent.fell else "episode over"
-    if agent.truncated:
-        return "cut off at the step limit"
-    return "paused" if agent.paused else ""
 
 
 def overview(snapshot: Snapshot, chosen: str) -> str:

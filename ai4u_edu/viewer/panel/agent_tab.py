@@ -13,9 +13,10 @@ from viser import (
 
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.snapshot import AgentState, Snapshot, StaticScene
+from ai4u_edu.snapshot.agent_words import title
 from ai4u_edu.snapshot.block_info import SensorInfo
 from ai4u_edu.snapshot.theme import Rgb, group_colours
-from ai4u_edu.viewer.panel.agent_html import ONE_VALUE_SENSORS, AgentHtmlCache, title
+from ai4u_edu.viewer.panel.agent_html import ONE_VALUE_SENSORS, AgentHtmlCache
 from ai4u_edu.viewer.panel.html_parts import heading, section
 from ai4u_edu.viewer.panel.plot import RewardPlot
 from ai4u_edu.viewer.panel.remote_lines import RemoteLines

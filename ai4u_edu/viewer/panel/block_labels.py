@@ -7,7 +7,7 @@ from ai4u_edu.editing import SceneEditor
 from ai4u_edu.editing.blocks import block_at, block_paths, is_enabled, types_of
 from ai4u_edu.editing.plain import BlockPath, Plain
 from ai4u_edu.snapshot import AgentState
-from ai4u_edu.viewer.panel.agent_html import title
+from ai4u_edu.snapshot.agent_words import title
 from ai4u_edu.viewer.panel.html_parts import section
 
 KINDS = {

@@ -4,7 +4,7 @@ from collections.abc import Iterable
 from html import escape
 
 from ai4u_edu.snapshot import Need
-from ai4u_edu.viewer.panel.bars import number, share
+from ai4u_edu.snapshot.numbers import number, share
 from ai4u_edu.viewer.panel.html_parts import heading, section
 
 MIN_COARSE_RANGE = 50.0

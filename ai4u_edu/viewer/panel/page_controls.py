@@ -25,7 +25,8 @@ class PageControls:
         for gone in self.pages.keys() - self._viewer_clients.keys():
             del self.pages[gone]
         for new in self._viewer_clients.keys() - self.pages.keys():
-            self.pages[new] = _Page(self._viewer_clients[new])
+            if not self._viewer_clients[new].page_id:
+                self.pages[new] = _Page(self._viewer_clients[new])
 
 
 class _Page:
@@ -40,7 +41,7 @@ class _Page:
         self.dark.on_update(self._on_dark)
         self._show_mode()
         if viewer_client.is_dark:
-            self._set_theme(dark=True)
+            viewer_client.set_dark(True)
 
     async def _on_camera(self, event: GuiEvent[GuiButtonGroupHandle]) -> None:
         if event.target.value in MODES:
@@ -48,12 +49,7 @@ class _Page:
             self._show_mode()
 
     async def _on_dark(self, event: GuiEvent[GuiCheckboxHandle]) -> None:
-        self._set_theme(dark=bool(event.target.value))
-
-    def _set_theme(self, *, dark: bool) -> None:
-        self._viewer_client.client.gui.configure_theme(
-            show_logo=False, show_share_button=False, dark_mode=dark
-        )
+        self._viewer_client.set_dark(bool(event.target.value))
 
     def _show_mode(self) -> None:
         """Highlight the button of the current camera mode."""

@@ -6,7 +6,8 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from ai4u_edu.blocks import ChannelLegend, CodeLegend, Legend
+from ai4u_edu.blocks import CodeLegend, Legend
+from ai4u_edu.snapshot.reading_cells import GREYS, Cells, shaded, split_stack
 from ai4u_edu.snapshot.theme import UNKNOWN_GROUP, VOID, Rgb
 
 MAX_PICTURE_WIDTH_PX = 224
@@ -18,12 +19,6 @@ MAX_CELLS_PER_SIDE = 96
 """Most rows or columns; of a larger picture only every second, third, ... one is drawn."""
 MAX_OLDER_READINGS = 4
 """Most older readings of a stack that are drawn: the latest ones."""
-SHADES = 8
-"""Number of greys for distances."""
-GREYS: list[Rgb] = [(shade, shade, shade) for shade in range(40, 241, 200 // (SHADES - 1))]
-"""Greys from dark (near) to light (far)."""
-
-Cells = npt.NDArray[np.intp]
 
 
 def pictures(reading: Any, legend: Legend, colours: Mapping[str, Rgb], stack: int = 1) -> str:
@@ -40,29 +35,14 @@ def pictures(reading: Any, legend: Legend, colours: Mapping[str, Rgb], stack: in
     ]
     older = [
         _svg(legend.groups_in(each), known, MAX_OLDER_CELL_PX)
-        for each in _readings(np.asarray(reading), legend, stack)[:-1][-MAX_OLDER_READINGS:]
+        for each in split_stack(np.asarray(reading), legend, stack)[:-1][-MAX_OLDER_READINGS:]
     ]
     drawn = [_svg(legend.groups_in(reading), known)]
     if isinstance(legend, CodeLegend) and legend.planes > 1:
         planes = np.asarray(reading).reshape(-1, *legend.shape)[1 - legend.planes :]
-        drawn += [_svg(_shaded(plane), GREYS) for plane in planes]
+        drawn += [_svg(shaded(plane), GREYS) for plane in planes]
     rows = [older, drawn] if older else [drawn]
     return "".join(f'<div class="row">{"".join(row)}</div>' for row in rows)
-
-
-def _readings(reading: npt.NDArray[Any], legend: Legend, stack: int) -> list[npt.NDArray[Any]]:
-    """Split a stack into its readings, oldest first."""
-    # pictures with channels are stacked along the channels, all others along the first axis
-    axis = reading.ndim - 1 if isinstance(legend, ChannelLegend) else 0
-    flat = reading if isinstance(legend, ChannelLegend) else reading.reshape(stack, -1)
-    return np.split(flat, stack, axis=axis)
-
-
-def _shaded(distances: npt.NDArray[Any]) -> Cells:
-    """Return the index of each cell's grey, from 1; 0 where there is no distance."""
-    share = distances / max(float(distances.max()), 1e-9)
-    shades: Cells = 1 + np.minimum(share * SHADES, SHADES - 1).astype(np.intp)
-    return np.where(distances > 0, shades, 0)
 
 
 def _svg(cells: Cells, colours: Sequence[Rgb], largest: int = MAX_CELL_PX) -> str:

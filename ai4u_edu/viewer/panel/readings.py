@@ -8,7 +8,8 @@ import numpy as np
 import numpy.typing as npt
 
 from ai4u_edu.snapshot.block_info import ActuatorInfo
-from ai4u_edu.viewer.panel.bars import amount, bars, number
+from ai4u_edu.snapshot.numbers import amount, number
+from ai4u_edu.viewer.panel.bars import bars
 from ai4u_edu.viewer.panel.html_parts import heading, section, table
 
 MAX_LISTED_NUMBERS = 8

@@ -1,10 +1,9 @@
 """Python code that drives an agent from a notebook, shown in the agent's tab."""
 
-from keyword import iskeyword
-
 from viser import GuiMarkdownHandle
 
 from ai4u_edu.agent import BasicAgent
+from ai4u_edu.agent.script_lines import script_lines
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.viewer.viewer_client import ViewerClient
 
@@ -37,26 +36,8 @@ class RemoteLines:
 
 
 def lines(address: str, agent: BasicAgent) -> str:
-    """Return the code, with instructions, as markdown.
-
-    Names are inserted by ``repr``, so a hostile name can't inject code.
-    """
-    example = {
-        name: [1] + [0] * (len(actuator.limits()[0]) - 1)
-        for name, actuator in agent.bound_blocks.actuators.items()
-        if actuator.is_output
-    }
-    if all(name.isidentifier() and not iskeyword(name) for name in example):
-        numbers = ", ".join(f"{name}={values}" for name, values in example.items())
-    else:
-        numbers = repr(example)
+    """Return the code, with instructions, as markdown."""
     return (
         "Paste this into a notebook on any machine that has `ai4u-edu`:\n\n"
-        "```python\n"
-        "from ai4u_edu.remote import connect\n\n"
-        f"robot = connect({address!r}, agent={agent.id!r})\n"
-        "for percept in robot:\n"
-        f"    robot.act({numbers})\n"
-        "robot.close()\n"
-        "```\n"
+        f"```python\n{script_lines(address, agent)}```\n"
     )

@@ -8,7 +8,7 @@ import numpy.typing as npt
 
 from ai4u_edu.agent import Entry
 from ai4u_edu.snapshot import AgentState
-from ai4u_edu.viewer.panel.bars import amount
+from ai4u_edu.snapshot.numbers import amount
 from ai4u_edu.viewer.panel.html_parts import heading, section, table
 from ai4u_edu.viewer.panel.readings import rewards
 

@@ -1,23 +1,17 @@
 """Cards of scenes for the gallery: a picture from above, title and goal."""
 
 import base64
-import io
 from functools import cache, lru_cache
 from html import escape
 from typing import NamedTuple
 
-from PIL import Image
-
 from ai4u_edu.base.errors import AI4UError
+from ai4u_edu.editing.scene_pictures import scene_picture
 from ai4u_edu.editing.scene_store import MAX_SCENES, SceneStore
 from ai4u_edu.scenes import Scene
-from ai4u_edu.snapshot import capture_snapshot
-from ai4u_edu.snapshot.raster import draw_snapshot
 
 PICTURE_SIZE_PX = 144
 """Longer side of a picture: twice its size on the page, for high-resolution screens."""
-PALETTE_SIZE = 32
-"""Number of colours in a picture: scenes have few, so a file takes 2 or 3 kB."""
 
 
 class Card(NamedTuple):
@@ -88,9 +82,4 @@ def _modified_at(store: SceneStore, name: str) -> float:
 
 
 def _card(name: str, title: str, scene: Scene) -> Card:
-    sim = scene.build()
-    sim.reset(1)
-    picture = Image.fromarray(draw_snapshot(capture_snapshot(sim), longest=PICTURE_SIZE_PX))
-    out = io.BytesIO()
-    picture.quantize(PALETTE_SIZE).save(out, "PNG", optimize=True)
-    return Card(name, title, scene.description.goal, out.getvalue())
+    return Card(name, title, scene.description.goal, scene_picture(scene, PICTURE_SIZE_PX))

@@ -1,6 +1,6 @@
 """Sensor readings as HTML for the panel, with names, units and ranges of their numbers."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from html import escape
 from typing import Any
 
@@ -9,8 +9,9 @@ import numpy.typing as npt
 
 from ai4u_edu.blocks import RayPicture
 from ai4u_edu.snapshot.block_info import SensorInfo
+from ai4u_edu.snapshot.numbers import number
 from ai4u_edu.snapshot.theme import RAY_MISS, UNKNOWN_GROUP, Rgb
-from ai4u_edu.viewer.panel.bars import bars, number, strip
+from ai4u_edu.viewer.panel.bars import bars, strip
 from ai4u_edu.viewer.panel.html_parts import section
 from ai4u_edu.viewer.panel.pictures import MAX_OLDER_READINGS, pictures
 from ai4u_edu.viewer.panel.readings import reading
@@ -21,6 +22,8 @@ MAX_NAMED_LINES = 16
 """Longest reading with names that gets a line for each number."""
 MAX_BARS = 256
 """Most bars of a strip; of a longer reading only the first numbers are drawn."""
+RAY_GROUPS, RAY_DISTANCES = slice(-2, None, -2), slice(None, None, -2)
+"""Places of codes and distances in the pairs that a ray sensor reads, leftmost ray first."""
 
 
 def sensor_html(
@@ -96,33 +99,47 @@ def _render_strips(
     rays: RayPicture | None,
 ) -> str:
     """Return bars side by side, with smaller strips of the older readings above."""
-    shown = slice(0, MAX_BARS)
-    low, high = sensor.low[shown], sensor.high[shown]
+    ends = f"{number(float(sensor.low.min()))} to {number(float(sensor.high.max()))}"
+    ends = f"{ends} {escape(sensor.unit)}".strip()
     cut = f", the first {MAX_BARS} of {rows.shape[1]}" if rows.shape[1] > MAX_BARS else ""
-    older = [
-        strip(row[shown], low, high, kind="strip old") for row in rows[:-1][-MAX_OLDER_READINGS:]
-    ]
-    latest = rows[-1][shown]
-    hit_colours = None if rays is None else _hit_colours(rays, colours)
-    if hit_colours is not None and len(latest) == 2 * len(
-        hit_colours
-    ):  # pairs of group and distance
-        drawn = "".join(
-            f"{strip(latest[i::2], low[i::2], high[i::2], hit_colours)}<small>{caption}</small>"
-            for i, caption in enumerate(("what each ray met", "how far away it is"))
-        )
-    else:
-        fits = hit_colours is not None and len(hit_colours) == len(latest)
-        drawn = strip(latest, low, high, hit_colours if fits else None)
-    order = "; the rightmost ray comes first" if rays is not None else ""
-    ends = f"{number(float(low.min()))} to {number(float(high.max()))} {escape(sensor.unit)}"
-    return f"{''.join(older)}{drawn}<br><small>{ends.strip()}{order}{cut}</small>"
-
-
-def _hit_colours(rays: RayPicture, colours: Mapping[str, Rgb]) -> list[Rgb]:
-    """Return the colour of the group that each ray hit."""
+    count = 0 if rays is None else len(rays.groups)
+    if rays is None or rows.shape[1] not in {count, 2 * count}:
+        drawn = _strips(rows, sensor)
+        return f"{drawn}<br><small>{ends}{cut}</small>"
     known = {"": RAY_MISS, "?": UNKNOWN_GROUP} | dict(colours)
-    return [known.get(group, UNKNOWN_GROUP) for group in rays.groups]
+    # a sensor reads its rightmost ray first
+    hits = [known.get(group, UNKNOWN_GROUP) for group in reversed(rays.groups)]
+    if rows.shape[1] == count:
+        drawn = _strips(rows[:, ::-1], sensor, slice(None, None, -1), hits)
+        return f"{drawn}<br><small>each ray, left to right: {ends}{cut}</small>"
+    captions = "what each ray hit", f"distance (left to right): {ends}{cut}"
+    return "".join(
+        f"{_strips(rows[:, part], sensor, part, hits)}<small>{caption}</small>"
+        for part, caption in zip((RAY_GROUPS, RAY_DISTANCES), captions, strict=True)
+    )
+
+
+def _strips(
+    rows: npt.NDArray[np.float64],
+    sensor: SensorInfo,
+    part: slice = slice(None),
+    colours: Sequence[Rgb] | None = None,
+) -> str:
+    """Return a strip of the latest row, below smaller ones of the rows before.
+
+    Args:
+        rows: (n, m) numbers, oldest row first.
+        sensor: description of the sensor, with the range of each number of a reading.
+        part: where in a reading the m numbers are.
+        colours: the m bars' colours in the latest row.
+    """
+    low, high = sensor.low[part][:MAX_BARS], sensor.high[part][:MAX_BARS]
+    older = [
+        strip(row[:MAX_BARS], low, high, kind="strip old")
+        for row in rows[:-1][-MAX_OLDER_READINGS:]
+    ]
+    latest = strip(rows[-1][:MAX_BARS], low, high, colours[:MAX_BARS] if colours else None)
+    return "".join([*older, latest])
 
 
 def _title(sensor: SensorInfo, value: Any) -> str:

@@ -1,6 +1,6 @@
 """A button that unfolds a form for settings, on one page."""
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from concurrent.futures import Future
 from typing import Any
 
@@ -10,6 +10,7 @@ from ai4u_edu.base.errors import AI4UError
 from ai4u_edu.base.parameters import Problem
 from ai4u_edu.editing import ChangeError, ChangeResult
 from ai4u_edu.editing.forms import Field
+from ai4u_edu.editing.settings import problems_in_agent_form
 from ai4u_edu.viewer.panel.field_form import FieldForm
 from ai4u_edu.viewer.panel.html_parts import section
 
@@ -91,12 +92,6 @@ class SettingsForm:
     def _on_done(self, done: "Future[ChangeResult]") -> None:
         error = None if done.cancelled() else done.exception()
         if isinstance(error, ChangeError):
-            self._problems = tuple(_problems_in_form(error.problems))
+            self._problems = tuple(problems_in_agent_form(error.problems))
         elif error is None:
             self._problems = ()
-
-
-def _problems_in_form(problems: Iterable[Problem]) -> Iterable[Problem]:
-    """Move problems of a brain's parameters to the agent's form, which shows them as its own."""
-    for path, text in problems:
-        yield Problem(path[-1:] if path[:1] == ("brains",) else path, text)

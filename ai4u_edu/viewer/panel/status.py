@@ -4,8 +4,8 @@ from html import escape
 
 from ai4u_edu.runtime.tick_monitor import Stall
 from ai4u_edu.snapshot import AgentState, Snapshot, StaticScene
-from ai4u_edu.snapshot.theme import RAY_MISS, UNKNOWN_GROUP, group_colours
-from ai4u_edu.viewer.panel.bars import number
+from ai4u_edu.snapshot.numbers import number
+from ai4u_edu.snapshot.theme import RAY_MISS, UNKNOWN_GROUP, Rgb, group_colours
 from ai4u_edu.viewer.panel.html_parts import section
 
 MAX_LEGEND_GROUPS = 12
@@ -26,12 +26,15 @@ def speed_name(speed: float) -> str:
 
 
 def legend(static_scene: StaticScene) -> str:
-    """Return the legend of the groups' colours, which rays have too."""
+    """Return the legend of the groups' colours, which rays have too; it names each colour once."""
     groups = dict(tuple(group_colours(static_scene).items())[:MAX_LEGEND_GROUPS])
     groups |= {"other": UNKNOWN_GROUP, "nothing": RAY_MISS}
+    names: dict[Rgb, list[str]] = {}
+    for group, colour in groups.items():
+        names.setdefault(colour, []).append(escape(group))
     dots = [
-        f'<span><i style="background: rgb{colour}"></i>{escape(group)}</span> '
-        for group, colour in groups.items()
+        f'<span><i style="background: rgb{colour}"></i>{", ".join(alike)}</span> '
+        for colour, alike in names.items()
     ]
     return "".join(dots)
 

@@ -61,6 +61,8 @@ class Tabs:
         for gone in self.pages.keys() - self._viewer_clients.keys():
             del self.pages[gone]
         for new in self._viewer_clients.keys() - self.pages.keys():
+            if self._viewer_clients[new].page_id:
+                continue  # it has our panel
             self.pages[new] = _Page(self._viewer_clients[new], self.kinds, self._error_log)
         for number in self._turns.due(self.pages.keys()):
             for tab in self.pages[number].tabs:

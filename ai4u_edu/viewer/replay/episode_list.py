@@ -4,7 +4,7 @@ from collections.abc import Iterable
 from html import escape
 
 from ai4u_edu.recording import ArchiveEntry
-from ai4u_edu.viewer.panel.bars import number
+from ai4u_edu.snapshot.numbers import number
 from ai4u_edu.viewer.panel.html_parts import section
 
 STYLE = """<style>

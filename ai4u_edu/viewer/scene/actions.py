@@ -4,14 +4,23 @@ import math
 from functools import lru_cache
 
 import numpy as np
+import numpy.typing as npt
 from viser import LineSegmentsHandle
 
-from ai4u_edu.snapshot import AgentState, BodyState, Snapshot, StaticScene
+from ai4u_edu.snapshot import AgentState, Snapshot, StaticScene
 from ai4u_edu.snapshot.theme import ACTION
 from ai4u_edu.viewer.backend.local_server import LocalServer
-from ai4u_edu.viewer.scene.geometry import Array, circle, half_width, rotate, segments
+from ai4u_edu.viewer.scene.bodies import Bodies
+from ai4u_edu.viewer.scene.geometry import (
+    Array,
+    circle,
+    half_width,
+    rotate,
+    segments,
+)
 from ai4u_edu.viewer.scene.layers import Layers
 from ai4u_edu.viewer.scene.light import line_colours
+from ai4u_edu.viewer.scene.subtree import Subtree
 
 ACTION_NAME = "move"
 """Name of the drawn action: [forward, turn, jump, forward jump], as AI4U's actuator orders it."""
@@ -19,54 +28,111 @@ MAX_TURN_ARROW_RAD = math.radians(75)
 """Angle that the bent arrow spans for a turn of 1."""
 MIN_DRAWN_VALUE = 0.02
 """Smallest component of an action that is drawn."""
+NO_MARKS: Array = np.empty((0, 2, 2))
 
 
 class Actions:
-    """Marks of the last action of every agent."""
+    """Marks of the last action of every agent.
 
-    def __init__(self, server: LocalServer) -> None:
+    Those of a body that is a node of its own are below that node; all others are lines of one node.
+
+    Args:
+        server: viser's.
+        bodies: the drawn bodies, which are built before.
+    """
+
+    def __init__(self, server: LocalServer, bodies: Bodies) -> None:
         self._scene = server.scene
-        self.lines: LineSegmentsHandle | None = None
+        self._bodies = bodies
+        self._subtree = Subtree(server.scene, "actions")
+        self._nodes: dict[str, str] = {}
+        self._sizes: dict[str, tuple[float, float]] = {}
+        self.below_bodies: dict[str, LineSegmentsHandle] = {}
+        """Marks below bodies' nodes, by the name of the body."""
+        self._drawn: dict[str, Array] = {}
+        self.others: LineSegmentsHandle | None = None
+        """Marks of all other agents."""
 
     def build(self, static_scene: StaticScene) -> None:
-        """Read the agents' sizes from a static scene."""
+        """Create the lines, if the agents or the nodes of their bodies have changed."""
         self._layers = Layers.of(static_scene)
-        self._sizes = {
+        sizes = {
             body.name: (half_width(body.shape.outline()), body.height)
             for body in static_scene.bodies
             if body.name in static_scene.agent_of
         }
+        nodes = {name: node for name, node in self._bodies.nodes.items() if name in sizes}
+        if (sizes, nodes) == (self._sizes, self._nodes):
+            return
+        self._sizes, self._nodes, self._drawn = sizes, dict(nodes), {}
+        self.below_bodies = {name: self._lines(f"{node}/action") for name, node in nodes.items()}
+        with self._subtree.rebuild() as parent:
+            rest = len(nodes) < len(sizes)
+            self.others = self._lines(f"{parent}/lines") if rest else None
+
+    def _lines(self, name: str) -> LineSegmentsHandle:
+        return self._scene.add_line_segments(
+            name,
+            np.zeros((1, 2, 3), np.float32),
+            line_colours(ACTION),
+            thickness=2.5,
+            thickness_units="screen",
+            visible=False,
+        )
 
     def draw(self, snapshot: Snapshot) -> None:
         """Draw the agents' current actions."""
         bodies = {body.name: body for body in snapshot.bodies if body.name in self._sizes}
-        marks = [self._marks(agent, bodies[agent.body]) for agent in snapshot.agents]
-        below = self._layers.void - 1.0
-        # an invisible segment: given no segments at all, the page would keep the previous ones
-        marks.append(np.array([[(0.0, 0.0, below), (1.0, 0.0, below)]]))
-        lines = np.concatenate(marks).astype(np.float32)
-        if self.lines is None:
-            self.lines = self._scene.add_line_segments(
-                "/actions", lines, line_colours(ACTION), thickness=2.5, thickness_units="screen"
-            )
-        self.lines.points = lines
+        others = []
+        for agent in snapshot.agents:
+            body = bodies[agent.body]
+            radius, height = self._sizes[body.name]
+            is_over = body.fallen or agent.terminated or agent.truncated
+            numbers = () if is_over else _effective(agent)
+            marks = action_marks(numbers, radius) if len(numbers) == 4 else NO_MARKS
+            z = height + 3 * self._layers.unit
+            lines = self.below_bodies.get(body.name)
+            if lines is None:
+                flat = rotate(marks.reshape(-1, 2), body.heading) + np.array([body.x, body.y])
+                others.append(_at(flat.reshape(-1, 2, 2), body.z + self._layers.body + z))
+                continue
+            lines.visible = len(marks) > 0
+            if lines.visible and self._drawn.get(body.name) is not marks:  # they are cached
+                self._drawn[body.name] = marks
+                lines.points = _at(marks, z)
+        if self.others is not None:
+            points = np.concatenate(others)
+            self.others.visible = len(points) > 0
+            if len(points):
+                self.others.points = points
 
-    def _marks(self, agent: AgentState, body: BodyState) -> Array:
-        numbers = agent.action.get(ACTION_NAME, ())
-        if len(numbers) != 4 or body.fallen:
-            return np.empty((0, 2, 3))
-        radius, height = self._sizes[agent.body]
-        flat = rotate(action_marks(numbers, radius).reshape(-1, 2), body.heading)
-        z = body.z + height + self._layers.body + 3 * self._layers.unit
-        points = np.column_stack([flat + np.array([body.x, body.y]), np.full(len(flat), z)])
-        return points.reshape(-1, 2, 3)
+
+def _at(marks: Array, z: float) -> npt.NDArray[np.float32]:
+    """Return flat line segments (n, 2, 2) at a height (m), as (n, 2, 3)."""
+    points = np.full((len(marks), 2, 3), z, np.float32)
+    points[..., :2] = marks
+    return points
+
+
+def _effective(agent: AgentState) -> tuple[float, ...]:
+    """Return the numbers of an agent's action, 0 for those that have no effect."""
+    numbers = agent.action.get(ACTION_NAME, ())
+    for info in agent.actuator_infos:
+        if info.name == ACTION_NAME and len(info.components) == len(numbers) == 4:
+            names = (each.name for each in info.components)
+            drives, turns, jumps, leaps = (name not in info.without_effect for name in names)
+            forward, turn, jump, leap = numbers
+            # without upward speed, a forward jump is a drive
+            ahead = forward * drives + leap * (leaps and not jumps)
+            return ahead, turn * turns, jump * jumps, leap * jumps
+    return numbers
 
 
 @lru_cache(maxsize=1024)
 def action_marks(numbers: tuple[float, ...], radius: float) -> Array:
     """Return an action's line segments (n, 2, 2), in the frame of a body of that radius (m)."""
     forward, right, jump, forward_jump = (max(-1.0, min(1.0, number)) for number in numbers)
-    marks = [np.empty((0, 2, 2))]
+    marks = [NO_MARKS]
     drive = max(-1.0, min(1.0, forward + forward_jump))
     if abs(drive) >= MIN_DRAWN_VALUE:
         start = math.copysign(1.15 * radius, drive)

@@ -5,14 +5,19 @@ import math
 import numpy as np
 
 from ai4u_edu.snapshot import StaticScene
-from ai4u_edu.viewer.scene.geometry import Array, rotate
-from ai4u_edu.world import Region, RegionDescription, RingShape
+from ai4u_edu.viewer.scene.geometry import Array, circle, rotate
+from ai4u_edu.world import CircleShape, Region, RegionDescription, RingShape
+
+CIRCLE_CORNERS = 160
+"""Corners of a round region: on a screen 2000 pixels high, the drawn edge is off by 0.2 pixels."""
 
 
 def region_outlines(region: RegionDescription) -> tuple[Array, Array | None]:
     """Return a region's outline, and the outline of its hole if it has one."""
     angle = math.radians(region.heading_deg)
     shape = region.shape
+    if isinstance(shape, CircleShape):  # its outline has few corners, which show on a large floor
+        return circle(shape.radius, *region.position, corners=CIRCLE_CORNERS), None
     outline = rotate(np.array(shape.outline()), angle) + region.position
     if not isinstance(shape, RingShape):
         return outline, None

@@ -1,18 +1,24 @@
-"""Bodies, drawn as prisms with shadows and marks; one batched mesh for each group of body."""
+"""Bodies, drawn as prisms with shadows and marks; one batched mesh for each group of body.
+
+A page moves a scene node in the frame in which its new pose arrives, and the instances of a batch
+some frames later. Labels are nodes, so they would run ahead of batched bodies: a few bodies with
+labels are nodes of their own.
+"""
 
 from collections import defaultdict
 from collections.abc import Callable
 
 import numpy as np
 import numpy.typing as npt
-from viser import BatchedMeshHandle, SceneNodePointerEvent
+from viser import BatchedMeshHandle, SceneApi, SceneNodePointerEvent
 
 from ai4u_edu.snapshot import Snapshot, StaticScene
 from ai4u_edu.snapshot.theme import VOID, Rgb, body_colour, mix_colours
 from ai4u_edu.viewer.backend.local_server import LocalServer
 from ai4u_edu.viewer.backend.reporting import report_errors
 from ai4u_edu.viewer.scene.face import face, pupils, rings
-from ai4u_edu.viewer.scene.geometry import cap, half_width, join_meshes, prism, soft_shadow
+from ai4u_edu.viewer.scene.geometry import Array, cap, half_width, join_meshes, prism, soft_shadow
+from ai4u_edu.viewer.scene.labels import label_text
 from ai4u_edu.viewer.scene.layers import Layers
 from ai4u_edu.viewer.scene.light import surface_colours
 from ai4u_edu.viewer.scene.mesh_drawer import MeshDrawer
@@ -26,6 +32,8 @@ MAX_SHADOW_BLUR_M = 0.16
 """Largest width (m) of a shadow's soft edge."""
 SHADOW_LAYERS = 9
 """Number of translucent layers that make a shadow's soft edge."""
+MAX_LABELLED_NODES = 6
+"""Most bodies with labels that are nodes of their own; if there are more, all are batched."""
 MAX_RIM_M = 0.05
 """Largest width (m) of the dark rim that outlines a body."""
 
@@ -44,6 +52,8 @@ class Bodies:
         self._subtree = Subtree(server.scene, "bodies")
         self._built_for: object = None
         self._groups: list[_BodyGroup] = []
+        self.nodes: dict[str, str] = {}
+        """Names of the scene nodes of bodies that have their own, by the name of the body."""
 
     def build(self, static_scene: StaticScene) -> None:
         """Create a batch for each kind of body, if the bodies have changed."""
@@ -51,20 +61,32 @@ class Bodies:
         wanted = (static_scene.bodies, static_scene.agent_of, self._layers)
         if wanted == self._built_for:
             return
-        members: defaultdict[object, list[int]] = defaultdict(list)
+        labelled = {
+            body.name
+            for body in static_scene.bodies
+            if body.kind != "static" and label_text(static_scene, body)
+        }
+        nodes = labelled if len(labelled) <= MAX_LABELLED_NODES else ()
+        members: defaultdict[tuple[object, str], list[int]] = defaultdict(list)
         for index, body in enumerate(static_scene.bodies):
             role = (body.name in static_scene.agent_of, "target" in body.tags)
-            members[body.shape, body.height, role].append(index)
+            node = body.name if body.name in nodes else ""
+            members[(body.shape, body.height, role), node].append(index)
         with self._subtree.rebuild() as parent:
             self._groups = [
                 _BodyGroup(
-                    MeshDrawer(self._scene, f"{parent}/{number}"),
+                    self._scene,
+                    f"{parent}/{number}",
                     self._layers,
                     static_scene,
                     indices,
+                    is_node=bool(node),
                 )
-                for number, indices in enumerate(members.values())
+                for number, ((_, node), indices) in enumerate(members.items())
             ]
+            self.nodes = {
+                node: f"{parent}/{number}" for number, (_, node) in enumerate(members) if node
+            }
             for group in self._groups:
                 if group.names[0] in static_scene.agent_of:
                     group.listen(self._on_agent)
@@ -78,12 +100,22 @@ class Bodies:
 
 
 class _BodyGroup:
-    """Bodies that differ only in colour and pose."""
+    """Bodies that differ only in colour and pose, or one body whose meshes are moved as nodes."""
 
     def __init__(
-        self, drawer: MeshDrawer, layers: Layers, static_scene: StaticScene, members: list[int]
+        self,
+        scene: SceneApi,
+        name: str,
+        layers: Layers,
+        static_scene: StaticScene,
+        members: list[int],
+        *,
+        is_node: bool,
     ) -> None:
         self._members = np.array(members)
+        self._looks: tuple[Array, Array, Array] | None = None
+        self._frame = scene.add_frame(name, show_axes=False) if is_node else None
+        drawer = MeshDrawer(scene, name)
         bodies = [static_scene.bodies[index] for index in members]
         self.names = [body.name for body in bodies]
         is_agent = bodies[0].name in static_scene.agent_of
@@ -95,7 +127,10 @@ class _BodyGroup:
         blur = min(MAX_SHADOW_BLUR_M, radius)
         shadow = soft_shadow(outline, blur, 5 * layers.unit, SHADOW_LAYERS)
         shadow_mesh = join_meshes([cap(*each) for each in shadow])
-        self._shadow = drawer.batch("shadow", shadow_mesh, [BLACK] * count, opacity=0.05)
+        # not below the body's node, since it moves otherwise
+        self._shadow = MeshDrawer(scene, f"{name} shadow").batch(
+            "shadow", shadow_mesh, [BLACK] * count, opacity=0.05
+        )
         body = prism(outline, height, min(MAX_RIM_M, 0.16 * radius))
         self._body = drawer.batch("body", body, colours)
         self._marks = []
@@ -120,12 +155,21 @@ class _BodyGroup:
         """Move the members to their current poses."""
         members = self._members
         wxyzs = poses.wxyzs[members]
+        if self._frame is None:
+            for batch in (self._body, *self._marks):
+                batch.batched_positions, batch.batched_wxyzs = poses.positions[members], wxyzs
+            self._shadow.batched_positions = poses.shadow_positions[members]
+            self._shadow.batched_wxyzs = wxyzs
+        else:
+            self._frame.position, self._frame.wxyz = poses.positions[members[0]], wxyzs[0]
+            self._shadow.position = poses.shadow_positions[members[0]]
+            self._shadow.wxyz = wxyzs[0]
+        looks = poses.scales[members], poses.shadow_scales[members], poses.depths[members]
+        if self._looks is not None and all(map(np.array_equal, looks, self._looks)):
+            return
+        self._looks = looks
         for batch in (self._body, *self._marks):
-            batch.batched_positions = poses.positions[members]
-            batch.batched_wxyzs = wxyzs
             batch.batched_scales = poses.scales[members]
-        self._shadow.batched_positions = poses.shadow_positions[members]
-        self._shadow.batched_wxyzs = wxyzs
         self._shadow.batched_scales = poses.shadow_scales[members]
         self._body.batched_colors = self._colours(poses.depths[members])
 

@@ -1,22 +1,22 @@
 """Labels of agents and of bodies that have one, with the state of agents' remote scripts."""
 
+import math
 from typing import NamedTuple
 
 import numpy as np
 from viser import LabelHandle
 
-from ai4u_edu.snapshot import AgentState, Snapshot, StaticScene
+from ai4u_edu.snapshot import Snapshot, StaticScene
+from ai4u_edu.snapshot.agent_words import script_problem
 from ai4u_edu.viewer.backend.local_server import LocalServer
 from ai4u_edu.viewer.scene.geometry import Array, rotate
 from ai4u_edu.viewer.scene.mesh_drawer import MeshDrawer
 from ai4u_edu.viewer.scene.subtree import Subtree
+from ai4u_edu.world import BodyDescription
 
-SCRIPT_PROBLEMS = {
-    "waiting": "⌛ waits for its script",
-    "late": "⚠ script is late",
-    "lost": "✖ script is lost",
-}
-"""Texts for agents whose script is not driving them, by the state of the remote brain."""
+HIDDEN_AFTER_DRIVING_S = 1.0
+"""World time (s) for which the label of an agent stays hidden after the last key is released: who
+drives it looks at what is around it."""
 
 
 class Labels:
@@ -27,6 +27,7 @@ class Labels:
         self._subtree = Subtree(server.scene, "labels")
         self._built_for: object = None
         self.labels: list[_Label] = []
+        self._driven_at: dict[str, float] = {}
 
     def build(self, static_scene: StaticScene) -> None:
         """Create the labels, if they have changed."""
@@ -37,7 +38,7 @@ class Labels:
         with self._subtree.rebuild() as parent:
             drawer = MeshDrawer(self._scene, parent)
             for index, body in enumerate(static_scene.bodies):
-                text = body.label or (body.name if body.name in static_scene.agent_of else "")
+                text = label_text(static_scene, body)
                 if text:
                     outline = np.array(body.shape.outline())
                     centre = outline.mean(axis=0)
@@ -50,18 +51,23 @@ class Labels:
     def draw(self, snapshot: Snapshot) -> None:
         """Move the labels with their bodies, and update their texts."""
         problems = {agent.body: script_problem(agent) for agent in snapshot.agents}
+        for agent in snapshot.agents:
+            if agent.held_keys:
+                self._driven_at[agent.body] = snapshot.time
         for label in self.labels:
             body = snapshot.bodies[label.number]
+            driven_at = self._driven_at.get(body.name, -math.inf)
+            is_driven = 0.0 <= snapshot.time - driven_at < HIDDEN_AFTER_DRIVING_S
             problem = problems.get(body.name)
             label.handle.text = f"{label.text}  {problem}" if problem else label.text
             dx, dy = rotate(label.centre[None], body.heading)[0]
             label.handle.position = (body.x + dx, body.y + dy - label.reach, body.z + label.height)
-            label.handle.visible = not body.fallen
+            label.handle.visible = not body.fallen and (not is_driven or bool(problem))
 
 
-def script_problem(agent: AgentState) -> str:
-    """Return the problem with the script that should drive an agent; empty if there is none."""
-    return SCRIPT_PROBLEMS.get(agent.remote.state, "") if agent.remote is not None else ""
+def label_text(static_scene: StaticScene, body: BodyDescription) -> str:
+    """Return a body's label, for agents by default their name; empty if it has none."""
+    return body.label or (body.name if body.name in static_scene.agent_of else "")
 
 
 class _Label(NamedTuple):

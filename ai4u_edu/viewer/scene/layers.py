@@ -67,6 +67,11 @@ class Layers:
         return 4 * self.unit
 
     @property
+    def trail(self) -> float:
+        """The trail behind an agent."""
+        return 10 * self.unit
+
+    @property
     def body(self) -> float:
         """A body's underside."""
         return 11 * self.unit

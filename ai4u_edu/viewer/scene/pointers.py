@@ -75,7 +75,9 @@ def pointer(snapshot: Snapshot, body: BodyState, sensor: SensorInfo) -> list[Arr
             ring = segments(circle(RING_RADIUS * reach, state.x, state.y), state.z + z - body.z)
             marks += [ring, _line(body, state.x, state.y, z, short_by=RING_RADIUS * reach)]
     for area in static_scene.areas:
-        if area.name in sensor.targets or set(area.tags) & set(sensor.groups):
+        # paint of a group is seen as it is; outlines of its pieces would cross at each joint
+        is_member = not area.paint and set(area.tags) & set(sensor.groups)
+        if area.name in sensor.targets or is_member:
             top = floor_under(static_scene, *area.position)
             level = (lowest_floor(static_scene) if top is None else top) + z - body.z
             outline, hole = region_outlines(area)

@@ -10,7 +10,7 @@ from ai4u_edu.blocks import RayPicture
 from ai4u_edu.snapshot import StaticScene
 from ai4u_edu.snapshot.theme import RAY_MISS, UNKNOWN_GROUP, group_colours
 from ai4u_edu.viewer.scene.arena import arena_size
-from ai4u_edu.viewer.scene.geometry import Array, cap, circle
+from ai4u_edu.viewer.scene.geometry import Array, cap, circle, rotate
 from ai4u_edu.viewer.scene.layers import Layers
 from ai4u_edu.viewer.scene.light import line_colours, surface_colours
 from ai4u_edu.viewer.scene.mesh_drawer import MeshDrawer
@@ -50,16 +50,28 @@ class Rays:
         """Rebuild the rays at the next drawing, in the style of another static scene."""
         self._style, self._count = style, -1
 
-    def draw(self, pictures: Sequence[RayPicture]) -> None:
-        """Draw these rays, and remove all others."""
+    def draw(self, pictures: Sequence[RayPicture], heading: float = 0.0) -> None:
+        """Draw these rays, and remove all others.
+
+        A page moves nodes at once, and shows new points some frames later. So the points are
+        relative to a node at the eye, which turns with the body: late, they still fit the body.
+
+        Args:
+            pictures: the rays of each sensor.
+            heading: heading (rad) of the sensors' body.
+        """
         groups = [group for picture in pictures for group in picture.groups]
         if len(groups) != self._count:
             self._rebuild(len(groups))
         if not groups:
             return
         style = self._style
-        lines = np.concatenate([ray_lines(picture) for picture in pictures], dtype=np.float32)
-        lines[..., 2] += style.layers.body
+        lines = np.concatenate([ray_lines(picture) for picture in pictures])
+        eye = lines[0, 0].copy()
+        lines -= eye
+        lines[..., :2] = rotate(lines[..., :2].reshape(-1, 2), -heading).reshape(-1, 2, 2)
+        lines = lines.astype(np.float32)
+        self._subtree.place(eye + np.array([0.0, 0.0, style.layers.body]), heading)
         indices = np.array([style.index_of_group.get(group, 0) for group in groups])
         has_hit = np.array([group != "" for group in groups])
         self.lines.points = lines

@@ -81,7 +81,8 @@ class _Page:
             # `rays` is a new object after every reading
             if agent.rays is not self._drawn_rays or keys != self._keys:
                 self._drawn_rays, self._keys = agent.rays, keys
-                self._rays.draw([agent.rays[key] for key in keys if key in agent.rays])
+                rays = [agent.rays[key] for key in keys if key in agent.rays]
+                self._rays.draw(rays, body.heading)
                 self._spots.draw([agent.spots[key] for key in keys if key in agent.spots], top)
             self._pointers.draw(snapshot, body, shown)
 

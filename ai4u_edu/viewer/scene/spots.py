@@ -37,10 +37,11 @@ class Spots:
         if len(lit) != self._count:
             self._rebuild(len(lit))
         if len(lit):
-            self.dots.batched_positions = np.concatenate(
-                [spots.places + np.array([0.0, 0.0, height]) for spots in pictures],
-                dtype=np.float32,
-            )
+            places = np.concatenate([spots.places for spots in pictures])
+            places[:, 2] += height
+            # a page moves a node at once, and its instances some frames later
+            self.dots.position = places[0]
+            self.dots.batched_positions = (places - places[0]).astype(np.float32)
             self.dots.batched_colors = self._colours[lit]
 
     def _rebuild(self, count: int) -> None:

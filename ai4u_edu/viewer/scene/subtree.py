@@ -5,6 +5,8 @@ from contextlib import contextmanager
 
 from viser import FrameHandle, SceneApi
 
+from ai4u_edu.viewer.scene.geometry import Array, heading_wxyz
+
 
 class Subtree:
     """The parent node of a part of the scene.
@@ -37,3 +39,8 @@ class Subtree:
         self._frame = new
         if old is not None:
             old.remove()
+
+    def place(self, position: Array, heading: float) -> None:
+        """Move the parent node to a position (m) and a heading (rad)."""
+        if self._frame is not None:
+            self._frame.position, self._frame.wxyz = position, heading_wxyz(heading)

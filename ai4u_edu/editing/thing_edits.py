@@ -1,20 +1,32 @@
-"""Bodies that are added, removed and changed in a running world."""
+"""Bodies, floors and areas that are added, removed and changed in a running world."""
 
 import math
 from collections.abc import Callable, Mapping
 
 from ai4u_edu.scenes import SceneDescription
-from ai4u_edu.world import BodyDescription, Pose, World, edit_body, insert_body, reorder
+from ai4u_edu.world import (
+    AreaDescription,
+    BodyDescription,
+    FloorDescription,
+    Pose,
+    World,
+    edit_body,
+    insert_body,
+    put_region,
+    reorder,
+    sampled_region,
+)
 
+AnyRegion = FloorDescription | AreaDescription
 TOLERANCE_M = 1e-6
 """Distance below which a body counts as being where it belongs."""
 
 
-class BodyEdits:
-    """One transaction of changes to the bodies of a world; :meth:`undo` rolls it back.
+class ThingEdits:
+    """One transaction of changes to the things in a world; :meth:`undo` rolls it back.
 
     Args:
-        world: the world of the bodies.
+        world: the world of the things.
     """
 
     def __init__(self, world: World) -> None:
@@ -26,7 +38,7 @@ class BodyEdits:
     def apply(
         self, old: SceneDescription, new: SceneDescription, poses: Mapping[str, Pose]
     ) -> bool:
-        """Turn the bodies of one scene into those of another, and return True if any changed.
+        """Turn the things of one scene into those of another, and return True if any changed.
 
         Raises:
             WorldError: it is not possible; everything was rolled back.
@@ -34,6 +46,7 @@ class BodyEdits:
         before = {body.name: body for body in old.bodies}
         after = {body.name: body for body in new.bodies}
         try:
+            self._apply_regions(old, new)
             for name in before:
                 if name not in after:
                     self._remove(name)
@@ -71,6 +84,26 @@ class BodyEdits:
         x, y, _, heading = self._world[name].pose
         return x, y, heading
 
+    def _apply_regions(self, old: SceneDescription, new: SceneDescription) -> None:
+        before = _regions(old)
+        after = _regions(new)
+        for name in dict.fromkeys((*before, *after)):
+            if before.get(name) != after.get(name):
+                self._change_region(name, before.get(name), after.get(name))
+
+    def _change_region(self, name: str, old: AnyRegion | None, new: AnyRegion | None) -> None:
+        """Add, change or remove a floor or an area; None stands for one that is not there."""
+        world = self._world
+        sampled_before = None if old is None else sampled_region(world, name)
+        sampled = new
+        if old is not None and new is not None and sampled_before is not None:
+            here = (old.position, old.heading_deg, old.shape)
+            if here == (new.position, new.heading_deg, new.shape):  # it stays where chance put it
+                kept = ("position", "heading_deg", "shape")
+                sampled = new.model_copy(update={k: getattr(sampled_before, k) for k in kept})
+        put_region(world, name, new, sampled)
+        self._undo_steps.append(lambda: put_region(world, name, old, sampled_before))
+
     def _distance(self, name: str, pose: Pose) -> float:
         return math.dist(self.pose(name)[:2], pose[:2])
 
@@ -95,3 +128,9 @@ class BodyEdits:
             pose = (*new.position, math.radians(new.heading_deg))
         edit_body(self._world, new, pose)
         self._undo_steps.append(lambda: edit_body(self._world, old, pose_before))
+
+
+def _regions(scene: SceneDescription) -> dict[str, AnyRegion]:
+    """Return a scene's floors and areas by name."""
+    regions: tuple[AnyRegion, ...] = (*scene.floors, *scene.areas)
+    return {region.name: region for region in regions}

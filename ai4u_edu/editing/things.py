@@ -1,8 +1,8 @@
-"""Changes of bodies as data: each function takes a state and returns another one."""
+"""Changes of bodies, floors and areas as data: a function takes a state and returns another one."""
 
 import math
 from collections.abc import Mapping
-from typing import Any
+from typing import Any, Literal
 
 from pydantic import ValidationError
 
@@ -15,11 +15,28 @@ from ai4u_edu.editing.type_checks import (
     check_typed,
     check_typed_and,
 )
-from ai4u_edu.world import BodyDescription
+from ai4u_edu.world import AreaDescription, BodyDescription, FloorDescription
 
 MAX_POSITION_M, MAX_HEADING_DEG = 1e4, 3600.0
 """Bounds of a position and a heading, as in a body's description."""
-_SCHEMA = BodyDescription.model_json_schema()
+Thing = BodyDescription | FloorDescription | AreaDescription
+ThingKind = Literal["bodies", "floors", "areas"]
+"""Entry of a scene's description that holds things of one kind."""
+KINDS: Mapping[ThingKind, type[Thing]] = {
+    "bodies": BodyDescription,
+    "floors": FloorDescription,
+    "areas": AreaDescription,
+}
+_SCHEMAS = {kind: cls.model_json_schema() for kind, cls in KINDS.items()}
+
+
+def thing_named(state: EditState, name: str) -> Thing:
+    """Return the description of a body, a floor or an area."""
+    things = {thing.name: thing for thing in state.description.things}
+    check_name(name, "the name of a thing")
+    if name not in things:
+        raise NameNotFoundError(f"nothing is named {name!r}; {suggest(name, things)}")
+    return things[name]
 
 
 def body_named(state: EditState, name: str) -> BodyDescription:
@@ -31,63 +48,71 @@ def body_named(state: EditState, name: str) -> BodyDescription:
     return bodies[name]
 
 
-def checked_description(given: BodyDescription | Mapping[str, Any]) -> BodyDescription:
-    """Validate a body's description.
+def kind_of(thing: Thing) -> ThingKind:
+    """Return the entry of a scene's description that holds a thing."""
+    return next(kind for kind, cls in KINDS.items() if type(thing) is cls)
+
+
+def checked_description(given: Thing | Mapping[str, Any], kind: ThingKind = "bodies") -> Thing:
+    """Validate a thing's description.
 
     Raises:
         ChangeError: some parameters are wrong; each is told with its path.
     """
-    if isinstance(given, BodyDescription):
+    cls = KINDS[kind]
+    if isinstance(given, cls):
         return given
-    check_typed(given, _SCHEMA)
+    check_typed(given, _SCHEMAS[kind])
     if not isinstance(given, Mapping):
         raise ChangeError([Problem((), f"expected parameters by name, got {shown(given)}")])
     try:
-        return BodyDescription.model_validate(dict(given))
+        return cls.model_validate(dict(given))
     except ValidationError as error:
-        raise ChangeError(explain(error.errors(), BodyDescription)) from None
+        raise ChangeError(explain(error.errors(), cls)) from None
 
 
-def with_body(state: EditState, body: BodyDescription) -> EditState:
-    """Add a body, as the last one."""
-    if any(thing.name == body.name for thing in state.description.things):
-        text = f"something is named {body.name!r} already; expected another name, such as "
-        raise ChangeError([Problem(("name",), text + repr(free_name(state, body.name)))])
-    return state.describing(bodies=(*state.description.bodies, body))
+def with_thing(state: EditState, thing: Thing) -> EditState:
+    """Add a thing, as the last one of its kind."""
+    if any(other.name == thing.name for other in state.description.things):
+        text = f"something is named {thing.name!r} already; expected another name, such as "
+        raise ChangeError([Problem(("name",), text + repr(free_name(state, thing.name)))])
+    kind = kind_of(thing)
+    return state.describing(**{kind: (*getattr(state.description, kind), thing)})
 
 
-def without_body(state: EditState, name: str) -> EditState:
-    """Remove a body."""
-    body_named(state, name)
+def without_thing(state: EditState, name: str) -> EditState:
+    """Remove a thing."""
+    kind = kind_of(thing_named(state, name))
     for agent in state.description.agents:
         if agent.get("body") == name:
             text = f"it is the body of agent {agent.get('id', '0')!r}; an agent needs its body"
             raise ChangeError([Problem((), text)])
-    bodies = tuple(body for body in state.description.bodies if body.name != name)
-    return state.describing(bodies=bodies)
+    others = tuple(each for each in getattr(state.description, kind) if each.name != name)
+    return state.describing(**{kind: others})
 
 
-def with_changed_body(state: EditState, name: str, values: Mapping[str, Any]) -> EditState:
-    """Change parameters of a body; None resets one to its default."""
-    body = body_named(state, name)
+def with_changed_thing(state: EditState, name: str, values: Mapping[str, Any]) -> EditState:
+    """Change parameters of a thing; None resets one to its default."""
+    thing = thing_named(state, name)
+    kind = kind_of(thing)
     check_plain(values)
-    given = body.model_dump(exclude_unset=True, exclude_defaults=True) | dict(values)
+    given = thing.model_dump(exclude_unset=True, exclude_defaults=True) | dict(values)
     given["name"] = values.get("name", name)
     if "shape" not in values:
-        given["shape"] = body.shape
+        given["shape"] = thing.shape
     named = {key: value for key, value in given.items() if value is not None}
-    other = check_typed_and(values, _SCHEMA, lambda: checked_description(named))
-    bodies = state.description.bodies
+    other = check_typed_and(values, _SCHEMAS[kind], lambda: checked_description(named, kind))
     if other.name != name and any(each.name == other.name for each in state.description.things):
         raise ChangeError([Problem(("name",), f"something is named {other.name!r} already")])
-    return state.describing(bodies=tuple(other if each is body else each for each in bodies))
+    things = getattr(state.description, kind)
+    return state.describing(**{kind: tuple(other if each is thing else each for each in things)})
 
 
 def with_pose(state: EditState, name: str, x: float, y: float, heading_deg: float) -> EditState:
-    """Move a body (m, m, degrees)."""
+    """Move a thing (m, m, degrees)."""
     check_place(x, y, heading_deg)
     values = {"position": (round(x, 4), round(y, 4)), "heading_deg": round(heading_deg, 3)}
-    return with_changed_body(state, name, values)
+    return with_changed_thing(state, name, values)
 
 
 def check_place(x: float, y: float, heading_deg: float | None) -> None:

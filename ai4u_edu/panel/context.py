@@ -1,0 +1,79 @@
+"""The running world that all pages' panels share."""
+
+import asyncio
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Any
+
+import msgspec
+
+from ai4u_edu.base.errors import SetupError
+from ai4u_edu.editing import SceneEditor
+from ai4u_edu.runtime.runner import Runner
+from ai4u_edu.snapshot import Snapshot
+from ai4u_edu.viewer import Viewer
+
+MAX_CACHED = 200
+"""Most texts that a cache holds; it is emptied then."""
+
+
+class PartCache:
+    """JSON texts of parts, so that pages that look at the same thing share them.
+
+    Belongs to the server's event loop.
+    """
+
+    def __init__(self) -> None:
+        self._snapshot: Snapshot | None = None
+        self._of_snapshot: dict[object, bytes] = {}
+        self._by_key: dict[object, bytes] = {}
+
+    def of_snapshot(
+        self, snapshot: Snapshot, key: object, build: Callable[[], dict[str, Any]]
+    ) -> bytes:
+        """Return a part of a snapshot; it is kept until the next snapshot."""
+        if snapshot is not self._snapshot:
+            self._snapshot, self._of_snapshot = snapshot, {}
+        return _cached(self._of_snapshot, key, build)
+
+    def by_key(self, key: object, build: Callable[[], dict[str, Any]]) -> bytes:
+        """Return a part that does not change while its key is the same."""
+        return _cached(self._by_key, key, build)
+
+
+@dataclass(frozen=True)
+class PanelContext:
+    """The running world, its viewer and its editor, for parts and commands.
+
+    Args:
+        runner: runs the world.
+        viewer: draws it.
+        editor: changes it; None if it can only be watched and driven.
+    """
+
+    runner: Runner
+    viewer: Viewer
+    editor: SceneEditor | None = None
+    cache: PartCache = field(default_factory=PartCache)
+    slow_work: asyncio.Semaphore = field(default_factory=lambda: asyncio.Semaphore(1))
+    """Held by a page whose command does slow work in another thread."""
+
+    def required_editor(self) -> SceneEditor:
+        """Return the editor.
+
+        Raises:
+            SetupError: there is none.
+        """
+        if self.editor is None:
+            raise SetupError("this world can be watched and driven here, but not changed")
+        return self.editor
+
+
+def _cached(texts: dict[object, bytes], key: object, build: Callable[[], dict[str, Any]]) -> bytes:
+    text = texts.get(key)
+    if text is None:
+        if len(texts) >= MAX_CACHED:
+            texts.clear()
+        # numbers that JSON can't hold (NaN, infinity) become null
+        text = texts[key] = msgspec.json.encode(build())
+    return text

@@ -1,0 +1,129 @@
+"""The things that one page looks at, and the link to the page's picture in viser."""
+
+from collections.abc import Callable
+
+from ai4u_edu.panel.messages import Show
+from ai4u_edu.viewer.scene.view import Mode
+from ai4u_edu.viewer.viewer_client import PagePanel, ViewerClient, ViewerClients
+
+MAX_SENSOR_CHOICES = 200
+"""Most sensors that a page has switched on or off and that are remembered."""
+
+
+class PageView:
+    """The things that one page looks at, and its choices.
+
+    viser's connection of the page may come later than the panel's, and may come again: choices are
+    kept here and applied whenever there is another client. Belongs to the server's event loop.
+
+    Args:
+        viewer_clients: viser's clients.
+        page_id: the page's random id; empty if it has no picture.
+        agent: id of the agent that is shown first.
+        panel: told what the user does in the picture.
+    """
+
+    def __init__(
+        self, viewer_clients: ViewerClients, page_id: str, agent: str, panel: PagePanel
+    ) -> None:
+        self._viewer_clients, self._page_id, self._panel = viewer_clients, page_id, panel
+        self._client: ViewerClient | None = None
+        self.show = Show(type="show", agent=agent)
+        self.camera = Mode.ARENA
+        self.is_move_mode = False
+        self.trails: dict[str, bool] = {}
+        """Trails that were switched on or off, by agent."""
+        self._is_dark: bool | None = None
+        self.sensors: dict[tuple[str, str], bool] = {}
+        """Sensors that were switched on or off, by agent and key."""
+
+    @property
+    def agent(self) -> str:
+        """Id of the agent that the page shows."""
+        return self.show.agent
+
+    @property
+    def address(self) -> str:
+        """The page's address in the browser; empty if it is not known."""
+        return "" if self._client is None else self._client.address
+
+    @property
+    def client(self) -> ViewerClient | None:
+        """Viser's client of this page; None while there is none."""
+        return self._client
+
+    def refresh(self) -> None:
+        """Find viser's client of this page, and give a new one all that was chosen."""
+        client = self._viewer_clients.find(self._page_id)
+        if client is not self._client:
+            self._client = client
+            self._apply(self._choose_all)
+
+    def look_at(self, show: Show) -> None:
+        """Look at something else."""
+        self.show = show
+        self._apply(self._choose_shown)
+
+    def choose_agent(self, agent: str) -> None:
+        """Look at another agent."""
+        self.show = Show(
+            type="show",
+            agent=agent,
+            tabs=self.show.tabs,
+            body=self.show.body,
+            episode=self.show.episode,
+        )
+        self._apply(self._choose_shown)
+
+    def choose_camera(self, mode: Mode) -> None:
+        """Put the camera somewhere."""
+        self.camera = mode
+        self._apply(lambda client: client.view.choose(mode))
+
+    def choose_dark(self, is_dark: bool) -> None:
+        """Draw the picture in dark or light colours."""
+        self._is_dark = is_dark
+        self._apply(lambda client: client.set_dark(is_dark))
+
+    def show_sensor(self, key: str, on: bool) -> None:
+        """Draw a sensor of the agent in the picture, or hide it."""
+        if len(self.sensors) >= MAX_SENSOR_CHOICES:
+            self.sensors.clear()
+        self.sensors[self.agent, key] = on
+        self._apply(lambda client: client.show_sensor(key, on))
+
+    def show_trail(self, on: bool) -> None:
+        """Draw the agent's trail, or hide it."""
+        self.trails[self.show.agent] = on
+        self._apply(self._choose_shown)
+
+    def set_move_mode(self, on: bool) -> None:
+        """Let the user drag bodies, or not."""
+        self.is_move_mode = on
+        self._apply(self._choose_shown)
+
+    def close(self) -> None:
+        """Forget the client; its picture stays as it is."""
+        if self._client is not None and self._client.panel is self._panel:
+            self._client.panel = None
+
+    def _apply(self, choose: Callable[[ViewerClient], None]) -> None:
+        if self._client is not None:
+            choose(self._client)
+
+    def _choose_shown(self, client: ViewerClient) -> None:
+        client.agent = self.show.agent
+        client.selected = self.show.body or ""
+        client.is_move_mode = self.is_move_mode
+        for agent, on in self.trails.items():
+            client.show_trail(agent, on)
+
+    def _choose_all(self, client: ViewerClient) -> None:
+        client.panel = self._panel
+        self._choose_shown(client)
+        if self.camera is not client.view.mode:
+            client.view.choose(self.camera)
+        if self._is_dark is not None and self._is_dark != client.is_dark:
+            client.set_dark(self._is_dark)
+        for (agent, key), on in self.sensors.items():
+            client.show_sensor(key, on, agent)

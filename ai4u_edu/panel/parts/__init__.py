@@ -1,0 +1,1 @@
+"""Parts of the panel: each function returns the JSON of one part."""

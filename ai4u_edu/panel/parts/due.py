@@ -1,0 +1,65 @@
+"""The parts of the panel that a page needs now, as JSON."""
+
+from collections.abc import Iterator
+from contextlib import suppress
+
+from ai4u_edu.base.errors import AI4UError
+from ai4u_edu.editing import SceneEditor
+from ai4u_edu.panel.context import PanelContext
+from ai4u_edu.panel.page_view import PageView
+from ai4u_edu.panel.parts.agent import agent_part, curve_part, python_part, shown_sensors
+from ai4u_edu.panel.parts.blocks import blocks_part
+from ai4u_edu.panel.parts.run import run_part
+from ai4u_edu.panel.parts.scene import scene_part
+
+Parts = Iterator[tuple[str, bytes]]
+
+
+def due_parts(context: PanelContext, view: PageView) -> Parts:
+    """Yield the name and the JSON of each part that a page looks at."""
+    snapshot, cache = context.runner.latest, context.cache
+    agent_id = view.agent
+    # while the world stands still or a block does not return, time passes without snapshots
+    stall = context.runner.stall
+    run_key = "run", agent_id, None if stall is None else str(stall)
+    yield "run", cache.of_snapshot(snapshot, run_key, lambda: run_part(context, snapshot, agent_id))
+    yield "scene", cache.of_snapshot(snapshot, "scene", lambda: scene_part(context, snapshot))
+    if "agent" in view.show.tabs:
+        yield from _agent_parts(context, view)
+    if context.editor is not None:
+        with suppress(AI4UError):  # the editor has another scene already
+            yield from _editor_parts(context, context.editor, view)
+
+
+def _agent_parts(context: PanelContext, view: PageView) -> Parts:
+    snapshot, cache = context.runner.latest, context.cache
+    agent = next((each for each in snapshot.agents if each.id == view.agent), None)
+    if agent is None:
+        return
+    shown = shown_sensors(agent, view.sensors)
+    key = "agent", agent.id, shown
+    yield (
+        "agent",
+        cache.of_snapshot(snapshot, key, lambda: agent_part(context, snapshot, agent, shown)),
+    )
+    yield "curve", cache.of_snapshot(snapshot, ("curve", agent.id), lambda: curve_part(agent))
+    address = view.address
+    yield (
+        "python",
+        cache.by_key(
+            ("python", agent.id, address, agent.actuator_infos),
+            lambda: python_part(context, agent.id, address),
+        ),
+    )
+
+
+def _editor_parts(context: PanelContext, editor: SceneEditor, view: PageView) -> Parts:
+    tabs, agent_id, show = view.show.tabs, view.agent, view.show
+    if "blocks" in tabs:
+        path = None if show.block is None else tuple(show.block)
+        driver = editor.driver_of(agent_id)
+        key = ("blocks", editor.version, agent_id, driver, path, editor.waits_for_reset)
+        yield (
+            "blocks",
+            context.cache.by_key(key, lambda: blocks_part(editor, agent_id, driver, path)),
+        )

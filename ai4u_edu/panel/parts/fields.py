@@ -1,0 +1,29 @@
+"""Fields of forms as JSON."""
+
+from collections.abc import Collection
+from typing import Any
+
+from ai4u_edu.editing.forms import Field
+
+
+def field_json(field: Field, first: Collection[str] = ()) -> dict[str, Any]:
+    """Return a field.
+
+    Args:
+        field: the field.
+        first: names of the fields that matter most.
+    """
+    return {
+        "name": field.name,
+        "label": field.label,
+        "kind": field.kind,
+        "value": field.value,
+        "shown": field.shown,
+        "hint": field.hint,
+        "choices": [str(each) for each in field.choices],
+        "is_common": field.is_common,
+        "is_first": field.name in first,
+        "unit": field.unit,
+        "low": field.low,
+        "high": field.high,
+    }

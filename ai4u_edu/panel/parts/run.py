@@ -1,0 +1,90 @@
+"""The part "run": time, score and state of the episode."""
+
+import math
+from typing import Any
+
+from ai4u_edu.panel.context import PanelContext
+from ai4u_edu.server.page_events import outcome
+from ai4u_edu.snapshot import AgentState, Snapshot
+from ai4u_edu.snapshot.agent_words import ending
+
+MIN_SPEED_SHARE = 0.9
+"""Share of the wanted speed below which a page is told that the world can't keep up."""
+MAX_USUAL_CONTACTS = 6
+"""Contacts for each body above which bodies must overlap; side by side they have fewer."""
+
+
+def run_part(context: PanelContext, snapshot: Snapshot, agent_id: str) -> dict[str, Any]:
+    """Return the state of the episode, for a page that shows an agent."""
+    agent = next((each for each in snapshot.agents if each.id == agent_id), snapshot.agents[0])
+    stall = context.runner.stall
+    recorder = context.runner.recorder
+    best = recorder.episodes.best if recorder is not None else None
+    return {
+        "type": "part",
+        "name": "run",
+        "episode": snapshot.episode if agent.episode <= 1 else agent.episode,
+        "decision": agent.steps,
+        "time_s": round(snapshot.episode_time, 2),
+        "speed": "max" if math.isinf(snapshot.time_scale) else snapshot.time_scale,
+        "real_speed": round(snapshot.real_time_factor, 1),
+        "is_paused": snapshot.paused,
+        "waiting": snapshot.waiting,
+        "past": snapshot.past,
+        "seed": str(snapshot.seed),
+        "is_seed_locked": snapshot.is_seed_locked,
+        "score": agent.episode_reward,
+        "result": outcome(snapshot, agent),
+        "result_text": _result_text(agent),
+        "best": None if best is None else best.first.total,
+        "status": _status(snapshot),
+        "slow": _slow(snapshot),
+        "error": snapshot.error,
+        "stall": "" if stall is None else str(stall),
+        "scripts": [_script(each) for each in snapshot.agents if each.remote is not None],
+    }
+
+
+def _status(snapshot: Snapshot) -> str:
+    if snapshot.error:
+        return "Stopped"
+    if snapshot.past:
+        return f"Showing {snapshot.past}"
+    if snapshot.paused:
+        return "Paused"
+    if snapshot.waiting:
+        return "Waiting for a key"
+    wanted, factor = snapshot.time_scale, snapshot.real_time_factor
+    if not math.isinf(wanted) and factor < MIN_SPEED_SHARE * wanted:
+        return f"Running at {factor:.1f}x: this computer can't keep up with {wanted:g}x"
+    return "Running"
+
+
+def _result_text(agent: AgentState) -> str:
+    """Return the end of the agent's episode as a short sentence; empty while it runs."""
+    text = ending(agent) if agent.terminated or agent.truncated else ""
+    return text[:1].upper() + text[1:]
+
+
+def _slow(snapshot: Snapshot) -> str:
+    """Return a warning about a slow tick; empty if there was none."""
+    slow = snapshot.slow_tick
+    if slow is None:
+        return ""
+    overlap = slow.contacts > len(snapshot.bodies) * MAX_USUAL_CONTACTS
+    why = f" with {slow.contacts} contacts. Move bodies out of each other" if overlap else ""
+    return f"Slow computer: a step took {1000 * slow.seconds:.0f} ms{why}."
+
+
+def _script(agent: AgentState) -> dict[str, Any]:
+    """Return the state of the script that drives an agent."""
+    remote = agent.remote
+    if remote is None:
+        return {}
+    names = ("decisions", "missing", "ignored", "refused", "clipped")
+    return {
+        "agent": agent.id,
+        "state": remote.state,
+        "reason": remote.reason,
+        "counts": {name: count for name in names if (count := getattr(remote, name))},
+    }

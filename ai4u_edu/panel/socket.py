@@ -1,0 +1,236 @@
+"""The panel's sockets: each page gets the parts that it looks at, and sends commands."""
+
+import asyncio
+from collections.abc import Coroutine, Mapping
+from concurrent.futures import Future
+from contextlib import suppress
+
+import msgspec
+from starlette.types import Receive, Scope, Send
+from starlette.websockets import WebSocket, WebSocketDisconnect, WebSocketState
+
+from ai4u_edu.base.errors import AI4UError, NameNotFoundError
+from ai4u_edu.base.log_limit import ErrorLog
+from ai4u_edu.editing import ChangeResult, SceneEditor
+from ai4u_edu.panel import messages
+from ai4u_edu.panel.answers import MAX_ERROR_CHARS, Answer, failure
+from ai4u_edu.panel.commands import blocks, run, view
+from ai4u_edu.panel.commands.handler import Handler
+from ai4u_edu.panel.context import PanelContext
+from ai4u_edu.panel.page import Level, Page
+from ai4u_edu.panel.page_view import PageView
+from ai4u_edu.panel.parts.due import due_parts
+from ai4u_edu.runtime.frame_budget import TEXTS_PER_S
+from ai4u_edu.runtime.runner import Runner
+from ai4u_edu.server.bindings import choose_agent
+from ai4u_edu.server.proxy import PAGE_ID_PARAM, page_id
+from ai4u_edu.server.rate_limit import RateLimit
+from ai4u_edu.viewer import Viewer
+
+MAX_MESSAGE_BYTES = 2**16
+MAX_MESSAGES_PER_S = 100
+"""Rate limit of one page; dragging a slider sends some thirty a second."""
+MAX_MISTAKES = 5
+"""Malformed messages in a row after which the connection is closed."""
+MAX_PENDING_COMMANDS = 16
+"""Commands of one page that may be under way."""
+MIN_SEND_S = 0.03
+"""Shortest time (s) between two looks for changed parts, after commands."""
+
+HANDLERS: Mapping[type[messages.Command], Handler] = {
+    **run.HANDLERS,
+    **view.HANDLERS,
+    **blocks.HANDLERS,
+}
+"""Handlers of all commands by the type of their message."""
+
+_error_log = ErrorLog()
+
+
+class PanelSockets:
+    """The sockets of all pages' panels; an ASGI app.
+
+    Args:
+        runner: runs the world.
+        viewer: draws it; knows which picture belongs to which page.
+        editor: changes the world; left out, it can only be watched and driven.
+    """
+
+    def __init__(self, runner: Runner, viewer: Viewer, editor: SceneEditor | None = None) -> None:
+        self._context = PanelContext(runner, viewer, editor)
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        """Serve one page's socket until it is closed."""
+        socket = WebSocket(scope, receive, send)
+        await socket.accept()
+        with suppress(WebSocketDisconnect):
+            if PAGE_ID_PARAM in socket.query_params and not page_id(scope):
+                await socket.close(1008, "expected a page id of 8 to 64 letters, digits and -")
+                return
+            await _Connection(socket, self._context, page_id(scope)).serve()
+
+
+class _Connection:
+    """One page's connection.
+
+    The server's event loop calls everything but :meth:`on_selected` and :meth:`on_dropped`.
+    """
+
+    def __init__(self, socket: WebSocket, context: PanelContext, page_id: str) -> None:
+        self._socket, self._context = socket, context
+        agent = _first_agent(context.runner, socket.query_params.get("agent"))
+        self._view = PageView(context.viewer.viewer_clients, page_id, agent, self)
+        self._page = Page(context, self._view, self._note)
+        self._loop = asyncio.get_running_loop()
+        self._changed = asyncio.Event()
+        self._sent: dict[str, bytes] = {}
+        self._tasks: set[asyncio.Task[None]] = set()
+
+    async def serve(self) -> None:
+        """Send parts and carry out commands until the page leaves."""
+        sending = asyncio.create_task(self._send_parts())
+        try:
+            await self._receive()
+        finally:
+            self._view.close()
+            for task in (sending, *self._tasks):
+                task.cancel()
+            with suppress(asyncio.CancelledError, WebSocketDisconnect):
+                await sending
+
+    # -- from the picture, in viser's event loop -------------------------------------------------
+
+    def on_selected(self, body: str) -> None:
+        """Note that somebody clicked on a body in the page's picture."""
+        with suppress(RuntimeError):  # the server's loop has ended
+            self._loop.call_soon_threadsafe(self._select, body)
+
+    def on_dropped(self, change: "Future[ChangeResult]") -> None:
+        """Report the result of a move with the mouse."""
+
+    def _select(self, body: str) -> None:
+        agent = self._context.runner.latest.static_scene.agent_of.get(body, self._view.agent)
+        if agent != self._view.agent:
+            self._view.choose_agent(agent)
+        self._spawn_send({"type": "selected", "body": body, "agent": agent})
+        self._changed.set()
+
+    # -- messages from the page ------------------------------------------------------------------
+
+    async def _receive(self) -> None:
+        limit, mistakes = RateLimit(MAX_MESSAGES_PER_S), 0
+        while True:
+            frame = await self._socket.receive()
+            if frame["type"] != "websocket.receive":
+                return
+            if limit.take():
+                await self._close(1008, f"expected at most {MAX_MESSAGES_PER_S} messages a second")
+                return
+            data = frame.get("text") or frame.get("bytes") or ""
+            if len(data) > MAX_MESSAGE_BYTES:
+                await self._close(1009, f"expected at most {MAX_MESSAGE_BYTES} bytes in a message")
+                return
+            try:
+                message = messages.read(data)
+            except ValueError as error:
+                mistakes += 1
+                await self._refuse(messages.id_in(data), str(error))
+                if mistakes >= MAX_MISTAKES:
+                    await self._close(1008, f"{MAX_MISTAKES} malformed messages in a row")
+                    return
+                continue
+            mistakes = 0
+            if isinstance(message, messages.Show):
+                self._look_at(message)
+            elif len(self._tasks) >= MAX_PENDING_COMMANDS:
+                await self._refuse(message.id, "expected fewer commands at a time; wait a moment")
+            else:
+                self._spawn(self._carry_out(message))
+
+    def _look_at(self, show: messages.Show) -> None:
+        if show.agent not in self._context.runner.latest.static_scene.agent_of.values():
+            show.agent = self._view.agent
+        self._view.look_at(show)
+        self._changed.set()
+
+    async def _carry_out(self, command: messages.Command) -> None:
+        try:
+            answer: Answer = await HANDLERS[type(command)](self._page, command)
+        except asyncio.CancelledError:
+            task = asyncio.current_task()
+            if task is not None and task.cancelling():
+                raise
+            text = "the world has ended"
+            await self._send({"type": "failed", "id": command.id, "text": text, "problems": []})
+        except Exception as error:  # a student's block may raise anything in a reset
+            if not isinstance(error, AI4UError):
+                _error_log.write(error)
+            await self._send({"type": "failed", "id": command.id, **failure(error)})
+        else:
+            done = {"type": "done", "id": command.id, "text": answer.text}
+            await self._send(done | dict(answer.more))
+        self._changed.set()
+
+    async def _refuse(self, number: int | None, text: str) -> None:
+        text = text[:MAX_ERROR_CHARS]
+        if number is None:
+            await self._send({"type": "note", "level": "error", "text": text})
+        else:
+            await self._send({"type": "failed", "id": number, "text": text, "problems": []})
+
+    # -- messages to the page --------------------------------------------------------------------
+
+    async def _send_parts(self) -> None:
+        period = 1 / TEXTS_PER_S
+        while True:
+            self._changed.clear()
+            self._view.refresh()
+            self._settle()
+            with _error_log.caught():
+                for name, text in due_parts(self._context, self._view):
+                    if self._sent.get(name) != text:
+                        self._sent[name] = text
+                        await self._send_text(text)
+            await asyncio.sleep(MIN_SEND_S)
+            # all pages look at the same moments, so that they can share what was made for one
+            rest = period - self._loop.time() % period
+            with suppress(TimeoutError):
+                async with asyncio.timeout(rest):
+                    await self._changed.wait()
+
+    def _settle(self) -> None:
+        """Show another agent if another world has no agent of that id."""
+        agents = self._context.runner.latest.agents
+        if not any(agent.id == self._view.agent for agent in agents):
+            self._view.choose_agent(agents[0].id)
+
+    def _note(self, level: Level, text: str) -> None:
+        self._spawn_send({"type": "note", "level": level, "text": text[:MAX_ERROR_CHARS]})
+
+    def _spawn_send(self, message: Mapping[str, object]) -> None:
+        self._spawn(self._send(message))
+
+    def _spawn(self, work: Coroutine[None, None, None]) -> None:
+        task = asyncio.create_task(work)
+        self._tasks.add(task)
+        task.add_done_callback(self._tasks.discard)
+
+    async def _send(self, message: Mapping[str, object]) -> None:
+        await self._send_text(msgspec.json.encode(message))
+
+    async def _send_text(self, text: bytes) -> None:
+        if self._socket.application_state is WebSocketState.CONNECTED:
+            with suppress(WebSocketDisconnect):
+                await self._socket.send_text(text.decode())
+
+    async def _close(self, code: int, reason: str) -> None:
+        if self._socket.application_state is WebSocketState.CONNECTED:
+            await self._socket.close(code, reason)
+
+
+def _first_agent(runner: Runner, wanted: str | None) -> str:
+    """Return the id of the agent that a page asks for; else of the first that a person drives."""
+    try:
+        return choose_agent(runner.sim, wanted).id
+    except NameNotFoundError:
+        return choose_agent(runner.sim, None).id

@@ -1,0 +1,110 @@
+"""HTTP routes of the start page: the page, the library's scenes with pictures, and the lessons."""
+
+import asyncio
+from collections.abc import Callable
+from typing import Literal
+
+from pydantic import BaseModel, ConfigDict, Field
+from starlette.requests import Request
+from starlette.responses import HTMLResponse, PlainTextResponse, Response
+
+from ai4u_edu.editing.scene_pictures import library_picture, library_scenes
+from ai4u_edu.scenes import Scene
+from ai4u_edu.server.page import web_folder
+from ai4u_edu.server.standalone import STANDALONE_POLICY
+
+PICTURE_SUFFIX = ".png"
+PICTURE_HEADERS = {"Cache-Control": "private, max-age=3600"}
+
+
+class LibrarySceneView(BaseModel):
+    """A scene of the library."""
+
+    model_config = ConfigDict(extra="forbid")
+
+    name: str
+    title: str
+    goal: str
+    level: Literal["", "easy", "medium", "hard"]
+    minutes: int | None = Field(description="to reach the goal for the first time")
+    picture: str = Field(description="address of a PNG file, relative to the page")
+
+
+class ScenesView(BaseModel):
+    """The library's scenes, the easiest first."""
+
+    model_config = ConfigDict(extra="forbid")
+
+    scenes: list[LibrarySceneView]
+
+
+class LessonView(BaseModel):
+    """A lesson of the course."""
+
+    model_config = ConfigDict(extra="forbid")
+
+    number: str
+    title: str
+    duration: str = Field(description="in words, such as 45 minutes")
+
+
+class LessonsView(BaseModel):
+    """The lessons of the course, in order."""
+
+    model_config = ConfigDict(extra="forbid")
+
+    lessons: list[LessonView]
+
+
+class StartPage:
+    """Routes of the start page.
+
+    They are async; scenes are read and drawn in worker threads, one at a time.
+
+    Args:
+        lessons: returns the lessons of the course.
+    """
+
+    def __init__(self, lessons: Callable[[], list[LessonView]]) -> None:
+        self._lessons = lessons
+        self._text = (web_folder() / "start.html").read_text(encoding="utf-8")
+        self._drawing = asyncio.Lock()
+
+    async def page(self, _: Request) -> Response:
+        """Return the page."""
+        headers = {"Content-Security-Policy": STANDALONE_POLICY, "Cache-Control": "no-cache"}
+        return HTMLResponse(self._text, headers=headers)
+
+    async def scenes(self, _: Request) -> Response:
+        """Return the library's scenes."""
+        async with self._drawing:
+            found = await asyncio.to_thread(library_scenes)
+        return _json(
+            ScenesView(
+                scenes=[
+                    LibrarySceneView.model_validate(
+                        each._asdict() | {"picture": f"api/scenes/{each.name}{PICTURE_SUFFIX}"}
+                    )
+                    for each in found
+                ]
+            )
+        )
+
+    async def picture(self, request: Request) -> Response:
+        """Return a scene's picture."""
+        file = str(request.path_params["file"])
+        name = file.removesuffix(PICTURE_SUFFIX)
+        if not file.endswith(PICTURE_SUFFIX) or name not in Scene.names():
+            return PlainTextResponse(f"no scene is called {name[:80]!r}; see api/scenes\n", 404)
+        async with self._drawing:
+            data = await asyncio.to_thread(library_picture, name)
+        return Response(data, media_type="image/png", headers=PICTURE_HEADERS)
+
+    async def lessons(self, _: Request) -> Response:
+        """Return the lessons."""
+        return _json(LessonsView(lessons=await asyncio.to_thread(self._lessons)))
+
+
+def _json(view: BaseModel) -> Response:
+    headers = {"Cache-Control": "no-store"}
+    return Response(view.model_dump_json(), media_type="application/json", headers=headers)

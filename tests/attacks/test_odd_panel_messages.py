@@ -1,0 +1,107 @@
+"""Odd messages to the panel's socket: they end their own connection at most."""
+
+import json
+from collections.abc import Iterator
+from contextlib import suppress
+from typing import Any, get_args
+
+import msgspec
+import pytest
+from websockets.exceptions import ConnectionClosed
+
+from ai4u_edu.panel import messages, socket
+from tests.attacks.test_odd_input_messages import ODD
+from tests.panel.rooms import PanelPage, PanelRoom, panel_room
+
+OTHERS: tuple[str | bytes, ...] = (
+    *("", " ", "{", "[]", "null", "1", "{}", '{"type": 1}', '{"type": "do"}', '{"type": "shwo"}'),
+    *('{"type": "do", "id": -1, "command": "pause"}', '{"type": "do", "id": 1, "command": ["x"]}'),
+    *('{"type": "show", "agent": "0", "tabs": ["agent", "agent", "agent", "agent", "agent"]}',),
+    *("[" * 60_000, '{"a":' * 10_000, b"\xff\xfe", b'{"type": "\xff"}', "\0"),
+)
+
+
+@pytest.fixture(scope="module")
+def room() -> Iterator[PanelRoom]:
+    with panel_room() as room:
+        yield room
+
+
+@pytest.fixture
+def unlimited(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(socket, "MAX_MISTAKES", 10**6)
+    monkeypatch.setattr(socket, "MAX_MESSAGES_PER_S", 10**6)
+
+
+def spoilt() -> Iterator[str]:
+    """Every command with an odd value in each of its places."""
+    for name, kind in messages.NAMES.items():
+        fields = [each.encode_name for each in msgspec.structs.fields(kind)]
+        for place in fields:
+            for odd in ODD:
+                whole: dict[str, Any] = {each: f"%{each}%" for each in fields}
+                whole |= {"command": name, "type": "do", "id": 1}
+                text = json.dumps(whole | {place: "%odd%"})
+                yield text.replace('"%odd%"', odd)
+
+
+def test_odd_messages_are_refused_and_the_world_goes_on(room: PanelRoom, unlimited: None) -> None:
+    with PanelPage(room.url + "ws/panel", max_queue=None) as page:
+        for text in (*spoilt(), *OTHERS):
+            page.socket.send(text)
+        page._id = 10**6
+        page.done("pause")
+    assert not room.runner.error
+
+
+def test_every_answer_is_for_the_page_that_asked(room: PanelRoom) -> None:
+    with room.page() as page, room.page() as other:
+        page.send({"type": "do", "id": 77, "command": "speed", "speed": "fast"})
+        failed = page.receive(lambda m: m["type"] == "failed")
+        assert failed["id"] == 77
+        assert failed["text"].startswith("speed: ")
+        other.done("pause")
+        assert not [m for m in other.others if m.get("id") == 77]
+
+
+def test_mistakes_in_a_row_close_the_connection(room: PanelRoom) -> None:
+    with room.page() as page:
+        for _ in range(socket.MAX_MISTAKES):
+            page.socket.send("{")
+        assert page.end() == (1008, f"{socket.MAX_MISTAKES} malformed messages in a row")
+
+
+def test_a_flood_closes_the_connection(room: PanelRoom) -> None:
+    with room.page() as page:
+        with suppress(ConnectionClosed):
+            for _ in range(3 * socket.MAX_MESSAGES_PER_S):
+                page.show("0")
+        assert page.end()[0] == 1008
+    with room.page() as page:
+        page.done("pause")
+
+
+def test_a_large_message_closes_the_connection(room: PanelRoom) -> None:
+    with room.page() as page:
+        page.socket.send(" " * (socket.MAX_MESSAGE_BYTES + 1))
+        assert page.end()[0] == 1009
+
+
+def test_commands_that_wait_are_bounded(room: PanelRoom) -> None:
+    room.runner.resume().result(5)
+    with room.page() as page:
+        for number in range(60):
+            page.send({"type": "do", "id": number, "command": "decision"})
+        answers = [page.receive(lambda m: m["type"] in {"done", "failed"}) for _ in range(60)]
+    assert any("expected fewer commands" in each.get("text", "") for each in answers)
+
+
+def test_names_are_bounded(room: PanelRoom) -> None:
+    name: Any = "x" * (messages.MAX_NAME_CHARS + 1)
+    with room.page() as page:
+        assert "length <=" in page.failed("sensor", key=name, on=True)["text"]
+
+
+def test_each_command_has_a_handler() -> None:
+    assert set(socket.HANDLERS) == set(messages.NAMES.values())
+    assert all(get_args(kind) == () for kind in messages.NAMES.values())

@@ -1,0 +1,178 @@
+"""A served world with our panel, and pages that speak the panel's protocol."""
+
+import json
+import threading
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
+from dataclasses import dataclass
+from typing import Any, Self
+
+import msgspec
+import viser
+from websockets.exceptions import ConnectionClosed
+from websockets.sync.client import connect
+from websockets.sync.connection import Connection
+from websockets.typing import Subprotocol
+
+from ai4u_edu import Scene
+from ai4u_edu.editing import SceneEditor
+from ai4u_edu.panel import PanelSockets
+from ai4u_edu.recording import Recorder
+from ai4u_edu.runtime.runner import Runner
+from ai4u_edu.server import ServerThread, lock_viser_port, room_app
+from ai4u_edu.viewer import Viewer
+from ai4u_edu.viewer.viewer_client import ViewerClient
+from tests.server.rooms import until
+
+Message = dict[str, Any]
+
+
+@dataclass
+class PanelRoom:
+    """A served scene."""
+
+    runner: Runner
+    viewer: Viewer
+    editor: SceneEditor
+    url: str
+
+    def page(self, query: str = "") -> "PanelPage":
+        return PanelPage(self.url + "ws/panel" + query)
+
+
+@contextmanager
+def panel_room(scene: str = "box_chase", *, can_edit: bool = True) -> Iterator[PanelRoom]:
+    """Serve a scene of the library with viewer and editor, paused."""
+    loaded = Scene.load(scene)
+    sim = loaded.build()
+    runner = Runner(sim, seed=1, recorder=Recorder(sim, scene=loaded.description))
+    editor = SceneEditor(runner, loaded)
+    viewer = Viewer(runner, editor=editor)
+    lock_viser_port(viewer.server)
+    app = room_app(
+        runner,
+        viser_port=viewer.port,
+        title=lambda: editor.title,
+        panel=PanelSockets(runner, viewer, editor if can_edit else None),
+    )
+    runner.paused = True
+    runner.start()
+    viewer.start()
+    try:
+        with ServerThread(app) as server:
+            yield PanelRoom(runner, viewer, editor, server.url)
+    finally:
+        viewer.stop()
+        runner.stop()
+
+
+class PanelPage:
+    """Client of the panel's socket."""
+
+    def __init__(self, url: str, **options: Any) -> None:
+        options.setdefault("max_size", None)
+        self.socket = connect(url.replace("http", "ws", 1), proxy=None, **options)
+        self.parts: dict[str, Message] = {}
+        self.others: list[Message] = []
+        self._id = 0
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.socket.close()
+
+    def send(self, message: Message) -> None:
+        self.socket.send(json.dumps(message))
+
+    def show(self, agent: str = "0", *tabs: str, **more: Any) -> None:
+        self.send({"type": "show", "agent": agent, "tabs": list(tabs), **more})
+
+    def do(self, command: str, **arguments: Any) -> Message:
+        """Send a command, and return its answer."""
+        self._id += 1
+        self.send({"type": "do", "id": self._id, "command": command, **arguments})
+        return self.receive(lambda m: m["type"] in {"done", "failed"} and m["id"] == self._id)
+
+    def done(self, command: str, **arguments: Any) -> Message:
+        """Send a command that has to succeed, and return its answer."""
+        answer = self.do(command, **arguments)
+        assert answer["type"] == "done", answer
+        return answer
+
+    def failed(self, command: str, **arguments: Any) -> Message:
+        """Send a command that has to fail, and return its answer."""
+        answer = self.do(command, **arguments)
+        assert answer["type"] == "failed", answer
+        return answer
+
+    def part(
+        self, name: str, condition: Callable[[Message], Any] = lambda _: True, **wanted: Any
+    ) -> Message:
+        """Return a part, as soon as its fields have these values and a condition holds."""
+
+        def fits(message: Message) -> Any:
+            return wanted.items() <= message.items() and condition(message)
+
+        found = self.parts.get(name)
+        if found is not None and fits(found):
+            return found
+        return self.receive(lambda m: m["type"] == "part" and m["name"] == name and fits(m))
+
+    def receive(self, condition: Callable[[Message], Any]) -> Message:
+        """Return the next message for which a condition holds; keep all parts."""
+        deadline = time.monotonic() + 10
+        while True:
+            message: Message = json.loads(self.socket.recv(deadline - time.monotonic()))
+            if message["type"] == "part":
+                self.parts[message["name"]] = message
+            else:
+                self.others.append(message)
+            if condition(message):
+                return message
+
+    def end(self) -> tuple[int, str]:
+        """Wait for the close, and return its code and reason."""
+        deadline = time.monotonic() + 10
+        while True:
+            try:
+                self.socket.recv(deadline - time.monotonic())
+            except ConnectionClosed as closed:
+                return (closed.rcvd.code, closed.rcvd.reason) if closed.rcvd else (1006, "")
+
+
+@contextmanager
+def picture(room: PanelRoom, page_id: str) -> Iterator[ViewerClient]:
+    """Open viser's socket of a page through the proxy, as its picture does."""
+    address = room.url.replace("http", "ws", 1) + f"?page={page_id}"
+    protocol = Subprotocol(f"viser-v{viser.__version__}")
+    with connect(address, subprotocols=[protocol], max_size=None, proxy=None) as connection:
+        connection.send(msgspec.msgpack.encode(CAMERA))
+        until(lambda: room.viewer.viewer_clients.find(page_id))
+        client = room.viewer.viewer_clients.find(page_id)
+        assert client is not None
+        reader = threading.Thread(target=_read, args=(connection,), daemon=True)
+        reader.start()
+        yield client
+
+
+def _read(connection: Connection) -> None:
+    with suppress(ConnectionClosed):
+        for _ in connection:
+            pass
+
+
+CAMERA = {
+    "type": "ViewerCameraMessage",
+    "wxyz": (0.0, 1.0, 0.0, 0.0),
+    "position": (3.0, 3.0, 3.0),
+    "fov": 1.0,
+    "near": 0.1,
+    "far": 1000.0,
+    "image_height": 800,
+    "image_width": 960,
+    "look_at": (3.0, 3.0, 0.0),
+    "up_direction": (0.0, 1.0, 0.0),
+}
+"""Message with which a page reports its camera."""

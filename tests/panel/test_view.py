@@ -1,0 +1,133 @@
+"""The view of one page: an agent's readings, and its own picture."""
+
+import base64
+from collections.abc import Iterator
+from uuid import uuid4
+
+import pytest
+
+from ai4u_edu.viewer.scene.view import Mode
+from tests.panel.rooms import PanelRoom, panel_room, picture
+from tests.server.rooms import until
+
+
+@pytest.fixture(scope="module")
+def room() -> Iterator[PanelRoom]:
+    with panel_room() as room:
+        yield room
+
+
+@pytest.fixture(scope="module")
+def several() -> Iterator[PanelRoom]:
+    with panel_room("tag") as room:
+        yield room
+
+
+def test_parts_come_for_open_tabs_only(room: PanelRoom) -> None:
+    with room.page() as page:
+        page.part("run")
+        page.done("tick")
+        page.part("run")
+        assert "agent" not in page.parts
+        page.show("0", "agent")
+        assert page.part("agent")["title"] == "Agent 0: robot"
+
+
+def test_readings_action_and_rewards() -> None:
+    with panel_room("maze") as room, room.page() as page:
+        page.show("0", "agent")
+        page.done("decision")
+        agent = page.part("agent")
+        sensors = {sensor["class"]: sensor for sensor in agent["sensors"]}
+        rays = sensors["LinearRayCastingSensor"]
+        assert rays["is_drawable"]
+        assert rays["is_shown"]
+        assert rays["title"] == "Ray sensor"
+        strips = rays["strips"]
+        assert [strip["caption"].partition(" ")[0] for strip in strips] == ["what", "distance"]
+        assert all(0 <= share <= 1 for strip in strips for share in strip["shares"])
+        assert [each["actuator"] for each in agent["action"]] == ["move"] * len(agent["action"])
+        assert agent["phases"]["now"] in {"sense", "reward"}
+        assert "connect(" in page.part("python")["lines"]
+
+
+def test_a_sensor_is_hidden() -> None:
+    with panel_room("maze") as room, room.page() as page:
+        page.show("0", "agent")
+        key = next(each["key"] for each in page.part("agent")["sensors"] if each["is_shown"])
+        page.done("sensor", key=key, on=False)
+        page.receive(
+            lambda m: (
+                m.get("name") == "agent"
+                and not any(each["is_shown"] for each in m["sensors"] if each["key"] == key)
+            )
+        )
+
+
+def test_a_picture_is_sent_as_png() -> None:
+    with panel_room("grid_world") as room, room.page() as page:
+        page.show("0", "agent")
+        pictures = [p for each in page.part("agent")["sensors"] for p in each.get("pictures", ())]
+        data = base64.b64decode(pictures[0]["cells"].partition(",")[2])
+        assert data.startswith(b"\x89PNG")
+
+
+@pytest.fixture
+def page_id() -> str:
+    return uuid4().hex
+
+
+def test_choices_reach_the_picture_of_the_same_page(room: PanelRoom, page_id: str) -> None:
+    with room.page(f"?page={page_id}") as page:
+        page.done("camera", mode="follow")  # before viser's connection
+        with picture(room, page_id) as client:
+            until(lambda: client.view.mode is Mode.FOLLOW)
+            page.done("camera", mode="turn")
+            assert client.view.mode is Mode.TURN
+            page.done("dark", on=True)
+            assert client.is_dark
+        until(lambda: room.viewer.viewer_clients.find(page_id) is None)
+        with picture(room, page_id) as again:  # as after a lost connection
+            until(lambda: again.view.mode is Mode.TURN and again.is_dark)
+
+
+def test_other_pages_keep_their_view(room: PanelRoom, page_id: str) -> None:
+    with (
+        room.page(f"?page={page_id}") as page,
+        picture(room, page_id) as mine,
+        picture(room, uuid4().hex) as other,
+    ):
+        page.done("camera", mode="eyes")
+        until(lambda: mine.view.mode is Mode.EYES)
+        assert other.view.mode is Mode.ARENA
+
+
+def test_a_click_in_the_picture_chooses_an_agent(several: PanelRoom, page_id: str) -> None:
+    with several.page(f"?page={page_id}") as page, picture(several, page_id) as client:
+        page.show("0", "agent")
+        until(lambda: client.panel is not None)
+        body, agent = next(
+            (body, agent)
+            for body, agent in several.runner.latest.static_scene.agent_of.items()
+            if agent != "0"
+        )
+        client.panel.on_selected(body)  # type: ignore[union-attr]
+        selected = page.receive(lambda m: m["type"] == "selected")
+        assert selected == {"type": "selected", "body": body, "agent": agent}
+        page.part("agent", id=agent)
+        assert client.agent == agent
+
+
+def test_a_page_asks_for_an_agent(several: PanelRoom) -> None:
+    ids = [agent.id for agent in several.runner.sim.agents]
+    with several.page(f"?agent={ids[-1]}") as page:
+        page.part("run")
+        page.show("nobody", "agent")  # it keeps its own
+        page.part("agent", id=ids[-1])
+    with several.page("?agent=nobody") as page:
+        page.part("run")
+
+
+def test_odd_page_ids_are_refused(room: PanelRoom) -> None:
+    with room.page("?page=../../x") as page:
+        assert page.end()[0] == 1008

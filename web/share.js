@@ -1,0 +1,78 @@
+/**
+ * Sharing by link: a link to this page holds the whole scene after its "#", which no browser sends to a server.
+ */
+
+import { element } from "./dom.js";
+import { ask, tell } from "./question.js";
+import { request, unsavedSentence } from "./scene_api.js";
+
+const PREFIX = "#scene=";
+let isAsking = false;
+
+/**
+ * Copy a link to the present scene and its seed; where the browser does not allow it, show the link.
+ *
+ * @returns {Promise<string>} a sentence about what happened, to be shown to a person
+ */
+export async function copyLink() {
+  let made;
+  try {
+    made = await request("api/scene/link");
+  } catch (error) {
+    return error.message;
+  }
+  const link = new URL(`./#${made.fragment}`, location.href.replace(/[?#].*/, "")).href;
+  const needs = made.needs.length ? ` It needs this too, which a link can't carry: ${made.needs.join(", ")}.` : "";
+  try {
+    await navigator.clipboard.writeText(link);
+  } catch {
+    await showLink(made.title, link); // no secure page, or in a frame that may not copy
+    return `Here is the link.${needs}`;
+  }
+  return `Link copied.${needs}`;
+}
+
+async function showLink(title, link) {
+  const box = element("textarea", { readOnly: true, value: link, ariaLabel: "Link", spellcheck: false });
+  box.addEventListener("focus", () => box.select());
+  const answered = ask({
+    title: `Link to “${title}”`,
+    text: "Select the link and copy it (Ctrl+C, or ⌘C).",
+    yes: "Close",
+    no: "",
+    content: [box],
+  });
+  box.focus();
+  await answered;
+}
+
+/**
+ * Ask whether to open the scene in this page's address, now and whenever another link is put there.
+ *
+ * @param {() => void} [onopen] called after the scene was opened
+ */
+export function watchSharedScene(onopen = () => {}) {
+  const look = () => location.hash.startsWith(PREFIX) && offerSharedScene(onopen);
+  addEventListener("hashchange", look);
+  look();
+}
+
+async function offerSharedScene(onopen) {
+  if (isAsking) return;
+  isAsking = true;
+  const link = location.hash;
+  // so that reloading the page, or a bookmark of it, does not ask again
+  history.replaceState(history.state, "", location.pathname + location.search);
+  try {
+    const { title } = await request("api/scene/link", { link });
+    const text = await unsavedSentence();
+    if (await ask({ title: `Open the shared scene “${title}”?`, text, yes: "Open" })) {
+      await request("api/scene", { link });
+      onopen();
+    }
+  } catch (error) {
+    await tell("The shared scene can't be opened", error.message);
+  } finally {
+    isAsking = false;
+  }
+}

@@ -1,0 +1,96 @@
+/** The start page: play a scene of the library, build one, or learn. */
+
+import { element } from "./dom.js";
+import { ask, tell } from "./question.js";
+import { request, unsavedSentence } from "./scene_api.js";
+import { watchSharedScene } from "./share.js";
+
+/** Name of the empty plate with a robot. */
+const EMPTY_SCENE = "my_scene";
+const find = (selector) => document.querySelector(selector);
+const goToWorld = () => location.assign("./");
+/** Sections by the card that shows them; one of them is open at a time. */
+const sections = new Map([
+  [find("#play"), find("#scenes")],
+  [find("#learn"), find("#lessons")],
+]);
+let isOpening = false;
+
+for (const [card, section] of sections) {
+  card.addEventListener("click", () => {
+    for (const [each, its] of sections) {
+      its.hidden = its !== section;
+      each.setAttribute("aria-expanded", String(its === section));
+    }
+    section.scrollIntoView({ block: "nearest" });
+  });
+}
+find("#build").addEventListener("click", () => open(EMPTY_SCENE, "My scene"));
+watchSharedScene(goToWorld);
+showPresent();
+showScenes();
+showLessons();
+
+/** Open a scene in the world, after a question if the present one has unsaved changes. */
+async function open(name, title) {
+  if (isOpening) return;
+  isOpening = true;
+  try {
+    const text = await unsavedSentence();
+    if (text && !(await ask({ title: `Open “${title}”?`, text, yes: "Open" }))) return;
+    find("main").setAttribute("aria-busy", "true");
+    await request("api/scene", { name });
+    goToWorld();
+  } catch (error) {
+    await tell("The scene can't be opened", error.message);
+  } finally {
+    find("main").removeAttribute("aria-busy");
+    isOpening = false;
+  }
+}
+
+async function showPresent() {
+  const { title } = await request("api/scene");
+  find("#present").textContent = `Back to “${title}”`;
+}
+
+async function showScenes() {
+  const list = find("#scenes ul");
+  try {
+    const { scenes } = await request("api/scenes");
+    list.replaceChildren(...scenes.map(sceneCard));
+  } catch (error) {
+    find("#scenes [role=status]").textContent = error.message;
+  }
+  list.removeAttribute("aria-busy");
+}
+
+function sceneCard({ name, title, goal, level, minutes, picture }) {
+  const facts = [level, minutes && `${minutes} min`].filter(Boolean).join(" · ");
+  const button = element(
+    "button",
+    { type: "button" },
+    element("img", { src: picture, alt: "", loading: "lazy", width: 400, height: 300 }),
+    element("span", { className: "ai4u-name", id: `scene-${name}`, textContent: title }),
+    element("span", { className: "ai4u-facts", id: `facts-${name}`, textContent: facts, hidden: !facts }),
+    element("span", { id: `goal-${name}`, textContent: goal }),
+  );
+  button.setAttribute("aria-labelledby", `scene-${name}`);
+  button.setAttribute("aria-describedby", `facts-${name} goal-${name}`);
+  button.addEventListener("click", () => open(name, title));
+  return element("li", {}, button);
+}
+
+async function showLessons() {
+  const { lessons } = await request("api/lessons");
+  const items = lessons.map(({ number, title, duration }) =>
+    element(
+      "li",
+      {},
+      element("span", { className: "ai4u-number", textContent: number }),
+      element("span", { textContent: title }),
+      element("span", { className: "ai4u-facts", textContent: duration }),
+    ),
+  );
+  find("#lessons ol").replaceChildren(...items);
+}
