@@ -3,8 +3,8 @@
 import { isTextInput } from "./keys.js";
 
 const CONTROLS = "input, textarea, select, button";
-/** Parts of the page that keep the focus until they are closed. */
-const POPUPS = "dialog, [role=dialog], [role=menu]";
+/** Parts of the page that keep the focus until they are closed, and our panel, which returns it itself. */
+const FOCUS_KEEPERS = "dialog, [role=dialog], [role=menu], .ai4u-panel";
 
 /** Return true if the keyboard reaches the page, and no text field takes its keys. */
 export function keysReachPage() {
@@ -12,10 +12,10 @@ export function keysReachPage() {
 }
 
 /**
- * Return the focus to the document after a control was used.
+ * Return the focus to the document after one of viser's controls was used.
  * @param {() => void} changed called when the focus has moved
  */
-export function returnFocus(changed) {
+export function leaveControls(changed) {
   const later = () => setTimeout(changed); // while the event is handled, the focus has not moved yet
   for (const type of ["focusin", "focusout", "focus", "blur"]) addEventListener(type, later);
   addEventListener("keydown", (event) => leaveOnKey(event), { capture: true });
@@ -39,13 +39,12 @@ function leaveOnKey({ key, target, isComposing }) {
  */
 function leaveOnClick({ target, detail }) {
   const focused = document.activeElement ?? document.body;
-  if (focused.closest(POPUPS)) return;
   const isInside = focused.contains(target);
   if (isTextInput(focused) ? !isInside && !target.closest?.("label") : isInside && detail) leave(focused);
 }
 
 /** Blur an element after the event was handled: viser reads the field's value on its own blur or Enter. */
 function leave(target) {
-  if (!target?.matches?.(CONTROLS)) return;
+  if (!target?.matches?.(CONTROLS) || target.closest(FOCUS_KEEPERS)) return;
   setTimeout(() => document.activeElement === target && target.blur());
 }

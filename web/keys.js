@@ -35,7 +35,10 @@ export class HeldKeys {
   #timer = 0;
   /** When `changed` was called last (ms, performance.now). */
   #notifiedAt = 0;
-  #reachedByTab = null;
+  /** The control that the person moved to with the keyboard. */
+  #reachedByKey = null;
+  /** True if the focus moves because of a key, not of a pointer. */
+  #movesFocus = false;
 
   /** @param {() => void} changed called at each change, and repeatedly while anything is held */
   constructor(changed) {
@@ -44,7 +47,15 @@ export class HeldKeys {
     addEventListener("keydown", (event) => this.#down(event), first);
     addEventListener("keyup", (event) => this.#up(event), first);
     addEventListener("focusin", (event) => isTextInput(event.target) && this.releaseAll(), first);
-    addEventListener("pointerdown", () => (this.#reachedByTab = null), first);
+    addEventListener("focusin", ({ target }) => this.#movesFocus && (this.#reachedByKey = target), first);
+    addEventListener(
+      "pointerdown",
+      () => {
+        this.#reachedByKey = null;
+        this.#movesFocus = false;
+      },
+      first,
+    );
     for (const type of ["blur", "pagehide"]) addEventListener(type, () => this.releaseAll());
     document.addEventListener("visibilitychange", () => document.hidden && this.releaseAll());
   }
@@ -110,11 +121,11 @@ export class HeldKeys {
 
   #down(event) {
     const { code } = event;
-    if (code === "Tab") requestAnimationFrame(() => (this.#reachedByTab = document.activeElement));
-    if (this.#isForOthers(event)) return;
-    if (!this.#isOurs(code)) {
+    const isForOthers = this.#isForOthers(event);
+    if (isForOthers || !this.#isOurs(code)) {
+      this.#movesFocus = true; // not only Tab does: arrow keys do in a list of tabs
       const isShortcut = event.repeat || event.ctrlKey || event.metaKey || event.altKey;
-      if (!isShortcut && this.onotherpress(event)) event.preventDefault();
+      if (!isForOthers && !isShortcut && this.onotherpress(event)) event.preventDefault();
       return;
     }
     event.stopPropagation();
@@ -146,8 +157,8 @@ export class HeldKeys {
   /** Return true if the browser or the focused control has to handle a keyboard event. */
   #isForOthers({ code, target, isComposing }) {
     if (this.isSuspended() || isComposing || isTextInput(target)) return true;
-    // a control reached by Tab needs its own keys
-    const usesControl = this.#reachedByTab === target && target !== document.body;
+    // a control reached by a key needs its own keys
+    const usesControl = this.#reachedByKey === target && target !== document.body;
     return usesControl && (code === "Space" || code === "Enter" || code.startsWith("Arrow"));
   }
 }

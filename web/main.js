@@ -4,7 +4,7 @@ import { Banners } from "./banners.js";
 import { element } from "./dom.js";
 import { dpadActions } from "./dpad.js";
 import { DriverStatus } from "./driver_status.js";
-import { keysReachPage, returnFocus } from "./focus.js";
+import { keysReachPage, leaveControls } from "./focus.js";
 import { Gamepads } from "./gamepad.js";
 import { Help } from "./help.js";
 import { KeyMap, RESERVED_CODE } from "./keymap.js";
@@ -14,7 +14,7 @@ import { label, loadLayout } from "./labels.js";
 import { collapseMobilePanel } from "./mobile_panel.js";
 import { trackCanvasEdges } from "./canvas_edges.js";
 import { watchSharedScene } from "./share.js";
-import { InputSocket } from "./socket.js";
+import { JsonSocket } from "./socket.js";
 
 /** Code of the key for a new start, unless the agent or the person uses it for something else. */
 const NEW_START_CODE = "KeyN";
@@ -34,7 +34,7 @@ const setAgentCookie = () => (document.cookie = `ai4u_edu_agent=${encodeURICompo
 setAgentCookie();
 addEventListener("focus", setAgentCookie);
 
-const socket = new InputSocket("ws/input" + (agent === null ? "" : `?agent=${encodeURIComponent(agent)}`));
+const socket = new JsonSocket("ws/input" + (agent === null ? "" : `?agent=${encodeURIComponent(agent)}`));
 const keymap = new KeyMap();
 const keys = new HeldKeys(() => {
   socket.send({ type: "keys", held: keys.held, stick: keys.stick });
@@ -45,14 +45,14 @@ const dock = element("section", { className: "ai4u-dock", ariaLabel: "Drive" });
 document.body.append(dock);
 const keycaps = new Keycaps(dock, keys, keymap);
 dock.append(row);
-const driverStatus = new DriverStatus(
-  row,
-  () => socket.send({ type: "take" }),
-  () => {
-    keys.releaseAll();
-    socket.send({ type: "let_go" });
-  },
-);
+const take = () => socket.send({ type: "take" });
+const letGo = () => {
+  keys.releaseAll();
+  socket.send({ type: "let_go" });
+};
+const driverStatus = new DriverStatus(row, take, letGo);
+/** Our panel; null while viser's is shown. */
+let panel = null;
 const gamepads = new Gamepads(keys);
 const help = new Help(row, keys, keymap, arrange);
 const banners = new Banners((name) => socket.send({ type: "command", name }));
@@ -67,7 +67,7 @@ keys.onotherpress = ({ code, key }) => {
   hasActed = true;
   return true;
 };
-returnFocus(draw);
+leaveControls(draw);
 
 socket.onopen = () => {
   connected = true;
@@ -121,7 +121,9 @@ function draw() {
   keycaps.draw(isMine || held.length ? held : (state?.held ?? []));
   const isWaiting = Boolean(state?.waiting);
   const isReached = dock.hasAttribute("data-touch") || keysReachPage();
-  driverStatus.draw({ connected, hello, control, howToDrive: howToDrive(), isWaiting, isReached });
+  const status = { connected, hello, control, howToDrive: howToDrive(), isWaiting, isReached };
+  driverStatus.draw(status);
+  panel?.drawDriver(status);
   help.setGoal(state?.goal || "This scene has none: look around.");
   const isDriven = Object.keys(hello.keys).length > 0 && !hello.others;
   banners.draw(connected ? state : null, {
@@ -152,5 +154,11 @@ draw();
 loadLayout().then(arrange);
 socket.open();
 trackCanvasEdges();
-collapseMobilePanel();
+if ("ai4uPanel" in document.documentElement.dataset) {
+  const { startPanel } = await import("./panel.js");
+  panel = startPanel({ agent, take, letGo }, dock);
+  draw();
+} else {
+  collapseMobilePanel();
+}
 watchSharedScene();

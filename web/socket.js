@@ -1,4 +1,4 @@
-/** The input WebSocket: sends held keys, receives who drives and the world's state, reconnects with backoff. */
+/** A WebSocket for JSON messages that reconnects with backoff: of the keys and of the panel. */
 
 const MIN_RECONNECT_MS = 250;
 const MAX_RECONNECT_MS = 4000;
@@ -7,7 +7,7 @@ const CLOSE_REFUSED = 1008;
 /** Close code when another world has replaced this one. */
 const CLOSE_WORLD_REPLACED = 1012;
 
-export class InputSocket {
+export class JsonSocket {
   onopen = () => {};
   onclose = (_reason) => {};
   onmessage = (_message) => {};
@@ -47,9 +47,13 @@ export class InputSocket {
     };
   }
 
+  get isOpen() {
+    return this.#socket?.readyState === WebSocket.OPEN;
+  }
+
   /** Send a message if connected, else drop it. */
   send(message) {
-    if (this.#socket?.readyState === WebSocket.OPEN) this.#socket.send(JSON.stringify(message));
+    if (this.isOpen) this.#socket.send(JSON.stringify(message));
   }
 
   #reconnect() {

@@ -23,6 +23,13 @@ _OURS = """<title>{title}</title>
     <link rel="stylesheet" href="./web/dock.css" />
     <link rel="stylesheet" href="./web/banners.css" />
     <link rel="stylesheet" href="./web/help.css" />
+    <link rel="stylesheet" href="./web/panel.css" />
+    <link rel="stylesheet" href="./web/panel_layout.css" />
+    <link rel="stylesheet" href="./web/panel_controls.css" />
+    <link rel="stylesheet" href="./web/panel_run.css" />
+    <link rel="stylesheet" href="./web/panel_cards.css" />
+    <link rel="stylesheet" href="./web/panel_windows.css" />
+    <link rel="stylesheet" href="./web/panel_drive.css" />
     <link rel="stylesheet" href="./web/question.css" />
     <script type="module" src="./web/main.js"></script>
     <script type="module" src="./web/accessible_names.js"></script>"""

@@ -2,14 +2,26 @@
 
 import math
 from collections.abc import Iterable, Sequence
+from functools import lru_cache
 
 import numpy as np
 import numpy.typing as npt
-from PIL import Image, ImageDraw
+from PIL import Image, ImageChops, ImageDraw, ImageFont
 
 from ai4u_edu.blocks import RayPicture, SpotPicture
 from ai4u_edu.snapshot import BodyState, Snapshot, StaticScene, theme
-from ai4u_edu.world import BodyDescription, CircleShape, RegionDescription, RingShape
+from ai4u_edu.snapshot.marks import (
+    DARK,
+    EYES,
+    LIGHT,
+    NOSE,
+    PUPILS,
+    RING,
+    RING_CENTRE,
+    Disc,
+    half_width,
+)
+from ai4u_edu.world import BodyDescription, RegionDescription, RingShape
 
 Points = npt.NDArray[np.float64]
 
@@ -17,8 +29,20 @@ SUPERSAMPLING = 2
 """Factor by which everything is drawn larger and then reduced, for antialiasing."""
 MARGIN_M = 0.75
 """Width of the void around the arena."""
+MIN_LABELLED_PX = 320
+"""Smallest longer side of a picture with labels."""
+LABEL_PX = 12
+"""Size of a label's text."""
+LABEL_ALPHA = 150
+"""Opacity of a label's plate, of 255."""
+MAX_LABEL_CHARS = 40
+MIN_GRID_PX = 8
+"""Least distance between two lines of the grid."""
 SHADOW_OFFSET_M = (0.12, -0.12)
 """Offset of a body's shadow for each metre of height."""
+
+_last_ground: tuple[object, Image.Image] | None = None
+"""Picture of the ground that was drawn last, and what it shows: frames of a film share it."""
 
 
 def draw_snapshot(snapshot: Snapshot, *, longest: int = 480) -> npt.NDArray[np.uint8]:
@@ -51,12 +75,15 @@ class _Canvas:
         self.pen = ImageDraw.Draw(self.image)
 
     def draw(self, snapshot: Snapshot) -> npt.NDArray[np.uint8]:
-        for floor in sorted(self.static_scene.floors, key=lambda floor: floor.top):
-            self._region(floor, theme.floor_colour(floor), theme.FLOOR_EDGE)
-        if not self.static_scene.floors:
-            self.pen.rectangle((0, 0, *self.image.size), fill=theme.FLOOR)
-        for area in self.static_scene.areas:
-            self._region(area, theme.area_fill(area), theme.area_colour(area))
+        global _last_ground
+        static_scene = self.static_scene
+        key = static_scene.floors, static_scene.areas, static_scene.bounds, self.size
+        ground = _last_ground
+        if ground is None or ground[0] != key:
+            self._ground()
+            ground = _last_ground = key, self.image.copy()
+        else:
+            self.image.paste(ground[1])
         for agent in snapshot.agents:
             self._rays(agent.rays.values())
         described = {body.name: body for body in self.static_scene.bodies}
@@ -65,16 +92,54 @@ class _Canvas:
                 self._body(described[state.name], state)
         for agent in snapshot.agents:
             self._spots(agent.spots.values())
+        if max(self.size) >= MIN_LABELLED_PX:
+            self._labels(snapshot)
         smooth = self.image.reduce(SUPERSAMPLING)
         return np.asarray(smooth, np.uint8)
 
-    def _region(self, region: RegionDescription, fill: theme.Rgb, edge: theme.Rgb) -> None:
+    def _ground(self) -> None:
+        floors = sorted(self.static_scene.floors, key=lambda floor: floor.top)
+        if not floors:
+            self.pen.rectangle((0, 0, *self.image.size), fill=theme.FLOOR)
+            self._grid(Image.new("L", self.image.size, 255), theme.GRID)
+        for floor in floors:
+            colour = theme.floor_colour(floor)
+            self._region(floor, colour, theme.FLOOR_EDGE)
+            inside = Image.new("L", self.image.size)
+            self._region(floor, 255, None, ImageDraw.Draw(inside))
+            self._grid(inside, theme.mix_colours(colour, theme.VOID, 0.12))
+        for area in self.static_scene.areas:
+            self._region(area, theme.area_fill(area), theme.area_colour(area))
+
+    def _grid(self, inside: Image.Image, colour: theme.Rgb) -> None:
+        """Draw lines 1 m apart, more in large arenas, where the mask ``inside`` is 255."""
+        lines = Image.new("L", inside.size)
+        pen, (wide, tall) = ImageDraw.Draw(lines), inside.size
+        step = 1.0
+        while step * self.scale < MIN_GRID_PX * SUPERSAMPLING:
+            step *= 2.0
+        left, top = self.origin
+        for number in range(math.floor(left / step), math.ceil((left + wide / self.scale) / step)):
+            x = (number * step - left) * self.scale
+            pen.line([(x, 0), (x, tall)], fill=255, width=SUPERSAMPLING)
+        for number in range(math.floor((top - tall / self.scale) / step), math.ceil(top / step)):
+            y = (top - number * step) * self.scale
+            pen.line([(0, y), (wide, y)], fill=255, width=SUPERSAMPLING)
+        self.image.paste(colour, mask=ImageChops.multiply(lines, inside))
+
+    def _region(
+        self,
+        region: RegionDescription,
+        fill: theme.Rgb | int,
+        edge: theme.Rgb | None,
+        pen: ImageDraw.ImageDraw | None = None,
+    ) -> None:
         heading = math.radians(region.heading_deg)
         outline = _placed(region.shape.outline(), *region.position, heading)
-        self._polygon(outline, fill, edge)
+        self._polygon(outline, fill, edge, pen)
         if isinstance(region.shape, RingShape):
             hole = _placed(region.shape.hole(), *region.position, heading)
-            self._polygon(hole, theme.VOID, edge)
+            self._polygon(hole, 0 if isinstance(fill, int) else theme.VOID, edge, pen)
 
     def _body(self, body: BodyDescription, state: BodyState) -> None:
         colour = theme.body_colour(body, body.name in self.static_scene.agent_of)
@@ -86,14 +151,48 @@ class _Canvas:
             shade = theme.mix_colours(theme.FLOOR, theme.VOID, 0.35)
             self._polygon(outline + np.multiply(SHADOW_OFFSET_M, lift), shade, None)
         self._polygon(outline, colour, theme.mix_colours(colour, (0, 0, 0), 0.45))
+        radius = half_width(body.shape.outline())
         if body.name in self.static_scene.agent_of:
-            self._front(body, state)
+            nose = radius * np.array(NOSE)
+            self._polygon(_placed(nose, state.x, state.y, state.heading), LIGHT, None)
+            self._discs(EYES, radius, state, LIGHT)
+            self._discs(PUPILS, radius, state, DARK)
+        elif "target" in body.tags:
+            outer, inner = RING
+            self._discs(((0.0, 0.0, outer),), radius, state, LIGHT)
+            self._discs(((0.0, 0.0, inner),), radius, state, colour)
+            self._discs(((0.0, 0.0, RING_CENTRE),), radius, state, LIGHT)
 
-    def _front(self, body: BodyDescription, state: BodyState) -> None:
-        """Draw a wedge that shows an agent's heading."""
-        reach = body.shape.radius if isinstance(body.shape, CircleShape) else body.shape.reach * 0.7
-        wedge = [(reach * 0.95, 0.0), (reach * 0.15, reach * 0.5), (reach * 0.15, -reach * 0.5)]
-        self._polygon(_placed(wedge, state.x, state.y, state.heading), (255, 255, 255), None)
+    def _discs(
+        self, discs: Iterable[Disc], radius: float, state: BodyState, colour: theme.Rgb
+    ) -> None:
+        for x, y, size in discs:
+            centre = _placed([(x * radius, y * radius)], state.x, state.y, state.heading)
+            ((u, v),) = self._pixels(centre)
+            r = size * radius * self.scale
+            self.pen.ellipse((u - r, v - r, u + r, v + r), fill=colour)
+
+    def _labels(self, snapshot: Snapshot) -> None:
+        for floor in self.static_scene.floors:
+            self._label(floor.label, *floor.position)
+        for area in self.static_scene.areas:
+            self._label("" if area.paint else area.label or area.name, *area.position)
+        states = {state.name: state for state in snapshot.bodies}
+        for body in self.static_scene.bodies:
+            text, state = theme.label_text(self.static_scene, body), states.get(body.name)
+            if text and state is not None and not state.fallen:
+                outline = _placed(body.shape.outline(), state.x, state.y, state.heading)
+                x, y = outline.mean(axis=0)
+                reach = np.linalg.norm(outline - (x, y), axis=1).max()
+                self._label(text, x, y - 1.08 * reach, is_below=True)
+
+    def _label(self, text: str, x: float, y: float, *, is_below: bool = False) -> None:
+        if not text.strip():
+            return
+        plate = _plate(text.strip()[:MAX_LABEL_CHARS])
+        ((u, v),) = self._pixels(np.array([(x, y)]))
+        place = round(u - plate.width / 2), round(v - (0 if is_below else plate.height / 2))
+        self.image.paste(plate, place, plate)
 
     def _rays(self, pictures: Iterable[RayPicture]) -> None:
         groups = theme.group_colours(self.static_scene)
@@ -102,7 +201,7 @@ class _Canvas:
             ends = self._pixels(rays.ends[:, :2])
             for end, group in zip(ends, rays.groups, strict=True):
                 colour = groups.get(group, theme.UNKNOWN_GROUP) if group else theme.RAY_MISS
-                self.pen.line([start, end], fill=colour, width=1)
+                self.pen.line([start, end], fill=colour, width=SUPERSAMPLING)
 
     def _spots(self, pictures: Iterable[SpotPicture]) -> None:
         radius = theme.SPOT_RADIUS_M * self.scale
@@ -111,8 +210,15 @@ class _Canvas:
                 disc = (x - radius, y - radius, x + radius, y + radius)
                 self.pen.ellipse(disc, fill=theme.SPOT_LIT if lit else theme.SPOT_UNLIT)
 
-    def _polygon(self, points: Points, fill: theme.Rgb, edge: theme.Rgb | None) -> None:
-        self.pen.polygon(self._pixels(points), fill=fill, outline=edge, width=SUPERSAMPLING)
+    def _polygon(
+        self,
+        points: Points,
+        fill: theme.Rgb | int,
+        edge: theme.Rgb | None,
+        pen: ImageDraw.ImageDraw | None = None,
+    ) -> None:
+        pen = pen or self.pen
+        pen.polygon(self._pixels(points), fill=fill, outline=edge, width=SUPERSAMPLING)
 
     def _pixels(self, points: Points) -> list[tuple[float, float]]:
         left, top = self.origin
@@ -121,7 +227,23 @@ class _Canvas:
         return list(zip(x.tolist(), y.tolist(), strict=True))
 
 
-def _placed(points: Sequence[tuple[float, float]], x: float, y: float, heading: float) -> Points:
+@lru_cache(maxsize=256)
+def _plate(text: str) -> Image.Image:
+    """Return a label: dark text on a rounded, half transparent plate (RGBA)."""
+    font = ImageFont.load_default(LABEL_PX * SUPERSAMPLING)
+    left, top, right, bottom = font.getbbox(text, anchor="ls")
+    ascent, pad = -min(top, font.getbbox("b", anchor="ls")[1]), 3 * SUPERSAMPLING
+    size = round(right - left + 2 * pad), round(ascent + max(bottom, 0) + 1.4 * pad)
+    plate = Image.new("RGBA", size, (*LIGHT, 0))
+    pen = ImageDraw.Draw(plate)
+    pen.rounded_rectangle((0, 0, size[0] - 1, size[1] - 1), pad, fill=(*LIGHT, LABEL_ALPHA))
+    pen.text((pad - left, 0.7 * pad + ascent), text, fill=(*DARK, 255), font=font, anchor="ls")
+    return plate
+
+
+def _placed(
+    points: Sequence[tuple[float, float]] | Points, x: float, y: float, heading: float
+) -> Points:
     cos, sin = math.cos(heading), math.sin(heading)
     turned: Points = np.array(points) @ np.array([[cos, sin], [-sin, cos]]) + (x, y)
     return turned

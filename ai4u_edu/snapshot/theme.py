@@ -47,6 +47,11 @@ def body_colour(body: BodyDescription, is_agent: bool) -> Rgb:
     return {"static": WALL, "dynamic": rgb("sky blue"), "kinematic": rgb("green")}[body.kind]
 
 
+def label_text(static_scene: StaticScene, body: BodyDescription) -> str:
+    """Return a body's label, for agents by default their name; empty if it has none."""
+    return body.label or (body.name if body.name in static_scene.agent_of else "")
+
+
 def floor_colour(floor: FloorDescription) -> Rgb:
     """Return a floor's described or default colour."""
     return FLOOR if floor.colour is None else rgb(floor.colour)

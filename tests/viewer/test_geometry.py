@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from ai4u_edu import BoxShape, CapsuleShape, CircleShape, PolygonShape, SegmentShape
+from ai4u_edu.snapshot.marks import half_width
 from ai4u_edu.viewer.scene.geometry import (
     Array,
     Mesh,
@@ -12,7 +13,6 @@ from ai4u_edu.viewer.scene.geometry import (
     circle,
     flat_mesh,
     grow,
-    half_width,
     join_meshes,
     prism,
     rotate,

@@ -8,10 +8,11 @@ from viser import FrameHandle, LabelHandle, SceneApi
 from ai4u_edu.base.errors import AI4UError
 from ai4u_edu.recording import Episode, Ghost, ghost_of
 from ai4u_edu.snapshot import Snapshot, StaticScene
+from ai4u_edu.snapshot.marks import half_width
 from ai4u_edu.snapshot.theme import Rgb, body_colour, mix_colours
 from ai4u_edu.viewer.backend.local_server import LocalServer
 from ai4u_edu.viewer.scene.face import face
-from ai4u_edu.viewer.scene.geometry import half_width, heading_wxyz, prism
+from ai4u_edu.viewer.scene.geometry import heading_wxyz, prism
 from ai4u_edu.viewer.scene.layers import Layers
 from ai4u_edu.viewer.scene.mesh_drawer import MeshDrawer
 from ai4u_edu.viewer.scene.subtree import Subtree

@@ -8,13 +8,13 @@ import numpy.typing as npt
 from viser import LineSegmentsHandle
 
 from ai4u_edu.snapshot import AgentState, Snapshot, StaticScene
+from ai4u_edu.snapshot.marks import half_width
 from ai4u_edu.snapshot.theme import ACTION
 from ai4u_edu.viewer.backend.local_server import LocalServer
 from ai4u_edu.viewer.scene.bodies import Bodies
 from ai4u_edu.viewer.scene.geometry import (
     Array,
     circle,
-    half_width,
     rotate,
     segments,
 )

@@ -13,12 +13,12 @@ import numpy.typing as npt
 from viser import BatchedMeshHandle, SceneApi, SceneNodePointerEvent
 
 from ai4u_edu.snapshot import Snapshot, StaticScene
-from ai4u_edu.snapshot.theme import VOID, Rgb, body_colour, mix_colours
+from ai4u_edu.snapshot.marks import DARK, LIGHT, half_width
+from ai4u_edu.snapshot.theme import VOID, Rgb, body_colour, label_text, mix_colours
 from ai4u_edu.viewer.backend.local_server import LocalServer
 from ai4u_edu.viewer.backend.reporting import report_errors
 from ai4u_edu.viewer.scene.face import face, pupils, rings
-from ai4u_edu.viewer.scene.geometry import Array, cap, half_width, join_meshes, prism, soft_shadow
-from ai4u_edu.viewer.scene.labels import label_text
+from ai4u_edu.viewer.scene.geometry import Array, cap, join_meshes, prism, soft_shadow
 from ai4u_edu.viewer.scene.layers import Layers
 from ai4u_edu.viewer.scene.light import surface_colours
 from ai4u_edu.viewer.scene.mesh_drawer import MeshDrawer
@@ -26,8 +26,6 @@ from ai4u_edu.viewer.scene.poses import Poses, compute_poses
 from ai4u_edu.viewer.scene.subtree import Subtree
 
 BLACK: Rgb = (0, 0, 0)
-LIGHT: Rgb = (240, 243, 246)
-DARK: Rgb = (24, 28, 34)
 MAX_SHADOW_BLUR_M = 0.16
 """Largest width (m) of a shadow's soft edge."""
 SHADOW_LAYERS = 9

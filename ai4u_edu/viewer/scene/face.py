@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from ai4u_edu.snapshot.marks import EYES, NOSE, PUPILS, RING, RING_CENTRE
 from ai4u_edu.viewer.scene.geometry import Mesh, cap, circle, flat_mesh, join_meshes
 
 
@@ -12,18 +13,18 @@ def face(radius: float, z: float) -> Mesh:
         radius: radius of the disc on which the face is drawn.
         z: height of that disc.
     """
-    nose = radius * np.array([(0.97, 0.0), (0.52, 0.24), (0.52, -0.24)])
-    eyes = [circle(0.23 * radius, 0.34 * radius, side * 0.5 * radius, 20) for side in (1, -1)]
-    return join_meshes([cap(outline, z) for outline in (nose, *eyes)])
+    eyes = [circle(r * radius, x * radius, y * radius, 20) for x, y, r in EYES]
+    return join_meshes([cap(outline, z) for outline in (radius * np.array(NOSE), *eyes)])
 
 
 def pupils(radius: float, z: float) -> Mesh:
     """Return the dark parts of an agent's face: pupils that look ahead."""
-    eyes = [circle(0.12 * radius, 0.42 * radius, side * 0.48 * radius, 16) for side in (1, -1)]
+    eyes = [circle(r * radius, x * radius, y * radius, 16) for x, y, r in PUPILS]
     return join_meshes([cap(outline, z) for outline in eyes])
 
 
 def rings(radius: float, z: float) -> Mesh:
     """Return a target's mark, a ring around a disc, which tells targets apart without colour."""
-    ring = flat_mesh(circle(0.72 * radius), circle(0.5 * radius)).moved(0, 0, z)
-    return join_meshes([ring, cap(circle(0.22 * radius), z)])
+    outer, inner = RING
+    ring = flat_mesh(circle(outer * radius), circle(inner * radius)).moved(0, 0, z)
+    return join_meshes([ring, cap(circle(RING_CENTRE * radius), z)])

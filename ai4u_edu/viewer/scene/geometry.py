@@ -7,6 +7,8 @@ from typing import NamedTuple
 import numpy as np
 import numpy.typing as npt
 
+from ai4u_edu.snapshot.marks import edge_normals
+
 Array = npt.NDArray[np.float64]
 Outline = Sequence[tuple[float, float]] | Array
 
@@ -41,19 +43,12 @@ def grow(outline: Outline, by: float) -> Array:
     [[1.5, 1.5], [-1.5, 1.5], [-1.5, -1.5], [1.5, -1.5]]
     """
     corners = np.asarray(outline, np.float64)
-    normals = _normals(corners)
+    normals = edge_normals(corners)
     before = np.roll(normals, 1, axis=0)
     # bounded, because the tip of a sharp corner would move very far
     stretch = np.maximum(1.0 + (normals * before).sum(axis=1, keepdims=True), 0.25)
     moved: Array = corners + by * (normals + before) / stretch
     return moved
-
-
-def half_width(outline: Outline) -> float:
-    """Return half the smallest width of a convex outline: half a wall's thickness."""
-    corners = np.asarray(outline, np.float64)
-    depths = _normals(corners) @ corners.T
-    return float(np.ptp(depths, axis=1).min() / 2)
 
 
 def cap(outline: Outline, z: float = 0.0) -> Mesh:
@@ -139,11 +134,3 @@ def circle(radius: float, x: float = 0.0, y: float = 0.0, corners: int = 32) -> 
     around = np.stack([np.cos(angles), np.sin(angles)], axis=1)
     outline: Array = np.array([x, y]) + radius * around
     return outline
-
-
-def _normals(corners: Array) -> Array:
-    """Return the outward unit normal of each edge."""
-    edges = np.roll(corners, -1, axis=0) - corners
-    normals = np.stack([edges[:, 1], -edges[:, 0]], axis=1)
-    unit: Array = normals / np.linalg.norm(normals, axis=1, keepdims=True)
-    return unit

@@ -1,6 +1,7 @@
 """The static ground: the void, floors with their edges and shadows, areas."""
 
 from ai4u_edu.snapshot import Snapshot, StaticScene
+from ai4u_edu.snapshot.marks import half_width
 from ai4u_edu.snapshot.theme import FLOOR, GRID, VOID, Rgb, area_colour, floor_colour, mix_colours
 from ai4u_edu.viewer.backend.local_server import LocalServer
 from ai4u_edu.viewer.scene.arena import arena_size, floor_under, lowest_floor, region_outlines
@@ -9,7 +10,6 @@ from ai4u_edu.viewer.scene.geometry import (
     Mesh,
     flat_mesh,
     grow,
-    half_width,
     join_meshes,
     segments,
     soft_shadow,

@@ -8,11 +8,11 @@ from viser import LabelHandle
 
 from ai4u_edu.snapshot import Snapshot, StaticScene
 from ai4u_edu.snapshot.agent_words import script_problem
+from ai4u_edu.snapshot.theme import label_text
 from ai4u_edu.viewer.backend.local_server import LocalServer
 from ai4u_edu.viewer.scene.geometry import Array, rotate
 from ai4u_edu.viewer.scene.mesh_drawer import MeshDrawer
 from ai4u_edu.viewer.scene.subtree import Subtree
-from ai4u_edu.world import BodyDescription
 
 HIDDEN_AFTER_DRIVING_S = 1.0
 """World time (s) for which the label of an agent stays hidden after the last key is released: who
@@ -63,11 +63,6 @@ class Labels:
             dx, dy = rotate(label.centre[None], body.heading)[0]
             label.handle.position = (body.x + dx, body.y + dy - label.reach, body.z + label.height)
             label.handle.visible = not body.fallen and (not is_driven or bool(problem))
-
-
-def label_text(static_scene: StaticScene, body: BodyDescription) -> str:
-    """Return a body's label, for agents by default their name; empty if it has none."""
-    return body.label or (body.name if body.name in static_scene.agent_of else "")
 
 
 class _Label(NamedTuple):

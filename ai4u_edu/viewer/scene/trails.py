@@ -7,8 +7,9 @@ from viser import BatchedMeshHandle, SceneApi
 
 from ai4u_edu.runtime.frame_budget import TRAILS_PER_S, PageTurns
 from ai4u_edu.snapshot import AgentState, BodyState, Snapshot, StaticScene
+from ai4u_edu.snapshot.marks import half_width
 from ai4u_edu.snapshot.theme import Rgb, body_colour
-from ai4u_edu.viewer.scene.geometry import Array, cap, circle, half_width
+from ai4u_edu.viewer.scene.geometry import Array, cap, circle
 from ai4u_edu.viewer.scene.layers import Layers
 from ai4u_edu.viewer.scene.mesh_drawer import MeshDrawer
 from ai4u_edu.viewer.scene.subtree import Subtree

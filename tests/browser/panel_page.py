@@ -1,0 +1,112 @@
+"""A page with the panel, whose socket is fake; viser is left out."""
+
+import contextlib
+import time
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from typing import Any
+
+from playwright.sync_api import Browser, Locator, Page, Route
+
+from ai4u_edu import CircleShape, RBMoveActuator, WASDRBMoveController, World
+from tests.browser.fake_panel import FakePanel
+from tests.browser.served_viser import ROOT, VISERS_CODE, connected
+from tests.builders import small_sim
+from tests.chromium import new_page
+from tests.server.rooms import Room, served
+
+CANVAS = f"""{ROOT}
+<div data-dock-root style="position: relative; width: 100%; height: 100%">
+<div style="position: absolute"><canvas style="width: 100%; height: 100%"></canvas></div></div>
+"""
+"""HTML in place of viser's scene."""
+
+
+@dataclass
+class PanelPage:
+    """A page with the panel.
+
+    Attributes:
+        problems: errors of the page's scripts.
+    """
+
+    page: Page
+    panel: FakePanel
+    problems: list[str]
+
+    def button(self, name: str) -> Locator:
+        """Return a button of the panel."""
+        return self.page.locator(".ai4u-panel").get_by_role("button", name=name, exact=True)
+
+    def tab(self, name: str) -> Locator:
+        return self.page.get_by_role("tab", name=name)
+
+    def reset(self) -> None:
+        """Load the page again with the parts of the file and nothing remembered."""
+        self.panel.reset()
+        self.page.evaluate("localStorage.clear()")
+        self.page.reload()
+        self.wait()
+
+    def wait(self) -> None:
+        """Wait until the panel is connected."""
+        connected(self.page)
+        self.until(lambda: self.panel.received)
+
+    def until(self, condition: Callable[[], object], timeout: float = 5) -> None:
+        """Wait for a condition while the fake socket works, which Playwright's loop serves."""
+        deadline = time.monotonic() + timeout
+        while not condition():
+            assert time.monotonic() < deadline, "it did not happen in time"
+            self.page.wait_for_timeout(20)
+
+
+@contextlib.contextmanager
+def panel_room() -> Iterator[Room]:
+    """Serve a room with a robot that keys drive."""
+    world = World()
+    world.add_body("robot", CircleShape(radius=0.5))
+    sim = small_sim(
+        world=world,
+        controller=WASDRBMoveController(),
+        actuators=[RBMoveActuator(move_amount=5, turn_amount=2, jump_power=4)],
+    )
+    with served(sim) as room:
+        yield room
+
+
+@contextlib.contextmanager
+def panel_page(
+    chromium: Browser,
+    room: Room,
+    *,
+    query: str = "?panel=2",
+    width: int = 1280,
+    height: int = 720,
+    **options: Any,
+) -> Iterator[PanelPage]:
+    """Open a page with the panel.
+
+    Args:
+        options: more of ``Browser.new_context``.
+    """
+    page = new_page(chromium, width, height, **options)
+    opened = PanelPage(page, FakePanel(), [])
+    page.on("pageerror", lambda error: opened.problems.append(str(error)))
+    opened.panel.attach(page)
+    page.route(lambda url: url.partition("?")[0] == room.url, _leave_viser_out)
+    page.goto(room.url + query)
+    if query:
+        opened.wait()
+    else:
+        connected(page)
+    yield opened
+    page.context.close()
+    assert opened.problems == []
+
+
+def _leave_viser_out(route: Route) -> None:
+    response = route.fetch()
+    text, count = VISERS_CODE.subn("", response.text())
+    assert count
+    route.fulfill(response=response, body=text.replace(ROOT, CANVAS))

@@ -1,0 +1,34 @@
+/** The picture of the world: where its camera is, the trail, and the dark colours. */
+
+import { element } from "./dom.js";
+import { segments, toggle } from "./panel_parts.js";
+
+const CAMERAS = [
+  { value: "arena", text: "Arena", title: "See everything from above" },
+  { value: "follow", text: "Follow", title: "Stay above the robot" },
+  { value: "turn", text: "Turn with robot", title: "Stay above the robot and turn with it" },
+  { value: "eyes", text: "Robot's view", title: "See what the robot would see" },
+];
+
+export class ViewControls {
+  element;
+
+  /** @param {HTMLElement} history the buttons to undo and redo */
+  constructor(panel, history) {
+    const cameras = segments("Camera", CAMERAS, async (mode) => {
+      const answer = await panel.send("camera", { mode }, { quiet: true });
+      if (answer.ok) cameras.set(mode);
+    });
+    cameras.set("arena");
+    cameras.element.classList.add("ai4u-cameras");
+    const trail = toggle("Trail", (on) => panel.send("trail", { on }, { quiet: true }), { title: "Draw the robot's way" });
+    const root = document.documentElement;
+    const dark = toggle("Dark", (on) => {
+      dispatchEvent(new CustomEvent("ai4u-dark", { detail: on })); // dark.js keeps the choice
+      panel.send("dark", { on }, { quiet: true });
+    });
+    dark.set(root.dataset.ai4uScheme === "dark");
+    const switches = element("div", { className: "ai4u-inline" }, trail.element, dark.element, history);
+    this.element = element("section", { className: "ai4u-view", ariaLabel: "Picture" }, cameras.element, switches);
+  }
+}

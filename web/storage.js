@@ -1,0 +1,24 @@
+/** What this browser remembers of a person's choices. Without storage they last as long as the page. */
+
+const PREFIX = "ai4u-";
+const unstored = new Map();
+
+/** Return a remembered value; `fallback` if there is none. */
+export function recall(key, fallback) {
+  try {
+    const text = localStorage.getItem(PREFIX + key);
+    return text === null ? (unstored.get(key) ?? fallback) : JSON.parse(text);
+  } catch {
+    return unstored.get(key) ?? fallback; // storage is blocked, or holds something else
+  }
+}
+
+/** Remember a value that JSON can hold. */
+export function remember(key, value) {
+  unstored.set(key, value);
+  try {
+    localStorage.setItem(PREFIX + key, JSON.stringify(value));
+  } catch {
+    // storage is blocked or full
+  }
+}
