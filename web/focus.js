@@ -21,9 +21,8 @@ export function leaveControls(changed) {
   addEventListener("keydown", (event) => leaveOnKey(event), { capture: true });
   addEventListener("change", ({ target }) => target.matches?.("select") && leave(target));
   addEventListener("click", (event) => leaveOnClick(event), { capture: true });
-  addEventListener("pointerdown", ({ target }) => target.matches?.("canvas") && leave(document.activeElement), {
-    capture: true, // a click on the picture always gives the keys back, whatever viser does with it
-  });
+  // a click on the picture always gives the keys back, whatever viser does with it
+  addEventListener("pointerdown", ({ target }) => target.matches?.("canvas") && document.activeElement?.blur(), { capture: true });
 }
 
 function leaveOnKey({ key, target, isComposing }) {
