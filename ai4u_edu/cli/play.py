@@ -36,6 +36,7 @@ class PlaySettings:
     open_page: bool
     seed: int | None
     time_scale: float | None
+    wait_for_key: bool
     allowed_hosts: list[str]
     connections: int
     rules: "Rules"
@@ -57,6 +58,7 @@ def play(
     open_page: o.OpenPage = True,
     seed: o.Seed = None,
     time_scale: o.TimeScale = None,
+    wait_for_key: o.WaitForKey = True,
     allow_host: o.AllowHost = None,
     token: o.Token = "",
     connections: o.Connections = 120,
@@ -96,6 +98,7 @@ def play(
         open_page=open_page,
         seed=seed,
         time_scale=time_scale,
+        wait_for_key=wait_for_key,
         allowed_hosts=allow_host or [],
         connections=connections,
         rules=rules,
@@ -134,8 +137,13 @@ def serve_scene(settings: PlaySettings) -> None:
     sim, scene = _build(scene, settings.drivers)
     recorder = recorder_into(settings.record, sim, scene, settings.keep)
     ghost = Episode.load(settings.ghost) if settings.ghost else None
-    seed = _first_seed(settings, ghost, linked_seed)
-    runner = Runner(sim, seed=seed, time_scale=settings.time_scale, recorder=recorder)
+    runner = Runner(
+        sim,
+        seed=_first_seed(settings, ghost, linked_seed),
+        time_scale=settings.time_scale,
+        recorder=recorder,
+        wait_for_key=settings.wait_for_key,
+    )
     autosave = (
         Autosave(unsaved_folder(), scene.description.name, _warn) if settings.autosave else None
     )
