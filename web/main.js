@@ -15,7 +15,9 @@ import { label, loadLayout } from "./labels.js";
 import { collapseMobilePanel } from "./mobile_panel.js";
 import { trackCanvasEdges } from "./canvas_edges.js";
 import { watchSharedScene } from "./share.js";
+import { Results } from "./results.js";
 import { JsonSocket } from "./socket.js";
+import { playTone } from "./tone.js";
 
 /** Code of the key for a new start, unless the agent or the person uses it for something else. */
 const NEW_START_CODE = "KeyN";
@@ -56,6 +58,7 @@ const driverStatus = new DriverStatus(row, take, letGo);
 let panel = null;
 const gamepads = new Gamepads(keys);
 const help = new Help(row, keys, keymap, arrange);
+const results = new Results(playTone);
 const banners = new Banners((name) => socket.send({ type: "command", name }));
 
 keys.onpress = () => (hasActed = true);
@@ -131,6 +134,7 @@ function draw() {
     restart: label(keymap.keys.restart?.[0] ?? ""),
     name: isDriven ? "" : hello.name,
     isNew: !hasActed,
+    result: results.of(connected ? state : null, isDriven),
     howToStart: canDrive() ? howToDrive() : "",
   });
 }
