@@ -2,6 +2,7 @@
  * The page's random id. Our panel's socket and viser's both carry it, so that the server knows which picture
  * belongs to which panel.
  *
+ * The page has our panel where the server says so (data-panel), unless the address asks for viser's (?panel=viser).
  * A classic script, not a module, because it must run before viser starts: viser's client connects to the
  * address in the query parameter "websocket", which is there until it has connected.
  */
@@ -11,12 +12,15 @@
   /** Checks after which the parameter stays where it is. */
   const MAX_CHECKS = 30;
   const url = new URL(location.href);
-  if (url.searchParams.get("panel") !== "2") return;
+  const hasPanel = "panel" in document.currentScript.dataset;
+  if (!hasPanel || url.searchParams.get("panel") === "viser") return;
 
   // crypto.randomUUID is missing on pages without HTTPS
   const bytes = crypto.getRandomValues(new Uint8Array(16));
   const id = Array.from(bytes, (byte) => byte.toString(16).padStart(2, "0")).join("");
-  window.ai4uPageId = id;
+  const page = document.documentElement.dataset;
+  page.ai4uPage = id;
+  page.ai4uPanel = "open";
   url.searchParams.set(PARAMETER, `${location.origin.replace(/^http/, "ws")}${location.pathname}?page=${id}`);
   history.replaceState(history.state, "", url);
 

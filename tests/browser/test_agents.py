@@ -19,7 +19,7 @@ def server() -> Iterator[Played]:
 
 def opened(chromium: Browser, server: Played, query: str = "") -> Page:
     page = new_page(chromium)
-    page.goto(server.url + query)
+    page.goto(server.url + (f"{query}&" if query else "?") + "panel=viser")
     page.locator(".ai4u-driver", has_not_text="Connecting").wait_for()
     page.get_by_text("Senses", exact=True).wait_for()
     return page

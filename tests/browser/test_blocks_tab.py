@@ -62,7 +62,7 @@ def opened(chromium: Browser, server: Played) -> Iterator[Callable[[], Page]]:
         page = new_page(chromium)
         pages.append(page)
         page.set_default_timeout(60_000)
-        page.goto(server.url)
+        page.goto(f"{server.url}?panel=viser")
         page.locator(".ai4u-driver", has_not_text="Connecting").wait_for()
         page.get_by_role("tab", name="Blocks").click()
         return page
@@ -224,7 +224,7 @@ def test_what_a_killed_server_left_is_offered(
         soon(lambda: any("is there: ai4u-edu play --restore" in line for line in again.told))
         page = new_page(chromium)
         page.set_default_timeout(60_000)
-        page.goto(again.url)
+        page.goto(f"{again.url}?panel=viser")
         page.get_by_role("tab", name="Blocks").click()
         page.get_by_text("An unsaved scene from").wait_for()
         press(page, "Bring it back")

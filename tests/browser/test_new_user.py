@@ -33,7 +33,7 @@ def server(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Played]:
 @pytest.fixture
 def page(server: Played, chromium: Browser) -> Iterator[Page]:
     page = new_page(chromium)
-    page.goto(server.url)
+    page.goto(f"{server.url}?panel=viser")
     ready(page)
     yield page
     page.context.close()

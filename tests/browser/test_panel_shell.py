@@ -30,8 +30,8 @@ def desk(warm: PanelPage) -> PanelPage:
     return warm
 
 
-def test_the_old_panel_stays_without_the_query(chromium: Browser, room: Room) -> None:
-    with panel_page(chromium, room, query="") as old:
+def test_visers_panel_is_there_on_request(chromium: Browser, room: Room) -> None:
+    with panel_page(chromium, room, query="?panel=viser") as old:
         expect(old.page.locator(".ai4u-panel")).to_have_count(0)
 
 

@@ -42,7 +42,7 @@ def server(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Played]:
 def page(chromium: Browser, server: Played) -> Iterator[Page]:
     page = new_page(chromium)
     page.set_default_timeout(60_000)
-    page.goto(server.url)
+    page.goto(f"{server.url}?panel=viser")
     connected(page)
     yield page
     page.context.close()

@@ -33,7 +33,7 @@ def server() -> Iterator[Played]:
 def page(server: Played, chromium: Browser) -> Iterator[Page]:
     """A page that shows its past, in which one episode is: the robot drove ahead for a while."""
     page = new_page(chromium)
-    page.goto(server.url)
+    page.goto(f"{server.url}?panel=viser")
     ready(page)
     page.keyboard.down("KeyW")
     until(lambda: robot(server)["pose"][0] > 1)
@@ -113,7 +113,7 @@ def test_a_ghost_goes_where_that_run_went(chromium: Browser, tmp_path: Path) -> 
     file = run_to_the_upper_right().save(tmp_path / "mine.episode")
     with played("box_chase", "--ghost", str(file)) as server:
         page = new_page(chromium, draws=True)
-        page.goto(server.url)
+        page.goto(f"{server.url}?panel=viser")
         ready(page)
         assert server.snapshot()["seed"] == int(MIDDLE)
         until(lambda: server.snapshot()["time"] > 4)  # there it stays

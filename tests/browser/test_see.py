@@ -38,7 +38,7 @@ def patience() -> Iterator[None]:
 def opened(chromium: Browser, server: Played, *size: int, draws: bool = False) -> Page:
     page = new_page(chromium, *size, draws=draws)
     page.set_default_timeout(PATIENCE)
-    page.goto(server.url)
+    page.goto(f"{server.url}?panel=viser")
     page.locator(".ai4u-keycap").first.wait_for()
     return page
 

@@ -55,7 +55,7 @@ def opened(chromium: Browser, server: Played) -> Iterator[Callable[[], Page]]:
     def open_page() -> Page:
         page = new_page(chromium)
         pages.append(page)
-        page.goto(server.url)
+        page.goto(f"{server.url}?panel=viser")
         ready(page)
         page.get_by_role("tab", name="World").click()
         return page
@@ -275,7 +275,7 @@ def test_a_scene_is_saved_on_the_server_and_chosen_beside_the_librarys(
     with played(str(tmp_path / "bare.yaml"), "--scenes", str(kept)) as server:
         page = new_page(chromium)
         page.set_default_timeout(60_000)
-        page.goto(server.url)
+        page.goto(f"{server.url}?panel=viser")
         ready(page)
         page.get_by_role("tab", name="World").click()
         press(page, "Save")
