@@ -35,7 +35,7 @@ Data = Annotated[
     list[Path], typer.Argument(help="Recorded episodes (.episode), or folders of them.")
 ]
 AgentId = Annotated[
-    str | None, typer.Option(help="The agent's id; left out, the one that acts first.")
+    str | None, typer.Option(help="The agent's id. Default: the agent that acts first.")
 ]
 
 
@@ -46,21 +46,21 @@ def add_to(app: typer.Typer) -> None:
 
 
 def record(
-    scene: Annotated[str, typer.Argument(help="A scene of the library, or a YAML file.")],
+    scene: Annotated[str, typer.Argument(help="Scene name or YAML file.")],
     brain: Annotated[
         list[str] | None,
         typer.Option(
-            help="Who drives: FILE.py:NAME (a function or a Controller), a network (.onnx, zoo, "
-            "zoo:SCENE), a training's folder or a model (.zip) in it, a controller, random; ID=... "
-            "for another agent than the first. Left out, the scene's own."
+            help="The driver: FILE.py:NAME (a function or a Controller), a network (.onnx, zoo, "
+            "zoo:SCENE), a training's folder or a model (.zip) in it, a controller, or random. "
+            "ID=DRIVER for an agent other than the first. Default: the scene's own."
         ),
     ] = None,
-    episodes: Annotated[int, typer.Option(min=1, max=10_000)] = 1,
-    seed: Annotated[int, seed_option("Of the first episode; then one by one.")] = 0,
-    out: Annotated[Path, typer.Option(help="A folder for the files.")] = Path("episodes"),
+    episodes: Annotated[int, typer.Option(help="Number of episodes.", min=1, max=10_000)] = 1,
+    seed: Annotated[int, seed_option("Seed of the first episode; the next ones count up.")] = 0,
+    out: Annotated[Path, typer.Option(help="Folder for the files.")] = Path("episodes"),
     own_blocks: OwnBlocks = None,
 ) -> None:
-    """Record episodes into files, whoever drives."""
+    """Record episodes of any driver into files."""
     from ai4u_edu.scenes import Scene
 
     load_own_blocks(own_blocks)
@@ -78,22 +78,22 @@ def record(
     finally:
         recorder.finish()  # Ctrl-C ends the episode, and loses nothing of it
     Console().print(_overview(list(recorder.episodes)))
-    typer.echo(f"kept in {out}; look at one:  ai4u-edu replay {out}/... --html episode.html")
+    typer.echo(f"saved in {out}; watch one:  ai4u-edu replay {out}/... --html episode.html")
 
 
 def replay(
-    file: Annotated[Path, typer.Argument(help="A recorded episode (.episode).")],
-    html: Annotated[Path | None, typer.Option(help="Write a page that plays it.")] = None,
-    gif: Annotated[Path | None, typer.Option(help="Draw it as an animated GIF.")] = None,
+    file: Annotated[Path, typer.Argument(help="Recorded episode (.episode).")],
+    html: Annotated[Path | None, typer.Option(help="Export it as a web page.")] = None,
+    gif: Annotated[Path | None, typer.Option(help="Export it as an animated GIF.")] = None,
     mp4: Annotated[
-        Path | None, typer.Option(help='Draw it as a video; needs "ai4u-edu\\[video]".')
+        Path | None, typer.Option(help='Export it as a video; needs "ai4u-edu\\[video]".')
     ] = None,
     csv: Annotated[
-        Path | None, typer.Option(help="Write a table, a row for each decision.")
+        Path | None, typer.Option(help="Export it as a table with one row per decision.")
     ] = None,
     own_blocks: OwnBlocks = None,
 ) -> None:
-    """Play a recorded episode again, say whether it is exact, and export it."""
+    """Replay a recorded episode, check that it is exact, and export it."""
     from ai4u_edu.recording import Episode, Replay
     from ai4u_edu.recording.exports.csv_file import write_csv
     from ai4u_edu.recording.exports.html_page import write_html
@@ -113,20 +113,22 @@ def replay(
         if path is not None:
             typer.echo(f"{write(played, path)}: {path.stat().st_size / 1000:.0f} kB")
     if verdict.exact:
-        typer.echo("it plays again exactly, bit for bit")
+        typer.echo("the replay is exact, bit for bit")
         return
     seconds = verdict.exact_until / played.episode.scene.world.ticks_per_second
-    typer.echo(f"it plays again exactly up to {seconds:.2f} s and not beyond: {verdict.why}")
+    typer.echo(f"the replay is exact up to {seconds:.2f} s and not beyond: {verdict.why}")
     raise typer.Exit(1)
 
 
 def dataset(
     data: Data,
-    out: Annotated[Path | None, typer.Option(help="Write NumPy arrays (.npz).")] = None,
+    out: Annotated[Path | None, typer.Option(help="File for NumPy arrays (.npz).")] = None,
     minari: Annotated[
-        str, typer.Option(help='Make a Minari dataset of that name; needs "ai4u-edu\\[data]".')
+        str, typer.Option(help='Name of a Minari dataset to make; needs "ai4u-edu\\[data]".')
     ] = "",
-    observation: Annotated[str, typer.Option(help="flat or dict.")] = "flat",
+    observation: Annotated[
+        str, typer.Option(help="Form of the observations: flat or dict.")
+    ] = "flat",
     agent: AgentId = None,
     own_blocks: OwnBlocks = None,
 ) -> None:
@@ -147,14 +149,17 @@ def dataset(
 
 def clone(
     data: Data,
-    out: Annotated[Path, typer.Option(help="The network's file.")] = Path("policy.onnx"),
-    seed: Annotated[int, seed_option("The same seed gives the same network.")] = 0,
-    updates: Annotated[int, typer.Option(help="Gradient steps.", min=1, max=MAX_UPDATES)] = 2000,
+    out: Annotated[Path, typer.Option(help="File to write.")] = Path("policy.onnx"),
+    seed: Annotated[int, seed_option("Random seed; the same seed gives the same network.")] = 0,
+    updates: Annotated[
+        int, typer.Option(help="Number of gradient steps.", min=1, max=MAX_UPDATES)
+    ] = 2000,
     agent: AgentId = None,
     evaluate: Annotated[
         int,
         typer.Option(
-            help="Episodes, on seeds of 1000 and more, in which it is tried out; 0 for none.",
+            help="Number of episodes to evaluate it in afterwards, with seeds from 1000 on; 0 "
+            "for none.",
             min=0,
             max=MAX_EPISODES,
         ),

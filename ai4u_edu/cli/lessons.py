@@ -17,16 +17,16 @@ def add_to(app: typer.Typer) -> None:
 
 
 def lessons(
-    folder: Annotated[Path, typer.Argument(help="Where the notebooks are put.")] = Path(
+    folder: Annotated[Path, typer.Argument(help="Folder for the notebooks.")] = Path(
         "ai4u-lessons"
     ),
     port: Annotated[int, typer.Option(help="JupyterLab's port.", min=1, max=65535)] = 8888,
     open_page: Annotated[bool, typer.Option("--open/--no-open", help="Open the browser.")] = True,
     start: Annotated[bool, typer.Option("--start/--copy-only", help="Start JupyterLab.")] = True,
 ) -> None:
-    r"""Copy the course into a folder, and start JupyterLab on its first lesson.
+    r"""Copy the course into a folder and start JupyterLab on its first lesson.
 
-    Notebooks that are there already stay as they are. Needs: pip install "ai4u-edu\[lessons]"
+    Notebooks that are there already are kept. Needs: pip install "ai4u-edu\[lessons]"
     """
     from ai4u_edu.base.optional_deps import need
     from ai4u_edu.lessons.handout import hand_out, lab_config
@@ -36,9 +36,9 @@ def lessons(
     done = hand_out(folder)
     typer.echo(f"{len(done.new)} new notebooks in {folder}")
     if done.kept:
-        typer.echo(f"{len(done.kept)} were there already, and stay as they are")
+        typer.echo(f"{len(done.kept)} were there already and are kept")
     for name in done.beside:
-        typer.echo(f"a newer {name.replace('.new', '')} lies beside yours: {name}")
+        typer.echo(f"a newer {name.replace('.new', '')} is beside yours: {name}")
     if start:
         _become(lab(folder, port, open_page=open_page), lab_config(folder))
 

@@ -73,28 +73,27 @@ app.command()(play)
 
 @app.command()
 def bridge(
-    url: Annotated[str, typer.Argument(help="The world's address: ws://teacher:8080")],
-    agent: Annotated[str, typer.Option(help="The agent's id; left out, the only one.")] = "",
+    url: Annotated[str, typer.Argument(help="Address of the world, such as ws://teacher:8080.")],
+    agent: Annotated[str, typer.Option(help="The agent's id. Default: the only agent.")] = "",
     port: Annotated[
-        int, typer.Option(help="Where the AI4U script listens.", min=1, max=65535)
+        int, typer.Option(help="Port at which the AI4U script listens.", min=1, max=65535)
     ] = 8080,
-    token: Annotated[str, typer.Option(help="The world's, if its address has none.")] = "",
+    token: Annotated[str, typer.Option(help="The world's token, unless its address has it.")] = "",
     realtime: Annotated[
-        bool, typer.Option("--realtime", help="Don't have the world wait for each action.")
+        bool, typer.Option("--realtime", help="Don't make the world wait for each action.")
     ] = False,
-    script_id: Annotated[
-        str, typer.Option(help="The id by which the script knows its agent.")
-    ] = "0",
+    script_id: Annotated[str, typer.Option(help="The agent's id in the AI4U script.")] = "0",
     on_missing: Annotated[
         OnMissing | None,
         typer.Option(
-            help="What the agent does when the script's action is missing; left out, as the world "
-            "has it.",
+            help="What the agent does when the script's action is missing: repeat the last action "
+            "(hold), no action (coast), or zeros for all actuators (stop). Default: as the world "
+            "is set.",
             show_default=False,
         ),
     ] = None,
 ) -> None:
-    """Let an AI4U script on this machine drive an agent of a world elsewhere."""
+    """Let an AI4U script on this machine drive an agent in a world on another one."""
     from ai4u_edu.remote.bridge import Bridge
 
     mode: Literal["realtime", "lockstep"] = "realtime" if realtime else "lockstep"
@@ -121,7 +120,7 @@ def bridge(
 
 @app.command()
 def scenes(
-    name: Annotated[str, typer.Argument(help="A scene, to see only that one.")] = "",
+    name: Annotated[str, typer.Argument(help="Show only this scene.")] = "",
     own_blocks: OwnBlocks = None,
 ) -> None:
     """List the scenes of the library with goal, controls and rewards."""
@@ -147,7 +146,7 @@ def scenes(
 def check(
     file: Annotated[Path, typer.Argument(help="A scene file.")], own_blocks: OwnBlocks = None
 ) -> None:
-    """Check a scene file and name its mistakes."""
+    """Check a scene file and report its mistakes."""
     from ai4u_edu.scenes import Scene
 
     load_own_blocks(own_blocks)
@@ -165,7 +164,7 @@ def _count(things: Sized, one: str, many: str) -> str:
 
 @app.command()
 def blocks(
-    name: Annotated[str, typer.Argument(help="A block, to have it explained.")] = "",
+    name: Annotated[str, typer.Argument(help="Explain this block.")] = "",
 ) -> None:
     """List the blocks that agents are built from, or explain one."""
     from ai4u_edu.blocks.docs import built_in_blocks, lesson_page, summary
@@ -181,7 +180,7 @@ def blocks(
 
 @app.command()
 def schema() -> None:
-    """Print the JSON Schema of scene files, for an editor to complete them."""
+    """Print the JSON Schema of scene files, for completion in an editor."""
     from ai4u_edu.scenes.schema import scene_schema
 
     typer.echo(json.dumps(scene_schema(), indent=2))

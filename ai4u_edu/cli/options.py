@@ -25,7 +25,7 @@ OwnBlocks = Annotated[
     list[Path] | None,
     typer.Option(
         "--blocks",
-        help="A Python file with blocks of your own, which is run; once for each file.",
+        help="Python file with your own blocks; it is run. Repeat the option for several files.",
         show_default=False,
     ),
 ]

@@ -249,9 +249,12 @@ def _announcer(
         typer.echo(startup_banner(title, settings.host, url, settings.rules.token))
         if editor.recovery.unsaved is not None:
             when = editor.recovery.unsaved.when
-            typer.echo(f"an unsaved scene from {when} is there: ai4u-edu play --restore")
+            typer.echo(
+                f"You have an unsaved scene from {when}. To reopen it: ai4u-edu play --restore"
+            )
         if len(unsaved) > 1:
-            typer.echo(f"unsaved scenes: {format_unsaved(unsaved)}: ai4u-edu play SCENE --restore")
+            known = format_unsaved(unsaved)
+            typer.echo(f"All unsaved scenes: {known}. To reopen one: ai4u-edu play SCENE --restore")
         if settings.open_page:
             open_on_desktop(with_token(url, settings.rules.token))
 

@@ -13,14 +13,14 @@ SceneName = Annotated[
         help="A scene of the library, a YAML file, or a link to a shared scene, in quotes."
     ),
 ]
-Host = Annotated[str, typer.Option(help="The address to listen on.")]
-Port = Annotated[int, typer.Option(help="The port; 0 for any free one.", min=0, max=65535)]
+Host = Annotated[str, typer.Option(help="Address to listen on.")]
+Port = Annotated[int, typer.Option(help="Port; 0 for any free port.", min=0, max=65535)]
 OpenPage = Annotated[bool, typer.Option("--open/--no-open", help="Open the page in the browser.")]
 Seed = Annotated[int | None, seed_option("Seed of the first episode.")]
 TimeScale = Annotated[
     float | None,
     typer.Option(
-        help="How fast the time runs; 1 is real time.",
+        help="Speed of time; 1 is real time.",
         min=MIN_TIME_SCALE,
         max=MAX_TIME_SCALE,
         callback=finite,
@@ -28,21 +28,21 @@ TimeScale = Annotated[
 ]
 AllowHost = Annotated[
     list[str] | None,
-    typer.Option(help="A name under which the page is asked for, behind a proxy."),
+    typer.Option(help="Host name of a reverse proxy in front. Repeat the option for several."),
 ]
 Token = Annotated[
     str,
     typer.Option(
-        help="What page and scripts have to know; where other machines can reach it, one is "
-        "made up if you choose none.",
+        help="Token that pages and scripts have to send. Default: a random one if other machines "
+        "can reach the server, else none.",
         show_default=False,
     ),
 ]
 Connections = Annotated[
     int,
     typer.Option(
-        help="Connections from one address, at most; each page has two. This machine's own "
-        "are not counted.",
+        help="Maximum number of connections from one address; each page needs two. Connections "
+        "from this machine are not counted.",
         min=1,
         max=100_000,
     ),
@@ -50,14 +50,14 @@ Connections = Annotated[
 SeededResets = Annotated[
     bool,
     typer.Option(
-        "--seeded-resets", help="Let one of several agents' scripts reset the whole world."
+        "--seeded-resets", help="Let the script of one of several agents reset the whole world."
     ),
 ]
 Lockstep = Annotated[
     bool | None,
     typer.Option(
         "--lockstep/--no-lockstep",
-        help="Let scripts have the world wait for their actions; left out, only where there is "
+        help="Let scripts make the world wait for their actions. Default: only in scenes with "
         "one agent.",
         show_default=False,
     ),
@@ -66,15 +66,15 @@ PlayOnMissing = Annotated[
     OnMissing | None,
     typer.Option(
         help="What an agent does when its script's action is missing, unless the script "
-        "chooses: the last one again (hold), nothing (coast), or zeros for all actuators "
-        "(stop). Left out: hold, and stop while its connection is lost.",
+        "chooses: repeat the last action (hold), no action (coast), or zeros for all actuators "
+        "(stop). Default: hold, and stop while the connection is lost.",
         show_default=False,
     ),
 ]
 Grace = Annotated[
     float,
     typer.Option(
-        help="Seconds that an agent is kept for a script whose connection is lost.",
+        help="Seconds for which an agent is kept for a script that lost its connection.",
         min=0,
         max=600,
     ),
@@ -82,8 +82,8 @@ Grace = Annotated[
 ReceiveTimeout = Annotated[
     int,
     typer.Option(
-        help="Milliseconds for which the world waits for a script in lockstep; then it goes "
-        "on until the script answers.",
+        help="Milliseconds that the world waits for a script in lockstep; then it runs on until "
+        "the script answers.",
         min=200,
         max=600_000,
     ),
@@ -91,46 +91,48 @@ ReceiveTimeout = Annotated[
 Drivers = Annotated[
     list[str] | None,
     typer.Option(
-        help="Who drives: an AI4U script (ai4u://127.0.0.1:8080), a network (policy.onnx, or "
+        help="The driver: an AI4U script (ai4u://127.0.0.1:8080), a network (policy.onnx, or "
         "zoo for the one that comes with the scene), FILE.py:NAME (a function or a "
-        "Controller), a training's folder or a model (.zip) in it, a controller, random; "
-        "ID=... for the agent of that id."
+        "Controller), a training's folder or a model (.zip) in it, a controller, or random. "
+        "ID=DRIVER for the agent with that id. Default: the scene's own."
     ),
 ]
 Record = Annotated[
-    Path | None, typer.Option(help="A folder in which every episode is kept as a file.")
+    Path | None, typer.Option(help="Folder in which every episode is saved as a file.")
 ]
-Keep = Annotated[
-    int, typer.Option(help="So many episodes are kept, to go back to.", min=1, max=1000)
-]
+Keep = Annotated[int, typer.Option(help="How many episodes to keep for replay.", min=1, max=1000)]
 GhostFile = Annotated[
     Path | None,
-    typer.Option(help="A recorded episode (.episode) to play against; its seed is the first."),
+    typer.Option(
+        help="Recorded episode (.episode) to race against; the first episode gets its seed."
+    ),
 ]
 Offers = Annotated[
     list[str] | None,
     typer.Option(
-        help="Python files with drivers, networks (.onnx), recorded episodes (.episode), "
-        "folders of them, or an AI4U script's address (ai4u://HOST:PORT), from which the page "
-        "may choose who drives; a script is run when it is chosen."
+        help="Drivers that can be chosen in the page: a Python file, a network (.onnx), a recorded "
+        "episode (.episode), a folder of these, or the address of an AI4U script "
+        "(ai4u://HOST:PORT). A Python file is run when it is chosen. Repeat the option for several."
     ),
 ]
 SavedScenes = Annotated[
     Path | None,
     typer.Option(
         "--scenes",
-        help="A folder in which pages can save scenes under a name; left out, they can only "
-        "download them.",
+        help="Folder in which pages can save scenes. Default: pages can only download them.",
     ),
 ]
 Restore = Annotated[
     bool,
     typer.Option(
         "--restore",
-        help="Go on with the scene that was left unsaved last; of SCENE, or by number, if one "
-        "is named.",
+        help="Reopen the last unsaved scene; if SCENE is given, the last one of that name or the "
+        "one with that number.",
     ),
 ]
 AutosaveFlag = Annotated[
-    bool, typer.Option("--autosave/--no-autosave", help="Keep what is changed in the page.")
+    bool,
+    typer.Option(
+        "--autosave/--no-autosave", help="Keep unsaved changes, to reopen them with --restore."
+    ),
 ]

@@ -1,6 +1,7 @@
 """Commands for training; heavy imports happen when a command runs."""
 
 import json
+from contextlib import ExitStack
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -10,19 +11,12 @@ from rich.console import Console
 from ai4u_edu.base.atomic_write import write_atomically
 from ai4u_edu.base.errors import SetupError
 from ai4u_edu.base.seeding import seeds_from
-from ai4u_edu.cli.options import (
-    MAX_EPISODES,
-    MAX_TRAINING_STEPS,
-    OwnBlocks,
-    load_own_blocks,
-    seed_option,
-    training_seed_option,
-)
+from ai4u_edu.cli import training_options as o
+from ai4u_edu.cli.options import OwnBlocks, load_own_blocks
 
 if TYPE_CHECKING:
     from ai4u_edu.training.learning import Trained
-
-Folder = Annotated[Path, typer.Option(help="The training's folder.", show_default=False)]
+    from ai4u_edu.training.watch import Watch
 
 
 def add_to(app: typer.Typer) -> None:
@@ -33,43 +27,21 @@ def add_to(app: typer.Typer) -> None:
 
 
 def train(
-    scene: Annotated[
-        str, typer.Argument(help="A scene of the library, or a YAML file; not with --resume.")
-    ] = "",
-    algo: Annotated[str, typer.Option(help="sac, ppo or dqn; left out, as the settings say.")] = "",
-    steps: Annotated[
-        int | None,
-        typer.Option(
-            help="Decisions to learn from; left out, as the settings say.",
-            min=1,
-            max=MAX_TRAINING_STEPS,
-        ),
-    ] = None,
-    seed: Annotated[int, training_seed_option("The same seed gives the same model.")] = 0,
-    out: Annotated[
-        Path | None, typer.Option(help="The training's folder; left out: runs/SCENE-ALGO-SEED.")
-    ] = None,
-    settings: Annotated[
-        Path | None, typer.Option(help="A YAML file in place of the scene's own settings.")
-    ] = None,
-    policy: Annotated[
-        str, typer.Option(help="MlpPolicy, CnnPolicy (one picture), or MultiInputPolicy.")
-    ] = "",
-    observe: Annotated[
-        list[str] | None, typer.Option(help="A perception key that it gets; once for each.")
-    ] = None,
-    resume: Annotated[
-        bool, typer.Option("--resume", help="Go on with the training in --out.")
-    ] = False,
-    overwrite: Annotated[
-        bool, typer.Option("--overwrite", help="Begin anew, and lose the training in --out.")
-    ] = False,
-    watch: Annotated[
-        bool, typer.Option("--watch", help="Show the policy driving in the browser as it learns.")
-    ] = False,
+    scene: o.TrainedScene = "",
+    algo: o.Algorithm = "",
+    steps: o.Steps = None,
+    seed: o.TrainingSeed = 0,
+    out: o.TrainingFolder = None,
+    settings: o.SettingsFile = None,
+    policy: o.PolicyKind = "",
+    observe: o.Observed = None,
+    resume: o.Resume = False,
+    overwrite: o.Overwrite = False,
+    watch: o.WatchFlag = False,
+    port: o.WatchPort = 8080,
     own_blocks: OwnBlocks = None,
 ) -> None:
-    r"""Train an agent in a scene; Ctrl-C keeps what it has learned.
+    r"""Train an agent in a scene. Ctrl-C ends it early and keeps what was learned.
 
     Needs: pip install "ai4u-edu\[train]"
     """
@@ -78,20 +50,34 @@ def train(
     if resume and out is None:
         raise SetupError("--resume needs --out, the folder of the training to go on with")
     load_own_blocks(own_blocks)
-    result = trained(
-        scene or "box_chase",
-        algo,
-        steps=steps,
-        seed=seed,
-        out=out,
-        settings=settings,
-        policy=policy,
-        observe=observe or (),
-        resume=resume,
-        overwrite=overwrite,
-        watch=watch,
-    )
-    typer.echo(_summary(result))
+    with ExitStack() as ending:
+        page = ending.enter_context(_page(port)) if watch else None
+        result = trained(
+            scene or "box_chase",
+            algo,
+            steps=steps,
+            seed=seed,
+            out=out,
+            settings=settings,
+            policy=policy,
+            observe=observe or (),
+            resume=resume,
+            overwrite=overwrite,
+            watch=page or False,
+        )
+        typer.echo(_summary(result))
+        if page and not result.interrupted:
+            typer.echo("the trained policy drives in the page; Ctrl-C ends it")
+            page.wait()
+
+
+def _page(port: int) -> "Watch":
+    from ai4u_edu.base.optional_deps import need
+
+    need("train", "torch", "stable_baselines3")
+    from ai4u_edu.training.watch import Watch
+
+    return Watch(port)
 
 
 def _summary(result: "Trained") -> str:
@@ -101,31 +87,19 @@ def _summary(result: "Trained") -> str:
     return (
         f"{why} after {result.steps} steps; kept {result.run.best}: {success}"
         f"reward {best.reward:.2f} (after {best.steps} steps)\n"
-        f"look at it:  ai4u-edu evaluate {folder}\n"
+        f"evaluate it: ai4u-edu evaluate {folder}\n"
         f"export it:   ai4u-edu export {folder} --out policy.onnx"
     )
 
 
 def evaluate(
-    who: Annotated[
-        str,
-        typer.Argument(
-            help="A training's folder, a model (.zip), a network (.onnx, zoo:SCENE, or zoo for the "
-            "scene's own), a controller, FILE.py:NAME, random, or scene (its own controller)."
-        ),
-    ],
-    scene: Annotated[
-        str, typer.Option(help="A scene of the library, or a YAML file; left out: its own.")
-    ] = "",
-    compare: Annotated[
-        list[str] | None, typer.Option(help="Somebody else, on the same seeds; more than once.")
-    ] = None,
-    episodes: Annotated[int, typer.Option(min=1, max=MAX_EPISODES)] = 100,
-    seed: Annotated[int, seed_option("Of the first episode; then one by one.")] = 0,
-    json_file: Annotated[
-        Path | None, typer.Option("--json", help="Write all of it to a file; - for the terminal.")
-    ] = None,
-    plot: Annotated[Path | None, typer.Option(help="Draw it into a PNG file.")] = None,
+    who: o.Driver,
+    scene: o.EvaluatedScene = "",
+    compare: o.Others = None,
+    episodes: o.Episodes = 100,
+    seed: o.FirstSeed = 0,
+    json_file: o.JsonFile = None,
+    plot: o.Plot = None,
     own_blocks: OwnBlocks = None,
 ) -> None:
     """Measure how well a driver does, on seeds not used for training.
@@ -172,11 +146,11 @@ def evaluate(
 
 
 def export(
-    model: Annotated[Path, typer.Argument(help="A training's folder, or a model (.zip) in it.")],
-    out: Annotated[Path, typer.Option(help="The network's file.")] = Path("policy.onnx"),
+    model: Annotated[Path, typer.Argument(help="Folder of a training, or a model (.zip) in it.")],
+    out: Annotated[Path, typer.Option(help="File to write.")] = Path("policy.onnx"),
     own_blocks: OwnBlocks = None,
 ) -> None:
-    """Write a model as a network (.onnx) that drives without torch, and can be shared."""
+    """Export a model as a network (.onnx) that drives without torch and can be shared."""
     from ai4u_edu.training import export as exported
     from ai4u_edu.training.run import run_of
 

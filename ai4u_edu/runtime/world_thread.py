@@ -19,6 +19,7 @@ from ai4u_edu.runtime.frame_budget import FrameBudget
 from ai4u_edu.runtime.pending_answers import PendingAnswers
 from ai4u_edu.runtime.snapshot_publisher import SnapshotPublisher
 from ai4u_edu.runtime.tick_monitor import Stall, TickMonitor
+from ai4u_edu.runtime.training_progress import TrainingProgress
 from ai4u_edu.snapshot import Snapshot, StaticScene, capture_snapshot, capture_static_scene
 
 T = TypeVar("T")
@@ -68,6 +69,8 @@ class WorldThread:
     ) -> None:
         self.sim = sim
         self.recorder = recorder
+        self.training: TrainingProgress | None = None
+        """Progress of the training whose policy drives in this world; replaced, never changed."""
         self.paused = False
         self.error = ""
         self.time_scale = sim.default_time_scale

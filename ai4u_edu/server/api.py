@@ -11,6 +11,7 @@ from typing_extensions import TypeAliasType
 
 from ai4u_edu.base.version import __version__
 from ai4u_edu.runtime.tick_monitor import Stall
+from ai4u_edu.runtime.training_progress import TrainingProgress
 from ai4u_edu.snapshot import AgentState, BodyState, Snapshot
 
 
@@ -134,6 +135,12 @@ class SnapshotView(_View):
 
 
 Status = Literal["ok", "paused", "error", "stalled"]
+
+
+class TrainingView(_View):
+    """Training whose policy drives in the room."""
+
+    training: TrainingProgress | None = Field(description="null where nothing is being trained")
 
 
 class Health(_View):

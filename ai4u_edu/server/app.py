@@ -73,6 +73,7 @@ def room_app(
             Route("/web/{file}", page.file, middleware=auth),
             Route("/healthz", state.health, middleware=auth),
             Route("/api/snapshot", state.snapshot, middleware=auth),
+            Route("/api/training", state.training, middleware=auth),
             Route("/api/past", past.list, middleware=auth),
             Route("/api/past/{file}", past.file, middleware=auth),
             Route("/api/openapi.json", state.describe, middleware=auth),

@@ -6,7 +6,7 @@ from pydantic import BaseModel
 from pydantic.json_schema import models_json_schema
 
 from ai4u_edu.base.version import __version__
-from ai4u_edu.server.api import Health, SnapshotView
+from ai4u_edu.server.api import Health, SnapshotView, TrainingView
 from ai4u_edu.server.past import RECORDING, WRITERS, PastView
 from ai4u_edu.server.scene_routes import (
     LinkRequest,
@@ -20,6 +20,7 @@ from ai4u_edu.server.start_page import LessonsView, ScenesView
 _ANSWERS: dict[str, tuple[str, type[BaseModel]]] = {
     "/healthz": ("Whether the room is well.", Health),
     "/api/snapshot": ("Everything at the last tick.", SnapshotView),
+    "/api/training": ("Progress of the training whose policy drives.", TrainingView),
     "/api/past": ("The kept episodes.", PastView),
 }
 

@@ -7,7 +7,7 @@ from starlette.requests import Request
 from starlette.responses import JSONResponse, Response
 
 from ai4u_edu.runtime.runner import Runner
-from ai4u_edu.server.api import Health, SnapshotView
+from ai4u_edu.server.api import Health, SnapshotView, TrainingView
 from ai4u_edu.server.openapi import openapi
 from ai4u_edu.snapshot import Snapshot
 
@@ -42,6 +42,10 @@ class StateRoutes:
         if self._cached[0] is not latest:
             self._cached = latest, SnapshotView.of(latest).model_dump_json()
         return _json(self._cached[1])
+
+    async def training(self, _: Request) -> Response:
+        """Return the progress of a training whose policy drives here."""
+        return _json(TrainingView(training=self._runner.training).model_dump_json())
 
     async def describe(self, _: Request) -> Response:
         """Return the API's OpenAPI document."""

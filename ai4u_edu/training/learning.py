@@ -80,7 +80,7 @@ def train(
     seed: int = 0,
     overwrite: bool = False,
     quiet: bool = False,
-    watch: bool = False,
+    watch: "Watch | None" = None,
 ) -> Trained:
     """Start a training.
 
@@ -95,7 +95,7 @@ def train(
         seed: seed of the network, the worlds and all random choices.
         overwrite: True replaces a training that is in the folder.
         quiet: True shows nothing.
-        watch: True shows the policy driving in the browser as it learns.
+        watch: page that shows the policy driving as it learns.
 
     Raises:
         SetupError: the settings don't fit the scene, or the folder holds a training already.
@@ -139,7 +139,7 @@ def resume(
     *,
     steps: int | None = None,
     quiet: bool = False,
-    watch: bool = False,
+    watch: "Watch | None" = None,
 ) -> Trained:
     """Resume a training that was interrupted, or extend one.
 
@@ -149,7 +149,7 @@ def resume(
         folder: the training's folder.
         steps: decisions to learn from, the ones before counted too; left out, as it was begun.
         quiet: True shows nothing.
-        watch: True shows the policy driving in the browser as it learns.
+        watch: page that shows the policy driving as it learns.
 
     Raises:
         SetupError: there is no training in the folder.
@@ -180,7 +180,7 @@ def _learn(
     model: BaseAlgorithm,
     worlds: VecEnv,
     quiet: bool,
-    watch: bool,
+    watch: "Watch | None",
 ) -> Trained:
     settings = config.settings
     evaluation = EvalCallback(
@@ -197,9 +197,9 @@ def _learn(
     model.set_logger(configure(str(run.tensorboard), formats))
     left = config.steps - model.num_timesteps
     callbacks: list[BaseCallback] = [interrupt, evaluation, bar]
-    page = _page(run) if watch else None
-    if page:
-        callbacks.append(page)
+    if watch:
+        watch.set_training(run, config.steps)
+        callbacks.append(watch)
     try:
         with interrupt.listening():
             model.learn(left, CallbackList(callbacks), reset_num_timesteps=False)
@@ -207,21 +207,14 @@ def _learn(
                 evaluation.check()
     finally:
         bar.close()
-        if page:
-            page.close()
         model.logger.close()
     run.put(run.last, model.save)
     if isinstance(model, OffPolicyAlgorithm):
         run.put(run.replay, model.save_replay_buffer)
+    if watch:
+        watch.finish()
     return Trained(run, model.num_timesteps, interrupt.asked, evaluation.enough, evaluation.checks)
 
 
 def _env(prepared: Scene, settings: Settings) -> SceneEnv:
     return SceneEnv(prepared, observation=settings.observation, agent=settings.agent or None)
-
-
-def _page(run: Run) -> "Watch":
-    # only who watches needs it
-    from ai4u_edu.training.watch import Watch
-
-    return Watch(run)

@@ -3,7 +3,8 @@
 torch and Stable-Baselines3 are imported when a function needs them.
 """
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -18,6 +19,7 @@ if TYPE_CHECKING:
     from ai4u_edu.training.cloning import Cloned
     from ai4u_edu.training.evaluating import Evaluation
     from ai4u_edu.training.learning import Trained
+    from ai4u_edu.training.watch import Watch
 
     SceneLike = str | Path | Scene
     Who = str | Path | Trained | Cloned | Controller | Callable[..., Any]
@@ -35,7 +37,7 @@ def train(
     observe: Sequence[str] = (),
     resume: bool = False,
     overwrite: bool = False,
-    watch: bool = False,
+    watch: "bool | Watch" = False,
     quiet: bool = False,
 ) -> "Trained":
     """Train an agent in a scene; Ctrl-C (a notebook's stop button) keeps what it learned so far.
@@ -57,7 +59,8 @@ def train(
         resume: True goes on with the training in ``out``, up to ``steps`` in all.
         overwrite: True replaces a training that is in ``out`` already, as when a notebook's cell
             runs for the second time.
-        watch: True shows the policy driving in the browser as it learns.
+        watch: True shows the policy driving in the browser as it learns, until it has learned; a
+            :class:`~ai4u_edu.training.watch.Watch` shows it until that is closed.
         quiet: True shows nothing.
 
     Returns:
@@ -74,7 +77,8 @@ def train(
     if resume:
         if out is None:
             raise SetupError("resume needs out, the folder of the training to go on with")
-        return learning.resume(Path(out), steps=steps, quiet=quiet, watch=watch)
+        with _page_of(watch) as page:
+            return learning.resume(Path(out), steps=steps, quiet=quiet, watch=page)
     loaded = _scene(scene)
     name = loaded.description.name
     changes = dict(settings) if isinstance(settings, Mapping) else {}
@@ -85,17 +89,18 @@ def train(
     for each in ALGORITHMS:
         if algorithm == each:
             folder = Path(out) if out else Path("runs") / f"{name}-{each}-{seed}"
-            return learning.train(
-                loaded,
-                each,
-                how,
-                folder,
-                steps=steps,
-                seed=seed,
-                overwrite=overwrite,
-                quiet=quiet,
-                watch=watch,
-            )
+            with _page_of(watch) as page:
+                return learning.train(
+                    loaded,
+                    each,
+                    how,
+                    folder,
+                    steps=steps,
+                    seed=seed,
+                    overwrite=overwrite,
+                    quiet=quiet,
+                    watch=page,
+                )
     raise SetupError(
         f"algo: expected one of {', '.join(ALGORITHMS)}, got {algo!r}; {suggest(algo, ALGORITHMS)}"
     )
@@ -231,6 +236,20 @@ def clone(
     if paths or not episodes:
         episodes += load_episodes(paths)
     return cloned(episodes, Path(out), agent=agent, seed=seed, updates=updates, quiet=quiet)
+
+
+@contextmanager
+def _page_of(watch: "bool | Watch") -> "Iterator[Watch | None]":
+    """Give the page of a training; close it afterwards, unless the caller made it."""
+    if not isinstance(watch, bool):
+        yield watch
+    elif watch:
+        from ai4u_edu.training.watch import Watch
+
+        with Watch() as page:
+            yield page
+    else:
+        yield None
 
 
 def _scene(given: "SceneLike") -> "Scene":

@@ -8,6 +8,7 @@
     DIR/last.zip        the model as it was last: --resume goes on from it
     DIR/replay.pkl      what SAC and DQN remember
     DIR/checks.json     every check on the way
+    DIR/watched.*       model, weights and progress for the page of --watch
     DIR/tensorboard/    curves, for: tensorboard --logdir DIR
 """
 
@@ -92,12 +93,17 @@ class Run:
         self.last = folder / "last.zip"
         self.replay = folder / "replay.pkl"
         self.tensorboard = folder / "tensorboard"
+        self.watched_model = folder / "watched.zip"
+        self.watched_weights = folder / "watched.pt"
+        self.progress = folder / "watched.json"
 
     def clear(self) -> None:
         """Delete what a training wrote, and nothing else in the folder."""
-        for name in ("config.json", "scene.yaml", "checks.json", "watched.zip", "watched.pt"):
+        for name in ("config.json", "scene.yaml", "checks.json"):
             (self.folder / name).unlink(missing_ok=True)
-        for path in (self.best, self.last, self.replay, *self.tensorboard.glob("events.*")):
+        watched = (self.watched_model, self.watched_weights, self.progress)
+        events = self.tensorboard.glob("events.*")
+        for path in (self.best, self.last, self.replay, *watched, *events):
             path.unlink(missing_ok=True)
 
     def begin(self, config: Config, scene: Scene) -> None:
@@ -152,6 +158,9 @@ class Run:
         with partial_file(path) as beside:
             write(beside)
 
+    def put_text(self, path: Path, text: str) -> None:
+        """Write a text file atomically."""
+        self.put(path, lambda beside: beside.write_text(text + "\n", "utf-8"))
+
     def _write(self, name: str, data: Any) -> None:
-        text = json.dumps(data, indent=1)
-        self.put(self.folder / name, lambda beside: beside.write_text(text + "\n", "utf-8"))
+        self.put_text(self.folder / name, json.dumps(data, indent=1))

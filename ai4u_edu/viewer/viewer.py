@@ -18,6 +18,7 @@ from ai4u_edu.viewer.panel.controls import Controls
 from ai4u_edu.viewer.panel.page_controls import PageControls
 from ai4u_edu.viewer.panel.reward_table import MAX_PLOTTED_DECISIONS
 from ai4u_edu.viewer.panel.tabs import TabKind, Tabs
+from ai4u_edu.viewer.panel.training_block import TrainingBlock
 from ai4u_edu.viewer.panel.world_tab import world_tab
 from ai4u_edu.viewer.replay.ghosts import Ghosts
 from ai4u_edu.viewer.replay.replay_player import ReplayPlayer
@@ -89,7 +90,7 @@ class Viewer:
         if runner.recorder is not None:
             kinds.append(replay_tab(runner, self.player, self.ghosts))
 
-        bodies = Bodies(server, self._choose)
+        bodies, training = Bodies(server, self._choose), runner.training
         parts: list[tuple[Part, float]] = [
             (viewer_clients, MAX_FRAMES_PER_S),
             (Ground(server), TEXTS_PER_S),
@@ -99,6 +100,7 @@ class Viewer:
             (Actions(server, bodies), SENSES_PER_S),
             (Controls(server, runner, viewer_clients), TEXTS_PER_S),
             (PageControls(viewer_clients), TEXTS_PER_S),
+            *([(TrainingBlock(server, runner, training), TEXTS_PER_S)] if training else []),
             (Trails(viewer_clients), SENSES_PER_S),
             (SenseOverlay(viewer_clients), MAX_FRAMES_PER_S),
             (Tabs(viewer_clients, kinds, self._error_log), MAX_FRAMES_PER_S),

@@ -9,4 +9,4 @@ def course(steps: int, seed: int) -> npt.NDArray[np.float32]:
     rng = np.random.default_rng(seed)
     bends = np.sin(np.arange(steps) / rng.uniform(5, 15))
     forward, jitter = rng.uniform([0.3, -0.3], [1.0, 0.3], (steps, 2)).T
-    return np.column_stack([forward, bends + jitter]).astype(np.float32)
+    return np.column_stack([forward, (bends + jitter).clip(-1.0, 1.0)]).astype(np.float32)

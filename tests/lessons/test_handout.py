@@ -75,7 +75,7 @@ def test_the_command_says_what_became_of_each(tmp_path: Path) -> None:
     command = ["lessons", str(tmp_path / "course"), "--copy-only"]
     assert f"{len(NAMES)} new notebooks in " in runner.invoke(app, command).output
     again = runner.invoke(app, command).output
-    assert f"{len(NAMES)} were there already, and stay as they are" in again
+    assert f"{len(NAMES)} were there already and are kept" in again
 
 
 def test_without_jupyterlab_the_command_says_how_to_get_it(tmp_path: Path) -> None:

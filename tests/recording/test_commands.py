@@ -65,7 +65,7 @@ def test_replay_says_that_it_is_exact_and_exports(folder: Path, tmp_path: Path) 
         *(part for path in out for part in (f"--{path.suffix[1:]}", path)),
     )
     assert told.returncode == 0, told.stderr
-    assert "it plays again exactly, bit for bit" in told.stdout
+    assert "the replay is exact, bit for bit" in told.stdout
     assert "touch 100" in told.stdout
     assert all(path.stat().st_size > 1000 for path in out)
 
@@ -75,7 +75,7 @@ def test_replay_says_where_it_is_not(folder: Path, tmp_path: Path) -> None:
     episode.agents[0].percepts[10] ^= 1
     told = run("replay", episode.save(tmp_path / "wrong.episode"))
     assert told.returncode == 1
-    assert "it plays again exactly up to 0.85 s and not beyond: agent '0', decision 10: " in (
+    assert "the replay is exact up to 0.85 s and not beyond: agent '0', decision 10: " in (
         told.stdout
     )
 

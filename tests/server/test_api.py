@@ -17,6 +17,7 @@ from ai4u_edu import BasicAgent, MinDistReward, RayCastingSensor, Sensor, WASDRB
 from ai4u_edu.base.version import __version__
 from ai4u_edu.remote import connect
 from ai4u_edu.runtime.runner import Runner
+from ai4u_edu.runtime.training_progress import CurvePoint, TrainingProgress
 from ai4u_edu.server.api import SnapshotView, finite
 from tests.builders import small_sim
 from tests.server.rooms import Room, served, until
@@ -46,7 +47,7 @@ def get(room: Room, path: str) -> Any:
     return json.loads(answer.text, parse_constant=lambda name: pytest.fail(f"{name} is no JSON"))
 
 
-@pytest.mark.parametrize("path", ["healthz", "api/snapshot", "api/past"])
+@pytest.mark.parametrize("path", ["healthz", "api/snapshot", "api/past", "api/training"])
 def test_an_answer_fits_its_description(room: Room, path: str) -> None:
     document = get(room, "api/openapi.json")
     described = document["paths"]["/" + path]["get"]["responses"]["200"]["content"]
@@ -68,6 +69,7 @@ def test_the_description_is_complete(room: Room) -> None:
     assert set(document["paths"]) == {
         "/healthz",
         "/api/snapshot",
+        "/api/training",
         "/api/past",
         "/api/past/{file}",
         "/api/openapi.json",
@@ -76,6 +78,22 @@ def test_the_description_is_complete(room: Room) -> None:
         if "{" not in path:
             get(room, path[1:])
     assert "$defs" not in json.dumps(document)
+
+
+def test_a_training_tells_its_progress(room: Room) -> None:
+    assert get(room, "api/training") == {"training": None}
+    point = CurvePoint(decisions=500, reward=-0.5, success=None)
+    room.runner.training = TrainingProgress(
+        decisions=700, total=1000, is_over=False, curve=(point,)
+    )
+    test_an_answer_fits_its_description(room, "api/training")
+    assert get(room, "api/training")["training"] == {
+        "decisions": 700,
+        "total": 1000,
+        "is_over": False,
+        "curve": [{"decisions": 500, "reward": -0.5, "success": None}],
+    }
+    room.runner.training = None
 
 
 def test_a_snapshot_tells_what_the_world_is_like(room: Room) -> None:
@@ -187,5 +205,5 @@ def test_what_json_has_no_word_for_becomes_null() -> None:
 
 
 def test_the_api_only_looks(room: Room) -> None:
-    for path in ("healthz", "api/snapshot", "api/past", "api/openapi.json", ""):
+    for path in ("healthz", "api/snapshot", "api/past", "api/training", "api/openapi.json", ""):
         assert httpx.post(room.url + path).status_code == 405

@@ -1,16 +1,9 @@
 """The commands, from learning to driving in the page."""
 
 import json
-import re
-import shutil
-import socket
-import subprocess
-import time
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
 
-import httpx
 import pytest
 from typer.testing import CliRunner
 
@@ -19,10 +12,9 @@ from ai4u_edu.base.errors import AI4UError, NameNotFoundError, SetupError
 from ai4u_edu.blocks import Block, RemoteBrain
 from ai4u_edu.cli.main import app
 from ai4u_edu.training import export
-from ai4u_edu.training.algorithms import load_model
 from ai4u_edu.training.assigned import with_drivers
 from ai4u_edu.training.run import Run
-from ai4u_edu.training.watch import MODEL, Watch
+from ai4u_edu.training.watch import Watch
 from tests.training.small import CHOICES, copied_training, small_settings
 
 
@@ -117,7 +109,9 @@ def test_a_scene_with_blocks_of_ones_own_is_learned(tmp_path: Path) -> None:
         assert "named with --blocks FILE.py" in failed(*command)
         run(*command, *own)
     assert network.is_file()
-    assert Watch(Run(out)).command()[-1] == str(blocks)
+    watch = Watch()
+    watch.set_training(Run(out), 192)
+    assert watch.command()[-1] == str(blocks)
 
 
 DRIVERS = """
@@ -201,58 +195,3 @@ def test_what_is_wrong_on_the_command_line(tmp_path: Path) -> None:
     assert "did you mean 'box_chase'" in failed("train", "box_chese")
     assert "Expected --scene" in failed("evaluate", "random")
     assert "holds no training" in failed("export", str(tmp_path / "model.zip"))
-
-
-def test_watching_hands_the_policy_on(tmp_path: Path) -> None:
-    """The page's process serves the world in which the latest model drives."""
-    done = copied_training(tmp_path)
-    model = load_model("ppo", done.run.last)
-    watch = Watch(done.run, port=0, open_page=False)
-    watch.init_callback(model)
-    shutil.copy(done.run.last, tmp_path / MODEL)
-    watch.write_weights()
-    with subprocess.Popen(watch.command(), stderr=subprocess.PIPE, text=True) as page:
-        assert page.stderr is not None
-        try:
-            line = next(line for line in page.stderr if "watch it learn" in line)
-            found = re.search(r"http://\S+", line)
-            assert found
-            address = found[0] + "api/snapshot"
-            before = httpx.get(address, timeout=20).json()["agents"][0]
-            # from now on it does nothing but turn
-            weights = model.policy.action_net
-            weights.weight.data.zero_()
-            weights.bias.data[:] = weights.bias.new_tensor([0.0, 1.0, 0.0, 0.0])
-            watch.write_weights()
-            for _ in range(100):
-                time.sleep(0.1)
-                after = httpx.get(address, timeout=20).json()["agents"][0]
-                if turning(after):
-                    break
-        finally:
-            page.terminate()
-    assert before["brain"] == "LocalBrain(ScriptController)"
-    assert not turning(before)
-    assert turning(after)
-
-
-def turning(agent: dict[str, Any]) -> bool:
-    """Return True if the agent's last action was exactly a turn to the right."""
-    return bool(agent["action"].get("move") == [0.0, 1.0, 0.0, 0.0])
-
-
-def test_watching_takes_another_port_where_that_one_is_taken(tmp_path: Path) -> None:
-    done = copied_training(tmp_path)
-    with socket.create_server(("127.0.0.1", 0)) as taken:
-        port = taken.getsockname()[1]
-        watch = Watch(done.run, port=port, open_page=False)
-        watch.init_callback(load_model("ppo", done.run.last))
-        shutil.copy(done.run.last, tmp_path / MODEL)
-        watch.write_weights()
-        with subprocess.Popen(watch.command(), stderr=subprocess.PIPE, text=True) as page:
-            assert page.stderr is not None
-            try:
-                line = next(line for line in page.stderr if "watch it learn" in line)
-            finally:
-                page.terminate()
-    assert f":{port}/" not in line

@@ -12,7 +12,7 @@ from ai4u_edu.viewer.scene.geometry import Array
 PULSE_S = 1.0
 """Duration of a pulse, wall time (s)."""
 PULSE_COUNT = 2
-"""How often a body grows and shrinks during a pulse."""
+"""Times that a body grows and shrinks during a pulse."""
 PULSE_GROWTH = 0.22
 """Share by which a body grows."""
 MAX_GAP_M = 0.15

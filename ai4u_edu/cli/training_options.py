@@ -1,0 +1,86 @@
+"""Options of ``ai4u-edu train`` and ``ai4u-edu evaluate``, one type for each."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from ai4u_edu.cli.options import (
+    MAX_EPISODES,
+    MAX_TRAINING_STEPS,
+    seed_option,
+    training_seed_option,
+)
+
+TrainedScene = Annotated[
+    str, typer.Argument(help="Scene name or YAML file. Default: box_chase. Not with --resume.")
+]
+Algorithm = Annotated[str, typer.Option(help="sac, ppo or dqn. Default: as in the settings.")]
+Steps = Annotated[
+    int | None,
+    typer.Option(
+        help="Number of decisions to learn from. Default: as in the settings.",
+        min=1,
+        max=MAX_TRAINING_STEPS,
+    ),
+]
+TrainingSeed = Annotated[
+    int, training_seed_option("Random seed; the same seed gives the same model.")
+]
+TrainingFolder = Annotated[
+    Path | None, typer.Option(help="Folder for the results. Default: runs/SCENE-ALGO-SEED.")
+]
+SettingsFile = Annotated[
+    Path | None, typer.Option(help="YAML file to use instead of the scene's own settings.")
+]
+PolicyKind = Annotated[
+    str,
+    typer.Option(
+        help="Kind of network: MlpPolicy, CnnPolicy (one picture) or MultiInputPolicy. "
+        "Default: as in the settings."
+    ),
+]
+Observed = Annotated[
+    list[str] | None,
+    typer.Option(
+        help="Perception key that the policy observes. Repeat the option for several. "
+        "Default: as in the settings."
+    ),
+]
+Resume = Annotated[bool, typer.Option("--resume", help="Continue the training in --out.")]
+Overwrite = Annotated[
+    bool, typer.Option("--overwrite", help="Start again and delete the training in --out.")
+]
+WatchFlag = Annotated[
+    bool,
+    typer.Option(
+        "--watch",
+        help="Show the policy in the browser while it learns and afterwards; Ctrl-C ends it.",
+    ),
+]
+WatchPort = Annotated[
+    int,
+    typer.Option(help="Port of the page with --watch; 0 for any free port.", min=0, max=65535),
+]
+Driver = Annotated[
+    str,
+    typer.Argument(
+        help="The driver: a training's folder, a model (.zip), a network (.onnx, zoo:SCENE, or "
+        "zoo for the scene's own), a controller, FILE.py:NAME (a function or a Controller), "
+        "random, or scene (the scene's own controller)."
+    ),
+]
+EvaluatedScene = Annotated[
+    str,
+    typer.Option(help="Scene name or YAML file. Default: the one that the driver is made for."),
+]
+Others = Annotated[
+    list[str] | None,
+    typer.Option(help="Another driver, on the same seeds. Repeat the option for several."),
+]
+Episodes = Annotated[int, typer.Option(help="Number of episodes.", min=1, max=MAX_EPISODES)]
+FirstSeed = Annotated[int, seed_option("Seed of the first episode; the next ones count up.")]
+JsonFile = Annotated[
+    Path | None, typer.Option("--json", help="Write the results to a JSON file; - prints them.")
+]
+Plot = Annotated[Path | None, typer.Option(help="Draw the results into a PNG file.")]

@@ -1,0 +1,167 @@
+"""The page of a training: the latest policy drives, and afterwards the one that was kept."""
+
+import json
+import re
+import shutil
+import signal
+import socket
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import IO, Any
+
+import httpx
+import pytest
+
+from ai4u_edu.base.errors import SetupError
+from ai4u_edu.training.algorithms import load_model
+from ai4u_edu.training.run import Run
+from ai4u_edu.training.watch import Watch
+from tests.training.small import copied_training, small_settings
+
+TOTAL = 5000
+TRAIN = "train box_chase --algo ppo --steps 128 --watch"
+
+
+def watching(run: Run, port: int = 0) -> Watch:
+    """Return the callback of a training that has just begun."""
+    watch = Watch(port, open_page=False)
+    watch.set_training(run, TOTAL)
+    watch.init_callback(load_model("ppo", run.last))
+    shutil.copy(run.last, run.watched_model)
+    watch.write_weights()
+    return watch
+
+
+@contextmanager
+def page_of(watch: Watch) -> Iterator[str]:
+    """Run the page's process, and give its address."""
+    with subprocess.Popen(watch.command(), stderr=subprocess.PIPE, text=True) as page:
+        try:
+            assert page.stderr is not None
+            yield address_in(page.stderr)
+        finally:
+            page.terminate()
+
+
+def address_in(stream: IO[str]) -> str:
+    line = next(line for line in stream if "watch it learn" in line)
+    found = re.search(r"http://\S+", line)
+    assert found
+    return found[0]
+
+
+def get(address: str, path: str) -> Any:
+    return httpx.get(address + path, timeout=20).json()
+
+
+def until(is_so: Callable[[], bool]) -> None:
+    """Wait until something is so."""
+    for _ in range(300):
+        if is_so():
+            return
+        time.sleep(0.1)
+    pytest.fail("it never was so")
+
+
+def only_turn(model: Any) -> None:
+    """Let a policy do nothing but turn to the right."""
+    weights = model.policy.action_net
+    weights.weight.data.zero_()
+    weights.bias.data[:] = weights.bias.new_tensor([0.0, 1.0, 0.0, 0.0])
+
+
+def test_the_latest_policy_drives_and_then_the_best(tmp_path: Path) -> None:
+    run = copied_training(tmp_path).run
+    watch = watching(run)
+
+    with page_of(watch) as address:
+
+        def is_turning() -> bool:
+            agent = get(address, "api/snapshot")["agents"][0]
+            return bool(agent["action"].get("move") == [0.0, 1.0, 0.0, 0.0])
+
+        assert get(address, "api/snapshot")["agents"][0]["brain"] == "LocalBrain(ScriptController)"
+        assert not is_turning()
+        only_turn(watch.model)
+        watch.write_weights()
+        until(is_turning)
+        watch.finish()  # the model that was kept does something else
+        until(lambda: not is_turning())
+
+
+def test_the_progress_can_be_read_and_episodes_go_on(tmp_path: Path) -> None:
+    run = copied_training(tmp_path).run
+    watch = watching(run)
+    checks = run.checks()
+    with page_of(watch) as address:
+        told = get(address, "api/training")["training"]
+        assert told["decisions"] == watch.model.num_timesteps > 0
+        assert told["total"] == TOTAL
+        assert not told["is_over"]
+        assert [each["decisions"] for each in told["curve"]] == [each.steps for each in checks]
+        assert [each["reward"] for each in told["curve"]] == [each.reward for each in checks]
+        first = get(address, "api/snapshot")["episode"]  # of 20 decisions
+        until(lambda: get(address, "api/snapshot")["episode"] > first + 1)
+        run.note([*checks, checks[-1].model_copy(update={"success": 1.0})])
+        watch.write_weights()
+        until(lambda: len(get(address, "api/training")["training"]["curve"]) == len(checks) + 1)
+        assert get(address, "api/training")["training"]["curve"][-1]["success"] == 1.0
+        watch.finish()
+        until(lambda: get(address, "api/training")["training"]["is_over"])
+
+
+def test_it_takes_another_port_where_that_one_is_taken(tmp_path: Path) -> None:
+    with socket.create_server(("127.0.0.1", 0)) as taken:
+        port = taken.getsockname()[1]
+        with page_of(watching(copied_training(tmp_path).run, port)) as address:
+            assert f":{port}/" not in address
+
+
+def test_it_needs_a_training() -> None:
+    with pytest.raises(SetupError, match=r"give this to train\(watch=...\)"):
+        Watch().command()
+
+
+def train_command(folder: Path) -> subprocess.Popen[str]:
+    """Run a short training with its page."""
+    settings = folder / "mine.yaml"
+    settings.write_text(json.dumps(small_settings().model_dump(mode="json")))  # JSON is YAML
+    options = ("--settings", str(settings), "--out", str(folder / "run"), "--port", "0")
+    return subprocess.Popen(
+        [sys.executable, "-m", "ai4u_edu", *TRAIN.split(), *options],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        start_new_session=True,
+    )
+
+
+def is_served(address: str) -> bool:
+    """Return True while somebody answers at an address."""
+    try:
+        httpx.get(address + "healthz", timeout=20)
+    except httpx.TransportError:
+        return False
+    return True
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="sends signals")
+@pytest.mark.parametrize(
+    "end", [signal.SIGINT, pytest.param(signal.SIGKILL, marks=pytest.mark.nightly)]
+)
+def test_the_command_keeps_the_page_open_until_it_ends(tmp_path: Path, end: int) -> None:
+    with train_command(tmp_path) as training:
+        assert training.stdout is not None
+        assert training.stderr is not None
+        address = address_in(training.stderr)
+        assert any("the trained policy drives in the page" in line for line in training.stdout)
+        until(lambda: get(address, "api/training")["training"]["is_over"])
+        assert training.poll() is None
+        training.send_signal(end)
+        training.wait()
+    assert training.returncode == (0 if end == signal.SIGINT else -end)
+    until(lambda: not is_served(address))
