@@ -82,7 +82,7 @@ export class Help {
       this.#setStatus("All keys are as the scene has them.");
     });
     const share = element("button", { type: "button", className: "ai4u-plain", textContent: "Copy link" });
-    const shared = element("p", { className: "ai4u-status", role: "status" });
+    const shared = element("p", { className: "ai4u-shared", role: "status" });
     share.addEventListener("click", async () => (shared.textContent = await copyLink()));
     const descriptions = Object.entries(PAGE_PARTS).flatMap(([name, text]) => [
       element("dt", { textContent: name }),

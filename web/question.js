@@ -36,7 +36,8 @@ export function ask({ title, text = "", yes, no = "Cancel", content = [] }) {
   );
 }
 
-/** Tell a person something that has to be read; resolves when the dialog is closed. */
-export async function tell(title, text) {
+/** Tell a person a problem, which has to be read; resolves when the dialog is closed. */
+export async function tell(title, problem) {
+  const text = problem.charAt(0).toUpperCase() + problem.slice(1); // the server's sentences begin with any word
   await ask({ title, text, yes: "Close", no: "" });
 }

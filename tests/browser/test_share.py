@@ -50,7 +50,7 @@ def test_a_link_is_opened_after_a_question(server: Played, page: Page) -> None:
 def test_a_damaged_link_says_so(server: Played, page: Page) -> None:
     page.goto(f"{server.url}#{LINK[:80]}")
     told = page.get_by_role("dialog", name="The shared scene can't be opened")
-    expect(told).to_contain_text("the link is damaged")
+    expect(told).to_contain_text("The link is damaged")
     told.get_by_role("button", name="Close").click()
     expect(told).to_be_hidden()
 
