@@ -124,7 +124,7 @@ class TabPage:
 
     @property
     def shown(self) -> dict[str, Any]:
-        """What the page looks at."""
+        """Parts of the world that the page looks at."""
         shown: dict[str, Any] = self.page.evaluate("panel.shown")
         return shown
 
