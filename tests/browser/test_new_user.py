@@ -17,9 +17,9 @@ from tests.server.rooms import until
 pytestmark = pytest.mark.browser
 
 HALF = 5.0
-"""Half the side of box_chase's plate (m)."""
+"""Half the side of box_chase_ai4u's plate (m)."""
 MIDDLE = "5"
-"""A seed with which box_chase puts the robot into the middle, looking along +x."""
+"""A seed with which box_chase_ai4u puts the robot into the middle, looking along +x."""
 RAYS = "linear_ray_casting"
 
 
@@ -63,7 +63,7 @@ def test_a_new_user_with_no_help(page: Page, server: Played, tmp_path: Path) -> 
     tab(page, "World")
     press(page, "Choose a scene")
     page.locator(".ai4u.card", has_text="Reach the box and touch it").wait_for()
-    page.get_by_role("button", name="Open Box chase").click()
+    page.get_by_role("button", name="Open Box chase, as in AI4U").click()
     until(lambda: body(server, "box"))
     page.get_by_text("Reach the box and touch it.").first.wait_for()
     row(page, "Seed").fill(MIDDLE)

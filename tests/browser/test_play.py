@@ -16,12 +16,12 @@ from tests.playing import Played, played
 pytestmark = pytest.mark.browser
 
 MIDDLE = "5"
-"""A seed with which box_chase puts the robot into the middle, looking along +x."""
+"""A seed with which box_chase_ai4u puts the robot into the middle, looking along +x."""
 
 
 @pytest.fixture(scope="module")
 def shared() -> Iterator[Played]:
-    with played("box_chase") as server:
+    with played("box_chase_ai4u") as server:
         yield server
 
 
@@ -106,7 +106,7 @@ def test_there_are_no_keys_for_what_the_robot_can_not_do(page: Page) -> None:
 
 
 def test_ctrl_c_ends_it_cleanly(chromium: Browser) -> None:
-    with played("box_chase") as server:
+    with played("box_chase_ai4u") as server:
         page = new_page(chromium)
         page.goto(f"{server.url}?panel=viser")
         connected(page)

@@ -19,13 +19,13 @@ from tests.playing import Played, played
 pytestmark = pytest.mark.browser
 
 MIDDLE = "5"
-"""A seed with which box_chase puts the robot into the middle, looking along +x."""
+"""A seed with which box_chase_ai4u puts the robot into the middle, looking along +x."""
 CANVAS = (0, 0, 950, 800)
 
 
 @pytest.fixture
 def server() -> Iterator[Played]:
-    with played("box_chase", "--seed", MIDDLE) as server:
+    with played("box_chase_ai4u", "--seed", MIDDLE) as server:
         yield server
 
 
@@ -111,7 +111,7 @@ def test_the_slider_shows_the_past_and_the_world_goes_on_from_there(
 
 def test_a_ghost_goes_where_that_run_went(chromium: Browser, tmp_path: Path) -> None:
     file = run_to_the_upper_right().save(tmp_path / "mine.episode")
-    with played("box_chase", "--ghost", str(file)) as server:
+    with played("box_chase_ai4u", "--ghost", str(file)) as server:
         page = new_page(chromium, draws=True)
         page.goto(f"{server.url}?panel=viser")
         ready(page)
@@ -139,7 +139,7 @@ def test_a_ghost_goes_where_that_run_went(chromium: Browser, tmp_path: Path) -> 
 
 
 def run_to_the_upper_right() -> Episode:
-    scene = Scene.load("box_chase")
+    scene = Scene.load("box_chase_ai4u")
     sim = scene.build()
     turns = [{"move": [0.0, -0.5, 0.0, 0.0]}] * 4 + [{"move": [0.5, 0.0, 0.0, 0.0]}] * 15
     sim.agents[0].use_brain(LocalBrain(controller=ReplayController(actions=turns)))
@@ -167,7 +167,7 @@ def test_an_episode_is_taken_home_and_brought_back(
         kept.append(tmp_path / download.value.suggested_filename)
         download.value.save_as(kept[-1])
     recording, html = kept
-    assert recording.name == f"box_chase_{MIDDLE}.episode"
+    assert recording.name == f"box_chase_ai4u_{MIDDLE}.episode"
     episode = Episode.load(recording)
     assert episode.seed == int(MIDDLE)
     assert Replay(episode).verdict.exact

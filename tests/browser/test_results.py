@@ -60,7 +60,7 @@ def test_a_tone_is_played_once_it_is_turned_on(site: ServedViser) -> None:
 
 
 def test_after_a_win_the_next_scene_is_one_click_away(chromium: Browser) -> None:
-    with played("box_chase") as server:
+    with played("box_chase_ai4u") as server:
         page = new_page(chromium)
         page.goto(server.url)
         ready(page)
@@ -68,5 +68,5 @@ def test_after_a_win_the_next_scene_is_one_click_away(chromium: Browser) -> None
         server.restart(5)
         page.get_by_role("button", name="Next scene").click(timeout=20_000)
         page.keyboard.up("KeyS")
-        until(lambda: server.health()["scene"] not in ("", "Box chase"), timeout=20)
+        until(lambda: server.health()["scene"] not in ("", "Box chase, as in AI4U"), timeout=20)
         page.context.close()

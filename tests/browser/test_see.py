@@ -24,7 +24,7 @@ pytestmark = pytest.mark.browser
 PATIENCE = 40_000
 """Milliseconds."""
 MIDDLE = "5"
-"""A seed with which box_chase puts the robot into the middle, looking along +x."""
+"""A seed with which box_chase_ai4u puts the robot into the middle, looking along +x."""
 
 
 @pytest.fixture(autouse=True)
@@ -45,7 +45,7 @@ def opened(chromium: Browser, server: Played, *size: int, draws: bool = False) -
 
 @pytest.fixture(scope="module")
 def shared() -> Iterator[Played]:
-    with played("box_chase") as server:
+    with played("box_chase_ai4u") as server:
         yield server
 
 
