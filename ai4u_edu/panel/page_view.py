@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 
-from ai4u_edu.panel.messages import Show
+from ai4u_edu.panel.messages.base import Show
 from ai4u_edu.viewer.scene.view import Mode
 from ai4u_edu.viewer.viewer_client import PagePanel, ViewerClient, ViewerClients
 

@@ -12,12 +12,13 @@ from starlette.websockets import WebSocket, WebSocketDisconnect, WebSocketState
 from ai4u_edu.base.errors import AI4UError, NameNotFoundError
 from ai4u_edu.base.log_limit import ErrorLog
 from ai4u_edu.editing import ChangeResult, SceneEditor
-from ai4u_edu.panel import messages
 from ai4u_edu.panel.answers import MAX_ERROR_CHARS, Answer, change_answer, failure
-from ai4u_edu.panel.commands import blocks, run, scenes, view, world
+from ai4u_edu.panel.commands import blocks, past, run, scenes, view, world
 from ai4u_edu.panel.commands.handler import Handler
 from ai4u_edu.panel.context import PanelContext
 from ai4u_edu.panel.labels import past_tense
+from ai4u_edu.panel.messages.base import Command, Show
+from ai4u_edu.panel.messages.reader import id_in, read_message
 from ai4u_edu.panel.page import Level, Page
 from ai4u_edu.panel.page_view import PageView
 from ai4u_edu.panel.parts.due import due_parts
@@ -39,12 +40,13 @@ MAX_PENDING_COMMANDS = 16
 MIN_SEND_S = 0.03
 """Shortest time (s) between two looks for changed parts, after commands."""
 
-HANDLERS: Mapping[type[messages.Command], Handler] = {
+HANDLERS: Mapping[type[Command], Handler] = {
     **run.HANDLERS,
     **view.HANDLERS,
     **blocks.HANDLERS,
     **world.HANDLERS,
     **scenes.HANDLERS,
+    **past.HANDLERS,
 }
 """Handlers of all commands by the type of their message."""
 
@@ -153,16 +155,16 @@ class _Connection:
                 await self._close(1009, f"expected at most {MAX_MESSAGE_BYTES} bytes in a message")
                 return
             try:
-                message = messages.read(data)
+                message = read_message(data)
             except ValueError as error:
                 mistakes += 1
-                await self._refuse(messages.id_in(data), str(error))
+                await self._refuse(id_in(data), str(error))
                 if mistakes >= MAX_MISTAKES:
                     await self._close(1008, f"{MAX_MISTAKES} malformed messages in a row")
                     return
                 continue
             mistakes = 0
-            if isinstance(message, messages.Show):
+            if isinstance(message, Show):
                 self._look_at(message)
             elif len(self._tasks) >= MAX_PENDING_COMMANDS:
                 await self._refuse(message.id, "expected fewer commands at a time; wait a moment")
@@ -180,13 +182,13 @@ class _Connection:
             self._note("error", str(error))
         return True
 
-    def _look_at(self, show: messages.Show) -> None:
+    def _look_at(self, show: Show) -> None:
         if show.agent not in self._context.runner.latest.static_scene.agent_of.values():
             show.agent = self._view.agent
         self._view.look_at(show)
         self._changed.set()
 
-    async def _carry_out(self, command: messages.Command) -> None:
+    async def _carry_out(self, command: Command) -> None:
         try:
             answer: Answer = await HANDLERS[type(command)](self._page, command)
         except asyncio.CancelledError:

@@ -8,9 +8,10 @@ from typing import Any
 
 from ai4u_edu.base.errors import SetupError
 from ai4u_edu.editing.scene_cards import Card, library_cards, stored_cards
-from ai4u_edu.panel import messages as m
 from ai4u_edu.panel.answers import Answer
 from ai4u_edu.panel.commands.handler import Handler
+from ai4u_edu.panel.messages import edit as m
+from ai4u_edu.panel.messages.base import Command
 from ai4u_edu.panel.page import Page
 from ai4u_edu.scenes import Scene
 from ai4u_edu.scenes.yaml.file import MAX_SCENE_CHARS
@@ -109,7 +110,7 @@ def _card(card: Card, *, is_saved: bool) -> dict[str, Any]:
     }
 
 
-HANDLERS: Mapping[type[m.Command], Handler] = {
+HANDLERS: Mapping[type[Command], Handler] = {
     m.ListScenes: _scenes,
     m.OpenScene: _open,
     m.SaveScene: _save,

@@ -12,9 +12,10 @@ from ai4u_edu.editing.forms import read_values
 from ai4u_edu.editing.settings import scene_form
 from ai4u_edu.editing.thing_form import field_of_problem, pose_and_changes
 from ai4u_edu.editing.things import Thing, kind_of, thing_named
-from ai4u_edu.panel import messages as m
 from ai4u_edu.panel.answers import Answer, change_answer
 from ai4u_edu.panel.commands.handler import Handler
+from ai4u_edu.panel.messages import edit as m
+from ai4u_edu.panel.messages.base import Command
 from ai4u_edu.panel.page import Page
 from ai4u_edu.panel.templates import TEMPLATES, Template
 from ai4u_edu.snapshot import StaticScene
@@ -202,7 +203,7 @@ def _named(thing: Thing, error: ChangeError) -> list[Problem]:
     ]
 
 
-HANDLERS: Mapping[type[m.Command], Handler] = {
+HANDLERS: Mapping[type[Command], Handler] = {
     m.MoveMode: _move_mode,
     m.Snap: _snap,
     m.SelectBody: _select,
