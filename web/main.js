@@ -12,7 +12,6 @@ import { KeyMap, RESERVED_CODE } from "./keymap.js";
 import { HeldKeys } from "./keys.js";
 import { Keycaps } from "./keycaps.js";
 import { label, loadLayout } from "./labels.js";
-import { collapseMobilePanel } from "./mobile_panel.js";
 import { trackCanvasEdges } from "./canvas_edges.js";
 import { watchSharedScene } from "./share.js";
 import { Results } from "./results.js";
@@ -54,7 +53,7 @@ const letGo = () => {
   socket.send({ type: "let_go" });
 };
 const driverStatus = new DriverStatus(row, take, letGo);
-/** Our panel; null while viser's is shown. */
+/** The panel; null where the server has none. */
 let panel = null;
 const gamepads = new Gamepads(keys);
 const help = new Help(row, keys, keymap, arrange);
@@ -163,7 +162,5 @@ if ("ai4uPanel" in document.documentElement.dataset) {
   const { startPanel } = await import("./panel.js");
   panel = startPanel({ agent, take, letGo }, dock);
   draw();
-} else {
-  collapseMobilePanel();
 }
 watchSharedScene();

@@ -1,8 +1,8 @@
 /**
- * The page's random id. Our panel's socket and viser's both carry it, so that the server knows which picture
+ * The page's random id. The panel's socket and viser's both carry it, so that the server knows which picture
  * belongs to which panel.
  *
- * The page has our panel where the server says so (data-panel), unless the address asks for viser's (?panel=viser).
+ * The page has a panel where the server says so (data-panel).
  * A classic script, not a module, because it must run before viser starts: viser's client connects to the
  * address in the query parameter "websocket", which is there until it has connected.
  */
@@ -12,8 +12,7 @@
   /** Checks after which the parameter stays where it is. */
   const MAX_CHECKS = 30;
   const url = new URL(location.href);
-  const hasPanel = "panel" in document.currentScript.dataset;
-  if (!hasPanel || url.searchParams.get("panel") === "viser") return;
+  if (!("panel" in document.currentScript.dataset)) return;
 
   // crypto.randomUUID is missing on pages without HTTPS
   const bytes = crypto.getRandomValues(new Uint8Array(16));

@@ -31,8 +31,7 @@ _OURS = """<title>{title}</title>
     <link rel="stylesheet" href="./web/panel_windows.css" />
     <link rel="stylesheet" href="./web/panel_drive.css" />
     <link rel="stylesheet" href="./web/question.css" />
-    <script type="module" src="./web/main.js"></script>
-    <script type="module" src="./web/accessible_names.js"></script>"""
+    <script type="module" src="./web/main.js"></script>"""
 # a system's own media types are not reliable: some call a .js plain text
 _KINDS = {".css": "text/css", ".js": "text/javascript", ".svg": "image/svg+xml"}
 FRAME_ANCESTORS = "frame-ancestors 'self' http://localhost:* http://127.0.0.1:*"
@@ -45,7 +44,7 @@ class Page:
 
     Args:
         title: returns the page's present title; any text.
-        has_panel: True if the room has our panel; else the page shows viser's.
+        has_panel: True if the room has a panel; else the page shows viser's own, empty one.
 
     Raises:
         SetupError: viser's page or our files are missing.

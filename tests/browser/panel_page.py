@@ -101,10 +101,7 @@ def panel_page(
     opened.panel.attach(page)
     page.route(lambda url: url.partition("?")[0] == room.url, _leave_viser_out)
     page.goto(room.url + query)
-    if "panel=viser" in query:
-        connected(page)
-    else:
-        opened.wait()
+    opened.wait()
     yield opened
     page.context.close()
     assert opened.problems == []

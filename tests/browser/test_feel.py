@@ -343,7 +343,7 @@ def test_it_is_dark_where_the_system_is_until_somebody_says_otherwise(
 ) -> None:
     page = new_page(chromium, color_scheme="dark", reduced_motion="reduce")
     page.set_default_timeout(60_000)
-    page.goto(f"{zoo.url}?panel=viser")
+    page.goto(zoo.url)
     expect(panel(page)).to_be_checked(timeout=40_000)
     expect(page.locator("html")).to_have_attribute(SCHEME, "dark", timeout=40_000)
     expect(page.locator("body")).to_be_visible()
@@ -376,7 +376,7 @@ NAMELESS = """() => [...document.querySelectorAll(
 def test_all_that_can_be_used_has_a_name(chromium: Browser, zoo: Played) -> None:
     page = new_page(chromium, height=1200)
     page.set_default_timeout(60_000)
-    page.goto(f"{zoo.url}?panel=viser")
+    page.goto(zoo.url)
     connected(page)
     page.keyboard.press("KeyR")  # there is a past then
     for tab, last in {
@@ -490,7 +490,7 @@ class TestScripted:
 
 def test_a_network_of_the_zoo_is_taken_over_and_goes_on(zoo: Played, site: ServedViser) -> None:
     page = new_page(site.chromium)
-    page.goto(f"{zoo.url}?panel=viser")
+    page.goto(zoo.url)
     connected(page)
 
     def action() -> list[float]:
@@ -551,7 +551,7 @@ def test_the_whole_page_comes_from_here(zoo: Played, site: ServedViser) -> None:
     asked: list[str] = []
     page.on("request", lambda request: asked.append(request.url))
     page.on("websocket", lambda socket: asked.append(socket.url))
-    page.goto(f"{zoo.url}?panel=viser")
+    page.goto(zoo.url)
     connected(page)
     page.keyboard.press("?")
     page.keyboard.press("Escape")

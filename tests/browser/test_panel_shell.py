@@ -30,11 +30,6 @@ def desk(warm: PanelPage) -> PanelPage:
     return warm
 
 
-def test_visers_panel_is_there_on_request(chromium: Browser, room: Room) -> None:
-    with panel_page(chromium, room, query="?panel=viser") as old:
-        expect(old.page.locator(".ai4u-panel")).to_have_count(0)
-
-
 def test_the_page_tells_what_it_looks_at(desk: PanelPage) -> None:
     assert desk.panel.shown | {"agent": "0"} == {
         "type": "show",

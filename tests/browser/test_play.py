@@ -34,7 +34,7 @@ def server(shared: Played) -> Played:
 @pytest.fixture
 def page(server: Played, chromium: Browser) -> Iterator[Page]:
     page = new_page(chromium)
-    page.goto(f"{server.url}?panel=viser")
+    page.goto(server.url)
     ready(page)
     yield page
     page.context.close()
@@ -108,7 +108,7 @@ def test_there_are_no_keys_for_what_the_robot_can_not_do(page: Page) -> None:
 def test_ctrl_c_ends_it_cleanly(chromium: Browser) -> None:
     with played("box_chase_ai4u") as server:
         page = new_page(chromium)
-        page.goto(f"{server.url}?panel=viser")
+        page.goto(server.url)
         connected(page)
         server.process.send_signal(signal.SIGINT)
         assert server.process.wait(10) == 0

@@ -3,7 +3,6 @@
 import math
 from collections.abc import Mapping
 
-from ai4u_edu.base.errors import SetupError
 from ai4u_edu.panel.answers import Answer
 from ai4u_edu.panel.commands.handler import Handler
 from ai4u_edu.panel.messages import play as m
