@@ -231,8 +231,7 @@ class WorldThread:
         return self.sim.world.dt / self.time_scale
 
     def _must_wait_for_key(self) -> bool:
-        was_waiting = self._start_wait.is_waiting
-        if self._start_wait.update(self.sim) and not was_waiting:
+        if self._start_wait.begins(self.sim):
             self._publish()  # at once: pages show that it waits
         return self._start_wait.is_waiting
 
@@ -249,8 +248,7 @@ class WorldThread:
     def _tick(self, *, whole_decision: bool = False) -> None:
         """Tick once, or as many times as make a decision."""
         self._monitor.begin()
-        began, self._past = self._clock(), None
-        ticks = 1
+        began, ticks, self._past = self._clock(), 1, None
 
         def tick() -> None:
             nonlocal ticks
