@@ -74,8 +74,7 @@ class WorldThread:
         self.recorder = recorder
         self.training: TrainingProgress | None = None
         """Progress of the training whose policy drives in this world; replaced, never changed."""
-        self.paused = False
-        self.error = ""
+        self.paused, self.error = False, ""
         self.time_scale = sim.default_time_scale
         if time_scale is not None:
             self.set_time_scale(time_scale)
