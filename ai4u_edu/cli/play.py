@@ -89,10 +89,9 @@ def play(
         receive_timeout=receive_timeout,
     )
     load_own_blocks(own_blocks)
-    source = context.get_parameter_source("scene")
     settings = PlaySettings(
         scene=scene,
-        is_scene_named=source is not None and source.name != "DEFAULT",
+        is_scene_named=_is_scene_named(context),
         host=host,
         port=port,
         open_page=open_page,
@@ -144,9 +143,8 @@ def serve_scene(settings: PlaySettings) -> None:
         recorder=recorder,
         wait_for_key=settings.wait_for_key,
     )
-    autosave = (
-        Autosave(unsaved_folder(), scene.description.name, _warn) if settings.autosave else None
-    )
+    name = scene.description.name
+    autosave = Autosave(unsaved_folder(), name, _warn) if settings.autosave else None
     editor = _make_editor(settings, runner, scene, autosave)
     if restored is not None:
         editor.recovery.mark_restored(restored)
@@ -180,6 +178,11 @@ def serve_scene(settings: PlaySettings) -> None:
             room, settings.host, settings.port, on_ready=on_ready, per_address=settings.connections
         )
     HAS_SERVED.set()
+
+
+def _is_scene_named(context: typer.Context) -> bool:
+    source = context.get_parameter_source("scene")
+    return source is not None and source.name != "DEFAULT"
 
 
 def _build(scene: "Scene", drivers: list[str]) -> "tuple[ControlRequestor, Scene]":

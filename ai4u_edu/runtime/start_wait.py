@@ -5,7 +5,7 @@ from ai4u_edu.agent.driving_keys import has_driving_keys
 
 
 class StartWait:
-    """Whether a world waits on its first frame until a person presses a key.
+    """State of a wait on an episode's first frame, until a person presses a key.
 
     Nobody loses time while looking at a new start: the whole world stands still, opponents and
     clocks included. The world's thread calls the methods; any thread may read :attr:`is_waiting`.
@@ -30,6 +30,11 @@ class StartWait:
             and any(has_driving_keys(agent) for agent in sim.agents)
         )
         return self.is_waiting
+
+    def begins(self, sim: ControlRequestor) -> bool:
+        """Return True if a world waits now and did not before."""
+        was_waiting = self.is_waiting
+        return self.update(sim) and not was_waiting
 
     def end(self, sim: ControlRequestor) -> None:
         """Let a world's present episode run."""

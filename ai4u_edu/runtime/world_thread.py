@@ -74,8 +74,7 @@ class WorldThread:
         self.recorder = recorder
         self.training: TrainingProgress | None = None
         """Progress of the training whose policy drives in this world; replaced, never changed."""
-        self.paused = False
-        self.error = ""
+        self.paused, self.error = False, ""
         self.time_scale = sim.default_time_scale
         if time_scale is not None:
             self.set_time_scale(time_scale)
@@ -231,8 +230,7 @@ class WorldThread:
         return self.sim.world.dt / self.time_scale
 
     def _must_wait_for_key(self) -> bool:
-        was_waiting = self._start_wait.is_waiting
-        if self._start_wait.update(self.sim) and not was_waiting:
+        if self._start_wait.begins(self.sim):
             self._publish()  # at once: pages show that it waits
         return self._start_wait.is_waiting
 
@@ -249,8 +247,7 @@ class WorldThread:
     def _tick(self, *, whole_decision: bool = False) -> None:
         """Tick once, or as many times as make a decision."""
         self._monitor.begin()
-        began, self._past = self._clock(), None
-        ticks = 1
+        began, ticks, self._past = self._clock(), 1, None
 
         def tick() -> None:
             nonlocal ticks

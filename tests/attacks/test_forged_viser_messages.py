@@ -17,6 +17,7 @@ from websockets.typing import Subprotocol
 from zstandard import ZstdDecompressor
 
 from ai4u_edu.server import ServerThread, lock_viser_port, proxy, room_app
+from ai4u_edu.server.proxy import MAX_UPWARD_BYTES
 from ai4u_edu.viewer import Viewer
 from tests.editing.harness import EditorHarness
 from tests.viewer.pages import Page, shown, until

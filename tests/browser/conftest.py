@@ -44,7 +44,7 @@ def sim() -> ControlRequestor:
 
 @pytest.fixture
 def waits_for_key() -> bool:
-    """Whether the world waits on its first frame; modules may override it."""
+    """Return True for a world that waits on its first frame; modules may override it."""
     return False
 
 

@@ -29,7 +29,6 @@ def scene_part(context: PanelContext, snapshot: Snapshot) -> dict[str, Any]:
         "rewards": "" if description is None else description.rewards,
         "legend": _legend(static_scene),
         "agents": _agents(context, static_scene),
-        "stages": [],
         "can_edit": editor is not None,
         "has_past": context.runner.recorder is not None,
     }
