@@ -27,7 +27,8 @@ export class SensorView {
     this.#panel = panel;
     this.#key = sensor.key;
     const mark = element("span", { className: "ai4u-card-icon" }, icon(sensor.icon ?? "own"));
-    const head = element("header", {}, mark, this.#heading, this.#type, this.#eye);
+    const words = element("div", {}, this.#heading, this.#type);
+    const head = element("header", {}, mark, words, this.#eye);
     const reading = [this.#bars.element, this.#strips, this.#pictures, this.#text];
     this.element = element("article", { className: "ai4u-sensor" }, head, ...reading, this.#help);
     this.element.view = this; // found again when the list is brought up to date
@@ -76,4 +77,5 @@ function drawPicture(figure, { cells, caption, rows, columns }, title) {
   image.style.aspectRatio = isFlat ? "" : `${columns} / ${rows}`;
   setText(words, caption);
   words.hidden = !caption;
+  setAttributes(figure, { "data-older": caption === "earlier" });
 }
