@@ -1,5 +1,6 @@
 /** Entry point of our part of the page: keys, driver status and banners. viser draws the rest. */
 
+import "./panel_shortcuts.js"; // the first one: its listener comes before the one that drives
 import { Banners } from "./banners.js";
 import { element } from "./dom.js";
 import { dpadActions } from "./dpad.js";

@@ -8,6 +8,7 @@ import { Layout } from "./panel_layout.js";
 import { Notices } from "./panel_notices.js";
 import { segments } from "./panel_parts.js";
 import { RunControls } from "./panel_run.js";
+import { installShortcuts } from "./panel_shortcuts.js";
 import { ScenePicker } from "./panel_scenes.js";
 import { PanelSocket } from "./panel_socket.js";
 import { Tabs } from "./panel_tabs.js";
@@ -33,6 +34,7 @@ const LOADERS = {
 export function startPanel(driving, dock) {
   const panel = new Panel(driving, window.ai4uPageId);
   panel.start(dock);
+  installShortcuts(panel);
   return panel;
 }
 

@@ -12,6 +12,7 @@ from ai4u_edu.blocks.homeostasis import HomeostaticVariable
 from ai4u_edu.blocks.percept import Layout as Layout
 from ai4u_edu.blocks.percept import Percept
 from ai4u_edu.blocks.rewards import *
+from ai4u_edu.blocks.rewards.reward_func import Stages as Stages
 from ai4u_edu.blocks.sensors import *
 from ai4u_edu.blocks.sensors.pictures import ChannelLegend as ChannelLegend
 from ai4u_edu.blocks.sensors.pictures import CodeLegend as CodeLegend

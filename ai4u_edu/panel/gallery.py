@@ -65,8 +65,10 @@ def gallery_items(state: EditState, agent_id: str, kind: str) -> list[GalleryIte
         name, words = cls.__name__, words_of(cls.__name__)
         reason = reason_against_block(state, agent_id, kind, name)
         items.append(GalleryItem(name, *words[:2], first_sentence(cls), words.picture, reason))
-    questions = list(dict.fromkeys(words.question for words in BLOCK_WORDS.values()))
-    return sorted(items, key=lambda item: (questions.index(item.question), item.title))
+    order = list(BLOCK_WORDS)
+    items.sort(key=lambda item: order.index(item.type_name if item.type_name in order else ""))
+    questions = list(dict.fromkeys(item.question for item in items))
+    return sorted(items, key=lambda item: questions.index(item.question))
 
 
 def driver_title(driver: Driver) -> str:

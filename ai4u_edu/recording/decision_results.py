@@ -17,6 +17,8 @@ _FIELDS = (
     "episode_terms",
     "phase",
     "history",
+    "stages",
+    "seconds_left",
 )
 """Fields of an agent's state that belong to the decision that has just ended."""
 

@@ -49,6 +49,14 @@ class BodyView(_View):
         return cls(name=body.name, fallen=body.fallen, **_motion(body))
 
 
+class StagesView(_View):
+    """Stages on the way to the goal, such as marks to pass or bodies to collect."""
+
+    passed: int
+    total: int
+    targets: list[str] = Field(description="bodies and areas, in order if the order counts")
+
+
 class AgentView(_View):
     """An agent's last percept, action and reward, and its present pose."""
 
@@ -67,6 +75,10 @@ class AgentView(_View):
     steps: int = Field(description="decisions in this episode")
     terminated: bool
     truncated: bool
+    stages: list[StagesView] = Field(description="one for each set of targets")
+    seconds_left: float | None = Field(
+        description="world time until the step limit ends the episode; null: no limit"
+    )
 
     @classmethod
     def of(cls, agent: AgentState, body: BodyState) -> "AgentView":
@@ -85,6 +97,11 @@ class AgentView(_View):
             steps=agent.steps,
             terminated=agent.terminated,
             truncated=agent.truncated,
+            stages=[
+                StagesView(passed=each.passed, total=each.total, targets=list(each.targets))
+                for each in agent.stages
+            ],
+            seconds_left=agent.seconds_left,
         )
 
 

@@ -12,6 +12,7 @@ from ai4u_edu.blocks import (
     HomeostaticReward,
     RemoteBrain,
     RewardFunc,
+    Stages,
     WASDRBMoveController,
 )
 from ai4u_edu.snapshot.block_info import block_info_of, sensor_pictures_of
@@ -144,6 +145,8 @@ def capture_agent(agent: BasicAgent, success: str = "", phase: Phase = NOWHERE) 
         succeeded=ledger.episode_terms.get(success, 0.0) > 0,
         fell=_fell(agent),
         needs=tuple(_needs(agent)),
+        stages=_stages(agent),
+        seconds_left=_seconds_left(agent),
         spots=pictures.spots,
         legends=info.legends,
         phase=phase,
@@ -178,6 +181,23 @@ def _is_for_falling(reward: RewardFunc, *, low: bool) -> bool:
     return isinstance(reward, FallReward) or (
         low and any(_is_for_falling(child, low=low) for child in children)
     )
+
+
+def _stages(agent: BasicAgent) -> tuple[Stages, ...]:
+    """Return the stages of each set of targets once, though several rewards may count them."""
+    found: dict[tuple[str, ...], Stages] = {}
+    for reward in agent.bound_blocks.rewards:
+        stages = reward.stages()
+        if stages is not None:
+            found.setdefault(stages.targets, stages)
+    return tuple(found.values())
+
+
+def _seconds_left(agent: BasicAgent) -> float | None:
+    limit = agent.max_steps_per_episode
+    if not limit:
+        return None
+    return max(0, limit - agent.steps) * (agent.brain.skip_frame + 1) * agent.view.dt
 
 
 def _needs(agent: BasicAgent) -> Iterator[Need]:

@@ -13,6 +13,7 @@ from ai4u_edu.blocks import (
     RayPicture,
     RemoteStatus,
     SpotPicture,
+    Stages,
 )
 from ai4u_edu.snapshot.block_info import ActuatorInfo, SensorInfo
 from ai4u_edu.world import AreaDescription, BodyDescription, FloorDescription, WorldSettings
@@ -107,6 +108,10 @@ class AgentState(NamedTuple):
     fell: bool = False
     """True if its episode ended because it fell."""
     needs: tuple[Need, ...] = ()
+    stages: tuple[Stages, ...] = ()
+    """Stages on the way to the goal, such as marks that it passed; one for each set of targets."""
+    seconds_left: float | None = None
+    """World time (s) from its last decision to the end by the step limit; None without a limit."""
     spots: Mapping[str, SpotPicture] = EMPTY
     """Points that sensors read in their last reading, by perception key."""
     legends: Mapping[str, Legend] = EMPTY

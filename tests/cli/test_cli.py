@@ -96,12 +96,14 @@ def test_check_says_fine_or_what_is_wrong(tmp_path: Path) -> None:
     file.write_text(source.read_text())
     told = run("check", str(file))
     assert (told.returncode, told.stdout) == (0, f"{file}: fine: 2 bodies, 1 floor, 1 agent\n")
-    file.write_text(source.read_text().replace("radius: 0.5", "radius: big"))
+    before, _, after = source.read_text().partition("radius: 0.5")
+    file.write_text(before + "radius: big" + after)
+    line = 1 + before.count("\n")
     told = run("check", str(file))
     assert (told.returncode, told.stdout, told.stderr) == (
         1,
         "",
-        "error: mine.yaml, line 13: bodies[0].shape.radius: expected a number, got 'big'\n",
+        f"error: mine.yaml, line {line}: bodies[0].shape.radius: expected a number, got 'big'\n",
     )
 
 

@@ -36,6 +36,19 @@ def changed(old: str, new: str) -> str:
     return text.replace(old, new)
 
 
+AI4U_POSES = [
+    (0, 0, 0),
+    (3.53, 0.51, 0),
+    (0, -3.61, 0),
+    (0, 4, 0),
+    (-1.7, -3.07, 0),
+    (3.93, -3.07, 0),
+    (3.93, 4.8, 0),
+    (3.93, 0.14, 0),
+]
+"""(x, y, heading in degrees) of the starts in AI4U's box chase."""
+
+
 @pytest.mark.parametrize("name", Scene.names())
 def test_round_trip(name: str, tmp_path: Path) -> None:
     scene = Scene.load(name)
@@ -58,11 +71,21 @@ def test_every_scene_tells_what_to_do(name: str) -> None:
         assert text
 
 
+def test_box_chase_differs_from_ai4us_in_starts_and_keys_alone() -> None:
+    plain, ai4us = Scene.load("box_chase").plain(), Scene.load("box_chase_ai4u").plain()
+    for data in (plain, ai4us):
+        for name in ("name", "title", "goal", "level", "minutes"):
+            del data[name]
+        (agent,) = data["agents"]
+        del agent["brains"], agent["actuators"][1]["poses"]
+    assert plain == ai4us
+
+
 def test_the_parity_table_of_box_chase() -> None:
-    sim = Scene.load("box_chase").build()
+    sim = Scene.load("box_chase_ai4u").build()
     agent = sim.agents[0]
     assert sim.world["box"].position == pytest.approx((-2.39, 0))
-    assert len(agent.actuators[1].values()["poses"]) == 8
+    assert agent.actuators[1].values()["poses"] == AI4U_POSES
     move = agent.actuators[0].values()
     amounts = ("move_amount", "turn_amount", "jump_power", "jump_forward_power")
     assert [move[name] for name in amounts] == [5, 5, 0, 0]

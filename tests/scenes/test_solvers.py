@@ -60,12 +60,14 @@ def test_it_can_be_solved_on_every_seed(name: str, seeds: range) -> None:
 
 
 @SEEDS
-@pytest.mark.parametrize("name", [name for name in Scene.names() if name != "box_chase"])
+@pytest.mark.parametrize(
+    "name", [name for name in Scene.names() if not name.startswith("box_chase")]
+)
 def test_random_actions_do_not_solve_it(name: str, seeds: range) -> None:
     assert len(successes(name, random_driver, seeds)) <= len(seeds) // 5
 
 
 @pytest.mark.nightly
 def test_random_actions_seldom_reach_the_box() -> None:
-    """On average it does on 19 of 100 seeds (96 of 500): plate, poses and steps are AI4U's."""
+    """It does on 23 of the 100 seeds; from AI4U's own poses on 19."""
     assert len(successes("box_chase", random_driver, BOX_CHASE_SEEDS)) <= 25

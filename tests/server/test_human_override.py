@@ -284,7 +284,7 @@ def test_who_drives_is_said_in_words() -> None:
 
 
 def test_a_network_goes_on_after_it_was_taken_over() -> None:
-    sim = Scene.load("box_chase").build()
+    sim = Scene.load("box_chase_ai4u").build()
     (agent,) = sim.agents
     keys, network = agent.brain, trained_brain("zoo:box_chase")
     sim.reset(1)

@@ -6,7 +6,7 @@ from pydantic import Field
 
 from ai4u_edu.base.parameters import Number
 from ai4u_edu.blocks.agent_view import AgentView
-from ai4u_edu.blocks.rewards.reward_func import RewardFunc
+from ai4u_edu.blocks.rewards.reward_func import RewardFunc, Stages
 from ai4u_edu.world import BodyView, WorldView
 
 
@@ -66,6 +66,12 @@ class CheckpointsReward(RewardFunc):
     def holds(self, paid: float, body: BodyView, view: WorldView) -> bool:
         """Return True if the whole route was completed in this decision."""
         return self._finished
+
+    def stages(self) -> Stages:
+        """Return how many targets were touched; a lap ends at its first one, which counts twice."""
+        total = len(self.targets) + self.loop
+        passed = total - len(self._ahead) if self._under_way else 0
+        return Stages(passed, total, tuple(self.targets))
 
     def _pass(self, target: str) -> None:
         if self._under_way:

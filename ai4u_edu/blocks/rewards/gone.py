@@ -2,7 +2,7 @@
 
 from ai4u_edu.base.parameters import Name, Number
 from ai4u_edu.blocks.agent_view import AgentView
-from ai4u_edu.blocks.rewards.reward_func import RewardFunc
+from ai4u_edu.blocks.rewards.reward_func import RewardFunc, Stages
 from ai4u_edu.world import BodyView, WorldView
 
 
@@ -30,6 +30,7 @@ class GoneReward(RewardFunc):
     def on_setup(self, agent: AgentView, view: WorldView) -> None:
         """Look up the group."""
         view.check_group(self.group)
+        self._targets = tuple(view.named(self.group))
 
     def on_reset(self, agent: AgentView, view: WorldView) -> None:
         """Store which bodies are in the world."""
@@ -51,6 +52,11 @@ class GoneReward(RewardFunc):
     def holds(self, paid: float, body: BodyView, view: WorldView) -> bool:
         """Return True if a body left in this decision; with only_last, if the last one did."""
         return self._went
+
+    def stages(self) -> Stages:
+        """Return how many bodies of the group are gone now."""
+        total = len(self._targets)
+        return Stages(total - len(self._there), total, self._targets)
 
     def _look(self, view: WorldView) -> tuple[str, ...]:
         return tuple(name for name in view.named(self.group) if not view[name].fallen)

@@ -1,10 +1,20 @@
 """The base of reward functions: a name, and an amount for each decision."""
 
-from typing import Any
+from typing import Any, NamedTuple
 
 from ai4u_edu.base.errors import BlockError
 from ai4u_edu.blocks.block import Block, default_name, levels_up
 from ai4u_edu.world import BodyView, WorldView
+
+
+class Stages(NamedTuple):
+    """Stages on the way to a goal, such as marks to pass or bodies to collect."""
+
+    passed: int
+    """Number of stages passed in this episode; 0 to ``total``."""
+    total: int
+    targets: tuple[str, ...]
+    """Names of the bodies and areas that they stand for, in order if the order counts."""
 
 
 class RewardFunc(Block):
@@ -76,6 +86,10 @@ class RewardFunc(Block):
             paid: the last result of on_update; by default the episode ends if that is not 0.
         """
         return paid != 0.0
+
+    def stages(self) -> Stages | None:
+        """Return the stages that it pays for, to be shown to a person; None if it has none."""
+        return None
 
     @property
     def has_ticks(self) -> bool:

@@ -28,9 +28,16 @@ def _turned(drive: Drive, heading: float) -> float:
 )
 def goes(drive_it: Any) -> Done:
     """Check that the robot drives forward, wherever it begins."""
-    for drive in drives(SCENE, drive_it, seeds_of("00.1", 5), limit=STEPS):
+    headings: list[float] = []
+
+    def watch(drive: Drive) -> None:
+        if drive.steps == 0:
+            headings.append(drive.agent.body.heading)
+
+    for drive in drives(SCENE, drive_it, seeds_of("00.1", 5), limit=STEPS, watch=watch):
         (x, y), (u, v) = drive.trail[0], drive.trail[-1]
-        if u - x < -0.1:
+        forward = (u - x) * math.cos(headings[-1]) + (v - y) * math.sin(headings[-1])
+        if forward < -0.1:
             raise drive.not_yet("Your robot drove backward ({where}).", "backward")
         if math.hypot(u - x, v - y) < 0.5:
             raise drive.not_yet("Your robot stayed where it was ({where}).", "action")

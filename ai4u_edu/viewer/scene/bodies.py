@@ -23,6 +23,7 @@ from ai4u_edu.viewer.scene.layers import Layers
 from ai4u_edu.viewer.scene.light import surface_colours
 from ai4u_edu.viewer.scene.mesh_drawer import MeshDrawer
 from ai4u_edu.viewer.scene.poses import Poses, compute_poses
+from ai4u_edu.viewer.scene.pulse import Pulse
 from ai4u_edu.viewer.scene.subtree import Subtree
 
 BLACK: Rgb = (0, 0, 0)
@@ -50,6 +51,7 @@ class Bodies:
         self._subtree = Subtree(server.scene, "bodies")
         self._built_for: object = None
         self._groups: list[_BodyGroup] = []
+        self._pulse = Pulse()
         self.nodes: dict[str, str] = {}
         """Names of the scene nodes of bodies that have their own, by the name of the body."""
 
@@ -93,6 +95,7 @@ class Bodies:
     def draw(self, snapshot: Snapshot) -> None:
         """Move all bodies to their current poses."""
         poses = compute_poses(snapshot, self._layers)
+        poses = poses._replace(scales=poses.scales * self._pulse.scales(snapshot))
         for group in self._groups:
             group.move(poses)
 

@@ -9,7 +9,7 @@ from ai4u_edu.snapshot import StaticScene
 from ai4u_edu.snapshot.theme import Rgb
 from ai4u_edu.viewer.scene.arena import arena_size
 from ai4u_edu.viewer.scene.drags import Thing
-from ai4u_edu.viewer.scene.geometry import circle, grow, heading_wxyz, prism, segments
+from ai4u_edu.viewer.scene.geometry import cap, circle, grow, heading_wxyz, prism, segments
 from ai4u_edu.viewer.scene.light import line_colours
 from ai4u_edu.viewer.scene.mesh_drawer import MeshDrawer
 from ai4u_edu.viewer.scene.resize import corner_of, outline_of
@@ -45,8 +45,14 @@ class ChosenMark:
         self._edge: LineSegmentsHandle | None = None
         self._unit = 1.0
 
-    def build(self, thing: Thing | None, static_scene: StaticScene) -> None:
-        """Build the mark for another thing; None removes it."""
+    def build(self, thing: Thing | None, static_scene: StaticScene, plate_z: float = 0.0) -> None:
+        """Build the mark for another thing.
+
+        Args:
+            thing: None removes the mark.
+            static_scene: has the arena's size.
+            plate_z: height (m) of a floor's or an area's plate relative to the mark.
+        """
         self.thing, self._unit = thing, arena_size(static_scene)
         self.frame = self.turn_knob = self.size_knob = self.plate = self._edge = None
         with self._subtree.rebuild() as parent:
@@ -66,9 +72,10 @@ class ChosenMark:
             self.turn_knob = self._knob(drawer, "knob", self._turn_place(thing.shape), INK)
             self.size_knob = self._knob(drawer, "size", corner_of(thing.shape), SIZE_INK)
             if not isinstance(thing, BodyDescription):
-                plate = prism(grow(outline_of(thing.shape), 0.0), 0.2 * OUTLINE_MARGIN, 0.0)
+                plate = cap(outline_of(thing.shape))
                 self.plate = drawer.batch("plate", plate, [INK], opacity=0.0)
                 self.plate.batched_scales = np.ones(1, np.float32)
+                self.plate.batched_positions = np.array([(0.0, 0.0, plate_z)], np.float32)
 
     def place(
         self, x: float, y: float, z: float, heading: float, *, is_visible: bool = True

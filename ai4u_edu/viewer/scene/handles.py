@@ -19,23 +19,22 @@ from ai4u_edu.editing import ChangeResult, SceneEditor
 from ai4u_edu.snapshot import BodyState, Snapshot, StaticScene
 from ai4u_edu.snapshot.theme import Rgb
 from ai4u_edu.viewer.backend.reporting import report_errors
-from ai4u_edu.viewer.scene.arena import arena_size, floor_under, lowest_floor
+from ai4u_edu.viewer.scene.arena import arena_size
 from ai4u_edu.viewer.scene.chosen_mark import ChosenMark
 from ai4u_edu.viewer.scene.drags import Action, Drag, Goal, Thing
-from ai4u_edu.viewer.scene.geometry import Array, heading_wxyz, prism
+from ai4u_edu.viewer.scene.geometry import heading_wxyz, prism
+from ai4u_edu.viewer.scene.handle_places import Region, centre_at, extent, plate_z, surface_z
 from ai4u_edu.viewer.scene.layers import Layers
 from ai4u_edu.viewer.scene.mesh_drawer import MeshDrawer
-from ai4u_edu.viewer.scene.resize import outline_of
 from ai4u_edu.viewer.scene.subtree import Subtree
 from ai4u_edu.viewer.scene.view import Mode
 from ai4u_edu.viewer.viewer_client import ViewerClient
-from ai4u_edu.world import AreaDescription, BodyDescription, FloorDescription
+from ai4u_edu.world import BodyDescription
 
 HANDLE_MARGIN = 0.015
 """Margin of a handle around its body, as a share of the arena's size; it helps with thin walls."""
 FREE_MODIFIER: Literal["alt"] = "alt"
 """Key that is held to move freely, without the grid."""
-Region = FloorDescription | AreaDescription
 INK: Rgb = rgb("vermillion")
 BOX = prism([(0.5, 0.5), (-0.5, 0.5), (-0.5, -0.5), (0.5, -0.5)], 1.0, 0.0)
 
@@ -158,27 +157,33 @@ class Handles:
                 plates.on_click(report_errors(self._on_region_click))
                 self._plates = plates
                 self._place_plates(plates, static_scene)
-        extents = [_extent(body) for body in self._bodies]
+        extents = [extent(body) for body in self._bodies]
         margin = HANDLE_MARGIN * arena_size(static_scene)
         self._centres = np.array([each[0] for each in extents]).reshape(-1, 2)
         self._sizes = np.array([(*each[1], 0.0) for each in extents]).reshape(-1, 3) + margin
 
     def _place_plates(self, plates: BatchedMeshHandle, static_scene: StaticScene) -> None:
-        thickness = Layers.of(static_scene).unit
+        thickness = 0.1 * Layers.of(static_scene).unit
         headings = [math.radians(region.heading_deg) for region in self._regions]
         plates.batched_wxyzs = np.array([heading_wxyz(heading) for heading in headings])
         plates.batched_scales = np.array(
-            [(*_extent(region)[1], thickness) for region in self._regions]
+            [(*extent(region)[1], thickness) for region in self._regions]
         )
         plates.batched_positions = np.array(
             [
-                _centre(_extent(region)[0], *region.position, heading, _top(region, static_scene))
+                centre_at(
+                    extent(region)[0], *region.position, heading, plate_z(region, static_scene)
+                )
                 for region, heading in zip(self._regions, headings, strict=True)
             ]
         )
 
     def _build_mark(self, thing: Thing | None, static_scene: StaticScene) -> None:
-        self._mark.build(thing, static_scene)
+        depth = 0.0
+        if thing is not None and not isinstance(thing, BodyDescription):
+            above_others = 0.3 * Layers.of(static_scene).unit
+            depth = plate_z(thing, static_scene) + above_others - self._mark_z(thing, static_scene)
+        self._mark.build(thing, static_scene, depth)
         for handle, action in (
             (self._mark.turn_knob, Action.TURN),
             (self._mark.size_knob, Action.RESIZE),
@@ -195,7 +200,7 @@ class Handles:
             lift = self._lift
             positions = np.array(
                 [
-                    _centre(centre, state.x, state.y, state.heading, state.z + body.height + lift)
+                    centre_at(centre, state.x, state.y, state.heading, state.z + body.height + lift)
                     for body, centre, state in zip(self._bodies, self._centres, states, strict=True)
                 ]
             )
@@ -212,8 +217,12 @@ class Handles:
             top = state.z + thing.height + self._lift + margin
             self._mark.place(state.x, state.y, top, state.heading, is_visible=not state.fallen)
         else:
-            top = _top(thing, static_scene) + self._lift
+            top = self._mark_z(thing, static_scene)
             self._mark.place(*thing.position, top, math.radians(thing.heading_deg))
+
+    def _mark_z(self, region: Region, static_scene: StaticScene) -> float:
+        """Return the height of the mark around a floor or an area."""
+        return surface_z(region, static_scene) + self._lift
 
     # -- events; in viser's event loop, one after the other --------------------------------------
 
@@ -357,28 +366,3 @@ def _listen_to_drags(
 
 def _name(things: tuple[Thing, ...], index: int | None) -> str:
     return things[index].name if index is not None and 0 <= index < len(things) else ""
-
-
-def _extent(thing: Thing) -> tuple[Array, Array]:
-    """Return the centre and the size of a rectangle around a thing, in its own frame."""
-    outline = np.asarray(outline_of(thing.shape))
-    low, high = outline.min(axis=0), outline.max(axis=0)
-    return (low + high) / 2, high - low
-
-
-def _centre(
-    centre: Array, x: float, y: float, heading: float, z: float
-) -> tuple[float, float, float]:
-    """Return the place in the world of a point that is given in a thing's own frame."""
-    along, across = centre
-    cos, sin = math.cos(heading), math.sin(heading)
-    return x + cos * along - sin * across, y + sin * along + cos * across, z
-
-
-def _top(region: Region, static_scene: StaticScene) -> float:
-    """Return the height of a floor's or an area's plate; areas lie above floors."""
-    layers = Layers.of(static_scene)
-    if isinstance(region, FloorDescription):
-        return region.top + layers.grid
-    ground = floor_under(static_scene, *region.position)
-    return (lowest_floor(static_scene) if ground is None else ground) + layers.outline

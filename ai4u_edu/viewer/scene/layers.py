@@ -42,6 +42,16 @@ class Layers:
         return -self.unit
 
     @property
+    def floor_plate(self) -> float:
+        """An invisible plate under a floor's surface, to click on the floor."""
+        return -4 * self.unit
+
+    @property
+    def area_plate(self) -> float:
+        """An invisible plate under the surface below an area, to click on the area."""
+        return -3 * self.unit
+
+    @property
     def grid(self) -> float:
         """The grid on a floor."""
         return self.unit

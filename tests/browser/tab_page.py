@@ -1,0 +1,163 @@
+"""One tab of the panel on a page of its own, with a fake panel that answers at once."""
+
+import json
+from pathlib import Path
+from typing import Any
+
+from playwright.sync_api import Browser, ConsoleMessage, Page, Route
+
+from ai4u_edu.server.page import web_folder
+from tests.chromium import new_page
+
+ADDRESS = "http://panel.test/"
+STYLES = sorted(path.name for path in web_folder().glob("pa*.css"))
+MEDIA_TYPES = {".css": "text/css", ".js": "text/javascript", ".html": "text/html"}
+INDEX = """<!doctype html>
+<html lang="en" data-mantine-color-scheme="{scheme}" data-ai4u-scheme="{scheme}" {attributes}>
+<meta name="viewport" content="width=device-width, initial-scale=1" />
+<title>Tab</title>
+{styles}
+<body style="margin: 0">
+<aside class="ai4u-panel" style="{style}">
+  <div class="ai4u-panel-body"><div role="tabpanel" class="ai4u-tabpanel"></div></div>
+</aside>
+<script type="module">
+  import {{ openDialog }} from "./web/panel_dialog.js";
+  import {{ installShortcuts }} from "./web/panel_shortcuts.js";
+  import {{ {name} }} from "./web/{module}.js";
+
+  class FakePanel extends EventTarget {{
+    shown = {{ agent: "0", tabs: ["{part}"], block: null, body: null, episode: null }};
+    details = false;
+    sent = [];
+    answers = {{}};
+    notices = [];
+    parts = {{}};
+    async send(command, args = {{}}) {{
+      this.sent.push({{ command, ...args }});
+      return {{ ok: true, text: "", problems: [], ...(this.answers[command] ?? {{}}) }};
+    }}
+    show(changes) {{
+      Object.assign(this.shown, changes);
+      if (this.parts["{part}"]) tab.update(this.parts["{part}"]);
+    }}
+    part(name) {{ return this.parts[name] ?? null; }}
+    notice(text, level = "info") {{ this.notices.push(`${{level}}: ${{text}}`); }}
+    dialog(title, ...children) {{ return openDialog(title, ...children); }}
+    openTab() {{}}
+    focusWorld() {{}}
+    give(name, part) {{
+      this.parts[name] = part;
+      if (name === "{part}") tab.update(part);
+      this.dispatchEvent(new CustomEvent(`part:${{name}}`, {{ detail: part }}));
+    }}
+  }}
+  const panel = (window.panel = new FakePanel());
+  installShortcuts(panel);
+  const tab = new {name}(document.querySelector("[role=tabpanel]"), panel);
+  window.isReady = true;
+</script>
+"""
+
+
+class TabPage:
+    """A page with one tab.
+
+    Args:
+        chromium: opens the page.
+        module: name of the tab's module, such as ``panel_build``.
+        name: of its class.
+        part: name of the part that it shows.
+        size: of the page in pixels.
+        scheme: ``light`` or ``dark``.
+        options: more of ``Browser.new_context``.
+    """
+
+    def __init__(
+        self,
+        chromium: Browser,
+        module: str,
+        name: str,
+        part: str,
+        *,
+        size: tuple[int, int] = (340, 720),
+        scheme: str = "light",
+        has_details: bool = False,
+        **options: Any,
+    ) -> None:
+        self.part_name = part
+        self._html = INDEX.format(
+            module=module,
+            name=name,
+            part=part,
+            scheme=scheme,
+            attributes="data-ai4u-details" if has_details else "",
+            style="position: static; width: auto; height: auto; max-height: none",
+            styles="\n".join(f'<link rel="stylesheet" href="./web/{style}" />' for style in STYLES),
+        )
+        self.page: Page = new_page(chromium, *size, draws=True, **options)
+        self.errors: list[str] = []
+        self.page.on("pageerror", lambda error: self.errors.append(str(error)))
+        self.page.on("console", self._on_console)
+        self.page.route(f"{ADDRESS}**", self._serve)
+        self.page.goto(ADDRESS)
+        self.page.wait_for_function("window.isReady")
+
+    def give(self, part: dict[str, Any], name: str = "") -> None:
+        """Send a part to the tab."""
+        self.page.evaluate(
+            "([name, part]) => panel.give(name, part)", [name or self.part_name, part]
+        )
+
+    def answer(self, command: str, **answer: Any) -> None:
+        """Set the answer to a command."""
+        self.page.evaluate(
+            "([command, answer]) => (panel.answers[command] = answer)", [command, answer]
+        )
+
+    def sent(self) -> list[dict[str, Any]]:
+        """Return the commands that were sent since the last call."""
+        sent: list[dict[str, Any]] = json.loads(
+            self.page.evaluate("JSON.stringify(panel.sent.splice(0))")
+        )
+        return sent
+
+    @property
+    def shown(self) -> dict[str, Any]:
+        """Parts of the world that the page looks at."""
+        shown: dict[str, Any] = self.page.evaluate("panel.shown")
+        return shown
+
+    def small_controls(self, smallest: float) -> list[str]:
+        """Return the visible controls that are lower than so many pixels."""
+        script = """smallest => [...document.querySelectorAll(
+            "button, input, select, textarea, summary, a[href]")]
+          .filter(each => each.checkVisibility() && each.type !== "checkbox")
+          .filter(each => each.getBoundingClientRect().height < smallest)
+          .map(each => each.outerHTML.slice(0, 120))"""
+        found: list[str] = self.page.evaluate(script, smallest)
+        return found
+
+    def unnamed_controls(self) -> list[str]:
+        """Return the visible controls without an accessible name."""
+        script = """() => [...document.querySelectorAll("button, input, select, textarea, a[href]")]
+          .filter(each => each.checkVisibility())
+          .filter(each => !(each.ariaLabel || each.textContent.trim() || each.labels?.length))
+          .map(each => each.outerHTML.slice(0, 120))"""
+        found: list[str] = self.page.evaluate(script)
+        return found
+
+    def _on_console(self, message: ConsoleMessage) -> None:
+        if message.type == "error":
+            self.errors.append(message.text)
+
+    def _serve(self, route: Route) -> None:
+        path = route.request.url.removeprefix(ADDRESS)
+        if not path:
+            route.fulfill(body=self._html, content_type="text/html")
+            return
+        file = web_folder() / Path(path).name
+        if path.startswith("web/") and file.is_file():
+            route.fulfill(body=file.read_bytes(), content_type=MEDIA_TYPES[file.suffix])
+        else:
+            route.fulfill(status=404 if "favicon" not in path else 204)

@@ -1,0 +1,199 @@
+"""The panel's tab "Past", with a fake panel."""
+
+import base64
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+from playwright.sync_api import Browser, expect
+
+from tests.browser.tab_page import TabPage
+
+MINE = {
+    "number": 3,
+    "driver": "Keys W, A, S, D",
+    "is_person": True,
+    "result": "success",
+    "reward": 9.7312,
+    "decisions": 80,
+    "seconds": 14.2,
+    "seed": "8061527393621437281",
+    "is_pinned": False,
+    "is_best": True,
+}
+NETWORKS = {
+    **MINE,
+    "number": 4,
+    "driver": "Trained network",
+    "is_person": False,
+    "result": "failure",
+    "is_best": False,
+}
+PLAYING = {
+    "number": 3,
+    "step": 12,
+    "steps": 80,
+    "is_playing": False,
+    "speed": 1.0,
+    "is_showing": True,
+}
+PART: dict[str, Any] = {
+    "episodes": [MINE, NETWORKS],
+    "playing": None,
+    "ghost": "",
+    "problem": "",
+    "downloads": [],
+}
+DOWNLOADS = [
+    {"format": "GIF", "url": "api/past/3.gif"},
+    {"format": "Recording", "url": "api/past/3.episode"},
+]
+
+
+@pytest.fixture
+def tab(chromium: Browser) -> Iterator[TabPage]:
+    tab = TabPage(chromium, "panel_past", "PastTab", "past")
+    tab.give(PART)
+    yield tab
+    tab.page.context.close()
+    assert tab.errors == []
+
+
+def head(tab: TabPage, title: str) -> Any:
+    """The button that opens a card."""
+    return tab.page.locator("button[aria-expanded]").filter(
+        has=tab.page.locator(f"strong:text-is('{title}')")
+    )
+
+
+def test_a_persons_drives_stand_apart(tab: TabPage) -> None:
+    drives = tab.page.locator("details").filter(has_text="Your drives")
+    expect(drives.locator("article")).to_have_count(1)
+    expect(drives).to_contain_text("Episode 3goal reached · reward 9.73 · 14.2 s★ best")
+    programs = tab.page.locator("details").filter(has_text="Networks and scripts")
+    expect(programs).to_contain_text("Episode 4goal missed")
+    expect(tab.page.get_by_text("Finished episodes appear here.")).to_be_hidden()
+    tab.give({**PART, "episodes": []})
+    expect(tab.page.get_by_text("Finished episodes appear here.")).to_be_visible()
+    expect(drives).to_be_hidden()
+
+
+def test_a_click_on_a_row_chooses_and_shows_it(tab: TabPage) -> None:
+    head(tab, "Episode 3").click()
+    assert tab.shown["episode"] == 3
+    assert tab.sent() == [{"command": "episode", "number": 3}]
+    tab.give({**PART, "playing": PLAYING, "downloads": DOWNLOADS})
+    row = tab.page.locator("article").filter(has_text="Episode 3")
+    expect(row).to_contain_text("8061527393621437281")
+    expect(row.get_by_role("link", name="GIF")).to_have_attribute("href", "api/past/3.gif")
+    expect(row).to_have_attribute("aria-current", "true")
+
+
+def test_the_full_seed_is_copied(chromium: Browser) -> None:
+    tab = TabPage(
+        chromium,
+        "panel_past",
+        "PastTab",
+        "past",
+        permissions=["clipboard-read", "clipboard-write"],
+    )
+    tab.page.evaluate(
+        """Object.defineProperty(navigator, "clipboard",
+          {value: {writeText: async (text) => (window.copied = text)}})"""
+    )
+    tab.give(PART)
+    head(tab, "Episode 3").click()
+    tab.page.get_by_role("button", name="Copy the seed").click()
+    expect(tab.page.get_by_text("Copied")).to_be_visible()
+    assert tab.page.evaluate("window.copied") == MINE["seed"]
+    tab.page.context.close()
+
+
+def test_one_number_tells_the_moment(tab: TabPage) -> None:
+    tab.give({**PART, "playing": PLAYING})
+    expect(tab.page.get_by_text("Step 12 of 80")).to_be_visible()
+    expect(tab.page.get_by_text("Showing episode 3")).to_be_visible()
+    slider = tab.page.get_by_role("slider", name="Step")
+    expect(slider).to_have_value("12")
+    expect(slider).to_have_attribute("aria-valuetext", "Step 12 of 80")
+    tab.page.get_by_role("button", name="Step back").click()
+    tab.page.get_by_role("button", name="Step forward").click()
+    slider.fill("40")
+    assert [each["step"] for each in tab.sent()] == [11, 13, 40]
+    tab.give({**PART, "playing": {**PLAYING, "step": 80}})
+    expect(tab.page.get_by_role("button", name="Step forward")).to_be_disabled()
+    expect(tab.page.get_by_text("Step 80 of 80")).to_be_visible()
+
+
+def test_it_is_played_at_a_speed(tab: TabPage) -> None:
+    tab.give({**PART, "playing": PLAYING})
+    tab.page.get_by_role("button", name="Play", exact=True).click()
+    tab.page.get_by_role("button", name="2x").click()
+    tab.give({**PART, "playing": {**PLAYING, "is_playing": True, "speed": 2.0}})
+    expect(tab.page.get_by_role("button", name="2x")).to_have_attribute("aria-pressed", "true")
+    tab.page.get_by_role("button", name="Stop", exact=True).click()
+    assert tab.sent() == [
+        {"command": "play"},
+        {"command": "speed", "speed": 2},
+        {"command": "stop"},
+    ]
+
+
+def test_from_a_moment_the_world_goes_on_or_races(tab: TabPage) -> None:
+    tab.give({**PART, "playing": PLAYING, "ghost": "episode 3"})
+    for name in ("Back to live", "Continue here", "Race against it", "Remove ghost"):
+        tab.page.get_by_role("button", name=name).click()
+    assert tab.sent() == [
+        {"command": "back_to_live"},
+        {"command": "continue"},
+        {"command": "race", "number": 3},
+        {"command": "remove_ghost"},
+    ]
+    tab.give({**PART, "playing": {**PLAYING, "is_showing": False}})
+    expect(tab.page.get_by_role("button", name="Back to live")).to_be_hidden()
+    expect(tab.page.get_by_role("button", name="Remove ghost")).to_be_hidden()
+
+
+def test_the_current_episode_is_shown_and_can_not_be_raced(tab: TabPage) -> None:
+    tab.page.get_by_role("button", name="Current episode").click()
+    assert tab.sent() == [{"command": "episode", "number": 0}]
+    tab.give({**PART, "playing": {**PLAYING, "number": 0}})
+    expect(tab.page.get_by_role("button", name="Race against it")).to_be_hidden()
+
+
+def test_episodes_are_pinned(tab: TabPage) -> None:
+    tab.page.get_by_role("button", name="Pin episode 4").click()
+    assert tab.sent() == [{"command": "pin", "number": 4, "on": True}]
+    tab.give({**PART, "episodes": [MINE, {**NETWORKS, "is_pinned": True}]})
+    pinned = tab.page.locator("details").filter(has_text="Pinned")
+    expect(pinned.get_by_role("button", name="Unpin episode 4")).to_be_visible()
+    expect(tab.page.locator("article")).to_have_count(2)
+
+
+def test_a_recording_is_opened(tab: TabPage, tmp_path: Path) -> None:
+    file = tmp_path / "friend.episode"
+    file.write_bytes(b"\x00\x01recorded")
+    tab.answer("open_recording", number=5)
+    with tab.page.expect_file_chooser() as chooser:
+        tab.page.get_by_role("button", name="Open a recording").click()
+    chooser.value.set_files(file)
+    tab.page.wait_for_function("panel.shown.episode === 5")
+    (sent,) = tab.sent()
+    assert base64.b64decode(sent["data"]) == b"\x00\x01recorded"
+    assert sent["file"] == "friend.episode"
+
+
+@pytest.mark.parametrize(("is_touch", "smallest"), [(False, 28), (True, 40)])
+def test_controls_are_large_enough_and_have_names(
+    chromium: Browser, is_touch: bool, smallest: float
+) -> None:
+    size = (390, 844)
+    options: dict[str, Any] = {"has_touch": is_touch, "is_mobile": is_touch}
+    tab = TabPage(chromium, "panel_past", "PastTab", "past", size=size, **options)
+    tab.give(PART)
+    head(tab, "Episode 3").click()
+    tab.give({**PART, "playing": PLAYING, "ghost": "episode 3", "downloads": DOWNLOADS})
+    assert tab.small_controls(smallest) == []
+    assert tab.unnamed_controls() == []
+    tab.page.context.close()

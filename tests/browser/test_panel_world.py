@@ -1,0 +1,265 @@
+"""The panel's tab "World" and its shortcuts, with a fake panel."""
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+from playwright.sync_api import Browser, expect
+
+from tests.browser.tab_page import TabPage
+
+BOX = {
+    "name": "box",
+    "kind": "body",
+    "shape": {"type": "box", "size": [1, 1]},
+    "x": 4.0,
+    "y": 0.0,
+    "heading": 0.0,
+    "movable": True,
+}
+ROBOT = {**BOX, "name": "robot", "kind": "agent", "shape": {"type": "circle", "radius": 0.5}}
+PLATE = {**BOX, "name": "plate", "kind": "floor", "x": 0.0}
+FORM = {
+    "body": "box",
+    "kind": "body",
+    "fields": [
+        {"name": "x", "label": "x (m)", "kind": "number", "value": 4.0, "shown": "4"},
+        {"name": "y", "label": "y (m)", "kind": "number", "value": 0.0, "shown": "0"},
+        {"name": "mass", "label": "mass (kg)", "kind": "number", "value": 1.0, "shown": "1"},
+        {
+            "name": "colour",
+            "label": "colour",
+            "kind": "choice",
+            "value": "green",
+            "shown": "green",
+            "choices": ["(none)", "green", "blue"],
+        },
+    ],
+    "first": ["x", "y", "colour"],
+}
+SETTINGS = [
+    {"name": "title", "label": "title", "kind": "text", "value": "Small"},
+    {"name": "gravity", "label": "gravity (m/s^2)", "kind": "number", "value": 9.81},
+]
+PART: dict[str, Any] = {
+    "bodies": [ROBOT, BOX, PLATE],
+    "form": None,
+    "settings": SETTINGS,
+    "unsaved": None,
+    "undo": "",
+    "redo": "",
+    "is_moving": False,
+    "is_dragging": False,
+    "snap": 0.5,
+}
+MOVING = {**PART, "is_moving": True, "form": FORM}
+
+
+@pytest.fixture
+def tab(chromium: Browser) -> Iterator[TabPage]:
+    tab = TabPage(chromium, "panel_world", "WorldTab", "world")
+    tab.give(PART)
+    yield tab
+    tab.page.context.close()
+    assert tab.errors == []
+
+
+def head(tab: TabPage, title: str) -> Any:
+    """The button that opens a card."""
+    return tab.page.locator("button[aria-expanded]").filter(
+        has=tab.page.locator(f"strong:text-is('{title}')")
+    )
+
+
+def chosen(tab: TabPage) -> None:
+    """Choose the box, with the handles on."""
+    head(tab, "box").click()
+    tab.give(MOVING)
+    tab.sent()
+
+
+def test_things_are_listed_with_their_places(tab: TabPage) -> None:
+    expect(head(tab, "robot")).to_contain_text("agent, 4.0 m, 0.0 m")
+    expect(head(tab, "plate")).to_contain_text("floor, 0.0 m, 0.0 m")
+    tab.give({**PART, "bodies": [{**BOX, "x": 2.5}]})
+    expect(head(tab, "box")).to_contain_text("2.5 m, 0.0 m")
+    expect(head(tab, "robot")).to_have_count(0)
+
+
+def test_a_click_chooses_and_the_form_changes_it(tab: TabPage) -> None:
+    head(tab, "box").click()
+    assert tab.shown["body"] == "box"
+    assert tab.sent() == [{"command": "select", "body": "box"}]
+    tab.give({**PART, "form": FORM})
+    expect(tab.page.get_by_label("mass (kg)")).to_be_hidden()
+    x = tab.page.get_by_label("x (m)")
+    x.fill("3,5")
+    x.press("Enter")
+    tab.page.get_by_label("colour").select_option("blue")
+    sent = [each["values"] for each in tab.sent()]
+    assert sent[0] == {"x": "3,5"}
+    assert sent[-1]["colour"] == "blue"
+
+
+def test_a_thing_that_is_clicked_in_the_picture_opens(tab: TabPage) -> None:
+    tab.page.evaluate(
+        """panel.dispatchEvent(new CustomEvent("selected", {detail: {body: "plate"}}))"""
+    )
+    expect(head(tab, "plate")).to_have_attribute("aria-expanded", "true")
+    assert tab.shown["body"] == "plate"
+
+
+def test_things_are_added_and_can_be_moved_then(tab: TabPage) -> None:
+    tab.answer("add_body", body="lamp")
+    for name in ("Wall", "Box", "Ball", "Floor", "Area", "Lamp", "Agent"):
+        expect(tab.page.get_by_role("button", name=name, exact=True)).to_be_visible()
+    tab.page.get_by_role("button", name="Lamp", exact=True).click()
+    assert tab.sent() == [
+        {"command": "add_body", "what": "lamp"},
+        {"command": "select", "body": "lamp"},
+        {"command": "move_mode", "on": True, "snap": 0.5},
+    ]
+    assert tab.shown["body"] == "lamp"
+
+
+def test_moving_and_the_grid_are_switched(tab: TabPage) -> None:
+    expect(tab.page.get_by_text("Turn on Move things")).to_be_visible()
+    tab.page.get_by_role("switch", name="Move things").click()
+    assert tab.sent() == [{"command": "move_mode", "on": True, "snap": 0.5}]
+    tab.give(MOVING)
+    expect(tab.page.get_by_text("Esc cancels")).to_be_visible()
+    tab.page.get_by_role("switch", name="Snap to grid").click()
+    assert tab.sent() == [{"command": "move_mode", "on": True, "snap": 0}]
+    tab.give({**MOVING, "snap": 0})
+    expect(tab.page.get_by_role("switch", name="Snap to grid")).to_have_attribute(
+        "aria-checked", "false"
+    )
+
+
+@pytest.mark.parametrize(
+    ("keys", "command"),
+    [
+        ("ArrowRight", {"command": "nudge", "body": "box", "dx": 0.5, "dy": 0, "turn": 0}),
+        ("ArrowUp", {"command": "nudge", "body": "box", "dx": 0, "dy": 0.5, "turn": 0}),
+        ("Alt+ArrowLeft", {"command": "nudge", "body": "box", "dx": -0.05, "dy": 0, "turn": 0}),
+        ("Shift+ArrowLeft", {"command": "nudge", "body": "box", "dx": 0, "dy": 0, "turn": 15}),
+        ("Delete", {"command": "remove_body", "body": "box"}),
+        ("Control+d", {"command": "duplicate_body", "body": "box"}),
+        ("Control+z", {"command": "undo"}),
+        ("Control+y", {"command": "redo"}),
+        ("Control+Shift+Z", {"command": "redo"}),
+        ("Escape", {"command": "select", "body": None}),
+    ],
+)
+def test_shortcuts_change_the_chosen_thing(
+    tab: TabPage, keys: str, command: dict[str, object]
+) -> None:
+    chosen(tab)
+    tab.page.evaluate("document.activeElement.blur()")
+    tab.page.keyboard.press(keys)
+    assert tab.sent()[0] == command
+
+
+def test_shortcuts_leave_texts_and_windows_alone(tab: TabPage) -> None:
+    chosen(tab)
+    tab.page.get_by_label("x (m)").focus()
+    for keys in ("Delete", "ArrowLeft", "Control+z", "Control+d"):
+        tab.page.keyboard.press(keys)
+    assert [each for each in tab.sent() if each["command"] != "change_body"] == []
+    tab.page.get_by_role("button", name="Save").click()
+    tab.page.get_by_role("dialog").get_by_role("button", name="Close").focus()
+    tab.page.keyboard.press("Delete")
+    assert tab.sent() == []
+
+
+def test_without_a_chosen_thing_only_undo_works(tab: TabPage) -> None:
+    for keys in ("Delete", "ArrowLeft", "Escape", "Control+d", "Control+z"):
+        tab.page.keyboard.press(keys)
+    assert tab.sent() == [{"command": "undo"}]
+    head(tab, "box").click()
+    tab.give({**PART, "form": FORM})
+    tab.sent()
+    tab.page.evaluate("document.activeElement.blur()")
+    tab.page.keyboard.press("ArrowLeft")  # things are not being moved
+    assert tab.sent() == []
+
+
+def test_escape_during_a_drag_is_the_pictures(tab: TabPage) -> None:
+    chosen(tab)
+    tab.give({**MOVING, "is_dragging": True})
+    tab.page.evaluate("document.activeElement.blur()")
+    tab.page.keyboard.press("Escape")
+    assert tab.shown["body"] == "box"
+
+
+def test_a_card_copies_and_deletes(tab: TabPage) -> None:
+    chosen(tab)
+    tab.answer("duplicate_body", body="box 2")
+    tab.page.get_by_role("button", name="Duplicate").click()
+    assert tab.sent()[0] == {"command": "duplicate_body", "body": "box"}
+    assert tab.shown["body"] == "box 2"
+    head(tab, "box").click()
+    tab.page.get_by_role("button", name="Delete").click()
+    assert {"command": "remove_body", "body": "box"} in tab.sent()
+    assert tab.shown["body"] is None
+
+
+def test_a_scene_is_saved_and_replaced_only_after_a_question(tab: TabPage) -> None:
+    tab.give({"title": "Small"}, "scene")
+    tab.page.get_by_role("button", name="Save").click()
+    dialog = tab.page.get_by_role("dialog")
+    expect(dialog.get_by_label("Name")).to_have_value("Small")
+    tab.answer("save_scene", ok=False, exists=True, text="A scene has this name.")
+    dialog.get_by_role("button", name="Save").click()
+    expect(dialog.get_by_role("alert")).to_have_text("A scene has this name.")
+    tab.answer("save_scene", ok=True, text="Saved.")
+    dialog.get_by_role("button", name="Replace it").click()
+    expect(dialog).to_have_count(0)
+    assert [each["overwrite"] for each in tab.sent()] == [False, True]
+
+
+def test_a_scene_is_downloaded_and_opened(tab: TabPage, tmp_path: Path) -> None:
+    tab.answer("download", file={"name": "small.yaml", "text": "name: small\n"})
+    with tab.page.expect_download() as download:
+        tab.page.get_by_role("button", name="Download").click()
+    assert download.value.suggested_filename == "small.yaml"
+    assert download.value.path().read_text() == "name: small\n"
+    file = tmp_path / "mine.yaml"
+    file.write_text("name: mine\n")
+    with tab.page.expect_file_chooser() as chooser:
+        tab.page.get_by_role("button", name="Open a file").click()
+    chooser.value.set_files(file)
+    tab.page.wait_for_function("panel.sent.some(each => each.command === 'load_text')")
+    assert tab.sent()[-1] == {"command": "load_text", "file": "mine.yaml", "text": "name: mine\n"}
+
+
+def test_an_unsaved_scene_is_offered(tab: TabPage) -> None:
+    expect(tab.page.get_by_role("button", name="Restore")).to_be_hidden()
+    tab.give({**PART, "unsaved": {"when": "06:26"}})
+    expect(tab.page.get_by_text("You have an unsaved scene from 06:26.")).to_be_visible()
+    tab.page.get_by_role("button", name="Restore").click()
+    tab.page.get_by_role("button", name="Discard").click()
+    assert [each["command"] for each in tab.sent()] == ["restore", "discard"]
+
+
+def test_settings_of_the_scene_change(tab: TabPage) -> None:
+    tab.page.get_by_text("Scene's settings").click()
+    gravity = tab.page.get_by_label("gravity (m/s^2)")
+    gravity.fill("1.6")
+    gravity.press("Enter")
+    assert tab.sent() == [{"command": "change_settings", "values": {"gravity": "1.6"}}]
+
+
+@pytest.mark.parametrize(("is_touch", "smallest"), [(False, 28), (True, 40)])
+def test_controls_are_large_enough_and_have_names(
+    chromium: Browser, is_touch: bool, smallest: float
+) -> None:
+    size = (390, 844)
+    options: dict[str, Any] = {"has_touch": is_touch, "is_mobile": is_touch}
+    tab = TabPage(chromium, "panel_world", "WorldTab", "world", size=size, **options)
+    tab.give({**PART, "unsaved": {"when": "06:26"}})
+    chosen(tab)
+    assert tab.small_controls(smallest) == []
+    assert tab.unnamed_controls() == []
+    tab.page.context.close()

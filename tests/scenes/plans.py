@@ -1,0 +1,244 @@
+"""Plans of a newcomer at the keyboard for each scene: what its goal says, and no more."""
+
+import math
+from collections import deque
+from collections.abc import Iterable
+
+from ai4u_edu.agent.cycle import ControlRequestor
+from tests.scenes.newcomer import Keys, Plan, Planner, Point, Sight, direction, towards
+
+NONE: Keys = frozenset()
+AHEAD: Keys = frozenset({"KeyW"})
+
+
+def nearest(here: Point, goals: Iterable[Point]) -> Point | None:
+    """Return the nearest of several points."""
+    return min(goals, key=lambda goal: math.dist(here, goal), default=None)
+
+
+def go_to(name: str) -> Planner:
+    """Drive at a body."""
+    return lambda _sim: lambda sight: towards(sight, sight.at[name])
+
+
+def follow(route: list[Point]) -> Planner:
+    """Drive from point to point of a closed route, beginning with the nearest one ahead."""
+
+    def planner(sim: ControlRequestor) -> Plan:
+        body = sim.agents[0].body
+        index = min(
+            range(len(route)),
+            key=lambda each: (
+                math.dist(body.position, route[each])
+                - math.cos(direction(body.position, route[each]) - body.heading)
+            ),
+        )
+
+        def plan(sight: Sight) -> Keys:
+            nonlocal index
+            if math.dist(sight.own, route[index]) < 0.5:
+                index = (index + 1) % len(route)
+            return towards(sight, route[index])
+
+        return plan
+
+    return planner
+
+
+def through_maze(sim: ControlRequestor) -> Plan:
+    """Follow the shortest way through the cells of 2 m to the exit, seen from above."""
+    bodies = sim.world.bodies
+    walls = [body for name, body in bodies.items() if name.startswith("wall")]
+
+    def is_open(one: Point, other: Point) -> bool:
+        x, y = (one[0] + other[0]) / 2, (one[1] + other[1]) / 2
+        return not any(
+            wall.sampled.shape.contains(x - wall.position[0], y - wall.position[1])
+            for wall in walls
+        )
+
+    way_on: dict[Point, Point] = {}  # from each cell to the next one
+    border = deque([cell_of(bodies["exit"].position)])
+    while border:
+        cell = border.popleft()
+        for dx, dy in ((2, 0), (-2, 0), (0, 2), (0, -2)):
+            other = (cell[0] + dx, cell[1] + dy)
+            if other not in way_on and is_open(cell, other):
+                way_on[other] = cell
+                border.append(other)
+    heading_for = cell_of(sim.agents[0].body.position)
+
+    def plan(sight: Sight) -> Keys:
+        nonlocal heading_for
+        if math.dist(sight.own, heading_for) < 0.5:
+            heading_for = way_on[heading_for]
+        return towards(sight, heading_for)
+
+    return plan
+
+
+def cell_of(place: Point) -> Point:
+    """Return the centre of the maze's cell around a point."""
+    return 2.0 * round((place[0] - 1) / 2) + 1, 2.0 * round(place[1] / 2)
+
+
+def ring(_sim: ControlRequestor) -> Plan:
+    """Drive round the middle of the donut, a bit ahead of where it is."""
+
+    def plan(sight: Sight) -> Keys:
+        angle = math.atan2(sight.own[1], sight.own[0]) + 0.35
+        return towards(sight, (5.75 * math.cos(angle), 5.75 * math.sin(angle)))
+
+    return plan
+
+
+def jump_wall(_sim: ControlRequestor) -> Plan:
+    """Drive at the cube, and jump in front of the wall."""
+
+    def plan(sight: Sight) -> Keys:
+        keys = towards(sight, sight.at["cube"])
+        at_wall = -1.6 < sight.own[0] < 0 and "KeyW" in keys
+        return keys | {"Space"} if at_wall else keys
+
+    return plan
+
+
+def push_out(_sim: ControlRequestor) -> Plan:
+    """Drive at the opponent; turn back near the edge."""
+
+    def plan(sight: Sight) -> Keys:
+        other = sight.at.get("orange", (0.0, 0.0))
+        mine, its = math.hypot(*sight.own), math.hypot(*other)
+        return towards(sight, (0.0, 0.0) if mine > 2.9 and its < mine else other)
+
+    return plan
+
+
+def push_block(sim: ControlRequestor) -> Plan:
+    """Go behind the block, and push it into the field."""
+    field = sim.world.areas["field"].description.position
+
+    def plan(sight: Sight) -> Keys:
+        block = sight.at.get("block", (0.0, 0.0))
+        far = math.dist(block, field)
+        way = ((field[0] - block[0]) / far, (field[1] - block[1]) / far)
+        return behind(sight, block, way, 1.8)
+
+    return plan
+
+
+def behind(sight: Sight, thing: Point, way: Point, room: float) -> Keys:
+    """Return the keys that push a thing along a way, or that lead to ``room`` metres behind it."""
+    dx, dy = sight.own[0] - thing[0], sight.own[1] - thing[1]
+    along, left = dx * way[0] + dy * way[1], dy * way[0] - dx * way[1]
+    side = 1.0 if left >= 0 else -1.0
+    if along < -0.4 and abs(left) < 0.35:
+        ahead, aside = 0.5, 0.0
+    elif along < -0.4 * room:
+        ahead, aside = -room, 0.0
+    else:
+        ahead, aside = -room, side * room
+    goal = thing[0] + ahead * way[0] - aside * way[1], thing[1] + ahead * way[1] + aside * way[0]
+    return towards(sight, goal)
+
+
+def shoot(_sim: ControlRequestor) -> Plan:
+    """Go behind the ball, and push it into the orange goal."""
+
+    def plan(sight: Sight) -> Keys:
+        ball = sight.at["ball"]
+        far = math.dist(ball, (7.5, 0.0))
+        return behind(sight, ball, ((7.5 - ball[0]) / far, -ball[1] / far), 1.2)
+
+    return plan
+
+
+def catch(_sim: ControlRequestor) -> Plan:
+    """Drive at the nearest runner."""
+
+    def plan(sight: Sight) -> Keys:
+        runners = [at for name, at in sight.at.items() if name.startswith("runner")]
+        goal = nearest(sight.own, runners)
+        return NONE if goal is None else towards(sight, goal)
+
+    return plan
+
+
+def forage(sim: ControlRequestor) -> Plan:
+    """Fetch what is lower, once it is below the middle of the green zone."""
+    agent = sim.agents[0]
+
+    def plan(sight: Sight) -> Keys:
+        energy, water = agent.percept["inside"]
+        if min(energy, water) > 0.55:
+            return NONE
+        kind = "food" if energy < water else "water"
+        goal = nearest(sight.own, [at for name, at in sight.at.items() if name.startswith(kind)])
+        return NONE if goal is None else towards(sight, goal)
+
+    return plan
+
+
+def jump_blocks(_sim: ControlRequestor) -> Plan:
+    """Drive along the middle line, and jump forward near the end of a block."""
+
+    def plan(sight: Sight) -> Keys:
+        x = sight.own[0]
+        keys = towards(sight, (x + 3.0, 0.0))
+        at_edge = 3.0 < (x + 2) % 7 < 4.0 and "KeyW" in keys
+        return keys | {"KeyJ"} if at_edge else keys
+
+    return plan
+
+
+def park(sim: ControlRequestor) -> Plan:
+    """Back up along the lane until there is room for a quarter circle, then steer into the bay."""
+    bay = sim.world.areas["bay"].description.position
+    up = math.copysign(1.0, bay[1])
+    backing = True
+
+    def steer(error: float) -> Keys:
+        if abs(error) < math.radians(6):
+            return NONE
+        return frozenset({"KeyA" if error > 0 else "KeyD"})
+
+    def plan(sight: Sight) -> Keys:
+        nonlocal backing
+        (x, y), heading = sight.own, sight.heading
+        rear = x - 0.4 * math.cos(heading)
+        backing = backing and bay[0] - rear < 2.9
+        if backing:
+            return frozenset({"KeyS"}) | steer(math.remainder(heading, 2 * math.pi))
+        across = bay[0] - rear
+        deep = up * (bay[1] - y)
+        if deep < 0.15:
+            return NONE
+        on_circle = math.acos(min(1.0, max(0.0, 1 - abs(across) / 2.6)))
+        aim = up * (math.pi / 2 - math.copysign(min(on_circle, 1.2 * abs(across)), across))
+        return AHEAD | steer(math.remainder(aim - heading, 2 * math.pi))
+
+    return plan
+
+
+LINE: list[Point] = [
+    (-4, -3.5), (-0.5, -3.5), (3, -3.5), (4.5, -2), (5, -1.2), (5, 0), (5, 1.5), (4.2, 2.4),
+    (3.4, 3), (1.6, 3), (0.75, 2.25), (0, 1.5), (-1.4, 1.5), (-2.25, 2.25), (-3, 3),
+    (-4.5, 3), (-5.5, 2), (-5.5, 0), (-5.5, -2), (-4.75, -2.75),
+]  # fmt: skip
+
+PLANS: dict[str, Planner] = {
+    "box_chase": go_to("box"),
+    "donut": ring,
+    "forage": forage,
+    "jumper": jump_blocks,
+    "line_follow": follow(LINE),
+    "maze": through_maze,
+    "parking": park,
+    "push_block": push_block,
+    "sample_scene": jump_wall,
+    "soccer": shoot,
+    "sumo": push_out,
+    "tag": catch,
+    "yardstick": go_to("target"),
+}
+"""A planner for each scene."""

@@ -1,0 +1,66 @@
+"""Whoever holds one key from the start of an episode is still in it two seconds later."""
+
+from dataclasses import dataclass
+
+import pytest
+
+from ai4u_edu import Scene
+from ai4u_edu.agent.cycle import ControlRequestor
+
+pytestmark = pytest.mark.slow
+
+HELD_S = 2.0
+SEEDS = range(100)
+MAX_LOST = 5
+"""Episodes out of 100 that may be lost."""
+KEYS = ("KeyW", "KeyS", "KeyA", "KeyD")
+
+EXPECTED_FALLS = {
+    ("box_chase_ai4u", "KeyW"): "AI4U's poses face the edges, at AI4U's full speed",
+    ("box_chase_ai4u", "KeyS"): "likewise",
+    ("jumper", "KeyW"): "its goal is to jump; the blocks end after 4 m",
+    ("jumper", "KeyS"): "likewise",
+    ("platform", "KeyS"): "S jumps forward there, from one platform to the next",
+    ("sumo", "KeyS"): "its goal is to stay in the ring, and the start is near the edge",
+}
+"""Keys that may lead to a fall, with the reason."""
+
+
+@dataclass
+class Count:
+    """Ends of many episodes."""
+
+    lost: int = 0
+    won: int = 0
+
+
+def hold(sim: ControlRequestor, key: str) -> Count:
+    """Hold a key from the start of an episode, for each seed."""
+    agent, count = sim.agents[0], Count()
+    ticks = agent.brain.skip_frame + 1
+    for seed in SEEDS:
+        sim.reset(seed)
+        for _ in range(round(HELD_S * sim.world.settings.ticks_per_second / ticks)):
+            agent.keyboard.hold([key])
+            sim.step()
+            if agent.done:
+                is_won = agent.ledger.episode_terms.get(sim.success, 0.0) > 0
+                count.won += is_won
+                count.lost += not is_won
+                break
+        agent.keyboard.release()
+    return count
+
+
+@pytest.mark.parametrize("name", Scene.names())
+def test_a_key_held_for_two_seconds_seldom_loses_the_episode(name: str) -> None:
+    sim = Scene.load(name).build()
+    counts = {key: hold(sim, key) for key in KEYS}
+    print(name, counts)
+    lost = {key: count.lost for key, count in counts.items() if count.lost > MAX_LOST}
+    assert {key for key in lost if (name, key) not in EXPECTED_FALLS} == set(), lost
+
+
+def test_the_table_names_no_key_without_need() -> None:
+    for name, key in EXPECTED_FALLS:
+        assert hold(Scene.load(name).build(), key).lost > MAX_LOST, (name, key)

@@ -1,0 +1,72 @@
+/** A thing of the world as a card: its form when it is chosen, copy and delete. */
+
+import { button, element } from "./dom.js";
+import { Card } from "./panel_card.js";
+import { Form } from "./panel_form.js";
+
+const ICONS = { area: "area", floor: "floor", lamp: "lamp", agent: "agent" };
+const SHAPE_ICONS = { circle: "ball", box: "box", segment: "wall", capsule: "wall", polygon: "box", ring: "target" };
+/** A box that is so much longer than wide is drawn as a wall. */
+const WALL_RATIO = 3;
+
+export class BodyCard {
+  #panel;
+  #name = "";
+  #card;
+  #form;
+  #delete;
+  #copy;
+
+  constructor(panel) {
+    this.#panel = panel;
+    this.#card = new Card({ onToggle: (isOpen) => choose(panel, isOpen ? this.#name : null) });
+    this.#form = new Form({ onChange: (values) => panel.send("change_body", { body: this.#name, values }) });
+    this.#copy = button("Duplicate", () => this.#do("duplicate_body"), { icon: "copy", kind: "quiet" });
+    this.#delete = button("Delete", () => this.#do("remove_body"), { icon: "trash", kind: "danger" });
+    const tools = element("div", { className: "ai4u-tools" }, this.#copy, this.#delete);
+    this.#card.body.append(this.#form.element, tools);
+  }
+
+  get element() {
+    return this.#card.element;
+  }
+
+  update(body, form) {
+    const { name, kind, x, y } = body;
+    this.#name = name;
+    const isOpen = this.#panel.shown.body === name;
+    const reads = `${kind === "body" ? "" : `${kind}, `}${metres(x)}, ${metres(y)}`;
+    this.#card.update({ icon: iconOf(body), title: name, type: shapeOf(body), reads, isOpen });
+    const isMine = isOpen && form?.body === name;
+    this.#form.element.hidden = !isMine;
+    if (isMine) this.#form.update(form.fields, form.first);
+    for (const [made, verb] of [[this.#copy, "Duplicate"], [this.#delete, "Delete"]]) made.title = `${verb} ${name}`;
+  }
+
+  async #do(command) {
+    const answer = await this.#panel.send(command, { body: this.#name });
+    if (!answer.ok) return;
+    if (command === "remove_body" && this.#panel.shown.body === this.#name) choose(this.#panel, null);
+    if (answer.body) choose(this.#panel, answer.body);
+  }
+}
+
+/** Choose a thing: its form opens, and the picture marks it. */
+export function choose(panel, name) {
+  panel.show({ body: name });
+  panel.send("select", { body: name }, { quiet: true });
+}
+
+function shapeOf({ shape }) {
+  return typeof shape === "string" ? shape : (shape?.type ?? "");
+}
+
+function iconOf(body) {
+  const [length, width] = body.shape?.size ?? [1, 1];
+  const isWall = shapeOf(body) === "box" && Math.max(length / width, width / length) >= WALL_RATIO;
+  return ICONS[body.kind] ?? (isWall ? "wall" : (SHAPE_ICONS[shapeOf(body)] ?? "box"));
+}
+
+function metres(value) {
+  return `${Number(value ?? 0).toFixed(1)} m`;
+}

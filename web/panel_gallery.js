@@ -1,0 +1,47 @@
+/** The gallery of blocks that can be added, grouped by the question that each answers. */
+
+import { element } from "./dom.js";
+import { tile, tiles } from "./panel_parts.js";
+import { picture } from "./panel_pictures.js";
+
+/**
+ * Open the gallery.
+ * @param panel the panel
+ * @param options.title of the dialog, such as "Add a sensor"
+ * @param options.agent id of the agent that gets the block
+ * @param options.kind "sensors", "actuators", "rewards", "brains", or the kind of a block's parts
+ * @param options.parent path of the block that gets the new one; left out for the agent itself
+ */
+export async function openGallery(panel, { title, agent, kind, parent }) {
+  const content = element("div", { className: "ai4u-gallery" }, element("p", { textContent: "Loading …" }));
+  const dialog = panel.dialog(title, content);
+  const answer = await panel.send("gallery", { agent, kind }, { quiet: true });
+  if (!answer.ok) {
+    content.replaceChildren(element("p", { className: "ai4u-problem", role: "alert", textContent: answer.text }));
+    return;
+  }
+  const add = async (type) => {
+    const args = { agent, kind, block_type: type, ...(parent ? { parent } : {}) };
+    dialog.close();
+    const added = await panel.send("add_block", args);
+    if (added.ok && added.path) panel.show({ block: added.path });
+  };
+  content.replaceChildren(...groups(answer.items, add));
+  content.querySelector("button")?.focus();
+}
+
+function groups(items, add) {
+  const byQuestion = new Map();
+  for (const item of items) byQuestion.set(item.question, [...(byQuestion.get(item.question) ?? []), item]);
+  return [...byQuestion].flatMap(([question, group]) => [
+    element("h3", { textContent: question }),
+    tiles(...group.map((item) => blockTile(item, () => add(item.class)))),
+  ]);
+}
+
+function blockTile(item, onClick) {
+  const made = tile({ title: item.title, text: item.summary, reason: item.reason }, onClick);
+  made.prepend(picture(item.picture));
+  made.append(element("code", { className: "ai4u-details-only", textContent: item.class }));
+  return made;
+}

@@ -1,0 +1,92 @@
+/** The tab "Past": finished episodes, and the player of the chosen one. */
+
+import { button, element, keyed } from "./dom.js";
+import { EpisodeCard } from "./panel_episode_card.js";
+import { section } from "./panel_parts.js";
+import { Player } from "./panel_player.js";
+import { fileButton } from "./panel_scene_files.js";
+
+/** Number that stands for the episode that is still running. */
+const RUNNING_EPISODE = 0;
+/** Largest recording that is sent (bytes). */
+const MAX_RECORDING_BYTES = 20_000_000;
+
+export class PastTab {
+  #panel;
+  #player;
+  #cards = new Map();
+  #groups;
+  #none = element("p", { className: "ai4u-hint-text", textContent: "Finished episodes appear here." });
+
+  constructor(root, panel) {
+    this.#panel = panel;
+    this.#player = new Player(panel);
+    const current = button("Current episode", () => this.#showRunning(), { icon: "clock" });
+    const open = fileButton("Open a recording", ".episode", (file) => this.#open(file));
+    this.#groups = [
+      group("past-pinned", "Pinned", (episode) => episode.is_pinned),
+      group("past-person", "Your drives", (episode) => !episode.is_pinned && episode.is_person),
+      group("past-program", "Networks and scripts", (episode) => !episode.is_pinned && !episode.is_person),
+    ];
+    const tools = element("div", { className: "ai4u-tools" }, current, open);
+    root.append(this.#player.element, tools, this.#none, ...this.#groups.map((each) => each.element));
+  }
+
+  /** @param part as "past" in the protocol */
+  update(part) {
+    this.#player.update(part);
+    const episodes = [...(part.episodes ?? [])].sort((a, b) => b.number - a.number);
+    const numbers = new Set(episodes.map(({ number }) => number));
+    for (const number of [...this.#cards.keys()]) if (!numbers.has(number)) this.#cards.delete(number);
+    this.#none.hidden = episodes.length > 0;
+    for (const { element: details, list, isIn } of this.#groups) {
+      const inside = episodes.filter(isIn);
+      details.hidden = inside.length === 0;
+      keyed(
+        list,
+        inside,
+        ({ number }) => number,
+        ({ number }) => this.#card(number).element,
+        (_, episode) => this.#update(episode, part),
+      );
+    }
+  }
+
+  #card(number) {
+    if (!this.#cards.has(number)) this.#cards.set(number, new EpisodeCard(this.#panel));
+    return this.#cards.get(number);
+  }
+
+  #update(episode, part) {
+    const chosen = this.#panel.shown.episode ?? part.playing?.number ?? null;
+    this.#card(episode.number).update(episode, chosen === episode.number, part.downloads);
+  }
+
+  #showRunning() {
+    this.#panel.show({ episode: null });
+    this.#panel.send("episode", { number: RUNNING_EPISODE }, { quiet: true });
+  }
+
+  async #open(file) {
+    if (file.size > MAX_RECORDING_BYTES) {
+      this.#panel.notice(`${file.name}: expected a recording (.episode), got ${file.size} bytes.`, "error");
+      return;
+    }
+    const answer = await this.#panel.send("open_recording", { file: file.name, data: await base64(file) });
+    if (answer.ok && answer.number) this.#panel.show({ episode: answer.number });
+  }
+}
+
+function group(key, title, isIn) {
+  const list = element("div", { className: "ai4u-card-list" });
+  return { element: section(key, title, {}, list), list, isIn };
+}
+
+function base64(file) {
+  return new Promise((resolve, reject) => {
+    const reader = new FileReader();
+    reader.onload = () => resolve(reader.result.slice(reader.result.indexOf(",") + 1));
+    reader.onerror = () => reject(reader.error);
+    reader.readAsDataURL(file);
+  });
+}

@@ -1,0 +1,97 @@
+/** Buttons to save, download and open a scene, and the offer of an unsaved one. */
+
+import { button, element, setText } from "./dom.js";
+import { freeId } from "./panel_parts.js";
+
+/** Largest file that is read here; the server has limits of its own (bytes). */
+const MAX_SCENE_BYTES = 4_000_000;
+
+export class SceneFiles {
+  #panel;
+  #when = element("p");
+  #unsaved;
+  element = element("div");
+
+  constructor(panel) {
+    this.#panel = panel;
+    this.#unsaved = element(
+      "div",
+      { className: "ai4u-offer", role: "status", hidden: true },
+      this.#when,
+      button("Restore", () => panel.send("restore"), { kind: "main" }),
+      button("Discard", () => panel.send("discard"), {}),
+    );
+    const tools = element(
+      "div",
+      { className: "ai4u-tools" },
+      button("Save", () => this.#openSaving(), { icon: "save" }),
+      button("Download", () => this.#download(), { icon: "download" }),
+      fileButton("Open a file", ".yaml,.yml,text/yaml", (file) => this.#load(file)),
+    );
+    this.element.append(this.#unsaved, tools);
+  }
+
+  update({ unsaved }) {
+    this.#unsaved.hidden = !unsaved;
+    if (unsaved) setText(this.#when, `You have an unsaved scene from ${unsaved.when}.`);
+  }
+
+  #openSaving() {
+    const input = element("input", { type: "text", id: freeId(), autocomplete: "off", required: true });
+    input.value = this.#panel.part("scene")?.title ?? "";
+    const problem = element("p", { className: "ai4u-problem", role: "alert" });
+    const save = button("Save", () => {}, { kind: "main", type: "submit" });
+    const label = element("label", { htmlFor: input.id, textContent: "Name" });
+    const field = element("div", { className: "ai4u-field" }, label, input);
+    const form = element("form", { className: "ai4u-save", method: "dialog" }, field, problem, save);
+    const dialog = this.#panel.dialog("Save the scene", form);
+    let replaces = "";
+    form.addEventListener("submit", async (event) => {
+      event.preventDefault();
+      const title = input.value.trim();
+      const answer = await this.#panel.send("save_scene", { title, overwrite: replaces === title }, { quiet: true });
+      if (answer.ok) {
+        dialog.close();
+        this.#panel.notice(answer.text);
+        return;
+      }
+      replaces = answer.exists ? title : "";
+      setText(save.querySelector("span"), answer.exists ? "Replace it" : "Save");
+      setText(problem, answer.text);
+    });
+    input.select();
+    input.focus();
+  }
+
+  async #download() {
+    const answer = await this.#panel.send("download", {});
+    if (answer.ok) saveFile(answer.file.name, answer.file.text);
+  }
+
+  async #load(file) {
+    if (file.size > MAX_SCENE_BYTES) {
+      this.#panel.notice(`${file.name}: expected a scene file (YAML), got ${file.size} bytes.`, "error");
+      return;
+    }
+    this.#panel.show({ body: null, block: null });
+    await this.#panel.send("load_text", { file: file.name, text: await file.text() });
+  }
+}
+
+/** Return a button that asks for a file. */
+export function fileButton(text, accept, onFile) {
+  const input = element("input", { type: "file", accept, hidden: true, tabIndex: -1 });
+  input.addEventListener("change", () => {
+    const [file] = input.files;
+    input.value = ""; // so that the same file can be chosen again
+    if (file) onFile(file);
+  });
+  const made = button(text, () => input.click(), { icon: "open" });
+  return element("span", { className: "ai4u-file" }, made, input);
+}
+
+function saveFile(name, text) {
+  const url = URL.createObjectURL(new Blob([text], { type: "application/yaml" }));
+  element("a", { href: url, download: name }).click();
+  setTimeout(() => URL.revokeObjectURL(url), 10_000);
+}

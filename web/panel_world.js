@@ -1,0 +1,104 @@
+/** The tab "World": the things in it, the scene's settings and files. */
+
+import { button, element, keyed, setText } from "./dom.js";
+import { BodyCard, choose } from "./panel_body_card.js";
+import { Form } from "./panel_form.js";
+import { section, toggle } from "./panel_parts.js";
+import { SceneFiles } from "./panel_scene_files.js";
+
+const NEW_THINGS = ["wall", "box", "ball", "floor", "area", "lamp", "agent"];
+const DEFAULT_SNAP_M = 0.5;
+const HINT_OFF = "Turn on Move things, then drag anything in the picture.";
+const HINT_ON =
+  "Drag things to move them (Esc cancels). Click one to get handles that rotate and resize it. Arrow keys nudge it.";
+
+export class WorldTab {
+  #panel;
+  #cards = new Map();
+  #list = element("div", { className: "ai4u-card-list" });
+  #moves;
+  #snaps;
+  #hint = element("p", { className: "ai4u-hint-text" });
+  #settings;
+  #files;
+  #isMoving = false;
+  #snap = DEFAULT_SNAP_M;
+
+  constructor(root, panel) {
+    this.#panel = panel;
+    this.#files = new SceneFiles(panel);
+    this.#moves = toggle("Move things", (isOn) => this.#setMode(isOn, this.#snap));
+    this.#snaps = toggle("Snap to grid", (isOn) => this.#setMode(this.#isMoving, isOn ? DEFAULT_SNAP_M : 0), {
+      title: "Hold Alt to move freely",
+    });
+    const add = element(
+      "div",
+      { className: "ai4u-add", role: "group", ariaLabel: "Add" },
+      ...NEW_THINGS.map((what) => button(capital(what), () => this.#add(what), { icon: what, title: `Add: ${what}` })),
+    );
+    this.#settings = new Form({ onChange: (values) => panel.send("change_settings", { values }) });
+    root.append(
+      this.#files.element,
+      section(
+        "world-things",
+        "Things",
+        {},
+        element("div", { className: "ai4u-row-of-two" }, this.#moves.element, this.#snaps.element),
+        this.#hint,
+        element("h4", { textContent: "Add" }),
+        add,
+        this.#list,
+      ),
+      section("world-settings", "Scene's settings", { isOpen: false }, this.#settings.element),
+    );
+    panel.addEventListener("selected", ({ detail }) => this.#showSelected(detail.body));
+  }
+
+  /** @param part as "world" in the protocol */
+  update(part) {
+    this.#isMoving = Boolean(part.is_moving);
+    this.#snap = part.snap ?? DEFAULT_SNAP_M;
+    this.#moves.set(this.#isMoving);
+    this.#snaps.set(this.#snap > 0);
+    setText(this.#hint, this.#isMoving ? HINT_ON : HINT_OFF);
+    this.#files.update(part);
+    const bodies = part.bodies ?? [];
+    const names = new Set(bodies.map(({ name }) => name));
+    for (const name of [...this.#cards.keys()]) if (!names.has(name)) this.#cards.delete(name);
+    keyed(
+      this.#list,
+      bodies,
+      ({ name }) => name,
+      ({ name }) => {
+        this.#cards.set(name, new BodyCard(this.#panel));
+        return this.#cards.get(name).element;
+      },
+      (_, body) => this.#cards.get(body.name).update(body, part.form),
+    );
+    const settings = part.settings ?? [];
+    const { fields, first } = Array.isArray(settings) ? { fields: settings } : settings;
+    this.#settings.update(fields, first);
+  }
+
+  #setMode(on, snap) {
+    this.#panel.send("move_mode", { on, snap }, { quiet: true });
+  }
+
+  async #add(what) {
+    const answer = await this.#panel.send("add_body", { what });
+    if (!answer.ok || !answer.body) return;
+    choose(this.#panel, answer.body);
+    if (!this.#isMoving) this.#setMode(true, this.#snap); // most new things are moved next
+  }
+
+  #showSelected(name) {
+    this.#panel.show({ body: name });
+    const part = this.#panel.part("world");
+    if (part) this.update(part);
+    this.#cards.get(name)?.element.scrollIntoView({ block: "nearest" });
+  }
+}
+
+function capital(word) {
+  return word[0].toUpperCase() + word.slice(1);
+}
