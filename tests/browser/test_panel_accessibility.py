@@ -1,4 +1,4 @@
-"""No serious findings of axe-core in the panel, for each tab, light and dark, Simple and Details."""
+"""axe-core finds nothing serious in the panel, for each tab, light and dark, Simple and Details."""
 
 from collections.abc import Iterator
 
