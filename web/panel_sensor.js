@@ -42,7 +42,7 @@ export class SensorView {
     setText(this.#heading, this.#title);
     setText(this.#type, [sensor.class, key].filter(Boolean).join(" · "));
     setText(this.#help, help);
-    setAttributes(this.element, { title: help || null });
+    setAttributes(this.#heading, { title: help || null });
     this.#eye.hidden = !sensor.is_drawable;
     const label = `Show ${this.#title} in the picture`;
     setAttributes(this.#eye, { "aria-pressed": this.#isShown ? "true" : "false", "aria-label": label, title: label });
