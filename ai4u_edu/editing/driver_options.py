@@ -1,6 +1,5 @@
 """Drivers that a scene itself offers, and the choice of a driver by its name."""
 
-import re
 from collections.abc import Mapping
 from typing import Any
 
@@ -8,6 +7,7 @@ from ai4u_edu.agent import BasicAgent
 from ai4u_edu.base.parameters import Problem
 from ai4u_edu.blocks import Block, Brain, LocalBrain, NeuralNetController
 from ai4u_edu.blocks.brains.address import brain_at
+from ai4u_edu.blocks.brains.controllers.key_defaults import listens_to_keys
 from ai4u_edu.blocks.brains.network import ZOO_PREFIX, files_in
 from ai4u_edu.editing.blocks import types_of, with_enabled
 from ai4u_edu.editing.drivers import NETWORK, REMOTE, Driver, DriverRegistry
@@ -18,9 +18,6 @@ from ai4u_edu.scenes.serialization import to_plain
 from ai4u_edu.zoo import names as in_the_zoo
 
 KEYS, OWN_BRAIN = "keys:", "brain:"
-
-CODE = re.compile("Key[A-Z]$|Arrow|Space|Digit")
-"""Names of keys, by their position on the keyboard (``KeyboardEvent.code``)."""
 
 KINDS = (
     "expected brain:NUMBER (one that the agent has), keys:CONTROLLER, network:FILE.onnx or "
@@ -73,7 +70,7 @@ def driver_options(state: EditState, agent_id: str) -> list[Driver]:
     has = {driver.title for driver in brains}
     keys = [
         Driver(f"{KEYS}{cls.__name__}", _controller_title(cls))
-        for cls in sorted(types_of("controller"), key=lambda cls: not _has_keys(cls))
+        for cls in sorted(types_of("controller"), key=lambda cls: not listens_to_keys(cls))
         if not _needs_something(cls) and _controller_title(cls) not in has
     ]
     networks = [
@@ -153,14 +150,7 @@ def _default(name: str) -> Any:
 
 
 def _controller_title(cls: type[Block]) -> str:
-    return f"{'Keyboard' if _has_keys(cls) else 'Program'}: {cls.__name__}"
-
-
-def _has_keys(cls: type[Block]) -> bool:
-    """Return True if a parameter of a controller has codes of keys as its default."""
-    defaults = [f.get_default(call_default_factory=True) for f in cls.parameters().values()]
-    lists = [each for each in defaults if isinstance(each, list) and each]
-    return any(isinstance(each[0], str) and CODE.match(each[0]) for each in lists)
+    return f"{'Keyboard' if listens_to_keys(cls) else 'Program'}: {cls.__name__}"
 
 
 def _needs_something(cls: type[Block]) -> bool:

@@ -7,6 +7,7 @@ from ai4u_edu.agent.block_errors import message_of
 from ai4u_edu.base.errors import AI4UError
 from ai4u_edu.editing import ChangeError, ChangeResult
 from ai4u_edu.editing.change_result import When
+from ai4u_edu.editing.scene_store import SceneExistsError
 
 MAX_ERROR_CHARS = 2000
 """Length of an error that is sent to a page; it may repeat the page's own message."""
@@ -47,7 +48,9 @@ def failure(error: BaseException) -> dict[str, Any]:
     """Return the fields of the message about a command that failed."""
     problems = error.problems if isinstance(error, ChangeError) else ()
     text = str(error) if isinstance(error, AI4UError) else message_of(error)
+    code = "exists" if isinstance(error, SceneExistsError) else ""
     return {
+        "code": code,
         "text": text[:MAX_ERROR_CHARS],
         "problems": [
             {"path": list(problem.path), "text": problem.text[:MAX_ERROR_CHARS]}

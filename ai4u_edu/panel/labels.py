@@ -25,6 +25,17 @@ def change_label(label: str) -> str:
     )
 
 
+def past_tense(label: str) -> str:
+    """Return a label of a change as something that was done.
+
+    >>> past_tense("move box"), past_tense("resize floor")
+    ('Moved box', 'Resized floor')
+    """
+    verb, _, rest = change_label(label).partition(" ")
+    ending = "d" if verb.endswith("e") else "ed"
+    return f"{verb.capitalize()}{ending} {rest}".strip()
+
+
 def driven_by(driver: Driver) -> str:
     """Return a driver as the end of a sentence.
 

@@ -3,11 +3,12 @@
 import asyncio
 from collections.abc import Callable
 from concurrent.futures import Future
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Literal, TypeVar
 
 from ai4u_edu.panel.context import PanelContext
 from ai4u_edu.panel.page_view import PageView
+from ai4u_edu.panel.upload import Upload
 
 T = TypeVar("T")
 Level = Literal["info", "error"]
@@ -21,11 +22,15 @@ class Page:
         context: the running world.
         view: what the page looks at.
         note: sends the page a note that answers no command.
+        upload: the file that the page is sending.
+        moves: held while a thing is moved from where it is.
     """
 
     context: PanelContext
     view: PageView
     note: Callable[[Level, str], None]
+    upload: Upload = field(default_factory=Upload)
+    moves: asyncio.Lock = field(default_factory=asyncio.Lock)
 
     async def in_thread(self, work: Callable[[], T]) -> T:
         """Do slow work in another thread; all pages' work is done one after another."""

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 
-from ai4u_edu.panel.messages import Show
+from ai4u_edu.panel.messages.base import Show
 from ai4u_edu.viewer.scene.view import Mode
 from ai4u_edu.viewer.viewer_client import PagePanel, ViewerClient, ViewerClients
 
@@ -31,6 +31,7 @@ class PageView:
         self.show = Show(type="show", agent=agent)
         self.camera = Mode.ARENA
         self.is_move_mode = False
+        self.snap_m = 0.0
         self.trails: dict[str, bool] = {}
         """Trails that were switched on or off, by agent."""
         self._is_dark: bool | None = None
@@ -102,6 +103,16 @@ class PageView:
         self.is_move_mode = on
         self._apply(self._choose_shown)
 
+    def set_snap(self, distance_m: float) -> None:
+        """Let moved things snap to a grid; 0 for none."""
+        self.snap_m = distance_m
+        self._apply(self._choose_shown)
+
+    def select(self, body: str | None) -> None:
+        """Select a thing."""
+        self.show.body = body
+        self._apply(self._choose_shown)
+
     def close(self) -> None:
         """Forget the client; its picture stays as it is."""
         if self._client is not None and self._client.panel is self._panel:
@@ -114,7 +125,7 @@ class PageView:
     def _choose_shown(self, client: ViewerClient) -> None:
         client.agent = self.show.agent
         client.selected = self.show.body or ""
-        client.is_move_mode = self.is_move_mode
+        client.is_move_mode, client.snap_m = self.is_move_mode, self.snap_m
         for agent, on in self.trails.items():
             client.show_trail(agent, on)
 

@@ -12,14 +12,17 @@ from starlette.websockets import WebSocket, WebSocketDisconnect, WebSocketState
 from ai4u_edu.base.errors import AI4UError, NameNotFoundError
 from ai4u_edu.base.log_limit import ErrorLog
 from ai4u_edu.editing import ChangeResult, SceneEditor
-from ai4u_edu.panel import messages
-from ai4u_edu.panel.answers import MAX_ERROR_CHARS, Answer, failure
-from ai4u_edu.panel.commands import blocks, run, view
+from ai4u_edu.panel.answers import MAX_ERROR_CHARS, Answer, change_answer, failure
+from ai4u_edu.panel.commands import blocks, past, run, scenes, view, world
 from ai4u_edu.panel.commands.handler import Handler
 from ai4u_edu.panel.context import PanelContext
+from ai4u_edu.panel.labels import past_tense
+from ai4u_edu.panel.messages.base import Command, Show
+from ai4u_edu.panel.messages.reader import id_in, read_message
 from ai4u_edu.panel.page import Level, Page
 from ai4u_edu.panel.page_view import PageView
 from ai4u_edu.panel.parts.due import due_parts
+from ai4u_edu.panel.upload import MAX_PART_BYTES
 from ai4u_edu.runtime.frame_budget import TEXTS_PER_S
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.server.bindings import choose_agent
@@ -37,10 +40,13 @@ MAX_PENDING_COMMANDS = 16
 MIN_SEND_S = 0.03
 """Shortest time (s) between two looks for changed parts, after commands."""
 
-HANDLERS: Mapping[type[messages.Command], Handler] = {
+HANDLERS: Mapping[type[Command], Handler] = {
     **run.HANDLERS,
     **view.HANDLERS,
     **blocks.HANDLERS,
+    **world.HANDLERS,
+    **scenes.HANDLERS,
+    **past.HANDLERS,
 }
 """Handlers of all commands by the type of their message."""
 
@@ -93,6 +99,7 @@ class _Connection:
             await self._receive()
         finally:
             self._view.close()
+            self._page.upload.drop()
             for task in (sending, *self._tasks):
                 task.cancel()
             with suppress(asyncio.CancelledError, WebSocketDisconnect):
@@ -107,8 +114,20 @@ class _Connection:
 
     def on_dropped(self, change: "Future[ChangeResult]") -> None:
         """Report the result of a move with the mouse."""
+        with suppress(RuntimeError):
+            self._loop.call_soon_threadsafe(lambda: self._spawn(self._report_drop(change)))
+
+    async def _report_drop(self, change: "Future[ChangeResult]") -> None:
+        try:
+            result = await self._page.result(change)
+        except Exception as error:
+            self._note("error", str(failure(error)["text"]))
+            return
+        self._note("info", change_answer(f"{past_tense(result.label)}.", result).text)
+        self._changed.set()
 
     def _select(self, body: str) -> None:
+        self._view.select(body)
         agent = self._context.runner.latest.static_scene.agent_of.get(body, self._view.agent)
         if agent != self._view.agent:
             self._view.choose_agent(agent)
@@ -126,34 +145,50 @@ class _Connection:
             if limit.take():
                 await self._close(1008, f"expected at most {MAX_MESSAGES_PER_S} messages a second")
                 return
-            data = frame.get("text") or frame.get("bytes") or ""
+            part = frame.get("bytes")
+            if part is not None:
+                if not await self._receive_part(part):
+                    return
+                continue
+            data = frame.get("text") or ""
             if len(data) > MAX_MESSAGE_BYTES:
                 await self._close(1009, f"expected at most {MAX_MESSAGE_BYTES} bytes in a message")
                 return
             try:
-                message = messages.read(data)
+                message = read_message(data)
             except ValueError as error:
                 mistakes += 1
-                await self._refuse(messages.id_in(data), str(error))
+                await self._refuse(id_in(data), str(error))
                 if mistakes >= MAX_MISTAKES:
                     await self._close(1008, f"{MAX_MISTAKES} malformed messages in a row")
                     return
                 continue
             mistakes = 0
-            if isinstance(message, messages.Show):
+            if isinstance(message, Show):
                 self._look_at(message)
             elif len(self._tasks) >= MAX_PENDING_COMMANDS:
                 await self._refuse(message.id, "expected fewer commands at a time; wait a moment")
             else:
                 self._spawn(self._carry_out(message))
 
-    def _look_at(self, show: messages.Show) -> None:
+    async def _receive_part(self, part: bytes) -> bool:
+        """Keep a part of a file; return False if it closed the connection."""
+        if len(part) > MAX_PART_BYTES:
+            await self._close(1009, f"expected at most {MAX_PART_BYTES} bytes in a part of a file")
+            return False
+        try:
+            self._page.upload.add(part)
+        except AI4UError as error:
+            self._note("error", str(error))
+        return True
+
+    def _look_at(self, show: Show) -> None:
         if show.agent not in self._context.runner.latest.static_scene.agent_of.values():
             show.agent = self._view.agent
         self._view.look_at(show)
         self._changed.set()
 
-    async def _carry_out(self, command: messages.Command) -> None:
+    async def _carry_out(self, command: Command) -> None:
         try:
             answer: Answer = await HANDLERS[type(command)](self._page, command)
         except asyncio.CancelledError:

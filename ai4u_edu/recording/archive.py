@@ -1,13 +1,19 @@
 """Archive of recent episodes, by number."""
 
+import re
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from threading import Lock
 from typing import overload
 
+from ai4u_edu.blocks import Block
+from ai4u_edu.blocks.brains.controllers.key_defaults import listens_to_keys
 from ai4u_edu.recording.episode import AgentRecord, Episode
+from ai4u_edu.recording.errors import RecordingError
 
+MAX_PINNED = 20
+"""Most episodes that can be pinned."""
 MAX_ARCHIVE_BYTES = 64 * 2**20
 """Memory that all archived episodes may use."""
 
@@ -21,11 +27,19 @@ class ArchiveEntry:
     episode: Episode
     source: str = ""
     """The file that it was loaded from; empty if it was recorded here."""
+    is_pinned: bool = False
+    """True if it is kept however many others come."""
 
     @cached_property
     def success(self) -> bool | None:
         """True if an agent reached the scene's goal; None for a scene without a goal."""
         return self.episode.success
+
+    @cached_property
+    def is_person(self) -> bool:
+        """True if a person drove the agent that acts first, by keys."""
+        names = re.findall(r"\w+", self.first.driver)
+        return any(name in Block.types and listens_to_keys(Block.types[name]) for name in names)
 
     @property
     def first(self) -> AgentRecord:
@@ -41,11 +55,12 @@ class ArchiveEntry:
 class Archive(Sequence[Episode]):
     """The last episodes, the latest last; the oldest are dropped when there are too many.
 
-    It is thread-safe.
+    Episodes that a person drove and all others are counted apart, so that a network's many short
+    episodes don't displace a person's. It is thread-safe.
 
     Args:
-        keep: maximum number of episodes.
-        largest: maximum memory (bytes) of all episodes; the latest is always kept.
+        keep: maximum number of episodes of a person, and of all others.
+        largest: maximum memory (bytes) of all episodes; the latest and pinned ones are kept.
     """
 
     def __init__(self, keep: int = 50, largest: int = MAX_ARCHIVE_BYTES) -> None:
@@ -71,12 +86,37 @@ class Archive(Sequence[Episode]):
         with self._lock:
             self._given += 1
             entry = ArchiveEntry(self._given, episode, source)
-            kept = [*self.entries, entry][-self._keep :] if self._keep else []
-            size = sum(size_of(each.episode) for each in kept)
-            while len(kept) > 1 and size > self._largest:
-                size -= size_of(kept.pop(0).episode)
-            self.entries = tuple(kept)
+            self.entries = self._limited([*self.entries, entry]) if self._keep else ()
         return entry
+
+    def pin(self, number: int, *, on: bool = True) -> None:
+        """Keep an episode however many others come, or no longer.
+
+        Raises:
+            RecordingError: there is no such episode, or as many are pinned as may be.
+        """
+        with self._lock:
+            if not any(entry.number == number for entry in self.entries):
+                raise RecordingError(f"episode {number} is not kept any more")
+            if on and sum(entry.is_pinned for entry in self.entries) >= MAX_PINNED:
+                raise RecordingError(f"expected at most {MAX_PINNED} pinned episodes; unpin one")
+            self.entries = tuple(
+                replace(entry, is_pinned=on) if entry.number == number else entry
+                for entry in self.entries
+            )
+
+    def _limited(self, entries: list[ArchiveEntry]) -> tuple[ArchiveEntry, ...]:
+        """Return the entries that are kept: pinned ones, and the latest others."""
+        *earlier, latest = entries
+        loose = [entry for entry in earlier if not entry.is_pinned]
+        alike = [entry for entry in loose if entry.is_person == latest.is_person]
+        dropped = {entry.number for entry in alike[: max(0, len(alike) + 1 - self._keep)]}
+        size = sum(size_of(each.episode) for each in entries if each.number not in dropped)
+        for entry in loose:
+            if size > self._largest and entry.number not in dropped:
+                dropped.add(entry.number)
+                size -= size_of(entry.episode)
+        return tuple(entry for entry in entries if entry.number not in dropped)
 
     @property
     def best(self) -> ArchiveEntry | None:

@@ -30,6 +30,7 @@ from ai4u_edu.viewer.scene.framing import FIELD_OF_VIEW_RAD, frame_arena
 from ai4u_edu.viewer.scene.ground import Ground
 from ai4u_edu.viewer.scene.labels import Labels
 from ai4u_edu.viewer.scene.light import set_up_lights
+from ai4u_edu.viewer.scene.page_handles import PageHandles
 from ai4u_edu.viewer.scene.sense_overlay import SenseOverlay
 from ai4u_edu.viewer.scene.trails import Trails
 from ai4u_edu.viewer.viewer_client import ViewerClients
@@ -103,6 +104,11 @@ class Viewer:
             *([(TrainingBlock(server, runner, training), TEXTS_PER_S)] if training else []),
             (Trails(viewer_clients), SENSES_PER_S),
             (SenseOverlay(viewer_clients), MAX_FRAMES_PER_S),
+            *(
+                [(PageHandles(viewer_clients, editor), MAX_FRAMES_PER_S)]
+                if editor is not None
+                else []
+            ),
             (Tabs(viewer_clients, kinds, self._error_log), MAX_FRAMES_PER_S),
         ]
         self.parts = [RatedPart(part, rate, self._error_log) for part, rate in parts]

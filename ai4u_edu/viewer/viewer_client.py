@@ -59,9 +59,11 @@ class ViewerClient:
         self.panel: PagePanel | None = None
         """Its panel, once that has a connection; None with viser's panel."""
         self.selected = ""
-        """Name of the selected body."""
+        """Name of the selected thing."""
         self.is_move_mode = False
-        """True if its user may drag bodies."""
+        """True if its user may drag things."""
+        self.snap_m = 0.0
+        """Distance (m) of the grid to which dragged things snap; 0 for none."""
         self.view = View(client)
         """Its camera."""
         self.agent = asked

@@ -9,7 +9,9 @@ import msgspec
 import pytest
 from websockets.exceptions import ConnectionClosed
 
-from ai4u_edu.panel import messages, socket
+from ai4u_edu.panel import socket
+from ai4u_edu.panel.messages.base import MAX_NAME_CHARS
+from ai4u_edu.panel.messages.reader import NAMES
 from tests.attacks.test_odd_input_messages import ODD
 from tests.panel.rooms import PanelPage, PanelRoom, panel_room
 
@@ -35,7 +37,7 @@ def unlimited(monkeypatch: pytest.MonkeyPatch) -> None:
 
 def spoilt() -> Iterator[str]:
     """Every command with an odd value in each of its places."""
-    for name, kind in messages.NAMES.items():
+    for name, kind in NAMES.items():
         fields = [each.encode_name for each in msgspec.structs.fields(kind)]
         for place in fields:
             for odd in ODD:
@@ -97,11 +99,11 @@ def test_commands_that_wait_are_bounded(room: PanelRoom) -> None:
 
 
 def test_names_are_bounded(room: PanelRoom) -> None:
-    name: Any = "x" * (messages.MAX_NAME_CHARS + 1)
+    name: Any = "x" * (MAX_NAME_CHARS + 1)
     with room.page() as page:
         assert "length <=" in page.failed("sensor", key=name, on=True)["text"]
 
 
 def test_each_command_has_a_handler() -> None:
-    assert set(socket.HANDLERS) == set(messages.NAMES.values())
-    assert all(get_args(kind) == () for kind in messages.NAMES.values())
+    assert set(socket.HANDLERS) == set(NAMES.values())
+    assert all(get_args(kind) == () for kind in NAMES.values())

@@ -82,19 +82,19 @@ def test_nothing_is_sent_while_it_stands(viewer: Viewer, monkeypatch: pytest.Mon
 def test_it_says_whose_it_is_and_where_that_is_unfair(viewer: Viewer) -> None:
     ghosts, runner = viewer.ghosts, viewer.runner
     step(viewer)
-    assert ghosts.message(runner.latest) == "Ghost: episode &lt;1&gt;"
+    assert ghosts.text(runner.latest) == "Ghost: episode <1>"
     runner.sim.reset(2)
     step(viewer)
-    assert "It began otherwise: with seed 1." in ghosts.message(runner.latest)
+    assert "It began otherwise: with seed 1." in ghosts.text(runner.latest)
     assert ghosts.bodies[0].label.text == "ghost of another start"
     ghosts.race(take("donut", decisions=5).episode, "donut")
     until(lambda: ghosts.ghost is not None)
     step(viewer)
-    assert "It ran in another scene." in ghosts.message(runner.latest)
+    assert "It ran in another scene." in ghosts.text(runner.latest)
     assert ghosts.bodies == []
     ghosts.race(None)
     step(viewer)
-    assert ghosts.message(runner.latest) == ""
+    assert ghosts.text(runner.latest) == ""
 
 
 def test_a_run_that_can_not_be_played_is_told(viewer: Viewer) -> None:
@@ -102,6 +102,6 @@ def test_a_run_that_can_not_be_played_is_told(viewer: Viewer) -> None:
     scene = episode.scene.model_copy(update={"agents": ({"body": "nobody"},)})
     viewer.ghosts.race(replace(episode, scene=scene), "broken")
     until(lambda: viewer.ghosts.problem)
-    assert viewer.ghosts.message(viewer.runner.latest).startswith(
-        "No ghost: the episode&#x27;s scene can&#x27;t be made"
+    assert viewer.ghosts.text(viewer.runner.latest).startswith(
+        "No ghost: the episode's scene can't be made"
     )

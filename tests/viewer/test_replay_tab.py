@@ -105,10 +105,10 @@ def test_a_race_begins_with_the_same_seed(viewer: Viewer, runner: Runner) -> Non
         here.change(tab.actions, "Race it")
         until(lambda: runner.latest.seed == 5 and not runner.paused)
         shown(viewer)
-        assert viewer.ghosts.message(runner.latest) == "Ghost: episode 1"
+        assert viewer.ghosts.text(runner.latest) == "Ghost: episode 1"
         assert tab.no_ghost.visible
         here.press(tab.no_ghost)
-        until(lambda: viewer.ghosts.message(runner.latest) == "")
+        until(lambda: viewer.ghosts.text(runner.latest) == "")
 
 
 def send(

@@ -9,9 +9,9 @@ import pytest
 from ai4u_edu import Scene
 from ai4u_edu.snapshot import capture_snapshot
 from ai4u_edu.viewer import Viewer
-from ai4u_edu.viewer.panel.add_menu import BODY_TEMPLATES, free_position
 from ai4u_edu.viewer.panel.body_form import BodyForm
 from ai4u_edu.viewer.panel.world_tab import NO_BODY, WorldTab
+from ai4u_edu.viewer.scene.new_things import BODY_TEMPLATES, free_position
 from tests.editing.harness import TEXT, EditorHarness
 from tests.viewer.pages import Page, page, seen, shown, tabs_of, until
 

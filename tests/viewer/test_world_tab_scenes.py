@@ -9,9 +9,10 @@ import pytest
 
 from ai4u_edu import Scene
 from ai4u_edu.editing.autosave import Unsaved
+from ai4u_edu.editing.scene_cards import library_cards, stored_cards
 from ai4u_edu.editing.scene_store import SceneStore
 from ai4u_edu.viewer import Viewer
-from ai4u_edu.viewer.panel.scene_cards import library_cards, stored_cards
+from ai4u_edu.viewer.panel.gallery import card_html
 from ai4u_edu.viewer.panel.world_tab import WorldTab
 from tests.editing.harness import TEXT, EditorHarness
 from tests.viewer.pages import Page, page, seen, shown, tabs_of, until
@@ -55,8 +56,8 @@ def test_the_gallery_has_a_picture_of_every_scene() -> None:
     assert max(len(card.png) for card in found) < 10_000
     assert len({card.png for card in found}) == len(found)
     maze = next(card for card in found if card.name == "maze")
-    assert "Find the exit of the maze and touch it." in maze.html
-    assert "data:image/png;base64," in maze.html
+    assert "Find the exit of the maze and touch it." in card_html(maze)
+    assert "data:image/png;base64," in card_html(maze)
 
 
 def test_a_scene_is_opened_from_the_gallery(viewer: Viewer, harness: EditorHarness) -> None:
@@ -165,8 +166,8 @@ def test_what_is_kept_can_be_spoilt_from_outside(tmp_path: Path) -> None:
     bad, good = stored_cards(store)
     assert good.png
     assert good.title == "good"
-    assert "can&#x27;t be read: bad.yaml, line" in bad.html
-    assert "<img" not in bad.html
+    assert "can&#x27;t be read: bad.yaml, line" in card_html(bad)
+    assert "<img" not in card_html(bad)
     store.save("good", Scene.load("maze"), over=True)
     assert stored_cards(store)[1].goal == Scene.load("maze").description.goal
 

@@ -13,11 +13,12 @@ from ai4u_edu.editing.plain import BlockPath, Plain
 from ai4u_edu.editing.scene_names import SceneNames
 from ai4u_edu.editing.settings import agent_form, problems_in_agent_form
 from ai4u_edu.editing.suggestion import copy_of_block, suggest_block
-from ai4u_edu.panel import messages as m
 from ai4u_edu.panel.answers import Answer, change_answer
 from ai4u_edu.panel.commands.handler import Handler
 from ai4u_edu.panel.gallery import driver_title, gallery_items, words_of
 from ai4u_edu.panel.labels import change_label, driven_by
+from ai4u_edu.panel.messages import edit as m
+from ai4u_edu.panel.messages.base import Command
 from ai4u_edu.panel.page import Page
 
 
@@ -170,7 +171,7 @@ def _title(block: Plain) -> str:
     return words_of(str(block["type"])).title
 
 
-HANDLERS: Mapping[type[m.Command], Handler] = {
+HANDLERS: Mapping[type[Command], Handler] = {
     m.ListDrivers: _drivers,
     m.SetDriver: _driver,
     m.ListBlocks: _gallery,

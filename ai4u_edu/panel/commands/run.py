@@ -4,9 +4,10 @@ import math
 from collections.abc import Mapping
 
 from ai4u_edu.base.errors import SetupError
-from ai4u_edu.panel import messages as m
 from ai4u_edu.panel.answers import Answer
 from ai4u_edu.panel.commands.handler import Handler
+from ai4u_edu.panel.messages import play as m
+from ai4u_edu.panel.messages.base import Command
 from ai4u_edu.panel.page import Page
 
 
@@ -60,7 +61,7 @@ async def _speed(page: Page, command: m.SetSpeed) -> Answer:
     return Answer()
 
 
-HANDLERS: Mapping[type[m.Command], Handler] = {
+HANDLERS: Mapping[type[Command], Handler] = {
     m.Pause: _pause,
     m.Resume: _resume,
     m.Tick: _tick,

@@ -2,9 +2,10 @@
 
 from collections.abc import Mapping
 
-from ai4u_edu.panel import messages as m
 from ai4u_edu.panel.answers import Answer
 from ai4u_edu.panel.commands.handler import Handler
+from ai4u_edu.panel.messages import play as m
+from ai4u_edu.panel.messages.base import Command
 from ai4u_edu.panel.page import Page
 from ai4u_edu.viewer.scene.view import Mode
 
@@ -37,7 +38,7 @@ async def _dark(page: Page, command: m.Dark) -> Answer:
     return Answer()
 
 
-HANDLERS: Mapping[type[m.Command], Handler] = {
+HANDLERS: Mapping[type[Command], Handler] = {
     m.ShowAgent: _agent,
     m.Camera: _camera,
     m.ShowSensor: _sensor,

@@ -9,8 +9,10 @@ from ai4u_edu.panel.context import PanelContext
 from ai4u_edu.panel.page_view import PageView
 from ai4u_edu.panel.parts.agent import agent_part, curve_part, python_part, shown_sensors
 from ai4u_edu.panel.parts.blocks import blocks_part
+from ai4u_edu.panel.parts.past import past_part
 from ai4u_edu.panel.parts.run import run_part
 from ai4u_edu.panel.parts.scene import scene_part
+from ai4u_edu.panel.parts.world import world_part
 
 Parts = Iterator[tuple[str, bytes]]
 
@@ -26,6 +28,10 @@ def due_parts(context: PanelContext, view: PageView) -> Parts:
     yield "scene", cache.of_snapshot(snapshot, "scene", lambda: scene_part(context, snapshot))
     if "agent" in view.show.tabs:
         yield from _agent_parts(context, view)
+    if "past" in view.show.tabs and context.runner.recorder is not None:
+        player, ghosts = context.viewer.player, context.viewer.ghosts
+        past_key = "past", player.step, player.is_playing, player.number, ghosts.name
+        yield "past", cache.of_snapshot(snapshot, past_key, lambda: past_part(context, snapshot))
     if context.editor is not None:
         with suppress(AI4UError):  # the editor has another scene already
             yield from _editor_parts(context, context.editor, view)
@@ -63,3 +69,11 @@ def _editor_parts(context: PanelContext, editor: SceneEditor, view: PageView) ->
             "blocks",
             context.cache.by_key(key, lambda: blocks_part(editor, agent_id, driver, path)),
         )
+    if "world" in tabs:
+        autosave, recovery = editor.recovery.autosave, editor.recovery
+        world_key = (
+            *("world", editor.version, show.body, editor.waits_for_reset, editor.is_dragging),
+            *(view.is_move_mode, view.snap_m, recovery.unsaved),
+            "" if autosave is None else autosave.problem,
+        )
+        yield "world", context.cache.by_key(world_key, lambda: world_part(editor, view))

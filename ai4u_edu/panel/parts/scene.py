@@ -24,7 +24,7 @@ def scene_part(context: PanelContext, snapshot: Snapshot) -> dict[str, Any]:
         "name": "scene",
         "scene": "" if description is None else description.name,
         "title": "" if editor is None else editor.title,
-        "goal": static_scene.goal,
+        "goal": static_scene.goal if description is None else description.goal,
         "controls": "" if description is None else description.controls,
         "rewards": "" if description is None else description.rewards,
         "legend": _legend(static_scene),

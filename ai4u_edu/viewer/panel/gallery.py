@@ -1,19 +1,36 @@
 """A modal window in which a page chooses another scene by its picture."""
 
 import asyncio
+import base64
 from collections.abc import Awaitable, Callable
 from functools import partial
+from html import escape
 from typing import Any
 
 from viser import ClientHandle, GuiButtonHandle
 from viser._gui_handles import GuiModalHandle
 
+from ai4u_edu.editing.scene_cards import Card, library_cards, stored_cards
 from ai4u_edu.editing.scene_store import SceneStore
 from ai4u_edu.scenes import Scene
 from ai4u_edu.viewer.panel.html_parts import section
-from ai4u_edu.viewer.panel.scene_cards import STYLE, Card, library_cards, stored_cards
 
 Load = Callable[[], Scene]
+
+STYLE = """<style>
+.ai4u.card {display: flex; gap: .9em; align-items: center; height: 68px; margin: 0 0 8px;
+  padding: 0 .6em; border: 1px solid var(--line); border-radius: 6px; overflow: hidden}
+.ai4u.card img {flex: 0 0 72px; width: 72px; height: 62px; object-fit: contain}
+.ai4u.card small {display: -webkit-box; -webkit-box-orient: vertical; -webkit-line-clamp: 3;
+  overflow: hidden; line-height: 1.3}
+.ai4u.card br {display: none}
+div:has(> .ai4u.card) + div {margin: -76px 0 6px !important; padding: 0 !important}
+div:has(> .ai4u.card) + div button {height: 68px !important; padding: 0;
+  background: none; border: 2px solid transparent; color: transparent}
+div:has(> .ai4u.card) + div button:hover, div:has(> .ai4u.card) + div button:focus-visible
+  {background: none; border-color: var(--mantine-primary-color-filled)}
+</style>"""
+"""Styles that lay the button after a card over it, so that the picture can be clicked."""
 
 
 class Gallery:
@@ -67,7 +84,7 @@ class Gallery:
                 self.buttons[each.name] = self._add(each, partial(Scene.load, each.name))
 
     def _add(self, card: Card, load: Load) -> GuiButtonHandle:
-        self._client.gui.add_html(card.html)
+        self._client.gui.add_html(card_html(card))
         button = self._client.gui.add_button(f"Open {card.title}")
         button.on_click(partial(self._on_card, load))
         return button
@@ -78,3 +95,13 @@ class Gallery:
 
     async def _on_close(self, _event: Any) -> None:
         self.close()
+
+
+def card_html(card: Card) -> str:
+    """Return the picture with the texts beside it; the style sheet lays the next button over it."""
+    source = f"data:image/png;base64,{base64.b64encode(card.png).decode()}"
+    image = f'<img src="{source}" alt="">' if card.png else ""
+    return (
+        f'<div class="ai4u card">{image}<div><b>{escape(card.title)}</b>'
+        f"<br><small>{escape(card.goal)}</small></div></div>"
+    )

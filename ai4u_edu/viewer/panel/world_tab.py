@@ -24,7 +24,6 @@ from ai4u_edu.scenes import Scene
 from ai4u_edu.scenes.yaml.file import MAX_SCENE_CHARS
 from ai4u_edu.snapshot import Snapshot
 from ai4u_edu.viewer.backend.reporting import report_errors
-from ai4u_edu.viewer.panel.add_menu import BODY_TEMPLATES, free_position, ground_at_center
 from ai4u_edu.viewer.panel.block_labels import WAITS, undo_line
 from ai4u_edu.viewer.panel.body_form import BodyForm
 from ai4u_edu.viewer.panel.gallery import Gallery, Load
@@ -36,6 +35,7 @@ from ai4u_edu.viewer.panel.tabs import TabKind
 from ai4u_edu.viewer.panel.uploads import limit_uploads, take_file
 from ai4u_edu.viewer.panel.widgets import set_options, set_value
 from ai4u_edu.viewer.scene.handles import Handles
+from ai4u_edu.viewer.scene.new_things import BODY_TEMPLATES, free_position, ground_at_center
 from ai4u_edu.viewer.viewer_client import ViewerClient
 from ai4u_edu.world import BodyDescription
 

@@ -1,7 +1,6 @@
 """Ghosts: the agents of a recorded episode, drawn translucent at the same time of the episode."""
 
 import threading
-from html import escape
 
 from viser import FrameHandle, LabelHandle, SceneApi
 
@@ -61,18 +60,18 @@ class Ghosts:
         if episode is not None:
             threading.Thread(target=self._play, args=(episode,), name="ghost", daemon=True).start()
 
-    def message(self, snapshot: Snapshot) -> str:
-        """Return the ghost's name and any problem, as HTML; empty if there is no ghost."""
+    def text(self, snapshot: Snapshot) -> str:
+        """Return the ghost's name and any problem; empty if there is no ghost."""
         if self.problem:
-            return f"No ghost: {escape(self.problem)}"
+            return f"No ghost: {self.problem}"
         if self._episode is None:
             return ""
-        text = f"Ghost: {escape(self.name)}"
+        text = f"Ghost: {self.name}"
         if self._is_of_other_scene(snapshot.static_scene):
-            return f"{text}. <strong>It ran in another scene.</strong>"
+            return f"{text}. It ran in another scene."
         if snapshot.seed != self._episode.seed:
             seed = self._episode.seed
-            return f"{text}. <strong>It began otherwise: with seed {seed}. Race it anew.</strong>"
+            return f"{text}. It began otherwise: with seed {seed}. Race against it again."
         return text
 
     def build(self, static_scene: StaticScene) -> None:

@@ -122,7 +122,7 @@ class ReplayTab:
         texts = [
             snapshot.past and f"Seen now: {snapshot.past}",
             escape(player.problem or (frame_cache.problem if frame_cache is not None else "")),
-            self._ghosts.message(snapshot),
+            escape(self._ghosts.text(snapshot)),
             escape(recorder.problem or recorder.save_problem) if recorder is not None else "",
         ]
         lines = "<br>".join(f"<small>{each}</small>" for each in texts if each)

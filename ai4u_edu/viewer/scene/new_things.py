@@ -1,4 +1,4 @@
-"""Bodies that a page can add to a world, and the search for a free position."""
+"""Things that a page can add to a world, and the search for a free position."""
 
 import math
 from collections.abc import Iterable, Iterator

@@ -1,8 +1,6 @@
-"""Cards of scenes for the gallery: a picture from above, title and goal."""
+"""Cards of scenes to choose from: a picture from above, title and goal."""
 
-import base64
 from functools import cache, lru_cache
-from html import escape
 from typing import NamedTuple
 
 from ai4u_edu.base.errors import AI4UError
@@ -22,32 +20,10 @@ class Card(NamedTuple):
     goal: str
     png: bytes
     """The scene from above at the start of an episode; empty if it can't be read."""
-
-    @property
-    def html(self) -> str:
-        """The picture with the texts beside it; the style sheet lays the next button over it."""
-        source = f"data:image/png;base64,{base64.b64encode(self.png).decode()}"
-        image = f'<img src="{source}" alt="">' if self.png else ""
-        return (
-            f'<div class="ai4u card">{image}<div><b>{escape(self.title)}</b>'
-            f"<br><small>{escape(self.goal)}</small></div></div>"
-        )
-
-
-STYLE = """<style>
-.ai4u.card {display: flex; gap: .9em; align-items: center; height: 68px; margin: 0 0 8px;
-  padding: 0 .6em; border: 1px solid var(--line); border-radius: 6px; overflow: hidden}
-.ai4u.card img {flex: 0 0 72px; width: 72px; height: 62px; object-fit: contain}
-.ai4u.card small {display: -webkit-box; -webkit-box-orient: vertical; -webkit-line-clamp: 3;
-  overflow: hidden; line-height: 1.3}
-.ai4u.card br {display: none}
-div:has(> .ai4u.card) + div {margin: -76px 0 6px !important; padding: 0 !important}
-div:has(> .ai4u.card) + div button {height: 68px !important; padding: 0;
-  background: none; border: 2px solid transparent; color: transparent}
-div:has(> .ai4u.card) + div button:hover, div:has(> .ai4u.card) + div button:focus-visible
-  {background: none; border-color: var(--mantine-primary-color-filled)}
-</style>"""
-"""Styles that lay the button after a card over it, so that the picture can be clicked."""
+    level: str = ""
+    """Level of difficulty; empty if nobody has given one."""
+    minutes: int | None = None
+    """Time (minutes) that a person needs to reach the goal for the first time."""
 
 
 @cache

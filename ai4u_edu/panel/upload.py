@@ -1,0 +1,56 @@
+"""A file that a page sends in parts, before the command that opens it."""
+
+import asyncio
+
+from ai4u_edu.base.errors import SetupError
+from ai4u_edu.recording.file import MAX_FILE_BYTES
+
+MAX_PART_BYTES = 2**19
+UPLOAD_IDLE_S = 30.0
+"""Time (s) without a new part after which an unfinished file is dropped."""
+
+
+class Upload:
+    """The parts that a page has sent so far. Belongs to the server's event loop."""
+
+    def __init__(self) -> None:
+        self._data = bytearray()
+        self._timer: asyncio.TimerHandle | None = None
+
+    def add(self, part: bytes) -> None:
+        """Add a part.
+
+        Raises:
+            SetupError: the file is too large; its parts are dropped.
+        """
+        if len(self._data) + len(part) > MAX_FILE_BYTES:
+            self.drop()
+            raise SetupError(f"expected a file of at most {MAX_FILE_BYTES // 2**20} MB")
+        self._data += part
+        self._stop_timer()
+        self._timer = asyncio.get_running_loop().call_later(UPLOAD_IDLE_S, self.drop)
+
+    def take(self, size: int) -> bytes:
+        """Return the file.
+
+        Args:
+            size: its size in bytes.
+
+        Raises:
+            SetupError: not all of it is there, or more; its parts are dropped.
+        """
+        data = bytes(self._data)
+        self.drop()
+        if len(data) != size:
+            raise SetupError(f"expected a file of {size} bytes, got {len(data)}; send it again")
+        return data
+
+    def drop(self) -> None:
+        """Forget all parts."""
+        self._data = bytearray()
+        self._stop_timer()
+
+    def _stop_timer(self) -> None:
+        if self._timer is not None:
+            self._timer.cancel()
+            self._timer = None
