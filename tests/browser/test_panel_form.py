@@ -136,9 +136,10 @@ def test_a_card_opens_and_its_actions_keep_their_focus(page: Page) -> None:
     page.evaluate("""async () => {
       const { Card } = await import("./web/panel_card.js");
       window.done = [];
-      const card = new Card({ onToggle: (isOpen) => card.update({ title: "Rays", type: "RaySensor", isOpen }) });
+      const words = { title: "Rays", type: "RaySensor" };
+      const card = new Card({ onToggle: (isOpen) => card.update({ ...words, isOpen }) });
       card.body.append("inside");
-      card.update({ title: "Rays", type: "RaySensor", reads: "0.5 m" });
+      card.update({ ...words, reads: "0.5 m" });
       window.actions = (on) => card.actions([
         { icon: "power", label: "Turn off", isEnabled: on, onClick: () => done.push("off") },
         { icon: "trash", label: "Delete", isDanger: true, onClick: () => done.push("delete") },
