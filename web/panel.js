@@ -16,6 +16,7 @@ import { ViewControls } from "./panel_view.js";
 import { recall, remember } from "./storage.js";
 
 const TABS = [["drive", "Drive"], ["build", "Build"], ["world", "World"], ["past", "Past"]];
+const MAX_FILE_NAME_CHARS = 80;
 /** Name of the part that a tab shows. */
 const PART_OF_TAB = { drive: "agent", build: "blocks", world: "world", past: "past" };
 /** Modules of the tabs that are loaded when they are first opened. */
@@ -99,6 +100,13 @@ export class Panel extends EventTarget {
     if (!answer.ok && !answer.problems.length) this.notice(answer.text, "error");
     else if (answer.ok && !quiet) this.notice(answer.text);
     return answer;
+  }
+
+  /** Send a file, and a command about it. */
+  async sendFile(command, file) {
+    const bytes = new Uint8Array(await file.arrayBuffer());
+    this.#socket.upload(bytes);
+    return this.send(command, { name: file.name.slice(-MAX_FILE_NAME_CHARS), size: bytes.length });
   }
 
   /** Change what this page looks at: {agent, block, body, episode}. */
@@ -202,7 +210,7 @@ export class Panel extends EventTarget {
   /** Show the buttons to undo and redo while a tab is open that changes the scene. */
   #showHistory() {
     const part = ["build", "world"].includes(this.#tabs.open) ? this.part(PART_OF_TAB[this.#tabs.open]) : null;
-    for (const [control, name, label] of [[this.#undo, "Undo", part?.undo], [this.#redo, "Redo", part?.redo]]) {
+    for (const [control, name, label] of [[this.#undo, "Undo", part?.undo?.label], [this.#redo, "Redo", part?.redo?.label]]) {
       control.hidden = part === null;
       control.disabled = !label;
       setAttributes(control, { "aria-label": `${name} ${label || ""}`.trim(), title: `${name} ${label || ""}`.trim() });

@@ -21,7 +21,7 @@ export class BlockCard {
     this.#panel = panel;
     this.#card = new Card({ onToggle: (isOpen) => panel.show({ block: isOpen ? this.#block.path : null }) });
     this.#form = new Form({
-      onChange: (values) => panel.send("change_block", { agent: panel.shown.agent, path: this.#block.path, values }),
+      onChange: (values) => panel.send("change_block", { path: this.#block.path, values }),
     });
     this.#form.element.hidden = true;
     this.#card.body.append(this.#summary, this.#form.element, this.#tools, this.#parts, this.#adds);
@@ -43,8 +43,8 @@ export class BlockCard {
     const isOpen = isSamePath(chosen, path);
     const holdsChosen = Boolean(chosen) && !isOpen && isSamePath(chosen.slice(0, path.length), path);
     this.#card.update({ icon, title, type: block.class, reads, isOn, isOpen: isOpen || holdsChosen });
-    const isListed = typeof path.at(-1) === "number";
-    this.#card.actions(isListed ? [this.#switch(isOn, title)] : []);
+    const { can_switch: canSwitch = true, can_remove: isListed = typeof path.at(-1) === "number" } = block;
+    this.#card.actions(canSwitch ? [this.#switch(isOn, title)] : []);
     if (!isOpen && !holdsChosen) return;
     const isMine = isOpen && isSamePath(form?.path, path);
     this.#form.element.hidden = !isMine;
@@ -95,15 +95,15 @@ export class BlockCard {
   }
 
   #openGallery({ title, kind, parent }) {
-    openGallery(this.#panel, { title, agent: this.#panel.shown.agent, kind, parent });
+    openGallery(this.#panel, { title: `Add a ${title.toLowerCase()}`, kind, parent });
   }
 
   async #do(command, args = {}) {
     const { path } = this.#block;
-    const answer = await this.#panel.send(command, { agent: this.#panel.shown.agent, path, ...args });
+    const answer = await this.#panel.send(command, { path, ...args });
     if (!answer.ok || !isSamePath(this.#panel.shown.block, path)) return;
     if (command === "remove_block") this.#panel.show({ block: null });
-    if (command === "move_block") this.#panel.show({ block: [...path.slice(0, -1), path.at(-1) + args.by] });
+    if (answer.path) this.#panel.show({ block: answer.path });
   }
 
   #onKey(event) {

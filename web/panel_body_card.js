@@ -4,10 +4,8 @@ import { button, element } from "./dom.js";
 import { Card } from "./panel_card.js";
 import { Form } from "./panel_form.js";
 
-const ICONS = { area: "area", floor: "floor", lamp: "lamp", agent: "agent" };
-const SHAPE_ICONS = { circle: "ball", box: "box", segment: "wall", capsule: "wall", polygon: "box", ring: "target" };
-/** A box that is so much longer than wide is drawn as a wall. */
-const WALL_RATIO = 3;
+const KIND_ICONS = { area: "area", floor: "floor", lamp: "lamp", agent: "agent" };
+const SHAPE_ICONS = { circle: "ball", segment: "wall", capsule: "wall", ring: "target" };
 
 export class BodyCard {
   #panel;
@@ -20,7 +18,7 @@ export class BodyCard {
   constructor(panel) {
     this.#panel = panel;
     this.#card = new Card({ onToggle: (isOpen) => choose(panel, isOpen ? this.#name : null) });
-    this.#form = new Form({ onChange: (values) => panel.send("change_body", { body: this.#name, values }) });
+    this.#form = new Form({ onChange: (values) => panel.send("change_body", { name: this.#name, values }) });
     this.#copy = button("Duplicate", () => this.#do("duplicate_body"), { icon: "copy", kind: "quiet" });
     this.#delete = button("Delete", () => this.#do("remove_body"), { icon: "trash", kind: "danger" });
     const tools = element("div", { className: "ai4u-tools" }, this.#copy, this.#delete);
@@ -32,19 +30,20 @@ export class BodyCard {
   }
 
   update(body, form) {
-    const { name, kind, x, y } = body;
+    const { name, kind, shape, x, y } = body;
     this.#name = name;
     const isOpen = this.#panel.shown.body === name;
     const reads = `${kind === "body" ? "" : `${kind}, `}${metres(x)}, ${metres(y)}`;
-    this.#card.update({ icon: iconOf(body), title: name, type: shapeOf(body), reads, isOpen });
-    const isMine = isOpen && form?.body === name;
+    const icon = KIND_ICONS[kind] ?? SHAPE_ICONS[shape] ?? "box";
+    this.#card.update({ icon, title: name, type: shape, reads, isOpen });
+    const isMine = isOpen && form?.name === name;
     this.#form.element.hidden = !isMine;
-    if (isMine) this.#form.update(form.fields, form.first);
+    if (isMine) this.#form.update(form.fields);
     for (const [made, verb] of [[this.#copy, "Duplicate"], [this.#delete, "Delete"]]) made.title = `${verb} ${name}`;
   }
 
   async #do(command) {
-    const answer = await this.#panel.send(command, { body: this.#name });
+    const answer = await this.#panel.send(command, { name: this.#name });
     if (!answer.ok) return;
     if (command === "remove_body" && this.#panel.shown.body === this.#name) choose(this.#panel, null);
     if (answer.body) choose(this.#panel, answer.body);
@@ -55,16 +54,6 @@ export class BodyCard {
 export function choose(panel, name) {
   panel.show({ body: name });
   panel.send("select", { body: name }, { quiet: true });
-}
-
-function shapeOf({ shape }) {
-  return typeof shape === "string" ? shape : (shape?.type ?? "");
-}
-
-function iconOf(body) {
-  const [length, width] = body.shape?.size ?? [1, 1];
-  const isWall = shapeOf(body) === "box" && Math.max(length / width, width / length) >= WALL_RATIO;
-  return ICONS[body.kind] ?? (isWall ? "wall" : (SHAPE_ICONS[shapeOf(body)] ?? "box"));
 }
 
 function metres(value) {

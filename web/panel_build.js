@@ -12,13 +12,16 @@ const KINDS = {
   rewards: { title: "Rewards", one: "Reward", add: "Add a reward", none: "It gets no reward yet." },
   brains: { title: "Brains", one: "Brain", add: "Add a brain", none: "", detailsOnly: true },
 };
-/** Value of the list of drivers if none of them drives. */
-const OTHER_DRIVER = "";
+/** How long after a change the drivers are listed again (ms). */
+const DRIVERS_DELAY_MS = 300;
 
 export class BuildTab {
   #panel;
-  #part = null;
   #driver;
+  #drivers = [];
+  #driversKey = "";
+  #shownDriver = "";
+  #timer = 0;
   #lists = new Map();
   #settings;
 
@@ -35,43 +38,57 @@ export class BuildTab {
       this.#lists.set(kind, { cards, none });
     }
     this.#settings = new Form({
-      onChange: (values) => panel.send("change_agent", { agent: panel.shown.agent, values }),
+      onChange: (values) => panel.send("change_agent", { values }),
     });
     root.append(section("build-settings", "Agent's settings", { isOpen: false }, this.#settings.element));
   }
 
   /** @param part as "blocks" in the protocol */
   update(part) {
-    this.#part = part;
-    this.#showDrivers(part);
+    this.#followDrivers(part);
     for (const [kind, { cards, none }] of this.#lists) {
       const blocks = part.kinds?.[kind] ?? [];
       updateCards(this.#panel, cards, blocks, part.form);
       none.hidden = blocks.length > 0;
     }
-    const { fields = [], first = [] } = settingsOf(part);
-    this.#settings.update(fields, first);
+    this.#settings.update(part.settings ?? []);
   }
 
-  #showDrivers({ driver, drivers = [] }) {
-    const options = drivers.map(({ name, title, reason = "" }) => ({ value: name, text: title, reason }));
-    if (!drivers.some(({ name }) => name === driver)) {
-      options.unshift({ value: OTHER_DRIVER, text: "Somebody else", reason: "" });
+  /** Ask for the drivers again if others may be able to drive now: each is tried, which takes a while. */
+  #followDrivers({ agent, driver, kinds }) {
+    this.#showDrivers(driver);
+    const classes = (blocks) => blocks.map((block) => [block.class, block.is_on, classes(block.children ?? [])]);
+    const key = JSON.stringify([agent, driver, Object.values(kinds ?? {}).map(classes)]);
+    if (key === this.#driversKey) return;
+    this.#driversKey = key;
+    clearTimeout(this.#timer);
+    this.#timer = setTimeout(() => this.#fetchDrivers(), DRIVERS_DELAY_MS);
+  }
+
+  async #fetchDrivers() {
+    const answer = await this.#panel.send("drivers", {}, { quiet: true });
+    if (!answer.ok) return;
+    this.#drivers = answer.items;
+    this.#showDrivers(this.#shownDriver);
+  }
+
+  #showDrivers(driver) {
+    const options = this.#drivers.map(({ name, title, reason = "" }) => ({ value: name, text: title, reason }));
+    if (!this.#drivers.some(({ name }) => name === driver)) {
+      const text = this.#drivers.length ? "Somebody else" : "…";
+      options.unshift({ value: driver ?? "", text, reason: "" });
     }
-    this.#driver.set(options, driver ?? OTHER_DRIVER);
+    this.#shownDriver = driver ?? "";
+    this.#driver.set(options, this.#shownDriver);
   }
 
   async #setDriver(name) {
-    if (name !== OTHER_DRIVER) await this.#panel.send("driver", { agent: this.#panel.shown.agent, name });
-    this.#showDrivers(this.#part); // the one that drives, if the change failed
+    const before = this.#shownDriver;
+    const answer = await this.#panel.send("driver", { name });
+    if (!answer.ok) this.#showDrivers(before);
   }
 
   #openGallery(kind) {
-    openGallery(this.#panel, { title: KINDS[kind].add, agent: this.#panel.shown.agent, kind });
+    openGallery(this.#panel, { title: KINDS[kind].add, kind });
   }
-}
-
-/** Return a form; a list of fields is one without an order. */
-function settingsOf({ settings = [] }) {
-  return Array.isArray(settings) ? { fields: settings } : settings;
 }

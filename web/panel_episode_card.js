@@ -51,9 +51,13 @@ export class EpisodeCard {
     this.#showDownloads(downloads);
   }
 
-  #choose(isOpen) {
-    this.#panel.show({ episode: isOpen ? this.#episode.number : null });
-    if (isOpen) this.#panel.send("episode", { number: this.#episode.number }, { quiet: true });
+  async #choose(isOpen) {
+    const { number } = this.#episode;
+    this.#panel.show({ episode: isOpen ? number : null });
+    if (!isOpen) return;
+    const answer = await this.#panel.send("episode", { number }, { quiet: true });
+    if (answer.ok) this.#panel.send("step", { step: 0 }, { quiet: true });
+    else this.#panel.notice(answer.text, "error");
   }
 
   #showDownloads(downloads) {
@@ -61,7 +65,7 @@ export class EpisodeCard {
       this.#downloads,
       downloads,
       ({ url }) => url,
-      ({ format, url }) => element("a", { className: "ai4u-link", href: url, download: "", textContent: format }),
+      ({ title, url }) => element("a", { className: "ai4u-link", href: url, download: "", textContent: title }),
     );
     this.#downloads.hidden = downloads.length === 0;
   }
@@ -83,7 +87,7 @@ function panelPin(panel, number, on) {
 }
 
 function resultOf({ result }) {
-  return { success: "goal reached", failure: "goal missed" }[result] ?? (result || "");
+  return result === null ? "" : result ? "goal reached" : "goal missed";
 }
 
 /** Return a number with at most two decimals. */

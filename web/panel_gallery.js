@@ -8,22 +8,20 @@ import { picture } from "./panel_pictures.js";
  * Open the gallery.
  * @param panel the panel
  * @param options.title of the dialog, such as "Add a sensor"
- * @param options.agent id of the agent that gets the block
- * @param options.kind "sensors", "actuators", "rewards", "brains", or the kind of a block's parts
- * @param options.parent path of the block that gets the new one; left out for the agent itself
+ * @param options.kind "sensors", "actuators", "rewards" or "brains"
+ * @param options.parent path of the list that gets the block; left out for the agent's own
  */
-export async function openGallery(panel, { title, agent, kind, parent }) {
+export async function openGallery(panel, { title, kind, parent = [kind] }) {
   const content = element("div", { className: "ai4u-gallery" }, element("p", { textContent: "Loading …" }));
   const dialog = panel.dialog(title, content);
-  const answer = await panel.send("gallery", { agent, kind }, { quiet: true });
+  const answer = await panel.send("gallery", { kind }, { quiet: true });
   if (!answer.ok) {
     content.replaceChildren(element("p", { className: "ai4u-problem", role: "alert", textContent: answer.text }));
     return;
   }
   const add = async (type) => {
-    const args = { agent, kind, block_type: type, ...(parent ? { parent } : {}) };
     dialog.close();
-    const added = await panel.send("add_block", args);
+    const added = await panel.send("add_block", { class: type, parent });
     if (added.ok && added.path) panel.show({ block: added.path });
   };
   content.replaceChildren(...groups(answer.items, add));

@@ -16,6 +16,8 @@ export class PastTab {
   #player;
   #cards = new Map();
   #groups;
+  /** True until the running episode's frames are there, which are shown then. */
+  #wantsRunning = false;
   #none = element("p", { className: "ai4u-hint-text", textContent: "Finished episodes appear here." });
 
   constructor(root, panel) {
@@ -35,6 +37,10 @@ export class PastTab {
   /** @param part as "past" in the protocol */
   update(part) {
     this.#player.update(part);
+    if (this.#wantsRunning && part.playing?.number === RUNNING_EPISODE) {
+      this.#wantsRunning = false;
+      this.#panel.send("step", { step: part.playing.step }, { quiet: true });
+    }
     const episodes = [...(part.episodes ?? [])].sort((a, b) => b.number - a.number);
     const numbers = new Set(episodes.map(({ number }) => number));
     for (const number of [...this.#cards.keys()]) if (!numbers.has(number)) this.#cards.delete(number);
@@ -64,6 +70,7 @@ export class PastTab {
 
   #showRunning() {
     this.#panel.show({ episode: null });
+    this.#wantsRunning = true;
     this.#panel.send("episode", { number: RUNNING_EPISODE }, { quiet: true });
   }
 
@@ -72,7 +79,7 @@ export class PastTab {
       this.#panel.notice(`${file.name}: expected a recording (.episode), got ${file.size} bytes.`, "error");
       return;
     }
-    const answer = await this.#panel.send("open_recording", { file: file.name, data: await base64(file) });
+    const answer = await this.#panel.sendFile("open_recording", file);
     if (answer.ok && answer.number) this.#panel.show({ episode: answer.number });
   }
 }
@@ -80,13 +87,4 @@ export class PastTab {
 function group(key, title, isIn) {
   const list = element("div", { className: "ai4u-card-list" });
   return { element: section(key, title, {}, list), list, isIn };
-}
-
-function base64(file) {
-  return new Promise((resolve, reject) => {
-    const reader = new FileReader();
-    reader.onload = () => resolve(reader.result.slice(reader.result.indexOf(",") + 1));
-    reader.onerror = () => reject(reader.error);
-    reader.readAsDataURL(file);
-  });
 }

@@ -10,7 +10,7 @@ export class Player {
   #playing = null;
   #title = element("strong");
   #moment = element("output", { className: "ai4u-moment" });
-  #slider = element("input", { type: "range", min: 1, step: 1, ariaLabel: "Step" });
+  #slider = element("input", { type: "range", min: 0, step: 1, ariaLabel: "Step" });
   #play;
   #back;
   #forward;
@@ -32,11 +32,11 @@ export class Player {
     this.#speeds = segments(
       "Speed",
       SPEEDS.map((speed) => ({ value: String(speed), text: `${speed}x`, title: `Speed ${speed}` })),
-      (speed) => send("speed", { speed: Number(speed) }),
+      (speed) => send("play_speed", { speed: Number(speed) }),
     );
     this.#live = button("Back to live", () => panel.send("back_to_live"), { icon: "live", kind: "main" });
     this.#proceed = button("Continue here", () => panel.send("continue"), { icon: "proceed" });
-    this.#race = button("Race against it", () => panel.send("race", { number: this.#playing.number }), { icon: "race" });
+    this.#race = button("Race against it", () => panel.send("race"), { icon: "race" });
     this.#noGhost = button("Remove ghost", () => panel.send("remove_ghost"), { icon: "remove" });
     this.element = element(
       "div",
@@ -49,14 +49,14 @@ export class Player {
     );
   }
 
-  update({ playing = null, ghost = "", problem = "" }) {
+  update({ playing = null, is_showing: isShowing = false, ghost = "", problem = "" }) {
     this.#playing = playing;
     this.element.hidden = !playing && !ghost && !problem;
     this.#noGhost.hidden = !ghost;
-    setText(this.#note, [problem, ghost && `Ghost: ${ghost}`].filter(Boolean).join(" "));
+    setText(this.#note, [problem, ghost].filter(Boolean).join(" "));
     const parts = [this.#title, this.#moment, this.#slider, this.#back, this.#play, this.#forward, this.#proceed, this.#race];
     for (const each of [...parts, this.#speeds.element]) each.hidden = !playing;
-    this.#live.hidden = !playing?.is_showing;
+    this.#live.hidden = !isShowing;
     if (playing) this.#show(playing);
   }
 
@@ -66,7 +66,7 @@ export class Player {
     setText(this.#moment, text);
     setAttributes(this.#slider, { max: steps, "aria-valuetext": text });
     if (document.activeElement !== this.#slider || isPlaying) this.#slider.value = String(step);
-    this.#back.disabled = step <= 1;
+    this.#back.disabled = step <= 0;
     this.#forward.disabled = step >= steps;
     setText(this.#play.querySelector("span"), isPlaying ? "Stop" : "Play");
     setAttributes(this.#play, { "data-playing": Boolean(isPlaying) });
@@ -76,7 +76,7 @@ export class Player {
 
   #step(by) {
     const { step, steps } = this.#playing;
-    const wanted = Math.min(Math.max(step + by, 1), steps);
+    const wanted = Math.min(Math.max(step + by, 0), steps);
     this.#panel.send("step", { step: wanted }, { quiet: true });
   }
 }

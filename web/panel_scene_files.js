@@ -9,6 +9,7 @@ const MAX_SCENE_BYTES = 4_000_000;
 export class SceneFiles {
   #panel;
   #when = element("p");
+  #save = button("Save", () => this.#openSaving(), { icon: "save" });
   #unsaved;
   element = element("div");
 
@@ -24,14 +25,15 @@ export class SceneFiles {
     const tools = element(
       "div",
       { className: "ai4u-tools" },
-      button("Save", () => this.#openSaving(), { icon: "save" }),
+      this.#save,
       button("Download", () => this.#download(), { icon: "download" }),
       fileButton("Open a file", ".yaml,.yml,text/yaml", (file) => this.#load(file)),
     );
     this.element.append(this.#unsaved, tools);
   }
 
-  update({ unsaved }) {
+  update({ unsaved, can_save: canSave = true }) {
+    this.#save.hidden = !canSave;
     this.#unsaved.hidden = !unsaved;
     if (unsaved) setText(this.#when, `You have an unsaved scene from ${unsaved.when}.`);
   }
@@ -48,14 +50,14 @@ export class SceneFiles {
     let replaces = "";
     form.addEventListener("submit", async (event) => {
       event.preventDefault();
-      const title = input.value.trim();
-      const answer = await this.#panel.send("save_scene", { title, overwrite: replaces === title }, { quiet: true });
-      if (answer.ok) {
+      const name = input.value.trim();
+      const answer = await this.#panel.send("save_scene", { name, over: replaces === name }, { quiet: true });
+      if (answer.ok && !answer.exists) {
         dialog.close();
         this.#panel.notice(answer.text);
         return;
       }
-      replaces = answer.exists ? title : "";
+      replaces = answer.exists ? name : "";
       setText(save.querySelector("span"), answer.exists ? "Replace it" : "Save");
       setText(problem, answer.text);
     });
@@ -65,7 +67,7 @@ export class SceneFiles {
 
   async #download() {
     const answer = await this.#panel.send("download", {});
-    if (answer.ok) saveFile(answer.file.name, answer.file.text);
+    if (answer.ok) saveFile(answer.file, answer.content);
   }
 
   async #load(file) {
@@ -74,7 +76,7 @@ export class SceneFiles {
       return;
     }
     this.#panel.show({ body: null, block: null });
-    await this.#panel.send("load_text", { file: file.name, text: await file.text() });
+    await this.#panel.sendFile("load_text", file);
   }
 }
 

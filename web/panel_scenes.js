@@ -33,7 +33,7 @@ export class ScenePicker {
     }
     const groups = new Map();
     for (const scene of answer.items) {
-      const group = scene.stored ? "My scenes" : (scene.level ?? "Scenes");
+      const group = scene.is_saved ? "My scenes" : (scene.level ?? "Scenes");
       groups.set(group, [...(groups.get(group) ?? []), scene]);
     }
     const sections = [...groups].map(([title, scenes]) =>
@@ -56,10 +56,10 @@ export class ScenePicker {
     });
   }
 
-  async #load({ name, title, stored = false }) {
+  async #load({ name, title, is_saved: isSaved = false }) {
     const unsaved = this.#panel.part("world")?.unsaved;
     const text = "This scene has changes that were not saved. They are kept, and the World tab offers them again.";
     if (unsaved && !(await ask({ title: `Open “${title}”?`, text, yes: "Open" }))) return;
-    await this.#panel.send("open_scene", { scene: name, stored });
+    await this.#panel.send("open_scene", { name, is_saved: isSaved });
   }
 }

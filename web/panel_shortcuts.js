@@ -45,7 +45,7 @@ function commandOf(event, body) {
   if (body === null) return null;
   if (key === "Delete" || key === "Backspace") return () => remove(body);
   if (key === "Escape" && !panel.part("world")?.is_dragging) return () => choose(null);
-  if (code in DIRECTIONS && panel.part("world")?.is_moving && !usesArrows(event.target)) return () => nudge(body, event);
+  if (code in DIRECTIONS && panel.part("world")?.is_move_mode && !usesArrows(event.target)) return () => nudge(body, event);
   return null;
 }
 
@@ -54,12 +54,12 @@ function usesArrows(target) {
 }
 
 async function copy(body) {
-  const answer = await panel.send("duplicate_body", { body });
+  const answer = await panel.send("duplicate_body", { name: body });
   if (answer.ok && answer.body) choose(answer.body);
 }
 
 async function remove(body) {
-  const answer = await panel.send("remove_body", { body });
+  const answer = await panel.send("remove_body", { name: body });
   if (answer.ok && panel.shown.body === body) choose(null);
 }
 
@@ -68,7 +68,7 @@ function nudge(body, { code, shiftKey, altKey }) {
   const step = (!altKey && panel.part("world")?.snap) || FREE_STEP_M;
   const turn = shiftKey ? -right * TURN_STEP_DEG : 0;
   const [dx, dy] = shiftKey ? [0, 0] : [right * step, up * step];
-  panel.send("nudge", { body, dx, dy, turn }, { quiet: true });
+  panel.send("nudge", { name: body, dx, dy, turn_deg: turn }, { quiet: true });
 }
 
 function choose(body) {

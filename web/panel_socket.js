@@ -2,6 +2,8 @@
 
 import { JsonSocket } from "./socket.js";
 
+/** Size of the parts in which a file is sent. */
+const PART_BYTES = 2 ** 18;
 const NOT_CONNECTED = "Not connected to the world. The page reconnects by itself.";
 
 export class PanelSocket {
@@ -44,6 +46,13 @@ export class PanelSocket {
       this.#waiting.set(id, resolve);
       this.#socket.send({ type: "do", id, command, ...args });
     });
+  }
+
+  /** Send a file in parts; the next command says what to do with it. */
+  upload(bytes) {
+    for (let start = 0; start < bytes.length; start += PART_BYTES) {
+      this.#socket.sendBytes(bytes.subarray(start, start + PART_BYTES));
+    }
   }
 
   #receive(message) {

@@ -6,7 +6,6 @@ import { Form } from "./panel_form.js";
 import { section, toggle } from "./panel_parts.js";
 import { SceneFiles } from "./panel_scene_files.js";
 
-const NEW_THINGS = ["wall", "box", "ball", "floor", "area", "lamp", "agent"];
 const DEFAULT_SNAP_M = 0.5;
 const HINT_OFF = "Turn on Move things, then drag anything in the picture.";
 const HINT_ON =
@@ -21,21 +20,17 @@ export class WorldTab {
   #hint = element("p", { className: "ai4u-hint-text" });
   #settings;
   #files;
+  #add = element("div", { className: "ai4u-add", role: "group", ariaLabel: "Add" });
   #isMoving = false;
-  #snap = DEFAULT_SNAP_M;
 
   constructor(root, panel) {
     this.#panel = panel;
     this.#files = new SceneFiles(panel);
-    this.#moves = toggle("Move things", (isOn) => this.#setMode(isOn, this.#snap));
-    this.#snaps = toggle("Snap to grid", (isOn) => this.#setMode(this.#isMoving, isOn ? DEFAULT_SNAP_M : 0), {
+    this.#moves = toggle("Move things", (isOn) => this.#setMoving(isOn));
+    this.#snaps = toggle("Snap to grid", (isOn) => this.#setSnap(isOn ? DEFAULT_SNAP_M : 0), {
       title: "Hold Alt to move freely",
     });
-    const add = element(
-      "div",
-      { className: "ai4u-add", role: "group", ariaLabel: "Add" },
-      ...NEW_THINGS.map((what) => button(capital(what), () => this.#add(what), { icon: what, title: `Add: ${what}` })),
-    );
+    this.#setSnap(DEFAULT_SNAP_M);
     this.#settings = new Form({ onChange: (values) => panel.send("change_settings", { values }) });
     root.append(
       this.#files.element,
@@ -46,7 +41,7 @@ export class WorldTab {
         element("div", { className: "ai4u-row-of-two" }, this.#moves.element, this.#snaps.element),
         this.#hint,
         element("h4", { textContent: "Add" }),
-        add,
+        this.#add,
         this.#list,
       ),
       section("world-settings", "Scene's settings", { isOpen: false }, this.#settings.element),
@@ -56,10 +51,15 @@ export class WorldTab {
 
   /** @param part as "world" in the protocol */
   update(part) {
-    this.#isMoving = Boolean(part.is_moving);
-    this.#snap = part.snap ?? DEFAULT_SNAP_M;
+    this.#isMoving = Boolean(part.is_move_mode);
     this.#moves.set(this.#isMoving);
-    this.#snaps.set(this.#snap > 0);
+    this.#snaps.set(part.snap > 0);
+    keyed(
+      this.#add,
+      part.templates ?? [],
+      ({ name }) => name,
+      ({ name, title, icon }) => button(title, () => this.#addThing(name), { icon }),
+    );
     setText(this.#hint, this.#isMoving ? HINT_ON : HINT_OFF);
     this.#files.update(part);
     const bodies = part.bodies ?? [];
@@ -75,30 +75,28 @@ export class WorldTab {
       },
       (_, body) => this.#cards.get(body.name).update(body, part.form),
     );
-    const settings = part.settings ?? [];
-    const { fields, first } = Array.isArray(settings) ? { fields: settings } : settings;
-    this.#settings.update(fields, first);
+    this.#settings.update(part.settings ?? []);
   }
 
-  #setMode(on, snap) {
-    this.#panel.send("move_mode", { on, snap }, { quiet: true });
+  #setMoving(on) {
+    this.#panel.send("move_mode", { on }, { quiet: true });
   }
 
-  async #add(what) {
-    const answer = await this.#panel.send("add_body", { what });
+  #setSnap(distance) {
+    this.#panel.send("snap", { distance }, { quiet: true });
+  }
+
+  async #addThing(template) {
+    const answer = await this.#panel.send("add_body", { template });
     if (!answer.ok || !answer.body) return;
     choose(this.#panel, answer.body);
-    if (!this.#isMoving) this.#setMode(true, this.#snap); // most new things are moved next
+    if (!this.#isMoving) this.#setMoving(true); // most new things are moved next
   }
 
   #showSelected(name) {
     this.#panel.show({ body: name });
-    const part = this.#panel.part("world");
+    const part = this.#panel.part("world"); // the form comes later
     if (part) this.update(part);
     this.#cards.get(name)?.element.scrollIntoView({ block: "nearest" });
   }
-}
-
-function capital(word) {
-  return word[0].toUpperCase() + word.slice(1);
 }

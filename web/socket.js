@@ -56,6 +56,11 @@ export class JsonSocket {
     if (this.isOpen) this.#socket.send(JSON.stringify(message));
   }
 
+  /** Send bytes if connected, else drop them. */
+  sendBytes(bytes) {
+    if (this.isOpen) this.#socket.send(bytes);
+  }
+
   #reconnect() {
     clearTimeout(this.#timer);
     if (this.#socket === null) this.open();

@@ -37,6 +37,9 @@ INDEX = """<!doctype html>
       this.sent.push({{ command, ...args }});
       return {{ ok: true, text: "", problems: [], ...(this.answers[command] ?? {{}}) }};
     }}
+    async sendFile(command, file) {{
+      return this.send(command, {{ name: file.name, text: await file.text() }});
+    }}
     show(changes) {{
       Object.assign(this.shown, changes);
       if (this.parts["{part}"]) tab.update(this.parts["{part}"]);

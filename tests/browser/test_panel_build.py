@@ -37,7 +37,7 @@ BOTH = {
     "class": "AndRewardFunc",
     "icon": "row",
     "reads": "0",
-    "adds": [{"title": "Reward", "kind": "children", "parent": ["rewards", 0, "children"]}],
+    "adds": [{"title": "Reward", "kind": "rewards", "parent": ["rewards", 0, "children"]}],
     "children": [
         {
             **RAYS,
@@ -63,24 +63,24 @@ FORM = {
 PART: dict[str, Any] = {
     "agent": "0",
     "driver": "brain:0",
-    "drivers": [
-        {"name": "brain:0", "title": "Keys W, A, S, D", "reason": ""},
-        {"name": "network:zoo:box_chase", "title": "Trained network", "reason": ""},
-        {
-            "name": "keys:StrikerController",
-            "title": "Striker",
-            "reason": "It needs a sensor with the name ball.",
-        },
-    ],
     "kinds": {"sensors": [RAYS, BUMPER], "actuators": [], "rewards": [BOTH], "brains": []},
     "settings": [
         {"name": "skip_frame", "label": "skip frame", "kind": "whole", "value": 4},
         {"name": "priority", "label": "priority", "kind": "whole", "value": 0},
     ],
     "form": None,
-    "undo": "",
-    "redo": "",
+    "undo": {"label": ""},
+    "redo": {"label": ""},
 }
+DRIVERS = [
+    {"name": "brain:0", "title": "Keys W, A, S, D", "reason": ""},
+    {"name": "network:zoo:box_chase", "title": "Trained network", "reason": ""},
+    {
+        "name": "keys:StrikerController",
+        "title": "Striker",
+        "reason": "It needs a sensor with the name ball.",
+    },
+]
 GALLERY = [
     {
         "class": "BearingSensor",
@@ -112,7 +112,10 @@ GALLERY = [
 @pytest.fixture
 def tab(chromium: Browser) -> Iterator[TabPage]:
     tab = TabPage(chromium, "panel_build", "BuildTab", "blocks")
+    tab.answer("drivers", items=DRIVERS)
     tab.give(PART)
+    tab.page.wait_for_function("panel.sent.length === 1")
+    assert tab.sent() == [{"command": "drivers"}]
     yield tab
     tab.page.context.close()
     assert tab.errors == []
@@ -154,7 +157,6 @@ def test_a_click_opens_the_form_with_the_fields_that_matter(tab: TabPage) -> Non
     (change,) = tab.sent()
     assert change == {
         "command": "change_block",
-        "agent": "0",
         "path": ["sensors", 0],
         "values": {"number_of_rays": "9"},
     }
@@ -177,10 +179,11 @@ def test_blocks_are_switched_ordered_copied_and_deleted(tab: TabPage) -> None:
     tab.page.get_by_role("button", name="Turn on Bumper").click()
     head(tab, "Bumper").click()
     expect(tab.page.get_by_role("button", name="Move down Bumper")).to_be_disabled()
+    tab.answer("move_block", path=["sensors", 0])
     tab.page.get_by_role("button", name="Move up Bumper").click()
     assert tab.sent() == [
-        {"command": "switch_block", "agent": "0", "path": ["sensors", 1], "on": True},
-        {"command": "move_block", "agent": "0", "path": ["sensors", 1], "by": -1},
+        {"command": "switch_block", "path": ["sensors", 1], "on": True},
+        {"command": "move_block", "path": ["sensors", 1], "by": -1},
     ]
     assert tab.shown["block"] == ["sensors", 0]
     moved = [{**BUMPER, "path": ["sensors", 0]}, {**RAYS, "path": ["sensors", 1]}]
@@ -224,8 +227,8 @@ def test_the_gallery_asks_questions_and_gives_reasons(tab: TabPage) -> None:
     gallery.get_by_role("button", name="Bumper").click()
     expect(gallery).to_have_count(0)
     assert tab.sent() == [
-        {"command": "gallery", "agent": "0", "kind": "sensors"},
-        {"command": "add_block", "agent": "0", "kind": "sensors", "block_type": "TouchSensor"},
+        {"command": "gallery", "kind": "sensors"},
+        {"command": "add_block", "class": "TouchSensor", "parent": ["sensors"]},
     ]
     assert tab.shown["block"] == ["sensors", 2]
 
@@ -238,6 +241,15 @@ def test_a_block_is_added_into_another_one(tab: TabPage) -> None:
     assert tab.sent()[-1]["parent"] == ["rewards", 0, "children"]
 
 
+def test_drivers_are_tried_again_after_a_change_only(tab: TabPage) -> None:
+    tab.give({**PART, "kinds": {**PART["kinds"], "sensors": [{**RAYS, "reads": "nearest 0.4 m"}]}})
+    tab.page.wait_for_function("panel.sent.length === 1")
+    assert tab.sent() == [{"command": "drivers"}]
+    tab.give({**PART, "kinds": {**PART["kinds"], "sensors": [{**RAYS, "reads": "nearest 0.1 m"}]}})
+    tab.page.wait_for_timeout(600)
+    assert tab.sent() == []
+
+
 def test_a_driver_is_chosen_and_one_that_can_not_drive_is_grey(tab: TabPage) -> None:
     driver = tab.page.get_by_label("Driven by")
     expect(driver).to_have_value("brain:0")
@@ -246,7 +258,7 @@ def test_a_driver_is_chosen_and_one_that_can_not_drive_is_grey(tab: TabPage) -> 
     expect(striker).to_contain_text("It needs a sensor with the name ball.")
     tab.answer("driver", ok=False, text="It can't.")
     driver.select_option("network:zoo:box_chase")
-    assert tab.sent() == [{"command": "driver", "agent": "0", "name": "network:zoo:box_chase"}]
+    assert tab.sent() == [{"command": "driver", "name": "network:zoo:box_chase"}]
     expect(driver).to_have_value("brain:0")
 
 
@@ -264,6 +276,7 @@ def test_controls_are_large_enough_and_have_names(
         has_touch=is_touch,
         is_mobile=is_touch,
     )
+    tab.answer("drivers", items=DRIVERS)
     tab.give(PART)
     head(tab, "Ray sensor").click()
     tab.give({**PART, "form": FORM})

@@ -1,6 +1,5 @@
 """The panel's tab "Past", with a fake panel."""
 
-import base64
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -14,7 +13,7 @@ MINE = {
     "number": 3,
     "driver": "Keys W, A, S, D",
     "is_person": True,
-    "result": "success",
+    "result": True,
     "reward": 9.7312,
     "decisions": 80,
     "seconds": 14.2,
@@ -27,7 +26,7 @@ NETWORKS = {
     "number": 4,
     "driver": "Trained network",
     "is_person": False,
-    "result": "failure",
+    "result": False,
     "is_best": False,
 }
 PLAYING = {
@@ -36,18 +35,18 @@ PLAYING = {
     "steps": 80,
     "is_playing": False,
     "speed": 1.0,
-    "is_showing": True,
 }
 PART: dict[str, Any] = {
     "episodes": [MINE, NETWORKS],
     "playing": None,
+    "is_showing": True,
     "ghost": "",
     "problem": "",
     "downloads": [],
 }
 DOWNLOADS = [
-    {"format": "GIF", "url": "api/past/3.gif"},
-    {"format": "Recording", "url": "api/past/3.episode"},
+    {"format": "gif", "title": "GIF", "url": "api/past/3.gif"},
+    {"format": "episode", "title": "Recording", "url": "api/past/3.episode"},
 ]
 
 
@@ -82,7 +81,10 @@ def test_a_persons_drives_stand_apart(tab: TabPage) -> None:
 def test_a_click_on_a_row_chooses_and_shows_it(tab: TabPage) -> None:
     head(tab, "Episode 3").click()
     assert tab.shown["episode"] == 3
-    assert tab.sent() == [{"command": "episode", "number": 3}]
+    assert tab.sent() == [
+        {"command": "episode", "number": 3},
+        {"command": "step", "step": 0},
+    ]
     tab.give({**PART, "playing": PLAYING, "downloads": DOWNLOADS})
     row = tab.page.locator("article").filter(has_text="Episode 3")
     expect(row).to_contain_text("8061527393621437281")
@@ -135,22 +137,22 @@ def test_it_is_played_at_a_speed(tab: TabPage) -> None:
     tab.page.get_by_role("button", name="Stop", exact=True).click()
     assert tab.sent() == [
         {"command": "play"},
-        {"command": "speed", "speed": 2},
+        {"command": "play_speed", "speed": 2},
         {"command": "stop"},
     ]
 
 
 def test_from_a_moment_the_world_goes_on_or_races(tab: TabPage) -> None:
-    tab.give({**PART, "playing": PLAYING, "ghost": "episode 3"})
+    tab.give({**PART, "playing": PLAYING, "ghost": "Ghost: episode 3"})
     for name in ("Back to live", "Continue here", "Race against it", "Remove ghost"):
         tab.page.get_by_role("button", name=name).click()
     assert tab.sent() == [
         {"command": "back_to_live"},
         {"command": "continue"},
-        {"command": "race", "number": 3},
+        {"command": "race"},
         {"command": "remove_ghost"},
     ]
-    tab.give({**PART, "playing": {**PLAYING, "is_showing": False}})
+    tab.give({**PART, "playing": PLAYING, "is_showing": False})
     expect(tab.page.get_by_role("button", name="Back to live")).to_be_hidden()
     expect(tab.page.get_by_role("button", name="Remove ghost")).to_be_hidden()
 
@@ -158,7 +160,10 @@ def test_from_a_moment_the_world_goes_on_or_races(tab: TabPage) -> None:
 def test_the_current_episode_is_shown_and_can_not_be_raced(tab: TabPage) -> None:
     tab.page.get_by_role("button", name="Current episode").click()
     assert tab.sent() == [{"command": "episode", "number": 0}]
+    tab.give({**PART, "playing": {**PLAYING, "number": 0}, "is_showing": False})
+    assert tab.sent() == [{"command": "step", "step": 12}]
     tab.give({**PART, "playing": {**PLAYING, "number": 0}})
+    assert tab.sent() == []
     expect(tab.page.get_by_role("button", name="Race against it")).to_be_hidden()
 
 
@@ -180,8 +185,11 @@ def test_a_recording_is_opened(tab: TabPage, tmp_path: Path) -> None:
     chooser.value.set_files(file)
     tab.page.wait_for_function("panel.shown.episode === 5")
     (sent,) = tab.sent()
-    assert base64.b64decode(sent["data"]) == b"\x00\x01recorded"
-    assert sent["file"] == "friend.episode"
+    assert sent == {
+        "command": "open_recording",
+        "name": "friend.episode",
+        "text": "\x00\x01recorded",
+    }
 
 
 @pytest.mark.parametrize(("is_touch", "smallest"), [(False, 28), (True, 40)])
@@ -193,7 +201,7 @@ def test_controls_are_large_enough_and_have_names(
     tab = TabPage(chromium, "panel_past", "PastTab", "past", size=size, **options)
     tab.give(PART)
     head(tab, "Episode 3").click()
-    tab.give({**PART, "playing": PLAYING, "ghost": "episode 3", "downloads": DOWNLOADS})
+    tab.give({**PART, "playing": PLAYING, "ghost": "Ghost: episode 3", "downloads": DOWNLOADS})
     assert tab.small_controls(smallest) == []
     assert tab.unnamed_controls() == []
     tab.page.context.close()

@@ -12,21 +12,20 @@ from tests.browser.tab_page import TabPage
 BOX = {
     "name": "box",
     "kind": "body",
-    "shape": {"type": "box", "size": [1, 1]},
+    "shape": "box",
     "x": 4.0,
     "y": 0.0,
     "heading": 0.0,
     "movable": True,
 }
-ROBOT = {**BOX, "name": "robot", "kind": "agent", "shape": {"type": "circle", "radius": 0.5}}
+ROBOT = {**BOX, "name": "robot", "kind": "agent", "shape": "circle"}
 PLATE = {**BOX, "name": "plate", "kind": "floor", "x": 0.0}
 FORM = {
-    "body": "box",
+    "name": "box",
     "kind": "body",
     "fields": [
         {"name": "x", "label": "x (m)", "kind": "number", "value": 4.0, "shown": "4"},
         {"name": "y", "label": "y (m)", "kind": "number", "value": 0.0, "shown": "0"},
-        {"name": "mass", "label": "mass (kg)", "kind": "number", "value": 1.0, "shown": "1"},
         {
             "name": "colour",
             "label": "colour",
@@ -35,8 +34,8 @@ FORM = {
             "shown": "green",
             "choices": ["(none)", "green", "blue"],
         },
+        {"name": "mass", "label": "mass (kg)", "kind": "number", "value": 1.0, "shown": "1"},
     ],
-    "first": ["x", "y", "colour"],
 }
 SETTINGS = [
     {"name": "title", "label": "title", "kind": "text", "value": "Small"},
@@ -46,20 +45,26 @@ PART: dict[str, Any] = {
     "bodies": [ROBOT, BOX, PLATE],
     "form": None,
     "settings": SETTINGS,
+    "templates": [
+        {"name": name, "title": name.capitalize(), "icon": name}
+        for name in ("wall", "box", "ball", "floor", "area", "lamp", "agent")
+    ],
     "unsaved": None,
-    "undo": "",
-    "redo": "",
-    "is_moving": False,
+    "can_save": True,
+    "undo": {"label": ""},
+    "redo": {"label": ""},
+    "is_move_mode": False,
     "is_dragging": False,
     "snap": 0.5,
 }
-MOVING = {**PART, "is_moving": True, "form": FORM}
+MOVING = {**PART, "is_move_mode": True, "form": FORM}
 
 
 @pytest.fixture
 def tab(chromium: Browser) -> Iterator[TabPage]:
     tab = TabPage(chromium, "panel_world", "WorldTab", "world")
     tab.give(PART)
+    assert tab.sent() == [{"command": "snap", "distance": 0.5}]
     yield tab
     tab.page.context.close()
     assert tab.errors == []
@@ -116,9 +121,9 @@ def test_things_are_added_and_can_be_moved_then(tab: TabPage) -> None:
         expect(tab.page.get_by_role("button", name=name, exact=True)).to_be_visible()
     tab.page.get_by_role("button", name="Lamp", exact=True).click()
     assert tab.sent() == [
-        {"command": "add_body", "what": "lamp"},
+        {"command": "add_body", "template": "lamp"},
         {"command": "select", "body": "lamp"},
-        {"command": "move_mode", "on": True, "snap": 0.5},
+        {"command": "move_mode", "on": True},
     ]
     assert tab.shown["body"] == "lamp"
 
@@ -126,11 +131,11 @@ def test_things_are_added_and_can_be_moved_then(tab: TabPage) -> None:
 def test_moving_and_the_grid_are_switched(tab: TabPage) -> None:
     expect(tab.page.get_by_text("Turn on Move things")).to_be_visible()
     tab.page.get_by_role("switch", name="Move things").click()
-    assert tab.sent() == [{"command": "move_mode", "on": True, "snap": 0.5}]
+    assert tab.sent() == [{"command": "move_mode", "on": True}]
     tab.give(MOVING)
     expect(tab.page.get_by_text("Esc cancels")).to_be_visible()
     tab.page.get_by_role("switch", name="Snap to grid").click()
-    assert tab.sent() == [{"command": "move_mode", "on": True, "snap": 0}]
+    assert tab.sent() == [{"command": "snap", "distance": 0}]
     tab.give({**MOVING, "snap": 0})
     expect(tab.page.get_by_role("switch", name="Snap to grid")).to_have_attribute(
         "aria-checked", "false"
@@ -140,12 +145,12 @@ def test_moving_and_the_grid_are_switched(tab: TabPage) -> None:
 @pytest.mark.parametrize(
     ("keys", "command"),
     [
-        ("ArrowRight", {"command": "nudge", "body": "box", "dx": 0.5, "dy": 0, "turn": 0}),
-        ("ArrowUp", {"command": "nudge", "body": "box", "dx": 0, "dy": 0.5, "turn": 0}),
-        ("Alt+ArrowLeft", {"command": "nudge", "body": "box", "dx": -0.05, "dy": 0, "turn": 0}),
-        ("Shift+ArrowLeft", {"command": "nudge", "body": "box", "dx": 0, "dy": 0, "turn": 15}),
-        ("Delete", {"command": "remove_body", "body": "box"}),
-        ("Control+d", {"command": "duplicate_body", "body": "box"}),
+        ("ArrowRight", {"command": "nudge", "name": "box", "dx": 0.5, "dy": 0, "turn_deg": 0}),
+        ("ArrowUp", {"command": "nudge", "name": "box", "dx": 0, "dy": 0.5, "turn_deg": 0}),
+        ("Alt+ArrowLeft", {"command": "nudge", "name": "box", "dx": -0.05, "dy": 0, "turn_deg": 0}),
+        ("Shift+ArrowLeft", {"command": "nudge", "name": "box", "dx": 0, "dy": 0, "turn_deg": 15}),
+        ("Delete", {"command": "remove_body", "name": "box"}),
+        ("Control+d", {"command": "duplicate_body", "name": "box"}),
         ("Control+z", {"command": "undo"}),
         ("Control+y", {"command": "redo"}),
         ("Control+Shift+Z", {"command": "redo"}),
@@ -197,11 +202,11 @@ def test_a_card_copies_and_deletes(tab: TabPage) -> None:
     chosen(tab)
     tab.answer("duplicate_body", body="box 2")
     tab.page.get_by_role("button", name="Duplicate").click()
-    assert tab.sent()[0] == {"command": "duplicate_body", "body": "box"}
+    assert tab.sent()[0] == {"command": "duplicate_body", "name": "box"}
     assert tab.shown["body"] == "box 2"
     head(tab, "box").click()
     tab.page.get_by_role("button", name="Delete").click()
-    assert {"command": "remove_body", "body": "box"} in tab.sent()
+    assert {"command": "remove_body", "name": "box"} in tab.sent()
     assert tab.shown["body"] is None
 
 
@@ -210,17 +215,17 @@ def test_a_scene_is_saved_and_replaced_only_after_a_question(tab: TabPage) -> No
     tab.page.get_by_role("button", name="Save").click()
     dialog = tab.page.get_by_role("dialog")
     expect(dialog.get_by_label("Name")).to_have_value("Small")
-    tab.answer("save_scene", ok=False, exists=True, text="A scene has this name.")
+    tab.answer("save_scene", exists=True, text="A scene has this name.")
     dialog.get_by_role("button", name="Save").click()
     expect(dialog.get_by_role("alert")).to_have_text("A scene has this name.")
-    tab.answer("save_scene", ok=True, text="Saved.")
+    tab.answer("save_scene", text="Saved.")
     dialog.get_by_role("button", name="Replace it").click()
     expect(dialog).to_have_count(0)
-    assert [each["overwrite"] for each in tab.sent()] == [False, True]
+    assert [each["over"] for each in tab.sent()] == [False, True]
 
 
 def test_a_scene_is_downloaded_and_opened(tab: TabPage, tmp_path: Path) -> None:
-    tab.answer("download", file={"name": "small.yaml", "text": "name: small\n"})
+    tab.answer("download", file="small.yaml", content="name: small\n")
     with tab.page.expect_download() as download:
         tab.page.get_by_role("button", name="Download").click()
     assert download.value.suggested_filename == "small.yaml"
@@ -231,7 +236,7 @@ def test_a_scene_is_downloaded_and_opened(tab: TabPage, tmp_path: Path) -> None:
         tab.page.get_by_role("button", name="Open a file").click()
     chooser.value.set_files(file)
     tab.page.wait_for_function("panel.sent.some(each => each.command === 'load_text')")
-    assert tab.sent()[-1] == {"command": "load_text", "file": "mine.yaml", "text": "name: mine\n"}
+    assert tab.sent()[-1] == {"command": "load_text", "name": "mine.yaml", "text": "name: mine\n"}
 
 
 def test_an_unsaved_scene_is_offered(tab: TabPage) -> None:
