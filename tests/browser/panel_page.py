@@ -103,7 +103,7 @@ def panel_page(
         connected(page)
     yield opened
     page.context.close()
-    assert opened.problems == []
+    assert opened.problems == [], opened.problems
 
 
 def _leave_viser_out(route: Route) -> None:

@@ -10,7 +10,10 @@ from tests.browser.panel_page import PanelPage, panel_page, panel_room
 
 pytestmark = pytest.mark.browser
 
-TABS = ("Drive", "Build", "World", "Past")
+CARDS = {"Drive": 0, "Build": 10, "World": 4, "Past": 2}
+"""Number of cards of each tab."""
+OPENED = {"Build": "Ray picture", "World": "cube"}
+"""Cards that have a form when they are open."""
 GRAVE = {"serious", "critical"}
 
 
@@ -35,12 +38,19 @@ def findings(page: Page, part: str) -> list[str]:
 
 
 @pytest.mark.parametrize("mode", ["Simple", "Details"])
-@pytest.mark.parametrize("tab", TABS)
+@pytest.mark.parametrize("tab", CARDS)
 def test_a_tab_has_no_grave_finding(page: PanelPage, tab: str, mode: str) -> None:
     page.button(mode).click()
     page.tab(tab).click()
     expect(page.tab(tab)).to_have_attribute("aria-selected", "true")
     page.page.evaluate("document.querySelectorAll('.ai4u-section').forEach(s => (s.open = true))")
+    cards = page.page.locator(".ai4u-tabpanel:visible .ai4u-card-head")
+    expect(cards).to_have_count(CARDS[tab])
+    if card := OPENED.get(tab):
+        head = cards.filter(has_text=card).first
+        if head.get_attribute("aria-expanded") == "false":
+            head.click()
+        expect(page.page.locator(".ai4u-tabpanel:visible [data-open] label").first).to_be_visible()
     assert findings(page.page, ".ai4u-panel") == []
 
 
@@ -51,8 +61,8 @@ def test_notices_have_no_grave_finding(page: PanelPage) -> None:
 
 
 def test_the_scene_picker_has_no_grave_finding(page: PanelPage) -> None:
-    scene = {"name": "sumo", "title": "Sumo", "goal": "Push it out.", "level": "Easy", "minutes": 3}
-    page.panel.replies["scenes"] = lambda _: {"items": [scene | {"stored": False}]}
+    scene = {"name": "sumo", "title": "Sumo", "goal": "Push it out.", "level": "easy", "minutes": 3}
+    page.panel.replies["scenes"] = lambda _: {"items": [scene | {"is_saved": False}]}
     page.button("Box chase").click()
     expect(page.page.get_by_role("button", name="Sumo")).to_be_visible()
     assert findings(page.page, ".ai4u-dialog") == []

@@ -175,13 +175,13 @@ def test_another_agent_can_be_looked_at_and_driven(desk: PanelPage) -> None:
 
 
 def test_scenes_are_cards(desk: PanelPage) -> None:
-    scene = {"name": "sumo", "title": "Sumo", "goal": "Push it out.", "level": "Easy", "minutes": 3}
-    mine = {"name": "mine", "title": "<b>Mine</b>", "goal": "", "stored": True}
-    desk.panel.replies["scenes"] = lambda _: {"items": [scene | {"stored": False}, mine]}
+    scene = {"name": "sumo", "title": "Sumo", "goal": "Push it out.", "level": "easy", "minutes": 3}
+    mine = {"name": "mine", "title": "<b>Mine</b>", "goal": "", "level": "", "is_saved": True}
+    desk.panel.replies["scenes"] = lambda _: {"items": [scene | {"is_saved": False}, mine]}
     desk.button("Box chase").click()
     dialog = desk.page.get_by_role("dialog", name="Choose a scene")
     expect(dialog.get_by_role("heading", name="My scenes")).to_be_visible()
     expect(dialog.get_by_role("button", name="Sumo")).to_contain_text("about 3 min")
     dialog.get_by_role("button", name="<b>Mine</b>").click()
-    desk.until(lambda: desk.panel.commands("open_scene") == [{"scene": "mine", "stored": True}])
+    desk.until(lambda: desk.panel.commands("open_scene") == [{"name": "mine", "is_saved": True}])
     expect(dialog).to_have_count(0)
