@@ -25,14 +25,14 @@ def run_part(context: PanelContext, snapshot: Snapshot, agent_id: str) -> dict[s
         "name": "run",
         "episode": snapshot.episode if agent.episode <= 1 else agent.episode,
         "decision": agent.steps,
-        "time_s": round(snapshot.time, 2),
+        "time_s": round(snapshot.episode_time, 2),
         "speed": "max" if math.isinf(snapshot.time_scale) else snapshot.time_scale,
         "real_speed": round(snapshot.real_time_factor, 1),
         "is_paused": snapshot.paused,
-        "waiting": "",
+        "waiting": snapshot.waiting,
         "past": snapshot.past,
         "seed": str(snapshot.seed),
-        "is_seed_locked": False,
+        "is_seed_locked": snapshot.is_seed_locked,
         "score": agent.episode_reward,
         "result": outcome(snapshot, agent),
         "result_text": _result_text(agent),
@@ -52,6 +52,8 @@ def _status(snapshot: Snapshot) -> str:
         return f"Showing {snapshot.past}"
     if snapshot.paused:
         return "Paused"
+    if snapshot.waiting:
+        return "Waiting for a key"
     wanted, factor = snapshot.time_scale, snapshot.real_time_factor
     if not math.isinf(wanted) and factor < MIN_SPEED_SHARE * wanted:
         return f"Running at {factor:.1f}x: this computer can't keep up with {wanted:g}x"

@@ -3,9 +3,9 @@
 from typing import Any
 
 from ai4u_edu.agent import BasicAgent
+from ai4u_edu.agent.driving_keys import keys_of
 from ai4u_edu.panel.context import PanelContext
 from ai4u_edu.panel.parts.colours import hex_colour
-from ai4u_edu.server.bindings import keys_of
 from ai4u_edu.server.human_override import driver_title
 from ai4u_edu.snapshot import Snapshot, StaticScene
 from ai4u_edu.snapshot.agent_words import title
