@@ -57,9 +57,10 @@ class Played:
 
 
 @contextlib.contextmanager
-def played(*args: str) -> Iterator[Played]:
+def played(*args: str, waits_for_key: bool = False) -> Iterator[Played]:
     """Serves a scene: ``played("box_chase", "--seed", "1")``."""
-    command = [sys.executable, "-m", "ai4u_edu", "play", *args, "--port", "0", "--no-open"]
+    wait = "--wait-for-key" if waits_for_key else "--no-wait-for-key"
+    command = [sys.executable, "-m", "ai4u_edu", "play", *args, "--port", "0", "--no-open", wait]
     process = subprocess.Popen(
         command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, bufsize=1
     )

@@ -1,6 +1,7 @@
 /** Banners at the top of the page (goal, outcome, pause, errors), each with a button; and the window's title. */
 
 import { element } from "./dom.js";
+import { capitalized } from "./driver_status.js";
 
 /** Kinds of banners whose text is a whole sentence and is not printed bold. */
 const NOT_BOLD_KINDS = ["error", "task"];
@@ -12,6 +13,14 @@ const OUTCOME_TEXTS = {
   fell: ["Fell.", "fell."],
   time: ["Time is up."],
   over: ["Episode over."],
+};
+/** Commands by the text of their button. */
+const COMMANDS = {
+  "Try again": "try_again",
+  "New start": "new_start",
+  Reset: "reset",
+  Resume: "resume",
+  "Back to now": "resume",
 };
 /** How long the error of a failed request stays (ms). */
 const REQUEST_ERROR_MS = 8000;
@@ -55,6 +64,7 @@ export class Banners {
    * @param page.restart the label of the restart key
    * @param page.name the agent's name, if this page can't drive it
    * @param page.isNew true until the person has pressed a key: then the goal is shown
+   * @param page.howToStart what the person does to start, such as "press a key"; empty if this page can't
    */
   draw(state, page) {
     this.#lastDraw = [state, page];
@@ -70,17 +80,18 @@ export class Banners {
   }
 
   #banner(state, page) {
-    if (this.#connectionError) return { kind: "error", text: this.#connectionError, button: "Reload" };
-    if (state?.error) return { kind: "error", text: state.error, button: "Reset" };
+    if (this.#connectionError) return { kind: "error", text: this.#connectionError, buttons: ["Reload"] };
+    if (state?.error) return { kind: "error", text: state.error, buttons: ["Reset"] };
     if (this.#requestError) return { kind: "error", text: this.#requestError };
-    if (state?.past) return { kind: "paused", text: `Past: ${state.past}`, button: "Back to now" };
+    if (state?.past) return { kind: "paused", text: `Past: ${state.past}`, buttons: ["Back to now"] };
     if (state?.outcome) return outcomeBanner(state, page);
-    if (state?.paused) return { kind: "paused", text: "Paused", button: "Resume" };
+    if (state?.paused) return { kind: "paused", text: "Paused", buttons: ["Resume"] };
+    if (state?.waiting) return startBanner(state, page);
     if (state?.goal && page.isNew && !page.name) return { kind: "task", text: state.goal };
     return null;
   }
 
-  #element({ kind, text, amount, hint, details, button }) {
+  #element({ kind, text, amount, hint, details, buttons = [] }) {
     const tag = NOT_BOLD_KINDS.includes(kind) ? "span" : "strong";
     const words = element("p", {}, element(tag, { textContent: text }));
     if (amount) words.append(" ", element("span", { className: "ai4u-amount", textContent: amount }));
@@ -88,15 +99,19 @@ export class Banners {
     if (details) words.append(element("small", { textContent: details }));
     const made = element("div", { className: "ai4u-banner" }, words);
     made.dataset.kind = kind;
-    if (button) {
-      const resume = () => this.#sendCommand("resume");
-      const handlers = { Reload: () => location.reload(), Resume: resume, "Back to now": resume };
-      const control = element("button", { type: "button", className: "ai4u-button", textContent: button });
-      control.addEventListener("click", handlers[button] ?? (() => this.#sendCommand("reset")));
-      made.append(control);
+    for (const name of buttons) {
+      const button = element("button", { type: "button", className: "ai4u-button", textContent: name });
+      button.addEventListener("click", () => (name === "Reload" ? location.reload() : this.#sendCommand(COMMANDS[name])));
+      made.append(button);
     }
     return made;
   }
+}
+
+function startBanner({ goal }, { isNew, name, howToStart }) {
+  const start = howToStart ? `${capitalized(howToStart)} to start` : "Waits until a player presses a key";
+  const isGoalShown = isNew && goal && !name;
+  return isGoalShown ? { kind: "task", text: goal, details: start } : { kind: "start", text: start };
 }
 
 function outcomeBanner({ outcome, reward, terms }, { restart, name }) {
@@ -108,7 +123,7 @@ function outcomeBanner({ outcome, reward, terms }, { restart, name }) {
     amount: signed(reward),
     hint: restart && ` – press ${restart} to try again`,
     details: parts.length > 1 ? parts.map(([name, value]) => `${name} ${signed(value)}`).join(" · ") : "",
-    button: "Try again",
+    buttons: ["Try again", "New start"],
   };
 }
 

@@ -21,9 +21,13 @@ export class DriverStatus {
     row.append(element("div", { className: "ai4u-driver" }, this.#dot, status, this.#take, this.#letGo));
   }
 
-  /** @param {string} howToDrive what the person has to do to take over, such as "press a key" */
-  draw({ connected, hello, control, howToDrive }) {
-    const [kind, text] = status({ connected, hello, control, howToDrive });
+  /**
+   * @param {string} shown.howToDrive what the person has to do to take over, such as "press a key"
+   * @param {boolean} shown.isWaiting true while the world waits for a key
+   * @param {boolean} shown.isReached false while the keyboard goes elsewhere, such as into a text field
+   */
+  draw({ connected, hello, control, howToDrive, isWaiting, isReached }) {
+    const [kind, text] = status({ connected, hello, control, howToDrive, isWaiting, isReached });
     this.#dot.dataset.kind = kind;
     setText(this.#text, text);
     setText(this.#hint, kind === "auto" ? ` – ${howToDrive} to take over` : "");
@@ -37,11 +41,19 @@ function setText(target, text) {
   if (target.textContent !== text) target.textContent = text; // screen readers announce every assignment
 }
 
-function status({ connected, hello, control, howToDrive }) {
+/** Return a text with a capital first letter. */
+export function capitalized(text) {
+  return text.charAt(0).toUpperCase() + text.slice(1);
+}
+
+function status({ connected, hello, control, howToDrive, isWaiting, isReached }) {
   if (!connected) return ["lost", "Connecting …"];
   if (Object.keys(hello.keys).length === 0) return ["none", `${hello.others || hello.brain} drives`];
+  const isMine = control.driver === hello.you;
   if (hello.others) return ["auto", `${hello.others} drives`];
-  if (control.driver === null) return ["free", `${howToDrive[0].toUpperCase()}${howToDrive.slice(1)} to drive`];
-  if (control.driver !== hello.you) return ["other", `Page ${control.driver} drives`];
+  if (!isReached && (isMine || control.driver === null)) return [isMine ? "mine" : "free", "Click the picture to drive"];
+  if (isWaiting && (isMine || control.driver === null)) return [isMine ? "mine" : "free", `${capitalized(howToDrive)} to start`];
+  if (control.driver === null) return ["free", `${capitalized(howToDrive)} to drive`];
+  if (!isMine) return ["other", `Page ${control.driver} drives`];
   return ["mine", control.pages > 1 ? `You drive (page ${hello.you})` : "You drive"];
 }

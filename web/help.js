@@ -1,6 +1,7 @@
 /** The help dialog ("?"): the scene's goal, the parts of the page, and the keys, which can be changed. */
 
 import { element } from "./dom.js";
+import { isDrawnBySoftware } from "./graphics.js";
 import { isTextInput } from "./keys.js";
 import { label } from "./labels.js";
 import { copyLink } from "./share.js";
@@ -13,6 +14,10 @@ const PAGE_PARTS = {
 };
 const GAMEPAD_TEXT = "A gamepad drives too: its left stick or its cross, A to jump, B to leap, Start to restart.";
 
+const START_TEXT = "To restart is to try the same start again. N draws a new start, unless N drives.";
+const GRAPHICS_TEXT =
+  "Drawn without a graphics card, so the picture may be slow. If there is one, turn hardware acceleration on in the browser.";
+
 export class Help {
   #keys;
   #keymap;
@@ -21,6 +26,7 @@ export class Help {
   #goal = element("p", { className: "ai4u-goal" });
   #list = element("div", { className: "ai4u-bindings" });
   #status = element("p", { className: "ai4u-status", role: "status" });
+  #graphics = element("p", { hidden: true, textContent: GRAPHICS_TEXT });
   #reset = element("button", { type: "button", className: "ai4u-plain", textContent: "Reset keys" });
   #actionToRebind = null;
 
@@ -59,6 +65,7 @@ export class Help {
     if (this.#dialog.open) return;
     this.#keys.releaseAll();
     this.#status.textContent = "";
+    this.#graphics.hidden = !isDrawnBySoftware();
     this.#listKeys();
     this.#dialog.showModal(); // traps the focus, and restores it on closing
   }
@@ -103,9 +110,11 @@ export class Help {
       this.#list,
       this.#status,
       this.#reset,
+      element("p", { textContent: START_TEXT }),
       element("p", { textContent: GAMEPAD_TEXT }),
       element("h3", { textContent: "On this page" }),
       element("dl", {}, ...descriptions),
+      this.#graphics,
     );
     this.#dialog.addEventListener("keydown", (event) => this.#rebind(event), { capture: true });
     // else viser moves its camera

@@ -7,7 +7,7 @@ const STORAGE_KEY = "ai4u-keys";
 /** A KeyboardEvent.code; stored choices are checked against it. */
 const CODE = /^[A-Za-z0-9]{1,24}$/;
 /** Codes of keys that the browser, the page or the keyboard itself needs. */
-const RESERVED_CODE = /^(Tab|Escape|F\d+|(Control|Alt|Meta|OS)(Left|Right)?|CapsLock|ContextMenu|Unidentified)$/;
+export const RESERVED_CODE = /^(Tab|Escape|F\d+|(Control|Alt|Meta|OS)(Left|Right)?|CapsLock|ContextMenu|Unidentified)$/;
 
 export class KeyMap {
   #bindings = {};

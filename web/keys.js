@@ -20,6 +20,8 @@ const INPUT_TYPES_WITHOUT_TEXT = "button, checkbox, color, file, image, radio, r
 export class HeldKeys {
   /** Called with the code of each newly pressed key. */
   onpress = (_code) => {};
+  /** Called with the event of a newly pressed key that is not the agent's; returns true if it was used. */
+  onotherpress = (_event) => false;
   /** Overridden by a dialog: while it returns true, keyboard events are ignored. */
   isSuspended = () => false;
 
@@ -119,8 +121,11 @@ export class HeldKeys {
 
   #down(event) {
     const { code } = event;
-    if (this.#isForOthers(event)) {
+    const isForOthers = this.#isForOthers(event);
+    if (isForOthers || !this.#isOurs(code)) {
       this.#movesFocus = true; // not only Tab does: arrow keys do in a list of tabs
+      const isShortcut = event.repeat || event.ctrlKey || event.metaKey || event.altKey;
+      if (!isForOthers && !isShortcut && this.onotherpress(event)) event.preventDefault();
       return;
     }
     event.stopPropagation();
@@ -129,22 +134,29 @@ export class HeldKeys {
       return;
     }
     const sent = this.#sentCodes.get(code);
-    if (sent === undefined) return;
+    if (sent === undefined) {
+      if (!event.repeat) this.onotherpress(event);
+      return;
+    }
     event.preventDefault();
     if (!event.repeat) this.press(code, sent);
   }
 
   #up(event) {
     this.release(event.code);
-    if (this.#isForOthers(event)) return;
+    if (this.#isForOthers(event) || !this.#isOurs(event.code)) return;
     event.stopPropagation();
     if (this.#sentCodes.has(event.code)) event.preventDefault(); // Space would press a button
+  }
+
+  /** Return true for a key that drives, or would move viser's camera. */
+  #isOurs(code) {
+    return this.#sentCodes.has(code) || CAMERA_CODES.includes(code);
   }
 
   /** Return true if the browser or the focused control has to handle a keyboard event. */
   #isForOthers({ code, target, isComposing }) {
     if (this.isSuspended() || isComposing || isTextInput(target)) return true;
-    if (!this.#sentCodes.has(code) && !CAMERA_CODES.includes(code)) return true;
     // a control reached by a key needs its own keys
     const usesControl = this.#reachedByKey === target && target !== document.body;
     return usesControl && (code === "Space" || code === "Enter" || code.startsWith("Arrow"));

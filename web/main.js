@@ -5,9 +5,10 @@ import { Banners } from "./banners.js";
 import { element } from "./dom.js";
 import { dpadActions } from "./dpad.js";
 import { DriverStatus } from "./driver_status.js";
+import { keysReachPage, leaveControls } from "./focus.js";
 import { Gamepads } from "./gamepad.js";
 import { Help } from "./help.js";
-import { KeyMap } from "./keymap.js";
+import { KeyMap, RESERVED_CODE } from "./keymap.js";
 import { HeldKeys } from "./keys.js";
 import { Keycaps } from "./keycaps.js";
 import { label, loadLayout } from "./labels.js";
@@ -15,6 +16,9 @@ import { collapseMobilePanel } from "./mobile_panel.js";
 import { trackCanvasEdges } from "./canvas_edges.js";
 import { watchSharedScene } from "./share.js";
 import { JsonSocket } from "./socket.js";
+
+/** Code of the key for a new start, unless the agent or the person uses it for something else. */
+const NEW_START_CODE = "KeyN";
 
 const query = new URLSearchParams(location.search);
 const agent = query.get("agent");
@@ -54,13 +58,17 @@ const gamepads = new Gamepads(keys);
 const help = new Help(row, keys, keymap, arrange);
 const banners = new Banners((name) => socket.send({ type: "command", name }));
 
-keys.onpress = (code) => {
+keys.onpress = () => (hasActed = true);
+keys.onotherpress = ({ code, key }) => {
+  const isForHelp = key === "?" || key === "Shift";
+  if (!canDrive() || RESERVED_CODE.test(code) || isForHelp) return false;
+  if (code === NEW_START_CODE) socket.send({ type: "command", name: "new_start" });
+  else if (state?.waiting && !hello.others) socket.send({ type: "start" });
+  else return false;
   hasActed = true;
-  // After an error no decision reads the key, and another driver ignores it: so send a command.
-  if ((state?.error || hello.others) && hello.keys.restart?.includes(code)) {
-    socket.send({ type: "command", name: "reset" });
-  }
+  return true;
 };
+leaveControls(draw);
 
 socket.onopen = () => {
   connected = true;
@@ -112,7 +120,9 @@ function draw() {
   const isMine = control.driver === hello.you;
   const { held } = keys;
   keycaps.draw(isMine || held.length ? held : (state?.held ?? []));
-  const status = { connected, hello, control, howToDrive: howToDrive() };
+  const isWaiting = Boolean(state?.waiting);
+  const isReached = dock.hasAttribute("data-touch") || keysReachPage();
+  const status = { connected, hello, control, howToDrive: howToDrive(), isWaiting, isReached };
   driverStatus.draw(status);
   panel?.drawDriver(status);
   help.setGoal(state?.goal || "This scene has none: look around.");
@@ -121,7 +131,13 @@ function draw() {
     restart: label(keymap.keys.restart?.[0] ?? ""),
     name: isDriven ? "" : hello.name,
     isNew: !hasActed,
+    howToStart: canDrive() ? howToDrive() : "",
   });
+}
+
+/** Return true if this page's keys drive its agent, or would if pressed. */
+function canDrive() {
+  return Object.keys(hello.keys).length > 0 && (control.driver === null || control.driver === hello.you);
 }
 
 /** Return what a person does to start driving, in words. */

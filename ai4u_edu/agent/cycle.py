@@ -67,6 +67,8 @@ class ControlRequestor:
         success: the reward term that is paid when the goal is reached; empty if there is none.
         spread_decisions: True gives each agent a time slot of its own to decide in; else all that
             decide equally often decide in the same tick.
+        wait_for_key: True lets a page wait on each first frame until a person presses a key; only a
+            runner that is told to wait heeds it.
 
     >>> from ai4u_edu import BasicAgent, CircleShape, LocalBrain, RBMoveActuator, World
     >>> world = World()
@@ -93,6 +95,7 @@ class ControlRequestor:
         goal: str = "",
         success: str = "",
         spread_decisions: bool = False,
+        wait_for_key: bool = True,
     ) -> None:
         check_members(world, agents)
         self.world = world
@@ -101,6 +104,9 @@ class ControlRequestor:
         self.goal = goal
         self.success = success
         self.spread_decisions = spread_decisions
+        self.wait_for_key = wait_for_key
+        self.is_seed_locked = False
+        """True lets a reset without a seed repeat the present seed: the same start again."""
         self.episode = 0
         """Number of episodes of the world that have begun."""
         self.waiting_for_brain = False
@@ -134,11 +140,14 @@ class ControlRequestor:
         """Begin an episode, for the world and all its agents.
 
         Args:
-            seed: the episode's seed; by default it follows from the last one.
+            seed: the episode's seed; by default it follows from the last one, or is the same if
+                :attr:`is_seed_locked`.
 
         Raises:
             ParameterError: it is no seed; then nothing has changed.
         """
+        if seed is None and self.is_seed_locked:
+            seed = self.world.seeds.seed
         if seed is not None:
             seed = checked_seed(seed)  # before any handler is told of the reset
         for agent in self.agents:

@@ -36,6 +36,7 @@ class PlaySettings:
     open_page: bool
     seed: int | None
     time_scale: float | None
+    wait_for_key: bool
     allowed_hosts: list[str]
     connections: int
     rules: "Rules"
@@ -57,6 +58,7 @@ def play(
     open_page: o.OpenPage = True,
     seed: o.Seed = None,
     time_scale: o.TimeScale = None,
+    wait_for_key: o.WaitForKey = True,
     allow_host: o.AllowHost = None,
     token: o.Token = "",
     connections: o.Connections = 120,
@@ -87,15 +89,15 @@ def play(
         receive_timeout=receive_timeout,
     )
     load_own_blocks(own_blocks)
-    source = context.get_parameter_source("scene")
     settings = PlaySettings(
         scene=scene,
-        is_scene_named=source is not None and source.name != "DEFAULT",
+        is_scene_named=_is_scene_named(context),
         host=host,
         port=port,
         open_page=open_page,
         seed=seed,
         time_scale=time_scale,
+        wait_for_key=wait_for_key,
         allowed_hosts=allow_host or [],
         connections=connections,
         rules=rules,
@@ -134,11 +136,15 @@ def serve_scene(settings: PlaySettings) -> None:
     sim, scene = _build(scene, settings.drivers)
     recorder = recorder_into(settings.record, sim, scene, settings.keep)
     ghost = Episode.load(settings.ghost) if settings.ghost else None
-    seed = _first_seed(settings, ghost, linked_seed)
-    runner = Runner(sim, seed=seed, time_scale=settings.time_scale, recorder=recorder)
-    autosave = (
-        Autosave(unsaved_folder(), scene.description.name, _warn) if settings.autosave else None
+    runner = Runner(
+        sim,
+        seed=_first_seed(settings, ghost, linked_seed),
+        time_scale=settings.time_scale,
+        recorder=recorder,
+        wait_for_key=settings.wait_for_key,
     )
+    name = scene.description.name
+    autosave = Autosave(unsaved_folder(), name, _warn) if settings.autosave else None
     editor = _make_editor(settings, runner, scene, autosave)
     if restored is not None:
         editor.recovery.mark_restored(restored)
@@ -172,6 +178,11 @@ def serve_scene(settings: PlaySettings) -> None:
             room, settings.host, settings.port, on_ready=on_ready, per_address=settings.connections
         )
     HAS_SERVED.set()
+
+
+def _is_scene_named(context: typer.Context) -> bool:
+    source = context.get_parameter_source("scene")
+    return source is not None and source.name != "DEFAULT"
 
 
 def _build(scene: "Scene", drivers: list[str]) -> "tuple[ControlRequestor, Scene]":

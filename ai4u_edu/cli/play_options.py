@@ -26,6 +26,14 @@ TimeScale = Annotated[
         callback=finite,
     ),
 ]
+WaitForKey = Annotated[
+    bool,
+    typer.Option(
+        "--wait-for-key/--no-wait-for-key",
+        help="After each reset, wait until a person who drives presses a key; a scene's own "
+        "wait_for_key: false keeps it from waiting.",
+    ),
+]
 AllowHost = Annotated[
     list[str] | None,
     typer.Option(help="Host name of a reverse proxy in front. Repeat the option for several."),

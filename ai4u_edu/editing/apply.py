@@ -131,9 +131,10 @@ class RunningScene:
         )
 
     def _update_descriptions(self) -> None:
-        """Pass the scene's name and goal on to whoever shows or records it."""
+        """Pass the scene's name, goal and start on to whoever shows or records it."""
         self._sim.goal = self.shown.description.goal
         self._sim.success = self.shown.description.success or ""
+        self._sim.wait_for_key = self.shown.description.wait_for_key
         if self._runner.recorder is not None:
             self._runner.recorder.scene = self.shown.description
 

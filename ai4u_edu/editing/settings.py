@@ -23,6 +23,8 @@ RHYTHM = ("skip_frame", "repeat_action")
 """Parameters that are shown with the agent, and belong to its brain."""
 TEXTS = ("title", "goal")
 """Texts of a scene."""
+START = ("wait_for_key",)
+"""Parameters of a scene about how its episodes start."""
 SCHEDULING = ("spread_decisions",)
 """Parameters of a scene about all its agents."""
 
@@ -51,6 +53,7 @@ def scene_form(scene: SceneDescription) -> list[Field]:
     settings = scene.world.model_dump()
     return [
         *_fields(schema, TEXTS, {name: getattr(scene, name) for name in TEXTS}),
+        *_fields(schema, START, {name: getattr(scene, name) for name in START}),
         *_applying_later(
             _fields(schema, SCHEDULING, {name: getattr(scene, name) for name in SCHEDULING})
         ),
@@ -119,5 +122,6 @@ def _applying_later(fields: list[Field]) -> list[Field]:
 
 
 _ADAPTERS: dict[str, TypeAdapter[Any]] = {
-    name: TypeAdapter(SceneDescription.__annotations__[name]) for name in (*TEXTS, *SCHEDULING)
+    name: TypeAdapter(SceneDescription.__annotations__[name])
+    for name in (*TEXTS, *START, *SCHEDULING)
 }

@@ -13,7 +13,7 @@ RUNTIME_PARAMETERS = (
 )
 """Parameters of an agent, besides its blocks, that can change at run time."""
 _CHANGEABLE = {*RUNTIME_PARAMETERS, "sensors", "actuators", "rewards", "brains"}
-_TEXTS = ("name", "title", "goal", "controls", "rewards")
+_OF_PAGE = ("name", "title", "goal", "controls", "rewards", "wait_for_key")
 
 
 class StateDifference:
@@ -42,7 +42,7 @@ class StateDifference:
     def applicable_now(self) -> EditState:
         """The state that the world can have before its next reset: the new one, or part of it."""
         new = self._new.description
-        fields = {name: getattr(new, name) for name in _TEXTS}
+        fields = {name: getattr(new, name) for name in _OF_PAGE}
         state = self._old.describing(**fields)
         if self._differs_in_one_thing():
             state = state.describing(floors=new.floors, areas=new.areas, bodies=new.bodies)

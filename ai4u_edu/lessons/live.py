@@ -46,7 +46,7 @@ class Live:
         self.sim = sim
         self.title = title
         self.recorder = recorder
-        self.runner = Runner(sim, seed=seed, recorder=recorder)
+        self.runner = Runner(sim, seed=seed, recorder=recorder, wait_for_key=True)
         self._viewer = Viewer(self.runner, title=title)
         lock_viser_port(self._viewer.server)
         room = room_app(

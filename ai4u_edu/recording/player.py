@@ -212,6 +212,7 @@ def _new_world(episode: Episode, brains: list[RecordedBrain]) -> ControlRequesto
             goal=scene.goal,
             success=scene.success or "",
             spread_decisions=scene.spread_decisions,
+            wait_for_key=scene.wait_for_key,
         )
     except AI4UError as error:
         raise RecordingError(f"the episode's scene can't be made: {error}") from None

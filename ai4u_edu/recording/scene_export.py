@@ -32,6 +32,7 @@ def export_scene(sim: ControlRequestor, like: SceneDescription | None = None) ->
     fields: dict[str, Any] = {
         "time_scale": sim.default_time_scale,
         "spread_decisions": sim.spread_decisions,
+        "wait_for_key": sim.wait_for_key,
         "world": sim.world.settings,
         "floors": tuple(each for each in things if isinstance(each, FloorDescription)),
         "areas": tuple(each for each in things if isinstance(each, AreaDescription)),

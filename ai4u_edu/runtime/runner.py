@@ -39,11 +39,40 @@ class Runner(WorldThread):
         return self.submit(lambda: self._set_paused(False))
 
     def reset(self, seed: int | None = None) -> "Future[None]":
-        """Begin a new episode, and clear an error."""
+        """Begin a new episode, and clear an error.
+
+        Args:
+            seed: the episode's seed; left out, the same one if it is locked, else a new one.
+        """
+        return self.submit(lambda: self._reset(seed))
+
+    def try_again(self) -> "Future[None]":
+        """Begin a new episode with the present seed: the same start again."""
+        return self.submit(lambda: self._reset(self.sim.world.seeds.seed))
+
+    def new_start(self) -> "Future[None]":
+        """Begin a new episode with a new seed, also if the seed is locked."""
+        return self.submit(lambda: self._reset(self.sim.world.seeds.next().seed))
+
+    def lock_seed(self, is_locked: bool) -> "Future[None]":
+        """Let each reset without a seed repeat the present seed, or draw a new one."""
 
         def command() -> None:
-            self.sim.reset(seed)
-            self.error, self._past = "", None
+            self.sim.is_seed_locked = is_locked
+
+        return self.submit(command)
+
+    @property
+    def is_waiting_for_key(self) -> bool:
+        """True while the world waits on its first frame until a key is pressed."""
+        return self._start_wait.is_waiting
+
+    def start_episode(self) -> "Future[None]":
+        """Let a world that waits for a key run; a paused one goes on waiting."""
+
+        def command() -> None:
+            if not (self.paused or self.error):
+                self._start_wait.end(self.sim)
 
         return self.submit(command)
 
@@ -171,6 +200,10 @@ class Runner(WorldThread):
     def notify_answer(self) -> None:
         """Wake the world's thread if this is the last answer that it waits for."""
         self._answers.notify()
+
+    def _reset(self, seed: int | None) -> None:
+        self.sim.reset(seed)
+        self.error, self._past = "", None
 
     def _set_paused(self, paused: bool) -> None:
         self.paused = paused

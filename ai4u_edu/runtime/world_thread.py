@@ -15,9 +15,11 @@ from ai4u_edu.blocks import Brain, RemoteBrain
 from ai4u_edu.recording import Recorder
 from ai4u_edu.runtime.clock import TickSchedule
 from ai4u_edu.runtime.command_queue import CommandQueue, QueuedCommand
+from ai4u_edu.runtime.episode_clock import EpisodeClock
 from ai4u_edu.runtime.frame_budget import FrameBudget
 from ai4u_edu.runtime.pending_answers import PendingAnswers
 from ai4u_edu.runtime.snapshot_publisher import SnapshotPublisher
+from ai4u_edu.runtime.start_wait import StartWait
 from ai4u_edu.runtime.tick_monitor import Stall, TickMonitor
 from ai4u_edu.runtime.training_progress import TrainingProgress
 from ai4u_edu.snapshot import Snapshot, StaticScene, capture_snapshot, capture_static_scene
@@ -52,9 +54,9 @@ class WorldThread:
     Args:
         sim: the world and its agents.
         seed: of the first episode.
-        time_scale: how fast the time runs; left out, as the sim says. ``math.inf`` for as fast as
-            possible.
+        time_scale: how fast the time runs (``math.inf``: unlimited); left out, as the sim says.
         recorder: keeps the episodes; it has to listen to the same sim.
+        wait_for_key: True may wait on an episode's first frame; see :class:`StartWait`.
         clock: seconds; to be replaced in tests.
     """
 
@@ -65,14 +67,14 @@ class WorldThread:
         seed: int | None = None,
         time_scale: float | None = None,
         recorder: Recorder | None = None,
+        wait_for_key: bool = False,
         clock: Callable[[], float] = time.perf_counter,
     ) -> None:
         self.sim = sim
         self.recorder = recorder
         self.training: TrainingProgress | None = None
         """Progress of the training whose policy drives in this world; replaced, never changed."""
-        self.paused = False
-        self.error = ""
+        self.paused, self.error = False, ""
         self.time_scale = sim.default_time_scale
         if time_scale is not None:
             self.set_time_scale(time_scale)
@@ -85,6 +87,8 @@ class WorldThread:
         self._thread: threading.Thread | None = None
         self._schedule = TickSchedule(clock)
         self._monitor = TickMonitor(clock, lambda: self.sim.agents)
+        self._start_wait = StartWait(is_enabled=wait_for_key)
+        self._episode_clock = EpisodeClock()
         sim.reset(seed)
         self._past: Snapshot | None = None
         self._generation = sim.world.generation
@@ -166,7 +170,7 @@ class WorldThread:
         self.time_scale = time_scale
 
     def advance(self) -> None:
-        """Run the commands that wait, and tick once unless the world is paused.
+        """Run the commands that wait, and tick once unless the world is paused or waits for a key.
 
         The world's thread does nothing else; code without such a thread may call it instead.
         """
@@ -174,7 +178,7 @@ class WorldThread:
         self._monitor.begin()
         try:
             self._run_commands()
-            if self.paused or self.error:
+            if self.paused or self.error or self._must_wait_for_key():
                 self._rest()
             else:
                 self._tick(whole_decision=self.is_unpaced())
@@ -225,6 +229,11 @@ class WorldThread:
         """Seconds from one tick to the next, by the wall clock."""
         return self.sim.world.dt / self.time_scale
 
+    def _must_wait_for_key(self) -> bool:
+        if self._start_wait.begins(self.sim):
+            self._publish()  # at once: pages show that it waits
+        return self._start_wait.is_waiting
+
     def _rest(self) -> None:
         self._schedule.rest()
         self._monitor.end()
@@ -238,8 +247,7 @@ class WorldThread:
     def _tick(self, *, whole_decision: bool = False) -> None:
         """Tick once, or as many times as make a decision."""
         self._monitor.begin()
-        began, self._past = self._clock(), None
-        ticks = 1
+        began, ticks, self._past = self._clock(), 1, None
 
         def tick() -> None:
             nonlocal ticks
@@ -249,6 +257,7 @@ class WorldThread:
                 self.sim.tick()
 
         self._attempt(tick)
+        self._episode_clock.note_ends(self.sim)
         ended = self._clock()
         if not self.sim.waiting_for_brain:  # a world that waits for a script is not slow
             self._schedule.ticked += ticks
@@ -337,6 +346,7 @@ class WorldThread:
         elif self.recorder is not None:
             self.recorder.listen_to(sim)
         self.error, self._past, self._generation = "", None, -1
+        sim.is_seed_locked = before.is_seed_locked
         self._monitor.forget()
         self._schedule.forget()
         kept = [agent.brain for agent in sim.agents]
@@ -379,6 +389,8 @@ class WorldThread:
             real_time_factor=self._real_time_factor(),
             error=self.error,
             slow_tick=self._monitor.slow_tick,
+            episode_time=self._episode_clock.read(sim),
+            waiting="key" if self._start_wait.update(sim) and not self.error else "",
         )
 
     def _real_time_factor(self) -> float:

@@ -38,6 +38,8 @@ class SceneDescription(Description):
     time_scale: Annotated[float, quantity("1", gt=0, le=100)] = 1.0
     spread_decisions: bool = False
     """Spreads the decisions of many agents over ticks, so that no tick has all the work."""
+    wait_for_key: bool = True
+    """Waits after each reset until a key is pressed, where a person drives in the page."""
     world: WorldSettings = WorldSettings()
     floors: tuple[FloorDescription, ...] = ()
     areas: tuple[AreaDescription, ...] = ()

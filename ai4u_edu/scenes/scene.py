@@ -133,6 +133,7 @@ class Scene:
             goal=description.goal,
             success=description.success or "",
             spread_decisions=description.spread_decisions,
+            wait_for_key=description.wait_for_key,
         )
 
     def plain(self) -> dict[str, Any]:

@@ -105,6 +105,12 @@ class AgentView(_View):
         )
 
 
+Waiting = Literal["", "key"]
+WAITING: Any = Field(
+    description="key: the world waits on its first frame until a person presses a key"
+)
+
+
 class SlowTickView(_View):
     """A tick that took too long."""
 
@@ -117,9 +123,14 @@ class SnapshotView(_View):
 
     tick: int
     time: Number = Field(description="seconds of the world's time since the reset")
+    episode_time: Number = Field(
+        description="seconds of the episode; stops at its end, while the world goes on"
+    )
     seed: int
+    seed_locked: bool = Field(description="true: a reset without a seed repeats the present one")
     episode: int
     paused: bool
+    waiting: Waiting = WAITING
     time_scale: Number = Field(description="1 is real time; null: unlimited")
     real_time_factor: Number
     error: str = Field(description="error that stopped the world; empty if there is none")
@@ -138,9 +149,12 @@ class SnapshotView(_View):
         return cls(
             tick=picture.tick,
             time=picture.time,
+            episode_time=picture.episode_time,
             seed=picture.seed,
+            seed_locked=picture.is_seed_locked,
             episode=picture.episode,
             paused=picture.paused,
+            waiting=_waiting(picture),
             time_scale=picture.time_scale,
             real_time_factor=picture.real_time_factor,
             error=picture.error,
@@ -166,6 +180,7 @@ class Health(_View):
     status: Status = Field(
         description="of the world in the room; stalled: something in it does not return"
     )
+    waiting: Waiting = WAITING
     version: str
     scene: str
     uptime: float = Field(description="seconds", ge=0)
@@ -194,12 +209,17 @@ class Health(_View):
             since = since.replace(microsecond=0)
         return cls(
             status=status,
+            waiting=_waiting(picture),
             version=__version__,
             scene=scene,
             uptime=round(uptime, 3),
             block="" if stall is None else stall.title,
             since=since,
         )
+
+
+def _waiting(picture: Snapshot) -> Waiting:
+    return "key" if picture.waiting == "key" else ""
 
 
 def _motion(body: BodyState) -> dict[str, Any]:

@@ -4,13 +4,11 @@ from collections.abc import Collection
 from concurrent.futures import Future
 
 from ai4u_edu.agent import BasicAgent
+from ai4u_edu.agent.driving_keys import RESTART, active_brain, keys_of
 from ai4u_edu.blocks import Brain, NeuralNetController, ReplayController, ScriptController
 from ai4u_edu.blocks.brains.remote import RemoteBrain
 from ai4u_edu.runtime.runner import Runner
-from ai4u_edu.server.bindings import active_brain, keyboard_brain, keys_of
-
-RESTART = "restart"
-"""Action that a person may trigger without taking control."""
+from ai4u_edu.server.bindings import keyboard_brain
 
 DRIVERS = {
     NeuralNetController: "A network",

@@ -13,8 +13,9 @@ from starlette.websockets import WebSocket, WebSocketDisconnect, WebSocketState
 
 from ai4u_edu.agent import BasicAgent
 from ai4u_edu.agent.cycle import ControlRequestor
+from ai4u_edu.agent.driving_keys import RESTART, keys_of
 from ai4u_edu.base.errors import NameNotFoundError
-from ai4u_edu.blocks.brains.controllers.keyboard import Stick
+from ai4u_edu.blocks.brains.controllers.keyboard import CENTERED, Stick
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.server import messages, page_events
 from ai4u_edu.server.bindings import choose_agent
@@ -109,6 +110,8 @@ class _Page:
         self._agent, self._lock, self._override = controls
         self._number = number
         self._requests: set[asyncio.Task[None]] = set()
+        self._held: frozenset[str] = frozenset()
+        self._stick = CENTERED
 
     async def serve(self) -> None:
         changed = self._lock.add_page(self._number)
@@ -154,18 +157,56 @@ class _Page:
     def _handle(self, message: messages.Message) -> None:
         match message:
             case messages.Keys(held=held, stick=stick):
-                pushed = Stick(stick.forward, stick.turn)
-                self._await(self._lock.hold_keys(self._number, held, pushed))
+                self._hold(frozenset(held), Stick(stick.forward, stick.turn))
+            case messages.Start():
+                self._start()
             case messages.Take():
                 self._await(self._lock.acquire(self._number))
             case messages.Release():
                 self._await(self._lock.release(self._number))
             case messages.Command(name="reset", seed=seed):
                 self._command(lambda: self._runner.reset(seed))
+            case messages.Command(name="try_again"):
+                self._command(self._runner.try_again)
+            case messages.Command(name="new_start"):
+                self._command(self._runner.new_start)
+            case messages.Command(name="lock_seed" | "unlock_seed" as name):
+                self._command(lambda: self._runner.lock_seed(name == "lock_seed"))
             case messages.Command(name="pause"):
                 self._command(self._runner.pause)
             case messages.Command(name="resume"):
                 self._command(self._runner.resume)
+
+    def _hold(self, held: frozenset[str], stick: Stick) -> None:
+        """Drive with what is held; what has been pressed anew may start or repeat an episode.
+
+        A key that is still held when an episode begins does not start it: pages repeat what is
+        held, and the person has not seen the new start.
+        """
+        pressed, is_pushed = held - self._held, any(stick) and not any(self._stick)
+        self._held, self._stick = held, stick
+        restart = self._restart_keys() if held else frozenset[str]()
+        # not for the controller: it would draw a new start, it is not asked while the world waits
+        # or has an error, and it may be a network
+        if pressed & restart and self._lock.driver in (None, self._number):
+            self._command(self._runner.try_again)
+        self._await(self._lock.hold_keys(self._number, held - restart, stick))
+        if (pressed - restart or is_pushed) and self._lock.driver == self._number:
+            self._start_episode()
+
+    def _start(self) -> None:
+        is_free = self._lock.driver is None and not self._override.current_driver
+        if is_free:
+            self._await(self._lock.acquire(self._number))
+        if self._lock.driver == self._number:
+            self._start_episode()
+
+    def _start_episode(self) -> None:
+        if self._runner.is_waiting_for_key:
+            self._command(self._runner.start_episode)
+
+    def _restart_keys(self) -> frozenset[str]:
+        return frozenset(keys_of(self._agent, self._override.brain).get(RESTART, ()))
 
     def _command(self, command: Callable[[], "Future[None]"]) -> None:
         if len(self._requests) < MAX_PENDING_COMMANDS:

@@ -1,6 +1,7 @@
 """Labels of the keys on the screen, and the keys that have an effect at all."""
 
 from ai4u_edu.agent import BasicAgent
+from ai4u_edu.agent.driving_keys import keys_of
 from ai4u_edu.blocks import (
     Actuator,
     ArrowController,
@@ -9,7 +10,6 @@ from ai4u_edu.blocks import (
     DiscreteArrowController,
     WASDRBMoveController,
 )
-from ai4u_edu.server.bindings import keys_of
 
 MOTIONS = {
     (1, 0, 0): "forward",

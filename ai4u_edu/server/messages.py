@@ -49,19 +49,31 @@ class Release(_Message):
     type: Literal["let_go"]
 
 
+class Start(_Message):
+    """Start of a world that waits for a key, by a key that the agent does not know."""
+
+    type: Literal["start"]
+
+
 class Command(_Message):
-    """Command for the runner."""
+    """Command for the runner.
+
+    ``reset`` begins an episode with the given seed; without one, with a new seed or the locked one.
+    ``try_again`` repeats the present seed, ``new_start`` draws a new one. While the seed is locked
+    (``lock_seed``, ``unlock_seed``), every other reset repeats it too.
+    """
 
     type: Literal["command"]
-    name: Literal["reset", "pause", "resume"]
+    name: Literal["reset", "try_again", "new_start", "lock_seed", "unlock_seed", "pause", "resume"]
     seed: Annotated[int, Field(ge=0, lt=2**53)] | None = None
 
 
-Message = Keys | Take | Release | Command
+Message = Keys | Take | Release | Start | Command
 _KINDS: dict[str, type[_Message]] = {
     "keys": Keys,
     "take": Take,
     "let_go": Release,
+    "start": Start,
     "command": Command,
 }
 _READER: TypeAdapter[Message] = TypeAdapter(Annotated[Message, Field(discriminator="type")])

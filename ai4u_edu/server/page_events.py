@@ -50,9 +50,11 @@ def state_event(picture: Snapshot, agent_id: str, title: str = "") -> Event | No
     return {
         "type": "state",
         "paused": picture.paused,
+        "waiting": picture.waiting,
         "past": picture.past,
         "error": picture.error,
         "episode": picture.episode,
+        "seed_locked": picture.is_seed_locked,
         "terminated": agent.terminated,
         "truncated": agent.truncated,
         "fallen": body.fallen,

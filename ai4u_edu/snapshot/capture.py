@@ -39,6 +39,8 @@ def capture_snapshot(
     real_time_factor: float = 1.0,
     error: str = "",
     slow_tick: SlowTick | None = None,
+    episode_time: float | None = None,
+    waiting: str = "",
 ) -> Snapshot:
     """Capture the present state of a world and its agents.
 
@@ -51,6 +53,8 @@ def capture_snapshot(
         real_time_factor: measured speed.
         error: the error that stopped the world.
         slow_tick: a recent tick that took too long.
+        episode_time: time (s) of the episode; left out, the world's time.
+        waiting: ``key`` if the world waits for a person to press a key.
     """
     world = sim.world
     return Snapshot(
@@ -66,6 +70,9 @@ def capture_snapshot(
         bodies=capture_bodies(sim),
         agents=tuple(capture_agent(agent, sim.success, sim.phase(agent)) for agent in sim.agents),
         slow_tick=slow_tick,
+        episode_time=world.time if episode_time is None else episode_time,
+        waiting=waiting,
+        is_seed_locked=sim.is_seed_locked,
     )
 
 

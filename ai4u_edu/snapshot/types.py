@@ -156,5 +156,11 @@ class Snapshot:
     agents: tuple[AgentState, ...]
     slow_tick: SlowTick | None = None
     """Slowest tick of the last seconds, if it took too long."""
+    episode_time: float = 0.0
+    """Time (s) of the episode; it stops at the episode's end, while the world goes on."""
+    waiting: str = ""
+    """``key`` while the world waits for a person to press a key; empty otherwise."""
+    is_seed_locked: bool = False
+    """True if a reset without a seed repeats the present seed."""
     past: str = ""
     """Label of a moment of the past; empty for the present."""

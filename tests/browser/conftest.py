@@ -43,14 +43,20 @@ def sim() -> ControlRequestor:
 
 
 @pytest.fixture
+def waits_for_key() -> bool:
+    """Return True for a world that waits on its first frame; modules may override it."""
+    return False
+
+
+@pytest.fixture
 def site(
-    chromium: Browser, inner: viser.ViserServer, sim: ControlRequestor
+    chromium: Browser, inner: viser.ViserServer, sim: ControlRequestor, waits_for_key: bool
 ) -> Iterator[ServedViser]:
     clicks: list[str] = []
     name = inner.gui.add_text("Name", initial_value="")
     button = inner.gui.add_button("Press me")
     button.on_click(lambda _: clicks.append("click"))
-    with served(sim, viser_port=inner.get_port()) as room:
+    with served(sim, viser_port=inner.get_port(), wait_for_key=waits_for_key) as room:
         site = ServedViser(room, inner, name, clicks, chromium)
         yield site
         for context in site.contexts:

@@ -166,7 +166,7 @@ def test_typing_drives_nothing_and_arrives(site: ServedViser) -> None:
     page.keyboard.type("wasd r", delay=30)
     until(lambda: site.name.value == "wasd r")
     assert site.pose()[:3] == (0, 0, 0)
-    expect(driver_status(page)).to_have_text("Press a key to drive")
+    expect(driver_status(page)).to_have_text("Click the picture to drive")
 
 
 def test_going_to_a_text_box_lets_go(site: ServedViser) -> None:

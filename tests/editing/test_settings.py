@@ -84,6 +84,16 @@ def test_agents_take_turns_from_the_next_reset_on() -> None:
     assert "spread_decisions" not in harness.editor.text()
 
 
+def test_whether_the_world_waits_for_a_key_applies_at_once() -> None:
+    harness = EditorHarness()
+    field = {each.name: each for each in scene_form(harness.editor.state.description)}
+    assert (field["wait_for_key"].kind, field["wait_for_key"].value) == ("switch", True)
+    outcome = harness.done(harness.editor.change_settings({"wait_for_key": False}))
+    assert (outcome.when, harness.runner.sim.wait_for_key) == ("now", False)
+    harness.done(harness.editor.undo())
+    assert harness.runner.sim.wait_for_key
+
+
 @pytest.mark.parametrize(
     ("values", "told"),
     [

@@ -81,3 +81,16 @@ def test_two_pages_see_the_same_moments(page: PanelPage, room: PanelRoom) -> Non
             other.part("run", is_paused=True)["time_s"]
             == page.part("run", is_paused=True)["time_s"]
         )
+
+
+def test_the_seed_is_repeated_drawn_and_locked(page: PanelPage, room: PanelRoom) -> None:
+    seeds = [room.runner.latest.seed]
+    for command in ("new_start", "try_again"):
+        page.done(command)
+        seeds.append(room.runner.latest.seed)
+    assert seeds[0] != seeds[1] == seeds[2]
+    for is_on in (True, False):
+        page.done("lock_seed", on=is_on)
+        page.part("run", is_seed_locked=is_on)
+        room.runner.reset().result(5)
+        assert (room.runner.latest.seed == seeds[1]) == is_on

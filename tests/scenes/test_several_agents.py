@@ -5,7 +5,8 @@ from typing import Any
 import pytest
 
 from ai4u_edu import Command, ControlRequestor, LocalBrain, Scene
-from ai4u_edu.server.bindings import choose_agent, keys_of
+from ai4u_edu.agent.driving_keys import keys_of
+from ai4u_edu.server.bindings import choose_agent
 from tests.envs.scenes import MULTI_AGENT
 
 STILL = {"move": [0, 0, 0, 0]}

@@ -49,10 +49,12 @@ def served(
     viser_port: int = NOWHERE,
     title: str | Callable[[], str] = "A room",
     wrap: Callable[[ASGIApp], ASGIApp] = lambda app: app,
+    wait_for_key: bool = False,
     **options: Any,
 ) -> Iterator[Room]:
     """Serve a room at a free port; ``wrap`` may wrap its app."""
-    runner = Runner(sim or small_sim(controller=WASDRBMoveController()), seed=1)
+    sim = sim or small_sim(controller=WASDRBMoveController())
+    runner = Runner(sim, seed=1, wait_for_key=wait_for_key)
     app = room_app(runner, viser_port=viser_port, title=title, **options)
     runner.start()
     try:

@@ -120,6 +120,7 @@ def test_health_follows_the_world(room: Room) -> None:
     assert health == {
         "status": "ok",
         "version": __version__,
+        "waiting": "",
         "scene": "Box <chase>",
         "uptime": health["uptime"],
         "block": "",

@@ -16,9 +16,9 @@ from ai4u_edu import (
     WASDRBMoveController,
     World,
 )
+from ai4u_edu.agent.driving_keys import keys_of
 from ai4u_edu.blocks.brains.command import Answer
 from ai4u_edu.blocks.brains.controllers.keyboard import KEY_TIMEOUT_S
-from ai4u_edu.server.bindings import keys_of
 from tests.builders import small_sim, still
 from tests.server.rooms import Room, served, until
 

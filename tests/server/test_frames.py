@@ -37,7 +37,7 @@ MALFORMED = [
     ('{"type": "keys", "held": [], "stick": {"turn": 2}}', "stick.turn: expected at most 1"),
     ('{"type": "keys", "held": [], "stick": {"forward": NaN}}', "stick.forward"),
     ('{"type": "take", "by": "force"}', "unknown parameter"),
-    ('{"type": "command", "name": "explode"}', "expected 'reset', 'pause' or 'resume'"),
+    ('{"type": "command", "name": "explode"}', "expected 'reset', 'try_again', 'new_start'"),
     ('{"type": "command", "name": "reset", "seed": -1}', "seed: expected at least 0, got -1"),
     ('{"type": "command", "name": "reset", "seed": 1.5}', "expected a whole number, got 1.5"),
     ('{"type": "command", "name": "reset", "seed": NaN}', "expected"),

@@ -6,10 +6,11 @@ import pytest
 
 from ai4u_edu import BasicAgent, Scene
 from ai4u_edu.agent.cycle import ControlRequestor
+from ai4u_edu.agent.driving_keys import RESTART
 from ai4u_edu.blocks.brains.controllers.keyboard import Stick
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.server.bindings import has_stick
-from ai4u_edu.server.human_override import RESTART, HumanOverride
+from ai4u_edu.server.human_override import HumanOverride
 from ai4u_edu.server.key_labels import key_labels, usable_keys
 from ai4u_edu.snapshot import BodyState, capture_bodies
 

@@ -112,6 +112,7 @@ def playing(folder: Path, how: str) -> Iterator[tuple[subprocess.Popen[str], str
         controller = "{type: NeuralNetController, model_path: endless.onnx}"
     (folder / "stuck.yaml").write_text(SCENE % (how, controller))
     command = [sys.executable, "-m", "ai4u_edu", "play", str(folder / "stuck.yaml")]
+    command += ["--no-wait-for-key"]
     command += ["--blocks", str(folder / "stuck_blocks.py"), "--no-open", "--port", "0"]
     process = subprocess.Popen(
         [*command, "--record", str(folder / "kept")],

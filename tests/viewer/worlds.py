@@ -73,6 +73,7 @@ def picture(sim: ControlRequestor) -> Snapshot:
         static_scene=capture_static_scene(sim),
         tick=sim.world.ticks,
         time=sim.world.time,
+        episode_time=sim.world.time,
         seed=sim.world.seeds.seed,
         episode=sim.episode,
         paused=False,

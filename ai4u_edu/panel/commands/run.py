@@ -3,7 +3,6 @@
 import math
 from collections.abc import Mapping
 
-from ai4u_edu.base.errors import SetupError
 from ai4u_edu.panel.answers import Answer
 from ai4u_edu.panel.commands.handler import Handler
 from ai4u_edu.panel.messages import play as m
@@ -36,13 +35,12 @@ async def _decision(page: Page, _command: m.Decision) -> Answer:
 
 
 async def _try_again(page: Page, _command: m.TryAgain) -> Answer:
-    runner = page.context.runner
-    await page.result(runner.reset(runner.latest.seed))
+    await page.result(page.context.runner.try_again())
     return Answer("The same start again.")
 
 
 async def _new_start(page: Page, _command: m.NewStart) -> Answer:
-    await page.result(page.context.runner.reset())
+    await page.result(page.context.runner.new_start())
     return Answer("A new start.")
 
 
@@ -51,8 +49,9 @@ async def _seed(page: Page, command: m.SetSeed) -> Answer:
     return Answer(f"Started with seed {command.seed}.")
 
 
-async def _lock_seed(_page: Page, _command: m.LockSeed) -> Answer:
-    raise SetupError("the seed can't be locked yet")
+async def _lock_seed(page: Page, command: m.LockSeed) -> Answer:
+    await page.result(page.context.runner.lock_seed(command.on))
+    return Answer("Each reset repeats this start." if command.on else "Resets draw new starts.")
 
 
 async def _speed(page: Page, command: m.SetSpeed) -> Answer:

@@ -3,7 +3,7 @@
 import asyncio
 from typing import Any
 
-from viser import GuiButtonGroupHandle, GuiDropdownHandle, GuiEvent
+from viser import GuiButtonGroupHandle, GuiCheckboxHandle, GuiDropdownHandle, GuiEvent
 
 from ai4u_edu.base.limits import MAX_EXACT_INT
 from ai4u_edu.runtime.runner import Runner
@@ -35,7 +35,7 @@ class Controls:
     def __init__(self, server: LocalServer, runner: Runner, viewer_clients: ViewerClients) -> None:
         gui = server.gui
         self._runner, self._viewer_clients = runner, viewer_clients
-        self._scale_shown, self._seed_shown = 0.0, -1
+        self._scale_shown, self._seed_shown, self._lock_shown = 0.0, -1, False
         gui.add_html(STYLE)
         self._goal = gui.add_html("")
         self._status = gui.add_html("")
@@ -47,9 +47,11 @@ class Controls:
             # JavaScript rounds larger integers, so the page would show another number
             limit = MAX_EXACT_INT
             self.seed = gui.add_number("Seed", 0, min=0, max=limit, step=1, hint=hint)
+        self.lock = gui.add_checkbox("Keep seed", False, hint="Each reset repeats the same start")
         self.time_buttons.on_click(self._on_time)
         self.speed.on_update(self._on_speed)
         self.seed_form.on_submit(self._on_seed)
+        self.lock.on_update(self._on_lock)
 
     def build(self, static_scene: StaticScene) -> None:
         """Show the scene's goal."""
@@ -65,6 +67,9 @@ class Controls:
             name = speed_name(snapshot.time_scale)
             self.speed.options = tuple(dict.fromkeys([*SPEEDS, name]))
             set_value(self.speed, name)
+        if snapshot.is_seed_locked != self._lock_shown:
+            self._lock_shown = snapshot.is_seed_locked
+            set_value(self.lock, snapshot.is_seed_locked)
         if snapshot.seed != self._seed_shown:
             self._seed_shown = snapshot.seed
             is_exact = snapshot.seed <= MAX_EXACT_INT
@@ -100,6 +105,10 @@ class Controls:
         speed = SPEEDS.get(event.target.value)
         if event.client is not None and speed is not None:
             notify_failure(event.client, self._runner, self._runner.scale_time(speed))
+
+    async def _on_lock(self, event: GuiEvent[GuiCheckboxHandle]) -> None:
+        if event.client is not None:
+            notify_failure(event.client, self._runner, self._runner.lock_seed(event.target.value))
 
     async def _on_seed(self, event: GuiEvent[Any]) -> None:
         await asyncio.sleep(NUMBER_DELAY_S)

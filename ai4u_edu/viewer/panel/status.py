@@ -51,7 +51,7 @@ def status(snapshot: Snapshot, stall: Stall | None = None) -> str:
     steps = f"<span><small>step</small> {agents[0].steps}</span>" if len(agents) == 1 else ""
     progress = (
         f"<span><small>Episode</small> {snapshot.episode}</span>{steps}"
-        f"<span><small>time</small> {number(snapshot.time)} s</span>"
+        f"<span><small>time</small> {number(snapshot.episode_time)} s</span>"
     )
     speed = _speed(snapshot) if stall is None else f"<strong>{escape(str(stall))}</strong>"
     return section(progress, speed, *map(_script, agents), kind="status bare")
@@ -94,6 +94,8 @@ def _speed(snapshot: Snapshot) -> str:
         return "<strong>Past</strong>"
     if snapshot.paused:
         return "<strong>Paused</strong>"
+    if snapshot.waiting:
+        return "<strong>Waits for a key</strong>"
     factor = snapshot.real_time_factor
     speed = f"<small>runs at</small> {factor:.1f}x{_slow_tick(snapshot)}"
     wanted = snapshot.time_scale

@@ -1,0 +1,170 @@
+"""A start waits for a key, is repeated or drawn anew; keys work after the panel was used."""
+
+import pytest
+from playwright.sync_api import Locator, Page, expect
+
+from tests.browser.served_viser import ServedViser, centre, driver_status
+from tests.server.rooms import until
+
+pytestmark = pytest.mark.browser
+
+
+@pytest.fixture
+def waits_for_key() -> bool:
+    return True
+
+
+def banner(page: Page) -> Locator:
+    return page.locator(".ai4u-banner")
+
+
+def tick(site: ServedViser) -> int:
+    return site.room.runner.latest.tick
+
+
+def waits(site: ServedViser) -> bool:
+    latest = site.room.runner.latest
+    return latest.tick == 0 and latest.waiting == "key"
+
+
+def drives(site: ServedViser, page: Page) -> None:
+    """Check that W drives now."""
+    x = site.pose()[0]
+    page.keyboard.down("KeyW")
+    until(lambda: site.pose()[0] > x)
+    page.keyboard.up("KeyW")
+
+
+def test_a_key_starts_and_drives_and_r_repeats_the_start(site: ServedViser) -> None:
+    page = site.page()
+    expect(driver_status(page)).to_have_text("Press a key to start")
+    expect(banner(page)).to_have_text("Press a key to start")
+    assert waits(site)
+    drives(site, page)
+    expect(driver_status(page)).to_have_text("You drive")
+    expect(banner(page)).to_have_count(0)
+    page.keyboard.press("KeyR")
+    expect(driver_status(page)).to_have_text("Press a key to start")
+    assert waits(site)
+    assert site.room.runner.latest.seed == 1
+    drives(site, page)
+
+
+@pytest.mark.parametrize("key", ["Enter", "KeyH", "KeyQ"])
+def test_a_key_that_drives_nothing_starts_too(site: ServedViser, key: str) -> None:
+    page = site.page()
+    page.keyboard.press(key)
+    until(lambda: tick(site) > 0)
+    expect(driver_status(page)).to_have_text("You drive")
+
+
+@pytest.mark.parametrize("key", ["?", "Escape", "Tab", "Shift", "F9", "Control+KeyB"])
+def test_keys_of_the_browser_and_of_the_help_do_not_start(site: ServedViser, key: str) -> None:
+    page = site.page()
+    page.keyboard.press(key)
+    page.keyboard.press("Escape")
+    page.keyboard.press("KeyR")  # handled after the other one
+    first = site.room.runner.latest.episode
+    until(lambda: site.room.runner.latest.episode >= first)
+    assert waits(site)
+
+
+def test_a_touch_screen_is_told_to_push_the_stick(site: ServedViser) -> None:
+    page = site.page(touch=True)
+    expect(driver_status(page)).to_have_text("Push the stick to start")
+    expect(banner(page)).to_have_text("Push the stick to start")
+
+
+def test_the_result_offers_the_same_start_and_a_new_one(site: ServedViser) -> None:
+    page = site.page()
+    runner, agent = site.room.runner, site.room.sim.agents[0]
+
+    def end() -> None:
+        page.keyboard.press("KeyW")
+        until(lambda: tick(site) > 0)
+        runner.submit(lambda: agent.add_reward(1, request_done=True)).result(5)
+
+    seeds = []
+    for name in ("Try again", "New start", "Try again"):
+        end()
+        page.get_by_role("button", name=name).click()
+        until(lambda: waits(site))
+        seeds.append(runner.latest.seed)
+    end()
+    page.keyboard.press("KeyN")
+    until(lambda: waits(site))
+    assert seeds[0] == 1
+    assert seeds[1] == seeds[2]
+    assert len({*seeds, runner.latest.seed}) == 3
+
+
+def test_another_page_says_that_a_player_has_to_start(site: ServedViser) -> None:
+    page, other = site.page(), site.page()
+    page.keyboard.press("KeyW")
+    page.keyboard.press("KeyR")
+    expect(banner(page)).to_have_text("Press a key to start")
+    expect(banner(other)).to_have_text("Waits until a player presses a key")
+    expect(driver_status(other)).to_have_text("Page 1 drives")
+
+
+# -- the focus -----------------------------------------------------------------------------------
+
+
+def test_keys_drive_again_after_a_text_was_entered(site: ServedViser) -> None:
+    page = site.page(has_viser=True)
+    for leave in ("Enter", "Escape", "picture"):
+        page.get_by_label("Name").click()
+        expect(driver_status(page)).to_have_text("Click the picture to drive")
+        page.keyboard.type("w")
+        if leave == "picture":
+            page.mouse.click(250, 250)
+        else:
+            page.keyboard.press(leave)
+        expect(driver_status(page)).not_to_have_text("Click the picture to drive")
+        drives(site, page)
+    until(lambda: site.name.value == "www")
+
+
+def test_keys_drive_again_after_a_choice_a_number_and_a_slider(site: ServedViser) -> None:
+    gui = site.inner.gui
+    choice = gui.add_dropdown("Choice", ("one", "two"))
+    number = gui.add_number("Number", 1, step=1)
+    slider = gui.add_slider("Slider", 0.0, 1.0, 0.1, 0.0)
+    page = site.page(has_viser=True)
+    page.get_by_role("combobox", name="Choice").click()
+    expect(driver_status(page)).to_have_text("Click the picture to drive")
+    page.get_by_role("option", name="two").click()
+    until(lambda: choice.value == "two")
+    drives(site, page)
+    page.get_by_label("Number").fill("7")
+    page.keyboard.press("Enter")
+    until(lambda: number.value == 7)
+    drives(site, page)
+    page.locator(".mantine-NumberInput-control").first.click()
+    until(lambda: number.value == 8)
+    drives(site, page)
+    page.mouse.click(*centre(page.locator(".mantine-Slider-track")))
+    until(lambda: slider.value > 0)
+    before = slider.value
+    drives(site, page)
+    page.keyboard.press("ArrowUp")
+    page.keyboard.press("KeyW")
+    assert slider.value == before
+
+
+def test_space_does_not_click_a_button_again(site: ServedViser) -> None:
+    page = site.page(has_viser=True)
+    page.get_by_role("button", name="Press me").click()
+    until(lambda: site.clicks == ["click"])
+    page.keyboard.press("Enter")
+    until(lambda: tick(site) > 0)
+    assert site.clicks == ["click"]
+
+
+def test_the_notice_about_the_graphics_card_is_in_the_help(site: ServedViser) -> None:
+    page = site.page(has_viser=True)
+    notice = page.locator("#webgl-software-rendering")
+    notice.wait_for(state="attached")
+    expect(notice).to_be_hidden()
+    page.get_by_role("button", name="Help").click()
+    expect(page.get_by_text("Drawn without a graphics card")).to_be_visible()
