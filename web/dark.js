@@ -1,5 +1,5 @@
 /**
- * Color scheme: the person's stored choice from the panel, else the system's preference. And which panel.
+ * Color scheme: the person's stored choice from the panel, else the system's preference.
  *
  * A classic script, not a module, because it must run before viser starts. A cookie tells the server which
  * theme to give viser when the page connects. Until then a dark page stays hidden, so it doesn't flash white.
@@ -11,11 +11,9 @@
   /** Longest time that the page stays hidden while viser loads (ms). */
   const MAX_HIDDEN_MS = 4000;
   const root = document.documentElement;
-  const query = new URLSearchParams(location.search);
   // viser reads this query parameter itself
-  const isForced = query.has("darkMode");
+  const isForced = new URLSearchParams(location.search).has("darkMode");
   let isDark = isForced || (loadChoice() ?? matchMedia("(prefers-color-scheme: dark)").matches);
-  if (query.get("panel") === "2") startPanel();
 
   // A session cookie, set again on focus: another page may have set it otherwise, and viser reconnects on focus.
   const setCookie = () => (document.cookie = `ai4u_edu_dark=${isDark ? 1 : ""}; SameSite=Strict`);
@@ -46,20 +44,6 @@
   });
   observer.observe(root, { attributeFilter: ["data-mantine-color-scheme"] });
   setTimeout(show, MAX_HIDDEN_MS);
-
-  /**
-   * Make room for our panel, and give viser's WebSocket this page's id: the panel's socket sends the same one, so
-   * the server knows which canvas belongs to which panel. viser takes the address from the query.
-   */
-  function startPanel() {
-    const bytes = crypto.getRandomValues(new Uint8Array(16)); // randomUUID is missing on plain http
-    const id = [...bytes].map((byte) => byte.toString(16).padStart(2, "0")).join("");
-    root.dataset.ai4uPage = id;
-    root.dataset.ai4uPanel = "open";
-    const place = location.href.split(/[?#]/)[0].replace(/^http/, "ws").replace(/\/$/, "");
-    query.set("websocket", `${place}/?page=${id}`);
-    history.replaceState(history.state, "", `?${query}${location.hash}`);
-  }
 
   function loadChoice() {
     try {

@@ -17,6 +17,7 @@
   const bytes = crypto.getRandomValues(new Uint8Array(16));
   const id = Array.from(bytes, (byte) => byte.toString(16).padStart(2, "0")).join("");
   window.ai4uPageId = id;
+  document.documentElement.dataset.ai4uPanel = "open"; // panel_layout.css makes room for it
   url.searchParams.set(PARAMETER, `${location.origin.replace(/^http/, "ws")}${location.pathname}?page=${id}`);
   history.replaceState(history.state, "", url);
 

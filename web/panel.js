@@ -33,7 +33,7 @@ const LOADERS = {
  * @param {HTMLElement} dock the keys on the screen
  */
 export function startPanel(driving, dock) {
-  const panel = new Panel(driving, document.documentElement.dataset.ai4uPage);
+  const panel = new Panel(driving, window.ai4uPageId);
   panel.start(dock);
   installShortcuts(panel);
   return panel;
@@ -71,10 +71,10 @@ export class Panel extends EventTarget {
     this.#socket.onmessage = (message) => this.#receive(message);
     const scenes = new ScenePicker(this);
     const head = element("header", { className: "ai4u-panel-head" }, scenes.element, this.#modes.element, this.#fold);
+    const history = element("div", { className: "ai4u-history" }, this.#undo, this.#redo);
     this.#body.append(
-      new RunControls(this).element,
-      new ViewControls(this, element("div", { className: "ai4u-history" }, this.#undo, this.#redo)).element,
-      ...this.#tabs.elements,
+      element("div", { className: "ai4u-panel-top" }, new RunControls(this).element, new ViewControls(this, history).element),
+      element("div", { className: "ai4u-panel-rest" }, ...this.#tabs.elements),
     );
     this.element.append(this.layout.handle, head, this.#body, this.#notices.element);
     returnFocus(this.element);
@@ -163,18 +163,9 @@ export class Panel extends EventTarget {
   }
 
   #onConnected(isConnected) {
-    this.#tidyAddress();
     this.element.toggleAttribute("data-lost", !isConnected);
     if (isConnected) this.#socket.show(this.shown);
     this.dispatchEvent(new Event(isConnected ? "connected" : "disconnected"));
-  }
-
-  /** Take out of the address what dark.js put there for viser, which has read it when our socket opens. */
-  #tidyAddress() {
-    const address = new URL(location.href);
-    if (!address.searchParams.has("websocket")) return;
-    address.searchParams.delete("websocket");
-    history.replaceState(history.state, "", address);
   }
 
   #receive(message) {

@@ -89,12 +89,17 @@ export class BlockCard {
       this.#adds,
       adds,
       ({ title }) => title,
-      (add) => button(add.title, () => this.#openGallery(add), { icon: "add", kind: "quiet" }),
+      (add) => button(add.title, () => this.#addPart(add), { icon: "add", kind: "quiet" }),
     );
     this.#adds.hidden = adds.length === 0;
   }
 
-  #openGallery({ title, kind, parent }) {
+  async #addPart({ title, kind, class: type, parent }) {
+    if (type) {
+      const added = await this.#panel.send("add_block", { class: type, parent });
+      if (added.ok && added.path) this.#panel.show({ block: added.path });
+      return;
+    }
     openGallery(this.#panel, { title: `Add a ${title.toLowerCase()}`, kind, parent });
   }
 

@@ -35,6 +35,8 @@ export class DriveTab {
     this.#agents = choice("Robot", (agent) => this.#showAgent(agent));
     this.#agents.element.hidden = true;
     this.#driver = new DriverStatus(this.#driverRow, () => panel.driving.take(), () => panel.driving.letGo());
+    // the dock says the same to screen readers
+    this.#driverRow.querySelector("[role=status]").removeAttribute("role");
     this.#sections = {
       python: section("python", "Drive it from Python", { isOpen: false, detailsOnly: true }, this.#python.element),
       driver: section("driver", "Who drives", {}, this.#driverRow, this.#driveThis, this.#state, this.#brain, this.#howTo),

@@ -61,7 +61,8 @@ export class Player {
   }
 
   #show({ number, step, steps, is_playing: isPlaying, speed }) {
-    const text = `Step ${step} of ${steps}`;
+    // as in the banner over the picture: steps count from 1, and the end comes after the last one
+    const text = step < steps ? `Step ${step + 1} of ${steps}` : `The end, after ${steps} steps`;
     setText(this.#title, number ? `Showing episode ${number}` : "Current episode");
     setText(this.#moment, text);
     setAttributes(this.#slider, { max: steps, "aria-valuetext": text });

@@ -10,7 +10,7 @@ export class RunControls {
   #panel;
   #isPaused = false;
   #goal = element("p", { className: "ai4u-goal-text" });
-  #facts = { time: fact("Time"), score: fact("Score"), best: fact("Best"), episode: fact("Episode"), decision: fact("Decision") };
+  #facts = { time: fact("Time"), score: fact("Score"), best: fact("Best") };
   #stages = element("ol", { className: "ai4u-stages", ariaLabel: "Stages" });
   #result = element("p", { className: "ai4u-result", role: "status" });
   #problem = element("p", { className: "ai4u-run-problem", role: "alert" });
@@ -26,8 +26,6 @@ export class RunControls {
     const quietly = (command) => panel.send(command, {}, { quiet: true });
     const again = button("Try again", () => quietly("try_again"), { title: "Begin an episode with the same start" });
     const fresh = button("New start", () => quietly("new_start"), { title: "Begin an episode with a new start" });
-    this.#facts.episode.element.classList.add("ai4u-details-only");
-    this.#facts.decision.element.classList.add("ai4u-details-only");
     const facts = element("dl", { className: "ai4u-facts" }, ...Object.values(this.#facts).map((each) => each.element));
     this.element = element(
       "section",
@@ -81,12 +79,11 @@ export class RunControls {
     this.#facts.score.set(number(run.score));
     this.#facts.best.set(number(run.best));
     this.#facts.best.element.hidden = run.best === null || run.best === undefined;
-    this.#facts.episode.set(String(run.episode));
-    this.#facts.decision.set(String(run.decision));
     setText(this.#result, run.result ? (run.result_text ?? run.result) : "");
     setAttributes(this.#result, { "data-result": run.result || null });
     setText(this.#problem, run.error || "");
-    setText(this.#status, [run.status, run.slow, run.stall].filter(Boolean).join(" · "));
+    const place = `Episode ${run.episode}, decision ${run.decision}`;
+    setText(this.#status, [place, run.status, run.slow, run.stall].filter(Boolean).join(" · "));
     this.#drawStages(run.stages);
     const speed = String(run.speed);
     if (![...this.#speed.options].some(({ value }) => value === speed)) {

@@ -52,13 +52,14 @@ export class SceneFiles {
       event.preventDefault();
       const name = input.value.trim();
       const answer = await this.#panel.send("save_scene", { name, over: replaces === name }, { quiet: true });
-      if (answer.ok && !answer.exists) {
+      if (answer.ok) {
         dialog.close();
         this.#panel.notice(answer.text);
         return;
       }
-      replaces = answer.exists ? name : "";
-      setText(save.querySelector("span"), answer.exists ? "Replace it" : "Save");
+      const isTaken = answer.code === "exists";
+      replaces = isTaken ? name : "";
+      setText(save.querySelector("span"), isTaken ? "Replace it" : "Save");
       setText(problem, answer.text);
     });
     input.select();

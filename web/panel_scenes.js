@@ -1,8 +1,13 @@
 /** The scene's title, as a button that opens the scene picker. */
 
 import { button, element, setAttributes, setText } from "./dom.js";
+import { icon } from "./panel_icons.js";
 import { tile, tiles } from "./panel_parts.js";
 import { ask } from "./question.js";
+
+const [MINE, OTHERS] = ["My scenes", "More scenes"];
+/** Headings in their order: the scenes' levels, and those without one. */
+const GROUPS = [MINE, "Easy", "Medium", "Hard", OTHERS];
 
 export class ScenePicker {
   #panel;
@@ -11,10 +16,9 @@ export class ScenePicker {
 
   constructor(panel) {
     this.#panel = panel;
-    this.element = button("", () => this.open(), { icon: "scenes" });
-    this.element.removeAttribute("data-icon-only");
+    this.element = button("", () => this.open(), { kind: "quiet" });
     this.element.classList.add("ai4u-scene-button");
-    this.element.append(this.#title);
+    this.element.append(this.#title, icon("down", 14));
     setAttributes(this.element, { "aria-haspopup": "dialog" });
     panel.addEventListener("part:scene", ({ detail }) => {
       setText(this.#title, detail.title || "Untitled");
@@ -31,15 +35,13 @@ export class ScenePicker {
       window_.body.replaceChildren(element("p", { role: "alert", textContent: answer.text }));
       return;
     }
-    const groups = new Map();
-    for (const scene of answer.items) {
-      const group = scene.is_saved ? "My scenes" : (scene.level ?? "Scenes");
-      groups.set(group, [...(groups.get(group) ?? []), scene]);
-    }
-    const sections = [...groups].map(([title, scenes]) =>
+    const groups = new Map(GROUPS.map((title) => [title, []]));
+    for (const scene of answer.items) groups.get(groupOf(scene)).push(scene);
+    const filled = [...groups].filter(([, scenes]) => scenes.length);
+    const sections = filled.map(([title, scenes]) =>
       element(
         "section",
-        { ariaLabel: String(title) },
+        { ariaLabel: title },
         element("h3", { textContent: title }),
         tiles(...scenes.map((scene) => this.#tile(scene, window_.close))),
       ),
@@ -62,4 +64,9 @@ export class ScenePicker {
     if (unsaved && !(await ask({ title: `Open “${title}”?`, text, yes: "Open" }))) return;
     await this.#panel.send("open_scene", { name, is_saved: isSaved });
   }
+}
+
+function groupOf({ level = "", is_saved: isSaved }) {
+  const title = level.slice(0, 1).toUpperCase() + level.slice(1);
+  return isSaved ? MINE : GROUPS.includes(title) ? title : OTHERS;
 }

@@ -27,7 +27,8 @@ export class SensorView {
     this.#panel = panel;
     this.#key = sensor.key;
     const mark = element("span", { className: "ai4u-card-icon" }, icon(sensor.icon ?? "own"));
-    const head = element("header", {}, mark, this.#heading, this.#type, this.#eye);
+    const words = element("div", {}, this.#heading, this.#type);
+    const head = element("header", {}, mark, words, this.#eye);
     const reading = [this.#bars.element, this.#strips, this.#pictures, this.#text];
     this.element = element("article", { className: "ai4u-sensor" }, head, ...reading, this.#help);
     this.element.view = this; // found again when the list is brought up to date
@@ -41,7 +42,7 @@ export class SensorView {
     setText(this.#heading, this.#title);
     setText(this.#type, [sensor.class, key].filter(Boolean).join(" · "));
     setText(this.#help, help);
-    setAttributes(this.element, { title: help || null });
+    setAttributes(this.#heading, { title: help || null });
     this.#eye.hidden = !sensor.is_drawable;
     const label = `Show ${this.#title} in the picture`;
     setAttributes(this.#eye, { "aria-pressed": this.#isShown ? "true" : "false", "aria-label": label, title: label });
@@ -76,4 +77,5 @@ function drawPicture(figure, { cells, caption, rows, columns }, title) {
   image.style.aspectRatio = isFlat ? "" : `${columns} / ${rows}`;
   setText(words, caption);
   words.hidden = !caption;
+  setAttributes(figure, { "data-older": caption === "earlier" });
 }

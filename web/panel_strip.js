@@ -13,14 +13,14 @@ export function makeStrip() {
 
 /** @param strip {caption, zeros, shares, colours, older}: positions in the ranges, 0 to 1, left to right */
 export function drawStrip(figure, { caption, zeros, shares, colours, older = [] }) {
-  const key = JSON.stringify([shares, colours, older]);
+  const accent = getComputedStyle(document.querySelector(".ai4u-panel")).getPropertyValue("--accent");
+  const key = JSON.stringify([shares, colours, older, accent]);
   const [drawings, words] = figure.children;
   setText(words, caption);
   if (figure.drawn === key) return;
   figure.drawn = key;
   while (drawings.children.length > older.length + 1) drawings.lastChild.remove();
   while (drawings.children.length <= older.length) drawings.append(element("canvas", { ariaHidden: "true" }));
-  const accent = getComputedStyle(figure).getPropertyValue("--accent");
   for (const [index, each] of older.entries()) draw(drawings.children[index], each, zeros, null, accent, OLDER_HEIGHT);
   draw(drawings.lastChild, shares, zeros, colours, accent, HEIGHT);
 }

@@ -30,6 +30,7 @@ _OURS = """<title>{title}</title>
     <link rel="stylesheet" href="./web/panel_cards.css" />
     <link rel="stylesheet" href="./web/panel_windows.css" />
     <link rel="stylesheet" href="./web/panel_drive.css" />
+    <link rel="stylesheet" href="./web/panel_build.css" />
     <link rel="stylesheet" href="./web/question.css" />
     <script type="module" src="./web/main.js"></script>
     <script type="module" src="./web/accessible_names.js"></script>"""

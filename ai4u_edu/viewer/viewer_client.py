@@ -161,6 +161,8 @@ class ViewerClients(Mapping[int, ViewerClient]):
             page_id = self._header(new, PAGE_ID_HEADER)
             viewer_client = ViewerClient(clients[new], asked, address, page_id, is_dark=is_dark)
             viewer_client.settle(self._ids)
+            if is_dark:
+                viewer_client.set_dark(True)
             self._all[new] = viewer_client
 
     def _header(self, client_id: int, header: str) -> str:

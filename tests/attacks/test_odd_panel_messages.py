@@ -12,6 +12,8 @@ from websockets.exceptions import ConnectionClosed
 from ai4u_edu.panel import socket
 from ai4u_edu.panel.messages.base import MAX_NAME_CHARS
 from ai4u_edu.panel.messages.reader import NAMES
+from ai4u_edu.panel.upload import MAX_PART_BYTES
+from ai4u_edu.recording.file import MAX_FILE_BYTES
 from tests.attacks.test_odd_input_messages import ODD
 from tests.panel.rooms import PanelPage, PanelRoom, panel_room
 
@@ -87,6 +89,21 @@ def test_a_large_message_closes_the_connection(room: PanelRoom) -> None:
     with room.page() as page:
         page.socket.send(" " * (socket.MAX_MESSAGE_BYTES + 1))
         assert page.end()[0] == 1009
+
+
+def test_a_large_part_of_a_file_closes_the_connection(room: PanelRoom) -> None:
+    with room.page() as page:
+        page.socket.send(bytes(MAX_PART_BYTES + 1))
+        assert page.end()[0] == 1009
+
+
+def test_a_file_that_never_ends_is_dropped(room: PanelRoom) -> None:
+    with room.page() as page:
+        for _ in range(MAX_FILE_BYTES // MAX_PART_BYTES + 1):
+            page.socket.send(bytes(MAX_PART_BYTES))
+        note = page.receive(lambda m: m["type"] == "note")
+        assert note["text"] == "expected a file of at most 16 MB"
+        assert "got 0" in page.failed("open_recording", name="x", size=MAX_FILE_BYTES)["text"]
 
 
 def test_commands_that_wait_are_bounded(room: PanelRoom) -> None:

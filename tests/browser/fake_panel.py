@@ -81,9 +81,13 @@ class FakePanel:
     def _receive(self, text: str | bytes) -> None:
         message = json.loads(text)
         self.received.append(message)
-        if message["type"] != "do" or self._socket is None:
+        if self._socket is None:
+            return
+        if message["type"] == "show":  # the real one sends the form of what is chosen now
+            for name in message["tabs"]:
+                self._socket.send(json.dumps(self.parts[name]))
             return
         reply = self.replies.get(message["command"])
-        answer = {"type": "done", "id": message["id"], "text": ""}
+        answer = {"type": "done", "id": message["id"], "text": "", "items": []}
         answer |= {} if reply is None else reply(message)
         self._socket.send(json.dumps(answer))

@@ -33,6 +33,7 @@ class PanelPage:
     page: Page
     panel: FakePanel
     problems: list[str]
+    url: str
 
     def button(self, name: str) -> Locator:
         """Return a button of the panel."""
@@ -45,7 +46,7 @@ class PanelPage:
         """Load the page again with the parts of the file and nothing remembered."""
         self.panel.reset()
         self.page.evaluate("localStorage.clear()")
-        self.page.reload()
+        self.page.goto(self.url)
         self.wait()
 
     def wait(self) -> None:
@@ -91,18 +92,18 @@ def panel_page(
         options: more of ``Browser.new_context``.
     """
     page = new_page(chromium, width, height, **options)
-    opened = PanelPage(page, FakePanel(), [])
+    opened = PanelPage(page, FakePanel(), [], room.url + query)
     page.on("pageerror", lambda error: opened.problems.append(str(error)))
     opened.panel.attach(page)
     page.route(lambda url: url.partition("?")[0] == room.url, _leave_viser_out)
-    page.goto(room.url + query)
+    page.goto(opened.url)
     if query:
         opened.wait()
     else:
         connected(page)
     yield opened
     page.context.close()
-    assert opened.problems == []
+    assert opened.problems == [], opened.problems
 
 
 def _leave_viser_out(route: Route) -> None:

@@ -108,7 +108,7 @@ CALM = """() => new Promise((done) => {
 
 def connected(page: Page) -> None:
     """Waits until a page is connected and shows its keys."""
-    page.locator(".ai4u-driver", has_not_text="Connecting").wait_for()
+    page.locator(".ai4u-dock .ai4u-driver", has_not_text="Connecting").wait_for()
     page.locator(".ai4u-keycap").first.wait_for()
 
 
@@ -120,7 +120,7 @@ def ready(page: Page) -> None:
 
 def driver_status(page: Page) -> Locator:
     """Return the element in which a page says who drives."""
-    return page.locator(".ai4u-driver [role=status]")
+    return page.locator(".ai4u-dock .ai4u-driver [role=status]")
 
 
 def centre(thing: Locator) -> tuple[float, float]:

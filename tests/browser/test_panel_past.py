@@ -31,7 +31,7 @@ NETWORKS = {
 }
 PLAYING = {
     "number": 3,
-    "step": 12,
+    "step": 11,
     "steps": 80,
     "is_playing": False,
     "speed": 1.0,
@@ -117,15 +117,15 @@ def test_one_number_tells_the_moment(tab: TabPage) -> None:
     expect(tab.page.get_by_text("Step 12 of 80")).to_be_visible()
     expect(tab.page.get_by_text("Showing episode 3")).to_be_visible()
     slider = tab.page.get_by_role("slider", name="Step")
-    expect(slider).to_have_value("12")
+    expect(slider).to_have_value("11")
     expect(slider).to_have_attribute("aria-valuetext", "Step 12 of 80")
     tab.page.get_by_role("button", name="Step back").click()
     tab.page.get_by_role("button", name="Step forward").click()
     slider.fill("40")
-    assert [each["step"] for each in tab.sent()] == [11, 13, 40]
+    assert [each["step"] for each in tab.sent()] == [10, 12, 40]
     tab.give({**PART, "playing": {**PLAYING, "step": 80}})
     expect(tab.page.get_by_role("button", name="Step forward")).to_be_disabled()
-    expect(tab.page.get_by_text("Step 80 of 80")).to_be_visible()
+    expect(tab.page.get_by_text("The end, after 80 steps")).to_be_visible()
 
 
 def test_it_is_played_at_a_speed(tab: TabPage) -> None:
@@ -161,7 +161,7 @@ def test_the_current_episode_is_shown_and_can_not_be_raced(tab: TabPage) -> None
     tab.page.get_by_role("button", name="Current episode").click()
     assert tab.sent() == [{"command": "episode", "number": 0}]
     tab.give({**PART, "playing": {**PLAYING, "number": 0}, "is_showing": False})
-    assert tab.sent() == [{"command": "step", "step": 12}]
+    assert tab.sent() == [{"command": "step", "step": 11}]
     tab.give({**PART, "playing": {**PLAYING, "number": 0}})
     assert tab.sent() == []
     expect(tab.page.get_by_role("button", name="Race against it")).to_be_hidden()

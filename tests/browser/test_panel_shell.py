@@ -44,9 +44,8 @@ def test_the_page_tells_what_it_looks_at(desk: PanelPage) -> None:
         "body": None,
         "episode": None,
     }
-    page_id = desk.page.evaluate("document.documentElement.dataset.ai4uPage")
+    page_id = desk.page.evaluate("ai4uPageId")
     assert f"page={page_id}" in desk.panel.urls[0]
-    assert "websocket" not in desk.page.url
 
 
 def test_tabs_open_with_arrow_keys(desk: PanelPage) -> None:

@@ -215,10 +215,10 @@ def test_a_scene_is_saved_and_replaced_only_after_a_question(tab: TabPage) -> No
     tab.page.get_by_role("button", name="Save").click()
     dialog = tab.page.get_by_role("dialog")
     expect(dialog.get_by_label("Name")).to_have_value("Small")
-    tab.answer("save_scene", exists=True, text="A scene has this name.")
+    tab.answer("save_scene", ok=False, code="exists", text="A scene has this name.")
     dialog.get_by_role("button", name="Save").click()
     expect(dialog.get_by_role("alert")).to_have_text("A scene has this name.")
-    tab.answer("save_scene", text="Saved.")
+    tab.answer("save_scene", ok=True, text="Saved.")
     dialog.get_by_role("button", name="Replace it").click()
     expect(dialog).to_have_count(0)
     assert [each["over"] for each in tab.sent()] == [False, True]

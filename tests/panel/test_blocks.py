@@ -130,3 +130,19 @@ def test_a_world_without_an_editor() -> None:
         text = page.failed("add_block", **{"class": "TouchSensor", "parent": ["sensors"]})["text"]
         assert text == "this world can be watched and driven here, but not changed"
         assert "blocks" not in page.parts
+
+
+def test_a_block_that_holds_others_tells_what_can_be_added(page: PanelPage) -> None:
+    added = page.done("add_block", **{"class": "OrRewardFunc"}, parent=["rewards"])
+    part = page.part("blocks", lambda m: "Any of these" in titles(m, "rewards"))
+    (both,) = [each for each in part["kinds"]["rewards"] if each["class"] == "OrRewardFunc"]
+    (what,) = both["adds"]
+    assert what == {
+        "title": "Reward",
+        "kind": "rewards",
+        "parent": [*added["path"], "children"],
+    }
+    count = len(both["children"])
+    page.done("add_block", **{"class": "TouchRewardFunc"}, parent=what["parent"])
+    page.part("blocks", lambda m: len(m["kinds"]["rewards"][-1]["children"]) == count + 1)
+    assert part["kinds"]["sensors"][0]["adds"] == []

@@ -64,6 +64,15 @@ def test_a_sensor_is_hidden() -> None:
         )
 
 
+def test_the_trail_is_switched_on(room: PanelRoom, page_id: str) -> None:
+    with room.page(f"?page={page_id}") as page, picture(room, page_id) as client:
+        page.show("0", "agent")
+        page.part("agent", has_trail=False)  # a person drives
+        page.done("trail", on=True)
+        page.part("agent", has_trail=True)
+        until(lambda: client.shows_trail("0", is_default=False))
+
+
 def test_a_picture_is_sent_as_png() -> None:
     with panel_room("grid_world") as room, room.page() as page:
         page.show("0", "agent")

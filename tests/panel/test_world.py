@@ -75,6 +75,7 @@ def test_a_thing_is_moved_nudged_and_copied(page: PanelPage, room: PanelRoom) ->
     copy = page.done("duplicate_body", name="box")["body"]
     assert copy == "box 2"
     assert things(page.part("world", lambda m: copy in things(m)))[copy]["shape"] == box.shape.type
+    page.part("scene", undo={"label": "add box 2"})  # whichever tab is open
     page.done("undo")
     page.part("world", lambda m: copy not in things(m))
 

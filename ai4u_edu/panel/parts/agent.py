@@ -26,7 +26,12 @@ DEFAULT_ADDRESS = "http://127.0.0.1:8080"
 
 
 def agent_part(
-    context: PanelContext, snapshot: Snapshot, agent: AgentState, shown: Collection[str]
+    context: PanelContext,
+    snapshot: Snapshot,
+    agent: AgentState,
+    shown: Collection[str],
+    *,
+    has_trail: bool,
 ) -> dict[str, Any]:
     """Return an agent's readings, action and rewards.
 
@@ -35,6 +40,7 @@ def agent_part(
         snapshot: the latest snapshot.
         agent: the agent's state in it.
         shown: keys of the sensors that are drawn on the page.
+        has_trail: True if the agent's trail is drawn on the page.
     """
     colours = group_colours(snapshot.static_scene)
     editor = context.editor
@@ -55,6 +61,7 @@ def agent_part(
         "problem": script_problem(agent),
         "clipped": agent.clipped,
         "sensors": sensors,
+        "has_trail": has_trail,
         "needs": [_need(each) for each in agent.needs],
         "action": [
             component

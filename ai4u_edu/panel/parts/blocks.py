@@ -17,6 +17,12 @@ from ai4u_edu.panel.labels import change_label
 from ai4u_edu.panel.parts.fields import field_json
 
 AGENT_KINDS = ("sensors", "actuators", "rewards", "brains")
+PARTS: Mapping[str, Mapping[str, str]] = {
+    "children": {"title": "Reward", "kind": "rewards"},
+    "sensors": {"title": "Sensor", "kind": "sensors"},
+    "variables": {"title": "Need", "class": "HomeostaticVariable"},
+}
+"""Parts of which a block may have several, by the parameter that holds them."""
 MAX_READS_CHARS = 80
 
 
@@ -81,7 +87,17 @@ def _block(block: Plain, path: BlockPath, count: int, names: SceneNames) -> dict
         "can_down": isinstance(index, int) and index < count - 1,
         "can_remove": is_in_list,
         "children": _children(block, path, names),
+        "adds": _adds(Block.types[str(block["type"])], path),
     }
+
+
+def _adds(cls: type[Block], path: BlockPath) -> list[dict[str, Any]]:
+    """Return what can be added to a block: a kind of the gallery, or a class, and where to."""
+    return [
+        {**what, "parent": [*path, name]}
+        for name, what in PARTS.items()
+        if name in cls.parameters()
+    ]
 
 
 def _children(block: Plain, path: BlockPath, names: SceneNames) -> list[dict[str, Any]]:

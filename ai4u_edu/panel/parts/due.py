@@ -1,5 +1,6 @@
 """The parts of the panel that a page needs now, as JSON."""
 
+import time
 from collections.abc import Iterator
 from contextlib import suppress
 
@@ -43,12 +44,16 @@ def _agent_parts(context: PanelContext, view: PageView) -> Parts:
     if agent is None:
         return
     shown = shown_sensors(agent, view.sensors)
-    key = "agent", agent.id, shown
+    has_trail = view.trails.get(agent.id, not agent.is_driven_by_keys)
+    key = "agent", agent.id, shown, has_trail
     yield (
         "agent",
-        cache.of_snapshot(snapshot, key, lambda: agent_part(context, snapshot, agent, shown)),
+        cache.of_snapshot(
+            snapshot, key, lambda: agent_part(context, snapshot, agent, shown, has_trail=has_trail)
+        ),
     )
-    yield "curve", cache.of_snapshot(snapshot, ("curve", agent.id), lambda: curve_part(agent))
+    if view.is_curve_due(time.monotonic()):
+        yield "curve", cache.of_snapshot(snapshot, ("curve", agent.id), lambda: curve_part(agent))
     address = view.address
     yield (
         "python",

@@ -3,11 +3,14 @@
 import math
 from typing import Any
 
+from ai4u_edu.blocks.rewards.reward_func import Stages
 from ai4u_edu.panel.context import PanelContext
 from ai4u_edu.server.page_events import outcome
 from ai4u_edu.snapshot import AgentState, Snapshot
 from ai4u_edu.snapshot.agent_words import ending
 
+MAX_STAGES = 12
+"""Most stages that are told one by one."""
 MIN_SPEED_SHARE = 0.9
 """Share of the wanted speed below which a page is told that the world can't keep up."""
 MAX_USUAL_CONTACTS = 6
@@ -34,6 +37,8 @@ def run_part(context: PanelContext, snapshot: Snapshot, agent_id: str) -> dict[s
         "seed": str(snapshot.seed),
         "is_seed_locked": snapshot.is_seed_locked,
         "score": agent.episode_reward,
+        "stages": [stage for each in agent.stages for stage in _stages(each)],
+        "seconds_left": agent.seconds_left,
         "result": outcome(snapshot, agent),
         "result_text": _result_text(agent),
         "best": None if best is None else best.first.total,
@@ -43,6 +48,24 @@ def run_part(context: PanelContext, snapshot: Snapshot, agent_id: str) -> dict[s
         "stall": "" if stall is None else str(stall),
         "scripts": [_script(each) for each in snapshot.agents if each.remote is not None],
     }
+
+
+def _stages(stages: Stages) -> list[dict[str, Any]]:
+    """Return a set of stages one by one, or in one line if there are too many.
+
+    >>> [each["title"] for each in _stages(Stages(1, 3, ()))]
+    ['1', '2', '3']
+    >>> _stages(Stages(4, 40, ()))[0]["title"]
+    '4 of 40'
+    """
+    passed, total = stages.passed, stages.total
+    if total > MAX_STAGES:
+        title = f"{passed} of {total}"
+        return [{"title": title, "is_done": passed >= total, "is_now": passed < total}]
+    return [
+        {"title": str(number + 1), "is_done": number < passed, "is_now": number == passed}
+        for number in range(total)
+    ]
 
 
 def _status(snapshot: Snapshot) -> str:

@@ -5,6 +5,7 @@ from typing import Any
 from ai4u_edu.agent import BasicAgent
 from ai4u_edu.agent.driving_keys import keys_of
 from ai4u_edu.panel.context import PanelContext
+from ai4u_edu.panel.parts.blocks import changes_json
 from ai4u_edu.panel.parts.colours import hex_colour
 from ai4u_edu.server.human_override import driver_title
 from ai4u_edu.snapshot import Snapshot, StaticScene
@@ -29,9 +30,9 @@ def scene_part(context: PanelContext, snapshot: Snapshot) -> dict[str, Any]:
         "rewards": "" if description is None else description.rewards,
         "legend": _legend(static_scene),
         "agents": _agents(context, static_scene),
-        "stages": [],
         "can_edit": editor is not None,
         "has_past": context.runner.recorder is not None,
+        **({} if editor is None else changes_json(editor)),
     }
 
 

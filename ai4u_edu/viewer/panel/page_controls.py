@@ -40,8 +40,6 @@ class _Page:
         self.camera.on_click(self._on_camera)
         self.dark.on_update(self._on_dark)
         self._show_mode()
-        if viewer_client.is_dark:
-            viewer_client.set_dark(True)
 
     async def _on_camera(self, event: GuiEvent[GuiButtonGroupHandle]) -> None:
         if event.target.value in MODES:

@@ -1,0 +1,187 @@
+"""The top of the panel and the Drive tab, with a fake socket."""
+
+import re
+from collections.abc import Iterator
+
+import pytest
+from playwright.sync_api import Browser, expect
+
+from tests.browser.panel_page import PanelPage, panel_page, panel_room
+from tests.server.rooms import Room
+
+pytestmark = pytest.mark.browser
+
+
+@pytest.fixture(scope="module")
+def room() -> Iterator[Room]:
+    with panel_room() as room:
+        yield room
+
+
+@pytest.fixture(scope="module")
+def warm(chromium: Browser, room: Room) -> Iterator[PanelPage]:
+    with panel_page(chromium, room, height=1000, permissions=["clipboard-read"]) as page:
+        yield page
+
+
+@pytest.fixture
+def desk(warm: PanelPage) -> PanelPage:
+    """A page with nothing remembered."""
+    warm.reset()
+    return warm
+
+
+def test_goal_time_and_score_are_shown(desk: PanelPage) -> None:
+    run = desk.page.get_by_role("region", name="Run")
+    expect(run).to_contain_text("Push the box into the goal")
+    expect(run).to_contain_text("12.3 s")
+    expect(run).to_contain_text("2.75")
+    desk.panel.change("run", time_s=125.04, score=-0.004, best=None)
+    expect(run).to_contain_text("2:05 min")
+    expect(run).to_contain_text("Score0.00")
+    expect(run.get_by_text("Best")).to_be_hidden()
+
+
+def test_pause_becomes_resume(desk: PanelPage) -> None:
+    desk.panel.change("run", is_paused=True)
+    desk.button("Resume").click()
+    desk.until(lambda: desk.panel.commands("resume") == [{}])
+    desk.button("New start").click()
+    desk.until(lambda: desk.panel.commands("new_start") == [{}])
+
+
+def test_the_result_is_announced(desk: PanelPage) -> None:
+    desk.panel.change("run", result="goal", result_text="Reached the goal")
+    status = desk.page.get_by_role("region", name="Run").get_by_role("status")
+    expect(status).to_have_text("Reached the goal")
+
+
+def test_details_have_speed_and_seed(desk: PanelPage) -> None:
+    desk.button("Details").click()
+    desk.page.get_by_label("Speed", exact=True).select_option("maximum")
+    desk.until(lambda: desk.panel.commands("speed") == [{"speed": "max"}])
+    desk.page.get_by_label("Speed", exact=True).select_option("0.5x")
+    desk.until(lambda: desk.panel.commands("speed")[1:] == [{"speed": 0.5}])
+    seed = desk.page.get_by_label("Seed", exact=True)
+    expect(seed).to_have_value("12345678901234567890")
+    seed.fill("ten")
+    seed.press("Enter")
+    expect(desk.page.locator(".ai4u-notice[role=alert]")).to_contain_text("expected a whole number")
+    assert desk.panel.commands("seed") == []
+    desk.page.get_by_role("switch", name="Lock").click()
+    desk.until(lambda: desk.panel.commands("lock_seed") == [{"on": True}])
+
+
+def test_a_speed_that_is_not_in_the_list_is_shown(desk: PanelPage) -> None:
+    desk.button("Details").click()
+    desk.panel.change("run", speed=3.0)
+    speed = desk.page.get_by_label("Speed", exact=True)
+    expect(speed).to_have_value("3")
+
+
+@pytest.mark.parametrize(
+    ("name", "mode"), [("Follow", "follow"), ("Turn with robot", "turn"), ("Robot's view", "eyes")]
+)
+def test_the_camera_is_chosen(desk: PanelPage, name: str, mode: str) -> None:
+    desk.button(name).click()
+    desk.until(lambda: desk.panel.commands("camera") == [{"mode": mode}])
+    expect(desk.button(name)).to_have_attribute("aria-pressed", "true")
+    expect(desk.button("Arena")).to_have_attribute("aria-pressed", "false")
+
+
+def test_dark_is_remembered(desk: PanelPage) -> None:
+    dark = desk.page.get_by_role("switch", name="Dark")
+    dark.click()
+    desk.until(lambda: desk.panel.commands("dark") == [{"on": True}])
+    expect(desk.page.locator(".ai4u-panel")).to_have_css("color-scheme", "dark")
+    desk.page.reload()
+    expect(dark).to_have_attribute("aria-checked", "true")
+    expect(desk.page.locator(".ai4u-panel")).to_have_css("color-scheme", "dark")
+
+
+def test_sensors_are_told_in_words_and_can_be_drawn(desk: PanelPage) -> None:
+    sensor = desk.page.locator(".ai4u-sensor", has_text="Direction and distance")
+    expect(sensor).to_contain_text("4.20 m")
+    expect(sensor.get_by_text("OrientationSensor")).to_be_hidden()
+    eye = sensor.get_by_role("button")
+    expect(eye).to_have_attribute("aria-pressed", "true")
+    eye.click()
+    desk.until(lambda: desk.panel.commands("sensor") == [{"key": "box", "on": False}])
+    desk.button("Details").click()
+    expect(sensor.get_by_text("OrientationSensor")).to_be_visible()
+    picture = desk.page.locator(".ai4u-sensor", has_text="Ray picture")
+    expect(picture.get_by_role("img")).to_have_attribute(
+        "alt", "Ray picture: distance: dark is near"
+    )
+    expect(picture.get_by_role("button")).to_be_hidden()
+
+
+def test_new_readings_keep_the_focus(desk: PanelPage) -> None:
+    eye = desk.page.locator(".ai4u-sensor", has_text="Direction").get_by_role("button")
+    eye.focus()
+    sensors = desk.panel.parts["agent"]["sensors"]
+    sensors[0]["values"][1] |= {"value": 3.0, "text": "3.00"}
+    desk.panel.change("agent", sensors=list(reversed(sensors)))
+    expect(desk.page.locator(".ai4u-sensor").last).to_contain_text("3.00 m")
+    expect(eye).to_be_focused()
+    desk.panel.change("agent", sensors=sensors[1:])
+    expect(desk.page.locator(".ai4u-sensor")).to_have_count(3)
+
+
+def test_a_bar_begins_at_zero(desk: PanelPage) -> None:
+    bar = desk.page.locator(".ai4u-bar-row", has_text="direction").locator(".ai4u-bar > s")
+    expect(bar).to_have_attribute("style", "left: 19%; width: 31%;")
+    needs = desk.page.locator(".ai4u-bar-row", has_text="water")
+    expect(needs).to_contain_text("too low")
+
+
+def test_rewards_are_a_table(desk: PanelPage) -> None:
+    rows = desk.page.locator(".ai4u-rewards tr")
+    expect(rows.filter(has_text="closer")).to_contain_text("0.12")
+    expect(rows.last).to_contain_text("2.75")
+    expect(desk.page.locator(".ai4u-curve")).to_be_hidden()
+    desk.button("Details").click()
+    line = desk.page.locator(".ai4u-curve polyline")
+    expect(line).to_have_attribute("points", re.compile(r"^0\.0,55\.2 .* 280\.0,2\.0$"))
+
+
+def test_python_is_in_details_or_on_top_when_asked_for(
+    desk: PanelPage, chromium: Browser, room: Room
+) -> None:
+    heading = desk.page.get_by_role("heading", name="Drive it from Python")
+    expect(heading).to_be_hidden()
+    desk.panel.change("python", is_first=True)
+    expect(heading).to_be_visible()
+    first = desk.page.locator(".ai4u-tabpanel:visible > :first-child")
+    expect(first).to_contain_text("Drive it from Python")
+    desk.page.context.grant_permissions(["clipboard-read", "clipboard-write"])
+    desk.button("Copy").click()
+    expect(desk.page.locator(".ai4u-notice[role=status]")).to_contain_text("Copied.")
+    copied = desk.page.evaluate("navigator.clipboard.readText()")
+    assert copied == desk.panel.parts["python"]["lines"]
+    with panel_page(chromium, room, query="?panel=2&python") as asked:
+        first = asked.page.locator(".ai4u-tabpanel:visible > :first-child")
+        expect(first).to_contain_text("Drive it from Python")
+
+
+def test_another_agent_can_be_looked_at_and_driven(desk: PanelPage) -> None:
+    agents = desk.panel.parts["scene"]["agents"]
+    other = agents[0] | {"id": "1", "title": "Agent 1: other", "driver": "a network"}
+    desk.panel.change("scene", agents=[*agents, other])
+    desk.page.get_by_label("Robot", exact=True).select_option("Agent 1: other · a network")
+    desk.until(lambda: desk.panel.shown["agent"] == "1")
+    desk.button("Drive this one").click()
+    desk.page.wait_for_url("**/*agent=1*")
+
+
+def test_scenes_are_cards(desk: PanelPage) -> None:
+    scene = {"name": "sumo", "title": "Sumo", "goal": "Push it out.", "level": "easy", "minutes": 3}
+    mine = {"name": "mine", "title": "<b>Mine</b>", "goal": "", "level": "", "is_saved": True}
+    desk.panel.replies["scenes"] = lambda _: {"items": [scene | {"is_saved": False}, mine]}
+    desk.button("Box chase").click()
+    dialog = desk.page.get_by_role("dialog", name="Choose a scene")
+    expect(dialog.get_by_role("heading", name="My scenes")).to_be_visible()
+    expect(dialog.get_by_role("button", name="Sumo")).to_contain_text("about 3 min")
+    dialog.get_by_role("button", name="<b>Mine</b>").click()
+    desk.until(lambda: desk.panel.commands("open_scene") == [{"name": "mine", "is_saved": True}])
+    expect(dialog).to_have_count(0)
