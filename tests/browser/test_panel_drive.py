@@ -141,7 +141,7 @@ def test_rewards_are_a_table(desk: PanelPage) -> None:
     expect(rows.last).to_contain_text("2.75")
     expect(desk.page.locator(".ai4u-curve.ai4u-details-only")).to_be_hidden()
     desk.button("Details").click()
-    line = desk.page.locator(".ai4u-curve polyline")
+    line = desk.page.locator(".ai4u-details-only polyline")
     expect(line).to_have_attribute("points", re.compile(r"^0\.0,55\.2 .* 280\.0,2\.0$"))
 
 
