@@ -96,7 +96,7 @@ class Panel:
     def use_any(self, rng: random.Random) -> None:
         """Send a random message: a command most of the time, odd ones among them."""
         share = rng.random()
-        if share < 0.1 or len(self._waiting) > MAX_WAITING and share < HASTE:
+        if share < 0.1 or (len(self._waiting) > MAX_WAITING and share < HASTE):
             self._use_picture(rng)
             return
         if share < 0.2:
