@@ -97,7 +97,7 @@ def test_it_waits_again_after_each_reset(begin: Callable[[Runner], object]) -> N
     assert (sim.episode, sim.world.ticks, runner.latest.waiting) == (2, 0, "key")
 
 
-def test_it_waits_after_a_reset_by_another_agents_brain_and_says_so_at_once() -> None:
+def test_it_waits_after_a_reset_by_another_agents_brain_and_says_so() -> None:
     def restless(_percept: Any) -> Any:
         return Command.RESTART if sim.world.ticks == 5 else {}
 

@@ -29,6 +29,13 @@ def waits(room: Room) -> bool:
     return latest.tick == 0 and latest.waiting == "key"
 
 
+def settle(page: Page, room: Room) -> None:
+    """Wait until all that a page has sent was carried out."""
+    page.send("command", name="explode")
+    page.receive("error")
+    room.runner.submit(lambda: None).result(5)
+
+
 def runs(room: Room) -> bool:
     return room.runner.latest.tick > 0
 
@@ -74,8 +81,7 @@ def test_what_is_held_since_before_the_reset_does_not_start(room: Room) -> None:
         for _ in range(3):
             page.hold("KeyW", "KeyR")
         page.hold("KeyW")
-        page.send("command", name="explode")
-        page.receive("error")  # so all before it has been handled
+        settle(page, room)
         assert waits(room)
         page.hold("KeyW", "KeyD")
         until(lambda: runs(room))
@@ -89,8 +95,7 @@ def test_who_does_not_drive_does_not_start(room: Room) -> None:
         other.hold("KeyW")
         other.send("start")
         other.hold("KeyR")
-        other.send("command", name="explode")
-        other.receive("error")
+        settle(other, room)
         assert waits(room)
         assert room.runner.latest.episode == episode
         driver.hold("KeyW")
