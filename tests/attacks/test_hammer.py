@@ -10,5 +10,5 @@ pytestmark = pytest.mark.alone
 def test_pages_and_scripts_hammer_one_world_and_it_goes_on() -> None:
     tally = hammer(6.0, "box_chase", seed=3)
     assert tally.wrong == []
-    assert tally.done["commands done"] > 50
+    assert tally.done["commands done"] > 10
     assert tally.done["messages of a keyboard"] > 20
