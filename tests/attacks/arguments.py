@@ -22,8 +22,14 @@ WORLD_OPENERS = ("open_scene", "load_text", "restore")
 ODD_SHARE = 0.1
 REPLACE_SHARE = 0.1
 """Probability that a command that replaces the world is sent once it was drawn."""
-NAME_POOLS = {"driver": "driver", "open_scene": "scene", "save_scene": "", "load_text": ""}
-"""What a field ``name`` names; a body unless it stands here."""
+NAME_POOLS = {
+    "driver": "driver",
+    "open_scene": "scene",
+    "save_scene": "",
+    "load_text": "",
+    "open_recording": "",
+}
+"""Kinds of names that a field ``name`` takes, by command; others take a body."""
 FORMS = {
     "change_block": "block",
     "change_agent": "agent settings",

@@ -28,7 +28,8 @@ from tests.attacks.arguments import (
 POINT = (0.0, 0.0, 0.0)
 MAX_WAITING = 3
 """Commands under way after which a page seldom sends another one."""
-HASTE = 0.95
+PATIENT_SHARE = 0.95
+"""Probability of sending no further command then."""
 FILE_COMMANDS = ("load_text", "open_recording")
 
 
@@ -96,7 +97,7 @@ class Panel:
     def use_any(self, rng: random.Random) -> None:
         """Send a random message: a command most of the time, odd ones among them."""
         share = rng.random()
-        if share < 0.1 or (len(self._waiting) > MAX_WAITING and share < HASTE):
+        if share < 0.1 or (len(self._waiting) > MAX_WAITING and share < PATIENT_SHARE):
             self._use_picture(rng)
             return
         if share < 0.2:

@@ -1,4 +1,4 @@
-"""What commands get from their page's object, without a socket."""
+"""Results of commands, without a socket."""
 
 import asyncio
 import gc
