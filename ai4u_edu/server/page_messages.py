@@ -65,6 +65,12 @@ class GuiUpdateMessage(_Message):
     updates: Updates
 
 
+class CommandTriggerMessage(_Message):
+    """Press of a hotkey: Escape, while something is dragged."""
+
+    uuid: Id
+
+
 class ViewerCameraMessage(_Message):
     """Pose of the page's camera; viser counts a page as connected from its first one on."""
 
@@ -108,6 +114,7 @@ class SceneNodeDragMessage(_Message):
 
 KINDS: tuple[type[_Message], ...] = (
     GuiUpdateMessage,
+    CommandTriggerMessage,
     ViewerCameraMessage,
     SceneNodeClickMessage,
     SceneNodeDragMessage,
