@@ -120,7 +120,11 @@ KINDS: tuple[type[_Message], ...] = (
     SceneNodeDragMessage,
 )
 _DECODER = msgspec.msgpack.Decoder(
-    GuiUpdateMessage | ViewerCameraMessage | SceneNodeClickMessage | SceneNodeDragMessage
+    GuiUpdateMessage
+    | CommandTriggerMessage
+    | ViewerCameraMessage
+    | SceneNodeClickMessage
+    | SceneNodeDragMessage
 )
 _ENCODER = msgspec.msgpack.Encoder()
 
