@@ -29,6 +29,7 @@ def waits(site: ServedViser) -> bool:
 
 def drives(site: ServedViser, page: Page) -> None:
     """Check that W drives now."""
+    expect(driver_status(page)).not_to_have_text("Click the picture to drive")
     x = site.pose()[0]
     page.keyboard.down("KeyW")
     until(lambda: site.pose()[0] > x)
@@ -150,16 +151,6 @@ def test_keys_drive_again_after_a_choice_a_number_and_a_slider(site: ServedViser
     page.keyboard.press("ArrowUp")
     page.keyboard.press("KeyW")
     assert slider.value == before
-
-
-def test_enter_does_not_click_a_button_again(site: ServedViser) -> None:
-    page = site.page(has_viser=True)
-    drives(site, page)
-    page.get_by_role("button", name="Press me").click()
-    until(lambda: site.clicks == ["click"])
-    page.keyboard.press("Enter")
-    drives(site, page)
-    assert site.clicks == ["click"]
 
 
 def test_the_notice_about_the_graphics_card_is_in_the_help(site: ServedViser) -> None:
