@@ -27,10 +27,11 @@ from ai4u_edu import (
 from ai4u_edu.base.errors import SceneError, SetupError
 from ai4u_edu.blocks.loading import load_blocks
 from ai4u_edu.check import Outcome
+from ai4u_edu.panel.context import PanelContext
+from ai4u_edu.panel.parts.agent import agent_part
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.viewer import Viewer
 from tests.viewer.pages import page, shown
-from tests.viewer.test_agent_tab import text_of
 
 pytestmark = pytest.mark.slow
 
@@ -107,16 +108,17 @@ def test_all_of_it_appears_in_the_viewer(sim: ai4u_edu.ControlRequestor) -> None
         runner._publish()
         with page(viewer):
             shown(viewer)
-            told = text_of(viewer)
+            context = PanelContext(runner, viewer)
+            told = agent_part(context, runner.latest, runner.latest.agents[0], (), has_trail=False)
         (agent,) = sim.agents
         smell = float(agent.percept["smell"][0])
         assert 0.6 < smell < 1
-        assert "<b>smell</b>" in told
-        assert f"<b>{smell:.2f}" in told
+        (sensor,) = [each for each in told["sensors"] if each["key"] == "smell"]
+        assert sensor["values"][0]["value"] == pytest.approx(smell, abs=0.01)
         paid = agent.ledger.episode_terms["cosy"]
         assert paid == 6
-        assert f"<th>cosy</th><td>1.00</td><td>{paid:.2f}</td>" in told
-        assert "LocalBrain" in told
+        assert told["rewards"] == [{"term": "cosy", "decision": 1.0, "episode": paid}]
+        assert "LocalBrain" in told["brain"]
         names = list(viewer.server.scene._handle_from_node_name)
         assert len([name for name in names if name.endswith("/body")]) == 2, "mouse and cheese"
         texts = [

@@ -2,20 +2,24 @@
 
 import { element } from "./dom.js";
 import { capitalized } from "./driver_status.js";
+import { openNextScene } from "./next_scene.js";
+import { timeText } from "./results.js";
 
 /** Kinds of banners whose text is a whole sentence and is not printed bold. */
 const NOT_BOLD_KINDS = ["error", "task"];
 /** Texts by the outcome that the server sends: said to the driver, and said of another agent by its name. */
 const OUTCOME_TEXTS = {
-  goal: ["Reached the goal!", "reached the goal!"],
-  won: ["You win!", "wins!"],
+  goal: ["Reached the goal", "reached the goal"],
+  won: ["You win", "wins"],
   lost: ["You lost.", "lost."],
   fell: ["Fell.", "fell."],
   time: ["Time is up."],
   over: ["Episode over."],
 };
+const WINS = ["goal", "won"];
 /** Commands by the text of their button. */
 const COMMANDS = {
+  "Play again": "try_again",
   "Try again": "try_again",
   "New start": "new_start",
   Reset: "reset",
@@ -64,6 +68,7 @@ export class Banners {
    * @param page.restart the label of the restart key
    * @param page.name the agent's name, if this page can't drive it
    * @param page.isNew true until the person has pressed a key: then the goal is shown
+   * @param page.result of the episode that a person has just won: see results.js; else null
    * @param page.howToStart what the person does to start, such as "press a key"; empty if this page can't
    */
   draw(state, page) {
@@ -101,11 +106,24 @@ export class Banners {
     made.dataset.kind = kind;
     for (const name of buttons) {
       const button = element("button", { type: "button", className: "ai4u-button", textContent: name });
-      button.addEventListener("click", () => (name === "Reload" ? location.reload() : this.#sendCommand(COMMANDS[name])));
+      button.addEventListener("click", () => this.#carryOut(name));
       made.append(button);
     }
     return made;
   }
+
+  #carryOut(name) {
+    if (name === "Reload") location.reload();
+    else if (name === "Next scene") openNextScene();
+    else this.#sendCommand(COMMANDS[name]);
+  }
+}
+
+function outcomeText(state, { name, result }) {
+  const [mine, theirs] = OUTCOME_TEXTS[state.outcome];
+  const text = name && theirs ? `${name} ${theirs}` : mine;
+  if (!WINS.includes(state.outcome)) return text;
+  return result ? text + timeText(result) : `${text}!`;
 }
 
 function startBanner({ goal }, { isNew, name, howToStart }) {
@@ -114,16 +132,17 @@ function startBanner({ goal }, { isNew, name, howToStart }) {
   return isGoalShown ? { kind: "task", text: goal, details: start } : { kind: "start", text: start };
 }
 
-function outcomeBanner({ outcome, reward, terms }, { restart, name }) {
-  const [mine, theirs] = OUTCOME_TEXTS[outcome];
+function outcomeBanner(state, page) {
+  const { outcome, reward, terms } = state;
+  const isWin = WINS.includes(outcome);
   const parts = Object.entries(terms).filter(([, value]) => Math.abs(value) >= MIN_TERM);
   return {
-    kind: outcome === "goal" || outcome === "won" ? "goal" : "over",
-    text: name && theirs ? `${name} ${theirs}` : mine,
+    kind: isWin ? "goal" : "over",
+    text: outcomeText(state, page),
     amount: signed(reward),
-    hint: restart && ` – press ${restart} to try again`,
+    hint: page.restart && ` – press ${page.restart} to ${isWin ? "play" : "try"} again`,
     details: parts.length > 1 ? parts.map(([name, value]) => `${name} ${signed(value)}`).join(" · ") : "",
-    buttons: ["Try again", "New start"],
+    buttons: isWin ? ["Play again", "New start", "Next scene"] : ["Try again", "New start"],
   };
 }
 

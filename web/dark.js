@@ -6,8 +6,6 @@
  */
 (() => {
   const STORAGE_KEY = "ai4u-dark";
-  /** Label of the panel's check box. */
-  const CHECKBOX_LABEL = "Dark";
   /** Longest time that the page stays hidden while viser loads (ms). */
   const MAX_HIDDEN_MS = 4000;
   const root = document.documentElement;
@@ -27,11 +25,6 @@
   setCookie();
   addEventListener("focus", setCookie);
   addEventListener("ai4u-dark", ({ detail }) => choose(detail));
-  addEventListener("change", ({ target }) => {
-    const isCheckbox = target instanceof HTMLInputElement && target.type === "checkbox";
-    if (!isCheckbox || target.labels?.[0]?.textContent.trim() !== CHECKBOX_LABEL) return;
-    choose(target.checked);
-  });
 
   if (!isDark) return;
   root.toggleAttribute("data-ai4u-dark", true);

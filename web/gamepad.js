@@ -1,4 +1,4 @@
-/** Gamepads: the left stick or the directional pad drives, A jumps, B leaps, Start restarts. */
+/** Gamepads: the left stick or the directional pad drives, A jumps, B jumps forward, Start restarts. */
 
 import { dpadActions } from "./dpad.js";
 import { axesFrom } from "./stick.js";

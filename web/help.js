@@ -4,15 +4,16 @@ import { element } from "./dom.js";
 import { isDrawnBySoftware } from "./graphics.js";
 import { isTextInput } from "./keys.js";
 import { label } from "./labels.js";
+import { isToneOn, setTone } from "./tone.js";
 import { copyLink } from "./share.js";
 
 const PAGE_PARTS = {
-  "The picture": "The world from above. Scroll or pinch to come nearer; Camera in the panel brings all of it back.",
-  "The panel": "The time and its speed, and what the agent senses, does and gets for it. On small screens it lies folded at the bottom.",
+  "The picture": "The world from above. Scroll or pinch to zoom; click Arena to see everything again.",
+  "The panel": "Time and speed, and what the agent senses, does and is rewarded for. On small screens it is folded at the bottom.",
   "The line beside the keys":
-    "Says who drives. Where a network or a script does, take over by driving; “Let go” gives the agent back.",
+    "Shows who is driving. If a network or script drives, press a drive key to take over; Let go hands it back.",
 };
-const GAMEPAD_TEXT = "A gamepad drives too: its left stick or its cross, A to jump, B to leap, Start to restart.";
+const GAMEPAD_TEXT = "A gamepad drives too: its left stick or its cross, A to jump, B to jump forward, Start to restart.";
 
 const START_TEXT = "To restart is to try the same start again. N draws a new start, unless N drives.";
 const GRAPHICS_TEXT =
@@ -28,6 +29,7 @@ export class Help {
   #status = element("p", { className: "ai4u-status", role: "status" });
   #graphics = element("p", { hidden: true, textContent: GRAPHICS_TEXT });
   #reset = element("button", { type: "button", className: "ai4u-plain", textContent: "Reset keys" });
+  #tone = element("input", { type: "checkbox" });
   #actionToRebind = null;
 
   /**
@@ -66,6 +68,7 @@ export class Help {
     this.#keys.releaseAll();
     this.#status.textContent = "";
     this.#graphics.hidden = !isDrawnBySoftware();
+    this.#tone.checked = isToneOn();
     this.#listKeys();
     this.#dialog.showModal(); // traps the focus, and restores it on closing
   }
@@ -86,7 +89,7 @@ export class Help {
     close.addEventListener("click", () => this.#dialog.close());
     this.#reset.addEventListener("click", () => {
       this.#keymap.reset();
-      this.#setStatus("All keys are as the scene has them.");
+      this.#setStatus("Keys reset to the defaults.");
     });
     const share = element("button", { type: "button", className: "ai4u-plain", textContent: "Copy link" });
     const shared = element("p", { className: "ai4u-shared", role: "status" });
@@ -114,8 +117,10 @@ export class Help {
       element("p", { textContent: GAMEPAD_TEXT }),
       element("h3", { textContent: "On this page" }),
       element("dl", {}, ...descriptions),
+      element("label", {}, this.#tone, " Play a short tone when you reach the goal"),
       this.#graphics,
     );
+    this.#tone.addEventListener("change", () => setTone(this.#tone.checked));
     this.#dialog.addEventListener("keydown", (event) => this.#rebind(event), { capture: true });
     // else viser moves its camera
     this.#dialog.addEventListener("keydown", (event) => event.stopPropagation());

@@ -17,7 +17,7 @@ const KEY_LABELS = {
   Minus: "-",
   Equal: "=",
 };
-const CAPTIONS = { backward: "back", jump_forward: "leap", turn_left: "left", turn_right: "right" };
+const CAPTIONS = { backward: "back", jump_forward: "jump forward", turn_left: "left", turn_right: "right" };
 
 let layout = new Map();
 

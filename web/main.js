@@ -12,10 +12,11 @@ import { KeyMap, RESERVED_CODE } from "./keymap.js";
 import { HeldKeys } from "./keys.js";
 import { Keycaps } from "./keycaps.js";
 import { label, loadLayout } from "./labels.js";
-import { collapseMobilePanel } from "./mobile_panel.js";
 import { trackCanvasEdges } from "./canvas_edges.js";
 import { watchSharedScene } from "./share.js";
+import { Results } from "./results.js";
 import { JsonSocket } from "./socket.js";
+import { playTone } from "./tone.js";
 
 /** Code of the key for a new start, unless the agent or the person uses it for something else. */
 const NEW_START_CODE = "KeyN";
@@ -52,10 +53,11 @@ const letGo = () => {
   socket.send({ type: "let_go" });
 };
 const driverStatus = new DriverStatus(row, take, letGo);
-/** Our panel; null while viser's is shown. */
+/** The panel; null where the server has none. */
 let panel = null;
 const gamepads = new Gamepads(keys);
 const help = new Help(row, keys, keymap, arrange);
+const results = new Results(playTone);
 const banners = new Banners((name) => socket.send({ type: "command", name }));
 
 keys.onpress = () => (hasActed = true);
@@ -131,6 +133,7 @@ function draw() {
     restart: label(keymap.keys.restart?.[0] ?? ""),
     name: isDriven ? "" : hello.name,
     isNew: !hasActed,
+    result: results.of(connected ? state : null, isDriven),
     howToStart: canDrive() ? howToDrive() : "",
   });
 }
@@ -159,7 +162,5 @@ if ("ai4uPanel" in document.documentElement.dataset) {
   const { startPanel } = await import("./panel.js");
   panel = startPanel({ agent, take, letGo }, dock);
   draw();
-} else {
-  collapseMobilePanel();
 }
 watchSharedScene();

@@ -1,7 +1,8 @@
 /**
- * The page's random id. Our panel's socket and viser's both carry it, so that the server knows which picture
+ * The page's random id. The panel's socket and viser's both carry it, so that the server knows which picture
  * belongs to which panel.
  *
+ * The page has a panel where the server says so (data-panel).
  * A classic script, not a module, because it must run before viser starts: viser's client connects to the
  * address in the query parameter "websocket", which is there until it has connected.
  */
@@ -11,7 +12,7 @@
   /** Checks after which the parameter stays where it is. */
   const MAX_CHECKS = 30;
   const url = new URL(location.href);
-  if (url.searchParams.get("panel") !== "2") return;
+  if (!("panel" in document.currentScript.dataset)) return;
 
   // crypto.randomUUID is missing on pages without HTTPS
   const bytes = crypto.getRandomValues(new Uint8Array(16));

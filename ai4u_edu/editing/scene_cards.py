@@ -58,4 +58,6 @@ def _modified_at(store: SceneStore, name: str) -> float:
 
 
 def _card(name: str, title: str, scene: Scene) -> Card:
-    return Card(name, title, scene.description.goal, scene_picture(scene, PICTURE_SIZE_PX))
+    about = scene.description
+    picture = scene_picture(scene, PICTURE_SIZE_PX)
+    return Card(name, title, about.goal, picture, about.level or "", about.minutes)

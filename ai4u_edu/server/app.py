@@ -54,7 +54,7 @@ def room_app(
     """
     rules = rules or Rules()
     current_title = title if callable(title) else partial(str, title)
-    page = Page(current_title)
+    page = Page(current_title, has_panel=panel is not None)
     attempts = Attempts()
     auth = [Middleware(TokenAuth, token=rules.token, attempts=attempts)]
     page_auth = [

@@ -17,7 +17,7 @@ MOTIONS = {
     (0, 1, 0): "right",
     (0, -1, 0): "left",
     (0, 0, 1): "jump",
-    (1, 0, 1): "leap",
+    (1, 0, 1): "jump forward",
 }
 """Label of a motion, by the signs of (forward, turn, jump of either kind)."""
 
@@ -53,8 +53,8 @@ def key_labels(agent: BasicAgent, brain: Brain | None = None) -> dict[str, str]:
         return {}
     names = {}
     for action, row in zip(CHOICES, actuator.table[1:], strict=False):
-        forward, turn, jump, leap = row
-        name = MOTIONS.get((_sign(forward), _sign(turn), _sign(jump + leap)))
+        forward, turn, jump, forward_jump = row
+        name = MOTIONS.get((_sign(forward), _sign(turn), _sign(jump + forward_jump)))
         if name is not None:
             names[action] = name
     return names
@@ -72,8 +72,8 @@ def _useless_actions(agent: BasicAgent, brain: Brain) -> set[str]:
         JUMPS if numbers >= MIN_JUMP_NUMBERS else ()
     )
     jump = getattr(actuator, "jump_power", 1.0)
-    leap = jump or getattr(actuator, "jump_forward_power", 1.0)
-    can = {"jump": jump and "jump" in parts, "jump_forward": leap and "jump_forward" in parts}
+    forward = jump or getattr(actuator, "jump_forward_power", 1.0)
+    can = {"jump": jump and "jump" in parts, "jump_forward": forward and "jump_forward" in parts}
     return {action for action in JUMPS if not can[action]}
 
 

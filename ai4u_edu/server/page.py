@@ -18,7 +18,7 @@ from ai4u_edu.base.errors import SetupError
 _PLACE = "<title>Viser</title>"
 _OURS = """<title>{title}</title>
     <script src="./web/dark.js"></script>
-    <script src="./web/page_id.js"></script>
+    <script src="./web/page_id.js"{panel}></script>
     <link rel="stylesheet" href="./web/page.css" />
     <link rel="stylesheet" href="./web/dock.css" />
     <link rel="stylesheet" href="./web/banners.css" />
@@ -32,8 +32,7 @@ _OURS = """<title>{title}</title>
     <link rel="stylesheet" href="./web/panel_drive.css" />
     <link rel="stylesheet" href="./web/panel_build.css" />
     <link rel="stylesheet" href="./web/question.css" />
-    <script type="module" src="./web/main.js"></script>
-    <script type="module" src="./web/accessible_names.js"></script>"""
+    <script type="module" src="./web/main.js"></script>"""
 # a system's own media types are not reliable: some call a .js plain text
 _KINDS = {".css": "text/css", ".js": "text/javascript", ".svg": "image/svg+xml"}
 FRAME_ANCESTORS = "frame-ancestors 'self' http://localhost:* http://127.0.0.1:*"
@@ -46,21 +45,22 @@ class Page:
 
     Args:
         title: returns the page's present title; any text.
+        has_panel: True if the room has a panel; else the page shows viser's own, empty one.
 
     Raises:
         SetupError: viser's page or our files are missing.
     """
 
-    def __init__(self, title: Callable[[], str]) -> None:
+    def __init__(self, title: Callable[[], str], *, has_panel: bool = False) -> None:
         self._folder = web_folder()
-        self._title = title
-        self._index = _index(title())
+        self._title, self._has_panel = title, has_panel
+        self._index = _index(title(), has_panel)
 
     async def index(self, request: Request) -> Response:
         """Return the page."""
         index = self._index
         if index.title != self._title():  # another scene has been opened
-            index = self._index = _index(self._title())
+            index = self._index = _index(self._title(), self._has_panel)
         headers = _FRESH | {
             "ETag": index.etag,
             "Content-Security-Policy": _policy(request.headers["host"]),
@@ -105,7 +105,7 @@ class _Index(NamedTuple):
     etag: str
 
 
-def _index(title: str) -> _Index:
+def _index(title: str, has_panel: bool) -> _Index:
     spec = find_spec("viser")
     if spec is None or spec.origin is None:
         raise SetupError("expected the package viser, found none; install ai4u-edu anew")
@@ -116,7 +116,8 @@ def _index(title: str) -> _Index:
             f"expected viser's page with {_PLACE} in {path}; install the viser that ai4u-edu asks "
             "for (pip install --force-reinstall ai4u-edu)"
         )
-    content = text.replace(_PLACE, _OURS.format(title=html.escape(title))).encode()
+    ours = _OURS.format(title=html.escape(title), panel=" data-panel" if has_panel else "")
+    content = text.replace(_PLACE, ours).encode()
     return _Index(title, content, f'"{hashlib.sha256(content).hexdigest()[:32]}"')
 
 

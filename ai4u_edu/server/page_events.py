@@ -47,6 +47,7 @@ def state_event(picture: Snapshot, agent_id: str, title: str = "") -> Event | No
     if agent is None:
         return None
     body = next(body for body in picture.bodies if body.name == agent.body)
+    end = outcome(picture, agent)
     return {
         "type": "state",
         "paused": picture.paused,
@@ -60,7 +61,9 @@ def state_event(picture: Snapshot, agent_id: str, title: str = "") -> Event | No
         "fallen": body.fallen,
         "title": title,
         "goal": picture.static_scene.goal,
-        "outcome": outcome(picture, agent),
+        "outcome": end,
+        # not before the end, since this event is sent whenever it changes
+        "seconds": round(picture.episode_time, 1) if end else None,
         "reward": finite(agent.episode_reward),
         "terms": {name: finite(value) for name, value in agent.episode_terms.items()},
         "held": sorted(agent.held_keys),

@@ -1,8 +1,9 @@
 """The messages that viser's page sends to viser: the kinds that our page uses, typed and bounded.
 
-viser sets any attribute of a widget that a message names, and casts any value. So no message gets
-to viser as it is: it is decoded strictly, against the types below, and viser gets the encoding of
-the result. A frame that two decoders read differently does no harm. See
+viser sets any attribute of a widget that a message names, casts any value, and keeps state for
+forms and files that a message makes up. So no message gets to viser as it is: it is decoded
+strictly, against the types below, and viser gets the encoding of the result. A frame that two
+decoders read differently does no harm. See
 ``docs/adr/0002-check-what-pages-send-before-viser.md``.
 
 The fields are those of viser's own classes of the same name; a test compares them.
@@ -22,9 +23,6 @@ MAX_SCENE_LENGTH = 1e12
 """Largest coordinate (m) of cameras and pointers: many times the largest world's."""
 MAX_PIXELS = 100_000
 """Largest width and height of a window."""
-MAX_PART_BYTES = 600_000
-"""Bytes of one part of a file; the page sends 512 KiB."""
-MAX_FILE_BYTES = 2**31
 
 Id = Annotated[str, Meta(max_length=64)]
 Name = Annotated[str, Meta(max_length=256)]
@@ -33,7 +31,6 @@ Length = Annotated[float, Meta(ge=-MAX_SCENE_LENGTH, le=MAX_SCENE_LENGTH)]
 Pixels = Annotated[float, Meta(ge=0, le=MAX_PIXELS)]
 Whole = Annotated[int, Meta(ge=-MAX_EXACT_INT, le=MAX_EXACT_INT)]
 Finite = Annotated[float, Meta(ge=-sys.float_info.max, le=sys.float_info.max)]
-Count = Annotated[int, Meta(ge=0, le=MAX_FILE_BYTES)]
 Text = Annotated[str, Meta(max_length=MAX_VALUE_CHARS)]
 Point = tuple[Length, Length, Length]
 ScreenPoint = tuple[Length, Length]
@@ -66,24 +63,6 @@ class GuiUpdateMessage(_Message):
 
     uuid: Id
     updates: Updates
-
-
-class GuiFormSubmitMessage(_Message):
-    """Press of Enter in a form."""
-
-    uuid: Id
-
-
-class GuiFormDirtyMessage(_Message):
-    """First change in a form."""
-
-    uuid: Id
-
-
-class CommandTriggerMessage(_Message):
-    """Press of a hotkey."""
-
-    uuid: Id
 
 
 class ViewerCameraMessage(_Message):
@@ -127,47 +106,14 @@ class SceneNodeDragMessage(_Message):
     owner: Id = ""
 
 
-class FileTransferStartUpload(_Message):
-    """Announcement of a file."""
-
-    source_component_uuid: Id
-    transfer_uuid: Id
-    filename: Name
-    mime_type: Name
-    part_count: Count
-    size_bytes: Count
-
-
-class FileTransferPart(_Message):
-    """Part of a file."""
-
-    source_component_uuid: Id
-    transfer_uuid: Id
-    part_index: Count
-    content: Annotated[bytes, Meta(max_length=MAX_PART_BYTES)]
-
-
 KINDS: tuple[type[_Message], ...] = (
     GuiUpdateMessage,
-    GuiFormSubmitMessage,
-    GuiFormDirtyMessage,
-    CommandTriggerMessage,
     ViewerCameraMessage,
     SceneNodeClickMessage,
     SceneNodeDragMessage,
-    FileTransferStartUpload,
-    FileTransferPart,
 )
 _DECODER = msgspec.msgpack.Decoder(
-    GuiUpdateMessage
-    | GuiFormSubmitMessage
-    | GuiFormDirtyMessage
-    | CommandTriggerMessage
-    | ViewerCameraMessage
-    | SceneNodeClickMessage
-    | SceneNodeDragMessage
-    | FileTransferStartUpload
-    | FileTransferPart
+    GuiUpdateMessage | ViewerCameraMessage | SceneNodeClickMessage | SceneNodeDragMessage
 )
 _ENCODER = msgspec.msgpack.Encoder()
 

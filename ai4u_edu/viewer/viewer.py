@@ -5,24 +5,14 @@ import time
 import warnings
 
 from ai4u_edu.base.log_limit import ErrorLog
-from ai4u_edu.editing import EditState, SceneEditor
+from ai4u_edu.editing import SceneEditor
 from ai4u_edu.runtime.frame_budget import MAX_FRAMES_PER_S, SENSES_PER_S, TEXTS_PER_S
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.snapshot import Snapshot, StaticScene
 from ai4u_edu.viewer.backend.local_server import LocalServer
 from ai4u_edu.viewer.backend.part import Part, RatedPart
-from ai4u_edu.viewer.panel.agent_html import AgentHtmlCache
-from ai4u_edu.viewer.panel.agent_tab import AgentTab
-from ai4u_edu.viewer.panel.blocks_tab import blocks_tab
-from ai4u_edu.viewer.panel.controls import Controls
-from ai4u_edu.viewer.panel.page_controls import PageControls
-from ai4u_edu.viewer.panel.reward_table import MAX_PLOTTED_DECISIONS
-from ai4u_edu.viewer.panel.tabs import TabKind, Tabs
-from ai4u_edu.viewer.panel.training_block import TrainingBlock
-from ai4u_edu.viewer.panel.world_tab import world_tab
 from ai4u_edu.viewer.replay.ghosts import Ghosts
 from ai4u_edu.viewer.replay.replay_player import ReplayPlayer
-from ai4u_edu.viewer.replay.replay_tab import replay_tab
 from ai4u_edu.viewer.scene.actions import Actions
 from ai4u_edu.viewer.scene.arena import camera_bounds
 from ai4u_edu.viewer.scene.bodies import Bodies
@@ -35,7 +25,8 @@ from ai4u_edu.viewer.scene.sense_overlay import SenseOverlay
 from ai4u_edu.viewer.scene.trails import Trails
 from ai4u_edu.viewer.viewer_client import ViewerClients
 
-PANEL_WIDTH_PX = 320
+MAX_PLOTTED_DECISIONS = 240
+"""Decisions of an agent whose rewards the panel plots."""
 PAGE_POLL_S = 0.1
 """Poll interval for pages that open, while there are none."""
 MIN_PAUSE_S = 0.001
@@ -52,7 +43,7 @@ class Viewer:
 
     Args:
         runner: whose world is drawn.
-        title: of the panel.
+        title: of viser's page.
         editor: changes the world; left out, the world can only be watched.
         workshop: deprecated name of ``editor``.
     """
@@ -70,28 +61,15 @@ class Viewer:
             editor = workshop
         self.runner = runner
         self.server = server = LocalServer(title)
-        self._title = title
         self.viewer_clients = viewer_clients = ViewerClients(server, first=runner.sim.agents[0].id)
         self._static_scene: StaticScene | None = None
         self._error_log = ErrorLog()
         self._stopping = threading.Event()
         self.thread = threading.Thread(target=self._run, name="viewer", daemon=True)
         server.gui.configure_theme(show_logo=False, show_share_button=False)
-        server.gui.main_panel.dock_right()
-        server.gui.main_panel.set_width(PANEL_WIDTH_PX)
         set_up_lights(server.scene)
-        html_cache = AgentHtmlCache()
-        kinds = [
-            TabKind("Agent", lambda viewer_client: AgentTab(viewer_client, runner, html_cache)),
-        ]
-        if editor is not None:
-            kinds += [blocks_tab(editor), world_tab(editor)]
-            editor.listeners.append(self._rename)
         self.player, self.ghosts = ReplayPlayer(runner), Ghosts(server)
-        if runner.recorder is not None:
-            kinds.append(replay_tab(runner, self.player, self.ghosts))
-
-        bodies, training = Bodies(server, self._choose), runner.training
+        bodies = Bodies(server, self._choose)
         parts: list[tuple[Part, float]] = [
             (viewer_clients, MAX_FRAMES_PER_S),
             (Ground(server), TEXTS_PER_S),
@@ -99,18 +77,11 @@ class Viewer:
             (Labels(server), MAX_FRAMES_PER_S),
             (self.ghosts, SENSES_PER_S),
             (Actions(server, bodies), SENSES_PER_S),
-            (Controls(server, runner, viewer_clients), TEXTS_PER_S),
-            (PageControls(viewer_clients), TEXTS_PER_S),
-            *([(TrainingBlock(server, runner, training), TEXTS_PER_S)] if training else []),
             (Trails(viewer_clients), SENSES_PER_S),
             (SenseOverlay(viewer_clients), MAX_FRAMES_PER_S),
-            *(
-                [(PageHandles(viewer_clients, editor), MAX_FRAMES_PER_S)]
-                if editor is not None
-                else []
-            ),
-            (Tabs(viewer_clients, kinds, self._error_log), MAX_FRAMES_PER_S),
         ]
+        if editor is not None:
+            parts.append((PageHandles(viewer_clients, editor), MAX_FRAMES_PER_S))
         self.parts = [RatedPart(part, rate, self._error_log) for part, rate in parts]
         self.draw(runner.latest)
 
@@ -139,12 +110,6 @@ class Viewer:
             self.thread.join()
         self.player.stop()
         self.server.stop()
-
-    def _rename(self, state: EditState) -> None:
-        """Show the title of another scene."""
-        if state.title != self._title:
-            self._title = state.title
-            self.server.gui.set_panel_label(state.title)
 
     def _run(self) -> None:
         seen = self.runner.latest

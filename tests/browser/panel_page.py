@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from playwright.sync_api import Browser, Locator, Page, Route
+from starlette.types import Receive, Scope, Send
 
 from ai4u_edu import CircleShape, RBMoveActuator, WASDRBMoveController, World
 from tests.browser.fake_panel import FakePanel
@@ -72,8 +73,12 @@ def panel_room() -> Iterator[Room]:
         controller=WASDRBMoveController(),
         actuators=[RBMoveActuator(move_amount=5, turn_amount=2, jump_power=4)],
     )
-    with served(sim) as room:
+    with served(sim, panel=_no_panel) as room:
         yield room
+
+
+async def _no_panel(scope: Scope, receive: Receive, send: Send) -> None:
+    """Stand for the panel's socket, which the browser replaces by a fake."""
 
 
 @contextlib.contextmanager
@@ -81,7 +86,7 @@ def panel_page(
     chromium: Browser,
     room: Room,
     *,
-    query: str = "?panel=2",
+    query: str = "",
     width: int = 1280,
     height: int = 720,
     **options: Any,
@@ -97,10 +102,7 @@ def panel_page(
     opened.panel.attach(page)
     page.route(lambda url: url.partition("?")[0] == room.url, _leave_viser_out)
     page.goto(opened.url)
-    if query:
-        opened.wait()
-    else:
-        connected(page)
+    opened.wait()
     yield opened
     page.context.close()
     assert opened.problems == [], opened.problems

@@ -129,7 +129,9 @@ def test_the_end_of_an_episode_and_a_new_one(site: ServedViser) -> None:
 
     banner = page.locator(".ai4u-banner")
     pay(100)
-    expect(banner).to_contain_text("Reached the goal! +100 \u2013 press R to try again")
+    expect(banner).to_contain_text(re.compile(r"Reached the goal in \d+\.\d s"))
+    expect(banner).to_contain_text("+100 \u2013 press R to play again")
+    expect(banner.get_by_role("button")).to_have_text(["Play again", "New start", "Next scene"])
     page.keyboard.press("KeyR")
     expect(banner).to_have_count(0)
     pay(-1)

@@ -30,11 +30,6 @@ def desk(warm: PanelPage) -> PanelPage:
     return warm
 
 
-def test_the_old_panel_stays_without_the_query(chromium: Browser, room: Room) -> None:
-    with panel_page(chromium, room, query="") as old:
-        expect(old.page.locator(".ai4u-panel")).to_have_count(0)
-
-
 def test_the_page_tells_what_it_looks_at(desk: PanelPage) -> None:
     assert desk.panel.shown | {"agent": "0"} == {
         "type": "show",

@@ -1,5 +1,6 @@
 """The whole thing as a person has it: the command, its page, and the keys."""
 
+import re
 import signal
 import time
 from collections.abc import Callable, Iterator
@@ -15,12 +16,12 @@ from tests.playing import Played, played
 pytestmark = pytest.mark.browser
 
 MIDDLE = "5"
-"""A seed with which box_chase puts the robot into the middle, looking along +x."""
+"""A seed with which box_chase_ai4u puts the robot into the middle, looking along +x."""
 
 
 @pytest.fixture(scope="module")
 def shared() -> Iterator[Played]:
-    with played("box_chase") as server:
+    with played("box_chase_ai4u") as server:
         yield server
 
 
@@ -78,7 +79,7 @@ def test_to_the_box_it_is_a_hundred_and_the_end(server: Played, page: Page) -> N
     state = agent(server)
     assert state["reward_terms"]["touch"] == 100
     assert -3 < state["pose"][0] < -1.3  # where it touched, and as far as it coasted since
-    page.get_by_text("Reached the goal!").wait_for()
+    page.get_by_text(re.compile(r"Reached the goal in \d+\.\d s")).wait_for()
 
 
 def test_the_page_shows_what_the_agent_senses(server: Played, page: Page) -> None:
@@ -105,7 +106,7 @@ def test_there_are_no_keys_for_what_the_robot_can_not_do(page: Page) -> None:
 
 
 def test_ctrl_c_ends_it_cleanly(chromium: Browser) -> None:
-    with played("box_chase") as server:
+    with played("box_chase_ai4u") as server:
         page = new_page(chromium)
         page.goto(server.url)
         connected(page)

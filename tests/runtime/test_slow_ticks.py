@@ -6,10 +6,10 @@ import pytest
 
 from ai4u_edu import BasicAgent, CircleShape, ControlRequestor, LocalBrain, World
 from ai4u_edu.base.errors import WorldError
+from ai4u_edu.panel.parts.run import slow_warning
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.runtime.tick_monitor import SLOW_TICK_S, SLOW_TICK_SHOWN_S
 from ai4u_edu.server.api import SnapshotView
-from ai4u_edu.viewer.panel.status import status
 from tests.builders import small_sim, still
 
 
@@ -51,14 +51,14 @@ def test_a_slow_tick_is_remembered_for_a_while_and_the_slowest_counts() -> None:
     clock.now += 0.1
     runner.advance()
     assert told(runner) == pytest.approx(0.2)
-    assert "<strong>a tick took 200 ms</strong>" in status(runner.latest)
+    assert slow_warning(runner.latest) == "Slow computer: a step took 200 ms."
     view = SnapshotView.of(runner.latest).slow_tick
     assert view is not None
     assert view.seconds == pytest.approx(0.2)
     clock.now += SLOW_TICK_SHOWN_S + 0.1
     runner.advance()
     assert told(runner) is None
-    assert "a tick took" not in status(runner.latest)
+    assert slow_warning(runner.latest) == ""
 
 
 def crowd(count: int) -> ControlRequestor:
@@ -91,8 +91,8 @@ def test_contacts_are_counted_and_blamed() -> None:
     slow = runner.latest.slow_tick
     assert slow is not None
     assert slow.contacts == 40 * 39 // 2
-    assert "a tick took 300 ms with 780 contacts: move bodies out of each other" in status(
-        runner.latest
+    assert slow_warning(runner.latest) == (
+        "Slow computer: a step took 300 ms with 780 contacts. Move bodies out of each other."
     )
 
 

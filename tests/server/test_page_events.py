@@ -136,7 +136,7 @@ def test_keys_for_what_a_body_cannot_do_are_not_shown() -> None:
 
 
 def test_keys_are_called_what_they_do_in_the_scene() -> None:
-    names = {"right": "right", "left": "left", "up": "forward", "down": "leap"}
+    names = {"right": "right", "left": "left", "up": "forward", "down": "jump forward"}
     assert key_labels(sim_of("platform").agents[0]) == names
     assert key_labels(sim_of("grid_world").agents[0]) == {}
     assert key_labels(sim_of("box_chase").agents[0]) == {}

@@ -145,11 +145,9 @@ def stand_in(behave: Behaviour) -> Iterator[int]:
         loop.close()
 
 
-def part(size: int) -> dict[str, object]:
-    """A part of a file."""
-    content = b"\x07" * size
-    ids = {"source_component_uuid": "1", "transfer_uuid": "2"}
-    return {"type": "FileTransferPart", **ids, "part_index": 0, "content": content}
+def typed(size: int) -> dict[str, object]:
+    """Return a message with a text of that many characters."""
+    return {"type": "GuiUpdateMessage", "uuid": "1", "updates": {"value": "x" * size}}
 
 
 def test_large_frames_come_through_whole_in_both_directions() -> None:
@@ -159,11 +157,11 @@ def test_large_frames_come_through_whole_in_both_directions() -> None:
             await connection.send(bytes(40 * len(frame)))
 
     with stand_in(echo) as port, served(viser_port=port) as room, client(room) as page:
-        for size in (0, 1, 125, 126, 65536, 512 * 1024):
-            page.send(msgspec.msgpack.encode(part(size)))
+        for size in (0, 1, 125, 126, 65536, 200_000):
+            page.send(msgspec.msgpack.encode(typed(size)))
             frame = page.recv(20)
             assert isinstance(frame, bytes)
-            assert msgspec.msgpack.decode(frame) == part(size)
+            assert msgspec.msgpack.decode(frame) == typed(size)
             assert page.recv(20) == bytes(40 * len(frame))
 
 
@@ -342,10 +340,14 @@ def test_a_page_that_floods_viser_is_slowed_down() -> None:
         async for _ in connection:
             heard += 1
 
+    update = msgspec.msgpack.encode(
+        {"type": "GuiUpdateMessage", "uuid": "1", "updates": {"value": 1}}
+    )
+
     def flood(page: ClientConnection) -> None:
         with suppress(ConnectionClosed, OSError):
             while True:
-                page.send(b"\x82\xa4type\xb3GuiFormDirtyMessage\xa4uuid\xa11")
+                page.send(update)
 
     with stand_in(listen) as port, served(viser_port=port) as room, client(room) as page:
         began = time.monotonic()

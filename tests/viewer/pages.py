@@ -15,7 +15,6 @@ from websockets.typing import Subprotocol
 
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.viewer import Viewer
-from ai4u_edu.viewer.panel.tabs import Tabs
 from ai4u_edu.viewer.scene.sense_overlay import SenseOverlay
 from ai4u_edu.viewer.viewer_client import AGENT_HEADER, DARK_HEADER
 
@@ -52,17 +51,6 @@ class Page:
             look_at=(position[0], position[1], 0.0),
             up_direction=(0.0, 1.0, 0.0),
         )
-
-    def change(self, handle: Any, value: Any) -> None:
-        """Changes a widget of the panel, or clicks on a button of a group."""
-        self.say("GuiUpdateMessage", uuid=handle._impl.uuid, updates={"value": value})
-
-    def press(self, button: Any) -> None:
-        """Presses a button that stands alone."""
-        self.change(button, True)
-
-    def submit(self, form: Any) -> None:
-        self.say("GuiFormSubmitMessage", uuid=form._impl.uuid)
 
     def click(self, node: str, instance: int | None, owner: str = "") -> None:
         """Clicks on a thing in the scene; an owner has those that are on one page only."""
@@ -104,7 +92,7 @@ def shown(viewer: Viewer) -> None:
     """Draws the latest snapshot on all pages, whatever was drawn when."""
     for part in viewer.parts:
         part.make_due()
-        if isinstance(part.part, SenseOverlay | Tabs):
+        if isinstance(part.part, SenseOverlay):
             turns = part.part._turns
             turns._drawn_at.clear()
             turns._processor_clock = lambda: 0.0  # so that all pages have their turn
@@ -125,12 +113,6 @@ def part_of(viewer: Viewer, kind: type[P]) -> P:
     """The viewer's part of that kind."""
     (part,) = (each.part for each in viewer.parts if isinstance(each.part, kind))
     return part
-
-
-def tabs_of(viewer: Viewer, kind: type[P]) -> list[P]:
-    """The tabs of that kind, page by page."""
-    pages = part_of(viewer, Tabs).pages
-    return [tab for _, each in sorted(pages.items()) for tab in each.tabs if isinstance(tab, kind)]
 
 
 def until(condition: Callable[[], Any], patience: float = 10.0) -> None:

@@ -108,6 +108,8 @@ def settled(server: LocalServer, pages: int) -> Broadcaster:
     out: Broadcaster = server._websock_server._broadcast_buffer._ai4u_edu_broadcaster  # type: ignore[attr-defined]
     until(lambda: len(out._pages) == pages)
     until(lambda: not any(waiting(page) for page in out._pages.values()))
+    buffer = out._buffer  # a message of another page's arrival may be on its way
+    until(lambda: set(buffer.generator_cursors.values()) <= {buffer.message_counter - 1})
     return out
 
 

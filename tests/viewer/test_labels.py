@@ -10,7 +10,6 @@ from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.snapshot import Snapshot
 from ai4u_edu.snapshot.agent_words import script_problem
 from ai4u_edu.viewer import Viewer
-from ai4u_edu.viewer.panel.agent_html import state
 from ai4u_edu.viewer.scene.labels import Labels
 from tests.viewer.pages import part_of
 
@@ -39,7 +38,6 @@ def test_the_state_of_a_script_stands_at_its_agent_in_words(
     assert written(viewer)[0].startswith("robot ")
     assert words in written(viewer)[0]
     assert words not in "".join(written(viewer)[1:])
-    assert words in state(troubled.agents[0])
     part.draw(with_script(runner.latest, "connected"))
     assert written(viewer)[0] == "robot"
 

@@ -48,7 +48,6 @@ def share(pixels: np.ndarray, colour: tuple[int, int, int]) -> float:
 def test_the_page_shows_the_arena(tab: "Page") -> None:
     errors: list[str] = []
     tab.on("pageerror", lambda error: errors.append(str(error)))
-    tab.get_by_text("Agent 0: robot").wait_for(timeout=30_000)
     for _ in range(40):
         tab.wait_for_timeout(500)
         pixels = colours(tab)
@@ -57,6 +56,4 @@ def test_the_page_shows_the_arena(tab: "Page") -> None:
     assert share(pixels, FLOOR) > 0.1
     assert share(pixels, VOID) > 0.1
     assert len(np.unique(pixels.reshape(-1, 3), axis=0)) > 100
-    tab.get_by_role("button", name="Pause").click()
-    tab.get_by_role("button", name="Resume").wait_for(timeout=30_000)
     assert errors == []

@@ -43,7 +43,7 @@ def run_part(context: PanelContext, snapshot: Snapshot, agent_id: str) -> dict[s
         "result_text": _result_text(agent),
         "best": None if best is None else best.first.total,
         "status": _status(snapshot),
-        "slow": _slow(snapshot),
+        "slow": slow_warning(snapshot),
         "error": snapshot.error,
         "stall": "" if stall is None else str(stall),
         "scripts": [_script(each) for each in snapshot.agents if each.remote is not None],
@@ -89,7 +89,7 @@ def _result_text(agent: AgentState) -> str:
     return text[:1].upper() + text[1:]
 
 
-def _slow(snapshot: Snapshot) -> str:
+def slow_warning(snapshot: Snapshot) -> str:
     """Return a warning about a slow tick; empty if there was none."""
     slow = snapshot.slow_tick
     if slow is None:

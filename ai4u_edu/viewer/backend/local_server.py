@@ -8,7 +8,6 @@ from viser import ViserServer
 from viser.infra._async_message_buffer import AsyncMessageBuffer
 
 from ai4u_edu.viewer.backend.broadcast import install_broadcaster
-from ai4u_edu.viewer.backend.incoming import IncomingMessages
 
 
 class LocalServer(ViserServer):
@@ -28,7 +27,6 @@ class LocalServer(ViserServer):
         web.on_client_connect(lambda page: _mute_buffer(page.get_message_buffer()))
         _mute_buffer(web.get_message_buffer())
         install_broadcaster(self)
-        IncomingMessages(self)
 
     def request_share_url(self, verbose: bool = True) -> str | None:  # noqa: ARG002
         """Refuse a public address."""

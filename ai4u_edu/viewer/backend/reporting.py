@@ -25,10 +25,7 @@ def describe_error(error: Exception) -> str:
 def report_errors(
     callback: Callable[[E], Awaitable[None]],
 ) -> Callable[[E], Coroutine[Any, Any, None]]:
-    """Wrap a callback of a scene node so that its errors are shown to the page.
-
-    Callbacks of widgets need no wrapper: see :mod:`ai4u_edu.viewer.backend.incoming`.
-    """
+    """Wrap a callback of a scene node so that its errors are shown to the page."""
 
     @wraps(callback)
     async def run(event: E) -> None:

@@ -1,1 +1,0 @@
-"""The tabs and forms of the side panel."""

@@ -1,0 +1,32 @@
+/** A short tone when a person reaches the goal; off until it is turned on in the help. */
+
+import { recall, remember } from "./storage.js";
+
+const NOTES_HZ = [523.25, 783.99];
+const NOTE_S = 0.12;
+const VOLUME = 0.15;
+const STORAGE_KEY = "tone";
+
+export function isToneOn() {
+  return recall(STORAGE_KEY, false) === true;
+}
+
+export function setTone(isOn) {
+  remember(STORAGE_KEY, isOn);
+}
+
+/** Play the tone if it is on. Browsers allow sound only after a key or click, and a win follows one. */
+export function playTone() {
+  if (!isToneOn() || typeof AudioContext === "undefined") return;
+  const audio = new AudioContext();
+  const volume = new GainNode(audio, { gain: VOLUME });
+  volume.connect(audio.destination);
+  NOTES_HZ.forEach((frequency, index) => {
+    const note = new OscillatorNode(audio, { frequency, type: "triangle" });
+    const start = audio.currentTime + index * NOTE_S;
+    note.connect(volume);
+    note.start(start);
+    note.stop(start + NOTE_S);
+    if (index === NOTES_HZ.length - 1) note.addEventListener("ended", () => audio.close());
+  });
+}
