@@ -83,7 +83,7 @@ def test_the_result_offers_the_same_start_and_a_new_one(site: ServedViser) -> No
     def end() -> None:
         page.keyboard.press("KeyW")
         until(lambda: tick(site) > 0)
-        runner.submit(lambda: agent.add_reward(1, request_done=True)).result(5)
+        runner.submit(lambda: agent.add_reward(-1, request_done=True)).result(5)
 
     seeds = []
     for name in ("Try again", "New start", "Try again"):
