@@ -71,7 +71,7 @@ class Player:
 
 
 class LightPlayer:
-    """A page without a browser: the two sockets of one, which come, play and go."""
+    """A page without a browser: the sockets of one, which come, play and go."""
 
     def __init__(self, url: str, rng: random.Random) -> None:
         self._url, self._rng = url, rng

@@ -8,6 +8,7 @@ import { choice, section } from "./panel_parts.js";
 import { PythonLines } from "./panel_python.js";
 import { RewardTable } from "./panel_rewards.js";
 import { SensorView } from "./panel_sensor.js";
+import { Training } from "./panel_training.js";
 
 export class DriveTab {
   #panel;
@@ -23,6 +24,7 @@ export class DriveTab {
   #action = new Bars();
   #phases = element("p", { className: "ai4u-soft" });
   #rewards = new RewardTable();
+  #training = new Training();
   #python;
   #howTo = element("p");
   #sections;
@@ -39,19 +41,23 @@ export class DriveTab {
     this.#driverRow.querySelector("[role=status]").removeAttribute("role");
     this.#sections = {
       python: section("python", "Drive it from Python", { isOpen: false, detailsOnly: true }, this.#python.element),
+      training: section("training", "Training", {}, this.#training.element),
       driver: section("driver", "Who drives", {}, this.#driverRow, this.#driveThis, this.#state, this.#brain, this.#howTo),
       needs: section("needs", "Needs", {}, this.#needs.element),
       sensors: section("sensors", "Sensors", {}, this.#sensors, this.#legend),
       rewards: section("rewards", "Rewards", {}, this.#rewards.element),
       action: section("action", "Action", { detailsOnly: true }, this.#phases, this.#action.element),
     };
-    const { driver, needs, sensors, rewards, action, python } = this.#sections;
-    root.append(this.#agents.element, driver, needs, sensors, rewards, action, python);
+    const { training, driver, needs, sensors, rewards, action, python } = this.#sections;
+    root.append(this.#agents.element, training, driver, needs, sensors, rewards, action, python);
     panel.addEventListener("part:scene", ({ detail }) => this.#drawScene(detail));
     panel.addEventListener("driver", ({ detail }) => this.#drawDriver(detail));
     panel.addEventListener("part:curve", ({ detail }) => this.#rewards.drawCurve(detail.points));
     panel.addEventListener("part:python", ({ detail }) => this.#drawPython(detail));
+    panel.addEventListener("part:training", ({ detail }) => this.#drawTraining(detail));
     this.#sections.python.hidden = true;
+    this.#sections.training.hidden = true;
+    if (panel.part("training")) this.#drawTraining(panel.part("training"));
     if (panel.part("python")) this.#drawPython(panel.part("python"));
     if (panel.part("curve")) this.#rewards.drawCurve(panel.part("curve").points);
     if (panel.part("scene")) this.#drawScene(panel.part("scene"));
@@ -75,6 +81,11 @@ export class DriveTab {
     this.#action.update((agent.action ?? []).map(actionRow));
     setText(this.#phases, phaseWords(agent.phases));
     this.#rewards.update(agent.rewards ?? []);
+  }
+
+  #drawTraining(training) {
+    this.#sections.training.hidden = false;
+    this.#training.update(training);
   }
 
   #drawPython({ lines, is_first: isWanted = false }) {

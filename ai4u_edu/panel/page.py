@@ -42,4 +42,7 @@ class Page:
         stall = self.context.runner.stall
         if stall is not None and not future.done():
             self.note("info", f"That has to wait: {stall}. If it never answers, end the server.")
-        return await asyncio.shield(asyncio.wrap_future(future))
+        wrapped = asyncio.wrap_future(future)
+        # when the page has left, nobody else asks for the error, and asyncio would log it
+        wrapped.add_done_callback(lambda done: done.cancelled() or done.exception())
+        return await asyncio.shield(wrapped)

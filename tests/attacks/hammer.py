@@ -1,8 +1,9 @@
 """Four pages and two scripts at one world, all at once: ``python -m tests.attacks.hammer``.
 
-Pages use every element of their panel with likely values, hold keys, ask for resets and pauses;
-scripts drive, reset and come back. Afterwards the world has to go on, the log has to be free of
-tracebacks, and the first SIGTERM has to end the server.
+Pages send every command of their panel and every message of viser's, with likely and odd
+arguments, hold keys, ask for resets and pauses; scripts drive, reset and come back. Afterwards the
+world has to go on, the log has to be free of tracebacks, and the first SIGTERM has to end the
+server.
 """
 
 import argparse
@@ -15,6 +16,7 @@ import time
 import traceback
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from tempfile import TemporaryDirectory
 from typing import Any
 
 from websockets.exceptions import ConnectionClosed, InvalidHandshake
@@ -27,6 +29,7 @@ from tests.attacks.panel import Panel
 from tests.playing import Played, played
 
 ENDS_WITHIN_S = 3.0
+"""Time in which a server has to end; a command under way takes up to a second of a free core."""
 KEYS = ("KeyW", "KeyS", "KeyA", "KeyD", "Space")
 GONE = (ConnectionClosed, InvalidHandshake, OSError, EOFError, TimeoutError)
 
@@ -38,15 +41,18 @@ class Tally:
     done: dict[str, int] = field(default_factory=dict)
     wrong: list[str] = field(default_factory=list)
 
-    def count(self, name: str) -> None:
-        """Count one more of something."""
-        self.done[name] = self.done.get(name, 0) + 1
+    def count(self, name: str, more: int = 1) -> None:
+        """Count more of something."""
+        self.done[name] = self.done.get(name, 0) + more
 
 
-def hammer(seconds: float, scene: str, seed: int) -> Tally:
+def hammer(seconds: float, scene: str, seed: int, ends_within: float = ENDS_WITHIN_S) -> Tally:
     """Hammer a served scene, and judge how it stands afterwards."""
     tally = Tally()
-    with played(scene, "--no-autosave") as server:
+    with (
+        TemporaryDirectory() as saved,
+        played(scene, "--no-autosave", "--scenes", saved) as server,
+    ):
         over = threading.Event()
         workers: list[Callable[[Played, random.Random, Tally, threading.Event], None]] = [
             *[use_panel] * 4,
@@ -72,7 +78,7 @@ def hammer(seconds: float, scene: str, seed: int) -> Tally:
             thread.join(20)
         stuck = [each for each in threads if each.is_alive()]
         tally.wrong += [f"{_stack(each)}did not end: {_summary(server)}" for each in stuck]
-        tally.wrong += ends_at_once(server.process)
+        tally.wrong += ends_at_once(server.process, ends_within)
     log = "".join(server.told)
     if "Traceback" in log or "never retrieved" in log:
         tally.wrong.append("the log has a traceback:\n" + log[-4000:])
@@ -80,7 +86,7 @@ def hammer(seconds: float, scene: str, seed: int) -> Tally:
 
 
 def use_panel(server: Played, rng: random.Random, tally: Tally, over: threading.Event) -> None:
-    """Use the elements of a panel; leave and come back now and then."""
+    """Send a panel's commands; leave and come back now and then."""
     while not over.is_set():
         with Panel(server.url) as panel:
             over.wait(0.3)
@@ -88,8 +94,10 @@ def use_panel(server: Played, rng: random.Random, tally: Tally, over: threading.
                 if over.is_set() or not panel.is_open:
                     break
                 panel.use_any(rng)
-                tally.count("uses of an element")
+                tally.count("messages of a panel")
                 over.wait(rng.uniform(0.0, 0.05))
+            for kind, number in panel.answers.items():
+                tally.count(f"commands {kind}", number)
 
 
 def drive_by_keys(server: Played, rng: random.Random, tally: Tally, over: threading.Event) -> None:
@@ -136,28 +144,26 @@ def drive_by_script(
             over.wait(0.2)
 
 
-def ends_at_once(process: Any) -> list[str]:
+def ends_at_once(process: Any, within: float = ENDS_WITHIN_S) -> list[str]:
     """Send the first SIGTERM; say so if the process has not ended in time, or not well."""
     process.send_signal(signal.SIGTERM)
     try:
-        code = process.wait(ENDS_WITHIN_S)
+        code = process.wait(within)
     except Exception as error:  # psutil's and subprocess's time-outs are no relatives
         process.kill()
-        return [f"it did not end within {ENDS_WITHIN_S} s of the first SIGTERM: {error}"]
+        return [f"it did not end within {within} s of the first SIGTERM: {error}"]
     return [] if code == 0 else [f"it ended with exit code {code}"]
 
 
 def _goes_on(server: Played) -> list[str]:
     """Reset and resume from a page that has just come, and look whether ticks pass."""
     with Panel(server.url) as panel:
-        _until(lambda: panel.labelled("Time"))
-        (time_buttons,) = panel.labelled("Time")
-        panel.set_value(time_buttons, "Reset")
+        panel.do("new_start")
         before = _place(server.snapshot())
 
         def has_moved() -> bool:
             if server.snapshot()["paused"]:  # what a page asked for may come only now
-                panel.set_value(time_buttons, "Resume")
+                panel.do("resume")
                 return False
             return _place(server.snapshot()) != before or _has_blocks_error(server)
 

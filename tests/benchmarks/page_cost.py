@@ -1,18 +1,20 @@
 """Cost of a page: ``python -m tests.benchmarks.page_cost``.
 
 Thirty bodies, eight agents with 64 rays each, 60 ticks a second. The world and its viewer have a
-process of their own; the pages are bare clients of viser's socket, which read every frame and
-decode none. The table shows the frames with moved bodies and the bytes that each page got a second,
-the processor time of the serving process, and the time to draw a picture for all pages (which other
-load on the machine changes least).
+process of their own; the pages are bare clients of viser's socket and of the panel's, which read
+everything and decode no text. The table shows the frames with moved bodies and the bytes that each
+page got a second, the processor time of the serving process, and the time to draw a picture for all
+pages (which other load on the machine changes least).
 """
 
 import argparse
+import json
 import multiprocessing
 import threading
 import time
-from contextlib import ExitStack
+from contextlib import ExitStack, suppress
 from multiprocessing.connection import Connection
+from uuid import uuid4
 
 import msgspec
 import psutil
@@ -33,8 +35,10 @@ from ai4u_edu import (
     TouchRewardFunc,
     World,
 )
+from ai4u_edu.panel import PanelSockets
 from ai4u_edu.runtime.process_tuning import tuned_process
 from ai4u_edu.runtime.runner import Runner
+from ai4u_edu.server import ServerThread, lock_viser_port, room_app
 from ai4u_edu.snapshot import Snapshot
 from ai4u_edu.viewer import Viewer
 from tests.load.clients import is_picture
@@ -82,6 +86,7 @@ def serve(there: Connection) -> None:
     """Run the world until the other process ends it."""
     runner = Runner(crowd(), seed=1)
     viewer = Viewer(runner)
+    lock_viser_port(viewer.server)
     drawn, draw = [0, 0.0], viewer.draw
 
     def timed(snapshot: Snapshot) -> None:
@@ -93,8 +98,10 @@ def serve(there: Connection) -> None:
     viewer.draw = timed  # type: ignore[method-assign]
     runner.start()
     viewer.start()
-    there.send(viewer.port)
-    with tuned_process():
+    panel = PanelSockets(runner, viewer)
+    app = room_app(runner, viser_port=viewer.port, title="Cost", panel=panel)
+    with tuned_process(), ServerThread(app) as server:
+        there.send(server.url)
         while there.recv() != "enough":
             there.send(tuple(drawn))
     viewer.stop()
@@ -102,37 +109,47 @@ def serve(there: Connection) -> None:
 
 
 class Reader:
-    """A client of viser's socket that counts frames and bytes.
+    """A page that counts frames of its picture, and the bytes of it and of its panel.
 
     Args:
-        url: address of the socket.
+        url: address of the page.
     """
 
     def __init__(self, url: str) -> None:
+        address, page = url.replace("http", "ws", 1), uuid4()
         protocol = Subprotocol(f"viser-v{viser.__version__}")
-        self._connection = connect(
-            url, subprotocols=[protocol], max_size=None, compression=None, proxy=None
+        self._picture = connect(
+            f"{address}?page={page}",
+            subprotocols=[protocol],
+            max_size=None,
+            compression=None,
+            proxy=None,
         )
-        self._connection.send(msgspec.msgpack.encode(CAMERA))
+        self._picture.send(msgspec.msgpack.encode(CAMERA))
+        self._panel = connect(f"{address}ws/panel?page={page}", max_size=None, proxy=None)
+        self._panel.send(json.dumps({"type": "show", "agent": "0", "tabs": ["agent"]}))
         self.bytes = self.frames = 0
-        self._thread = threading.Thread(target=self._read, daemon=True)
-        self._thread.start()
+        for read in (self._read_picture, self._read_panel):
+            threading.Thread(target=read, daemon=True).start()
 
     def __enter__(self) -> "Reader":
         return self
 
     def __exit__(self, *_: object) -> None:
-        self._connection.close()
+        self._panel.close()
+        self._picture.close()
 
-    def _read(self) -> None:
-        try:
-            for frame in self._connection:
-                if isinstance(frame, str):
-                    continue
+    def _read_picture(self) -> None:
+        with suppress(ConnectionClosed):
+            for frame in self._picture:
+                assert isinstance(frame, bytes)
                 self.bytes += len(frame)
                 self.frames += is_picture(frame)
-        except ConnectionClosed:
-            pass
+
+    def _read_panel(self) -> None:
+        with suppress(ConnectionClosed):
+            for text in self._panel:
+                self.bytes += len(text)
 
 
 CAMERA = {
@@ -182,7 +199,7 @@ def main() -> None:
     here, there = multiprocessing.Pipe()
     served = multiprocessing.Process(target=serve, args=(there,), daemon=True)
     served.start()
-    url = f"ws://127.0.0.1:{here.recv()}"
+    url = here.recv()
     process = psutil.Process(served.pid)
     print("| pages | frames/s, least | kB/s a page | server, of a core | ms to draw a picture |")
     print("|---|---|---|---|---|")

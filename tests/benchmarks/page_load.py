@@ -1,7 +1,7 @@
 """Time to load a page: ``python -m tests.benchmarks.page_load``.
 
-It is measured from the first request to the agent's senses in the panel, in a browser that has just
-been started (nothing cached, nothing compiled), as at the beginning of a lesson. The processor time
+It is measured from the first request to the agent's sensors in the panel, in a browser just started
+(nothing cached, nothing compiled), as at the beginning of a lesson. The processor time
 of the browser's processes is printed too; other load on the machine changes it less.
 ``--against CHECKOUT`` loads the page of another checkout in turn with this one's.
 """
@@ -28,7 +28,7 @@ COUNT = """() => {
 
 
 class Load(NamedTuple):
-    """Time until a fresh browser showed the senses."""
+    """Time until a fresh browser showed the sensors."""
 
     seconds: float
     processor: float
@@ -53,7 +53,7 @@ def load(url: str) -> Load:
         page.add_init_script(f"({COUNT})()")
         began, before = time.perf_counter(), used()
         page.goto(url, wait_until="commit")
-        page.locator(".ai4u.sense").first.wait_for(timeout=60_000)
+        page.locator(".ai4u-sensor").first.wait_for(timeout=60_000)
         took, spent = time.perf_counter() - began, used() - before
         return Load(took, spent, int(page.evaluate("linked")))
 

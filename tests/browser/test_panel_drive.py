@@ -139,9 +139,9 @@ def test_rewards_are_a_table(desk: PanelPage) -> None:
     rows = desk.page.locator(".ai4u-rewards tr")
     expect(rows.filter(has_text="closer")).to_contain_text("0.12")
     expect(rows.last).to_contain_text("2.75")
-    expect(desk.page.locator(".ai4u-curve")).to_be_hidden()
+    expect(desk.page.locator(".ai4u-curve.ai4u-details-only")).to_be_hidden()
     desk.button("Details").click()
-    line = desk.page.locator(".ai4u-curve polyline")
+    line = desk.page.locator(".ai4u-details-only polyline")
     expect(line).to_have_attribute("points", re.compile(r"^0\.0,55\.2 .* 280\.0,2\.0$"))
 
 
@@ -185,3 +185,14 @@ def test_scenes_are_cards(desk: PanelPage) -> None:
     dialog.get_by_role("button", name="<b>Mine</b>").click()
     desk.until(lambda: desk.panel.commands("open_scene") == [{"name": "mine", "is_saved": True}])
     expect(dialog).to_have_count(0)
+
+
+def test_a_training_is_followed(desk: PanelPage) -> None:
+    section = desk.page.locator("details", has_text="Training").first
+    expect(section).to_be_hidden()
+    training = {"text": "Learned from 500 decisions.", "is_over": False, "share": 0.25}
+    points = [[100, 1.0, 0.0], [500, 3.0, 0.5]]
+    desk.panel.send({"type": "part", "name": "training", **training, "points": points})
+    expect(section).to_contain_text("Learned from 500 decisions.")
+    expect(section.get_by_role("img")).to_be_visible()
+    expect(section).to_contain_text("Mean reward 3.00, reaches the goal in 50% of episodes")

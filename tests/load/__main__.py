@@ -3,13 +3,13 @@
 One world at 60 ticks a second in which so many scripts drive an agent each, in realtime, 15 times
 a second with 16 rays, while as many viewers look at the page. Agents take turns in deciding
 (``spread_decisions``), unless it is ``--at-once``. The scripts are real ones of
-``ai4u_edu.remote``, the viewers bare clients of viser's socket that read every frame. World and
-server have one process, all brains another one, all viewers a third; how much of a core each took
-stands in the table, since they compete for the same cores. ``--apart`` gives the server a core of
-its own, as it has where scripts and pages are on other machines. How many others wanted the cores
-meanwhile (the load average) stands in the table too: a figure counts only where it is small.
-``--floor`` measures besides, in turns, a server that has no world and only says as much to the same
-clients: better than that no server can be on that machine.
+``ai4u_edu.remote``, the viewers bare clients of viser's socket and of the panel's that read
+everything. World and server have one process, all brains another one, all viewers a third; how much
+of a core each took stands in the table, since they compete for the same cores. ``--apart`` gives
+the server a core of its own, as it has where scripts and pages are on other machines. How many
+others wanted the cores meanwhile (the load average) stands in the table too: a figure counts only
+where it is small. ``--floor`` measures besides, in turns, a server that has no world and only says
+as much to the same clients: better than that no server can be on that machine.
 """
 
 import argparse

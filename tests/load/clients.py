@@ -2,6 +2,7 @@
 
 import asyncio
 import gc
+import json
 import resource
 import time
 from contextlib import suppress
@@ -63,23 +64,28 @@ def brains(url: str, agents: list[int], slow: int, seconds: float, ends: Connect
 
 
 def viewers(url: str, count: int, stopped: int, seconds: float, ends: Connection) -> None:
-    """Looks at the page; the first ``stopped`` of the viewers never read."""
+    """Look at the page, each at another agent; the first ``stopped`` viewers never read."""
     frames = [0] * count
 
     async def look(number: int, end: float) -> None:
-        async with _page(url) as page:
+        async with _page(url) as page, _panel(url) as panel:
             await page.send(CAMERA)
+            await panel.send(json.dumps({"type": "show", "agent": str(number), "tabs": ["agent"]}))
             if number < stopped:
                 await asyncio.sleep(end - time.monotonic())
                 page.transport.abort()
+                panel.transport.abort()
                 return
+            reading = asyncio.create_task(_read_all(panel))
             warm = end - seconds
             with suppress(TimeoutError, ConnectionClosed):
                 async with asyncio.timeout(end - time.monotonic()):
                     while True:
                         frame = await page.recv(decode=False)
                         frames[number] += time.monotonic() > warm and is_picture(frame)
+            reading.cancel()
             page.transport.abort()
+            panel.transport.abort()
 
     async def main(end: float) -> None:
         await asyncio.gather(*(look(number, end) for number in range(count)))
@@ -116,6 +122,7 @@ def flood(url: str, _count: int, _unused: int, seconds: float, ends: Connection)
                 await asyncio.gather(
                     pour(connect(path + "ws/input", proxy=None), '{"type": "take"}'),
                     pour(connect(path + "ws/remote", proxy=None, subprotocols=[REMOTE]), late),
+                    pour(_panel(url), '{"type": "show", "agent": "0"}'),
                 )
                 # viser's socket slows down who says too much, and goes on
                 await pour(_page(url), CAMERA)
@@ -138,6 +145,17 @@ def _page(url: str) -> Any:
         proxy=None,
         ping_interval=None,
     )
+
+
+def _panel(url: str) -> Any:
+    return connect(url.replace("http", "ws", 1) + "ws/panel", max_size=None, proxy=None)
+
+
+async def _read_all(panel: Any) -> None:
+    """Read what the panel's socket sends while its agent's tab is open."""
+    with suppress(ConnectionClosed):
+        async for _ in panel:
+            pass
 
 
 CAMERA = msgspec.msgpack.encode(

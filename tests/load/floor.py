@@ -57,6 +57,8 @@ class Floor:
         try:
             if socket.subprotocol == REMOTE:
                 await self._hear(socket)
+            elif socket.subprotocol is None:  # a panel; its texts are few
+                await socket.wait_closed()
             else:
                 self._pages.add(socket)
                 await socket.wait_closed()

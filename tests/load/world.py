@@ -19,6 +19,7 @@ from ai4u_edu import (
     TouchRewardFunc,
     World,
 )
+from ai4u_edu.panel import PanelSockets
 from ai4u_edu.runtime.process_tuning import tuned_process
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.server import ServerThread, lock_viser_port, room_app
@@ -99,7 +100,10 @@ def serve(agents: int, ends: Connection, *, in_turn: bool = True) -> None:
     runner.__init__(crowd(agents, in_turn=in_turn), seed=1)  # type: ignore[misc]
     viewer = Viewer(runner, title="Load")
     lock_viser_port(viewer.server)
-    app = room_app(runner, viser_port=viewer.port, title="Load", rules=Rules(grace=1.0))
+    panel = PanelSockets(runner, viewer)
+    app = room_app(
+        runner, viser_port=viewer.port, title="Load", rules=Rules(grace=1.0), panel=panel
+    )
     runner.start()
     viewer.start()
     with tuned_process(), ServerThread(app) as server:

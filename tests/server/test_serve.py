@@ -48,7 +48,7 @@ print("ENDED", flush=True)
 def program() -> Iterator[tuple[subprocess.Popen[str], str]]:
     """A server in a process of its own, and its address."""
     process = subprocess.Popen(
-        [sys.executable, "-X", "dev", "-c", PROGRAM, "0"],
+        [sys.executable, "-W", "default", "-c", PROGRAM, "0"],
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
         text=True,

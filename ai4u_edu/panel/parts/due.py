@@ -13,6 +13,7 @@ from ai4u_edu.panel.parts.blocks import blocks_part
 from ai4u_edu.panel.parts.past import past_part
 from ai4u_edu.panel.parts.run import run_part
 from ai4u_edu.panel.parts.scene import scene_part
+from ai4u_edu.panel.parts.training import training_part
 from ai4u_edu.panel.parts.world import world_part
 
 Parts = Iterator[tuple[str, bytes]]
@@ -27,6 +28,9 @@ def due_parts(context: PanelContext, view: PageView) -> Parts:
     run_key = "run", agent_id, None if stall is None else str(stall)
     yield "run", cache.of_snapshot(snapshot, run_key, lambda: run_part(context, snapshot, agent_id))
     yield "scene", cache.of_snapshot(snapshot, "scene", lambda: scene_part(context, snapshot))
+    progress = context.runner.training
+    if progress is not None:
+        yield "training", cache.by_key(("training", progress), lambda: training_part(progress))
     if "agent" in view.show.tabs:
         yield from _agent_parts(context, view)
     if "past" in view.show.tabs and context.runner.recorder is not None:
