@@ -2,7 +2,7 @@
 
 import { isTextInput } from "./keys.js";
 
-const CONTROLS = "input, textarea, select, button";
+const CONTROLS = "input, textarea, select";
 /** Parts of the page that keep the focus until they are closed, and our panel, which returns it itself. */
 const FOCUS_KEEPERS = "dialog, [role=dialog], [role=menu], .ai4u-panel";
 
@@ -32,14 +32,10 @@ function leaveOnKey({ key, target, isComposing }) {
   if (isField && !isComposing && (key === "Escape" || (key === "Enter" && !chooses))) leave(target);
 }
 
-/**
- * Leave a text field after a click beside it: on a choice of its list, or on its buttons to step; and a button
- * that a pointer has clicked, since Space would click it again.
- */
-function leaveOnClick({ target, detail }) {
+/** Leave a text field after a click beside it: on a choice of its list, or on its buttons to step. */
+function leaveOnClick({ target }) {
   const focused = document.activeElement ?? document.body;
-  const isInside = focused.contains(target);
-  if (isTextInput(focused) ? !isInside && !target.closest?.("label") : isInside && detail) leave(focused);
+  if (!focused.contains(target) && !target.closest?.("label")) leave(focused);
 }
 
 /** Blur an element after the event was handled: viser reads the field's value on its own blur or Enter. */
