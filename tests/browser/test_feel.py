@@ -498,7 +498,7 @@ def test_a_network_of_the_zoo_is_taken_over_and_goes_on(zoo: Played, site: Serve
     expect(driver_status(page)).to_have_text("You drive")
     page.keyboard.up("KeyS")
     page.keyboard.press("KeyR")
-    page.get_by_role("button", name="Let go").click()
+    page.locator(".ai4u-dock").get_by_role("button", name="Let go").click()
     expect(driver_status(page)).to_have_text("A network drives \u2013 press W to take over")
     until(lambda: action() not in ([], [-1, 0], [0, 0]), 20)
     page.context.close()
