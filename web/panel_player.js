@@ -8,6 +8,7 @@ const SPEEDS = [0.25, 0.5, 1, 2, 4];
 export class Player {
   #panel;
   #playing = null;
+  #isShowing = false;
   #title = element("strong");
   #moment = element("output", { className: "ai4u-moment" });
   #slider = element("input", { type: "range", min: 0, step: 1, ariaLabel: "Step" });
@@ -25,7 +26,10 @@ export class Player {
   constructor(panel) {
     this.#panel = panel;
     const send = (command, args = {}) => panel.send(command, args, { quiet: true });
-    this.#slider.addEventListener("input", () => send("step", { step: Number(this.#slider.value) }));
+    const goToSlider = () => send("step", { step: Number(this.#slider.value) });
+    this.#slider.addEventListener("input", goToSlider);
+    // a click where the slider stands already changes nothing, and yet the person wants to see it
+    this.#slider.addEventListener("click", () => this.#isShowing || goToSlider());
     this.#back = button("", () => this.#step(-1), { icon: "back", label: "Step back" });
     this.#play = button("Play", () => send(this.#playing?.is_playing ? "stop" : "play"), { icon: "play", kind: "main" });
     this.#forward = button("", () => this.#step(1), { icon: "forward", label: "Step forward" });
@@ -51,6 +55,7 @@ export class Player {
 
   update({ playing = null, is_showing: isShowing = false, ghost = "", problem = "" }) {
     this.#playing = playing;
+    this.#isShowing = isShowing;
     this.element.hidden = !playing && !ghost && !problem;
     this.#noGhost.hidden = !ghost;
     setText(this.#note, [problem, ghost].filter(Boolean).join(" "));

@@ -92,6 +92,15 @@ def test_a_click_on_a_row_chooses_and_shows_it(tab: TabPage) -> None:
     expect(row).to_have_attribute("aria-current", "true")
 
 
+def test_a_click_on_the_slider_shows_the_step_where_it_stands(tab: TabPage) -> None:
+    tab.give({**PART, "playing": {**PLAYING, "step": 80}, "is_showing": False})
+    slider = tab.page.get_by_role("slider", name="Step")
+    box = slider.bounding_box()
+    assert box is not None
+    slider.click(position={"x": box["width"] - 3, "y": box["height"] / 2})
+    assert tab.sent() == [{"command": "step", "step": 80}]
+
+
 def test_the_full_seed_is_copied(chromium: Browser) -> None:
     tab = TabPage(
         chromium,
