@@ -28,8 +28,7 @@ STATIC_CHECKS = {
     "mypy": ["-m", "mypy"],
     "imports": ["-c", LINT_IMPORTS],
 }
-PARALLEL = ["-n", str(2 * (os.cpu_count() or 1))]
-"""Two processes for each core, since tests of servers and pages wait half of their time."""
+PARALLEL = ["-n", "auto"]
 LONG_RUNS = {
     "fuzz": ["-m", "tests.fuzz"],
     "hammer": ["-m", "tests.attacks.hammer", "--seconds", "300"],

@@ -177,6 +177,7 @@ export class Panel extends EventTarget {
     } else if (message.type === "note") {
       this.notice(message.text, message.level);
     } else if (message.type === "selected") {
+      if (message.agent) this.show({ agent: message.agent });
       this.dispatchEvent(new CustomEvent("selected", { detail: message }));
     }
   }

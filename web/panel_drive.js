@@ -34,7 +34,7 @@ export class DriveTab {
     this.#root = root;
     this.#panel = panel;
     this.#python = new PythonLines(panel);
-    this.#agents = choice("Robot", (agent) => this.#showAgent(agent));
+    this.#agents = choice("Robot", (agent) => panel.show({ agent }));
     this.#agents.element.hidden = true;
     this.#driver = new DriverStatus(this.#driverRow, () => panel.driving.take(), () => panel.driving.letGo());
     // the dock says the same to screen readers
@@ -52,6 +52,7 @@ export class DriveTab {
     root.append(this.#agents.element, training, driver, needs, sensors, rewards, action, python);
     panel.addEventListener("part:scene", ({ detail }) => this.#drawScene(detail));
     panel.addEventListener("driver", ({ detail }) => this.#drawDriver(detail));
+    panel.addEventListener("agent", () => this.#drawShown());
     panel.addEventListener("part:curve", ({ detail }) => this.#rewards.drawCurve(detail.points));
     panel.addEventListener("part:python", ({ detail }) => this.#drawPython(detail));
     panel.addEventListener("part:training", ({ detail }) => this.#drawTraining(detail));
@@ -129,8 +130,9 @@ export class DriveTab {
     this.#driver.draw(status);
   }
 
-  #showAgent(agent) {
-    this.#panel.show({ agent });
+  /** Follow the page to another agent: one that was chosen here or clicked in the picture. */
+  #drawShown() {
+    if (this.#panel.part("scene")) this.#drawScene(this.#panel.part("scene"));
     if (this.#panel.driver) this.#drawDriver(this.#panel.driver);
   }
 

@@ -65,6 +65,12 @@ class GuiUpdateMessage(_Message):
     updates: Updates
 
 
+class CommandTriggerMessage(_Message):
+    """Press of a hotkey: Escape, while something is dragged."""
+
+    uuid: Id
+
+
 class ViewerCameraMessage(_Message):
     """Pose of the page's camera; viser counts a page as connected from its first one on."""
 
@@ -108,12 +114,17 @@ class SceneNodeDragMessage(_Message):
 
 KINDS: tuple[type[_Message], ...] = (
     GuiUpdateMessage,
+    CommandTriggerMessage,
     ViewerCameraMessage,
     SceneNodeClickMessage,
     SceneNodeDragMessage,
 )
 _DECODER = msgspec.msgpack.Decoder(
-    GuiUpdateMessage | ViewerCameraMessage | SceneNodeClickMessage | SceneNodeDragMessage
+    GuiUpdateMessage
+    | CommandTriggerMessage
+    | ViewerCameraMessage
+    | SceneNodeClickMessage
+    | SceneNodeDragMessage
 )
 _ENCODER = msgspec.msgpack.Encoder()
 

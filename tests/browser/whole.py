@@ -1,0 +1,112 @@
+"""A page with the panel of a real ``ai4u-edu play``, and how tests use it."""
+
+import contextlib
+import io
+from collections.abc import Callable, Iterator
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+from PIL import Image
+from playwright.sync_api import Browser, Locator, Page, expect
+
+from tests.browser.served_viser import connected
+from tests.chromium import new_page
+from tests.playing import Played
+
+PATIENCE_MS = 40_000
+"""A page without a graphics card draws a few frames a second, or one if others are at work."""
+Picture = npt.NDArray[np.uint8]
+
+
+@contextlib.contextmanager
+def whole_page(
+    chromium: Browser, server: Played, query: str = "", *, draws: bool = False, **options: Any
+) -> Iterator[Page]:
+    """Open a page of a server; neither its scripts nor the server may fail.
+
+    Args:
+        draws: WebGL draws the world.
+        options: more of ``Browser.new_context``.
+    """
+    page = new_page(chromium, draws=draws, reduced_motion="reduce", **options)
+    page.set_default_timeout(PATIENCE_MS)
+    expect.set_options(timeout=PATIENCE_MS)
+    problems: list[str] = []
+    page.on("pageerror", lambda error: problems.append(str(error)))
+    page.goto(server.url + query)
+    connected(page)
+    page.locator(".ai4u-panel .ai4u-facts").wait_for()
+    page.locator(".ai4u-panel [role=tab][aria-selected=true]").wait_for()
+    yield page
+    page.context.close()
+    expect.set_options(timeout=5_000)
+    assert problems == []
+    assert "Traceback" not in "".join(server.told)
+
+
+def press(page: Page, name: str) -> None:
+    """Click a button of the panel or of its window."""
+    button(page, name).click()
+
+
+def button(page: Page, name: str) -> Locator:
+    """Return a visible button of the panel or of its window."""
+    window = page.locator("dialog[open]")
+    place = window if window.count() else page.locator(".ai4u-panel")
+    return place.get_by_role("button", name=name, exact=True)
+
+
+def open_tab(page: Page, name: str) -> Locator:
+    """Open a tab; return its panel."""
+    page.get_by_role("tab", name=name, exact=True).click()
+    return page.get_by_role("tabpanel", name=name, exact=True)
+
+
+def show_details(page: Page) -> None:
+    """Have the panel show everything."""
+    press(page, "Details")
+    expect(button(page, "Details")).to_have_attribute("aria-pressed", "true")
+
+
+def card(page: Page, title: str) -> Locator:
+    """Return the card of a block, body or episode."""
+    return page.locator("article.ai4u-card:visible").filter(
+        has=page.locator("strong", has_text=title)
+    )
+
+
+def unfold(page: Page, title: str) -> Locator:
+    """Open a card; return it."""
+    found = card(page, title).last
+    head = found.locator(".ai4u-card-head").first
+    if head.get_attribute("aria-expanded") == "false":
+        head.click()
+    expect(head).to_have_attribute("aria-expanded", "true")
+    return found
+
+
+def notice(page: Page, text: str) -> None:
+    """Wait until the panel says something."""
+    page.locator(".ai4u-panel").get_by_text(text).first.wait_for()
+
+
+def scene_picture(page: Page) -> Picture:
+    """Return the picture left of the panel, above the keys: (height, width, 3)."""
+    clip: Any = {"x": 200, "y": 80, "width": 640, "height": 480}
+    return np.asarray(Image.open(io.BytesIO(page.screenshot(clip=clip))).convert("RGB"))
+
+
+def share(picture: Picture, colour: tuple[int, int, int], slack: int = 25) -> float:
+    """Return the share of a picture that has about that colour (0..1)."""
+    close = np.abs(picture.astype(int) - np.array(colour)).max(axis=-1) <= slack
+    return float(close.mean())
+
+
+def until_drawn(page: Page, condition: Callable[[Picture], bool]) -> Picture:
+    """Wait until the picture of the world meets a condition."""
+    for _ in range(100):
+        if condition(picture := scene_picture(page)):
+            return picture
+        page.wait_for_timeout(200)
+    raise AssertionError("the picture of the world stays as it was")
