@@ -24,7 +24,7 @@ const COMMANDS = {
   "New start": "new_start",
   Reset: "reset",
   Resume: "resume",
-  "Back to now": "resume",
+  "Back to live": "resume",
 };
 /** How long the error of a failed request stays (ms). */
 const REQUEST_ERROR_MS = 8000;
@@ -88,7 +88,7 @@ export class Banners {
     if (this.#connectionError) return { kind: "error", text: this.#connectionError, buttons: ["Reload"] };
     if (state?.error) return { kind: "error", text: state.error, buttons: ["Reset"] };
     if (this.#requestError) return { kind: "error", text: this.#requestError };
-    if (state?.past) return { kind: "paused", text: `Past: ${state.past}`, buttons: ["Back to now"] };
+    if (state?.past) return { kind: "paused", text: `Past: ${state.past}`, buttons: ["Back to live"] };
     if (state?.outcome) return outcomeBanner(state, page);
     if (state?.paused) return { kind: "paused", text: "Paused", buttons: ["Resume"] };
     if (state?.waiting) return startBanner(state, page);

@@ -7,9 +7,9 @@ from typing import Literal
 When = Literal["now", "next decision", "next reset"]
 
 _SENTENCES: dict[When, str] = {
-    "now": "it applies at once",
-    "next decision": "it applies at the next decision",
-    "next reset": "it applies at the next reset",
+    "now": "works at once",
+    "next decision": "works from the next decision on",
+    "next reset": "works from the next reset on",
 }
 
 

@@ -44,7 +44,7 @@ class SceneEditor:
     >>> future = editor.add_block("0", "sensors", {"type": "BearingSensor", "target": "box"})
     >>> runner.advance()
     >>> str(future.result())
-    'it applies at the next decision'
+    'works from the next decision on'
     >>> "bearing" in runner.sim.agents[0].percept
     True
     """

@@ -332,10 +332,10 @@ LIGHTNESS = r"""name => {
 SCHEME = "data-mantine-color-scheme"
 
 
-def panel(page: Page) -> Locator:
-    """The box in viser's panel that makes it dark."""
+def dark(page: Page) -> Locator:
+    """Return the panel's switch that makes the page dark."""
     connected(page)
-    return page.get_by_role("checkbox", name="Dark", exact=True)
+    return page.get_by_role("switch", name="Dark", exact=True)
 
 
 def test_it_is_dark_where_the_system_is_until_somebody_says_otherwise(
@@ -344,24 +344,26 @@ def test_it_is_dark_where_the_system_is_until_somebody_says_otherwise(
     page = new_page(chromium, color_scheme="dark", reduced_motion="reduce")
     page.set_default_timeout(60_000)
     page.goto(zoo.url)
-    expect(panel(page)).to_be_checked(timeout=40_000)
-    expect(page.locator("html")).to_have_attribute(SCHEME, "dark", timeout=40_000)
-    expect(page.locator("body")).to_be_visible()
-    for part in (".ai4u-keycap", ".ai4u-driver", "#root .mantine-Paper-root, #root input"):
+    expect_dark(page, is_dark=True)
+    for part in (".ai4u-keycap", ".ai4u-driver", ".ai4u-panel"):
         until(lambda: max(page.evaluate(LIGHTNESS, part)) < 80, timeout=40)  # noqa: B023
-    panel(page).click()
-    expect(page.locator("html")).to_have_attribute(SCHEME, "light", timeout=40_000)
+    dark(page).click()
+    expect_dark(page, is_dark=False)
     until(lambda: min(page.evaluate(LIGHTNESS, ".ai4u-keycap")) > 180, timeout=40)
     page.reload()  # it is remembered, against the system's wish
-    expect(panel(page)).not_to_be_checked(timeout=40_000)
-    expect(page.locator("html")).to_have_attribute(SCHEME, "light", timeout=40_000)
-    panel(page).click()
-    expect(page.locator("html")).to_have_attribute(SCHEME, "dark", timeout=40_000)
+    expect_dark(page, is_dark=False)
+    dark(page).click()
     page.emulate_media(color_scheme="light")
     page.reload()
-    expect(panel(page)).to_be_checked(timeout=40_000)
-    expect(page.locator("html")).to_have_attribute(SCHEME, "dark", timeout=40_000)
+    expect_dark(page, is_dark=True)
     page.context.close()
+
+
+def expect_dark(page: Page, *, is_dark: bool) -> None:
+    """Wait until the switch and the page have the colours."""
+    state, scheme = ("true", "dark") if is_dark else ("false", "light")
+    expect(dark(page)).to_have_attribute("aria-checked", state, timeout=40_000)
+    expect(page.locator("html")).to_have_attribute(SCHEME, scheme, timeout=40_000)
 
 
 NAMELESS = """() => [...document.querySelectorAll(
@@ -379,24 +381,16 @@ def test_all_that_can_be_used_has_a_name(chromium: Browser, zoo: Played) -> None
     page.goto(zoo.url)
     connected(page)
     page.keyboard.press("KeyR")  # there is a past then
+    page.get_by_role("button", name="Details", exact=True).click()
     for tab, last in {
-        "Agent": "Decision",
-        "Blocks": "Add",
-        "World": "Open a scene file",
+        "Drive": "Decision",
+        "Build": "Add a sensor",
+        "World": "Open a file",
         "Past": "Open a recording",
     }.items():
         page.get_by_role("tab", name=tab).click()
         page.get_by_role("button", name=last, exact=True).wait_for()
-        if tab == "Blocks":
-            page.get_by_role("button", name="Agent's settings").click()
-            page.get_by_role("textbox", name="reward scale").wait_for()
-        if tab == "Past":
-            page.get_by_label("Episode", exact=True).click()
-            page.get_by_role("option").nth(1).click()
-            page.get_by_role("slider", name="Moment").wait_for()
         until(lambda: page.evaluate(NAMELESS) == [], timeout=40)
-    for name in ("Open a scene file", "Open a recording"):
-        expect(page.locator(f"input[type=file][aria-label='{name}']")).to_have_count(1)
     page.context.close()
 
 
@@ -440,7 +434,7 @@ def test_everything_is_reached_by_tab_has_a_name_and_shows_the_focus(
     ours = {what: (name, ring) for what, name, ring in reached}
     for what in ("forward", "backward", "left", "right", "jump", "jump_forward", "restart"):
         name, ring = ours[what]
-        assert re.fullmatch(r"[a-z]+ \(.+\)", name)
+        assert re.fullmatch(r"[a-z ]+ \(.+\)", name)
         assert ring == "solid"
     assert ours["ai4u-round-button"] == ("Help", "solid")
 
@@ -500,11 +494,11 @@ def test_a_network_of_the_zoo_is_taken_over_and_goes_on(zoo: Played, site: Serve
     expect(driver_status(page)).to_have_text("A network drives \u2013 press W to take over")
     page.keyboard.press("KeyR")
     page.keyboard.down("KeyS")
-    until(lambda: action() == [-1, 0], 20)
+    until(lambda: action()[:1] < [-0.3] and action()[1:] == [0], 20)  # at a beginner's speed
     expect(driver_status(page)).to_have_text("You drive")
     page.keyboard.up("KeyS")
     page.keyboard.press("KeyR")
-    page.get_by_role("button", name="Let go").click()
+    page.locator(".ai4u-dock").get_by_role("button", name="Let go").click()
     expect(driver_status(page)).to_have_text("A network drives \u2013 press W to take over")
     until(lambda: action() not in ([], [-1, 0], [0, 0]), 20)
     page.context.close()

@@ -83,8 +83,8 @@ def test_to_the_box_it_is_a_hundred_and_the_end(server: Played, page: Page) -> N
 
 
 def test_the_page_shows_what_the_agent_senses(server: Played, page: Page) -> None:
-    for text in ("Box chase", "vision", "orientation", "last_action", "Reward"):
-        page.get_by_text(text, exact=False).first.wait_for()
+    for text in ("Box chase", "Ray picture", "Direction and distance", "My last action", "Rewards"):
+        page.locator(".ai4u-panel").get_by_text(text, exact=False).first.wait_for()
     assert page.evaluate(
         "performance.getEntriesByType('resource').every(each => "
         "new URL(each.name).host === location.host || "
@@ -97,7 +97,7 @@ def test_the_goal_is_told_until_somebody_drives(page: Page) -> None:
     expect(task).to_contain_text("Reach the box and touch it.")
     page.keyboard.press("KeyA")
     expect(task).to_have_count(0)
-    expect(page.locator(".ai4u .goal")).to_contain_text("Reach the box and touch it.")
+    expect(page.locator(".ai4u-goal-text")).to_contain_text("Reach the box and touch it.")
 
 
 def test_there_are_no_keys_for_what_the_robot_can_not_do(page: Page) -> None:

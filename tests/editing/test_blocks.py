@@ -72,7 +72,7 @@ def test_a_changed_block_is_new_and_the_others_stay(harness: EditorHarness) -> N
     harness.tick(5)
     touch, progress = harness.agent.rewards
     outcome = harness.done(harness.editor.change_block("0", ("rewards", 0), {"reward": 7}))
-    assert str(outcome) == "it applies at the next decision"
+    assert str(outcome) == "works from the next decision on"
     assert harness.agent.rewards[0] is not touch
     assert harness.agent.rewards[1] is progress
     assert harness.agent.rewards[0].reward == 7

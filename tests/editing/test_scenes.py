@@ -109,7 +109,7 @@ def test_what_waits_for_the_reset_comes_with_it() -> None:
     harness.tick(4)
     sim = harness.runner.sim
     outcome = harness.done(harness.editor.change_scene({"world": {"ticks_per_second": 30}}))
-    assert str(outcome) == "it applies at the next reset"
+    assert str(outcome) == "works from the next reset on"
     assert (harness.editor.waits_for_reset, harness.runner.sim) == (True, sim)
     outcome = harness.done(harness.editor.change_block("0", ("rewards", 0), {"reward": 4}))
     assert outcome.when == "next reset"
