@@ -5,7 +5,7 @@ import { Banners } from "./banners.js";
 import { element } from "./dom.js";
 import { dpadActions } from "./dpad.js";
 import { DriverStatus } from "./driver_status.js";
-import { keysReachPage, leaveControls } from "./focus.js";
+import { keysReachPage, watchFocus } from "./focus.js";
 import { Gamepads } from "./gamepad.js";
 import { Help } from "./help.js";
 import { KeyMap, RESERVED_CODE } from "./keymap.js";
@@ -70,7 +70,7 @@ keys.onotherpress = ({ code, key }) => {
   hasActed = true;
   return true;
 };
-leaveControls(draw);
+watchFocus(draw);
 
 socket.onopen = () => {
   connected = true;

@@ -1,9 +1,11 @@
 """A start waits for a key, is repeated or drawn anew; keys work after the panel was used."""
 
 import pytest
-from playwright.sync_api import Locator, Page, expect
+from playwright.sync_api import Browser, Locator, Page, expect
 
-from tests.browser.served_viser import ServedViser, centre, driver_status
+from tests.browser.served_viser import ServedViser, driver_status, ready
+from tests.chromium import new_page
+from tests.playing import played
 from tests.server.rooms import until
 
 pytestmark = pytest.mark.browser
@@ -111,46 +113,32 @@ def test_another_page_says_that_a_player_has_to_start(site: ServedViser) -> None
 # -- the focus -----------------------------------------------------------------------------------
 
 
-def test_keys_drive_again_after_a_text_was_entered(site: ServedViser) -> None:
-    page = site.page(has_viser=True)
-    for leave in ("Enter", "Escape", "picture"):
-        page.get_by_label("Name").click()
-        expect(driver_status(page)).to_have_text("Click the picture to drive")
-        page.keyboard.type("w")
-        if leave == "picture":
-            page.mouse.click(250, 250)
-        else:
-            page.keyboard.press(leave)
-        expect(driver_status(page)).not_to_have_text("Click the picture to drive")
-        drives(site, page)
-    until(lambda: site.name.value == "www")
-
-
-def test_keys_drive_again_after_a_choice_a_number_and_a_slider(site: ServedViser) -> None:
-    gui = site.inner.gui
-    choice = gui.add_dropdown("Choice", ("one", "two"))
-    number = gui.add_number("Number", 1, step=1)
-    slider = gui.add_slider("Slider", 0.0, 1.0, 0.1, 0.0)
-    page = site.page(has_viser=True)
-    page.get_by_role("combobox", name="Choice").click()
-    expect(driver_status(page)).to_have_text("Click the picture to drive")
-    page.get_by_role("option", name="two").click()
-    until(lambda: choice.value == "two")
-    drives(site, page)
-    page.get_by_label("Number").fill("7")
-    page.keyboard.press("Enter")
-    until(lambda: number.value == 7)
-    drives(site, page)
-    page.locator(".mantine-NumberInput-control").first.click()
-    until(lambda: number.value == 8)
-    drives(site, page)
-    page.mouse.click(*centre(page.locator(".mantine-Slider-track")))
-    until(lambda: slider.value > 0)
-    before = slider.value
-    drives(site, page)
-    page.keyboard.press("ArrowUp")
-    page.keyboard.press("KeyW")
-    assert slider.value == before
+def test_keys_drive_again_after_the_panel_was_used(chromium: Browser) -> None:
+    with played("box_chase", "--seed", "1", waits_for_key=True) as server:
+        page = new_page(chromium)
+        page.goto(server.url)
+        ready(page)
+        page.get_by_role("button", name="Details").click()
+        seed = page.get_by_label("Seed", exact=True)
+        for leave, ends in (("Enter", 7), ("Escape", 8), ("picture", 9)):
+            seed.click()
+            expect(driver_status(page).first).to_have_text("Click the picture to drive")
+            seed.fill(str(ends))
+            if leave == "picture":
+                page.mouse.click(400, 300)
+            else:
+                page.keyboard.press(leave)
+            expect(driver_status(page).first).to_have_text("Press a key to start")
+            page.keyboard.press("KeyW")
+            until(lambda: server.snapshot()["tick"] > 0)
+            page.keyboard.press("KeyR")
+            until(lambda: server.snapshot()["waiting"] == "key")
+        page.get_by_label("Speed", exact=True).select_option("2x")
+        until(lambda: server.snapshot()["time_scale"] == 2)
+        page.mouse.click(400, 300)
+        page.keyboard.press("KeyW")
+        until(lambda: server.snapshot()["tick"] > 0)
+        page.context.close()
 
 
 def test_the_notice_about_the_graphics_card_is_in_the_help(site: ServedViser) -> None:
