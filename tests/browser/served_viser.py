@@ -118,6 +118,11 @@ def ready(page: Page) -> None:
     page.evaluate(CALM)
 
 
+def hide_panel(page: Page) -> None:
+    """Hide viser's own panel, as on pages that have ours."""
+    page.evaluate("document.documentElement.dataset.ai4uPanel = 'folded'")
+
+
 def driver_status(page: Page) -> Locator:
     """Return the element in which a page says who drives."""
     return page.locator(".ai4u-dock .ai4u-driver [role=status]")

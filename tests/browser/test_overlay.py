@@ -6,7 +6,7 @@ import pytest
 from playwright.sync_api import Locator, Page, expect
 
 from ai4u_edu import ArrowController, BasicAgent, LocalBrain, RemoteBrain, WASDRBMoveController
-from tests.browser.served_viser import ServedViser, driver_status
+from tests.browser.served_viser import ServedViser, driver_status, hide_panel
 from tests.builders import still
 from tests.server.rooms import free_port, until
 
@@ -14,7 +14,7 @@ pytestmark = pytest.mark.browser
 
 
 def cap(page: Page, name: str) -> Locator:
-    return page.get_by_role("button", name=re.compile(rf"^{name} "))
+    return page.get_by_role("button", name=re.compile(rf"^{name} \("))
 
 
 def centre(page: Page, name: str) -> tuple[float, float]:
@@ -170,6 +170,7 @@ def test_the_caps_are_free_and_the_middle_is_too(
     site: ServedViser, width: int, height: int
 ) -> None:
     page = site.page(has_viser=True, width=width, height=height)
+    hide_panel(page)
     page.wait_for_timeout(600)
     inside = "([x, y]) => document.elementFromPoint(x, y)?.closest('.ai4u-keycap')?.dataset.action"
     for name, action in (("forward", "forward"), ("back", "backward"), ("restart", "restart")):
