@@ -158,9 +158,9 @@ draw();
 loadLayout().then(arrange);
 socket.open();
 trackCanvasEdges();
+watchSharedScene();
 if ("ai4uPanel" in document.documentElement.dataset) {
   const { startPanel } = await import("./panel.js");
   panel = startPanel({ agent, take, letGo }, dock);
   draw();
 }
-watchSharedScene();

@@ -12,6 +12,8 @@
   /** Checks after which the parameter stays where it is. */
   const MAX_CHECKS = 30;
   const url = new URL(location.href);
+  // viser writes the address anew, without what stands after its "#"; share.js looks here first
+  document.documentElement.dataset.ai4uFragment = url.hash;
   if (!("panel" in document.currentScript.dataset)) return;
 
   // crypto.randomUUID is missing on pages without HTTPS

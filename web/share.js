@@ -52,15 +52,14 @@ async function showLink(title, link) {
  * @param {() => void} [onopen] called after the scene was opened
  */
 export function watchSharedScene(onopen = () => {}) {
-  const look = () => location.hash.startsWith(PREFIX) && offerSharedScene(onopen);
-  addEventListener("hashchange", look);
-  look();
+  const look = (fragment) => fragment.startsWith(PREFIX) && offerSharedScene(fragment, onopen);
+  addEventListener("hashchange", () => look(location.hash));
+  look(document.documentElement.dataset.ai4uFragment || location.hash);
 }
 
-async function offerSharedScene(onopen) {
+async function offerSharedScene(link, onopen) {
   if (isAsking) return;
   isAsking = true;
-  const link = location.hash;
   // so that reloading the page, or a bookmark of it, does not ask again
   history.replaceState(history.state, "", location.pathname + location.search);
   try {
