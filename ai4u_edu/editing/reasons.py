@@ -46,6 +46,8 @@ def reason_against_block(state: EditState, agent_id: str, kind: str, type_name: 
         dry_run(proposal.state, proposal.path)
     except AI4UError as error:
         return _sentence(error)
+    except Exception as error:  # a block of a student's may raise anything
+        return _own_fault(error)
     return ""
 
 
@@ -68,6 +70,8 @@ def reason_against_driver(
         _decide_once(with_driver(state, agent_id, name, drivers), agent_id)
     except AI4UError as error:
         return _sentence(error)
+    except Exception as error:  # a controller of a student's may raise anything
+        return _own_fault(error)
     return ""
 
 
@@ -90,6 +94,11 @@ def _is_local(state: EditState, agent_id: str) -> bool:
     """Return True if an agent's enabled brain opens no socket."""
     brains = state.agent(agent_id)["brains"]
     return all(each["type"] == "LocalBrain" for each in brains if each.get("enabled", True))
+
+
+def _own_fault(error: Exception) -> str:
+    """Return an error of a block's own code as a sentence."""
+    return f"Its code raised {type(error).__name__}: {error!s:.200}."
 
 
 def _sentence(error: AI4UError) -> str:

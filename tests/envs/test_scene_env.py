@@ -107,7 +107,7 @@ def test_a_step_is_the_same_decision_as_the_sandboxs() -> None:
 
 
 def test_info_names_the_terms_and_the_success() -> None:
-    env = gymnasium.make("ai4u_edu/BoxChase-v0")
+    env = gymnasium.make("ai4u_edu/BoxChaseAi4u-v0")
     _, info = env.reset(seed=5)
     assert info == {"reward_terms": {}, "success": False}
     terminated = False
@@ -146,7 +146,7 @@ def test_np_random_is_the_worlds_generator() -> None:
 
 
 def test_a_picture() -> None:
-    env = gymnasium.make("ai4u_edu/BoxChase-v0", render_mode="rgb_array")
+    env = gymnasium.make("ai4u_edu/BoxChaseAi4u-v0", render_mode="rgb_array")
     env.reset(seed=5)
     picture: Any = env.render()
     assert picture.shape == (480, 480, 3)

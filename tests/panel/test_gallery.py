@@ -1,8 +1,10 @@
 """Blocks in words, and the reasons why some can't work in a scene."""
 
+from typing import Any
+
 import pytest
 
-from ai4u_edu import Scene
+from ai4u_edu import Scene, Sensor
 from ai4u_edu.blocks import Block
 from ai4u_edu.blocks.docs import built_in_blocks
 from ai4u_edu.editing.forms import block_form
@@ -97,3 +99,16 @@ def test_a_gallery_groups_by_question_and_tells_what_can_not_work() -> None:
 def test_reasons_against_drivers(scene: str, driver: str, reason: str) -> None:
     harness = EditorHarness(Scene.load(scene))
     assert harness.editor.reason_against_driver("0", driver) == reason
+
+
+def test_a_block_whose_code_fails_is_grey_and_says_why() -> None:
+    class Unfinished(Sensor):
+        """Is not finished."""
+
+        def space(self) -> Any:
+            raise NameError("name 'Box' is not defined")
+
+    harness = EditorHarness()
+    items = gallery_items(harness.editor.state, "0", "sensors")
+    (item,) = [each for each in items if each.type_name == "Unfinished"]
+    assert item.reason == "Its code raised NameError: name 'Box' is not defined."
