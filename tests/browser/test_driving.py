@@ -20,7 +20,12 @@ def held(site: ServedViser) -> list[str]:
 
 
 def stays_still(site: ServedViser, seconds: float = 0.4) -> bool:
-    time.sleep(0.2)  # the decision that is under way, and one more
+    """Return True if the robot comes to rest within 3 s, and stays there for some seconds."""
+    end = time.monotonic() + 3
+    before = None
+    while site.pose()[:3] != before and time.monotonic() < end:
+        before = site.pose()[:3]
+        time.sleep(0.2)  # longer than a decision takes
     before = site.pose()[:3]
     time.sleep(seconds)
     return site.pose()[:3] == before
