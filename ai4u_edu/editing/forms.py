@@ -10,7 +10,6 @@ from typing import Any, Literal, get_args
 from ai4u_edu.base.errors import SceneError, suggest
 from ai4u_edu.base.parameters import Problem, is_open
 from ai4u_edu.blocks import Actuator, Block, Brain, Controller, RewardFunc, Sensor
-from ai4u_edu.blocks.docs import summary
 from ai4u_edu.editing.blocks import KINDS
 from ai4u_edu.editing.errors import ChangeError
 from ai4u_edu.editing.plain import Plain
@@ -131,11 +130,6 @@ def block_form(block: Plain, names: SceneNames) -> list[Field]:
         return field.is_common, field.name not in needed, _distance(cls, field.name)
 
     return sorted(fields, key=sort_key)
-
-
-def block_summary(block: Plain) -> str:
-    """Return a sentence about a block."""
-    return summary(Block.types[str(block["type"])])
 
 
 def _distance(cls: type[Block], name: str) -> int:

@@ -103,24 +103,26 @@ def _post(summary: str, model: type[BaseModel]) -> dict[str, Any]:
 
 
 def _picture(summary: str) -> dict[str, Any]:
-    described = _get(summary, {})
-    found = described["get"]
-    found["parameters"] = [
-        {
-            "name": "file",
-            "in": "path",
-            "required": True,
-            "description": "the scene's name and .png",
-            "schema": {"type": "string", "pattern": r"^[a-z0-9_]+\.png$"},
-        }
-    ]
-    found["responses"]["200"]["content"] = {"image/png": {}}
-    found["responses"]["404"] = {"description": "No scene has that name."}
-    return described
+    responses = {"404": {"description": "No scene has that name."}}
+    about = "the scene's name and .png"
+    return _file_at(summary, about, r"^[a-z0-9_]+\.png$", "image/png", responses)
 
 
 def _file(summary: str) -> dict[str, Any]:
     known = "|".join((RECORDING, *WRITERS))
+    responses = {
+        "404": {"description": "No such episode is kept; the text lists those that are."},
+        "409": {"description": "The file can't be made; the text gives the reason."},
+        "503": {"description": "Too many files are being made; Retry-After gives the delay."},
+    }
+    about = "the episode's number, and what to make of it"
+    return _file_at(summary, about, rf"^[0-9]+\.({known})$", "*/*", responses)
+
+
+def _file_at(
+    summary: str, about: str, pattern: str, media_type: str, responses: dict[str, Any]
+) -> dict[str, Any]:
+    """Describe a file whose name is the last part of the path."""
     described = _get(summary, {})
     found = described["get"]
     found["parameters"] = [
@@ -128,14 +130,10 @@ def _file(summary: str) -> dict[str, Any]:
             "name": "file",
             "in": "path",
             "required": True,
-            "description": "the episode's number, and what to make of it",
-            "schema": {"type": "string", "pattern": rf"^[0-9]+\.({known})$"},
+            "description": about,
+            "schema": {"type": "string", "pattern": pattern},
         }
     ]
-    found["responses"]["200"]["content"] = {"*/*": {}}
-    found["responses"] |= {
-        "404": {"description": "No such episode is kept; the text lists those that are."},
-        "409": {"description": "The file can't be made; the text gives the reason."},
-        "503": {"description": "Too many files are being made; Retry-After gives the delay."},
-    }
+    found["responses"]["200"]["content"] = {media_type: {}}
+    found["responses"] |= responses
     return described

@@ -4,7 +4,7 @@ import json
 from pathlib import Path
 from typing import Any
 
-from playwright.sync_api import Browser, ConsoleMessage, Page, Route
+from playwright.sync_api import Browser, ConsoleMessage, Locator, Page, Route
 
 from ai4u_edu.server.page import web_folder
 from tests.chromium import new_page
@@ -105,6 +105,12 @@ class TabPage:
         self.page.route(f"{ADDRESS}**", self._serve)
         self.page.goto(ADDRESS)
         self.page.wait_for_function("window.isReady")
+
+    def head(self, title: str) -> Locator:
+        """Return the button that opens a card."""
+        return self.page.locator("button[aria-expanded]").filter(
+            has=self.page.locator(f"strong:text-is('{title}')")
+        )
 
     def give(self, part: dict[str, Any], name: str = "") -> None:
         """Send a part to the tab."""

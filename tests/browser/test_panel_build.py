@@ -125,13 +125,6 @@ def card(tab: TabPage, title: str) -> Any:
     return tab.page.locator("article").filter(has_text=title).last
 
 
-def head(tab: TabPage, title: str) -> Any:
-    """The button that opens a card."""
-    return tab.page.locator("button[aria-expanded]").filter(
-        has=tab.page.locator(f"strong:text-is('{title}')")
-    )
-
-
 def test_blocks_are_cards_with_what_they_read(tab: TabPage) -> None:
     expect(card(tab, "Ray sensor")).to_contain_text("nearest 1.2 m")
     expect(card(tab, "Bumper")).to_contain_text("off")
@@ -143,7 +136,7 @@ def test_blocks_are_cards_with_what_they_read(tab: TabPage) -> None:
 
 
 def test_a_click_opens_the_form_with_the_fields_that_matter(tab: TabPage) -> None:
-    head(tab, "Ray sensor").click()
+    tab.head("Ray sensor").click()
     assert tab.shown["block"] == ["sensors", 0]
     tab.give({**PART, "form": FORM})
     rays = tab.page.get_by_label("number of rays")
@@ -163,7 +156,7 @@ def test_a_click_opens_the_form_with_the_fields_that_matter(tab: TabPage) -> Non
 
 
 def test_a_problem_is_told_below_its_field(tab: TabPage) -> None:
-    head(tab, "Ray sensor").click()
+    tab.head("Ray sensor").click()
     tab.give({**PART, "form": FORM})
     problem = {"path": ["number_of_rays"], "text": "expected at least 1, got -3"}
     tab.answer("change_block", ok=False, text="That can't be.", problems=[problem])
@@ -177,7 +170,7 @@ def test_a_problem_is_told_below_its_field(tab: TabPage) -> None:
 
 def test_blocks_are_switched_ordered_copied_and_deleted(tab: TabPage) -> None:
     tab.page.get_by_role("button", name="Turn on Bumper").click()
-    head(tab, "Bumper").click()
+    tab.head("Bumper").click()
     expect(tab.page.get_by_role("button", name="Move down Bumper")).to_be_disabled()
     tab.answer("move_block", path=["sensors", 0])
     tab.page.get_by_role("button", name="Move up Bumper").click()
@@ -195,7 +188,7 @@ def test_blocks_are_switched_ordered_copied_and_deleted(tab: TabPage) -> None:
 
 
 def test_a_keyboard_reorders_too(tab: TabPage) -> None:
-    bumper = head(tab, "Bumper")
+    bumper = tab.head("Bumper")
     bumper.focus()
     bumper.press("Alt+ArrowDown")
     bumper.press("Alt+ArrowUp")
@@ -203,13 +196,13 @@ def test_a_keyboard_reorders_too(tab: TabPage) -> None:
 
 
 def test_parts_of_a_block_have_cards_of_their_own(tab: TabPage) -> None:
-    head(tab, "All of these").click()
-    head(tab, "Reach the target").click()
+    tab.head("All of these").click()
+    tab.head("Reach the target").click()
     assert tab.shown["block"] == ["rewards", 0, "children", 0]
     form = {**FORM, "path": ["rewards", 0, "children", 0], "fields": FORM["fields"][:1]}
     tab.give({**PART, "form": {**form, "first": ["eye"]}})
     expect(tab.page.get_by_label("eye (m)")).to_be_visible()
-    expect(head(tab, "All of these")).to_have_attribute("aria-expanded", "true")
+    expect(tab.head("All of these")).to_have_attribute("aria-expanded", "true")
 
 
 def test_the_gallery_asks_questions_and_gives_reasons(tab: TabPage) -> None:
@@ -235,7 +228,7 @@ def test_the_gallery_asks_questions_and_gives_reasons(tab: TabPage) -> None:
 
 def test_a_block_is_added_into_another_one(tab: TabPage) -> None:
     tab.answer("gallery", items=GALLERY)
-    head(tab, "All of these").click()
+    tab.head("All of these").click()
     card(tab, "All of these").get_by_role("button", name="Reward", exact=True).click()
     tab.page.get_by_role("dialog").get_by_role("button", name="Bumper").click()
     assert tab.sent()[-1]["parent"] == ["rewards", 0, "children"]
@@ -278,7 +271,7 @@ def test_controls_are_large_enough_and_have_names(
     )
     tab.answer("drivers", items=DRIVERS)
     tab.give(PART)
-    head(tab, "Ray sensor").click()
+    tab.head("Ray sensor").click()
     tab.give({**PART, "form": FORM})
     tab.page.get_by_text("Agent's settings").click()
     assert tab.small_controls(smallest) == []

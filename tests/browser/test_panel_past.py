@@ -59,13 +59,6 @@ def tab(chromium: Browser) -> Iterator[TabPage]:
     assert tab.errors == []
 
 
-def head(tab: TabPage, title: str) -> Any:
-    """The button that opens a card."""
-    return tab.page.locator("button[aria-expanded]").filter(
-        has=tab.page.locator(f"strong:text-is('{title}')")
-    )
-
-
 def test_a_persons_drives_stand_apart(tab: TabPage) -> None:
     drives = tab.page.locator("details").filter(has_text="Your drives")
     expect(drives.locator("article")).to_have_count(1)
@@ -79,7 +72,7 @@ def test_a_persons_drives_stand_apart(tab: TabPage) -> None:
 
 
 def test_a_click_on_a_row_chooses_and_shows_it(tab: TabPage) -> None:
-    head(tab, "Episode 3").click()
+    tab.head("Episode 3").click()
     assert tab.shown["episode"] == 3
     assert tab.sent() == [
         {"command": "episode", "number": 3},
@@ -114,7 +107,7 @@ def test_the_full_seed_is_copied(chromium: Browser) -> None:
           {value: {writeText: async (text) => (window.copied = text)}})"""
     )
     tab.give(PART)
-    head(tab, "Episode 3").click()
+    tab.head("Episode 3").click()
     tab.page.get_by_role("button", name="Copy the seed").click()
     expect(tab.page.get_by_text("Copied")).to_be_visible()
     assert tab.page.evaluate("window.copied") == MINE["seed"]
@@ -209,7 +202,7 @@ def test_controls_are_large_enough_and_have_names(
     options: dict[str, Any] = {"has_touch": is_touch, "is_mobile": is_touch}
     tab = TabPage(chromium, "panel_past", "PastTab", "past", size=size, **options)
     tab.give(PART)
-    head(tab, "Episode 3").click()
+    tab.head("Episode 3").click()
     tab.give({**PART, "playing": PLAYING, "ghost": "Ghost: episode 3", "downloads": DOWNLOADS})
     assert tab.small_controls(smallest) == []
     assert tab.unnamed_controls() == []

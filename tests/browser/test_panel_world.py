@@ -70,30 +70,23 @@ def tab(chromium: Browser) -> Iterator[TabPage]:
     assert tab.errors == []
 
 
-def head(tab: TabPage, title: str) -> Any:
-    """The button that opens a card."""
-    return tab.page.locator("button[aria-expanded]").filter(
-        has=tab.page.locator(f"strong:text-is('{title}')")
-    )
-
-
 def chosen(tab: TabPage) -> None:
     """Choose the box, with the handles on."""
-    head(tab, "box").click()
+    tab.head("box").click()
     tab.give(MOVING)
     tab.sent()
 
 
 def test_things_are_listed_with_their_places(tab: TabPage) -> None:
-    expect(head(tab, "robot")).to_contain_text("agent, 4.0 m, 0.0 m")
-    expect(head(tab, "plate")).to_contain_text("floor, 0.0 m, 0.0 m")
+    expect(tab.head("robot")).to_contain_text("agent, 4.0 m, 0.0 m")
+    expect(tab.head("plate")).to_contain_text("floor, 0.0 m, 0.0 m")
     tab.give({**PART, "bodies": [{**BOX, "x": 2.5}]})
-    expect(head(tab, "box")).to_contain_text("2.5 m, 0.0 m")
-    expect(head(tab, "robot")).to_have_count(0)
+    expect(tab.head("box")).to_contain_text("2.5 m, 0.0 m")
+    expect(tab.head("robot")).to_have_count(0)
 
 
 def test_a_click_chooses_and_the_form_changes_it(tab: TabPage) -> None:
-    head(tab, "box").click()
+    tab.head("box").click()
     assert tab.shown["body"] == "box"
     assert tab.sent() == [{"command": "select", "body": "box"}]
     tab.give({**PART, "form": FORM})
@@ -111,7 +104,7 @@ def test_a_thing_that_is_clicked_in_the_picture_opens(tab: TabPage) -> None:
     tab.page.evaluate(
         """panel.dispatchEvent(new CustomEvent("selected", {detail: {body: "plate"}}))"""
     )
-    expect(head(tab, "plate")).to_have_attribute("aria-expanded", "true")
+    expect(tab.head("plate")).to_have_attribute("aria-expanded", "true")
     assert tab.shown["body"] == "plate"
 
 
@@ -182,7 +175,7 @@ def test_without_a_chosen_thing_only_undo_works(tab: TabPage) -> None:
     for keys in ("Delete", "ArrowLeft", "Escape", "Control+d", "Control+z"):
         tab.page.keyboard.press(keys)
     assert tab.sent() == [{"command": "undo"}]
-    head(tab, "box").click()
+    tab.head("box").click()
     tab.give({**PART, "form": FORM})
     tab.sent()
     tab.page.evaluate("document.activeElement.blur()")
@@ -204,7 +197,7 @@ def test_a_card_copies_and_deletes(tab: TabPage) -> None:
     tab.page.get_by_role("button", name="Duplicate").click()
     assert tab.sent()[0] == {"command": "duplicate_body", "name": "box"}
     assert tab.shown["body"] == "box 2"
-    head(tab, "box").click()
+    tab.head("box").click()
     tab.page.get_by_role("button", name="Delete").click()
     assert {"command": "remove_body", "name": "box"} in tab.sent()
     assert tab.shown["body"] is None

@@ -8,7 +8,6 @@ from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from typing import Any, Self
 
-import msgspec
 import viser
 from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import connect
@@ -23,6 +22,7 @@ from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.server import ServerThread, lock_viser_port, room_app
 from ai4u_edu.viewer import Viewer
 from ai4u_edu.viewer.viewer_client import ViewerClient
+from tests.load.clients import CAMERA
 from tests.server.rooms import until
 
 Message = dict[str, Any]
@@ -148,7 +148,7 @@ def picture(room: PanelRoom, page_id: str) -> Iterator[ViewerClient]:
     address = room.url.replace("http", "ws", 1) + f"?page={page_id}"
     protocol = Subprotocol(f"viser-v{viser.__version__}")
     with connect(address, subprotocols=[protocol], max_size=None, proxy=None) as connection:
-        connection.send(msgspec.msgpack.encode(CAMERA))
+        connection.send(CAMERA)
         until(lambda: room.viewer.viewer_clients.find(page_id))
         client = room.viewer.viewer_clients.find(page_id)
         assert client is not None
@@ -161,18 +161,3 @@ def _read(connection: Connection) -> None:
     with suppress(ConnectionClosed):
         for _ in connection:
             pass
-
-
-CAMERA = {
-    "type": "ViewerCameraMessage",
-    "wxyz": (0.0, 1.0, 0.0, 0.0),
-    "position": (3.0, 3.0, 3.0),
-    "fov": 1.0,
-    "near": 0.1,
-    "far": 1000.0,
-    "image_height": 800,
-    "image_width": 960,
-    "look_at": (3.0, 3.0, 0.0),
-    "up_direction": (0.0, 1.0, 0.0),
-}
-"""Message with which a page reports its camera."""
