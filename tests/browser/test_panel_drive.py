@@ -106,7 +106,7 @@ def test_details_tell_of_the_script_of_other_robots_and_of_the_latest_rewards(
     paid = {"decision": 40, "terms": [{"term": "time", "amount": -0.5}], "total": -0.5}
     desk.panel.change("agent", script=script, others=[other | {"state": "fell"}], paid=[paid])
     words = desk.page.get_by_text("Script: late · no answer for 2 s · 7 actions carried out")
-    reward = desk.page.get_by_text("Decision 40: time −0.50")
+    reward = desk.page.get_by_text("Decision 40: time \u22120.50")
     expect(words).to_be_hidden()
     expect(reward).to_be_hidden()
     desk.button("Details").click()
