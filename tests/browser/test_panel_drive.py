@@ -6,6 +6,7 @@ from collections.abc import Iterator
 import pytest
 from playwright.sync_api import Browser, expect
 
+from tests.browser.fake_panel import Json
 from tests.browser.panel_page import PanelPage, panel_page, panel_room
 from tests.server.rooms import Room
 
@@ -83,7 +84,11 @@ def test_a_speed_that_is_not_in_the_list_is_shown(desk: PanelPage) -> None:
     ("name", "mode"), [("Follow", "follow"), ("Turn with robot", "turn"), ("Robot's view", "eyes")]
 )
 def test_the_camera_is_chosen(desk: PanelPage, name: str, mode: str) -> None:
-    desk.panel.replies["camera"] = lambda sent: desk.panel.change("view", camera=sent["mode"]) or {}
+    def show_camera(sent: Json) -> Json:
+        desk.panel.change("view", camera=sent["mode"])
+        return {}
+
+    desk.panel.replies["camera"] = show_camera
     desk.button(name).click()
     desk.until(lambda: desk.panel.commands("camera") == [{"mode": mode}])
     expect(desk.button(name)).to_have_attribute("aria-pressed", "true")
