@@ -58,7 +58,7 @@ def test_a_field_has_what_a_person_needs() -> None:
     assert next(iter(seen)) == "number_of_rays"  # its own before those of all that cast rays
     assert list(seen)[-1] == "dropout"
     assert seen["vision_max_distance"].label == "vision max distance (m)"
-    assert "more than 0, at most 10000 m" in seen["vision_max_distance"].hint
+    assert "more than 0, at most 10000 m" in seen["vision_max_distance"].limits
     assert seen["noise"].is_common
     assert not seen["number_of_rays"].is_common
     assert "is_active" not in seen
