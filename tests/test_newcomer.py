@@ -109,7 +109,7 @@ def test_all_of_it_appears_in_the_viewer(sim: ai4u_edu.ControlRequestor) -> None
         with page(viewer):
             shown(viewer)
             context = PanelContext(runner, viewer)
-            told = agent_part(context, runner.latest, runner.latest.agents[0], (), has_trail=False)
+            told = agent_part(context, runner.latest, runner.latest.agents[0], ())
         (agent,) = sim.agents
         smell = float(agent.percept["smell"][0])
         assert 0.6 < smell < 1

@@ -7,6 +7,7 @@ import { number } from "./panel_numbers.js";
 import { choice, section } from "./panel_parts.js";
 import { PythonLines } from "./panel_python.js";
 import { RewardTable } from "./panel_rewards.js";
+import { RobotTable, scriptWords } from "./panel_robots.js";
 import { SensorView } from "./panel_sensor.js";
 import { Training } from "./panel_training.js";
 
@@ -16,6 +17,8 @@ export class DriveTab {
   #driver;
   #driverRow = element("div", { className: "ai4u-driver-row" });
   #brain = element("p", { className: "ai4u-soft ai4u-details-only" });
+  #script = element("p", { className: "ai4u-soft ai4u-details-only" });
+  #robots = new RobotTable();
   #state = element("p", { className: "ai4u-agent-state" });
   #driveThis = button("Drive this one", () => this.#driveShown());
   #needs = new Bars();
@@ -42,14 +45,15 @@ export class DriveTab {
     this.#sections = {
       python: section("python", "Drive it from Python", { isOpen: false, detailsOnly: true }, this.#python.element),
       training: section("training", "Training", {}, this.#training.element),
-      driver: section("driver", "Who drives", {}, this.#driverRow, this.#driveThis, this.#state, this.#brain, this.#howTo),
+      driver: section("driver", "Who drives", {}, this.#driverRow, this.#driveThis, this.#state, this.#brain, this.#script, this.#howTo),
+      robots: section("robots", "All robots", { isOpen: false, detailsOnly: true }, this.#robots.element),
       needs: section("needs", "Needs", {}, this.#needs.element),
       sensors: section("sensors", "Sensors", {}, this.#sensors, this.#legend),
       rewards: section("rewards", "Rewards", {}, this.#rewards.element),
       action: section("action", "Action", { detailsOnly: true }, this.#phases, this.#action.element),
     };
-    const { training, driver, needs, sensors, rewards, action, python } = this.#sections;
-    root.append(this.#agents.element, training, driver, needs, sensors, rewards, action, python);
+    const { training, driver, robots, needs, sensors, rewards, action, python } = this.#sections;
+    root.append(this.#agents.element, training, driver, needs, sensors, rewards, action, robots, python);
     panel.addEventListener("part:scene", ({ detail }) => this.#drawScene(detail));
     panel.addEventListener("driver", ({ detail }) => this.#drawDriver(detail));
     panel.addEventListener("agent", () => this.#drawShown());
@@ -81,7 +85,10 @@ export class DriveTab {
     this.#sections.sensors.hidden = agent.sensors.length === 0;
     this.#action.update((agent.action ?? []).map(actionRow));
     setText(this.#phases, phaseWords(agent.phases));
-    this.#rewards.update(agent.rewards ?? []);
+    this.#rewards.update(agent.rewards ?? [], agent.paid ?? []);
+    setText(this.#script, scriptWords(agent.script));
+    this.#robots.update(agent.others ?? []);
+    this.#sections.robots.hidden = !agent.others?.length;
   }
 
   #drawTraining(training) {

@@ -15,13 +15,13 @@ export class ViewControls {
 
   /** @param {HTMLElement} history the buttons to undo and redo */
   constructor(panel, history) {
-    const cameras = segments("Camera", CAMERAS, async (mode) => {
-      const answer = await panel.send("camera", { mode }, { quiet: true });
-      if (answer.ok) cameras.set(mode);
-    });
-    cameras.set("arena");
+    const cameras = segments("Camera", CAMERAS, (mode) => panel.send("camera", { mode }, { quiet: true }));
     cameras.element.classList.add("ai4u-cameras");
     const trail = toggle("Trail", (on) => panel.send("trail", { on }, { quiet: true }), { title: "Draw the robot's way" });
+    panel.addEventListener("part:view", ({ detail }) => {
+      cameras.set(detail.camera);
+      trail.set(detail.has_trail);
+    });
     const root = document.documentElement;
     const dark = toggle("Dark", (on) => {
       dispatchEvent(new CustomEvent("ai4u-dark", { detail: on })); // dark.js keeps the choice

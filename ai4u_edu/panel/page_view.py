@@ -16,7 +16,8 @@ class PageView:
     """The things that one page looks at, and its choices.
 
     viser's connection of the page may come later than the panel's, and may come again: choices are
-    kept here and applied whenever there is another client. Belongs to the server's event loop.
+    kept here and applied whenever there is another client. A panel that connects again takes over
+    what its picture shows. Belongs to the server's event loop.
 
     Args:
         viewer_clients: viser's clients.
@@ -31,7 +32,7 @@ class PageView:
         self._viewer_clients, self._page_id, self._panel = viewer_clients, page_id, panel
         self._client: ViewerClient | None = None
         self.show = Show(type="show", agent=agent)
-        self.camera = Mode.ARENA
+        self._camera: Mode | None = None
         self.is_move_mode = False
         self.snap_m = 0.0
         self.trails: dict[str, bool] = {}
@@ -45,6 +46,11 @@ class PageView:
     def agent(self) -> str:
         """Id of the agent that the page shows."""
         return self.show.agent
+
+    @property
+    def camera(self) -> Mode:
+        """Position of the page's camera."""
+        return self._camera or Mode.ARENA
 
     @property
     def address(self) -> str:
@@ -61,7 +67,9 @@ class PageView:
         client = self._viewer_clients.find(self._page_id)
         if client is not self._client:
             self._client = client
-            self._apply(self._choose_all)
+            if client is not None:
+                self._take_over(client)
+                self._choose_all(client)
 
     def look_at(self, show: Show) -> None:
         """Look at something else."""
@@ -89,7 +97,7 @@ class PageView:
 
     def choose_camera(self, mode: Mode) -> None:
         """Put the camera somewhere."""
-        self.camera = mode
+        self._camera = mode
         self._apply(lambda client: client.view.choose(mode))
 
     def choose_dark(self, is_dark: bool) -> None:
@@ -132,6 +140,12 @@ class PageView:
     def _apply(self, choose: Callable[[ViewerClient], None]) -> None:
         if self._client is not None:
             choose(self._client)
+
+    def _take_over(self, client: ViewerClient) -> None:
+        """Take over what the picture shows, except for what was chosen since."""
+        self._camera = self._camera or client.view.mode
+        self.trails = client.trail_choices | self.trails
+        self.sensors = client.sensor_choices | self.sensors
 
     def _choose_shown(self, client: ViewerClient) -> None:
         client.agent = self.show.agent

@@ -74,7 +74,7 @@ class Viewer:
             (viewer_clients, MAX_FRAMES_PER_S),
             (Ground(server), TEXTS_PER_S),
             (bodies, MAX_FRAMES_PER_S),
-            (Labels(server), MAX_FRAMES_PER_S),
+            (Labels(server, viewer_clients), MAX_FRAMES_PER_S),
             (self.ghosts, SENSES_PER_S),
             (Actions(server, bodies), SENSES_PER_S),
             (Trails(viewer_clients), SENSES_PER_S),

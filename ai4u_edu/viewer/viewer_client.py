@@ -68,8 +68,10 @@ class ViewerClient:
         """Its camera."""
         self.agent = asked
         """Id of the agent that is shown."""
-        self._sensor_choices: dict[tuple[str, str], bool] = {}
-        self._trail_choices: dict[str, bool] = {}
+        self.sensor_choices: dict[tuple[str, str], bool] = {}
+        """Sensors that were switched on or off, by agent and key."""
+        self.trail_choices: dict[str, bool] = {}
+        """Trails that were switched on or off, by agent."""
 
     def settle(self, ids: Sequence[str]) -> None:
         """Show the first of these agents, unless the one that is shown is among them."""
@@ -83,7 +85,7 @@ class ViewerClient:
             key: the sensor's perception key.
             is_default: True for a sensor that is shown unless the user has switched it off.
         """
-        return self._sensor_choices.get((self.agent, key), is_default)
+        return self.sensor_choices.get((self.agent, key), is_default)
 
     def set_dark(self, is_dark: bool) -> None:
         """Draw the page's picture in dark or light colours."""
@@ -92,7 +94,7 @@ class ViewerClient:
 
     def show_sensor(self, key: str, on: bool, agent: str = "") -> None:
         """Show a sensor in the scene, or hide it; by default one of the agent that is shown."""
-        self._sensor_choices[agent or self.agent, key] = on
+        self.sensor_choices[agent or self.agent, key] = on
 
     def shows_trail(self, agent_id: str, *, is_default: bool) -> bool:
         """Return True if the trail behind an agent is shown.
@@ -101,11 +103,11 @@ class ViewerClient:
             agent_id: the agent's id.
             is_default: True for an agent whose trail is shown unless the user has switched it off.
         """
-        return self._trail_choices.get(agent_id, is_default)
+        return self.trail_choices.get(agent_id, is_default)
 
     def show_trail(self, agent_id: str, on: bool) -> None:
         """Show the trail behind an agent on this page, or hide it."""
-        self._trail_choices[agent_id] = on
+        self.trail_choices[agent_id] = on
 
 
 class ViewerClients(Mapping[int, ViewerClient]):

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 import pytest
 from playwright.sync_api import Browser, expect
 
+from tests.browser.fake_panel import Json
 from tests.browser.panel_page import PanelPage, panel_page, panel_room
 from tests.server.rooms import Room
 
@@ -83,10 +84,41 @@ def test_a_speed_that_is_not_in_the_list_is_shown(desk: PanelPage) -> None:
     ("name", "mode"), [("Follow", "follow"), ("Turn with robot", "turn"), ("Robot's view", "eyes")]
 )
 def test_the_camera_is_chosen(desk: PanelPage, name: str, mode: str) -> None:
+    def show_camera(sent: Json) -> Json:
+        desk.panel.change("view", camera=sent["mode"])
+        return {}
+
+    desk.panel.replies["camera"] = show_camera
     desk.button(name).click()
     desk.until(lambda: desk.panel.commands("camera") == [{"mode": mode}])
     expect(desk.button(name)).to_have_attribute("aria-pressed", "true")
     expect(desk.button("Arena")).to_have_attribute("aria-pressed", "false")
+
+
+def test_the_trail_and_the_camera_are_shown_as_they_are(desk: PanelPage) -> None:
+    trail = desk.page.get_by_role("switch", name="Trail")
+    expect(trail).to_have_attribute("aria-checked", "false")
+    desk.panel.change("view", camera="turn", has_trail=True)
+    expect(trail).to_have_attribute("aria-checked", "true")
+    expect(desk.button("Turn with robot")).to_have_attribute("aria-pressed", "true")
+
+
+def test_details_tell_of_the_script_of_other_robots_and_of_the_latest_rewards(
+    desk: PanelPage,
+) -> None:
+    script = {"state": "late", "reason": "no answer for 2 s", "counts": {"decisions": 7}}
+    other = {"id": "1", "title": "runner", "colour": "#d55e00", "decision": 9, "score": 1.5}
+    paid = {"decision": 40, "terms": [{"term": "time", "amount": -0.5}], "total": -0.5}
+    desk.panel.change("agent", script=script, others=[other | {"state": "fell"}], paid=[paid])
+    words = desk.page.get_by_text("Script: late · no answer for 2 s · 7 actions carried out")
+    reward = desk.page.get_by_text("Decision 40: time \u22120.50")
+    expect(words).to_be_hidden()
+    expect(reward).to_be_hidden()
+    desk.button("Details").click()
+    expect(words).to_be_visible()
+    expect(reward).to_be_visible()
+    desk.page.get_by_text("All robots").click()
+    expect(desk.page.get_by_role("row", name="runner")).to_contain_text("91.50fell")
 
 
 def test_dark_is_remembered(desk: PanelPage) -> None:
@@ -136,7 +168,7 @@ def test_a_bar_begins_at_zero(desk: PanelPage) -> None:
 
 
 def test_rewards_are_a_table(desk: PanelPage) -> None:
-    rows = desk.page.locator(".ai4u-rewards tr")
+    rows = desk.page.locator(".ai4u-table:visible tr")
     expect(rows.filter(has_text="closer")).to_contain_text("0.12")
     expect(rows.last).to_contain_text("2.75")
     expect(desk.page.locator(".ai4u-curve.ai4u-details-only")).to_be_hidden()

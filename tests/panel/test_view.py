@@ -6,6 +6,9 @@ from uuid import uuid4
 
 import pytest
 
+from ai4u_edu.blocks import RemoteStatus
+from ai4u_edu.panel.context import PanelContext
+from ai4u_edu.panel.parts.agent import agent_part
 from ai4u_edu.viewer.scene.view import Mode
 from tests.panel.rooms import PanelRoom, panel_room, picture
 from tests.server.rooms import until
@@ -64,12 +67,30 @@ def test_a_sensor_is_hidden() -> None:
         )
 
 
+def test_the_script_that_drives_an_agent(room: PanelRoom) -> None:
+    context = PanelContext(room.runner, room.viewer)
+    snapshot = room.runner.latest
+    remote = RemoteStatus("late", "no answer for 2 s", 7, 0, 0, 0, 3)
+    for status, told in (
+        (None, None),
+        (
+            remote,
+            {
+                "state": "late",
+                "reason": "no answer for 2 s",
+                "counts": {"decisions": 7, "clipped": 3},
+            },
+        ),
+    ):
+        agent = snapshot.agents[0]._replace(remote=status)
+        assert agent_part(context, snapshot, agent, ())["script"] == told
+
+
 def test_the_trail_is_switched_on(room: PanelRoom, page_id: str) -> None:
     with room.page(f"?page={page_id}") as page, picture(room, page_id) as client:
-        page.show("0", "agent")
-        page.part("agent", has_trail=False)  # a person drives
+        page.part("view", has_trail=False)  # a person drives
         page.done("trail", on=True)
-        page.part("agent", has_trail=True)
+        page.part("view", has_trail=True)
         until(lambda: client.shows_trail("0", is_default=False))
 
 
@@ -98,6 +119,21 @@ def test_choices_reach_the_picture_of_the_same_page(room: PanelRoom, page_id: st
         until(lambda: room.viewer.viewer_clients.find(page_id) is None)
         with picture(room, page_id) as again:  # as after a lost connection
             until(lambda: again.view.mode is Mode.TURN and again.is_dark)
+
+
+def test_a_panel_knows_what_its_picture_shows(room: PanelRoom, page_id: str) -> None:
+    with picture(room, page_id) as client:
+        with room.page(f"?page={page_id}") as page:
+            page.part("view", camera="arena", has_trail=False)
+            until(lambda: client.panel is not None)
+            page.done("camera", mode="follow")
+            page.done("trail", on=True)
+            page.part("view", camera="follow", has_trail=True)
+        with room.page(f"?page={page_id}") as page:  # as after a lost connection
+            page.part("view", camera="follow", has_trail=True)
+            assert client.view.mode is Mode.FOLLOW
+    with room.page(f"?page={uuid4().hex}") as page:  # as after a reload
+        page.part("view", camera="arena", has_trail=False)
 
 
 def test_other_pages_keep_their_view(room: PanelRoom, page_id: str) -> None:

@@ -1,5 +1,6 @@
 """Labels in the scene, with the state of remote scripts."""
 
+import math
 from dataclasses import replace
 from typing import Any
 
@@ -11,7 +12,8 @@ from ai4u_edu.snapshot import Snapshot
 from ai4u_edu.snapshot.agent_words import script_problem
 from ai4u_edu.viewer import Viewer
 from ai4u_edu.viewer.scene.labels import Labels
-from tests.viewer.pages import part_of
+from ai4u_edu.viewer.scene.view import Mode
+from tests.viewer.pages import page, part_of
 
 
 def with_script(snapshot: Snapshot, state: Any) -> Snapshot:
@@ -64,3 +66,28 @@ def test_the_label_of_a_driven_agent_is_hidden(viewer: Viewer, runner: Runner) -
     assert shows("", 4.5)
     assert not shows("KeyW", 4.6)
     assert shows("", 0.0)  # after a reset
+
+
+def test_the_label_is_behind_the_agent_where_the_camera_turns_with_it(
+    viewer: Viewer, runner: Runner
+) -> None:
+    part, snapshot = part_of(viewer, Labels), runner.latest
+    robot, *others = snapshot.bodies
+    south = robot._replace(heading=-math.pi / 2)  # its face is where shared labels are
+    turned = replace(snapshot, bodies=(south, *others))
+
+    def label_y() -> float:
+        viewer.viewer_clients.refresh()
+        part.draw(turned)
+        labels: Any = part.turned.get(number, part.labels)
+        return float(labels[0].handle.position[1])
+
+    with page(viewer):
+        viewer.viewer_clients.refresh()
+        ((number, shown),) = viewer.viewer_clients.items()
+        assert label_y() < south.y
+        shown.view.choose(Mode.TURN)
+        assert label_y() > south.y
+        assert part.turned[number][0].handle.name == part.labels[0].handle.name
+        shown.view.choose(Mode.ARENA)
+        assert label_y() < south.y

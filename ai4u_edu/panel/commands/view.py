@@ -9,8 +9,6 @@ from ai4u_edu.panel.messages.base import Command
 from ai4u_edu.panel.page import Page
 from ai4u_edu.viewer.scene.view import Mode
 
-CAMERAS = {"arena": Mode.ARENA, "follow": Mode.FOLLOW, "turn": Mode.TURN, "eyes": Mode.EYES}
-
 
 async def _agent(page: Page, command: m.ShowAgent) -> Answer:
     agent = page.context.runner.sim.agent(command.agent)  # an error if there is none
@@ -19,7 +17,7 @@ async def _agent(page: Page, command: m.ShowAgent) -> Answer:
 
 
 async def _camera(page: Page, command: m.Camera) -> Answer:
-    page.view.choose_camera(CAMERAS[command.mode])
+    page.view.choose_camera(Mode[command.mode.upper()])
     return Answer()
 
 

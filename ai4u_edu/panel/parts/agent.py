@@ -5,6 +5,7 @@ from typing import Any
 
 from ai4u_edu.agent.script_lines import script_lines
 from ai4u_edu.base.errors import AI4UError
+from ai4u_edu.blocks import RemoteStatus
 from ai4u_edu.panel.context import PanelContext
 from ai4u_edu.panel.gallery import words_of
 from ai4u_edu.panel.parts.colours import hex_colour
@@ -30,8 +31,6 @@ def agent_part(
     snapshot: Snapshot,
     agent: AgentState,
     shown: Collection[str],
-    *,
-    has_trail: bool,
 ) -> dict[str, Any]:
     """Return an agent's readings, action and rewards.
 
@@ -40,7 +39,6 @@ def agent_part(
         snapshot: the latest snapshot.
         agent: the agent's state in it.
         shown: keys of the sensors that are drawn on the page.
-        has_trail: True if the agent's trail is drawn on the page.
     """
     colours = group_colours(snapshot.static_scene)
     editor = context.editor
@@ -59,9 +57,9 @@ def agent_part(
         "brain": agent.brain,
         "state": ending(agent),
         "problem": script_problem(agent),
+        "script": None if agent.remote is None else _script(agent.remote),
         "clipped": agent.clipped,
         "sensors": sensors,
-        "has_trail": has_trail,
         "needs": [_need(each) for each in agent.needs],
         "action": [
             component
@@ -113,6 +111,16 @@ def _driver_name(context: PanelContext, agent: AgentState) -> str:
         return context.required_editor().driver_of(agent.id)
     except AI4UError:
         return ""  # the editor has another scene already
+
+
+def _script(remote: RemoteStatus) -> dict[str, Any]:
+    """Return the state of the script that drives an agent, with the counts that are not 0."""
+    names = ("decisions", "missing", "ignored", "refused", "clipped")
+    return {
+        "state": remote.state,
+        "reason": remote.reason,
+        "counts": {name: count for name in names if (count := getattr(remote, name))},
+    }
 
 
 def _need(need: Need) -> dict[str, Any]:

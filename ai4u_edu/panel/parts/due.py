@@ -14,6 +14,7 @@ from ai4u_edu.panel.parts.past import past_part
 from ai4u_edu.panel.parts.run import run_part
 from ai4u_edu.panel.parts.scene import scene_part
 from ai4u_edu.panel.parts.training import training_part
+from ai4u_edu.panel.parts.view import view_part
 from ai4u_edu.panel.parts.world import world_part
 
 Parts = Iterator[tuple[str, bytes]]
@@ -28,6 +29,7 @@ def due_parts(context: PanelContext, view: PageView) -> Parts:
     run_key = "run", agent_id, None if stall is None else str(stall)
     yield "run", cache.of_snapshot(snapshot, run_key, lambda: run_part(context, snapshot, agent_id))
     yield "scene", cache.of_snapshot(snapshot, "scene", lambda: scene_part(context, snapshot))
+    yield "view", _view_json(context, view)
     progress = context.runner.training
     if progress is not None:
         yield "training", cache.by_key(("training", progress), lambda: training_part(progress))
@@ -42,19 +44,24 @@ def due_parts(context: PanelContext, view: PageView) -> Parts:
             yield from _editor_parts(context, context.editor, view)
 
 
+def _view_json(context: PanelContext, view: PageView) -> bytes:
+    agents = context.runner.latest.agents
+    is_driven = any(each.is_driven_by_keys for each in agents if each.id == view.agent)
+    has_trail = view.trails.get(view.agent, not is_driven)
+    key = "view", view.camera, has_trail
+    return context.cache.by_key(key, lambda: view_part(view.camera, has_trail=has_trail))
+
+
 def _agent_parts(context: PanelContext, view: PageView) -> Parts:
     snapshot, cache = context.runner.latest, context.cache
     agent = next((each for each in snapshot.agents if each.id == view.agent), None)
     if agent is None:
         return
     shown = shown_sensors(agent, view.sensors)
-    has_trail = view.trails.get(agent.id, not agent.is_driven_by_keys)
-    key = "agent", agent.id, shown, has_trail
+    key = "agent", agent.id, shown
     yield (
         "agent",
-        cache.of_snapshot(
-            snapshot, key, lambda: agent_part(context, snapshot, agent, shown, has_trail=has_trail)
-        ),
+        cache.of_snapshot(snapshot, key, lambda: agent_part(context, snapshot, agent, shown)),
     )
     if view.is_curve_due(time.monotonic()):
         yield "curve", cache.of_snapshot(snapshot, ("curve", agent.id), lambda: curve_part(agent))

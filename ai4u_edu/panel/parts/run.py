@@ -46,7 +46,6 @@ def run_part(context: PanelContext, snapshot: Snapshot, agent_id: str) -> dict[s
         "slow": slow_warning(snapshot),
         "error": snapshot.error,
         "stall": "" if stall is None else str(stall),
-        "scripts": [_script(each) for each in snapshot.agents if each.remote is not None],
     }
 
 
@@ -97,17 +96,3 @@ def slow_warning(snapshot: Snapshot) -> str:
     overlap = slow.contacts > len(snapshot.bodies) * MAX_USUAL_CONTACTS
     why = f" with {slow.contacts} contacts. Move bodies out of each other" if overlap else ""
     return f"Slow computer: a step took {1000 * slow.seconds:.0f} ms{why}."
-
-
-def _script(agent: AgentState) -> dict[str, Any]:
-    """Return the state of the script that drives an agent."""
-    remote = agent.remote
-    if remote is None:
-        return {}
-    names = ("decisions", "missing", "ignored", "refused", "clipped")
-    return {
-        "agent": agent.id,
-        "state": remote.state,
-        "reason": remote.reason,
-        "counts": {name: count for name in names if (count := getattr(remote, name))},
-    }
