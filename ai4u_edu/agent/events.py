@@ -4,6 +4,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 from ai4u_edu.agent.error_context import add_context
+from ai4u_edu.base.errors import SetupError
 
 if TYPE_CHECKING:
     from ai4u_edu.agent.agent import BasicAgent
@@ -43,7 +44,16 @@ class Event:
         """Connected handlers; callers test it before :meth:`fire`, since most events have none."""
 
     def connect(self, handler: Handler) -> Handler:
-        """Call the handler at this event from now on; also a decorator."""
+        """Call the handler at this event from now on; also a decorator.
+
+        Raises:
+            SetupError: it is no function.
+        """
+        if not callable(handler):
+            raise SetupError(
+                f"connect: expected a function that gets the agent, got {handler!r}; give a "
+                "function that is called later, as in connect(lambda agent: print(agent.id))"
+            )
         self.handlers.append(handler)
         return handler
 

@@ -6,6 +6,7 @@ from the declaration.
 
 from collections.abc import Callable, Mapping
 from functools import wraps
+from inspect import signature
 from typing import Any, Self, dataclass_transform
 
 from pydantic import ConfigDict, Field, GetCoreSchemaHandler, TypeAdapter, ValidationError
@@ -28,8 +29,8 @@ _CONFIG = ConfigDict(
 class Parameterized:
     """The base of blocks and agents.
 
-    A subclass declares parameters and writes no ``__init__``. It may set other attributes at any
-    time later.
+    A subclass declares parameters and needs no ``__init__``. It may set other attributes at any
+    time later; an ``__init__(self)`` of its own runs once the parameters are set.
 
     >>> class Thermometer(Parameterized):
     ...     '''Reads how warm it is.'''
@@ -45,6 +46,9 @@ class Parameterized:
 
     def __init_subclass__(cls, **options: Any) -> None:
         super().__init_subclass__(**options)
+        own = vars(cls).get("__init__")
+        if own is not None:
+            setattr(cls, "__post_init__", _run_once(own, cls.__name__))  # noqa: B010 - as below
         dataclass(cls, kw_only=True, eq=False, repr=False, config=_CONFIG)
         # the constructor that pydantic made raises its own errors; convert them to ours
         setattr(cls, "__init__", _explained(cls.__init__, cls))  # noqa: B010 - mypy: it is no method
@@ -113,6 +117,34 @@ class Parameterized:
     def __repr__(self) -> str:
         given = ", ".join(f"{name}={value!r}" for name, value in self.given().items())
         return f"{type(self).__name__}({given})"
+
+
+def _run_once(own: Callable[..., None], name: str) -> Callable[[Any], None]:
+    """Return a class's own ``__init__`` as a step after the generated constructor.
+
+    Raises:
+        ParameterError: it takes parameters, which have to be declared as fields.
+    """
+    extra = list(signature(own).parameters.values())[1:]
+    if extra:
+        fields = ", ".join(f"`{each.name}: float = ...`" for each in extra)
+        raise ParameterError(
+            f"{name}: expected no parameters of __init__ besides self, got "
+            f"{', '.join(each.name for each in extra)}; declare each under the class line, as in "
+            f"{fields}, and read it as self.{extra[0].name}"
+        )
+    running: set[int] = set()
+
+    def initialise(self: Any) -> None:
+        if id(self) in running:  # it called super().__init__(), which comes back here
+            return
+        running.add(id(self))
+        try:
+            own(self)
+        finally:
+            running.discard(id(self))
+
+    return initialise
 
 
 def _explained(construct: Callable[..., None], cls: type[Parameterized]) -> Callable[..., None]:

@@ -44,3 +44,12 @@ def made_in(code: str) -> set[str]:
             parts = [part for target in targets for part in ast.walk(target)]
             made |= {part.id for part in parts if isinstance(part, ast.Name)}
     return made
+
+
+def definition_line(exercise: str, name: str) -> str:
+    """Return the line that defines a function in an exercise's cell; empty if there is none."""
+    for cell in lesson(exercise.partition(".")[0]).cells:
+        if cell.exercise == exercise:
+            found = (line.strip() for line in cell.source.splitlines())
+            return next((line for line in found if line.startswith(f"def {name}(")), "")
+    return ""

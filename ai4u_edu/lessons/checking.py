@@ -5,13 +5,19 @@ from dataclasses import dataclass
 from typing import Any
 
 from ai4u_edu.lessons.answers import answers_to
-from ai4u_edu.lessons.cell_source import written
+from ai4u_edu.lessons.cell_source import definition_line, written
+from ai4u_edu.lessons.diagnoses import COMMON, UNKNOWN, diagnosis_id
 from ai4u_edu.lessons.exercise import Done, Exercise, NotYet, find, unfinished
 from ai4u_edu.lessons.notebook_output import card, put
 from ai4u_edu.lessons.progress_file import Entry, ProgressFile
-from ai4u_edu.lessons.student_errors import told
+from ai4u_edu.lessons.student_errors import Mistake, line_of, mistake_in
+from ai4u_edu.lessons.time_limit import TimeLimit, TimeLimitError
 
 YES, NO = "\u2714", "\u2013"
+NONE_GIVEN = (
+    "What you handed in is None: nothing. Give the function's name without brackets after it. If "
+    "it is what a function returned, that function lacks a `return`."
+)
 UNFINISHED = "There is still `...` where your answer should be: run its cell once you wrote it."
 
 
@@ -22,21 +28,25 @@ class Verdict:
     passed: bool
     text: str
     hint: str = ""
-    """Name of the hint that helps."""
+    """Name of the diagnosis, whose hint helps."""
     picture: bytes = b""
 
 
 def judge(exercise: Exercise, *things: Any) -> Verdict:
     """Run a student's work; return their exception as a sentence."""
-    first = next(iter(exercise.hints))
     if not things or any(unfinished(thing) for thing in things):
-        return Verdict(False, UNFINISHED, first)
-    try:
-        found = exercise.judge(*things)
-    except NotYet as reason:
-        return Verdict(False, reason.text, reason.hint or first, reason.picture)
-    except Exception as error:
-        return Verdict(False, told(error) or _unusable(things, error), first)
+        return Verdict(False, UNFINISHED, "unfinished")
+    if any(thing is None for thing in things):
+        return Verdict(False, NONE_GIVEN, "no-return")
+    with TimeLimit(exercise.call_limit_s) as limit:
+        try:
+            found = exercise.judge(*things)
+        except NotYet as reason:
+            return Verdict(False, reason.text, reason.hint or UNKNOWN, reason.picture)
+        except TimeLimitError:
+            return Verdict(False, limit.text, "endless" if limit.is_endless else "slow")
+        except Exception as error:
+            return _failed(exercise, things, error)
     done = Done(found) if isinstance(found, str) else found
     return Verdict(True, done.text, picture=done.picture)
 
@@ -52,13 +62,19 @@ def check(exercise_id: str, *things: Any) -> None:
         SetupError: there is no such exercise.
     """
     exercise = find(exercise_id)
-    verdict = judge(exercise, *things)
+    try:
+        verdict = judge(exercise, *things)
+    except KeyboardInterrupt as stopped:
+        line = line_of(stopped)
+        words = [f"You stopped the check{f' ({line})' if line else ''}. Nothing was saved."]
+        put(card("grey", "Stopped.", words), _words("Stopped.", words))
+        return
     progress = ProgressFile()
     progress.note(
         exercise_id,
         passed=verdict.passed,
         text=verdict.text,
-        hint=verdict.hint,
+        diagnosis=diagnosis_id(exercise_id, verdict.hint, exercise.hints) if verdict.hint else "",
         picture=verdict.picture,
         code=written(exercise_id),
     )
@@ -78,16 +94,27 @@ def hint(exercise_id: str) -> None:
         SetupError: there is no such exercise.
     """
     exercise = find(exercise_id)
-    names = list(exercise.hints)
-    pointed = ProgressFile().entries().get(exercise_id, Entry()).hint
-    start = names.index(pointed) if pointed in names else 0
+    pointed = ProgressFile().entries().get(exercise_id, Entry()).diagnosis.rpartition("/")[2]
+    names = _hints_in_order(exercise, pointed)
     asked = _asked.get((exercise_id, pointed), 0)
     _asked[exercise_id, pointed] = asked + 1
-    name = names[(start + asked) % len(names)]
+    text = names[asked % len(names)]
     rest = len(names) - 1
     more = [f'{rest} more: run `hint("{exercise_id}")` again.'] if rest and not asked else []
-    lines = [exercise.hints[name], *more]
+    lines = [text, *more]
     put(card("blue", "Hint.", lines), _words("Hint.", lines))
+
+
+def _hints_in_order(exercise: Exercise, pointed: str) -> list[str]:
+    """Return the hints: the one that fits, the exercise's others, a neutral one at the end."""
+    own = list(exercise.hints)
+    if pointed in own:
+        start = own.index(pointed)
+        return [exercise.hints[name] for name in own[start:] + own[:start]] + [COMMON[UNKNOWN]]
+    first = [COMMON[pointed]] if pointed in COMMON and pointed != UNKNOWN else []
+    if pointed == UNKNOWN:
+        return [COMMON[UNKNOWN], *exercise.hints.values()]
+    return [*first, *exercise.hints.values(), COMMON[UNKNOWN]]
 
 
 _asked: dict[tuple[str, str], int] = {}
@@ -121,13 +148,27 @@ def progress() -> None:
     put(card("blue", "Progress.", words), _words("Progress.", words))
 
 
-def _unusable(things: tuple[Any, ...], error: Exception) -> str:
-    """Return the text for an exception that no line of the student's caused."""
-    shown = reprlib.repr(things[0]) if len(things) == 1 else reprlib.repr(things)
-    return (
-        f"The check could not try out {shown} ({type(error).__name__}: {error}). Is it what the "
-        "exercise asks for? If it is, the check itself has a fault."
-    )
+def _failed(exercise: Exercise, things: tuple[Any, ...], error: Exception) -> Verdict:
+    """Return the verdict on an exception: the student's mistake, or a fault of the check."""
+    mistake = mistake_in(error)
+    if mistake is None:
+        shown = reprlib.repr(things[0]) if len(things) == 1 else reprlib.repr(things)
+        text = (
+            f"The check itself has a fault: it could not try out {shown} ({type(error).__name__}: "
+            f"{error}). Please tell your teacher."
+        )
+        return Verdict(False, text, UNKNOWN)
+    if mistake.function:
+        return Verdict(False, _parameters_of(exercise, mistake), mistake.name)
+    return Verdict(False, mistake.text, mistake.name)
+
+
+def _parameters_of(exercise: Exercise, mistake: Mistake) -> str:
+    """Return a sentence on a function whose parameters are not those of the exercise."""
+    name = mistake.function.rpartition(".")[2]
+    line = definition_line(exercise.id, name)
+    wanted = f" Its first line has to be `{line}`." if line else ""
+    return f"`{name}` is called with other parameters than it has: {mistake.text}.{wanted}"
 
 
 def _words(sign: str, lines: list[str]) -> str:

@@ -10,12 +10,17 @@ A lesson's exercises stand in ``exercises/lesson_03.py``::
         return "Your robot found the box in all 20 worlds."
 """
 
+import reprlib
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from importlib import import_module
-from typing import Any, cast
+from typing import Any, TypeVar, cast
 
 from ai4u_edu.base.errors import SetupError, suggest
+from ai4u_edu.lessons.student_errors import NOTHING_RETURNED
+from ai4u_edu.lessons.time_limit import CALL_LIMIT_S
+
+T = TypeVar("T")
 
 
 class NotYet(Exception):  # noqa: N818 - no error: the student is on the way
@@ -24,7 +29,7 @@ class NotYet(Exception):  # noqa: N818 - no error: the student is on the way
     Args:
         text: what happened, in sentences for the student: what was expected, what came, where
             (seed, step).
-        hint: the name of the hint that helps with this.
+        hint: name of the diagnosis, whose hint helps; empty if the mistake is not known.
         picture: of the moment, as PNG or GIF.
     """
 
@@ -54,23 +59,32 @@ class Exercise:
     title: str
     judge: Judge
     hints: Mapping[str, str] = field(default_factory=dict)
-    """Hints by name; the first one is for students who have not begun."""
+    """Hints by name of the diagnosis; the first one is for students who have not begun."""
+    call_limit_s: float = CALL_LIMIT_S
+    """Longest time that one call of the student's function may take."""
 
 
 EXERCISES: dict[str, Exercise] = {}
 
 
-def exercise(exercise_id: str, title: str, *, hints: Mapping[str, str]) -> Callable[[Judge], Judge]:
+def exercise(
+    exercise_id: str,
+    title: str,
+    *,
+    hints: Mapping[str, str],
+    call_limit_s: float = CALL_LIMIT_S,
+) -> Callable[[Judge], Judge]:
     """Register a function as the check of an exercise.
 
     Args:
         exercise_id: the lesson's number, a point, the exercise's number.
         title: a few words.
-        hints: hints by name; at least one.
+        hints: hints by name of the diagnosis; at least one.
+        call_limit_s: longest time that one call of the student's function may take.
     """
 
     def enter(judge: Judge) -> Judge:
-        EXERCISES[exercise_id] = Exercise(exercise_id, title, judge, hints)
+        EXERCISES[exercise_id] = Exercise(exercise_id, title, judge, hints, call_limit_s)
         return judge
 
     return enter
@@ -102,7 +116,7 @@ def find(exercise_id: Any) -> Exercise:
 
 def unfinished(thing: Any) -> bool:
     """Return True while ``...`` still stands for the student's work."""
-    return thing is ... or thing is None
+    return thing is ...
 
 
 def a_function(thing: Any) -> Callable[..., Any]:
@@ -111,6 +125,35 @@ def a_function(thing: Any) -> Callable[..., Any]:
     Raises:
         NotYet: it can't.
     """
-    if not callable(thing):
-        raise NotYet(f"Expected a function, got `{thing!r}`. Give its name, without brackets.")
+    if isinstance(thing, type) or not callable(thing):
+        raise NotYet(
+            f"Expected a function, got {named(thing)}. Give its name, without brackets.",
+            hint="not-a-function",
+        )
     return cast("Callable[..., Any]", thing)
+
+
+def named(thing: Any) -> str:
+    """Return a student's thing in few words, for a sentence."""
+    if isinstance(thing, type):
+        return f"the class `{thing.__name__}`"
+    return f"`{reprlib.repr(thing)}`"
+
+
+def a_list_of(kind: type[T], given: Any) -> list[T]:
+    """Return a student's list of blocks.
+
+    Raises:
+        NotYet: it is one block without a list, or something else.
+    """
+    name = kind.__name__
+    if given is None:
+        raise NotYet(NOTHING_RETURNED, hint="no-return")
+    if isinstance(given, kind):
+        raise NotYet(
+            f"Expected a list, got one {name} alone. Put it into a list: `return [...]`.",
+            hint="list",
+        )
+    if not isinstance(given, list | tuple) or not all(isinstance(each, kind) for each in given):
+        raise NotYet(f"Expected a list with {name} blocks, got {named(given)}.", hint="list")
+    return list(given)

@@ -4,9 +4,10 @@ from collections import deque
 from typing import Any
 
 from ai4u_edu.agent.cycle import ControlRequestor
-from ai4u_edu.lessons.notebook_output import image, put
+from ai4u_edu.lessons.notebook_output import card, image, put
 from ai4u_edu.lessons.pictures import FRAMES_PER_S, MAX_ANIMATION_S, animation, moving
 from ai4u_edu.lessons.rollouts import DEFAULT_MAX_DECISIONS, Drive, drives
+from ai4u_edu.lessons.time_limit import TimeLimit, TimeLimitError
 from ai4u_edu.recording import Episode
 from ai4u_edu.scenes import Scene
 from ai4u_edu.snapshot import Snapshot, capture_snapshot
@@ -40,7 +41,12 @@ def film(
             due = drive.sim.world.time + 0.99 / FRAMES_PER_S
 
     source = (lambda: world) if isinstance(world, ControlRequestor) else world
-    (drive,) = drives(source, brain, [seed], limit=limit, watch=watch)
+    with TimeLimit() as time_limit:
+        try:
+            (drive,) = drives(source, brain, [seed], limit=limit, watch=watch)
+        except TimeLimitError:
+            put(card("vermillion", "Stopped.", [time_limit.text]), f"Stopped. {time_limit.text}")
+            return
     ends = (
         (drive.won, "the robot reached its goal"),
         (drive.fell, "the robot fell"),

@@ -5,13 +5,26 @@ right answer. The checks of all exercises compare with :func:`is_close` instead.
 """
 
 import math
+from collections.abc import Mapping
+from dataclasses import dataclass
 from numbers import Real
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
-from ai4u_edu.lessons.exercise import NotYet
+from ai4u_edu.lessons.exercise import NotYet, named
+from ai4u_edu.lessons.student_errors import NOTHING_RETURNED
+
+
+@dataclass(frozen=True)
+class Slip:
+    """Mistake that explains a wrong number."""
+
+    name: str
+    """Name of the diagnosis; empty if none explains it."""
+    words: str
+    """Words to follow the number in a sentence."""
 
 
 def finite_number(given: Any, *, hint: str = "") -> float:
@@ -24,9 +37,15 @@ def finite_number(given: Any, *, hint: str = "") -> float:
     Raises:
         NotYet: it is no number (text, True and None are none), or it is NaN or infinite.
     """
+    if given is None:
+        raise NotYet(NOTHING_RETURNED, hint="no-return")
+    if given is ...:
+        raise NotYet("Your function returns `...`: put your answer there.", hint="unfinished")
+    if isinstance(given, list | tuple | dict | set):
+        raise NotYet(f"Expected a number, got {_kind(given)}.", hint="list-for-number")
     one = given.item() if isinstance(given, np.ndarray) and given.size == 1 else given
     if isinstance(one, bool | np.bool_) or not isinstance(one, Real):
-        raise NotYet(f"Expected a number, got `{given!r}`.", hint=hint)
+        raise NotYet(f"Expected a number, got {named(given)}.", hint=hint or "not-a-number")
     try:
         found = float(one)
     except OverflowError:
@@ -34,7 +53,7 @@ def finite_number(given: Any, *, hint: str = "") -> float:
     if not math.isfinite(found):
         why = "is no number: perhaps 0 was divided by 0" if math.isnan(found) else "has no end"
         shown = repr(given) if len(repr(given)) < 60 else "a number too large to compute with"
-        raise NotYet(f"Expected a number, got `{shown}`, which {why}.", hint=hint)
+        raise NotYet(f"Expected a number, got `{shown}`, which {why}.", hint="not-finite")
     return found
 
 
@@ -55,8 +74,34 @@ def finite_numbers(given: Any, count: int, *, expected: str = "", hint: str = ""
     except TypeError:
         found = []
     if isinstance(given, str | bytes | dict) or len(found) != count:
-        raise NotYet(f"{expected or f'Expected {count} numbers'}, got `{given!r}`.", hint=hint)
+        if given is None:
+            raise NotYet(NOTHING_RETURNED, hint="no-return")
+        single = isinstance(given, int | float) and "number-for-list"
+        text = f"{expected or f'Expected {count} numbers'}, got {named(given)}."
+        raise NotYet(text, hint=hint or single or "")
     return [finite_number(each, hint=hint) for each in found]
+
+
+def difference(got: float, slips: Mapping[str, tuple[str, float]], tolerance: float) -> Slip:
+    """Return the mistake that explains a wrong number, in words.
+
+    Args:
+        got: the student's number.
+        slips: by name of the diagnosis: the words for the mistake, and the number that it gives.
+        tolerance: largest difference.
+
+    >>> difference(6.0, {"half": ("twice the right number", 6.0)}, 0.01)
+    Slip(name='half', words=': that is twice the right number')
+    """
+    for name, (words, number) in slips.items():
+        if is_close(got, number, tolerance):
+            return Slip(name, f": that is {words}")
+    return Slip("", "")
+
+
+def _kind(given: Any) -> str:
+    one = " with one number" if len(given) == 1 else ""
+    return f"a {type(given).__name__}{one}: {named(given)}"
 
 
 def is_close(got: Any, wanted: Any, tolerance: float) -> bool:

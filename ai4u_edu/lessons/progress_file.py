@@ -4,7 +4,7 @@ import json
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, field, fields
 from datetime import datetime
 from pathlib import Path
 
@@ -32,8 +32,10 @@ class Entry:
     """Checks up to the first that passed."""
     text: str = ""
     """Text of the last check."""
-    hint: str = ""
-    """Name of the hint that it pointed to."""
+    diagnosis: str = ""
+    """Id of the mistake that it found, such as ``03.2/narrow``."""
+    diagnoses: dict[str, int] = field(default_factory=dict)
+    """Count of the checks with each diagnosis, up to the first check that passed."""
     code: str = ""
     """Source of the exercise's cell; empty if not known."""
 
@@ -68,14 +70,21 @@ class ProgressFile:
             return self._damaged(str(error))
 
     def note(
-        self, exercise: str, *, passed: bool, text: str, hint: str, picture: bytes, code: str = ""
+        self,
+        exercise: str,
+        *,
+        passed: bool,
+        text: str,
+        diagnosis: str,
+        picture: bytes,
+        code: str = "",
     ) -> None:
         """Save a check's result; an exercise that was passed once stays passed."""
         with self._alone():
-            self._note(exercise, passed, text, hint, picture, code)
+            self._note(exercise, passed, text, diagnosis, picture, code)
 
     def _note(
-        self, exercise: str, passed: bool, text: str, hint: str, picture: bytes, code: str
+        self, exercise: str, passed: bool, text: str, diagnosis: str, picture: bytes, code: str
     ) -> None:
         entries = self.entries()
         entry = entries.setdefault(exercise, Entry())
@@ -83,9 +92,11 @@ class ProgressFile:
             entry.tries += 1
             entry.passed = passed
             entry.when = datetime.now().isoformat(" ", "minutes") if passed else ""
+            if diagnosis:
+                entry.diagnoses[diagnosis] = entry.diagnoses.get(diagnosis, 0) + 1
         elif not passed:
             return
-        entry.text, entry.hint, entry.code = text, hint, code
+        entry.text, entry.diagnosis, entry.code = text, diagnosis, code
         self._write(entries)
         if picture:
             place = self.picture(exercise)
@@ -137,8 +148,15 @@ class ProgressFile:
 def _entry(plain: object) -> Entry:
     if not isinstance(plain, dict):
         raise TypeError(f"expected an entry, got {plain!r}")
+    plain = {name: each for name, each in plain.items() if name != "hint"}  # of older versions
     entry = Entry(**plain)
-    for name, kind in Entry.__annotations__.items():
+    for name, kind in _KINDS.items():
         if type(getattr(entry, name)) is not kind:
             raise TypeError(f"{name}: expected {kind.__name__}, got {getattr(entry, name)!r}")
+    for name, count in entry.diagnoses.items():
+        if type(name) is not str or type(count) is not int:
+            raise TypeError(f"diagnoses: expected counts, got {entry.diagnoses!r}")
     return entry
+
+
+_KINDS: dict[str, type] = {each.name: type(getattr(Entry(), each.name)) for each in fields(Entry)}

@@ -8,7 +8,7 @@ from typing import Any
 from ai4u_edu.agent import BasicAgent
 from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.blocks import Brain, Controller, LocalBrain
-from ai4u_edu.lessons.exercise import NotYet
+from ai4u_edu.lessons.exercise import NotYet, named
 from ai4u_edu.lessons.pictures import picture
 from ai4u_edu.scenes import Scene
 from ai4u_edu.snapshot import Snapshot, capture_agent, capture_snapshot
@@ -84,11 +84,19 @@ def as_brain(thing: Any) -> Brain:
         return thing
     if isinstance(thing, type) and issubclass(thing, Controller | Brain):
         return as_brain(thing())
-    if isinstance(thing, Controller) or callable(thing):
+    cls = thing if isinstance(thing, type) else type(thing)
+    if hasattr(cls, "get_action") and not issubclass(cls, Controller):
+        raise NotYet(
+            f"`{cls.__name__}` has a `get_action`, and is no Controller yet: begin with "
+            f"`class {cls.__name__}(Controller):`.",
+            hint="no-base",
+        )
+    if isinstance(thing, Controller) or (callable(thing) and not isinstance(thing, type)):
         return LocalBrain(controller=thing)
     raise NotYet(
-        f"Expected a function that gets a percept and returns an action, got `{thing!r}`. Give "
-        "the function's name, without brackets."
+        f"Expected a function that gets a percept and returns an action, got {named(thing)}. Give "
+        "the function's name, without brackets.",
+        hint="not-a-function",
     )
 
 

@@ -1,15 +1,60 @@
 """Sentences for students' exceptions, with the line of their code."""
 
 import linecache
+import re
 import sys
 import sysconfig
 import traceback
+from dataclasses import dataclass
 from pathlib import Path
 
 from ai4u_edu.base.errors import AI4UError
 
 _OURS = str(Path(__file__).resolve().parent.parent)
 _LIBRARIES = tuple({*sysconfig.get_paths().values(), sys.prefix, sys.base_prefix})
+
+NOTHING_RETURNED = "Your function returned nothing (None). Is `return` missing?"
+_PARAMETERS = re.compile(
+    r"(?P<name>[\w.<>]+)\(\) (?:takes (?:from )?\d+(?: to \d+)? positional arguments?"
+    r" but \d+ (?:was|were) given|missing \d+ required positional argument|got an unexpected)"
+)
+_NONE_IN_PLACE_OF_A_NUMBER = re.compile(r"float\(\) argument must be .*'NoneType'")
+_NO_NUMBER = re.compile(r"float\(\) argument must be|could not convert string to float")
+_ACTION = re.compile(r"expected an action|has no actuator|ActionError")
+
+
+@dataclass(frozen=True)
+class Mistake:
+    """A student's mistake, as a sentence."""
+
+    text: str
+    name: str = "error"
+    """Name of the diagnosis."""
+    function: str = ""
+    """Function whose parameters are wrong, such as ``Patrol.get_action``; empty for others."""
+
+
+def mistake_in(error: BaseException) -> Mistake | None:
+    """Return the mistake behind an exception; None if no student's line and no block caused it."""
+    line = line_of(error)
+    if line:  # it says more than the notes about which block was asked
+        name = "called" if str(error).startswith("connect: ") else "error"
+        return Mistake(f"Your code stopped with {type(error).__name__}: {error} ({line}).", name)
+    text = str(error)
+    parameters = _PARAMETERS.search(text)
+    if parameters and isinstance(error, TypeError):
+        return Mistake(text, "parameters", parameters["name"].rpartition("<locals>.")[2])
+    if _NONE_IN_PLACE_OF_A_NUMBER.search(text) or (
+        isinstance(error, AI4UError) and re.search(r"got None\b", text)
+    ):
+        return Mistake(NOTHING_RETURNED, "no-return")
+    notes = "".join(f" ({note})" for note in getattr(error, "__notes__", ()))
+    if isinstance(error, AI4UError):
+        name = "action" if _ACTION.search(text) else "error"
+        return Mistake(f"It could not be put together or run: {error}{notes}", name)
+    if _NO_NUMBER.search(text):
+        return Mistake(f"Expected a number from your code: {text}{notes}.", "not-a-number")
+    return None
 
 
 def told(error: BaseException) -> str:
@@ -21,18 +66,14 @@ def told(error: BaseException) -> str:
     ...     print(told(error))
     Your code stopped with ZeroDivisionError: division by zero (line 2 of its cell).
     """
-    line = _line(error)
-    if line:  # it says more than the notes about which block was asked
-        return f"Your code stopped with {type(error).__name__}: {error} ({line})."
-    notes = "".join(f" ({note})" for note in getattr(error, "__notes__", ()))
-    if isinstance(error, AI4UError):
-        return f"It could not be put together or run: {error}{notes}"
-    return ""
+    mistake = mistake_in(error)
+    return mistake.text if mistake else ""
 
 
-def _line(error: BaseException) -> str:
+def line_of(error: BaseException) -> str:
+    """Return the student's innermost line in a traceback, in words; empty if there is none."""
     frames = [
-        each for each in traceback.extract_tb(error.__traceback__) if _is_theirs(each.filename)
+        each for each in traceback.extract_tb(error.__traceback__) if is_students(each.filename)
     ]
     if not frames:
         return ""
@@ -42,9 +83,10 @@ def _line(error: BaseException) -> str:
     return f"line {number} of its cell" + (f": {text}" if text else "")
 
 
-def _is_theirs(file: str) -> bool:
+def is_students(file: str) -> bool:
+    """Return True if a source file is a notebook's cell or a file of the student's."""
     if file.startswith("<"):
-        return not file.startswith(("<frozen", "<doctest", "<__array_function__"))
+        return not file.startswith(("<frozen", "<doctest", "<__array_function__", "<string>"))
     if "ipykernel_" in file:  # what was typed into a cell
         return True
     return not file.startswith((_OURS, *_LIBRARIES))

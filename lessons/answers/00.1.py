@@ -8,6 +8,6 @@ def go(percept):
     return {"move": [-1, 0, 0, 0]}
 
 
-# %% tags=["wrong", "action"]
+# %% tags=["wrong", "still"]
 def go(percept):
     return {"move": [0, 1, 0, 0]}

@@ -3,7 +3,7 @@ def curve(percept):
     return {"move": [1, 0.5, 0, 0]}
 
 
-# %% tags=["wrong", "read"]
+# %% tags=["wrong", "error"]
 def curve(percept):
     return {"move": [forward, 0.5, 0, 0]}
 

@@ -3,7 +3,7 @@ def decisions_for_quarter(degrees_per_second):
     return 90 / degrees_per_second * 12
 
 
-# %% tags=["wrong", "other speed"]
+# %% tags=["wrong", "other-speed"]
 def decisions_for_quarter(degrees_per_second):
     return 9
 

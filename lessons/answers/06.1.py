@@ -4,7 +4,7 @@ def blind_way(speed, skip_frame):
     return speed * ticks / 60
 
 
-# %% tags=["wrong", "one more"]
+# %% tags=["wrong", "one-more"]
 def blind_way(speed, skip_frame):
     return speed * skip_frame / 60
 

@@ -40,7 +40,7 @@ def test_it_holds_code_result_and_picture(folder: Path) -> None:
 
 def test_everything_in_it_is_escaped(folder: Path) -> None:
     progress = ProgressFile()
-    progress.note("00.1", passed=False, text=EVIL, hint="", picture=b"")
+    progress.note("00.1", passed=False, text=EVIL, diagnosis="", picture=b"")
     hand_out(folder)
     book = folder / "00_start_here.ipynb"
     written = "def go(percept):\\n"

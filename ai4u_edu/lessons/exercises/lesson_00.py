@@ -9,8 +9,8 @@ from ai4u_edu.lessons.rollouts import Drive, drives, seeds_of
 STEPS = 8
 SCENE = "box_chase"
 
-ACTION = {
-    "action": 'An action is `{"move": [forward, turn, 0, 0]}`. The first number drives: 1 is full '
+STILL = {
+    "still": 'An action is `{"move": [forward, turn, 0, 0]}`. The first number drives: 1 is full '
     "speed forward, -1 full speed backward, 0 stands still.",
 }
 
@@ -23,7 +23,7 @@ def _turned(drive: Drive, heading: float) -> float:
 @exercise(
     "00.1",
     "Make it go",
-    hints=ACTION
+    hints=STILL
     | {"backward": "Your robot drove backward. What happens if you take the minus sign away?"},
 )
 def goes(drive_it: Any) -> Done:
@@ -40,7 +40,7 @@ def goes(drive_it: Any) -> Done:
         if forward < -0.1:
             raise drive.not_yet("Your robot drove backward ({where}).", "backward")
         if math.hypot(u - x, v - y) < 0.5:
-            raise drive.not_yet("Your robot stayed where it was ({where}).", "action")
+            raise drive.not_yet("Your robot hardly moved ({where}).", "still")
     return Done("Your robot drives forward. It did so in 5 worlds.", drive.picture())
 
 
@@ -48,7 +48,7 @@ def goes(drive_it: Any) -> Done:
     "00.2",
     "Make it turn left",
     hints={
-        "action": "The second number of the action turns. Keep the first one at 0, so that the "
+        "still": "The second number of the action turns. Keep the first one at 0, so that the "
         "robot stays where it is.",
         "right": "Your robot turned right. Left is the other sign: try a negative number.",
         "moved": "Your robot drove away. The first number drives: it has to be 0 here.",
@@ -71,7 +71,7 @@ def turns_left(drive_it: Any) -> Done:
                 f"Your robot turned {-turned:.0f} degrees to the right ({{where}}).", "right"
             )
         if turned < 1:
-            raise drive.not_yet("Your robot did not turn ({where}).", "action")
+            raise drive.not_yet("Your robot hardly turned ({where}).", "still")
     return Done("Your robot turns left and stays on its spot.", drive.picture())
 
 
@@ -79,8 +79,6 @@ def turns_left(drive_it: Any) -> Done:
     "00.3",
     "Mend it",
     hints={
-        "read": "Read the last line of the message: it says what it did not know, and what you may "
-        "have meant.",
         "curve": "It runs now, well done. But the robot has to drive a curve to the right: both "
         "the first and the second number are above 0.",
     },

@@ -87,7 +87,7 @@ def drives_so_far(made: Any) -> Done:
     hints={
         "time": "A decision lasts 1/12 of a second. A robot that turns 120 degrees a second turns "
         "120/12 = 10 degrees in one decision. How many are 90 degrees?",
-        "other speed": "It fits one turning speed, but not another one. Compute with the number "
+        "other-speed": "It fits one turning speed, but not another one. Compute with the number "
         "that your function gets.",
     },
 )
@@ -101,7 +101,7 @@ def turns_a_quarter(made: Any) -> Done:
             raise done.not_yet(
                 f"At {speed:g} degrees a second the robot turned {turned:.0f} degrees, not 90 "
                 "({where}).",
-                "other speed" if index else "time",
+                "other-speed" if index else "time",
             )
     return Done("A quarter turn at five turning speeds.", done.picture())
 

@@ -17,7 +17,7 @@ from ai4u_edu.blocks import (
     Sensor,
     TouchRewardFunc,
 )
-from ai4u_edu.lessons.exercise import Done, NotYet, a_function, exercise
+from ai4u_edu.lessons.exercise import Done, NotYet, a_function, a_list_of, exercise
 from ai4u_edu.lessons.numeric import finite_number, finite_numbers, is_close
 from ai4u_edu.lessons.pictures import picture
 from ai4u_edu.lessons.rollouts import as_brain, drive, seeds_of
@@ -207,8 +207,7 @@ def _why(found: list[tuple[float, float]]) -> str:
 )
 def tells_apart(sensors: Any) -> Done:
     """Check that three pairs of worlds have different percepts."""
-    if not isinstance(sensors, Sequence) or not all(isinstance(each, Sensor) for each in sensors):
-        raise NotYet(f"Expected a list of sensors, got `{sensors!r}`.")
+    sensors = a_list_of(Sensor, sensors)
     for angle in (20.0, 35.0, 50.0):
         turned = math.radians(angle)
         ahead, side = math.cos(turned), math.sin(turned)

@@ -47,7 +47,7 @@ def _go(_: Percept) -> dict[str, list[float]]:
     hints={
         "begin": "From one decision to the next skip_frame + 1 ticks pass, and a tick is 1/60 of a "
         "second. How far does the robot get in that time?",
-        "one more": "Nearly. With `skip_frame=0` the agent decides at every tick, and drives for "
+        "one-more": "Nearly. With `skip_frame=0` the agent decides at every tick, and drives for "
         "one tick in between: it is one tick more than you count.",
         "seconds": "A tick is not a second: 60 of them are.",
     },
@@ -62,7 +62,7 @@ def computes_the_blind_way(blind_way: Any) -> Done:
         if not is_close(found, done.moved, 0.005):
             hint = "begin"
             if is_close(found, speed * skip_frame / 60, 1e-6) and found:
-                hint = "one more"
+                hint = "one-more"
             elif found > 20 * done.moved:
                 hint = "seconds"
             raise done.not_yet(

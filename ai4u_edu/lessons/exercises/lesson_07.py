@@ -13,7 +13,7 @@ from ai4u_edu.blocks import (
     RBMoveActuator,
     RewardFunc,
 )
-from ai4u_edu.lessons.exercise import Done, NotYet, exercise
+from ai4u_edu.lessons.exercise import Done, NotYet, a_function, a_list_of, exercise
 from ai4u_edu.lessons.numeric import finite_number
 from ai4u_edu.lessons.rollouts import drive, seeds_of
 from ai4u_edu.lessons.worlds import plate
@@ -86,8 +86,7 @@ def contest(rewards: Sequence[RewardFunc], seeds: Sequence[int] = SEEDS) -> dict
         rewards: the reward functions of all of them.
         seeds: seeds of the worlds.
     """
-    if not all(isinstance(each, RewardFunc) for each in rewards):
-        raise NotYet(f"Expected a list of reward functions, got `{rewards!r}`.")
+    rewards = a_list_of(RewardFunc, rewards)
     found = {}
     for name in TEMPERS:
         sim = tempers(name, rewards)
@@ -140,9 +139,7 @@ def predicts(winners: Any, well_meant: Any) -> Done:
 
 
 def _made(make: Any) -> list[RewardFunc]:
-    if not callable(make):
-        raise NotYet(f"Expected a function that makes the rewards, got `{make!r}`.")
-    return list(make() or ())
+    return a_list_of(RewardFunc, a_function(make)())
 
 
 @exercise(

@@ -94,6 +94,7 @@ def _short(name: str) -> ControlRequestor:
 @exercise(
     "08.1",
     "A script drives",
+    call_limit_s=30,
     hints={
         "loop": "One action is one decision, 1/12 s. Go on until the episode is over: "
         "`for percept in robot:`, and in the loop one `robot.act(move=...)`.",

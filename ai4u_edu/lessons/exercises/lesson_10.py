@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 from ai4u_edu.agent import BasicAgent
 from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.blocks import Brain, LocalBrain, NeuralNetController, Percept
-from ai4u_edu.lessons.exercise import Done, NotYet, a_function, exercise
+from ai4u_edu.lessons.exercise import Done, NotYet, a_function, exercise, named
 from ai4u_edu.lessons.rollouts import Drive, as_brain, drives, seeds_of
 from ai4u_edu.scenes import Scene
 
@@ -211,6 +211,7 @@ def is_shown(cloned: Any) -> Done:
 @exercise(
     "10.3",
     "The referee",
+    call_limit_s=30,
     hints={
         "begin": "Nobody has run yet. Begin with `sim.reset(seed)`, call `sim.step()` until one of "
         "the two is `done`, and then look who it is.",
@@ -243,11 +244,15 @@ def referees(race: Any) -> Done:
         right, drive = _result(sim, seed)
         shown = shown or drive.picture()
         got = race(track(drivers[blue], _patient(drivers[purple], seed)), seed)
-        if got != right:
+        if isinstance(got, BasicAgent):
+            raise NotYet(
+                f"You returned the agent {got.id!r} itself. Return its name in quotes, or None."
+            )
+        if not (got is None or isinstance(got, str)) or got != right:
             hint = "fell" if "falls" in blue + purple else "time" if right is None else "begin"
             raise NotYet(
                 f"Blue, {blue}, against purple, {purple}, with seed {seed}: "
-                f"expected `{right!r}`, got `{got!r}`.",
+                f"expected `{right!r}`, got {named(got)}.",
                 hint=hint,
                 picture=drive.picture(),
             )

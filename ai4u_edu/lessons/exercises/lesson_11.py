@@ -22,7 +22,7 @@ from ai4u_edu.blocks import (
     TouchRewardFunc,
     trained_brain,
 )
-from ai4u_edu.lessons.exercise import Done, NotYet, a_function, exercise
+from ai4u_edu.lessons.exercise import Done, NotYet, a_function, a_list_of, exercise, named
 from ai4u_edu.lessons.numeric import finite_number, finite_numbers, is_close
 from ai4u_edu.lessons.rollouts import drives, seeds_of
 from ai4u_edu.lessons.worlds import plate
@@ -123,11 +123,11 @@ def put_to(sensors: Sequence[Sensor]) -> ControlRequestor:
 def _array(given: Any, shape: tuple[int, ...], name: str) -> Array:
     try:
         found = np.array(given, float)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         found = np.array(np.nan)
     if found.shape != shape or not np.isfinite(found).all():
         rows = "two rows of two numbers" if len(shape) == 2 else f"{shape[0]} numbers"
-        raise NotYet(f"`{name}`: expected {rows}, got `{given!r}`.")
+        raise NotYet(f"`{name}`: expected {rows}, got {named(given)}.")
     return found
 
 
@@ -262,9 +262,7 @@ def _through(
 )
 def fits(senses: Any) -> Done:
     """Check sensors with which the box chase's network finds the box."""
-    sensors = a_function(senses)()
-    if not isinstance(sensors, list | tuple) or not all(isinstance(s, Sensor) for s in sensors):
-        raise NotYet(f"Expected your function to return a list of sensors, got `{sensors!r}`.")
+    sensors = a_list_of(Sensor, a_function(senses)())
     worlds = 10
     lost = 0
     try:

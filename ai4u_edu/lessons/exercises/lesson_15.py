@@ -7,7 +7,7 @@ import numpy as np
 from ai4u_edu.agent import BasicAgent
 from ai4u_edu.base.errors import AI4UError
 from ai4u_edu.blocks import LocalBrain
-from ai4u_edu.lessons.exercise import Done, NotYet, exercise
+from ai4u_edu.lessons.exercise import Done, NotYet, exercise, named
 from ai4u_edu.lessons.pictures import picture
 from ai4u_edu.lessons.rollouts import drive, drives, seeds_of
 from ai4u_edu.scenes import Scene
@@ -19,8 +19,13 @@ WANTED = ("goal", "controls", "rewards")
 def _scene(text: Any) -> Scene:
     if isinstance(text, Scene):
         return text
-    if not isinstance(text, str) or not text.strip():
-        raise NotYet(f"Expected the text of a scene, got `{text!r}`.")
+    if not isinstance(text, str):
+        raise NotYet(f"Expected the text of a scene, got {named(text)}.")
+    if not text.strip():
+        raise NotYet(
+            "There is no scene yet: write `my_scene` in exercise 15.1, and run its cell.",
+            hint="unfinished",
+        )
     try:
         return Scene.loads(text, name="my_world")
     except AI4UError as error:

@@ -1,0 +1,60 @@
+"""Mistakes that may occur in every exercise, each with a hint."""
+
+UNKNOWN = "unknown"
+"""Name of the diagnosis of a mistake that no check knows."""
+
+COMMON = {
+    UNKNOWN: "This is none of the usual mistakes. Read the task once more, and compare what the "
+    "check says with what you expected. `print(...)` inside your function shows what it gets and "
+    "what it computes.",
+    "unfinished": "Write your answer into the cell of the exercise, run that cell with Shift + "
+    "Enter, and then run the check again.",
+    "error": "The message ends with the line that failed. Read that line slowly: is every name "
+    "spelled as it was when it was made, and is every bracket closed?",
+    "no-return": "A function gives its answer with `return`. Every way through it needs one: also "
+    "the way on which no `if` applies.",
+    "endless": "The robot calls your function again at every decision, twelve times a second. "
+    "Decide about this one moment, with `if` and `else`. A loop that waits for the world to change "
+    "waits for ever: the world stands still until your function has answered.",
+    "slow": "Do less in each call: compute once what stays the same, outside the function.",
+    "parameters": "The names in the brackets after `def` are what a function is given. Compare "
+    "them with the line that the exercise began with.",
+    "not-a-function": "Give the name of your function without brackets after it: `go` is the "
+    "function, `go(...)` is its answer.",
+    "no-base": "A class gets its abilities from the class that stands in brackets after its name, "
+    "as in `class Patrol(Controller):`.",
+    "not-finite": "Somewhere a number was divided by 0, or grew without end. Which values can the "
+    "divisor have?",
+    "not-a-number": "A number is written without quotes, and it is neither True nor False. "
+    "`print(type(x))` shows what a value is.",
+    "list-for-number": "One number was expected, and there is a list. `numbers[0]` is its first "
+    "number.",
+    "number-for-list": "Several numbers were expected. They stand in square brackets, with commas "
+    "between them: `[1, 0.5]`.",
+    "action": 'An action is written like `{"move": [forward, turn, 0, 0]}`: the actuator\'s name '
+    "in quotes, a colon, and a list of numbers.",
+    "list": "A list stands in square brackets, with commas between its parts: `[first, second]`. A "
+    "list of one needs the brackets too.",
+    "called": "`connect(...)` takes a function to be called later. Brackets after a name call it "
+    "now: write `lambda agent: ...` before it.",
+}
+"""Hint by name of the diagnosis; an exercise's own diagnosis of the same name comes first."""
+
+COMMON_ID = "any"
+"""First part of the ids of these diagnoses."""
+
+
+def diagnosis_id(exercise_id: str, name: str, own: object) -> str:
+    """Return the id of a diagnosis, unique in the course and never changed.
+
+    Args:
+        exercise_id: such as ``"03.2"``.
+        name: of the diagnosis; empty for an unknown mistake.
+        own: the exercise's own hints, by name.
+
+    >>> diagnosis_id("03.2", "narrow", {"narrow": "..."}), diagnosis_id("03.2", "", {})
+    ('03.2/narrow', 'any/unknown')
+    """
+    if name and name in own:  # type: ignore[operator]
+        return f"{exercise_id}/{name}"
+    return f"{COMMON_ID}/{name or UNKNOWN}"

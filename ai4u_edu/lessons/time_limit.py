@@ -1,0 +1,163 @@
+"""Time limit for a student's code that is called by a check."""
+
+import ast
+import ctypes
+import linecache
+import signal
+import sys
+import threading
+import time
+from types import FrameType, TracebackType
+from typing import Any, Self
+
+from ai4u_edu.base.syntax import parsed
+from ai4u_edu.lessons.student_errors import is_students
+
+CALL_LIMIT_S = 5.0
+"""Longest time that one call of a student's function may take."""
+TOTAL_LIMIT_S = 90.0
+"""Longest time that all calls of a check may take together."""
+_HAS_TIMER = hasattr(signal, "setitimer")
+SAMPLE_S = 0.2
+"""Interval at which the stack is looked at."""
+
+
+class TimeLimitError(BaseException):
+    """Raised in a student's code that takes too long; ``except Exception`` does not catch it."""
+
+
+class TimeLimit:
+    """Context in which no call of a student's function may take too long.
+
+    The thread's stack is sampled: on a POSIX main thread by a timer signal, which also ends a
+    ``sleep``; elsewhere by a watchdog thread, which raises the error asynchronously. A call is the
+    outermost frame of a student's; what stands on the stack before the context is none.
+
+    Args:
+        call_s: longest time of one call, seconds.
+        total_s: longest time of all calls together, seconds.
+    """
+
+    def __init__(self, call_s: float = CALL_LIMIT_S, total_s: float = TOTAL_LIMIT_S) -> None:
+        self.call_s, self.total_s = call_s, total_s
+        self.text = ""
+        """Sentence on the call that took too long."""
+        self.is_endless = False
+        """True if one call took too long, False if all of them together did."""
+        self._root: FrameType | None = None
+        self._call: FrameType | None = None
+        self._since = self._total = self._last = 0.0
+        self._ended = threading.Event()
+        self._lock = threading.Lock()
+        self._timer: tuple[Any, float, float, float] | None = None
+
+    def __enter__(self) -> Self:
+        self._root = sys._getframe(1)
+        self._last = time.monotonic()
+        if _HAS_TIMER and threading.current_thread() is threading.main_thread():
+            handler = signal.signal(signal.SIGALRM, self._on_signal)
+            remaining, interval = signal.setitimer(signal.ITIMER_REAL, SAMPLE_S, SAMPLE_S)
+            self._timer = handler, remaining, interval, self._last
+        else:
+            watch = threading.Thread(
+                target=self._watch, args=(threading.get_ident(),), daemon=True, name="time-limit"
+            )
+            watch.start()
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: object, traceback: TracebackType | None
+    ) -> None:
+        with self._lock:
+            self._ended.set()
+        if self._timer is None:
+            _raise_in(threading.get_ident(), None)  # what was raised and has not arrived yet
+        else:
+            handler, remaining, interval, began = self._timer
+            if remaining:  # somebody else's timer goes on
+                remaining = max(0.001, remaining - (time.monotonic() - began))
+            signal.setitimer(signal.ITIMER_REAL, remaining, interval)
+            signal.signal(signal.SIGALRM, handler)
+        self._root = self._call = None
+
+    def _on_signal(self, _number: int, frame: FrameType | None) -> None:
+        if not self._ended.is_set() and self._is_over(frame):
+            raise TimeLimitError
+
+    def _watch(self, thread: int) -> None:
+        while not self._ended.wait(SAMPLE_S):
+            frame = sys._current_frames().get(thread)
+            with self._lock:
+                if not self._ended.is_set() and self._is_over(frame):
+                    _raise_in(thread, TimeLimitError)
+            del frame
+
+    def _is_over(self, frame: FrameType | None) -> bool:
+        """Look at the stack; return True if a call has taken too long."""
+        now = time.monotonic()
+        passed, self._last = now - self._last, now
+        calls = self._students_frames(frame)
+        if not calls:
+            self._call = None
+            return False
+        self._total += passed
+        if calls[-1] is not self._call:
+            self._call, self._since = calls[-1], now
+        self.is_endless = now - self._since >= self.call_s
+        if not self.is_endless and self._total < self.total_s:
+            return False
+        self.text = self._explained(calls)
+        return True
+
+    def _students_frames(self, frame: FrameType | None) -> list[FrameType]:
+        """Return the student's frames since the context began, the innermost one first."""
+        found = []
+        while frame is not None and frame is not self._root:
+            if is_students(frame.f_code.co_filename):
+                found.append(frame)
+            frame = frame.f_back
+        return found if frame is self._root else []
+
+    def _explained(self, calls: list[FrameType]) -> str:
+        if not self.is_endless:
+            return (
+                f"All calls of your code took more than {self.total_s:g} s together. Each of them "
+                f"is slow ({_line(calls[0].f_code.co_filename, calls[0].f_lineno)})."
+            )
+        loops = [loop for call in calls if (loop := _loop_around(call))]
+        file, number = loops[0] if loops else (calls[0].f_code.co_filename, calls[0].f_lineno)
+        said = f"Your code did not answer for {self.call_s:g} s ({_line(file, number)})."
+        if not loops:
+            return f"{said} Something in it never ends, or takes very long."
+        code = calls[-1].f_code
+        if "percept" in code.co_varnames[: code.co_argcount]:
+            return f"{said} The robot asks it again at each decision: use `if`, not `while`."
+        return f"{said} The loop never ends: its condition stays true."
+
+
+def _raise_in(thread: int, error: type[BaseException] | None) -> None:
+    """Raise an error in another thread; None withdraws one that has not arrived."""
+    raised = None if error is None else ctypes.py_object(error)
+    ctypes.pythonapi.PyThreadState_SetAsyncExc(ctypes.c_ulong(thread), raised)
+
+
+def _line(file: str, number: int) -> str:
+    text = linecache.getline(file, number).strip()
+    return f"line {number} of its cell" + (f": {text}" if text else "")
+
+
+def _loop_around(frame: FrameType) -> tuple[str, int] | None:
+    """Return file and line of the innermost ``while`` around a frame's present line."""
+    file = frame.f_code.co_filename
+    try:
+        tree = parsed("".join(linecache.getlines(file)))
+    except (SyntaxError, ValueError):
+        return None
+    first = frame.f_code.co_firstlineno
+    around = [
+        node.lineno
+        for node in ast.walk(tree)
+        if isinstance(node, ast.While)
+        and first <= node.lineno <= frame.f_lineno <= (node.end_lineno or node.lineno)
+    ]
+    return (file, max(around)) if around else None

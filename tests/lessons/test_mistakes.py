@@ -1,0 +1,220 @@
+"""The frequent slips of beginners have their own sentences."""
+
+import _thread
+import threading
+from typing import Any
+
+import numpy as np
+import pytest
+
+from ai4u_edu.lessons import check, film
+from ai4u_edu.lessons.checking import judge
+from ai4u_edu.lessons.course import lesson
+from ai4u_edu.lessons.exercise import EXERCISES, Exercise, find
+from ai4u_edu.lessons.notebook import Cell
+from ai4u_edu.lessons.progress_file import ProgressFile
+from ai4u_edu.lessons.time_limit import TimeLimit, TimeLimitError
+from tests.lessons.workbook import run, tried
+
+SLIPS: dict[str, tuple[str, str, str, str]] = {
+    "no return": (
+        "00.1",
+        "def go(percept):\n    action = {'move': [1, 0, 0, 0]}",
+        "no-return",
+        "Your function returned nothing (None). Is `return` missing?",
+    ),
+    "no return of a number": (
+        "13.1",
+        "def seconds_of_comfort(level, loss):\n    (level - 40) / loss",
+        "no-return",
+        "Your function returned nothing (None). Is `return` missing?",
+    ),
+    "no return on one way": (
+        "14.2",
+        "class Calm(RewardFunc):\n    limit: float = 1.0\n    cost: float = 0.1\n\n"
+        "    def on_update(self, body, view):\n"
+        "        if abs(body.angular_velocity) > self.limit:\n            return -self.cost",
+        "no-return",
+        "Your function returned nothing (None). Is `return` missing?",
+    ),
+    "no parameter": (
+        "00.1",
+        "def go():\n    return {'move': [1, 0, 0, 0]}",
+        "parameters",
+        "`go` is called with other parameters than it has: go() takes 0 positional arguments but 1 "
+        "was given. Its first line has to be `def go(percept):`.",
+    ),
+    "a parameter less": (
+        "01.1",
+        "def decisions_for(distance):\n    return distance",
+        "parameters",
+        "Its first line has to be `def decisions_for(distance, speed):`.",
+    ),
+    "no self": (
+        "05.2",
+        "class Patrol(Controller):\n    def get_action(percept):\n        return {}",
+        "parameters",
+        "Its first line has to be `def get_action(self, percept):`.",
+    ),
+    "no base": (
+        "05.2",
+        "class Patrol:\n    def get_action(self, percept):\n        return {}",
+        "no-base",
+        "`Patrol` has a `get_action`, and is no Controller yet: begin with "
+        "`class Patrol(Controller):`.",
+    ),
+    "a call for a function": (
+        "06.3",
+        "def diary(agent):\n    notes = []\n"
+        "    agent.begin_of_episode.connect(notes.append('begin'))\n    return notes",
+        "called",
+        "connect: expected a function that gets the agent, got None",
+    ),
+    "one reward without a list": (
+        "07.2",
+        "def my_rewards():\n    return TouchRewardFunc(target='box', reward=10)",
+        "list",
+        "Put it into a list: `return [...]`.",
+    ),
+    "a list for a number": (
+        "13.1",
+        "def seconds_of_comfort(level, loss):\n    return [(level - 40) / loss]",
+        "list-for-number",
+        "Expected a number, got a list with one number: `[5.0]`.",
+    ),
+    "text for a number": (
+        "13.1",
+        "def seconds_of_comfort(level, loss):\n    return 'five'",
+        "not-a-number",
+        "Expected a number, got `'five'`.",
+    ),
+    "no number": (
+        "13.1",
+        "def seconds_of_comfort(level, loss):\n    return float('nan')",
+        "not-finite",
+        "which is no number: perhaps 0 was divided by 0",
+    ),
+    "a number for a list": (
+        "03.1",
+        "def twin(x, y):\n    return x",
+        "number-for-list",
+        "For (3, 1) expected two numbers, got `3.0`.",
+    ),
+    "a name of no actuator": (
+        "00.1",
+        "def go(percept):\n    return {'mov': [1, 0, 0, 0]}",
+        "action",
+        "did you mean 'move'?",
+    ),
+}
+
+
+@pytest.fixture(autouse=True)
+def elsewhere(tmp_path: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+
+
+@pytest.mark.parametrize("name", SLIPS)
+def test_a_slip_is_told_in_a_sentence(name: str) -> None:
+    exercise, code, diagnosis, text = SLIPS[name]
+    verdict = tried(lesson(exercise[:2]), exercise, code)
+    assert not verdict.passed
+    assert text in verdict.text
+    assert verdict.hint == diagnosis
+    assert "has a fault" not in verdict.text
+
+
+@pytest.mark.parametrize(
+    "given", [5.0, np.float32(5), np.array(5.0), np.array([5.0]), np.array([[5.0]]), np.int64(5)]
+)
+def test_a_number_may_be_an_array_of_one(given: Any) -> None:
+    verdict = judge(find("13.1"), lambda level, loss: given)
+    assert "With a level of" in verdict.text  # that is, it was taken for a number
+
+
+def test_what_is_set_in_init_is_there() -> None:
+    code = (
+        "class Patrol(Controller):\n    def __init__(self):\n        super().__init__()\n"
+        "        self.goal = 'red'\n    def get_action(self, percept):\n"
+        "        return {'move': [0, 0, 0, 0]} if self.goal == 'red' else None"
+    )
+    verdict = tried(lesson("05"), "05.2", code)
+    assert "has no attribute" not in verdict.text
+    assert verdict.hint != "no-return"
+
+
+def function(code: str) -> Any:
+    names: dict[str, Any] = {}
+    run(Cell(code), names, "<endless>")
+    return names["go"]
+
+
+WAITS = function("def go(percept):\n    action = {}\n    while percept['orientation'][1] > 0:\n"
+                 "        action = {'move': [1, 0, 0, 0]}\n    return action")  # fmt: skip
+SWALLOWS = function("def go(percept):\n    n = 0\n    while n != 0.5:\n        try:\n"
+                    "            n = n + 1\n        except Exception: n = 0")  # fmt: skip
+
+
+def quick(exercise_id: str) -> Exercise:
+    """The exercise with a short limit, for tests."""
+    known = find(exercise_id)
+    return Exercise(known.id, known.title, known.judge, known.hints, 0.4)
+
+
+@pytest.mark.parametrize("endless", [WAITS, SWALLOWS])
+@pytest.mark.parametrize("in_thread", [False, True], ids=["main thread", "another thread"])
+def test_an_endless_loop_ends_with_its_line(endless: Any, in_thread: bool) -> None:
+    found: list[Any] = []
+
+    def look() -> None:
+        found.append(judge(quick("00.1"), endless))
+
+    if in_thread:
+        thread = threading.Thread(target=look)
+        thread.start()
+        thread.join()
+    else:
+        look()
+    (verdict,) = found
+    assert verdict.hint == "endless"
+    assert "Your code did not answer for 0.4 s (line 3 of its cell: while " in verdict.text
+    assert verdict.text.endswith("use `if`, not `while`.")
+
+
+def test_many_slow_calls_end_too() -> None:
+    slow = function("import time\ndef go(percept):\n    time.sleep(0.15)\n    return {}")
+    with TimeLimit(call_s=5, total_s=0.5) as limit, pytest.raises(TimeLimitError):
+        [slow(None) for _ in range(100)]
+    assert not limit.is_endless
+    assert "Each of them is slow (line 3 of its cell: time.sleep(0.15))" in limit.text
+
+
+def test_a_film_of_an_endless_loop_says_so(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr("ai4u_edu.lessons.filming.TimeLimit", lambda: TimeLimit(0.4))
+    film("box_chase", WAITS)
+    assert "Stopped. Your code did not answer for 0.4 s" in capsys.readouterr().out
+
+
+def test_an_interrupt_is_one_sentence_and_changes_no_progress(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    def go(percept: Any) -> Any:
+        _thread.interrupt_main()
+        return {"move": [1, 0, 0, 0]}
+
+    check("00.1", go)
+    assert capsys.readouterr().out.startswith("Stopped. You stopped the check (line ")
+    assert ProgressFile().entries() == {}
+
+
+def test_the_ids_of_diagnoses_are_unique() -> None:
+    from ai4u_edu.lessons.diagnoses import COMMON, diagnosis_id
+
+    ids = [diagnosis_id("00.1", name, {}) for name in COMMON]
+    for each in EXERCISES.values():
+        ids += [diagnosis_id(each.id, name, each.hints) for name in each.hints]
+        assert not set(each.hints) & set(COMMON), each.id
+        assert all(name.replace("-", "").isalnum() for name in each.hints), each.id
+    assert len(set(ids)) == len(ids)
