@@ -33,7 +33,7 @@ class Field:
     value: Any
     """The present value, as plain data."""
     hint: str
-    """What the parameter means, as its class says."""
+    """Meaning of the parameter, in the words of its class."""
     choices: tuple[Any, ...] = ()
     is_common: bool = False
     """True if every block of the kind has it; such fields come last."""
