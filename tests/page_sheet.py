@@ -16,7 +16,7 @@ from tests.playing import Played, played
 from tests.screenshot import TABS, open_tab
 
 SIZES = ((1280, 720), (1920, 1080), (820, 1180), (844, 390), (390, 844))
-SCENES = ("box_chase", "sumo", "soccer", "parking", "line_follow", "needs", "grid_world")
+SCENES = ("box_chase", "sumo", "soccer", "parking", "line_follow", "forage", "grid_world")
 TOUCH_BELOW_PX = 1000
 """Windows that are narrower are touch screens."""
 ROW_PX = 620
