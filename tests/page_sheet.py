@@ -5,6 +5,7 @@ details.
 """
 
 import argparse
+import io
 from collections.abc import Iterable
 from pathlib import Path
 
@@ -85,10 +86,7 @@ def _show_tab(page: Page, tab: str, *, details: bool) -> None:
 
 
 def _shot(page: Page) -> Image.Image:
-    path = Path("/tmp") / "page_sheet.png"
-    page.screenshot(path=path)
-    with Image.open(path) as image:
-        return image.convert("RGB")
+    return Image.open(io.BytesIO(page.screenshot())).convert("RGB")
 
 
 def _save(rows: Iterable[list[Image.Image]], path: Path) -> None:

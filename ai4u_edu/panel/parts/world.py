@@ -35,7 +35,6 @@ def world_part(editor: SceneEditor, view: PageView) -> dict[str, Any]:
         ],
         "unsaved": None if unsaved is None else {"name": unsaved.name, "when": unsaved.when},
         "problem": "" if autosave is None else autosave.problem,
-        "is_changed": not editor.is_as_opened,
         "can_save": editor.scene_store is not None,
         "is_dragging": editor.is_dragging,
         "is_move_mode": view.is_move_mode,
