@@ -376,8 +376,7 @@ class WorldThread:
 
     def _picture(self) -> Snapshot:
         sim = self.sim
-        version = sim.world.generation, sim.goal, sim.success
-        if version != self._static_version:
+        if self._static_version != (version := (sim.world.generation, sim.goal, sim.success)):
             self._static_version = version
             static_scene = capture_static_scene(sim)
             if self._static_scene != static_scene:
