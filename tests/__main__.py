@@ -19,7 +19,9 @@ from ai4u_edu import bootstrap
 from tests import setup_browser
 from tests.remote import ai4u_venv
 
-ROOT = Path(__file__).resolve().parent.parent
+TESTS = Path(__file__).resolve().parent
+ROOT = TESTS.parent
+ALONE = "pytest.mark.alone"
 LINT_IMPORTS = "from importlinter.cli import lint_imports_command as run; run()"
 # Through `python -m`, since scripts in .venv/bin don't survive a move of the checkout.
 STATIC_CHECKS = {
@@ -28,7 +30,7 @@ STATIC_CHECKS = {
     "mypy": ["-m", "mypy"],
     "imports": ["-c", LINT_IMPORTS],
 }
-PARALLEL = ["-n", "auto"]
+PARALLEL = ["-n", str((os.cpu_count() or 1) + 1)]  # many tests wait for a moment
 LONG_RUNS = {
     "fuzz": ["-m", "tests.fuzz"],
     "hammer": ["-m", "tests.attacks.hammer", "--seconds", "300"],
@@ -50,6 +52,8 @@ def main() -> int:
     if for_pytest and only != "pytest":
         parser.error(f"{only} takes no arguments here, and got: {' '.join(for_pytest)}")
 
+    # else each program that a test starts compiles the package anew
+    os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
     try:
         python = str(bootstrap.ensure(ROOT, ["test" if options.fast else "dev"]))
     except bootstrap.SetupError as error:
@@ -71,7 +75,11 @@ def main() -> int:
     without_browser = " and not browser" if "browser" in failed else ""
     commands = {"pytest": [*pytest, "-m", "not alone" + without_browser, *PARALLEL]}
     if not options.fast:
-        commands["pytest alone"] = [*pytest, "-m", "alone" + without_browser]
+        # only these files are read then
+        alone = [
+            str(path) for path in sorted(TESTS.rglob("test_*.py")) if ALONE in path.read_text()
+        ]
+        commands["pytest alone"] = [*pytest, "-m", "alone" + without_browser, *alone]
     if options.nightly and not only:
         commands.update({name: [python, *arguments] for name, arguments in LONG_RUNS.items()})
     for name, command in commands.items():

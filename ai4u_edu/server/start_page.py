@@ -12,8 +12,8 @@ from ai4u_edu.editing import SceneEditor
 from ai4u_edu.editing.scene_cards import Card, stored_cards
 from ai4u_edu.editing.scene_pictures import library_picture, library_scenes
 from ai4u_edu.scenes import Scene
-from ai4u_edu.server.page import web_folder
 from ai4u_edu.server.standalone import STANDALONE_POLICY
+from ai4u_edu.server.web_files import web_folder
 
 PICTURE_SUFFIX = ".png"
 PICTURE_HEADERS = {"Cache-Control": "private, max-age=3600"}

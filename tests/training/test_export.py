@@ -73,8 +73,15 @@ def test_a_thousand_observations(tmp_path: Path, algorithm: Algorithm) -> None:
     assert disagreement(model, network, worlds, keys) < 1e-5
 
 
-@pytest.mark.parametrize("algorithm", ["ppo", "dqn"])
-@pytest.mark.parametrize("observation", ["flat", "dict"])
+@pytest.mark.parametrize(
+    ("observation", "algorithm"),
+    [
+        ("dict", "ppo"),
+        ("flat", "dqn"),
+        pytest.param("dict", "dqn", marks=pytest.mark.nightly),
+        pytest.param("flat", "ppo", marks=pytest.mark.nightly),
+    ],
+)
 def test_choices_and_pictures(tmp_path: Path, algorithm: Algorithm, observation: str) -> None:
     scene, settings = Scene.loads(CHOICES), small_settings(observation=observation)
     model, worlds = untrained(scene, algorithm, settings)
