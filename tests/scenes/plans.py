@@ -220,6 +220,48 @@ def park(sim: ControlRequestor) -> Plan:
     return plan
 
 
+STEP_KEYS = {(1, 0): "KeyD", (-1, 0): "KeyA", (0, 1): "KeyW", (0, -1): "KeyS"}
+"""Keys for a step to a neighbouring cell: to the right, to the left, up and down."""
+
+
+def clean(sim: ControlRequestor) -> Plan:
+    """Tap from cell to cell to the nearest dirty place, round walls, enemies and the person."""
+    bodies = sim.world.bodies
+    closed = [body for name, body in bodies.items() if not name.startswith(("robot", "dirt"))]
+    here, is_pressed = sim.agents[0].body.position, False
+
+    def is_open(cell: Point) -> bool:
+        return not any(
+            body.sampled.shape.contains(cell[0] - body.position[0], cell[1] - body.position[1])
+            for body in closed
+        )
+
+    def first_step(goals: set[Point]) -> Point | None:
+        border, seen = deque([(here, (0, 0))]), {here}
+        while border:
+            cell, first = border.popleft()
+            if cell in goals:
+                return first
+            for dx, dy in STEP_KEYS:
+                other = (cell[0] + dx, cell[1] + dy)
+                if other not in seen and is_open(other):
+                    seen.add(other)
+                    border.append((other, first if any(first) else (dx, dy)))
+        return None
+
+    def plan(sight: Sight) -> Keys:
+        nonlocal here, is_pressed
+        goals = {at for name, at in sight.at.items() if name.startswith("dirt")} - {here}
+        step = None if is_pressed else first_step(goals)
+        is_pressed = step is not None
+        if step is None:
+            return NONE
+        here = here[0] + step[0], here[1] + step[1]
+        return frozenset({STEP_KEYS[step]})
+
+    return plan
+
+
 LINE: list[Point] = [
     (-4, -3.5), (-0.5, -3.5), (3, -3.5), (4.5, -2), (5, -1.2), (5, 0), (5, 1.5), (4.2, 2.4),
     (3.4, 3), (1.6, 3), (0.75, 2.25), (0, 1.5), (-1.4, 1.5), (-2.25, 2.25), (-3, 3),
@@ -230,6 +272,7 @@ PLANS: dict[str, Planner] = {
     "box_chase": go_to("box"),
     "donut": ring,
     "forage": forage,
+    "grid_world": clean,
     "jumper": jump_blocks,
     "line_follow": follow(LINE),
     "maze": through_maze,
