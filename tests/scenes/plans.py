@@ -234,7 +234,7 @@ def park(sim: ControlRequestor) -> Plan:
     return plan
 
 
-STEP_KEYS = {(1, 0): "KeyD", (-1, 0): "KeyA", (0, 1): "KeyW", (0, -1): "KeyS"}
+STEP_KEYS: dict[Point, str] = {(1, 0): "KeyD", (-1, 0): "KeyA", (0, 1): "KeyW", (0, -1): "KeyS"}
 """Keys for a step to a neighbouring cell: to the right, to the left, up and down."""
 
 
@@ -251,7 +251,8 @@ def clean(sim: ControlRequestor) -> Plan:
         )
 
     def first_step(goals: set[Point]) -> Point | None:
-        border, seen = deque([(here, (0, 0))]), {here}
+        border: deque[tuple[Point, Point]] = deque([(here, (0.0, 0.0))])
+        seen = {here}
         while border:
             cell, first = border.popleft()
             if cell in goals:
