@@ -37,7 +37,7 @@ def stays_still(site: ServedViser, seconds: float = 0.4) -> bool:
 
 
 class Pose(NamedTuple):
-    """Where the robot is at the end of a decision."""
+    """Pose of the robot at the end of a decision."""
 
     x: float
     y: float
