@@ -63,15 +63,21 @@ def main() -> int:
         for name, arguments in STATIC_CHECKS.items()
         if only in ("", name.split()[0]) and not (options.fast and name == "mypy" and not only)
     }
-    failed = run_side_by_side(static)
-    if only not in ("", "pytest"):
-        return report(failed)
-    if not options.fast:
-        failed += prepare(python)
+    with ThreadPoolExecutor(2) as pool:
+        checks = [pool.submit(run_quietly, name, static[name]) for name in static]
+        failed = [] if only not in ("", "pytest") else run_tests(python, options, only, for_pytest)
+    return report([name for check in checks for name in check.result()] + failed)
+
+
+def run_tests(
+    python: str, options: argparse.Namespace, only: str, for_pytest: list[str]
+) -> list[str]:
+    """Run the tests of a tier, or those that were chosen; return the names of what failed."""
+    failed = [] if options.fast else prepare(python)
     tier_options = ["--fast"] * options.fast + ["--nightly"] * options.nightly
     pytest = [python, "-m", "pytest", *tier_options]
     if for_pytest:  # a few tests, chosen by hand
-        return subprocess.call([*pytest, *for_pytest], cwd=ROOT)
+        return run_in_turn("pytest", [*pytest, *for_pytest])
     without_browser = " and not browser" if "browser" in failed else ""
     commands = {"pytest": [*pytest, "-m", "not alone" + without_browser, *PARALLEL]}
     if not options.fast:
@@ -84,7 +90,7 @@ def main() -> int:
         commands.update({name: [python, *arguments] for name, arguments in LONG_RUNS.items()})
     for name, command in commands.items():
         failed += run_in_turn(name, command)
-    return report(failed)
+    return failed
 
 
 def prepare(python: str) -> list[str]:
@@ -103,27 +109,21 @@ def prepare(python: str) -> list[str]:
     return missing
 
 
-def run_side_by_side(commands: dict[str, list[str]]) -> list[str]:
-    """Run checks that each keep one core busy; print each one's output at its end."""
-
-    def run(name: str) -> bool:
-        start = time.monotonic()
-        done = subprocess.run(
-            commands[name],
-            cwd=ROOT,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.STDOUT,
-            text=True,
-            errors="replace",
-            check=False,
-        )
-        end = outcome(name, done.returncode, start)
-        print(f"\n--- {name}\n{done.stdout}{end}", flush=True)
-        return done.returncode == 0
-
-    with ThreadPoolExecutor(2) as pool:
-        passed = {name: pool.submit(run, name) for name in commands}
-    return [name for name in commands if not passed[name].result()]
+def run_quietly(name: str, command: list[str]) -> list[str]:
+    """Run one check, and print its output at its end; return its name if it failed."""
+    start = time.monotonic()
+    done = subprocess.run(
+        command,
+        cwd=ROOT,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+        errors="replace",
+        check=False,
+    )
+    end = outcome(name, done.returncode, start)
+    print(f"\n--- {name}\n{done.stdout}{end}", flush=True)
+    return [name] if done.returncode else []
 
 
 def run_in_turn(name: str, command: list[str]) -> list[str]:

@@ -103,6 +103,8 @@ def panel_page(
     page.on("pageerror", lambda error: opened.problems.append(str(error)))
     opened.panel.attach(page)
     CANVAS.serve(page, room.url)
+    unchanged = {"is_changed": False, "is_autosaved": False}
+    page.route(f"{room.url}api/scene", lambda route: route.fulfill(json=unchanged))
     page.goto(opened.url)
     opened.wait()
     yield opened
