@@ -14,7 +14,7 @@ from playwright.sync_api import Browser, Page
 
 from tests.chromium import browser
 from tests.playing import Played, played
-from tests.screenshot import TABS, open_tab
+from tests.screenshot import TABS
 
 SIZES = ((1280, 720), (1920, 1080), (820, 1180), (844, 390), (390, 844))
 SCENES = ("box_chase", "sumo", "soccer", "parking", "line_follow", "forage", "grid_world")
@@ -79,10 +79,18 @@ def _shots(
 
 
 def _show_tab(page: Page, tab: str, *, details: bool) -> None:
-    open_tab(page, tab)
+    """Open the panel and a tab, with its first card."""
+    unfold = page.get_by_role("button", name="Open the panel")
+    if unfold.count():
+        unfold.click()
     page.get_by_role("button", name="Details" if details else "Simple", exact=True).click()
-    page.get_by_role("tab", name=tab).scroll_into_view_if_needed()
+    page.get_by_role("tab", name=tab).click()
     page.wait_for_timeout(SETTLE_MS)
+    folded = page.locator(".ai4u-tabpanel:visible .ai4u-card-head[aria-expanded=false]")
+    opened = page.locator(".ai4u-tabpanel:visible .ai4u-card-head[aria-expanded=true]")
+    if folded.count() and not opened.count():
+        folded.first.click()
+        page.wait_for_timeout(SETTLE_MS)
 
 
 def _shot(page: Page) -> Image.Image:

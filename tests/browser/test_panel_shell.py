@@ -196,3 +196,12 @@ def test_the_drivers_line_is_one_line_beside_the_open_panel_of_a_phone(
         assert len(set(places)) == 1, places
         assert row.evaluate("row => row.firstElementChild.offsetHeight") <= 40
         assert row.evaluate("row => row.scrollWidth <= row.clientWidth")
+
+
+def test_the_banner_of_a_folded_phone_is_below_the_world(chromium: Browser, room: Room) -> None:
+    with panel_page(chromium, room, width=390, height=844, has_touch=True) as phone:
+        banner = phone.page.locator(".ai4u-banners").first.bounding_box()
+        dock = phone.page.locator(".ai4u-dock").bounding_box()
+        assert banner
+        assert dock
+        assert 844 / 2 < banner["y"] + banner["height"] < dock["y"]
