@@ -2,6 +2,7 @@
 
 import json
 import socket
+import threading
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -115,6 +116,24 @@ class Page:
 
     def hold(self, *codes: str) -> None:
         self.send("keys", held=list(codes))
+
+    @contextmanager
+    def holding(self, *codes: str) -> Iterator[None]:
+        """Hold keys as pages do: they repeat them, since the server soon forgets a silent page."""
+        over = threading.Event()
+
+        def repeat() -> None:
+            while not over.wait(0.1):
+                self.hold(*codes)
+
+        self.hold(*codes)
+        thread = threading.Thread(target=repeat)
+        thread.start()
+        try:
+            yield
+        finally:
+            over.set()
+            thread.join()
 
     def receive(self, kind: str, **wanted: Any) -> dict[str, Any]:
         """Return the next event of a type with the given fields; skip others."""

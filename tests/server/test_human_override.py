@@ -176,16 +176,16 @@ def test_a_script_elsewhere_is_not_listened_to_while_a_person_drives(mode: Any) 
             script = threading.Thread(target=drive, daemon=True)
             script.start()
             until(lambda: does(-0.5))
-            page.hold("KeyW")
-            page.receive("hello", others="", instead="A script elsewhere")
-            until(lambda: does(1))
-            brain = agent.brain
-            assert isinstance(brain, RemoteBrain)
-            seen, ignored = len(steps), brain.status().ignored
-            until(lambda: len(steps) > seen + 3)  # it goes on seeing
-            until(lambda: brain.status().ignored > ignored + 2)
-            assert does(1)
-            assert "a person drives" in brain.status().reason
+            with page.holding("KeyW"):
+                page.receive("hello", others="", instead="A script elsewhere")
+                until(lambda: does(1))
+                brain = agent.brain
+                assert isinstance(brain, RemoteBrain)
+                seen, ignored = len(steps), brain.status().ignored
+                until(lambda: len(steps) > seen + 3)  # it goes on seeing
+                until(lambda: brain.status().ignored > ignored + 2)
+                assert does(1)
+                assert "a person drives" in brain.status().reason
             page.hold()
             page.send("let_go")
             page.receive("hello", others="A script elsewhere", instead="")
