@@ -37,6 +37,8 @@ def test_everything_in_the_scene_is_listed(page: PanelPage) -> None:
     assert listed["robot"]["kind"] == "agent"
     assert listed["box"]["kind"] == "body"
     assert {thing["kind"] for thing in listed.values()} == {"agent", "body", "floor"}
+    # an actuator chooses where the robot starts
+    assert [name for name, thing in listed.items() if thing["is_random"]] == ["robot"]
 
 
 @pytest.mark.parametrize("template", ["wall", "box", "ball", "target", "lamp", "area", "floor"])
