@@ -8,6 +8,15 @@ from typing import Any
 
 from playwright.sync_api import Browser, Page, sync_playwright
 
+DISABLED = [
+    # newer ones guard this machine against foreign pages; here it is we who have to
+    "LocalNetworkAccessChecks",
+    "LocalNetworkAccessChecksWebSockets",
+    # an address bar's menu, made in two processes for each context, which took most of its time
+    "WebUIOmniboxPopup",
+    "WebUIOmniboxAimPopup",
+]
+"""Features of Chromium that tests do without."""
 FLAGS = [
     "--no-sandbox",
     # viser draws with WebGL; there may be no graphics card here
@@ -22,8 +31,7 @@ FLAGS = [
     "--disable-background-networking",
     "--disable-component-update",
     "--disable-sync",
-    # newer ones guard this machine against foreign pages; here it is we who have to
-    "--disable-features=LocalNetworkAccessChecks,LocalNetworkAccessChecksWebSockets",
+    f"--disable-features={','.join(DISABLED)}",
 ]
 
 DRAW_NOTHING = """

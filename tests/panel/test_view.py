@@ -54,6 +54,14 @@ def test_readings_action_and_rewards() -> None:
         assert "connect(" in page.part("python")["lines"]
 
 
+def test_sensors_of_a_kind_can_be_told_apart() -> None:
+    with panel_room("soccer") as room, room.page() as page:
+        page.show("blue_striker", "agent")
+        titles = [sensor["title"] for sensor in page.part("agent")["sensors"]]
+        assert titles[:3] == ["Position: ball", "Position: goal", "Position: home"]
+        assert len(set(titles)) == len(titles)
+
+
 def test_a_sensor_is_hidden() -> None:
     with panel_room("maze") as room, room.page() as page:
         page.show("0", "agent")

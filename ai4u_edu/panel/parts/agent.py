@@ -1,5 +1,6 @@
 """The parts "agent" and "curve": readings, action and rewards of an agent's last decision."""
 
+from collections import Counter
 from collections.abc import Collection, Mapping
 from typing import Any
 
@@ -47,6 +48,7 @@ def agent_part(
         | {"is_drawable": is_drawable(sensor, agent), "is_shown": sensor.key in shown}
         for sensor in agent.sensor_infos
     ]
+    _tell_apart(sensors)
     known = {control.name: control for control in agent.actuator_infos}
     return {
         "type": "part",
@@ -76,6 +78,14 @@ def agent_part(
         "phases": _phases(agent, snapshot),
         "others": _overview(snapshot) if len(snapshot.agents) > 1 else [],
     }
+
+
+def _tell_apart(sensors: list[dict[str, Any]]) -> None:
+    """Add the perception key to titles that several sensors have."""
+    counts = Counter(sensor["title"] for sensor in sensors)
+    for sensor in sensors:
+        if counts[sensor["title"]] > 1:
+            sensor["title"] = f"{sensor['title']}: {sensor['key']}"
 
 
 def curve_part(agent: AgentState) -> dict[str, Any]:
