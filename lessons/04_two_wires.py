@@ -134,14 +134,14 @@ film(vehicle(fear, heading_deg=-20), limit=120)
 # %% [markdown]
 # ## Wires that slow down
 #
-# A wire can also **brake**: the brighter, the slower. Such a wheel turns fast in the dark:
-# `1 - 2 * brightness`, say. In living brains there are both kinds of connections, too: those that excite
+# A wire can also **brake**: the brighter, the slower. Such a wheel turns fast in the dark, as with
+# `1 - 2 * brightness`. (The 2 is too weak a brake: that vehicle runs into the lamp.) In living brains there are both kinds of connections, too: those that excite
 # and those that *inhibit*.
 #
 # ### Exercise 04.3: love
 #
-# Make a vehicle that comes to the lamp and stays before it, looking at it, **1 to 3 metres** away (from
-# middle to middle). There are two things to find out: which eye brakes which wheel, and how strongly.
+# Make a vehicle that comes to the lamp and stays in front of it, looking at it, **1 to 3.5 metres** away
+# (from middle to middle). There are two things to find out: which eye brakes which wheel, and how strongly.
 
 
 # %% tags=["exercise-04.3"]

@@ -22,7 +22,13 @@
 # %% tags=["setup"]
 from ai4u_edu import *
 from ai4u_edu.lessons import bars, check, film, hint, progress, report, show, solution
-from ai4u_edu.lessons.exercises.lesson_10 import best_network, my_drives, touched, track
+from ai4u_edu.lessons.exercises.lesson_10 import (
+    best_network,
+    my_drives,
+    one_drive,
+    touched,
+    track,
+)
 from ai4u_edu.training import clone, evaluate
 
 # %% [markdown]
@@ -36,16 +42,16 @@ from ai4u_edu.training import clone, evaluate
 show("box_chase", record="drives")
 
 # %% [markdown]
-# `my_drives()` ends the world and gives your last five drives that reached the box. (Who has not driven
-# five times gets the others from a scripted player.)
+# `my_drives()` ends the world and gives your last five drives that reached the box. (If you drove fewer
+# than five times, a scripted player fills in the rest.)
 
 # %%
 for episode in my_drives():
     print(episode)
 
 # %% [markdown]
-# In such a file stands what you *did*, decision by decision, and the seed. What the robot *sensed* need not
-# be in it: the same seed and the same actions give the same world again, to the last digit.
+# Such a file holds what you *did*, decision by decision, and the seed. It need not hold what the robot
+# *sensed*: the same seed and the same actions give the same world again, to the last digit.
 #
 # ## What is worth learning from?
 #
@@ -76,11 +82,11 @@ check("10.1", good)
 #
 # ### Exercise 10.2: show it
 #
-# The clone below has seen one drive. What do you think: in how many of 100 worlds will it reach the box?
-# Check it; then give it what it needs to reach the box in at least 60 of 100.
+# The clone below has seen one drive of a scripted player. What do you think: in how many of 100 worlds will
+# it reach the box? Check it; then give it what it needs to reach the box in at least 60 of 100.
 
 # %% tags=["exercise-10.2"]
-my_clone = clone(my_drives()[:1], "clone.onnx", quiet=True)
+my_clone = clone(one_drive(), "clone.onnx", quiet=True)
 
 # %%
 check("10.2", my_clone)
@@ -95,13 +101,13 @@ film("box_chase", trained_brain("clone.onnx"), seed=5, limit=100)
 # ## Where it fails
 #
 # A clone knows what you did **where you were**. Where you never were, it can only guess. Let your clone
-# begin in a place where nobody has ever begun, close to the edge, with its back to the box. You always
-# turned early enough. Does it?
+# begin in places where nobody has ever begun: right at the edge. The clone of our scripted player falls from
+# most of them, although nothing but the place is new. From how many of them does yours reach the box?
 
 # %%
 scene = Scene.load("box_chase").build()
 scene.agents[0].use_brain(trained_brain("clone.onnx"))
-for place in [(4, 0, 0), (0, 4, 1.6), (-4, -4, -2.4), (4, -4, -0.8)]:
+for place in [(4.3, 0, 1.57), (0, -4.3, 1.57), (2, 4.3, -1.57), (4.3, 2, -1.57)]:
     scene.reset(seed=1)
     scene.agents[0].body.move_to(place[0], place[1], heading=place[2])
     while not scene.agents[0].done and scene.agents[0].steps < 200:
@@ -113,7 +119,7 @@ for place in [(4, 0, 0), (0, 4, 1.6), (-4, -4, -2.4), (4, -4, -0.8)]:
 # %% [markdown]
 # There is worse. A small mistake leads to a place where you never were; there it makes a larger one, and
 # so on. Clones of people who drive perfectly suffer most from that: they were never shown how to get out of
-# trouble. (So one of your drives may have a mistake in it that you mend.)
+# trouble. (So it can help if one of your drives has a mistake in it that you correct.)
 #
 # ## A race
 #
@@ -152,8 +158,8 @@ bars(
 film(track("clone.onnx", best_network()), seed=4, limit=200)
 
 # %% [markdown]
-# The clone can't be better than who it learned from, as it only wants to be like them. The one that learned
-# by reward wants the reward, and drives in ways that you would never have shown it. But it needed
+# A clone is rarely better than its teacher: all it does is copy. The one that learned by reward goes for the
+# reward, and drives in ways that you would never have shown it. But it needed
 # thousands of tries, falls and all; the clone needed five drives and no fall. Where would you rather have
 # which: in a game, in a car, in an operating theatre?
 

@@ -193,8 +193,8 @@ except AI4UError as error:
 # %% [markdown]
 # ### Exercise 11.4: sensors that fit
 #
-# Return the sensors with which the network finds the box. The message tells you what is missing; what the
-# sensors were like where it learned stands in `network.about["sensors"]`:
+# Return sensors that read the same numbers as those with which the network learned. The message tells you
+# what is missing; `network.about["sensors"]` says what the sensors were like:
 
 # %%
 for key, about in network.about["sensors"].items():
@@ -210,9 +210,10 @@ def senses():
 check("11.4", senses)
 
 # %% [markdown]
-# Shapes are checked for you; what the numbers *mean* is not. Give your ray sensor `group_code={}`, so that it
-# no longer tells floor from void: everything fits, nobody complains, and now and then the robot drives off
-# the plate. With real robots that is the more dangerous mistake.
+# Shapes are checked for you; what the numbers *mean* is not. Leave out the angles of the ray sensor, or swap
+# the two codes: everything fits, the network does not complain, and the robot still finds the box most of
+# the time. But it is told something else than it believes, and one day that matters. Our check compares the
+# readings; with a real robot nobody does. That makes it the more dangerous mistake.
 
 # %%
 progress()

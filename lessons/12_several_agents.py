@@ -91,9 +91,14 @@ def to_the_middle(percept):
 # %% [markdown]
 # ### Exercise 12.2: stay in the ring
 #
-# Win at least 15 of 20 fights. Driving at the opponent at full speed is a start. But what if you stand
-# near the edge, and it is between you and the edge, or you look outward? `to_the_middle(percept)` says
-# where the middle is.
+# Win at least 17 of 20 fights. Here are two plans:
+#
+# - *Attack*: always drive at the opponent.
+# - *Be careful*: near the edge, go to the middle first; else attack. `to_the_middle(percept)` says where
+#   the middle is.
+#
+# Which one sounds wiser? Write down your guess. Then try both: the check lets each fight the same twenty
+# fights, and it is the number that counts, not what sounds wise.
 
 
 # %% tags=["exercise-12.2"]
@@ -122,29 +127,18 @@ show("soccer", seed=1)
 # %% [markdown]
 # ### Exercise 12.3: the striker
 #
-# The game begins, and you stand on the wrong side: between the ball and their goal. Score in at least 10
-# of 12 such games. Whoever runs at the ball pushes it away from where they come from. So where do you
-# have to be, before you run at it? Think of the line from the ball to the goal: **behind** the ball, seen
-# from the goal.
-#
-# `minus`, `plus` and `times` compute with places:
+# The game begins, and you stand on the wrong side: between the ball and their goal. Score in at least 6
+# of 12 such games. If you run at the ball, it flies off the way you were running. So where do you have to
+# be before you run at it? Think of the line from the ball to the goal: **behind** the ball, seen from the
+# goal. `behind(ball, goal)` is that place.
 
 
 # %% tags=["setup"]
-def minus(a, b):
-    return (a[0] - b[0], a[1] - b[1])
-
-
-def plus(a, b):
-    return (a[0] + b[0], a[1] + b[1])
-
-
-def times(factor, a):
-    return (factor * a[0], factor * a[1])
-
-
-def length(a):
-    return math.hypot(a[0], a[1])
+def behind(ball, goal, gap=0.06):
+    """The place behind the ball, seen from the goal; ``gap`` is its distance from the ball."""
+    x, y = goal[0] - ball[0], goal[1] - ball[1]
+    length = math.hypot(x, y)
+    return ball[0] - gap * x / length, ball[1] - gap * y / length
 
 
 # %% tags=["exercise-12.3"]

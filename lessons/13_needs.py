@@ -28,7 +28,8 @@ from ai4u_edu.lessons.exercises.lesson_13 import creature
 # ## Levels
 #
 # Our creature has two inner levels, **energy** and **water**, each from 0 to 100. Both sink by themselves.
-# That is their *drift*. Food adds 40 to the energy, water 40 to the water. Who has nothing left dies.
+# That is their *drift*. Food adds 40 to the energy, water 40 to the water. A creature whose level reaches 0
+# dies.
 #
 # Between 40 and 80 the creature feels well: its **comfort zone**. Too much is not good either.
 #
@@ -60,7 +61,8 @@ check("13.1", seconds_of_comfort)
 # ## What do I need most?
 #
 # The creature senses where food and water are (`to food`, `to water`: sine and cosine of the bearing, as
-# in lesson 03), and its levels (`inside`: energy and water, from 0 to 1).
+# in lesson 03), and its levels. Careful: in `inside`, energy and water go **from 0 to 1**. What the panel
+# shows as 40 is 0.4 here.
 #
 # `to` steers towards a bearing. What has been eaten comes back somewhere else three seconds later.
 
@@ -76,7 +78,8 @@ def to(bearing):
 # %% [markdown]
 # ### Exercise 13.2: stay alive
 #
-# Keep the creature alive for a minute.
+# Keep the creature alive for a minute. In some of the worlds it begins with hardly any energy, or hardly
+# any water.
 
 
 # %% tags=["exercise-13.2"]
@@ -115,7 +118,7 @@ plot(levels(live), xlabel="decision (12 a second)", ylabel="level")
 # %% [markdown]
 # ### Exercise 13.3: live well
 #
-# Keep **both** levels between 40 and 80, for at least 70 of 100 decisions. When should the creature eat?
+# Keep **both** levels between 40 and 80, for at least 60 of 100 decisions. When should the creature eat?
 # When should it rather do nothing? (`{"move": [0, 0, 0, 0]}`)
 
 

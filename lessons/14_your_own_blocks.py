@@ -138,7 +138,7 @@ check("14.2", Calm)
 # ## An actuator
 #
 # It says what an action looks like (`space`), and what it does (`act`). `act` is called at each tick, with
-# the action as a row of numbers. What it may do with the body:
+# the action as a list of numbers: `action[0]` is the first one. What it may do with the body:
 #
 # | | |
 # |---|---|

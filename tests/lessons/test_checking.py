@@ -40,7 +40,7 @@ def written(source: str) -> Any:
 
 def test_what_was_right_is_said(capsys: pytest.CaptureFixture[str]) -> None:
     check("00.1", go)
-    assert "Right. Your robot drives forward. It did so in 5 worlds." in capsys.readouterr().out
+    assert "Right. Your robot drives forward. It did so in 12 worlds." in capsys.readouterr().out
 
 
 def test_what_happened_is_said_with_seed_step_picture_and_where_to_get_help(

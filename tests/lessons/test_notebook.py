@@ -29,6 +29,9 @@ def test_a_notebook_is_valid_has_no_outputs_and_is_the_same_each_time(lesson: Le
     nbformat.validate(book)
     assert not any(cell.get("outputs") or cell.get("execution_count") for cell in book.cells)
     assert dumps(lesson.cells) == dumps(Lesson(lesson.path).cells)
+    for cell in book.cells:
+        assert cell.metadata["deletable"] is False
+        assert cell.metadata.get("editable", True) is (cell.cell_type == "code")
 
 
 @EACH

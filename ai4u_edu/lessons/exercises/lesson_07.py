@@ -7,16 +7,22 @@ from ai4u_edu.agent import BasicAgent
 from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.blocks import (
     BearingSensor,
+    DistanceToTargetRewardFunc,
+    FallReward,
     LocalBrain,
     OrientationSensor,
     Percept,
     RBMoveActuator,
+    RestlessnessRewardFunc,
     RewardFunc,
+    TouchRewardFunc,
 )
-from ai4u_edu.lessons.exercise import Done, NotYet, a_function, a_list_of, exercise
+from ai4u_edu.blocks.agent_view import AgentView
+from ai4u_edu.lessons.exercise import Done, NotYet, a_function, a_list_of, exercise, named
 from ai4u_edu.lessons.numeric import finite_number
 from ai4u_edu.lessons.rollouts import drive, seeds_of
 from ai4u_edu.lessons.worlds import plate
+from ai4u_edu.world import BodyView, WorldView
 
 Action = dict[str, list[float]]
 SEEDS = (1, 2, 3, 4, 5)
@@ -107,6 +113,36 @@ def _shown(found: Mapping[str, float]) -> str:
     return ", ".join(f"{name} {paid:.1f}" for name, paid in found.items())
 
 
+class Approach(RewardFunc):
+    """Pays 1 for each decision that brought the agent closer to the box; the notebook's."""
+
+    def on_reset(self, _agent: AgentView, view: WorldView) -> None:
+        """Forget the last distance."""
+        self._before = view["box"].distance(view["robot"])
+
+    def on_update(self, body: BodyView, view: WorldView) -> float:
+        """Return 1 if it came closer."""
+        now = view["box"].distance(body)
+        paid = 1.0 if now < self._before - 0.01 else 0.0
+        self._before = now
+        return paid
+
+
+WELL_MEANT: dict[str, Callable[[], list[RewardFunc]]] = {
+    "near": lambda: [
+        DistanceToTargetRewardFunc(target="box", max_reward=1),
+        TouchRewardFunc(target="box", reward=10, cause_episode_to_end=True),
+    ],
+    "quick": lambda: [
+        TouchRewardFunc(target="box", reward=10),
+        FallReward(success_reward=-1, cause_episode_to_end=True),
+        RestlessnessRewardFunc(reward=-1, min_dist=5),
+    ],
+    "closer": lambda: [Approach()],
+}
+"""The notebook's rewards; the check does not trust those that it is given."""
+
+
 @exercise(
     "07.1",
     "Who wins?",
@@ -115,6 +151,7 @@ def _shown(found: Mapping[str, float]) -> str:
         "little at each of 120 decisions. Which sum is larger?",
         "quick": "With `quick` everybody pays 1 at each decision until the episode is over. What "
         "ends the episode here? Read the first line of `quick` once more.",
+        "name": "Write one of the six names in quotes, for each of the three rewards.",
         "closer": "With `closer` a step towards the box pays, and a step away costs nothing. Who "
         "takes most steps towards it?",
     },
@@ -123,13 +160,16 @@ def predicts(winners: Any, well_meant: Any) -> Done:
     """Check the predicted winner with each of three rewards."""
     if not isinstance(winners, Mapping):
         raise NotYet(f"Expected a name for each reward, got `{winners!r}`.")
-    if not isinstance(well_meant, Mapping) or not well_meant:
-        raise NotYet(f"Expected the well-meant rewards, got `{well_meant!r}`.")
-    for name, rewards in well_meant.items():
+    if not isinstance(well_meant, Mapping) or set(well_meant) != set(WELL_MEANT):
+        raise NotYet("Run the cell with the three well-meant rewards once more.")
+    for name, rewards in WELL_MEANT.items():
         said = winners.get(name)
         found = contest(rewards(), seeds_of("07.1", 5))
-        if said not in found:
-            raise NotYet(f"For `{name}` expected one of {', '.join(found)}; got `{said!r}`.")
+        if not isinstance(said, str) or said not in found:
+            raise NotYet(
+                f"For `{name}` expected one of {', '.join(found)}; got {named(said)}.",
+                hint="name",
+            )
         if said != _best(found):
             raise NotYet(
                 f"With `{name}` the {said} gets {found[said]:.1f}, and somebody else gets more.",
@@ -148,6 +188,10 @@ def _made(make: Any) -> list[RewardFunc]:
     hints={
         "linger": "Somebody gets more than the runner by staying near, or by dancing. A trail must "
         "pay for *getting* nearer, and take it back from who goes away: `ProgressReward`.",
+        "patience": "In ten seconds the runner wins. In a minute somebody else does, who is paid "
+        "for staying near: every reward for *being* somewhere can be collected without end.",
+        "nothing": "Nobody is paid anything yet.",
+        "lost": "The runner does not win. What does it get for the touch?",
         "trail": "The runner wins, but until the touch it gets nothing: a beginner would not know "
         "where to go. Add a reward for progress.",
     },
@@ -156,9 +200,22 @@ def has_a_trail(make: Any) -> Done:
     """Check that the runner wins, and is rewarded on the way."""
     seeds = seeds_of("07.2", 5)
     found = contest(_made(make), seeds)
+    if not any(found.values()):
+        raise NotYet(f"Nobody gets anything: {_shown(found)}.", hint="nothing")
     others = max(paid for name, paid in found.items() if name not in ("runner", "stroller"))
     if found["runner"] < others + 1 or found["runner"] < found["stroller"] - 1:
-        raise NotYet(f"The runner does not win clearly: {_shown(found)}.", hint="linger")
+        stays = max(found["lingerer"], found["dancer"]) >= found["runner"] - 1
+        raise NotYet(
+            f"The runner does not win clearly: {_shown(found)}.", hint="linger" if stays else "lost"
+        )
+    for name in ("lingerer", "dancer"):
+        paid_in_a_minute = _in_a_minute(name, _made(make), seeds[:2])
+        if paid_in_a_minute > found["runner"] - 1:
+            raise NotYet(
+                f"In ten seconds the runner wins. In a minute the {name} gets "
+                f"{paid_in_a_minute:.1f}, more than the runner's {found['runner']:.1f}.",
+                hint="patience",
+            )
     sim = tempers("runner", _made(make))
     agent = sim.agents[0]
     for seed in seeds:
@@ -173,6 +230,17 @@ def has_a_trail(make: Any) -> Done:
     return Done(f"The runner wins, and the way is paid: {_shown(found)}.", done.picture())
 
 
+def _in_a_minute(name: str, rewards: list[RewardFunc], seeds: Sequence[int]) -> float:
+    """Return the mean return in episodes of a minute."""
+    sim = tempers(name, rewards)
+    agent = sim.agents[0]
+    total = 0.0
+    for seed in seeds:
+        drive(sim, agent, seed, 6 * TEN_SECONDS)
+        total += agent.ledger.episode_total
+    return finite_number(total / len(seeds))
+
+
 @exercise(
     "07.3",
     "Quick, but not at any price",
@@ -181,12 +249,18 @@ def has_a_trail(make: Any) -> Done:
         "the `reward` for restlessness below 0.",
         "jump": "The jumper is not the last: a fall ends the episode, and who is out pays no "
         "more. The fall has to cost more than all the time that it saves.",
+        "pays": "Time pays instead of costing: the `reward` for restlessness has to be below 0.",
+        "dear": "Time costs so much that the runner, too, gets less than nothing: make it cheaper.",
         "runner": "The runner has to get the most of all.",
     },
 )
 def is_quick(make: Any) -> Done:
     """Check that the runner beats the stroller, and the jumper is last."""
     found = contest(_made(make), seeds_of("07.3", 5))
+    if found["sleeper"] > 0.1:
+        raise NotYet(f"The sleeper is paid for sleeping: {_shown(found)}.", hint="pays")
+    if found["runner"] < 0:
+        raise NotYet(f"The runner gets less than nothing: {_shown(found)}.", hint="dear")
     if found["runner"] <= found["stroller"] + 0.1:
         raise NotYet(f"Time costs nothing yet: {_shown(found)}.", hint="time")
     if _best(found) != "runner":
