@@ -83,7 +83,7 @@ check("10.1", good)
 # ### Exercise 10.2: show it
 #
 # The clone below has seen one drive of a scripted player. What do you think: in how many of 100 worlds will
-# it reach the box? Check it; then give it what it needs to reach the box in at least 60 of 100.
+# it reach the box? Check it; then give it what it needs to reach the box in at least 50 of 100.
 
 # %% tags=["exercise-10.2"]
 my_clone = clone(one_drive(), "clone.onnx", quiet=True)
