@@ -19,7 +19,9 @@ from ai4u_edu import bootstrap
 from tests import setup_browser
 from tests.remote import ai4u_venv
 
-ROOT = Path(__file__).resolve().parent.parent
+TESTS = Path(__file__).resolve().parent
+ROOT = TESTS.parent
+ALONE = "pytest.mark.alone"
 LINT_IMPORTS = "from importlinter.cli import lint_imports_command as run; run()"
 # Through `python -m`, since scripts in .venv/bin don't survive a move of the checkout.
 STATIC_CHECKS = {
@@ -28,7 +30,7 @@ STATIC_CHECKS = {
     "mypy": ["-m", "mypy"],
     "imports": ["-c", LINT_IMPORTS],
 }
-PARALLEL = ["-n", "auto"]
+PARALLEL = ["-n", str((os.cpu_count() or 1) + 1)]  # many tests wait for a moment
 LONG_RUNS = {
     "fuzz": ["-m", "tests.fuzz"],
     "hammer": ["-m", "tests.attacks.hammer", "--seconds", "300"],
@@ -50,6 +52,8 @@ def main() -> int:
     if for_pytest and only != "pytest":
         parser.error(f"{only} takes no arguments here, and got: {' '.join(for_pytest)}")
 
+    # else each program that a test starts compiles the package anew
+    os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
     try:
         python = str(bootstrap.ensure(ROOT, ["test" if options.fast else "dev"]))
     except bootstrap.SetupError as error:
@@ -59,24 +63,34 @@ def main() -> int:
         for name, arguments in STATIC_CHECKS.items()
         if only in ("", name.split()[0]) and not (options.fast and name == "mypy" and not only)
     }
-    failed = run_side_by_side(static)
-    if only not in ("", "pytest"):
-        return report(failed)
-    if not options.fast:
-        failed += prepare(python)
+    with ThreadPoolExecutor(2) as pool:
+        checks = [pool.submit(run_quietly, name, static[name]) for name in static]
+        failed = [] if only not in ("", "pytest") else run_tests(python, options, only, for_pytest)
+    return report([name for check in checks for name in check.result()] + failed)
+
+
+def run_tests(
+    python: str, options: argparse.Namespace, only: str, for_pytest: list[str]
+) -> list[str]:
+    """Run the tests of a tier, or those that were chosen; return the names of what failed."""
+    failed = [] if options.fast else prepare(python)
     tier_options = ["--fast"] * options.fast + ["--nightly"] * options.nightly
     pytest = [python, "-m", "pytest", *tier_options]
     if for_pytest:  # a few tests, chosen by hand
-        return subprocess.call([*pytest, *for_pytest], cwd=ROOT)
+        return run_in_turn("pytest", [*pytest, *for_pytest])
     without_browser = " and not browser" if "browser" in failed else ""
     commands = {"pytest": [*pytest, "-m", "not alone" + without_browser, *PARALLEL]}
     if not options.fast:
-        commands["pytest alone"] = [*pytest, "-m", "alone" + without_browser]
+        # only these files are read then
+        alone = [
+            str(path) for path in sorted(TESTS.rglob("test_*.py")) if ALONE in path.read_text()
+        ]
+        commands["pytest alone"] = [*pytest, "-m", "alone" + without_browser, *alone]
     if options.nightly and not only:
         commands.update({name: [python, *arguments] for name, arguments in LONG_RUNS.items()})
     for name, command in commands.items():
         failed += run_in_turn(name, command)
-    return report(failed)
+    return failed
 
 
 def prepare(python: str) -> list[str]:
@@ -95,27 +109,21 @@ def prepare(python: str) -> list[str]:
     return missing
 
 
-def run_side_by_side(commands: dict[str, list[str]]) -> list[str]:
-    """Run checks that each keep one core busy; print each one's output at its end."""
-
-    def run(name: str) -> bool:
-        start = time.monotonic()
-        done = subprocess.run(
-            commands[name],
-            cwd=ROOT,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.STDOUT,
-            text=True,
-            errors="replace",
-            check=False,
-        )
-        end = outcome(name, done.returncode, start)
-        print(f"\n--- {name}\n{done.stdout}{end}", flush=True)
-        return done.returncode == 0
-
-    with ThreadPoolExecutor(2) as pool:
-        passed = {name: pool.submit(run, name) for name in commands}
-    return [name for name in commands if not passed[name].result()]
+def run_quietly(name: str, command: list[str]) -> list[str]:
+    """Run one check, and print its output at its end; return its name if it failed."""
+    start = time.monotonic()
+    done = subprocess.run(
+        command,
+        cwd=ROOT,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+        errors="replace",
+        check=False,
+    )
+    end = outcome(name, done.returncode, start)
+    print(f"\n--- {name}\n{done.stdout}{end}", flush=True)
+    return [name] if done.returncode else []
 
 
 def run_in_turn(name: str, command: list[str]) -> list[str]:

@@ -69,8 +69,15 @@ class Component:
     """Its names in AI4U; empty for what is ours alone."""
     contract: str
     """"yes" if the checks run on it, "in others" if on a block that contains it, else "NO"."""
-    tests: dict[str, int]
-    """Number of tests that name it, by module."""
+
+    @property
+    def tests(self) -> dict[str, int]:
+        """Number of tests that name it, by module."""
+        name = self.name
+        tests = {module: names[name] for module, names in named_in_tests().items() if name in names}
+        if ">>>" in (Block.types[name].__doc__ or ""):
+            tests["its own example"] = 1
+        return tests
 
 
 def components() -> list[Component]:
@@ -84,10 +91,7 @@ def components() -> list[Component]:
             continue
         kind = next((each.__name__ for each in KINDS if issubclass(cls, each)), "part")
         contract = "in others" if cls in INSIDE_OTHERS else "yes" if has_sample(cls) else "NO"
-        tests = {module: names[name] for module, names in named_in_tests().items() if name in names}
-        if ">>>" in (cls.__doc__ or ""):
-            tests["its own example"] = 1
-        found.append(Component(name, kind, " ".join(ai4u.get(name, ())), contract, tests))
+        found.append(Component(name, kind, " ".join(ai4u.get(name, ())), contract))
     order = [kind.__name__ for kind in KINDS] + ["part"]
     return sorted(found, key=lambda each: (order.index(each.kind), each.name))
 
@@ -167,8 +171,9 @@ def table() -> str:
     """Return all components, and the missing ones, in columns."""
     rows = [("component", "kind", "AI4U's name", "contract", "tests that name it")]
     for each in components():
-        modules = sorted(each.tests, key=lambda module: (-each.tests[module], module))
-        shown = ", ".join(f"{module} ({each.tests[module]})" for module in modules[:3])
+        tests = each.tests
+        modules = sorted(tests, key=lambda module: (-tests[module], module))
+        shown = ", ".join(f"{module} ({tests[module]})" for module in modules[:3])
         more = f", {len(modules) - 3} more" if len(modules) > 3 else ""
         rows.append((each.name, each.kind, each.ai4u or "-", each.contract, shown + more))
     rows += [("-", "-", name, "-", f"MISSING: {why}") for name, why in MISSING.items()]

@@ -1,5 +1,6 @@
 """Tiers of the suite (``--fast``, ``--nightly``), the order of files, and the report at the end."""
 
+from itertools import zip_longest
 from pathlib import Path
 
 import pytest
@@ -40,7 +41,8 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
         config.stash[LEFT_OUT] = len(left_out)
         config.hook.pytest_deselected(items=left_out)
     kept = set(items).difference(left_out)
-    items[:] = sorted((each for each in items if each in kept), key=_turn)
+    turns = _turns([each for each in items if each in kept])
+    items[:] = sorted((each for each in items if each in kept), key=lambda each: turns[each.path])
 
 
 def _is_left_out(item: pytest.Item, config: pytest.Config) -> bool:
@@ -50,9 +52,25 @@ def _is_left_out(item: pytest.Item, config: pytest.Config) -> bool:
     return "nightly" in markers and not config.option.nightly
 
 
-def _turn(item: pytest.Item) -> int:
-    folder = _folder(item.path)
-    return LONG_FOLDERS.index(folder) if folder in LONG_FOLDERS else len(LONG_FOLDERS)
+def _turns(items: list[pytest.Item]) -> dict[Path, int]:
+    """Return the place of each file: long ones first, those with a browser among the others.
+
+    Drawing takes more than one core, so that two browsers at once would wait for each other.
+    """
+    files = sorted({item.path for item in items}, key=_turn)
+    with_browser = {item.path for item in items if item.get_closest_marker("browser")}
+    queues = [
+        [each for each in files if each in with_browser],
+        [each for each in files if each not in with_browser],
+    ]
+    mixed = [each for pair in zip_longest(*queues) for each in pair if each is not None]
+    return {each: place for place, each in enumerate(mixed)}
+
+
+def _turn(path: Path) -> tuple[int, Path]:
+    folder = _folder(path)
+    place = LONG_FOLDERS.index(folder) if folder in LONG_FOLDERS else len(LONG_FOLDERS)
+    return place, path
 
 
 def _folder(path: Path) -> str:

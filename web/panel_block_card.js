@@ -11,6 +11,7 @@ export class BlockCard {
   #panel;
   #block = null;
   #summary = element("p", { className: "ai4u-hint-text" });
+  #detail = element("p", { className: "ai4u-hint-text ai4u-details-only" });
   #form;
   #tools = element("div", { className: "ai4u-tools", role: "toolbar" });
   #parts = element("div", { className: "ai4u-card-list" });
@@ -24,7 +25,7 @@ export class BlockCard {
       onChange: (values) => panel.send("change_block", { path: this.#block.path, values }),
     });
     this.#form.element.hidden = true;
-    this.#card.body.append(this.#summary, this.#form.element, this.#tools, this.#parts, this.#adds);
+    this.#card.body.append(this.#summary, this.#detail, this.#form.element, this.#tools, this.#parts, this.#adds);
     this.#card.element.addEventListener("keydown", (event) => this.#onKey(event));
   }
 
@@ -49,6 +50,7 @@ export class BlockCard {
     const isMine = isOpen && isSamePath(form?.path, path);
     this.#form.element.hidden = !isMine;
     setText(this.#summary, isMine ? (form.summary ?? "") : "");
+    setText(this.#detail, isMine ? (form.detail ?? "") : "");
     if (isMine) this.#form.update(form.fields, form.first);
     this.#showTools(isListed && isOpen, title);
     this.#showParts(children, form);

@@ -30,10 +30,11 @@ export class BodyCard {
   }
 
   update(body, form) {
-    const { name, kind, shape, x, y } = body;
+    const { name, kind, shape, x, y, is_random: isRandom } = body;
     this.#name = name;
     const isOpen = this.#panel.shown.body === name;
-    const reads = `${kind === "body" ? "" : `${kind}, `}${metres(x)}, ${metres(y)}`;
+    const place = isRandom ? "random place" : `${metres(x)}, ${metres(y)}`;
+    const reads = kind === "body" ? place : `${kind}, ${place}`;
     const icon = KIND_ICONS[kind] ?? SHAPE_ICONS[shape] ?? "box";
     this.#card.update({ icon, title: name, type: shape, reads, isOpen });
     const isMine = isOpen && form?.name === name;

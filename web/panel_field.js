@@ -11,6 +11,7 @@ export class FieldRow {
   #onEnter;
   #control;
   #hint = element("small", { className: "ai4u-field-hint", id: freeId() });
+  #detail = element("code", { className: "ai4u-details-only" });
   #problem = element("p", { className: "ai4u-problem", role: "alert", id: freeId() });
   #unit = element("span", { className: "ai4u-unit" });
   #label = element("label");
@@ -26,7 +27,7 @@ export class FieldRow {
     setAttributes(this.#control, { "aria-describedby": `${this.#hint.id} ${this.#problem.id}` });
     this.element.dataset.kind = field.kind;
     const row = element("div", { className: "ai4u-field-control" }, this.#control, this.#unit);
-    this.element.append(this.#label, row, this.#hint, this.#problem);
+    this.element.append(this.#label, row, this.#hint, this.#detail, this.#problem);
     this.#control.addEventListener("change", () => this.#enter());
     this.#control.addEventListener("keydown", (event) => this.#onKey(event));
   }
@@ -37,7 +38,7 @@ export class FieldRow {
     setText(this.#label, field.label);
     setText(this.#unit, field.unit ?? "");
     setText(this.#hint, field.hint ?? "");
-    this.#hint.title = field.hint ?? "";
+    setText(this.#detail, field.detail ?? "");
     if (field.kind === "choice") setOptions(this.#control, field);
     if (!isPending && document.activeElement !== this.#control) this.#show();
   }

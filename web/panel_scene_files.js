@@ -2,6 +2,7 @@
 
 import { button, element, setText } from "./dom.js";
 import { freeId } from "./panel_parts.js";
+import { copyLink } from "./share.js";
 
 /** Largest file that is read here; the server has limits of its own (bytes). */
 const MAX_SCENE_BYTES = 4_000_000;
@@ -27,6 +28,10 @@ export class SceneFiles {
       { className: "ai4u-tools" },
       this.#save,
       button("Download", () => this.#download(), { icon: "download" }),
+      button("Copy link", async () => panel.notice(await copyLink()), {
+        icon: "copy",
+        title: "Copy a link that holds this scene",
+      }),
       fileButton("Open a file", ".yaml,.yml,text/yaml", (file) => this.#load(file)),
     );
     this.element.append(this.#unsaved, tools);

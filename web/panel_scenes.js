@@ -4,6 +4,7 @@ import { button, element, setAttributes, setText } from "./dom.js";
 import { icon } from "./panel_icons.js";
 import { tile, tiles } from "./panel_parts.js";
 import { ask } from "./question.js";
+import { unsavedSentence } from "./scene_api.js";
 
 const [MINE, OTHERS] = ["My scenes", "More scenes"];
 /** Headings in their order: the scenes' levels, and those without one. */
@@ -59,9 +60,8 @@ export class ScenePicker {
   }
 
   async #load({ name, title, is_saved: isSaved = false }) {
-    const unsaved = this.#panel.part("world")?.unsaved;
-    const text = "This scene has changes that were not saved. They are kept, and the World tab offers them again.";
-    if (unsaved && !(await ask({ title: `Open “${title}”?`, text, yes: "Open" }))) return;
+    const text = await unsavedSentence();
+    if (text && !(await ask({ title: `Open “${title}”?`, text, yes: "Open" }))) return;
     await this.#panel.send("open_scene", { name, is_saved: isSaved });
   }
 }

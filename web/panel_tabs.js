@@ -3,6 +3,9 @@
 import { element, setAttributes } from "./dom.js";
 import { recall, remember } from "./storage.js";
 
+/** A phone, upright or on its side: what stands above the tabs fills the panel. */
+const SMALL = matchMedia("(max-width: 576px), (max-height: 500px)");
+
 export class Tabs {
   #tabs = new Map();
   #list = element("div", { className: "ai4u-tabs", role: "tablist", ariaLabel: "Panel" });
@@ -65,7 +68,10 @@ export class Tabs {
     const panel = element("div", { className: "ai4u-tabpanel", role: "tabpanel", id: ids.panel, hidden: true });
     setAttributes(tab, { "aria-controls": ids.panel });
     setAttributes(panel, { "aria-labelledby": ids.tab });
-    tab.addEventListener("click", () => this.choose(name));
+    tab.addEventListener("click", () => {
+      this.choose(name);
+      if (SMALL.matches) this.#list.scrollIntoView(); // else only a line or two of it would be seen
+    });
     this.#tabs.set(name, { tab, panel });
     this.#list.append(tab);
     this.#panels.append(panel);

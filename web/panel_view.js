@@ -10,6 +10,8 @@ const CAMERAS = [
   { value: "eyes", text: "Robot's view", title: "See what the robot would see" },
 ];
 
+const LESS_MOTION = matchMedia("(prefers-reduced-motion: reduce)");
+
 export class ViewControls {
   element;
 
@@ -27,6 +29,9 @@ export class ViewControls {
       dispatchEvent(new CustomEvent("ai4u-dark", { detail: on })); // dark.js keeps the choice
       panel.send("dark", { on }, { quiet: true });
     });
+    const sendMotion = () => panel.send("reduce_motion", { on: LESS_MOTION.matches }, { quiet: true });
+    LESS_MOTION.addEventListener("change", sendMotion);
+    panel.addEventListener("connected", () => LESS_MOTION.matches && sendMotion());
     dark.set(root.dataset.ai4uScheme === "dark");
     const switches = element("div", { className: "ai4u-inline" }, trail.element, dark.element, history);
     this.element = element("section", { className: "ai4u-view", ariaLabel: "Picture" }, cameras.element, switches);

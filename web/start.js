@@ -15,6 +15,7 @@ const sections = new Map([
   [find("#learn"), find("#lessons")],
 ]);
 let isOpening = false;
+let cards = 0;
 
 for (const [card, section] of sections) {
   card.addEventListener("click", () => {
@@ -25,21 +26,21 @@ for (const [card, section] of sections) {
     section.scrollIntoView({ block: "nearest" });
   });
 }
-find("#build").addEventListener("click", () => open(EMPTY_SCENE, "My scene"));
+find("#build").addEventListener("click", () => open({ name: EMPTY_SCENE }, "My scene"));
 watchSharedScene(goToWorld);
 showPresent();
 showScenes();
 showLessons();
 
-/** Open a scene in the world, after a question if the present one has unsaved changes. */
-async function open(name, title) {
+/** Open a scene ({name} or {saved: its name}) in the world, after a question if the present one has unsaved changes. */
+async function open(wanted, title) {
   if (isOpening) return;
   isOpening = true;
   try {
     const text = await unsavedSentence();
     if (text && !(await ask({ title: `Open “${title}”?`, text, yes: "Open" }))) return;
     find("main").setAttribute("aria-busy", "true");
-    await request("api/scene", { name });
+    await request("api/scene", wanted);
     goToWorld();
   } catch (error) {
     await tell("The scene can't be opened", error.message);
@@ -55,29 +56,33 @@ async function showPresent() {
 }
 
 async function showScenes() {
-  const list = find("#scenes ul");
+  const list = find("#library");
   try {
-    const { scenes } = await request("api/scenes");
-    list.replaceChildren(...scenes.map(sceneCard));
+    const { scenes, saved } = await request("api/scenes");
+    list.replaceChildren(...scenes.map((scene) => sceneCard(scene, { name: scene.name })));
+    find("#saved ul").replaceChildren(...saved.map((scene) => sceneCard(scene, { saved: scene.name })));
+    find("#saved").hidden = saved.length === 0;
   } catch (error) {
     find("#scenes [role=status]").textContent = error.message;
   }
   list.removeAttribute("aria-busy");
 }
 
-function sceneCard({ name, title, goal, level, minutes, picture }) {
+function sceneCard({ title, goal, level, minutes, picture }, wanted) {
+  cards += 1;
+  const id = cards;
   const facts = [level, minutes && `${minutes} min`].filter(Boolean).join(" · ");
   const button = element(
     "button",
     { type: "button" },
-    element("img", { src: picture, alt: "", loading: "lazy", width: 400, height: 300 }),
-    element("span", { className: "ai4u-name", id: `scene-${name}`, textContent: title }),
-    element("span", { className: "ai4u-facts", id: `facts-${name}`, textContent: facts, hidden: !facts }),
-    element("span", { id: `goal-${name}`, textContent: goal }),
+    picture && element("img", { src: picture, alt: "", loading: "lazy", width: 400, height: 300 }),
+    element("span", { className: "ai4u-name", id: `title-${id}`, textContent: title }),
+    element("span", { className: "ai4u-facts", id: `facts-${id}`, textContent: facts, hidden: !facts }),
+    element("span", { id: `goal-${id}`, textContent: goal }),
   );
-  button.setAttribute("aria-labelledby", `scene-${name}`);
-  button.setAttribute("aria-describedby", `facts-${name} goal-${name}`);
-  button.addEventListener("click", () => open(name, title));
+  button.setAttribute("aria-labelledby", `title-${id}`);
+  button.setAttribute("aria-describedby", `facts-${id} goal-${id}`);
+  button.addEventListener("click", () => open(wanted, title));
   return element("li", {}, button);
 }
 

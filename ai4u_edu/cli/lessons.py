@@ -23,11 +23,21 @@ def lessons(
     port: Annotated[int, typer.Option(help="JupyterLab's port.", min=1, max=65535)] = 8888,
     open_page: Annotated[bool, typer.Option("--open/--no-open", help="Open the browser.")] = True,
     start: Annotated[bool, typer.Option("--start/--copy-only", help="Start JupyterLab.")] = True,
+    collect: Annotated[
+        Path | None,
+        typer.Option(
+            metavar="FOLDER",
+            help="Instead, write class.html and class.csv from all progress.json in that folder.",
+        ),
+    ] = None,
 ) -> None:
     r"""Copy the course into a folder and start JupyterLab on its first lesson.
 
     Notebooks that are there already are kept. Needs: pip install "ai4u-edu\[lessons]"
     """
+    if collect is not None:
+        _collect(collect)
+        return
     from ai4u_edu.base.optional_deps import need
     from ai4u_edu.lessons.handout import hand_out, lab_config
 
@@ -41,6 +51,17 @@ def lessons(
         typer.echo(f"a newer {name.replace('.new', '')} is beside yours: {name}")
     if start:
         _become(lab(folder, port, open_page=open_page), lab_config(folder))
+
+
+def _collect(folder: Path) -> None:
+    from ai4u_edu.lessons.collecting import collect, write
+
+    collected = collect(folder)
+    for problem in collected.problems:
+        typer.echo(problem, err=True)
+    typer.echo(f"{len(collected.students)} students:")
+    for path in write(collected, folder):
+        typer.echo(f"  {path}")
 
 
 def lab(folder: Path, port: int, *, open_page: bool) -> list[str]:

@@ -129,25 +129,6 @@ def added(
     return _replace(agent, tuple(above), lambda owner: {**owner, kind: blocks}), (*parent, place)
 
 
-def block_paths(agent: Plain, kind: str) -> list[BlockPath]:
-    """Return the paths of all blocks of a kind; blocks inside a block follow it."""
-    found: list[BlockPath] = []
-
-    def visit(blocks: Any, parent: BlockPath) -> None:
-        for index, block in enumerate(blocks):
-            found.append((*parent, index))
-            for name, value in block.items():
-                if name not in KINDS:
-                    continue
-                if isinstance(value, Mapping):
-                    found.append((*parent, index, name))
-                elif isinstance(value, list | tuple):
-                    visit(value, (*parent, index, name))
-
-    visit(agent.get(kind, ()), (kind,))
-    return found
-
-
 def removed(agent: Plain, path: BlockPath) -> Plain:
     """Remove a block."""
     block_at(agent, path)

@@ -209,7 +209,13 @@ class SceneEditor:
         return self._runner.submit(lambda: self._transactions.cancel_drag(name))
 
     def move_body(
-        self, name: str, x: float, y: float, heading_deg: float | None = None
+        self,
+        name: str,
+        x: float,
+        y: float,
+        heading_deg: float | None = None,
+        *,
+        is_nudge: bool = False,
     ) -> "Future[ChangeResult]":
         """Put a body, a floor or an area somewhere, now and at each reset from now on.
 
@@ -220,11 +226,16 @@ class SceneEditor:
             x: metres.
             y: metres.
             heading_deg: degrees; by default the present heading.
+            is_nudge: True if undo takes back the nudges of the same thing that came just before,
+                too.
         """
         pose_of = self._transactions.pose
-        return self._submit(
-            lambda: proposals.move_body(self.state, name, x, y, heading_deg, pose_of)
-        )
+
+        def propose() -> Proposal:
+            moved = proposals.move_body(self.state, name, x, y, heading_deg, pose_of)
+            return moved._replace(merge_key=f"nudge {name}") if is_nudge else moved
+
+        return self._submit(propose)
 
     def add_body(self, body: BodyDescription | Mapping[str, Any]) -> "Future[ChangeResult]":
         """Add a body, from its description; :meth:`free_name` returns an unused name."""

@@ -33,6 +33,7 @@ class Field:
     value: Any
     """The present value, as plain data."""
     hint: str
+    """Meaning of the parameter, in the words of its class."""
     choices: tuple[Any, ...] = ()
     is_common: bool = False
     """True if every block of the kind has it; such fields come last."""
@@ -42,6 +43,8 @@ class Field:
     """Lower bound of a number; None if it has none."""
     high: float | None = None
     """Upper bound, likewise."""
+    limits: str = ""
+    """The range in words; empty if there is none."""
 
     @property
     def shown(self) -> str:
@@ -162,8 +165,7 @@ def field_of(
     is_number = what.get("type") in {"number", "integer"}
     words = name.replace("_", " ")
     label = f"{words} ({unit})" if is_number and unit not in {"", "1"} else words
-    described = str(about.get("description", "")).rstrip(".").replace("``", "")
-    hint = f"{name}: " + ". ".join(filter(None, (described, _range(what))))
+    hint = str(about.get("description", "")).rstrip(".").replace("``", "")
     choices: tuple[Any, ...] = ()
     kind: Kind = "text"
     if "enum" in what:
@@ -185,12 +187,13 @@ def field_of(
         label,
         kind,
         value,
-        hint.removesuffix(": "),
+        hint,
         choices,
         is_common,
         unit if is_number and unit != "1" else "",
         low,
         high,
+        _range(what),
     )
 
 

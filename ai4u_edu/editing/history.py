@@ -1,13 +1,18 @@
 """The undo and redo stacks."""
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+import time
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
 
 from ai4u_edu.editing.state import EditState
 from ai4u_edu.world import Pose
 
 MAX_STEPS = 200
 """Changes that can be undone."""
+
+
+MERGE_S = 1.0
+"""Time (s) within which a nudge is joined to the one before it."""
 
 
 @dataclass(frozen=True)
@@ -25,6 +30,8 @@ class Step:
     """True if the change opened another scene, or other agents made a new world necessary."""
     opened_before: EditState | None = None
     """The state that had been opened last, if the change opened another scene."""
+    merge_key: str = ""
+    """Steps with the same key that follow each other within a second are one; empty for none."""
 
     @property
     def opens(self) -> bool:
@@ -33,10 +40,18 @@ class Step:
 
 
 class History:
-    """Changes that can be undone, and undone changes that can be redone."""
+    """Changes that can be undone, and undone changes that can be redone.
 
-    def __init__(self, max_steps: int = MAX_STEPS) -> None:
-        self._max_steps = max_steps
+    Args:
+        max_steps: number of changes that can be undone.
+        clock: wall clock (s); replaced in tests.
+    """
+
+    def __init__(
+        self, max_steps: int = MAX_STEPS, clock: Callable[[], float] = time.monotonic
+    ) -> None:
+        self._max_steps, self._clock = max_steps, clock
+        self._merge_until = 0.0
         self._done: list[Step] = []
         self._undone: list[Step] = []
 
@@ -51,12 +66,18 @@ class History:
         return self._undone[-1] if self._undone else None
 
     def add(self, step: Step) -> None:
-        """Add a new change, and forget all undone ones."""
+        """Add a new change, or join it to the last one; forget all undone ones."""
+        now, last = self._clock(), self.last
+        is_same = last is not None and step.merge_key and step.merge_key == last.merge_key
+        if last is not None and is_same and now < self._merge_until:
+            step = replace(step, before=last.before, poses_before=last.poses_before)
+            self._done.pop()
         self._done = [*self._done, step][-self._max_steps :]
-        self._undone = []
+        self._undone, self._merge_until = [], now + MERGE_S
 
     def move_back(self) -> None:
         """Mark the last change as undone."""
+        self._merge_until = 0.0
         self._undone.append(self._done.pop())
 
     def move_forward(self) -> None:

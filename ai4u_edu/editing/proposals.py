@@ -31,6 +31,8 @@ class Proposal(NamedTuple):
     """Poses to which bodies are moved, by name."""
     restarts: bool = False
     """True if the world has to be built anew at once, which begins another episode."""
+    merge_key: str = ""
+    """Key of the step, as in :class:`~ai4u_edu.editing.history.Step`."""
 
 
 def change_block(

@@ -8,6 +8,7 @@ from ai4u_edu.editing.autosave import Autosave
 from ai4u_edu.editing.change_result import ChangeResult, failed
 from ai4u_edu.editing.state import EditState
 from ai4u_edu.editing.unsaved import Unsaved
+from ai4u_edu.scenes import Scene, SceneDescription
 
 if TYPE_CHECKING:
     from ai4u_edu.editing.editor import SceneEditor
@@ -29,6 +30,17 @@ class Recovery:
         self.autosave: Autosave | None = None
         """Writes changes to a file; None in notebooks and tests."""
         self._restored: Unsaved | None = None
+        self._saved: SceneDescription | None = None
+        """The scene as it was saved last."""
+
+    @property
+    def has_unsaved_changes(self) -> bool:
+        """True if the scene differs from the one that was opened and from the one last saved."""
+        return not self._editor.is_as_opened and not self._is_as_saved
+
+    @property
+    def _is_as_saved(self) -> bool:
+        return self._editor.state.description == self._saved
 
     def restore(self) -> "Future[ChangeResult]":
         """Open the unsaved scene that is offered."""
@@ -57,9 +69,9 @@ class Recovery:
         else:
             self.autosave.claim(unsaved, self._editor.opened)
 
-    def mark_saved(self) -> None:
+    def mark_saved(self, scene: Scene) -> None:
         """Drop the autosaved file, since somebody saved the scene; offer no other one any more."""
-        self.unsaved = None
+        self.unsaved, self._saved = None, scene.description
         if self._restored is not None:
             self._restored.discard()
             self._restored = None
@@ -73,10 +85,10 @@ class Recovery:
             unsaved.discard()
 
     def on_change(self, state: EditState, *, can_redo: bool) -> None:
-        """Schedule an autosave; a scene that was opened and not changed needs none."""
+        """Schedule an autosave; a scene that was not changed since it was opened needs none."""
         if self.autosave is None:
             return
-        if not self._editor.is_as_opened:
+        if self.has_unsaved_changes:
             self.autosave.schedule(state, self._editor.opened)
-        elif can_redo:  # every change was undone
+        elif can_redo or self._is_as_saved:  # every change was undone
             self.autosave.schedule(None, self._editor.opened)

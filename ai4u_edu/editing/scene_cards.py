@@ -1,5 +1,6 @@
 """Cards of scenes to choose from: a picture from above, title and goal."""
 
+import base64
 from functools import cache, lru_cache
 from typing import NamedTuple
 
@@ -24,6 +25,12 @@ class Card(NamedTuple):
     """Level of difficulty; empty if nobody has given one."""
     minutes: int | None = None
     """Time (minutes) that a person needs to reach the goal for the first time."""
+
+    @property
+    def picture_url(self) -> str:
+        """The picture as a data URL; empty if there is none."""
+        picture = base64.b64encode(self.png).decode()
+        return f"data:image/png;base64,{picture}" if picture else ""
 
 
 @cache

@@ -118,7 +118,8 @@ def _fields(schema: Mapping[str, Any], names: tuple[str, ...], values: Plain) ->
 
 def _applying_later(fields: list[Field]) -> list[Field]:
     """Say in the hints that the fields apply at the next reset."""
-    return [replace(each, hint=f"{each.hint}; applies at the next reset") for each in fields]
+    later = "applies at the next reset"
+    return [replace(each, hint="; ".join(filter(None, (each.hint, later)))) for each in fields]
 
 
 _ADAPTERS: dict[str, TypeAdapter[Any]] = {

@@ -154,7 +154,16 @@ class Transactions:
             raise
         self._dragged = {name: pose for name, pose in self._dragged.items() if name not in poses}
         opened_before = self.opened if whole else None
-        step = Step(proposal.label, before, after, poses_before, poses, rebuilds, opened_before)
+        step = Step(
+            proposal.label,
+            before,
+            after,
+            poses_before,
+            poses,
+            rebuilds,
+            opened_before,
+            proposal.merge_key,
+        )
         self.history.add(step)
         if whole:
             self.opened = after

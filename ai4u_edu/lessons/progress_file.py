@@ -62,11 +62,8 @@ class ProgressFile:
         except (OSError, UnicodeDecodeError) as error:
             return self._damaged(str(error))
         try:
-            plain = json.loads(text)
-            if plain["version"] != VERSION:
-                return self._damaged(f"version {plain['version']!r}, expected {VERSION}")
-            return {str(name): _entry(each) for name, each in plain["exercises"].items()}
-        except (ValueError, TypeError, KeyError, AttributeError, RecursionError) as error:
+            return read_entries(text)
+        except ValueError as error:
             return self._damaged(str(error))
 
     def note(
@@ -143,6 +140,21 @@ class ProgressFile:
             return {}
         self.trouble += f"; it was put aside as {aside.name}, and a new one is begun"
         return {}
+
+
+def read_entries(text: str) -> dict[str, Entry]:
+    """Return the entries of a progress file by exercise id.
+
+    Raises:
+        ValueError: the text is damaged, or of another version.
+    """
+    try:
+        plain = json.loads(text)
+        if plain["version"] != VERSION:
+            raise ValueError(f"version {plain['version']!r}, expected {VERSION}")
+        return {str(name): _entry(each) for name, each in plain["exercises"].items()}
+    except (TypeError, KeyError, AttributeError, RecursionError) as error:
+        raise ValueError(str(error)) from error
 
 
 def _entry(plain: object) -> Entry:

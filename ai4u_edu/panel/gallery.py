@@ -15,6 +15,7 @@ from ai4u_edu.editing.drivers import Driver
 from ai4u_edu.editing.forms import Field
 from ai4u_edu.editing.reasons import reason_against_block
 from ai4u_edu.editing.state import EditState
+from ai4u_edu.panel.block_hints import BLOCK_HINTS
 from ai4u_edu.panel.block_words import BLOCK_WORDS, OWN_BLOCKS, BlockWords
 
 MAX_FIRST_FIELDS = 3
@@ -64,7 +65,7 @@ def gallery_items(state: EditState, agent_id: str, kind: str) -> list[GalleryIte
     for cls in types_of(kind):
         name, words = cls.__name__, words_of(cls.__name__)
         reason = reason_against_block(state, agent_id, kind, name)
-        items.append(GalleryItem(name, *words[:2], first_sentence(cls), words.picture, reason))
+        items.append(GalleryItem(name, *words[:2], hint_of(name), words.picture, reason))
     order = list(BLOCK_WORDS)
     items.sort(key=lambda item: order.index(item.type_name if item.type_name in order else ""))
     questions = list(dict.fromkeys(item.question for item in items))
@@ -92,6 +93,16 @@ def first_fields(type_name: str, fields: Sequence[Field]) -> list[str]:
     chosen = words_of(type_name).first_fields
     own = [field.name for field in fields if not field.is_common]
     return [name for name in chosen if name in own] or own[:MAX_FIRST_FIELDS]
+
+
+def hint_of(type_name: str) -> str:
+    """Return a short sentence about a block; empty if there is no such block.
+
+    >>> hint_of("TouchRewardFunc")
+    'A reward for touching the target.'
+    """
+    cls = Block.types.get(type_name)
+    return BLOCK_HINTS.get(type_name) or ("" if cls is None else first_sentence(cls))
 
 
 def first_sentence(cls: type[Block]) -> str:

@@ -38,6 +38,7 @@ class PageView:
         self.trails: dict[str, bool] = {}
         """Trails that were switched on or off, by agent."""
         self._is_dark: bool | None = None
+        self._is_motion_reduced = False
         self._curve: tuple[str, float] = ("", 0.0)
         self.sensors: dict[tuple[str, str], bool] = {}
         """Sensors that were switched on or off, by agent and key."""
@@ -105,6 +106,11 @@ class PageView:
         self._is_dark = is_dark
         self._apply(lambda client: client.set_dark(is_dark))
 
+    def reduce_motion(self, on: bool) -> None:
+        """Leave out motion that nothing in the world makes, or not."""
+        self._is_motion_reduced = on
+        self._apply(self._choose_shown)
+
     def show_sensor(self, key: str, on: bool) -> None:
         """Draw a sensor of the agent in the picture, or hide it."""
         if len(self.sensors) >= MAX_SENSOR_CHOICES:
@@ -150,6 +156,7 @@ class PageView:
     def _choose_shown(self, client: ViewerClient) -> None:
         client.agent = self.show.agent
         client.selected = self.show.body or ""
+        client.is_motion_reduced = self._is_motion_reduced
         client.is_move_mode, client.snap_m = self.is_move_mode, self.snap_m
         for agent, on in self.trails.items():
             client.show_trail(agent, on)

@@ -26,15 +26,12 @@ from ai4u_edu.panel.upload import MAX_PART_BYTES
 from ai4u_edu.runtime.frame_budget import TEXTS_PER_S
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.server.bindings import choose_agent
+from ai4u_edu.server.page_receiver import ReceiveLimits, receive_messages
 from ai4u_edu.server.proxy import PAGE_ID_PARAM, page_id
-from ai4u_edu.server.rate_limit import RateLimit
 from ai4u_edu.viewer import Viewer
 
-MAX_MESSAGE_BYTES = 2**16
-MAX_MESSAGES_PER_S = 100
-"""Rate limit of one page; dragging a slider sends some thirty a second."""
-MAX_MISTAKES = 5
-"""Malformed messages in a row after which the connection is closed."""
+LIMITS = ReceiveLimits(100, 2**16, MAX_PART_BYTES)
+"""Limits of one page; dragging a slider sends some thirty messages a second."""
 MAX_PENDING_COMMANDS = 16
 """Commands of one page that may be under way."""
 MIN_SEND_S = 0.03
@@ -137,50 +134,22 @@ class _Connection:
     # -- messages from the page ------------------------------------------------------------------
 
     async def _receive(self) -> None:
-        limit, mistakes = RateLimit(MAX_MESSAGES_PER_S), 0
-        while True:
-            frame = await self._socket.receive()
-            if frame["type"] != "websocket.receive":
-                return
-            if limit.take():
-                await self._close(1008, f"expected at most {MAX_MESSAGES_PER_S} messages a second")
-                return
-            part = frame.get("bytes")
-            if part is not None:
-                if not await self._receive_part(part):
-                    return
-                continue
-            data = frame.get("text") or ""
-            if len(data) > MAX_MESSAGE_BYTES:
-                await self._close(1009, f"expected at most {MAX_MESSAGE_BYTES} bytes in a message")
-                return
-            try:
-                message = read_message(data)
-            except ValueError as error:
-                mistakes += 1
-                await self._refuse(id_in(data), str(error))
-                if mistakes >= MAX_MISTAKES:
-                    await self._close(1008, f"{MAX_MISTAKES} malformed messages in a row")
-                    return
-                continue
-            mistakes = 0
-            if isinstance(message, Show):
+        async for message in receive_messages(self._socket, LIMITS, _read, self._refuse_message):
+            if isinstance(message, bytes):
+                self._add_part(message)
+            elif isinstance(message, Show):
                 self._look_at(message)
             elif len(self._tasks) >= MAX_PENDING_COMMANDS:
                 await self._refuse(message.id, "expected fewer commands at a time; wait a moment")
             else:
                 self._spawn(self._carry_out(message))
 
-    async def _receive_part(self, part: bytes) -> bool:
-        """Keep a part of a file; return False if it closed the connection."""
-        if len(part) > MAX_PART_BYTES:
-            await self._close(1009, f"expected at most {MAX_PART_BYTES} bytes in a part of a file")
-            return False
+    def _add_part(self, part: bytes) -> None:
+        """Keep a part of a file."""
         try:
             self._page.upload.add(part)
         except AI4UError as error:
             self._note("error", str(error))
-        return True
 
     def _look_at(self, show: Show) -> None:
         if show.agent not in self._context.runner.latest.static_scene.agent_of.values():
@@ -205,6 +174,9 @@ class _Connection:
             done = {"type": "done", "id": command.id, "text": answer.text}
             await self._send(done | dict(answer.more))
         self._changed.set()
+
+    async def _refuse_message(self, data: str | bytes, text: str) -> None:
+        await self._refuse(id_in(data), text)
 
     async def _refuse(self, number: int | None, text: str) -> None:
         text = text[:MAX_ERROR_CHARS]
@@ -258,9 +230,10 @@ class _Connection:
             with suppress(WebSocketDisconnect):
                 await self._socket.send_text(text.decode())
 
-    async def _close(self, code: int, reason: str) -> None:
-        if self._socket.application_state is WebSocketState.CONNECTED:
-            await self._socket.close(code, reason)
+
+def _read(data: str | bytes) -> bytes | Show | Command:
+    """Return the message in a text, or a part of a file, which is binary."""
+    return data if isinstance(data, bytes) else read_message(data)
 
 
 def _first_agent(runner: Runner, wanted: str | None) -> str:

@@ -91,7 +91,7 @@ class WorldThread:
         self._episode_clock = EpisodeClock()
         sim.reset(seed)
         self._past: Snapshot | None = None
-        self._generation = sim.world.generation
+        self._static_version: tuple[int, str, str] | None = None
         self._static_scene: StaticScene = capture_static_scene(sim)
         self._publisher = SnapshotPublisher(self._picture(), self.frame_budget, clock)
 
@@ -345,7 +345,7 @@ class WorldThread:
             self.recorder = recorder
         elif self.recorder is not None:
             self.recorder.listen_to(sim)
-        self.error, self._past, self._generation = "", None, -1
+        self.error, self._past, self._static_version = "", None, None
         sim.is_seed_locked = before.is_seed_locked
         self._monitor.forget()
         self._schedule.forget()
@@ -376,8 +376,8 @@ class WorldThread:
 
     def _picture(self) -> Snapshot:
         sim = self.sim
-        if sim.world.generation != self._generation:
-            self._generation = sim.world.generation
+        if self._static_version != (version := (sim.world.generation, sim.goal, sim.success)):
+            self._static_version = version
             static_scene = capture_static_scene(sim)
             if self._static_scene != static_scene:
                 self._static_scene = static_scene

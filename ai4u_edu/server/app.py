@@ -65,7 +65,9 @@ def room_app(
     state = StateRoutes(runner, current_title, can_open=editor is not None)
     scenes: list[Route] = []
     if editor is not None:
-        scenes = _scene_routes(SceneRoutes(runner, editor), StartPage(lessons), auth, page_auth)
+        scenes = _scene_routes(
+            SceneRoutes(runner, editor), StartPage(lessons, editor), auth, page_auth
+        )
     return Starlette(
         routes=[
             Route("/", page.index, middleware=page_auth),

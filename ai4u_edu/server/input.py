@@ -21,13 +21,11 @@ from ai4u_edu.server import messages, page_events
 from ai4u_edu.server.bindings import choose_agent
 from ai4u_edu.server.control_lock import ControlLock
 from ai4u_edu.server.human_override import HumanOverride
-from ai4u_edu.server.rate_limit import RateLimit
+from ai4u_edu.server.page_receiver import ReceiveLimits, close_socket, receive_messages
 
 MAX_MESSAGE_BYTES = 4096
 MAX_MESSAGES_PER_S = 200
 """Rate limit of one page; it sends ten a second, and one for each change of the keys."""
-MAX_MISTAKES = 5
-"""Malformed messages in a row after which the connection is closed."""
 POLL_S = 0.2
 """Period at which the state is compared with what the page knows."""
 MAX_PENDING_COMMANDS = 4
@@ -126,33 +124,10 @@ class _Page:
                 await sending
 
     async def _receive(self) -> None:
-        limit, mistakes = RateLimit(MAX_MESSAGES_PER_S), 0
-        while True:
-            frame = await self._socket.receive()
-            if frame["type"] != "websocket.receive":
-                return
-            if limit.take():
-                await self._close(1008, f"expected at most {MAX_MESSAGES_PER_S} messages a second")
-                return
-            data = frame.get("text") or frame.get("bytes") or ""
-            if len(data) > MAX_MESSAGE_BYTES:
-                expected = f"expected at most {MAX_MESSAGE_BYTES} bytes"
-                await self._send_error(f"{expected}, got {len(data)}")
-                await self._close(1009, f"{expected} in a message")
-                return
-            try:
-                message = messages.read(data)
-            except ValueError as error:
-                mistakes += 1
-                await self._send_error(str(error))
-                if mistakes >= MAX_MISTAKES:
-                    await self._close(1008, f"{MAX_MISTAKES} malformed messages in a row")
-                    return
-                continue
-            mistakes = 0
-            if self._runner.sim is not self._sim:
-                continue  # the other task is about to close the connection
-            self._handle(message)
+        limits = ReceiveLimits(MAX_MESSAGES_PER_S, MAX_MESSAGE_BYTES)
+        async for message in receive_messages(self._socket, limits, messages.read, self._refuse):
+            if self._runner.sim is self._sim:  # else the other task closes the connection soon
+                self._handle(message)
 
     def _handle(self, message: messages.Message) -> None:
         match message:
@@ -227,13 +202,11 @@ class _Page:
             except Exception as error:  # a student's block may raise anything in a reset
                 await self._send_error(f"{type(error).__name__}: {error}")
 
+    async def _refuse(self, _data: str | bytes, text: str) -> None:
+        await self._send_error(text)
+
     async def _send_error(self, text: str) -> None:
         await self._send(json.dumps(page_events.error_event(text[:MAX_ERROR_CHARS])))
-
-    async def _close(self, code: int, reason: str) -> None:
-        # both tasks may want to close at once: a page floods while its world is replaced
-        if self._socket.application_state is WebSocketState.CONNECTED:
-            await self._socket.close(code, reason)
 
     async def _send(self, text: str) -> None:
         # the task that sends events may wake up just after the other one has closed the socket
@@ -259,4 +232,4 @@ class _Page:
             with suppress(TimeoutError):
                 async with asyncio.timeout(POLL_S):
                     await changed.wait()
-        await self._close(1012, WORLD_REPLACED)
+        await close_socket(self._socket, 1012, WORLD_REPLACED)

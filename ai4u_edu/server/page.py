@@ -11,9 +11,10 @@ from pathlib import Path
 from typing import NamedTuple
 
 from starlette.requests import Request
-from starlette.responses import FileResponse, PlainTextResponse, Response
+from starlette.responses import Response
 
 from ai4u_edu.base.errors import SetupError
+from ai4u_edu.server.web_files import ALWAYS_ASK, WebFiles
 
 _PLACE = "<title>Viser</title>"
 _OURS = """<title>{title}</title>
@@ -32,12 +33,10 @@ _OURS = """<title>{title}</title>
     <link rel="stylesheet" href="./web/panel_drive.css" />
     <link rel="stylesheet" href="./web/panel_build.css" />
     <link rel="stylesheet" href="./web/question.css" />
-    <script type="module" src="./web/main.js"></script>"""
-# a system's own media types are not reliable: some call a .js plain text
-_KINDS = {".css": "text/css", ".js": "text/javascript", ".svg": "image/svg+xml"}
+    <script type="module" src="./web/main.js"></script>
+    {preloads}"""
 FRAME_ANCESTORS = "frame-ancestors 'self' http://localhost:* http://127.0.0.1:*"
 """Policy for pages that notebooks show in a frame."""
-_FRESH = {"Cache-Control": "no-cache"}
 
 
 class Page:
@@ -52,16 +51,16 @@ class Page:
     """
 
     def __init__(self, title: Callable[[], str], *, has_panel: bool = False) -> None:
-        self._folder = web_folder()
+        self._files = WebFiles()
         self._title, self._has_panel = title, has_panel
-        self._index = _index(title(), has_panel)
+        self._index = self._read_index()
 
     async def index(self, request: Request) -> Response:
         """Return the page."""
         index = self._index
         if index.title != self._title():  # another scene has been opened
-            index = self._index = _index(self._title(), self._has_panel)
-        headers = _FRESH | {
+            index = self._index = self._read_index()
+        headers = ALWAYS_ASK | {
             "ETag": index.etag,
             "Content-Security-Policy": _policy(request.headers["host"]),
         }
@@ -70,33 +69,21 @@ class Page:
         return Response(index.content, media_type="text/html", headers=headers)
 
     async def file(self, request: Request) -> Response:
-        """Return one of our files. Names are compared, so no path leads out of their folder."""
-        return self._file(request.path_params["file"])
+        """Return one of our files."""
+        return self._files.response(request.path_params["file"], request)
 
     def public_file(self, name: str) -> Callable[[Request], Awaitable[Response]]:
         """Return the route of one file."""
 
-        async def route(_: Request) -> Response:
-            return self._file(name)
+        async def route(request: Request) -> Response:
+            return self._files.response(name, request)
 
         return route
 
-    def _file(self, wanted: str) -> Response:
-        for path in self._folder.iterdir():
-            if path.name == wanted and path.suffix in _KINDS and path.is_file():
-                return FileResponse(path, media_type=_KINDS[path.suffix], headers=_FRESH)
-        return PlainTextResponse(f"no file is called {wanted[:80]!r}\n", 404)
-
-
-def web_folder() -> Path:
-    """Return the folder of our scripts and styles: in the package, or in a checkout."""
-    package = Path(__file__).resolve().parent.parent
-    for folder in (package / "web", package.parent / "web"):
-        if (folder / "main.js").is_file():
-            return folder
-    raise SetupError(
-        f"expected the page's files in {package / 'web'}, found none; install ai4u-edu anew"
-    )
+    def _read_index(self) -> "_Index":
+        """Return the page with its present title."""
+        modules = self._files.modules("main.js", *["panel.js"] * self._has_panel)
+        return _index(self._title(), modules, has_panel=self._has_panel)
 
 
 class _Index(NamedTuple):
@@ -105,7 +92,7 @@ class _Index(NamedTuple):
     etag: str
 
 
-def _index(title: str, has_panel: bool) -> _Index:
+def _index(title: str, modules: list[str], *, has_panel: bool) -> _Index:
     spec = find_spec("viser")
     if spec is None or spec.origin is None:
         raise SetupError("expected the package viser, found none; install ai4u-edu anew")
@@ -116,7 +103,14 @@ def _index(title: str, has_panel: bool) -> _Index:
             f"expected viser's page with {_PLACE} in {path}; install the viser that ai4u-edu asks "
             "for (pip install --force-reinstall ai4u-edu)"
         )
-    ours = _OURS.format(title=html.escape(title), panel=" data-panel" if has_panel else "")
+    ours = _OURS.format(
+        title=html.escape(title),
+        panel=" data-panel" if has_panel else "",
+        # else a browser finds a module's imports only after it has read the module
+        preloads="\n    ".join(
+            f'<link rel="modulepreload" href="./web/{each}" />' for each in modules
+        ),
+    )
     content = text.replace(_PLACE, ours).encode()
     return _Index(title, content, f'"{hashlib.sha256(content).hexdigest()[:32]}"')
 

@@ -34,7 +34,7 @@ class SceneView(BaseModel):
 
     name: str
     title: str
-    is_changed: bool = Field(description="true if it differs from the scene that was opened")
+    is_changed: bool = Field(description="true if it has changes that are not saved")
     is_autosaved: bool = Field(description="true if changes are kept among the unsaved scenes")
 
 
@@ -67,17 +67,21 @@ class LinkRequest(BaseModel):
 
 
 class OpenRequest(BaseModel):
-    """The scene to open: from a link, or by its name; ``my_scene`` is an empty one."""
+    """The scene to open: from a link, by its name, or a saved one by its name.
+
+    The name ``my_scene`` stands for an empty one.
+    """
 
     model_config = ConfigDict(extra="forbid", strict=True)
 
     link: str = ""
     name: str = ""
+    saved: str = ""
 
     @model_validator(mode="after")
     def _check(self) -> Self:
-        if bool(self.link) == bool(self.name):
-            raise ValueError("expected either a link or a name")
+        if sum(map(bool, (self.link, self.name, self.saved))) != 1:
+            raise ValueError("expected either a link, a name or the name of a saved scene")
         return self
 
 
@@ -103,7 +107,7 @@ class SceneRoutes:
             SceneView(
                 name=editor.state.description.name,
                 title=editor.title,
-                is_changed=not editor.is_as_opened,
+                is_changed=editor.recovery.has_unsaved_changes,
                 is_autosaved=editor.recovery.autosave is not None,
             )
         )
@@ -130,6 +134,8 @@ class SceneRoutes:
         wanted = await read_json(request, OpenRequest, MAX_BODY_BYTES)
         if wanted.link:
             shared = await self._read(lambda: self._shared(wanted.link))
+        elif wanted.saved:
+            shared = await self._read(lambda: self._saved(wanted.saved))
         else:
             shared = await self._read(lambda: _named(wanted.name))
         try:
@@ -149,6 +155,12 @@ class SceneRoutes:
     def _shared(self, link: str) -> SharedScene:
         content = decode_link(link)
         return SharedScene(self._editor.read(content.text, LINK), content.seed)
+
+    def _saved(self, name: str) -> SharedScene:
+        store = self._editor.scene_store
+        if store is None:
+            raise HTTPException(404, "no scenes are saved here")
+        return SharedScene(store.load(name), None)
 
     async def _read(self, read: Callable[[], SharedScene]) -> SharedScene:
         if self._waiting >= MAX_WAITING:

@@ -8,17 +8,19 @@ from pydantic import BaseModel, ConfigDict, Field
 from starlette.requests import Request
 from starlette.responses import HTMLResponse, PlainTextResponse, Response
 
+from ai4u_edu.editing import SceneEditor
+from ai4u_edu.editing.scene_cards import Card, stored_cards
 from ai4u_edu.editing.scene_pictures import library_picture, library_scenes
 from ai4u_edu.scenes import Scene
-from ai4u_edu.server.page import web_folder
 from ai4u_edu.server.standalone import STANDALONE_POLICY
+from ai4u_edu.server.web_files import web_folder
 
 PICTURE_SUFFIX = ".png"
 PICTURE_HEADERS = {"Cache-Control": "private, max-age=3600"}
 
 
 class LibrarySceneView(BaseModel):
-    """A scene of the library."""
+    """A scene of the library, or one that somebody saved."""
 
     model_config = ConfigDict(extra="forbid")
 
@@ -27,15 +29,16 @@ class LibrarySceneView(BaseModel):
     goal: str
     level: Literal["", "easy", "medium", "hard"]
     minutes: int | None = Field(description="to reach the goal for the first time")
-    picture: str = Field(description="address of a PNG file, relative to the page")
+    picture: str = Field(description="address of a PNG file: relative to the page, or a data URL")
 
 
 class ScenesView(BaseModel):
-    """The library's scenes, the easiest first."""
+    """The library's scenes, the easiest first, and those that people saved."""
 
     model_config = ConfigDict(extra="forbid")
 
     scenes: list[LibrarySceneView]
+    saved: list[LibrarySceneView]
 
 
 class LessonView(BaseModel):
@@ -63,10 +66,11 @@ class StartPage:
 
     Args:
         lessons: returns the lessons of the course.
+        editor: has the store of saved scenes, if there is one.
     """
 
-    def __init__(self, lessons: Callable[[], list[LessonView]]) -> None:
-        self._lessons = lessons
+    def __init__(self, lessons: Callable[[], list[LessonView]], editor: SceneEditor) -> None:
+        self._lessons, self._editor = lessons, editor
         self._text = (web_folder() / "start.html").read_text(encoding="utf-8")
         self._drawing = asyncio.Lock()
 
@@ -76,9 +80,11 @@ class StartPage:
         return HTMLResponse(self._text, headers=headers)
 
     async def scenes(self, _: Request) -> Response:
-        """Return the library's scenes."""
+        """Return the library's scenes, and the saved ones."""
+        store = self._editor.scene_store
         async with self._drawing:
             found = await asyncio.to_thread(library_scenes)
+            saved = [] if store is None else await asyncio.to_thread(stored_cards, store)
         return _json(
             ScenesView(
                 scenes=[
@@ -86,7 +92,8 @@ class StartPage:
                         each._asdict() | {"picture": f"api/scenes/{each.name}{PICTURE_SUFFIX}"}
                     )
                     for each in found
-                ]
+                ],
+                saved=[_saved_view(each) for each in saved],
             )
         )
 
@@ -103,6 +110,11 @@ class StartPage:
     async def lessons(self, _: Request) -> Response:
         """Return the lessons."""
         return _json(LessonsView(lessons=await asyncio.to_thread(self._lessons)))
+
+
+def _saved_view(card: Card) -> LibrarySceneView:
+    about = {name: value for name, value in card._asdict().items() if name != "png"}
+    return LibrarySceneView.model_validate(about | {"picture": card.picture_url})
 
 
 def _json(view: BaseModel) -> Response:

@@ -5,8 +5,8 @@ import html
 from starlette.requests import HTTPConnection
 from starlette.responses import HTMLResponse, Response
 
-from ai4u_edu.server.page import web_folder
 from ai4u_edu.server.standalone import STANDALONE_POLICY
+from ai4u_edu.server.web_files import web_folder
 
 WRONG = "That token is wrong."
 TOO_MANY = "Too many wrong tokens came from this address. Try again in {seconds} s."

@@ -28,7 +28,7 @@ def ending(agent: AgentState) -> str:
     if agent.terminated:
         return "fell" if agent.fell else "episode over"
     if agent.truncated:
-        return "cut off at the step limit"
+        return "time is up"
     return "paused" if agent.paused else ""
 
 

@@ -69,7 +69,7 @@ class Viewer:
         server.gui.configure_theme(show_logo=False, show_share_button=False)
         set_up_lights(server.scene)
         self.player, self.ghosts = ReplayPlayer(runner), Ghosts(server)
-        bodies = Bodies(server, self._choose)
+        bodies = Bodies(server, self._choose, lambda: viewer_clients.is_motion_reduced)
         parts: list[tuple[Part, float]] = [
             (viewer_clients, MAX_FRAMES_PER_S),
             (Ground(server), TEXTS_PER_S),

@@ -62,6 +62,8 @@ class ViewerClient:
         """Name of the selected thing."""
         self.is_move_mode = False
         """True if its user may drag things."""
+        self.is_motion_reduced = False
+        """True if its user prefers pictures without motion that nothing in the world makes."""
         self.snap_m = 0.0
         """Distance (m) of the grid to which dragged things snap; 0 for none."""
         self.view = View(client)
@@ -132,6 +134,11 @@ class ViewerClients(Mapping[int, ViewerClient]):
 
     def __len__(self) -> int:
         return len(self._all)
+
+    @property
+    def is_motion_reduced(self) -> bool:
+        """True if a user of some page prefers reduced motion."""
+        return any(each.is_motion_reduced for each in tuple(self._all.values()))
 
     def find(self, page_id: str) -> ViewerClient | None:
         """Return the latest page with a page id; None if there is none."""

@@ -8,7 +8,7 @@ pytestmark = pytest.mark.alone
 
 
 def test_pages_and_scripts_hammer_one_world_and_it_goes_on() -> None:
-    tally = hammer(6.0, "box_chase", seed=3, ends_within=60)  # other tests may use the cores
+    tally = hammer(3.0, "box_chase", seed=3, ends_within=60)  # other tests may use the cores
     assert tally.wrong == []
     assert tally.done["commands done"] > 10
     assert tally.done["messages of a keyboard"] > 20

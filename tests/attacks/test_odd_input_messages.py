@@ -10,7 +10,7 @@ import pytest
 from websockets.exceptions import ConnectionClosed
 
 from ai4u_edu.server import input as input_socket
-from ai4u_edu.server import messages
+from ai4u_edu.server import messages, page_receiver
 from tests.builders import small_sim
 from tests.server.rooms import Page, Room, served, until
 
@@ -47,7 +47,7 @@ def room() -> Iterator[Room]:
 @pytest.fixture(autouse=True)
 def unlimited(monkeypatch: pytest.MonkeyPatch) -> None:
     """Mistakes don't end the connection, nor does their number, so that all are listened to."""
-    monkeypatch.setattr(input_socket, "MAX_MISTAKES", 10**6)
+    monkeypatch.setattr(page_receiver, "MAX_MISTAKES", 10**6)
     monkeypatch.setattr(input_socket, "MAX_MESSAGES_PER_S", 10**6)
 
 
@@ -139,7 +139,7 @@ def test_a_large_message_ends_its_connection_alone(
 def test_junk_and_floods_end_their_connection_alone(
     room: Room, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
 ) -> None:
-    monkeypatch.setattr(input_socket, "MAX_MISTAKES", 5)
+    monkeypatch.setattr(page_receiver, "MAX_MISTAKES", 5)
     monkeypatch.setattr(input_socket, "MAX_MESSAGES_PER_S", 200)
     with opened(room) as other:
         for message in ("junk", '{"type": "take"}', '{"type": "let_go"}', b"\xff"):

@@ -14,6 +14,7 @@ from ai4u_edu.panel.messages.base import MAX_NAME_CHARS
 from ai4u_edu.panel.messages.reader import NAMES
 from ai4u_edu.panel.upload import MAX_PART_BYTES
 from ai4u_edu.recording.file import MAX_FILE_BYTES
+from ai4u_edu.server import page_receiver
 from tests.attacks.test_odd_input_messages import ODD
 from tests.panel.rooms import PanelPage, PanelRoom, panel_room
 
@@ -33,8 +34,8 @@ def room() -> Iterator[PanelRoom]:
 
 @pytest.fixture
 def unlimited(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(socket, "MAX_MISTAKES", 10**6)
-    monkeypatch.setattr(socket, "MAX_MESSAGES_PER_S", 10**6)
+    monkeypatch.setattr(page_receiver, "MAX_MISTAKES", 10**6)
+    monkeypatch.setattr(socket, "LIMITS", socket.LIMITS._replace(messages_per_s=10**6))
 
 
 def spoilt() -> Iterator[str]:
@@ -70,15 +71,15 @@ def test_every_answer_is_for_the_page_that_asked(room: PanelRoom) -> None:
 
 def test_mistakes_in_a_row_close_the_connection(room: PanelRoom) -> None:
     with room.page() as page:
-        for _ in range(socket.MAX_MISTAKES):
+        for _ in range(page_receiver.MAX_MISTAKES):
             page.socket.send("{")
-        assert page.end() == (1008, f"{socket.MAX_MISTAKES} malformed messages in a row")
+        assert page.end() == (1008, f"{page_receiver.MAX_MISTAKES} malformed messages in a row")
 
 
 def test_a_flood_closes_the_connection(room: PanelRoom) -> None:
     with room.page() as page:
         with suppress(ConnectionClosed):
-            for _ in range(3 * socket.MAX_MESSAGES_PER_S):
+            for _ in range(3 * socket.LIMITS.messages_per_s):
                 page.show("0")
         assert page.end()[0] == 1008
     with room.page() as page:
@@ -87,7 +88,7 @@ def test_a_flood_closes_the_connection(room: PanelRoom) -> None:
 
 def test_a_large_message_closes_the_connection(room: PanelRoom) -> None:
     with room.page() as page:
-        page.socket.send(" " * (socket.MAX_MESSAGE_BYTES + 1))
+        page.socket.send(" " * (socket.LIMITS.message_bytes + 1))
         assert page.end()[0] == 1009
 
 

@@ -11,13 +11,19 @@ from ai4u_edu.server import lock_viser_port
 from tests.browser.served_viser import SPEED, TURN, ServedViser
 from tests.builders import small_sim
 from tests.chromium import browser
-from tests.server.rooms import served
+from tests.server.rooms import SharedServer, served
 
 
 @pytest.fixture(scope="package")
 def chromium() -> Iterator[Browser]:
     with browser() as chromium:
         yield chromium
+
+
+@pytest.fixture(scope="package")
+def shared_server() -> Iterator[SharedServer]:
+    with SharedServer() as server:
+        yield server
 
 
 @pytest.fixture
@@ -50,13 +56,19 @@ def waits_for_key() -> bool:
 
 @pytest.fixture
 def site(
-    chromium: Browser, inner: viser.ViserServer, sim: ControlRequestor, waits_for_key: bool
+    chromium: Browser,
+    shared_server: SharedServer,
+    inner: viser.ViserServer,
+    sim: ControlRequestor,
+    waits_for_key: bool,
 ) -> Iterator[ServedViser]:
     clicks: list[str] = []
     name = inner.gui.add_text("Name", initial_value="")
     button = inner.gui.add_button("Press me")
     button.on_click(lambda _: clicks.append("click"))
-    with served(sim, viser_port=inner.get_port(), wait_for_key=waits_for_key) as room:
+    with served(
+        sim, viser_port=inner.get_port(), wait_for_key=waits_for_key, server=shared_server
+    ) as room:
         site = ServedViser(room, inner, name, clicks, chromium)
         yield site
         for context in site.contexts:

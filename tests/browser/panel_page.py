@@ -6,21 +6,23 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Any
 
-from playwright.sync_api import Browser, Locator, Page, Route
+from playwright.sync_api import Browser, Locator, Page
 from starlette.types import Receive, Scope, Send
 
 from ai4u_edu import CircleShape, RBMoveActuator, WASDRBMoveController, World
 from tests.browser.fake_panel import FakePanel
-from tests.browser.served_viser import ROOT, VISERS_CODE, connected
+from tests.browser.plain_page import ROOT, PlainPage
+from tests.browser.served_viser import connected
 from tests.builders import small_sim
 from tests.chromium import new_page
 from tests.server.rooms import Room, served
 
-CANVAS = f"""{ROOT}
+CANVAS = PlainPage(
+    f"""{ROOT}
 <div data-dock-root style="position: relative; width: 100%; height: 100%">
 <div style="position: absolute"><canvas style="width: 100%; height: 100%"></canvas></div></div>
 """
-"""HTML in place of viser's scene."""
+)
 
 
 @dataclass
@@ -100,16 +102,11 @@ def panel_page(
     opened = PanelPage(page, FakePanel(), [], room.url + query)
     page.on("pageerror", lambda error: opened.problems.append(str(error)))
     opened.panel.attach(page)
-    page.route(lambda url: url.partition("?")[0] == room.url, _leave_viser_out)
+    CANVAS.serve(page, room.url)
+    unchanged = {"is_changed": False, "is_autosaved": False}
+    page.route(f"{room.url}api/scene", lambda route: route.fulfill(json=unchanged))
     page.goto(opened.url)
     opened.wait()
     yield opened
     page.context.close()
     assert opened.problems == [], opened.problems
-
-
-def _leave_viser_out(route: Route) -> None:
-    response = route.fetch()
-    text, count = VISERS_CODE.subn("", response.text())
-    assert count
-    route.fulfill(response=response, body=text.replace(ROOT, CANVAS))

@@ -1,26 +1,25 @@
 """A room with a viser, and pages that look at it."""
 
-import re
 from collections.abc import Callable
 from dataclasses import dataclass, field
 
 import viser
-from playwright.sync_api import Browser, BrowserContext, Locator, Page, Route
+from playwright.sync_api import Browser, BrowserContext, Locator, Page
 
+from tests.browser.plain_page import ROOT, PlainPage
 from tests.chromium import new_page
 from tests.server.rooms import Room, until
 
 SPEED, TURN = 5.0, 2.0
 """Speeds that W and D ask for in these tests (m/s, rad/s)."""
 
-VISERS_CODE = re.compile(r"<script(?![^>]*\bsrc=)[^>]*>.*?</script>", re.DOTALL)
-ROOT = '<div id="root">'
-PLAIN = f"""{ROOT}
+PLAIN = PlainPage(
+    f"""{ROOT}
 <canvas style="position: fixed; inset: 0; z-index: -1"></canvas>
 <label>Name <input></label>
 <button onclick="this.dataset.clicks = 1 + Number(this.dataset.clicks ?? 0)">Press me</button>
 """
-"""HTML in place of viser's scene and panel."""
+)
 
 
 @dataclass
@@ -57,12 +56,12 @@ class ServedViser:
         page.on("request", lambda request: self._check(request.url))
         page.on("websocket", lambda socket: self._check(socket.url))
         if not has_viser:
-            page.route(lambda url: url.partition("?")[0] == self.room.url, _leave_viser_out)
+            PLAIN.serve(page, self.room.url)
         prepare(page)
         page.goto(self.room.url + query)
         if wait:
             page.get_by_text("Name", exact=True).wait_for(state="attached")
-            ready(page)
+            (ready if has_viser else connected)(page)
         return page
 
     def pose(self) -> tuple[float, float, float, int]:
@@ -84,14 +83,6 @@ class ServedViser:
     def _places(self) -> tuple[str, str]:
         place = self.room.url.rstrip("/")
         return place, place.replace("http", "ws", 1)
-
-
-def _leave_viser_out(route: Route) -> None:
-    response = route.fetch()
-    text, count = VISERS_CODE.subn("", response.text())
-    assert count
-    assert ROOT in text
-    route.fulfill(response=response, body=text.replace(ROOT, PLAIN))
 
 
 CALM = """() => new Promise((done) => {

@@ -1,21 +1,28 @@
 """One tab of the panel on a page of its own, with a fake panel that answers at once."""
 
 import json
-from pathlib import Path
+from functools import cache
 from typing import Any
+from urllib.parse import urlencode
 
-from playwright.sync_api import Browser, ConsoleMessage, Locator, Page, Route
+from playwright.sync_api import Browser, ConsoleMessage, Locator, Page
+from starlette.applications import Starlette
+from starlette.requests import Request
+from starlette.responses import HTMLResponse
+from starlette.routing import Mount, Route
+from starlette.staticfiles import StaticFiles
 
-from ai4u_edu.server.page import web_folder
+from ai4u_edu.server import ServerThread
+from ai4u_edu.server.web_files import web_folder
 from tests.chromium import new_page
 
-ADDRESS = "http://panel.test/"
 STYLES = sorted(path.name for path in web_folder().glob("pa*.css"))
-MEDIA_TYPES = {".css": "text/css", ".js": "text/javascript", ".html": "text/html"}
+FREE = "position: static; width: auto; height: auto; max-height: none"
 INDEX = """<!doctype html>
 <html lang="en" data-mantine-color-scheme="{scheme}" data-ai4u-scheme="{scheme}" {attributes}>
 <meta name="viewport" content="width=device-width, initial-scale=1" />
 <title>Tab</title>
+<link rel="icon" href="data:," />
 {styles}
 <body style="margin: 0">
 <aside class="ai4u-panel" style="{style}">
@@ -89,21 +96,13 @@ class TabPage:
         **options: Any,
     ) -> None:
         self.part_name = part
-        self._html = INDEX.format(
-            module=module,
-            name=name,
-            part=part,
-            scheme=scheme,
-            attributes="data-ai4u-details" if has_details else "",
-            style="position: static; width: auto; height: auto; max-height: none",
-            styles="\n".join(f'<link rel="stylesheet" href="./web/{style}" />' for style in STYLES),
-        )
         self.page: Page = new_page(chromium, *size, draws=True, **options)
         self.errors: list[str] = []
         self.page.on("pageerror", lambda error: self.errors.append(str(error)))
         self.page.on("console", self._on_console)
-        self.page.route(f"{ADDRESS}**", self._serve)
-        self.page.goto(ADDRESS)
+        attributes = "data-ai4u-details" if has_details else ""
+        query = {"module": module, "name": name, "part": part, "scheme": scheme}
+        self.page.goto(f"{_server().url}?{urlencode(query | {'attributes': attributes})}")
         self.page.wait_for_function("window.isReady")
 
     def head(self, title: str) -> Locator:
@@ -160,13 +159,14 @@ class TabPage:
         if message.type == "error":
             self.errors.append(message.text)
 
-    def _serve(self, route: Route) -> None:
-        path = route.request.url.removeprefix(ADDRESS)
-        if not path:
-            route.fulfill(body=self._html, content_type="text/html")
-            return
-        file = web_folder() / Path(path).name
-        if path.startswith("web/") and file.is_file():
-            route.fulfill(body=file.read_bytes(), content_type=MEDIA_TYPES[file.suffix])
-        else:
-            route.fulfill(status=404 if "favicon" not in path else 204)
+
+@cache
+def _server() -> ServerThread:
+    """Start the server of all tabs, which ends with the process."""
+
+    def index(request: Request) -> HTMLResponse:
+        return HTMLResponse(INDEX.format(styles=styles, style=FREE, **request.query_params))
+
+    styles = "\n".join(f'<link rel="stylesheet" href="./web/{style}" />' for style in STYLES)
+    files = StaticFiles(directory=web_folder())
+    return ServerThread(Starlette(routes=[Route("/", index), Mount("/web", files)])).start()

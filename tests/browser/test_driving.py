@@ -2,17 +2,22 @@
 
 import math
 import time
+from typing import NamedTuple
 
 import pytest
 from playwright.sync_api import Page, expect
 
 from ai4u_edu import BasicAgent
 from ai4u_edu.blocks.brains.controllers.keyboard import Stick
-from ai4u_edu.snapshot import BodyState
 from tests.browser.served_viser import SPEED, TURN, ServedViser, driver_status
 from tests.server.rooms import until
 
 pytestmark = pytest.mark.browser
+
+DECISIONS = 9
+"""Decisions during which a key is held."""
+DECISION_S = 5 / 60
+"""World time (s) of a decision of the robot in these tests."""
 
 
 def held(site: ServedViser) -> list[str]:
@@ -31,22 +36,34 @@ def stays_still(site: ServedViser, seconds: float = 0.4) -> bool:
     return site.pose()[:3] == before
 
 
-def stretch(site: ServedViser, code: str) -> list[BodyState]:
-    """The robot at each of thirty ticks on end in which a key is held.
+class Pose(NamedTuple):
+    """Pose of the robot at the end of a decision."""
+
+    x: float
+    y: float
+    heading: float
+
+
+def stretch(site: ServedViser, code: str) -> list[Pose]:
+    """Return the robot's poses after some decisions on end, in which a key is held.
 
     On a machine that is busy with other things a page may fall silent for so long that its keys
     count as released; then it begins anew.
     """
-    runner = site.room.runner
-    found: list[BodyState] = []
-    seen, deadline = runner.latest, time.monotonic() + 20
-    while len(found) < 30:
-        assert time.monotonic() < deadline, "the key was never held for half a second"
-        before, seen = seen, runner.wait(seen, 1)
-        if seen.tick != before.tick + 1 or code not in seen.agents[0].held_keys:
-            found = []
-        found.append(seen.bodies[0])
-    return found[5:]  # what was held in the decision before counts to its end
+    agent = site.room.sim.agents[0]
+    found: list[Pose] = []
+
+    def note(agent: BasicAgent) -> None:
+        if len(found) == DECISIONS:
+            return
+        if code in agent.keyboard.held():
+            found.append(Pose(*agent.body.position, agent.body.heading))
+        else:
+            found.clear()
+
+    agent.end_of_step.connect(note)
+    until(lambda: len(found) == DECISIONS, timeout=20)
+    return found[2:]  # what was held in the decision before counts to its end
 
 
 def test_w_drives_ahead_at_its_speed(site: ServedViser) -> None:
@@ -54,7 +71,7 @@ def test_w_drives_ahead_at_its_speed(site: ServedViser) -> None:
     page.keyboard.down("KeyW")
     first, *_, last = states = stretch(site, "KeyW")
     page.keyboard.up("KeyW")
-    assert last.x - first.x == pytest.approx(SPEED * (len(states) - 1) / 60, rel=0.1)
+    assert last.x - first.x == pytest.approx(SPEED * (len(states) - 1) * DECISION_S, rel=0.1)
     assert (last.y, last.heading) == (0, 0)
 
 
@@ -65,7 +82,7 @@ def test_d_turns_clockwise_and_a_the_other_way(site: ServedViser, key: str, sign
     first, *_, last = states = stretch(site, key)
     page.keyboard.up(key)
     turned = (last.heading - first.heading + math.pi) % math.tau - math.pi
-    assert turned == pytest.approx(sign * TURN * (len(states) - 1) / 60, rel=0.1)
+    assert turned == pytest.approx(sign * TURN * (len(states) - 1) * DECISION_S, rel=0.1)
     assert (last.x, last.y) == (0, 0)
 
 

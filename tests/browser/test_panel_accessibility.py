@@ -37,7 +37,10 @@ def findings(page: Page, part: str) -> list[str]:
     ]
 
 
-@pytest.mark.parametrize("mode", ["Simple", "Details"])
+@pytest.mark.parametrize(
+    "mode",
+    [pytest.param("Simple", marks=pytest.mark.nightly), "Details"],  # the latter shows more
+)
 @pytest.mark.parametrize("tab", CARDS)
 def test_a_tab_has_no_grave_finding(page: PanelPage, tab: str, mode: str) -> None:
     page.button(mode).click()

@@ -165,3 +165,43 @@ def test_on_phones_it_is_folded_at_first_and_leaves_the_stick(
         is_beside = stick["x"] + stick["width"] <= panel["x"]
         assert is_beside or stick["y"] >= panel["y"] + panel["height"]
         assert stick["y"] + stick["height"] <= height
+
+
+@pytest.mark.parametrize(("width", "height"), [(390, 844), (844, 390)])
+def test_a_tab_that_is_chosen_on_a_phone_fills_the_panel(
+    chromium: Browser, room: Room, width: int, height: int
+) -> None:
+    with panel_page(chromium, room, width=width, height=height, has_touch=True) as phone:
+        phone.button("Open the panel").click()
+        for name in ("Build", "Past"):
+            phone.tab(name).click()
+            gap = """tabs => tabs.getBoundingClientRect().top
+                - document.querySelector(".ai4u-panel-body").getBoundingClientRect().top"""
+            phone.until(lambda: phone.page.get_by_role("tablist").evaluate(gap) < 1)  # noqa: B023
+
+
+def test_the_drivers_line_is_one_line_beside_the_open_panel_of_a_phone(
+    chromium: Browser, room: Room
+) -> None:
+    with panel_page(chromium, room, width=844, height=390, has_touch=True) as phone:
+        phone.button("Open the panel").click()
+        row = phone.page.locator(".ai4u-row")
+        row.evaluate("row => (row.parentElement.style.right = '356px')")  # as beside a canvas
+        phone.page.locator(".ai4u-row [role=status]").evaluate(
+            "line => line.firstChild.textContent = 'Page 12 of the other classroom drives'"
+        )
+        places = row.locator(":scope > :visible").evaluate_all(
+            "all => all.map(each => Math.round(each.getBoundingClientRect().bottom))"
+        )
+        assert len(set(places)) == 1, places
+        assert row.evaluate("row => row.firstElementChild.offsetHeight") <= 40
+        assert row.evaluate("row => row.scrollWidth <= row.clientWidth")
+
+
+def test_the_banner_of_a_folded_phone_is_below_the_world(chromium: Browser, room: Room) -> None:
+    with panel_page(chromium, room, width=390, height=844, has_touch=True) as phone:
+        banner = phone.page.locator(".ai4u-banners").first.bounding_box()
+        dock = phone.page.locator(".ai4u-dock").bounding_box()
+        assert banner
+        assert dock
+        assert 844 / 2 < banner["y"] + banner["height"] < dock["y"]

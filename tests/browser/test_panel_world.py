@@ -83,6 +83,8 @@ def test_things_are_listed_with_their_places(tab: TabPage) -> None:
     tab.give({**PART, "bodies": [{**BOX, "x": 2.5}]})
     expect(tab.head("box")).to_contain_text("2.5 m, 0.0 m")
     expect(tab.head("robot")).to_have_count(0)
+    tab.give({**PART, "bodies": [{**ROBOT, "is_random": True}]})
+    expect(tab.head("robot")).to_contain_text("agent, random place")
 
 
 def test_a_click_chooses_and_the_form_changes_it(tab: TabPage) -> None:

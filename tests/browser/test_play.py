@@ -31,13 +31,20 @@ def server(shared: Played) -> Played:
     return shared
 
 
-@pytest.fixture
-def page(server: Played, chromium: Browser) -> Iterator[Page]:
+@pytest.fixture(scope="module")
+def opened(shared: Played, chromium: Browser) -> Iterator[Page]:
     page = new_page(chromium)
-    page.goto(server.url)
+    page.goto(shared.url)
     ready(page)
     yield page
     page.context.close()
+
+
+@pytest.fixture
+def page(server: Played, opened: Page) -> Page:
+    """A page of the server, which has begun an episode."""
+    assert server.snapshot()["tick"] >= 0
+    return opened
 
 
 def agent(server: Played) -> dict[str, Any]:
@@ -93,8 +100,10 @@ def test_the_page_shows_what_the_agent_senses(server: Played, page: Page) -> Non
 
 
 def test_the_goal_is_told_until_somebody_drives(page: Page) -> None:
+    page.reload()
     task = page.locator(".ai4u-banner[data-kind=task]")
     expect(task).to_contain_text("Reach the box and touch it.")
+    connected(page)
     page.keyboard.press("KeyA")
     expect(task).to_have_count(0)
     expect(page.locator(".ai4u-goal-text")).to_contain_text("Reach the box and touch it.")

@@ -6,7 +6,8 @@ import time
 import pytest
 from playwright.sync_api import Browser, Page, expect
 
-from tests.browser.served_viser import ServedViser, ready
+from tests.browser.plain_page import ROOT, PlainPage
+from tests.browser.served_viser import ServedViser, connected, ready
 from tests.chromium import new_page
 from tests.playing import played
 from tests.server.rooms import until
@@ -62,8 +63,9 @@ def test_a_tone_is_played_once_it_is_turned_on(site: ServedViser) -> None:
 def test_after_a_win_the_next_scene_is_one_click_away(chromium: Browser) -> None:
     with played("box_chase_ai4u") as server:
         page = new_page(chromium)
+        PlainPage(ROOT).serve(page, server.url)
         page.goto(server.url)
-        ready(page)
+        connected(page)
         page.keyboard.down("KeyS")  # seed 5: the box is right behind
         server.restart(5)
         page.get_by_role("button", name="Next scene").click(timeout=20_000)

@@ -1,50 +1,38 @@
 """A scene is shared by a link: copied on one page, and opened on another."""
 
 from collections.abc import Iterator
-from pathlib import Path
 
 import pytest
 from playwright.sync_api import Browser, Page, expect
 
 from ai4u_edu.editing.sharing import read_shared, shared_link
 from ai4u_edu.scenes import Scene
-from tests.browser.served_viser import ready
+from tests.browser.plain_page import ROOT, PlainPage
+from tests.browser.served_viser import connected
 from tests.chromium import new_page
 from tests.playing import Played, played
 from tests.server.rooms import until
 
 pytestmark = pytest.mark.browser
 
+WITHOUT_SCENE = PlainPage(ROOT)
 LINK = shared_link(Scene.load("maze"), 77).fragment
 
 
-@pytest.fixture
-def server(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Played]:
-    monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path / "state"))
-    with played("box_chase", "--seed", "1") as server:
-        yield server
+@pytest.fixture(scope="module")
+def server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Played]:
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("XDG_STATE_HOME", str(tmp_path_factory.mktemp("state")))
+        with played("box_chase", "--seed", "1") as server:
+            yield server
 
 
 @pytest.fixture
 def page(chromium: Browser, server: Played) -> Iterator[Page]:
     page = new_page(chromium, permissions=["clipboard-read", "clipboard-write"])
+    WITHOUT_SCENE.serve(page, server.url)
     yield page
     page.context.close()
-
-
-def test_a_link_is_opened_after_a_question(server: Played, page: Page) -> None:
-    page.goto(f"{server.url}#{LINK}")
-    question = page.get_by_role("dialog", name="Open the shared scene “Maze”?")
-    expect(question).to_be_visible()
-    assert "#" not in page.url  # so that reloading asks no more
-    page.keyboard.press("Escape")
-    expect(question).to_be_hidden()
-    assert server.health()["scene"] == "Box chase"
-    page.evaluate("hash => (location.hash = hash)", LINK)
-    question.get_by_role("button", name="Open").click()
-    until(lambda: server.health()["scene"] == "Maze", timeout=20)
-    until(lambda: server.snapshot()["seed"] == 77, timeout=20)
-    expect(question).to_be_hidden()
 
 
 def test_a_damaged_link_says_so(server: Played, page: Page) -> None:
@@ -57,7 +45,7 @@ def test_a_damaged_link_says_so(server: Played, page: Page) -> None:
 
 def test_the_present_scene_is_copied_as_a_link(server: Played, page: Page) -> None:
     page.goto(server.url)
-    ready(page)
+    connected(page)
     page.get_by_role("button", name="Help").click()
     page.get_by_role("button", name="Copy link").click()
     expect(page.get_by_text("Link copied.")).to_be_visible()
@@ -69,9 +57,25 @@ def test_the_present_scene_is_copied_as_a_link(server: Played, page: Page) -> No
 def test_where_nothing_may_be_copied_the_link_is_shown(server: Played, page: Page) -> None:
     page.add_init_script("Object.defineProperty(navigator, 'clipboard', {value: undefined})")
     page.goto(server.url)
-    ready(page)
+    connected(page)
     page.get_by_role("button", name="Help").click()
     page.get_by_role("button", name="Copy link").click()
     box = page.get_by_role("textbox", name="Link")
     assert read_shared(box.input_value()).scene == Scene.load("box_chase")
     assert box.evaluate("box => box.selectionEnd - box.selectionStart") == len(box.input_value())
+
+
+def test_a_link_is_opened_after_a_question(server: Played, page: Page) -> None:
+    """The last one, since the others share the scene that it replaces."""
+    page.goto(f"{server.url}#{LINK}")
+    question = page.get_by_role("dialog", name="Open the shared scene “Maze”?")
+    expect(question).to_be_visible()
+    assert "#" not in page.url  # so that reloading asks no more
+    page.keyboard.press("Escape")
+    expect(question).to_be_hidden()
+    assert server.health()["scene"] == "Box chase"
+    page.evaluate("hash => (location.hash = hash)", LINK)
+    question.get_by_role("button", name="Open").click()
+    until(lambda: server.health()["scene"] == "Maze", timeout=20)
+    until(lambda: server.snapshot()["seed"] == 77, timeout=20)
+    expect(question).to_be_hidden()

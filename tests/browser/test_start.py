@@ -10,6 +10,7 @@ from playwright.sync_api import Browser, Page, expect
 
 from ai4u_edu.editing import SceneEditor
 from ai4u_edu.editing.autosave import Autosave
+from ai4u_edu.editing.scene_store import SceneStore
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.scenes import Scene
 from ai4u_edu.server import LessonView, ServerThread, room_app
@@ -90,6 +91,15 @@ def test_build_opens_an_empty_plate(world: World, page: Page) -> None:
     page.get_by_role("button", name="Build").click()
     page.wait_for_url(world.url)
     assert [body.name for body in world.editor.state.description.bodies] == ["robot"]
+
+
+def test_saved_scenes_are_among_those_to_play(world: World, page: Page, tmp_path: Path) -> None:
+    world.editor.scene_store = SceneStore(tmp_path / "saved")
+    world.editor.scene_store.save("My sumo", Scene.load("sumo"))
+    page.reload()
+    page.get_by_role("button", name="My sumo").click()
+    page.wait_for_url(world.url)
+    assert world.scene == "sumo"
 
 
 def test_learn_lists_the_lessons(page: Page) -> None:

@@ -105,13 +105,18 @@ def test_a_push_takes_an_agent_over_and_let_go_gives_it_back(
     until(lambda: agent.brain is script)
 
 
-@pytest.mark.parametrize("size", SIZES)
-def test_all_is_in_reach_and_nothing_in_the_way(site: ServedViser, size: str) -> None:
-    width, height = SIZES[size]
-    page = site.page(has_viser=True, width=width, height=height, touch=True, wait=False)
+def test_all_is_in_reach_and_nothing_in_the_way(site: ServedViser) -> None:
+    page = site.page(has_viser=True, touch=True, wait=False)
     connected(page)
     hide_panel(page)
-    page.wait_for_timeout(500)
+    for width, height in SIZES.values():
+        page.set_viewport_size({"width": width, "height": height})
+        page.wait_for_timeout(500)
+        check_places(page, width, height)
+
+
+def check_places(page: Page, width: int, height: int) -> None:
+    """Check that stick and keys are large, apart, and free, and that the world is."""
     things = [
         stick_of(page),
         *page.locator(".ai4u-keycap").all(),

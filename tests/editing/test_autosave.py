@@ -94,7 +94,7 @@ def test_each_scene_that_was_changed_is_kept(tmp_path: Path) -> None:
         "sumo": False,
     }
     harness.editor.recovery.autosave = saver = Autosave(tmp_path, "small")
-    harness.editor.recovery.mark_saved()  # the one that runs was saved
+    harness.editor.recovery.mark_saved(harness.editor.scene)  # the one that runs was saved
     saver.stop()
     assert {each.name for each in unsaved_scenes(tmp_path)} == {"small", "sumo"}
 
@@ -138,7 +138,7 @@ def test_a_restored_scene_is_kept_until_it_is_saved(tmp_path: Path) -> None:
     third, saver = EditorHarness(), Autosave(tmp_path, "small")
     third.editor.recovery.autosave, third.editor.recovery.unsaved = saver, kept
     third.done(third.editor.recovery.restore())
-    third.editor.recovery.mark_saved()
+    third.editor.recovery.mark_saved(third.editor.scene)
     saver.stop()
     assert list(tmp_path.iterdir()) == []
 
@@ -207,7 +207,7 @@ def test_it_is_brought_back_or_forgotten(tmp_path: Path) -> None:
     harness.done(harness.editor.undo())
     assert "ball" not in harness.world.bodies
     harness.editor.recovery.autosave = saver = Autosave(tmp_path, "small")
-    harness.editor.recovery.mark_saved()
+    harness.editor.recovery.mark_saved(harness.editor.scene)
     saver.stop()
     assert latest(tmp_path) is None
     with pytest.raises(SetupError, match="there is no unsaved scene"):

@@ -12,7 +12,8 @@ def test_the_forms_come_from_the_declarations() -> None:
     agent = {field.name: field for field in agent_form(description.agents[0])}
     assert list(agent)[:3] == ["skip_frame", "repeat_action", "max_steps_per_episode"]
     assert (agent["skip_frame"].value, agent["skip_frame"].kind) == (0, "whole")
-    assert "every skip_frame + 1 ticks. at least 0, at most 10000" in agent["skip_frame"].hint
+    assert "every skip_frame + 1 ticks" in agent["skip_frame"].hint
+    assert agent["skip_frame"].limits == "at least 0, at most 10000"
     assert agent["repeat_action"].kind == "switch"
     assert agent["max_steps_per_episode"].value == 0
     scene = {field.name: field for field in scene_form(description)}
@@ -120,3 +121,10 @@ def test_what_is_wrong_with_an_agent_is_told_by_field(values: dict[str, object])
     with pytest.raises(ChangeError, match="expected at least 0, got -1") as caught:
         harness.done(harness.editor.change_agent("0", values))
     assert [problem.path for problem in caught.value.problems] == [tuple(values)]
+
+
+def test_another_goal_reaches_the_pictures_of_a_paused_world() -> None:
+    harness = EditorHarness()
+    harness.runner.paused = True
+    harness.done(harness.editor.change_settings({"goal": "Reach the box."}))
+    assert harness.runner.latest.static_scene.goal == "Reach the box."

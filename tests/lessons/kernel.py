@@ -5,9 +5,6 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-import nbformat
-from nbclient import NotebookClient
-
 from ai4u_edu.lessons.answers import answers_to
 from ai4u_edu.lessons.course import Lesson
 from ai4u_edu.lessons.notebook import dumps
@@ -37,6 +34,10 @@ class Executed:
 
 def executed(lesson: Lesson, folder: Path) -> Executed:
     """Runs a lesson from top to bottom, in a folder."""
+    # they take seconds to import, in each process that collects tests
+    import nbformat
+    from nbclient import NotebookClient
+
     read: Any = nbformat.reads
     answers = {each: answers_to(each).solution for each in lesson.exercises}
     book = read(dumps(solved(lesson, answers)), as_version=4)

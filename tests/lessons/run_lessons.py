@@ -1,11 +1,12 @@
 """Runs lessons as plain scripts, one after another, and says what came of it as JSON.
 
-``python -m tests.lessons.run_lessons FOLDER 00 01`` with the unfinished cells in place.
+``python -m tests.lessons.run_lessons FOLDER 00 01`` with the unfinished cells in place; with
+``--solved`` the solutions are there instead.
 """
 
+import argparse
 import json
 import os
-import sys
 import time
 import traceback
 from contextlib import redirect_stdout
@@ -15,19 +16,21 @@ from pathlib import Path
 from typing import Any
 
 from ai4u_edu.lessons import stop
+from ai4u_edu.lessons.answers import answers_to
 from ai4u_edu.lessons.course import Lesson, lesson
 from ai4u_edu.lessons.progress_file import ProgressFile
-from tests.lessons.workbook import run
+from tests.lessons.workbook import run, solved
 
 
-def through(one: Lesson, folder: Path) -> dict[str, Any]:
+def through(one: Lesson, folder: Path, *, is_solved: bool) -> dict[str, Any]:
     """Runs a lesson's cells in a folder of its own."""
+    answers = {each: answers_to(each).solution for each in one.exercises} if is_solved else {}
     folder.mkdir()
     os.chdir(folder)
     names: dict[str, Any] = {"__name__": "__main__"}
     error, words, began = "", StringIO(), time.perf_counter()
     with redirect_stdout(words):
-        for number, cell in enumerate(one.cells):
+        for number, cell in enumerate(solved(one, answers)):
             if cell.is_text:
                 continue
             try:
@@ -43,8 +46,16 @@ def through(one: Lesson, folder: Path) -> dict[str, Any]:
 
 def main() -> None:
     """Runs them."""
-    folder = Path(sys.argv[1]).absolute()
-    told = {each: through(lesson(each), folder / each) for each in sys.argv[2:]}
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("folder", type=Path)
+    parser.add_argument("lessons", nargs="+")
+    parser.add_argument("--solved", action="store_true")
+    options = parser.parse_args()
+    folder = options.folder.absolute()
+    told = {
+        each: through(lesson(each), folder / each, is_solved=options.solved)
+        for each in options.lessons
+    }
     print(json.dumps(told))
 
 

@@ -1,4 +1,4 @@
-"""All lessons run from top to bottom: with the solutions in a real kernel, and unfinished."""
+"""All lessons run from top to bottom, with the solutions and unfinished; some in a real kernel."""
 
 import json
 import os
@@ -10,19 +10,23 @@ from typing import Any
 import pytest
 
 from ai4u_edu.lessons.answers import answers_to
-from ai4u_edu.lessons.course import Lesson, lessons
+from ai4u_edu.lessons.course import lesson, lessons
 from tests.lessons.kernel import executed
 
 ROOT = Path(__file__).resolve().parent.parent.parent
-ALL = lessons()
+ALL = [each.number for each in lessons()]
+IN_KERNEL = ["00", "08", "09"]
+"""Lessons for a real kernel: the first, one with another process, and one with a training.
+
+To start a kernel takes longer than most lessons do, so the others run as scripts."""
+LONG = ["09", "10", "12"]
+"""Lessons that train, or play many matches."""
 
 
-@pytest.mark.timeout(300)
-def test_unfinished_they_run_to_the_end_and_every_check_says_not_yet(tmp_path: Path) -> None:
-    """In one process, in which they are run one after another."""
-    numbers = [each.number for each in ALL]
+def ran(folder: Path, numbers: list[str], *options: str) -> dict[str, Any]:
+    """Run lessons as scripts in one process, and return what came of each."""
     done = subprocess.run(
-        [sys.executable, "-m", "tests.lessons.run_lessons", str(tmp_path), *numbers],
+        [sys.executable, "-m", "tests.lessons.run_lessons", *options, str(folder), *numbers],
         cwd=ROOT,
         env={**os.environ, "AI4U_FAST": "1"},
         capture_output=True,
@@ -32,25 +36,52 @@ def test_unfinished_they_run_to_the_end_and_every_check_says_not_yet(tmp_path: P
     assert done.returncode == 0, done.stderr
     told: dict[str, Any] = json.loads(done.stdout.splitlines()[-1])
     assert {number: told[number]["error"] for number in numbers if told[number]["error"]} == {}
-    checked = {
-        exercise: entry["passed"]
-        for number in numbers
-        for exercise, entry in told[number]["entries"].items()
-    }
-    assert checked == dict.fromkeys((each for one in ALL for each in one.exercises), False)
-    said = {number: told[number]["words"].count("Not yet.") for number in numbers}
-    assert said == {each.number: len(each.exercises) for each in ALL}
+    return told
 
 
-@pytest.mark.parametrize("lesson", ALL, ids=[each.number for each in ALL])
+@pytest.mark.parametrize(
+    "numbers",
+    [
+        [each for each in ALL if each not in LONG],
+        pytest.param(LONG, marks=pytest.mark.nightly),
+    ],
+    ids=" ".join,
+)
+@pytest.mark.timeout(300)
+def test_unfinished_they_run_to_the_end_and_every_check_says_not_yet(
+    numbers: list[str], tmp_path: Path
+) -> None:
+    told = ran(tmp_path, numbers)
+    for number in numbers:
+        exercises = lesson(number).exercises
+        passed = {name: entry["passed"] for name, entry in told[number]["entries"].items()}
+        assert passed == dict.fromkeys(exercises, False)
+        assert told[number]["words"].count("Not yet.") == len(exercises)
+
+
+@pytest.mark.timeout(300)
+def test_solved_they_run_as_scripts_and_every_check_passes(tmp_path: Path) -> None:
+    numbers = [each for each in ALL if each not in IN_KERNEL]
+    told = ran(tmp_path, numbers, "--solved")
+    for number in numbers:
+        entries = told[number]["entries"]
+        assert {name: each["text"] for name, each in entries.items() if not each["passed"]} == {}
+        assert sorted(entries) == lesson(number).exercises
+
+
+@pytest.mark.parametrize(
+    "number",
+    [pytest.param(each, marks=[] if each in IN_KERNEL else [pytest.mark.nightly]) for each in ALL],
+)
 @pytest.mark.timeout(300)
 def test_solved_it_runs_in_a_kernel_and_every_check_passes(
-    lesson: Lesson, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    number: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv("AI4U_FAST", "1")
-    done = executed(lesson, tmp_path)
+    one = lesson(number)
+    done = executed(one, tmp_path)
     assert {name: entry.text for name, entry in done.entries.items() if not entry.passed} == {}
-    assert sorted(done.entries) == lesson.exercises
+    assert sorted(done.entries) == one.exercises
     assert done.complaints == []
     kept = {name: entry.code for name, entry in done.entries.items()}
-    assert kept == {each: answers_to(each).solution for each in lesson.exercises}
+    assert kept == {each: answers_to(each).solution for each in one.exercises}

@@ -1,5 +1,6 @@
 """An agent's blocks, driver and settings, changed through the panel's socket."""
 
+import re
 from collections.abc import Iterator
 
 import pytest
@@ -146,3 +147,17 @@ def test_a_block_that_holds_others_tells_what_can_be_added(page: PanelPage) -> N
     page.done("add_block", **{"class": "TouchRewardFunc"}, parent=what["parent"])
     page.part("blocks", lambda m: len(m["kinds"]["rewards"][-1]["children"]) == count + 1)
     assert part["kinds"]["sensors"][0]["adds"] == []
+
+
+def test_hints_are_plain_and_details_tell_names_and_ranges(room: PanelRoom) -> None:
+    with room.page() as page:
+        page.show("0", "blocks", block=["sensors", 0])
+        form = page.part("blocks", lambda part: part["form"])["form"]
+        fields = {each["name"]: each for each in form["fields"]}
+    assert form["class"] == "RayCastingSensor"
+    assert form["summary"] == "A small picture of what is ahead, made of rays."
+    assert form["detail"].startswith("Codes and distances")
+    assert fields["rows"]["hint"] == "How many rows."
+    assert fields["rows"]["detail"] == "rows. Rows of rays. at least 1, at most 256"
+    for field in fields.values():
+        assert not re.search(r"[a-z]_[a-z]|[a-z][A-Z]|^True", field["hint"]), field["hint"]

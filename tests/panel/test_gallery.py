@@ -12,7 +12,7 @@ from ai4u_edu.editing.scene_names import SceneNames
 from ai4u_edu.editing.suggestion import suggest_block
 from ai4u_edu.panel.block_words import BLOCK_WORDS
 from ai4u_edu.panel.gallery import first_fields, gallery_items, words_of
-from ai4u_edu.server.page import web_folder
+from ai4u_edu.server.web_files import web_folder
 from tests.editing.harness import EditorHarness
 
 BUILT_IN = [cls.__name__ for classes in built_in_blocks().values() for cls in classes]

@@ -4,6 +4,7 @@ from collections.abc import Iterator
 
 import pytest
 
+from ai4u_edu.snapshot.agent_words import ending
 from tests.panel.rooms import PanelPage, PanelRoom, panel_room
 
 
@@ -94,3 +95,8 @@ def test_the_seed_is_repeated_drawn_and_locked(page: PanelPage, room: PanelRoom)
         page.part("run", is_seed_locked=is_on)
         room.runner.reset().result(5)
         assert (room.runner.latest.seed == seeds[1]) == is_on
+
+
+def test_the_end_by_the_step_limit_is_told_as_the_banner_tells_it(room: PanelRoom) -> None:
+    agent = room.runner.latest.agents[0]
+    assert ending(agent._replace(terminated=False, truncated=True)) == "time is up"

@@ -136,6 +136,14 @@ def test_a_panel_knows_what_its_picture_shows(room: PanelRoom, page_id: str) -> 
         page.part("view", camera="arena", has_trail=False)
 
 
+def test_nothing_pulses_while_a_page_prefers_less_motion(room: PanelRoom, page_id: str) -> None:
+    pages = room.viewer.viewer_clients
+    with room.page(f"?page={page_id}") as page, picture(room, page_id):
+        for is_on in (False, True, False):
+            page.done("reduce_motion", on=is_on)
+            until(lambda: pages.is_motion_reduced == is_on)  # noqa: B023
+
+
 def test_other_pages_keep_their_view(room: PanelRoom, page_id: str) -> None:
     with (
         room.page(f"?page={page_id}") as page,

@@ -37,6 +37,8 @@ def test_everything_in_the_scene_is_listed(page: PanelPage) -> None:
     assert listed["robot"]["kind"] == "agent"
     assert listed["box"]["kind"] == "body"
     assert {thing["kind"] for thing in listed.values()} == {"agent", "body", "floor"}
+    # an actuator chooses where the robot starts
+    assert [name for name, thing in listed.items() if thing["is_random"]] == ["robot"]
 
 
 @pytest.mark.parametrize("template", ["wall", "box", "ball", "target", "lamp", "area", "floor"])
@@ -98,7 +100,7 @@ def test_the_form_of_a_thing(page: PanelPage) -> None:
 def test_settings_of_the_scene(page: PanelPage) -> None:
     page.done("change_settings", values={"goal": "Push it.", "gravity": "3"})
     page.part("scene", goal="Push it.")
-    assert page.part("world", waits_for_reset=True)["is_changed"]
+    page.part("world", waits_for_reset=True)
 
 
 def test_scenes_are_listed_opened_and_downloaded(page: PanelPage) -> None:
@@ -147,6 +149,24 @@ def test_an_unsaved_scene_is_restored(page: PanelPage, room: PanelRoom, tmp_path
     assert page.done("restore")["text"] == "Restored Maze."
     assert page.part("world", title="Maze")["unsaved"] is None
     assert page.failed("restore")["text"] == "there is no unsaved scene"
+
+
+def test_nudges_of_one_thing_are_undone_together(
+    page: PanelPage, room: PanelRoom, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("ai4u_edu.editing.history.MERGE_S", 60.0)
+    before = room.runner.latest.bodies
+    for _ in range(3):
+        page.done("nudge", name="box", dx=0.25, dy=0)
+    moved = room.runner.latest.bodies
+    page.done("nudge", name="robot", dx=0.25, dy=0)
+    page.done("undo")
+    assert room.runner.latest.bodies == moved != before
+    page.done("undo")
+    assert room.runner.latest.bodies == before
+    assert room.editor.undo_label == ""
+    page.done("redo")
+    assert room.runner.latest.bodies == moved
 
 
 def test_moving_with_the_mouse(room: PanelRoom) -> None:

@@ -5,10 +5,24 @@ from collections import deque
 from collections.abc import Iterable
 
 from ai4u_edu.agent.cycle import ControlRequestor
-from tests.scenes.newcomer import Keys, Plan, Planner, Point, Sight, direction, towards
+from tests.scenes.newcomer import (
+    REACTION_S,
+    STRAIGHT_RAD,
+    Keys,
+    Plan,
+    Planner,
+    Point,
+    Sight,
+    direction,
+    towards,
+)
 
 NONE: Keys = frozenset()
 AHEAD: Keys = frozenset({"KeyW"})
+
+
+TURN_RAD_PER_S = 2.4
+"""Turning speed of platform's robot, which a person knows after a try."""
 
 
 def nearest(here: Point, goals: Iterable[Point]) -> Point | None:
@@ -220,6 +234,100 @@ def park(sim: ControlRequestor) -> Plan:
     return plan
 
 
+STEP_KEYS: dict[Point, str] = {(1, 0): "KeyD", (-1, 0): "KeyA", (0, 1): "KeyW", (0, -1): "KeyS"}
+"""Keys for a step to a neighbouring cell: to the right, to the left, up and down."""
+
+
+def clean(sim: ControlRequestor) -> Plan:
+    """Tap from cell to cell to the nearest dirty place, round walls, enemies and the person."""
+    bodies = sim.world.bodies
+    closed = [body for name, body in bodies.items() if not name.startswith(("robot", "dirt"))]
+    here, is_pressed = sim.agents[0].body.position, False
+
+    def is_open(cell: Point) -> bool:
+        return not any(
+            body.sampled.shape.contains(cell[0] - body.position[0], cell[1] - body.position[1])
+            for body in closed
+        )
+
+    def first_step(goals: set[Point]) -> Point | None:
+        border: deque[tuple[Point, Point]] = deque([(here, (0.0, 0.0))])
+        seen = {here}
+        while border:
+            cell, first = border.popleft()
+            if cell in goals:
+                return first
+            for dx, dy in STEP_KEYS:
+                other = (cell[0] + dx, cell[1] + dy)
+                if other not in seen and is_open(other):
+                    seen.add(other)
+                    border.append((other, first if any(first) else (dx, dy)))
+        return None
+
+    def plan(sight: Sight) -> Keys:
+        nonlocal here, is_pressed
+        goals = {at for name, at in sight.at.items() if name.startswith("dirt")} - {here}
+        step = None if is_pressed else first_step(goals)
+        is_pressed = step is not None
+        if step is None:
+            return NONE
+        here = here[0] + step[0], here[1] + step[1]
+        return frozenset({STEP_KEYS[step]})
+
+    return plan
+
+
+EDGES = ((3.5, 1.0), (13.0, 1.0), (22.5, -1.0))
+"""Eastern edges of platform's platforms, and a y at which there is ground on both sides."""
+
+
+def cross_platforms(sim: ControlRequestor) -> Plan:
+    """Eat the fruit, jump from platform to platform, and go round the spike to the exit.
+
+    One key at a time: it turns for as long as it takes, and then looks.
+    """
+    agent = sim.agents[0]
+    decision_s = (agent.brain.skip_frame + 1) / sim.world.settings.ticks_per_second
+    pause_s = REACTION_S + 0.1
+    turning, left_s, pause_left_s = NONE, 0.0, 0.0
+
+    def goal_of(sight: Sight) -> tuple[Point, bool]:
+        """Return where to go, and whether to jump."""
+        (x, y), fruit, spike = sight.own, sight.at.get("fruit"), sight.at.get("spike")
+        ahead = next((edge for edge in EDGES if x < edge[0]), None)
+        if fruit and (ahead is None or fruit[0] < ahead[0]):
+            return fruit, False
+        if ahead is not None:
+            edge, level = ahead
+            is_in_lane = abs(y - level) < 0.7
+            return (
+                ((edge + 3.0, level), x > edge - 1.5)
+                if is_in_lane
+                else ((edge - 2.5, level), False)
+            )
+        if spike and x < spike[0] + 0.8:
+            return (spike[0] + 0.8, spike[1] + (2.0 if spike[1] < -1.5 else -2.0)), False
+        return (31.0, -2.0), False
+
+    def plan(sight: Sight) -> Keys:
+        nonlocal turning, left_s, pause_left_s
+        left_s -= decision_s
+        if left_s > 0:
+            return turning
+        pause_left_s -= decision_s
+        if pause_left_s > 0:
+            return NONE
+        goal, is_jump = goal_of(sight)
+        error = math.remainder(direction(sight.own, goal) - sight.heading, 2 * math.pi)
+        if abs(error) < STRAIGHT_RAD:
+            return frozenset({"Space"}) if is_jump else AHEAD
+        turning = frozenset({"KeyA" if error > 0 else "KeyD"})
+        left_s, pause_left_s = abs(error) / TURN_RAD_PER_S, pause_s
+        return turning
+
+    return plan
+
+
 LINE: list[Point] = [
     (-4, -3.5), (-0.5, -3.5), (3, -3.5), (4.5, -2), (5, -1.2), (5, 0), (5, 1.5), (4.2, 2.4),
     (3.4, 3), (1.6, 3), (0.75, 2.25), (0, 1.5), (-1.4, 1.5), (-2.25, 2.25), (-3, 3),
@@ -230,10 +338,12 @@ PLANS: dict[str, Planner] = {
     "box_chase": go_to("box"),
     "donut": ring,
     "forage": forage,
+    "grid_world": clean,
     "jumper": jump_blocks,
     "line_follow": follow(LINE),
     "maze": through_maze,
     "parking": park,
+    "platform": cross_platforms,
     "push_block": push_block,
     "sample_scene": jump_wall,
     "soccer": shoot,

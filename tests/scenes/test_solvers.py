@@ -13,7 +13,7 @@ from tests.scenes.solvers import Driver, solver_of
 pytestmark = pytest.mark.slow
 
 SEEDS = pytest.mark.parametrize(
-    "seeds", [range(4), pytest.param(range(4, 20), marks=pytest.mark.nightly)], ids=str
+    "seeds", [range(2), pytest.param(range(2, 20), marks=pytest.mark.nightly)], ids=str
 )
 BOX_CHASE_SEEDS = range(100)
 

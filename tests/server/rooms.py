@@ -9,7 +9,8 @@ from dataclasses import dataclass
 from typing import Any, Self
 from urllib.parse import urlsplit
 
-from starlette.types import ASGIApp
+from starlette.responses import PlainTextResponse
+from starlette.types import ASGIApp, Receive, Scope, Send
 from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import connect
 
@@ -50,18 +51,50 @@ def served(
     title: str | Callable[[], str] = "A room",
     wrap: Callable[[ASGIApp], ASGIApp] = lambda app: app,
     wait_for_key: bool = False,
+    server: "SharedServer | None" = None,
     **options: Any,
 ) -> Iterator[Room]:
-    """Serve a room at a free port; ``wrap`` may wrap its app."""
+    """Serve a room at a free port, or at that of a server that is there.
+
+    Args:
+        wrap: may wrap the room's app.
+        options: more of :func:`room_app`.
+    """
     sim = sim or small_sim(controller=WASDRBMoveController())
     runner = Runner(sim, seed=1, wait_for_key=wait_for_key)
     app = room_app(runner, viser_port=viser_port, title=title, **options)
     runner.start()
     try:
-        with ServerThread(wrap(app)) as server:
+        if server is not None:
+            server.app = wrap(app)
             yield Room(runner, server.url)
+        else:
+            with ServerThread(wrap(app)) as own:
+                yield Room(runner, own.url)
     finally:
         runner.stop()
+
+
+class SharedServer:
+    """Server of rooms, one after the other, at one address.
+
+    A browser keeps what it loaded from there, and no test waits for a server to end.
+    """
+
+    def __init__(self) -> None:
+        self.app: ASGIApp = PlainTextResponse("no room is here yet", 404)
+        self._thread = ServerThread(self)
+        self.url = self._thread.url
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        await self.app(scope, receive, send)
+
+    def __enter__(self) -> Self:
+        self._thread.start()
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._thread.stop()
 
 
 class Page:

@@ -16,7 +16,8 @@ from websockets.protocol import State
 
 from ai4u_edu.server import messages
 from ai4u_edu.server.frames import FramesProtocol
-from ai4u_edu.server.input import MAX_MESSAGE_BYTES, MAX_MESSAGES_PER_S, MAX_MISTAKES
+from ai4u_edu.server.input import MAX_MESSAGE_BYTES, MAX_MESSAGES_PER_S
+from ai4u_edu.server.page_receiver import MAX_MISTAKES
 from tests.server.rooms import served, until
 
 MALFORMED = [

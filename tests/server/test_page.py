@@ -6,10 +6,11 @@ from collections.abc import Iterator
 
 import httpx
 import pytest
+from starlette.responses import PlainTextResponse
 from websockets.sync.client import connect
 from websockets.sync.connection import Connection
 
-from ai4u_edu.server.page import web_folder
+from ai4u_edu.server.web_files import web_folder
 from tests.server.rooms import Room, raw_answer, served, until
 
 SVG_NAMESPACE = "http://www.w3.org/2000/svg"
@@ -75,6 +76,22 @@ def test_each_file_is_served_as_what_it_is(room: Room, name: str) -> None:
     assert answer.status_code == 200
     assert answer.headers["Content-Type"].startswith(kinds[name.rpartition(".")[2]])
     assert answer.content == (web_folder() / name).read_bytes()
+
+
+def test_a_file_that_is_known_is_not_sent_again(room: Room) -> None:
+    first = httpx.get(f"{room.url}web/main.js")
+    again = httpx.get(f"{room.url}web/main.js", headers={"If-None-Match": first.headers["ETag"]})
+    assert (again.status_code, again.content) == (304, b"")
+
+
+def test_each_module_that_a_module_imports_is_preloaded() -> None:
+    with served(panel=PlainTextResponse("not asked here")) as room:
+        text = httpx.get(room.url).text
+    preloaded = re.findall(r'rel="modulepreload" href="./web/(.+?)"', text)
+    assert {"main.js", "panel.js"} <= set(preloaded)
+    for name in preloaded:
+        text = (web_folder() / name).read_text()
+        assert set(re.findall(r'(?:from|import) "./(.+?)"', text)) <= set(preloaded), name
 
 
 @pytest.mark.parametrize("name", [path.name for path in web_folder().iterdir()])

@@ -3,6 +3,7 @@
 import threading
 from collections.abc import Iterator
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 import httpx
@@ -10,6 +11,7 @@ import pytest
 
 from ai4u_edu import Sensor
 from ai4u_edu.editing import SceneEditor
+from ai4u_edu.editing.scene_store import SceneStore
 from ai4u_edu.editing.sharing import read_shared, shared_link
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.scenes import Scene
@@ -86,6 +88,32 @@ def test_a_scene_of_the_library_is_opened_by_its_name(room: Shared) -> None:
     for name in ("../library/tag", "/etc/passwd", "tag.yaml", "TAG"):
         answer = room.post("api/scene", name=name)
         assert (answer.status_code, "no scene is called" in answer.text) == (404, True)
+
+
+def test_a_saved_scene_has_no_unsaved_changes(room: Shared) -> None:
+    def is_changed() -> object:
+        return room.get("api/scene")["is_changed"]
+
+    room.editor.change_settings({"title": "Lesson 1"}).result(5)
+    room.editor.recovery.mark_saved(room.editor.scene)
+    assert not is_changed()
+    room.editor.change_settings({"title": "Lesson 2"}).result(5)
+    assert is_changed()
+    room.editor.undo().result(5)
+    assert not is_changed()
+
+
+def test_saved_scenes_are_listed_and_opened(room: Shared, tmp_path: Path) -> None:
+    assert room.get("api/scenes")["saved"] == []
+    assert "no scenes are saved here" in room.post("api/scene", saved="Lesson 1").text
+    room.editor.scene_store = SceneStore(tmp_path)
+    room.editor.scene_store.save("Lesson 1", Scene.load("maze"))
+    (saved,) = room.get("api/scenes")["saved"]
+    assert (saved["name"], saved["title"]) == ("Lesson 1", "Lesson 1")
+    assert saved["picture"].startswith("data:image/png;base64,")
+    assert room.post("api/scene", saved="Lesson 1").json()["name"] == "maze"
+    assert room.editor.title == "Maze"
+    assert room.post("api/scene", saved="../maze").status_code == 422
 
 
 @pytest.mark.parametrize("path", ["api/scene", "api/scene/link"])

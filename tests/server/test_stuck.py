@@ -137,7 +137,10 @@ def playing(folder: Path, how: str) -> Iterator[tuple[subprocess.Popen[str], str
     ("how", "number", "block"),
     [
         ("loop", signal.SIGTERM, "Sensor Stuck 'stuck' of agent '0' (stuck_blocks.py, line "),
-        ("sleep", signal.SIGINT, "Sensor Stuck 'stuck' of agent '0' (stuck_blocks.py, line "),
+        pytest.param(
+            *("sleep", signal.SIGINT, "Sensor Stuck 'stuck' of agent '0' (stuck_blocks.py, line "),
+            marks=pytest.mark.nightly,
+        ),
         ("network", signal.SIGINT, "Brain LocalBrain(NeuralNetController) of agent '0' ("),
     ],
 )

@@ -35,6 +35,7 @@ def test_it_learns_and_is_better_than_a_clone_of_so_few(tmp_path: Path) -> None:
     )
 
 
+@pytest.mark.nightly
 def test_the_same_seed_gives_the_same_network_and_no_seed_of_an_evaluation(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

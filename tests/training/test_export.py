@@ -17,7 +17,7 @@ from ai4u_edu.training.algorithms import load_model, new_model
 from ai4u_edu.training.exporting import export
 from ai4u_edu.training.prepare import prepare
 from ai4u_edu.training.run import Config
-from ai4u_edu.training.settings import ALGORITHMS, Algorithm, Settings
+from ai4u_edu.training.settings import Algorithm, Settings
 from ai4u_edu.training.worlds import Choices, make_worlds
 from tests.training.small import CHOICES, copied_training, small_settings, small_training
 
@@ -61,7 +61,9 @@ def disagreement(model: Any, network: Network, worlds: VecEnv, keys: list[str]) 
     return worst
 
 
-@pytest.mark.parametrize("algorithm", ALGORITHMS)
+@pytest.mark.parametrize(
+    "algorithm", ["ppo", "sac", pytest.param("dqn", marks=pytest.mark.nightly)]
+)
 def test_a_thousand_observations(tmp_path: Path, algorithm: Algorithm) -> None:
     scene, settings = Scene.load("box_chase"), small_settings()
     model, worlds = untrained(scene, algorithm, settings)
@@ -73,8 +75,15 @@ def test_a_thousand_observations(tmp_path: Path, algorithm: Algorithm) -> None:
     assert disagreement(model, network, worlds, keys) < 1e-5
 
 
-@pytest.mark.parametrize("algorithm", ["ppo", "dqn"])
-@pytest.mark.parametrize("observation", ["flat", "dict"])
+@pytest.mark.parametrize(
+    ("observation", "algorithm"),
+    [
+        ("dict", "ppo"),
+        ("flat", "dqn"),
+        pytest.param("dict", "dqn", marks=pytest.mark.nightly),
+        pytest.param("flat", "ppo", marks=pytest.mark.nightly),
+    ],
+)
 def test_choices_and_pictures(tmp_path: Path, algorithm: Algorithm, observation: str) -> None:
     scene, settings = Scene.loads(CHOICES), small_settings(observation=observation)
     model, worlds = untrained(scene, algorithm, settings)

@@ -55,7 +55,14 @@ def pictures(more: str = "channels: [wall, target]", other: str = "") -> Scene:
     return Scene.loads(PICTURES.replace("SENSOR", SEEN % more + other))
 
 
-@pytest.mark.parametrize(("algo", "steps"), [("ppo", 128), ("dqn", 120), ("sac", 70)])
+@pytest.mark.parametrize(
+    ("algo", "steps"),
+    [
+        ("ppo", 128),
+        pytest.param("dqn", 120, marks=pytest.mark.nightly),
+        pytest.param("sac", 70, marks=pytest.mark.nightly),
+    ],
+)
 def test_by_name(tmp_path: Path, algo: str, steps: int) -> None:
     scene = pictures("channels: [wall, target], stacked_observations: 2")
     done = train(

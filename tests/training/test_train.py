@@ -17,6 +17,11 @@ from ai4u_edu.training.run import Check, Run
 from ai4u_edu.training.settings import ALGORITHMS, Algorithm
 from tests.training.small import copied_training, small_settings, small_training
 
+ONE_OR_ALL = [
+    each if each == "ppo" else pytest.param(each, marks=pytest.mark.nightly) for each in ALGORITHMS
+]
+"""The algorithm that a test takes; in the nightly run it takes the others too."""
+
 
 def weights(path: Path, algorithm: Algorithm) -> dict[str, torch.Tensor]:
     return dict(load_model(algorithm, path).policy.state_dict())
@@ -26,7 +31,7 @@ def same(one: dict[str, torch.Tensor], other: dict[str, torch.Tensor]) -> bool:
     return all(torch.equal(one[name], other[name]) for name in one)
 
 
-@pytest.mark.parametrize("algorithm", ALGORITHMS)
+@pytest.mark.parametrize("algorithm", ONE_OR_ALL)
 def test_the_same_seed_gives_the_same_model(tmp_path: Path, algorithm: Algorithm) -> None:
     for name, seed in {"a": 1, "b": 1, "c": 2}.items():
         small_training(tmp_path / name, algorithm, seed=seed)
@@ -35,7 +40,7 @@ def test_the_same_seed_gives_the_same_model(tmp_path: Path, algorithm: Algorithm
     assert not same(one, other)
 
 
-@pytest.mark.parametrize("algorithm", ["sac", "ppo"])
+@pytest.mark.parametrize("algorithm", ONE_OR_ALL)
 def test_it_never_begins_with_an_episode_that_an_evaluation_may_use(
     tmp_path: Path, algorithm: Algorithm, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -85,7 +90,7 @@ def test_a_second_training_does_not_overwrite_the_first(tmp_path: Path) -> None:
         small_training(tmp_path)
 
 
-@pytest.mark.parametrize("algorithm", ["sac", "ppo"])
+@pytest.mark.parametrize("algorithm", ONE_OR_ALL)
 def test_a_resumed_training_goes_on_where_it_was(tmp_path: Path, algorithm: Algorithm) -> None:
     first = copied_training(tmp_path, algorithm)
     before = weights(tmp_path / "last.zip", algorithm)

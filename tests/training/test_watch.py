@@ -74,11 +74,13 @@ def only_turn(model: Any) -> None:
     weights.bias.data[:] = weights.bias.new_tensor([0.0, 1.0, 0.0, 0.0])
 
 
-def test_the_latest_policy_drives_and_then_the_best(tmp_path: Path) -> None:
+def test_the_latest_policy_drives_and_then_the_best_on_another_port(tmp_path: Path) -> None:
     run = copied_training(tmp_path).run
-    watch = watching(run)
-
-    with page_of(watch) as address:
+    with (
+        socket.create_server(("127.0.0.1", 0)) as taken,
+        page_of(watch := watching(run, port := taken.getsockname()[1])) as address,
+    ):
+        assert f":{port}/" not in address
 
         def is_turning() -> bool:
             agent = get(address, "api/snapshot")["agents"][0]
@@ -112,13 +114,6 @@ def test_the_progress_can_be_read_and_episodes_go_on(tmp_path: Path) -> None:
         assert get(address, "api/training")["training"]["curve"][-1]["success"] == 1.0
         watch.finish()
         until(lambda: get(address, "api/training")["training"]["is_over"])
-
-
-def test_it_takes_another_port_where_that_one_is_taken(tmp_path: Path) -> None:
-    with socket.create_server(("127.0.0.1", 0)) as taken:
-        port = taken.getsockname()[1]
-        with page_of(watching(copied_training(tmp_path).run, port)) as address:
-            assert f":{port}/" not in address
 
 
 def test_it_needs_a_training() -> None:

@@ -38,3 +38,14 @@ def test_it_pulses_for_a_while_in_each_episode(runner: Runner) -> None:
     pulse.scales(again)
     now += PULSE_S / 4
     assert pulse.scales(again)[1] == pytest.approx(1.22)
+
+
+def test_nothing_pulses_while_motion_is_reduced(runner: Runner) -> None:
+    now, is_reduced = 5.0, False
+    pulse = Pulse(clock=lambda: now, is_motion_reduced=lambda: is_reduced)
+    end = ended(runner.latest, 2.1)
+    pulse.scales(end)
+    now += PULSE_S / 4
+    assert pulse.scales(end)[1] > 1.0
+    is_reduced = True
+    assert (pulse.scales(end) == 1.0).all()

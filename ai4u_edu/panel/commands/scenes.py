@@ -1,7 +1,6 @@
 """Commands that open, save and restore scenes."""
 
 import asyncio
-import base64
 from collections.abc import Mapping
 from functools import partial
 from typing import Any
@@ -52,9 +51,10 @@ async def _save(page: Page, command: m.SaveScene) -> Answer:
     editor = page.context.required_editor()
     if editor.scene_store is None:
         raise SetupError("scenes can't be saved here; download the file")
-    save = partial(editor.scene_store.save, command.name, editor.scene, over=command.over)
+    scene = editor.scene
+    save = partial(editor.scene_store.save, command.name, scene, over=command.over)
     name = await asyncio.to_thread(save)
-    editor.recovery.mark_saved()
+    editor.recovery.mark_saved(scene)
     return Answer(f"Saved as “{name}”. Find it under Choose a scene.", {"saved_as": name})
 
 
@@ -62,7 +62,7 @@ async def _download(page: Page, _command: m.Download) -> Answer:
     editor = page.context.required_editor()
     scene = editor.scene
     text = await asyncio.to_thread(scene.dumps)
-    editor.recovery.mark_saved()
+    editor.recovery.mark_saved(scene)
     more = {"file": f"{file_name(scene)}.yaml", "content": text}
     return Answer("The scene's file is in your downloads.", more)
 
@@ -98,14 +98,13 @@ def file_name(scene: Scene) -> str:
 
 
 def _card(card: Card, *, is_saved: bool) -> dict[str, Any]:
-    picture = base64.b64encode(card.png).decode()
     return {
         "name": card.name,
         "title": card.title,
         "goal": card.goal,
         "level": card.level,
         "minutes": card.minutes,
-        "picture": f"data:image/png;base64,{picture}" if card.png else "",
+        "picture": card.picture_url,
         "is_saved": is_saved,
     }
 

@@ -36,11 +36,17 @@ async def _dark(page: Page, command: m.Dark) -> Answer:
     return Answer()
 
 
+async def _reduce_motion(page: Page, command: m.ReduceMotion) -> Answer:
+    page.view.reduce_motion(command.on)
+    return Answer()
+
+
 HANDLERS: Mapping[type[Command], Handler] = {
     m.ShowAgent: _agent,
     m.Camera: _camera,
     m.ShowSensor: _sensor,
     m.ShowTrail: _trail,
     m.Dark: _dark,
+    m.ReduceMotion: _reduce_motion,
 }
 """Handlers by the type of their command."""

@@ -125,7 +125,9 @@ async def _nudge(page: Page, command: m.Nudge) -> Answer:
         )
         heading_deg = math.degrees(heading) + command.turn_deg if command.turn_deg else None
         result = await page.result(
-            editor.move_body(command.name, x + command.dx, y + command.dy, heading_deg)
+            editor.move_body(
+                command.name, x + command.dx, y + command.dy, heading_deg, is_nudge=True
+            )
         )
     return change_answer(f"Moved {command.name}.", result)
 

@@ -80,6 +80,12 @@ class Dark(Command, tag="dark"):
     on: bool
 
 
+class ReduceMotion(Command, tag="reduce_motion"):
+    """Leave out motion that nothing in the world makes, or not."""
+
+    on: bool
+
+
 class OpenEpisode(Command, tag="episode"):
     """Choose a recorded episode; 0 is the one that runs."""
 

@@ -12,7 +12,7 @@ from ai4u_edu.editing.plain import BlockPath, Plain
 from ai4u_edu.editing.scene_names import SceneNames, name_of
 from ai4u_edu.editing.settings import agent_form
 from ai4u_edu.editing.suggestion import NAMED
-from ai4u_edu.panel.gallery import first_fields, first_sentence, words_of
+from ai4u_edu.panel.gallery import first_fields, first_sentence, hint_of, words_of
 from ai4u_edu.panel.labels import change_label
 from ai4u_edu.panel.parts.fields import field_json
 
@@ -55,7 +55,7 @@ def blocks_part(
             ]
             for kind in AGENT_KINDS
         },
-        "settings": [field_json(each) for each in agent_form(agent)],
+        "settings": [field_json(each, block="LocalBrain") for each in agent_form(agent)],
         "form": _form(state, agent_id, path),
         **changes_json(editor),
     }
@@ -153,6 +153,7 @@ def _form(state: EditState, agent_id: str, path: BlockPath | None) -> dict[str, 
         "class": type_name,
         "icon": words_of(type_name).picture,
         "question": words_of(type_name).question,
-        "summary": first_sentence(Block.types[type_name]),
-        "fields": [field_json(each, first) for each in fields],
+        "summary": hint_of(type_name),
+        "detail": first_sentence(Block.types[type_name]),
+        "fields": [field_json(each, first, type_name) for each in fields],
     }

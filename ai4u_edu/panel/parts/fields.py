@@ -4,14 +4,16 @@ from collections.abc import Collection
 from typing import Any
 
 from ai4u_edu.editing.forms import Field
+from ai4u_edu.panel.field_hints import detail, plain_hint
 
 
-def field_json(field: Field, first: Collection[str] = ()) -> dict[str, Any]:
+def field_json(field: Field, first: Collection[str] = (), block: str = "") -> dict[str, Any]:
     """Return a field.
 
     Args:
         field: the field.
         first: names of the fields that matter most.
+        block: class name of its block; empty if it is no block's.
     """
     return {
         "name": field.name,
@@ -19,7 +21,8 @@ def field_json(field: Field, first: Collection[str] = ()) -> dict[str, Any]:
         "kind": field.kind,
         "value": field.value,
         "shown": field.shown,
-        "hint": field.hint,
+        "hint": plain_hint(field, block),
+        "detail": detail(field),
         "choices": [str(each) for each in field.choices],
         "is_common": field.is_common,
         "is_first": field.name in first,

@@ -9,8 +9,8 @@ import numpy as np
 import numpy.typing as npt
 from PIL import Image
 
-from ai4u_edu.blocks import Block, CodeLegend, Legend, RayPicture
-from ai4u_edu.panel.gallery import first_sentence, words_of
+from ai4u_edu.blocks import CodeLegend, Legend, RayPicture
+from ai4u_edu.panel.gallery import hint_of, words_of
 from ai4u_edu.panel.parts.colours import hex_colour
 from ai4u_edu.snapshot.block_info import SensorInfo
 from ai4u_edu.snapshot.numbers import number
@@ -52,7 +52,7 @@ def sensor_json(
         "title": words.title,
         "class": sensor.block,
         "icon": words.picture,
-        "help": first_sentence(Block.types[sensor.block]) if sensor.block in Block.types else "",
+        "help": hint_of(sensor.block),
         "shape": list(np.shape(value)),
         "stack": sensor.stack,
         **_reading(sensor, value, colours, rays),

@@ -2,6 +2,7 @@
 
 from typing import Any
 
+from ai4u_edu.blocks import RespawnActuator
 from ai4u_edu.editing import EditState, SceneEditor
 from ai4u_edu.editing.settings import scene_form
 from ai4u_edu.editing.thing_form import thing_form
@@ -10,6 +11,7 @@ from ai4u_edu.panel.page_view import PageView
 from ai4u_edu.panel.parts.blocks import changes_json
 from ai4u_edu.panel.parts.fields import field_json
 from ai4u_edu.panel.templates import TEMPLATES
+from ai4u_edu.scenes import SceneDescription
 from ai4u_edu.world import BodyDescription
 
 LAMP_TAG = "lamp"
@@ -26,7 +28,10 @@ def world_part(editor: SceneEditor, view: PageView) -> dict[str, Any]:
         "type": "part",
         "name": "world",
         "title": editor.title,
-        "bodies": [_thing(thing, agents) for thing in reversed(described.things)],
+        "bodies": [
+            _thing(thing, agents) | {"is_random": _is_random(thing, described)}
+            for thing in reversed(described.things)
+        ],
         "form": _form(state, view.show.body, agents),
         "settings": [field_json(each) for each in scene_form(described)],
         "templates": [
@@ -35,7 +40,6 @@ def world_part(editor: SceneEditor, view: PageView) -> dict[str, Any]:
         ],
         "unsaved": None if unsaved is None else {"name": unsaved.name, "when": unsaved.when},
         "problem": "" if autosave is None else autosave.problem,
-        "is_changed": not editor.is_as_opened,
         "can_save": editor.scene_store is not None,
         "is_dragging": editor.is_dragging,
         "is_move_mode": view.is_move_mode,
@@ -46,7 +50,6 @@ def world_part(editor: SceneEditor, view: PageView) -> dict[str, Any]:
 
 def _thing(thing: Thing, agents: dict[str, str]) -> dict[str, Any]:
     x, y = thing.position
-    is_body = isinstance(thing, BodyDescription)
     return {
         "name": thing.name,
         "kind": _kind(thing, agents),
@@ -58,8 +61,19 @@ def _thing(thing: Thing, agents: dict[str, str]) -> dict[str, Any]:
         "movable": isinstance(thing, BodyDescription) and thing.kind == "dynamic",
         "colour": thing.colour,
         "label": thing.label,
-        "is_random": is_body and thing.random is not None,
     }
+
+
+def _is_random(thing: Thing, described: SceneDescription) -> bool:
+    """Return True if each episode draws a place for a thing, or chooses one."""
+    if not isinstance(thing, BodyDescription):
+        return False
+    return thing.random is not None or any(
+        actuator.get("type") == RespawnActuator.__name__
+        for agent in described.agents
+        if agent.get("body") == thing.name
+        for actuator in agent.get("actuators", ())
+    )
 
 
 def _kind(thing: Thing, agents: dict[str, str]) -> str:

@@ -43,15 +43,21 @@ class Bodies:
     Args:
         server: viser's.
         on_agent: called with viser's client id and a body's name when an agent is clicked.
+        is_motion_reduced: returns True if nothing may pulse; all pages share the bodies.
     """
 
-    def __init__(self, server: LocalServer, on_agent: Callable[[int, str], None]) -> None:
+    def __init__(
+        self,
+        server: LocalServer,
+        on_agent: Callable[[int, str], None],
+        is_motion_reduced: Callable[[], bool],
+    ) -> None:
         self._on_agent = on_agent
         self._scene = server.scene
         self._subtree = Subtree(server.scene, "bodies")
         self._built_for: object = None
         self._groups: list[_BodyGroup] = []
-        self._pulse = Pulse()
+        self._pulse = Pulse(is_motion_reduced=is_motion_reduced)
         self.nodes: dict[str, str] = {}
         """Names of the scene nodes of bodies that have their own, by the name of the body."""
 

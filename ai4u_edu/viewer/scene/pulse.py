@@ -44,10 +44,15 @@ class Pulse:
 
     Args:
         clock: wall clock (s); replaced in tests.
+        is_motion_reduced: returns True while nothing may pulse.
     """
 
-    def __init__(self, clock: Callable[[], float] = time.monotonic) -> None:
-        self._clock = clock
+    def __init__(
+        self,
+        clock: Callable[[], float] = time.monotonic,
+        is_motion_reduced: Callable[[], bool] = lambda: False,
+    ) -> None:
+        self._clock, self._is_motion_reduced = clock, is_motion_reduced
         self._began: dict[tuple[str, int, int], tuple[str, float]] = {}
 
     def scales(self, snapshot: Snapshot) -> Array:
@@ -59,7 +64,8 @@ class Pulse:
                 episode = agent.id, snapshot.episode, agent.episode
                 began[episode] = self._began.get(episode, (name, now))
         self._began = began
-        sizes = {name: pulse_scale(now - start) for name, start in began.values()}
+        pulses = () if self._is_motion_reduced() else began.values()
+        sizes = {name: pulse_scale(now - start) for name, start in pulses}
         return np.array([sizes.get(body.name, 1.0) for body in snapshot.bodies])
 
 

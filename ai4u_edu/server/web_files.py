@@ -1,0 +1,73 @@
+"""Our scripts and styles, which pages load from ``web/``."""
+
+import hashlib
+import re
+from functools import lru_cache
+from pathlib import Path
+
+from starlette.requests import Request
+from starlette.responses import PlainTextResponse, Response
+
+from ai4u_edu.base.errors import SetupError
+
+# a system's own media types are not reliable: some call a .js plain text
+_MEDIA_TYPES = {".css": "text/css", ".js": "text/javascript", ".svg": "image/svg+xml"}
+_STATIC_IMPORT = re.compile(r'^(?:import|\} from) (?:.*from )?"\./(\w+\.js)";', re.MULTILINE)
+ALWAYS_ASK = {"Cache-Control": "no-cache"}
+"""Headers of what a browser may keep, but asks for each time."""
+
+
+class WebFiles:
+    """The files of a folder, without its subfolders.
+
+    A page asks for some forty of them at once, so they are kept in memory until they change: for
+    each, a response from the disk would change threads three times.
+
+    Raises:
+        SetupError: the files are missing.
+    """
+
+    def __init__(self) -> None:
+        self._folder = web_folder()
+
+    def response(self, name: str, request: Request) -> Response:
+        """Return a file, 304 if the browser has it already, or 404.
+
+        Names are compared, so no path leads out of the folder.
+        """
+        for path in self._folder.iterdir():
+            if path.name == name and path.suffix in _MEDIA_TYPES and path.is_file():
+                content, etag = _read(path, path.stat().st_mtime_ns)
+                headers = {**ALWAYS_ASK, "ETag": etag}
+                if request.headers.get("if-none-match") == etag:
+                    return Response(status_code=304, headers=headers)
+                return Response(content, headers=headers, media_type=_MEDIA_TYPES[path.suffix])
+        return PlainTextResponse(f"no file is called {name[:80]!r}\n", 404)
+
+    def modules(self, *entries: str) -> list[str]:
+        """Return modules and all that they import, in the order in which browsers find them.
+
+        What ``import()`` loads later is not among them.
+        """
+        found = list(entries)
+        for name in found:
+            text = (self._folder / name).read_text(encoding="utf-8")
+            found += [each for each in _STATIC_IMPORT.findall(text) if each not in found]
+        return found
+
+
+def web_folder() -> Path:
+    """Return the folder of our scripts and styles: in the package, or in a checkout."""
+    package = Path(__file__).resolve().parent.parent
+    for folder in (package / "web", package.parent / "web"):
+        if (folder / "main.js").is_file():
+            return folder
+    raise SetupError(
+        f"expected the page's files in {package / 'web'}, found none; install ai4u-edu anew"
+    )
+
+
+@lru_cache(maxsize=256)
+def _read(path: Path, _modified_ns: int) -> tuple[bytes, str]:
+    content = path.read_bytes()
+    return content, f'"{hashlib.sha256(content).hexdigest()[:32]}"'

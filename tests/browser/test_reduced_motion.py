@@ -1,0 +1,47 @@
+"""With ``prefers-reduced-motion``, nothing in our part of the page moves by itself."""
+
+import pytest
+from playwright.sync_api import Browser, expect
+
+from tests.browser.panel_page import PanelPage, panel_page, panel_room
+
+pytestmark = pytest.mark.browser
+
+MOVING = """() => [...document.querySelectorAll("[class^=ai4u], [class^=ai4u] *")].filter(each => {
+    const { animationName, transitionDuration } = getComputedStyle(each);
+    return animationName !== "none" || transitionDuration.split(", ").some(s => parseFloat(s) > 0);
+}).map(each => each.outerHTML.slice(0, 80))"""
+"""Elements that have an animation or a transition."""
+
+
+def moving(page: PanelPage) -> list[str]:
+    """Return what moves in any tab, in the help and in the scene picker."""
+    found: list[str] = []
+    for tab in ("Drive", "Build", "World", "Past"):
+        page.tab(tab).click()
+        expect(page.tab(tab)).to_have_attribute("aria-selected", "true")
+        found += page.page.evaluate(MOVING)
+    page.page.get_by_role("button", name="Help", exact=True).click()
+    found += page.page.evaluate(MOVING)
+    page.page.keyboard.press("Escape")
+    page.button("Box chase").click()
+    page.page.get_by_role("dialog").wait_for()
+    found += page.page.evaluate(MOVING)
+    return found
+
+
+@pytest.mark.parametrize("preference", ["reduce", "no-preference"])
+def test_only_whoever_has_nothing_against_it_sees_motion(
+    chromium: Browser, preference: str
+) -> None:
+    with (
+        panel_room() as room,
+        panel_page(chromium, room, reduced_motion=preference) as page,
+    ):
+        told = page.panel.commands("reduce_motion")
+        if preference == "reduce":
+            assert told == [{"on": True}]
+            assert moving(page) == []
+        else:
+            assert told == []
+            assert moving(page) != []
