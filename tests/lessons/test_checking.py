@@ -97,7 +97,7 @@ def test_hints_begin_with_the_one_that_fits(capsys: pytest.CaptureFixture[str]) 
     hint("00.1")
     assert "drove backward" in capsys.readouterr().out
     hint("00.1")
-    assert "The first number drives" in capsys.readouterr().out
+    assert "turns at the same time" in capsys.readouterr().out
 
 
 def test_a_solution_is_printed_without_the_wrong_ones(capsys: pytest.CaptureFixture[str]) -> None:
