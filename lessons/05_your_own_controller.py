@@ -3,10 +3,10 @@
 #
 # ![A robot that bumped into a wall, and found its way around it](pictures/05.png)
 #
-# "If the light is red, stop." A rule like that needs no thinking and no memory. How far do rules get
-# you? And what can't they do?
+# "If the light is red, stop." A rule like that takes no thinking and no memory. How far do rules get you?
+# And what can't they do?
 #
-# **When you are through, you can**
+# **When you have finished, you can**
 #
 # - write a controller as a list of rules, in the right order,
 # - give a controller a memory,
@@ -69,8 +69,8 @@ def feelers():
 # otherwise:                go on
 # ```
 #
-# The **order** matters. "Don't fall" has to stand above "go ahead". Engineers call a rule that stands
-# above others a rule of higher *priority*.
+# The **order** matters. "Don't fall" has to come before "go ahead". Engineers say that such a rule has
+# higher *priority*.
 
 # %%
 film(room(lambda percept: {"move": [1, 0, 0, 0]}, [feelers()]), seed=1)
@@ -110,7 +110,11 @@ film(room(stroll, [feelers()]), seed=1, limit=150)
 # behind you, so the percept is *not* the same on the way there and on the way back. Find such a rule, if
 # you like.)
 #
-# A controller with a memory is a class. What it has to keep stands in `self`:
+# A controller with a memory is a **class**: a plan for an object that keeps its own values. `class
+# Counter(Controller)` means: a Counter is a kind of Controller. The line `count = 0` gives the value at
+# the start. `get_action` is called at each decision, and `self` is the object itself: `self.count` is
+# *its* count, and lasts until the next decision. (A name without `self` is forgotten when the function
+# returns.)
 
 
 # %%

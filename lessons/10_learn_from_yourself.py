@@ -7,7 +7,7 @@
 # you drive, five times, and a network learns to do the same. Then it races against the network that nobody
 # has shown anything.
 #
-# **When you are through, you can**
+# **When you have finished, you can**
 #
 # - record what you drive, and choose what is worth learning from,
 # - clone your driving, and say how well that worked,
@@ -34,9 +34,9 @@ from ai4u_edu.training import clone, evaluate
 # %% [markdown]
 # ## Show it
 #
-# Run the cell, click into the world, and drive to the box with **W A S D**, five times or more. After each
-# drive the next one begins, somewhere else. Drive as you would want the robot to drive: turn until you look
-# at the box, then go. Each episode is kept as a file in the folder `drives`.
+# Run the cell, and drive to the box with **W A S D**, five times or more. After each drive the next one
+# begins, somewhere else. Drive as you want the robot to drive: turn until you face the box, then go. Each
+# episode is kept as a file in the folder `drives`.
 
 # %%
 show("box_chase", record="drives")
@@ -55,13 +55,14 @@ for episode in my_drives():
 #
 # ## What is worth learning from?
 #
-# A drive in which the robot fell teaches falling. An episode knows some things about itself:
+# A drive in which the robot fell teaches falling. An episode knows a few things about itself:
 # `episode.success` (was the goal reached?), `episode.seconds`, `episode.seed`, and
 # `len(episode.agent())`, the number of its decisions.
 #
 # ### Exercise 10.1: good enough to learn from
 #
-# Return a list of the episodes that a clone should learn from, and of no others.
+# Return a list of the episodes that a clone should learn from, and no others. (A *list comprehension*
+# makes a list from another one: `[x for x in numbers if x > 3]` holds the numbers above 3.)
 
 
 # %% tags=["exercise-10.1"]
@@ -75,10 +76,10 @@ check("10.1", good)
 # %% [markdown]
 # ## The clone
 #
-# From the drives comes a long list of pairs: *this is what it sensed* and *this is what you did*. A network
-# is now changed a little, again and again, 2000 times, so that it answers each percept more as you did.
-# That is called **behaviour cloning**, and it is **supervised learning**: for each question there is a right
-# answer. No reward is needed, and no trying out.
+# The drives give a long list of pairs: *this is what it sensed* and *this is what you did*. A network is
+# now changed a little, 2000 times over, so that it answers each percept more like you did. That is called
+# **behaviour cloning**, and it is **supervised learning**: for each question there is a right answer. No
+# reward is needed, and no trial and error.
 #
 # ### Exercise 10.2: show it
 #
@@ -117,9 +118,9 @@ for place in [(4.3, 0, 1.57), (0, -4.3, 1.57), (2, 4.3, -1.57), (4.3, 2, -1.57)]
     print(f"from {place}: {how} after {robot.steps} decisions")
 
 # %% [markdown]
-# There is worse. A small mistake leads to a place where you never were; there it makes a larger one, and
-# so on. Clones of people who drive perfectly suffer most from that: they were never shown how to get out of
-# trouble. (So it can help if one of your drives has a mistake in it that you correct.)
+# It gets worse. A small mistake leads to a place where you never were; there it makes a larger one, and
+# so on. Clones of people who drive perfectly suffer most from that: they were never shown how to get out
+# of trouble. (So it can help if one of your drives has a mistake in it that you correct.)
 #
 # ## A race
 #
@@ -158,10 +159,10 @@ bars(
 film(track("clone.onnx", best_network()), seed=4, limit=200)
 
 # %% [markdown]
-# A clone is rarely better than its teacher: all it does is copy. The one that learned by reward goes for the
-# reward, and drives in ways that you would never have shown it. But it needed
-# thousands of tries, falls and all; the clone needed five drives and no fall. Where would you rather have
-# which: in a game, in a car, in an operating theatre?
+# A clone is rarely better than its teacher: all it does is copy. The one that learned by reward goes for
+# the reward, and drives in ways that you would never have shown it. But it needed thousands of tries,
+# falls and all; the clone needed five drives and no fall. Which would you rather have: in a game, in a
+# car, in an operating theatre?
 
 # %%
 progress()

@@ -6,7 +6,7 @@
 # A wall does not mind what you do. Another agent does: it runs away, it blocks your way, it passes you the
 # ball. How do you decide well if others decide as well?
 #
-# **When you are through, you can**
+# **When you have finished, you can**
 #
 # - tell from a scene who the agents are, what each senses, and what each wants,
 # - write a controller that reacts to another agent,
@@ -15,7 +15,7 @@
 #
 # *About 60 minutes. Before: lesson 05.*
 #
-# **Recap.** A controller turns a percept into an action. Rules have priorities; some tasks take a memory.
+# **Recap.** A controller turns a percept into an action. Rules have priorities; some tasks need a memory.
 
 # %% tags=["setup"]
 import math
@@ -49,14 +49,14 @@ for name, reading in sim.agents[0].percept.items():
     print(f"{name:10}", reading if isinstance(reading, (bool, str)) else reading.round(2))
 
 # %% [markdown]
-# The chaser senses where each runner is, **seen from itself**: how far ahead, how far to the left (the third
-# number is the height). The numbers are shares of the yard's size. `free` says who has not been caught
-# yet: 1 or 0, in the order of the runners.
+# The chaser senses where each runner is, **from its own point of view**: how far ahead, how far to the
+# left (the third number is the height). The numbers are shares of the yard's size. `free` says who has
+# not been caught yet: 1 or 0, in the order of the runners.
 #
 # ### Exercise 12.1: the chaser
 #
-# Catch all three within the time. Chase one that is still free. Which one is best? The runners flee, but
-# they are slower than you.
+# Catch all three within the time. Chase one that is still free. Which one is the best choice? The runners
+# flee, but they are slower than you.
 
 
 # %% tags=["exercise-12.1"]
@@ -71,9 +71,10 @@ check("12.1", chase)
 # %% [markdown]
 # ## One against one
 #
-# In `sumo` two robots stand in a ring. Who falls out has lost. What one wins, the other one loses: that is
-# called a *zero-sum game*. The orange one charges at you. You sense where it is (`opponent`: ahead, left),
-# where you are in the ring (`position`, the middle is 0, 0), and where you look (`heading`: sine, cosine).
+# In `sumo` two robots stand in a ring. The first to fall out has lost. What one wins, the other loses:
+# that is called a *zero-sum game*. The orange one charges at you. You sense where it is (`opponent`:
+# ahead, left), where you are in the ring (`position`, the middle is 0, 0), and which way you face
+# (`heading`: sine, cosine).
 
 
 # %% tags=["setup"]

@@ -2,7 +2,7 @@
 def careful(percept):
     left, ahead = percept["bearing"]
     if ahead < 0.9:
-        return {"move": [0, -0.2 if left > 0 else 0.2, 0, 0]}  # slowly: the news are late
+        return {"move": [0, -0.2 if left > 0 else 0.2, 0, 0]}  # slowly: the news is late
     return {"move": [1, -0.5 * left, 0, 0]}
 
 

@@ -39,7 +39,7 @@ def test_the_form_of_a_lesson(lesson: Lesson) -> None:
     text = "\n".join(cell.source for cell in lesson.cells if cell.is_text)
     head = lesson.cells[0].source
     assert head.startswith(f"# {lesson.number} ")
-    assert "**When you are through, you can**" in head
+    assert "**When you have finished, you can**" in head
     assert lesson.number == "00" or "**Recap.**" in head
     assert "## Stretch" in text
     for exercise in lesson.exercises:

@@ -94,14 +94,14 @@ def turns_left(drive_it: Any) -> Done:
 
 @exercise(
     "00.3",
-    "Mend it",
+    "Fix it",
     hints={
         "backward": "It runs now, and goes backward. The first number has to be above 0.",
         "curve": "It runs now, well done. But the robot has to drive a curve to the right: both "
         "the first and the second number are above 0.",
     },
 )
-def is_mended(drive_it: Any) -> Done:
+def is_fixed(drive_it: Any) -> Done:
     """Check that the function runs, and drives a curve to the right."""
     headings: list[float] = []
 
@@ -116,4 +116,4 @@ def is_mended(drive_it: Any) -> Done:
             raise drive.not_yet("Your robot drove backward ({where}).", "backward")
         if forward < 0.15 or _turned(drive, headings[-1]) > -1:
             raise drive.not_yet("No curve to the right yet ({where}).", "curve")
-    return Done("Mended: your robot drives a curve to the right.", drive.picture())
+    return Done("Fixed: your robot drives a curve to the right.", drive.picture())

@@ -124,7 +124,7 @@ def _single(done: Drive) -> dict[str, float]:
         "amount": "How much is paid for the touch is the parameter `reward`.",
         "end": "The episode goes on after the touch. Every reward function has a parameter "
         "`cause_episode_to_end`, which is False unless you say so.",
-        "fall": "Whoever falls is to get -1. That is what `FallReward()` pays.",
+        "fall": "A fall should cost 1. That is what `FallReward()` pays.",
     },
 )
 def is_paid(agent: Any) -> Done:

@@ -68,8 +68,8 @@ def _same_of(sensor: Sensor, one: Percept, other: Percept) -> bool:
     "03.1",
     "The twin",
     hints={
-        "other": "You gave the same place. There is a second one: think of a mirror that lies "
-        "along the line in which the robot looks.",
+        "other": "You gave the same place. There is a second one: think of a mirror "
+        "along the line in which the robot faces.",
         "behind": "The cosine is not the same there. Ahead must stay ahead: only left and right "
         "change places.",
         "far": "The distance is not the same there. The twin is as far away as the box.",
@@ -84,7 +84,7 @@ def finds_the_twin(twin: Any) -> Done:
         if math.hypot(u - x, v - y) < 0.1:
             raise NotYet(f"For ({x:g}, {y:g}) your function gives the same place.", hint="other")
         if not 1.5 < math.hypot(u, v) < 11:
-            raise NotYet(f"({u:g}, {v:g}) lies in the robot, or far off the plate.", hint="far")
+            raise NotYet(f"({u:g}, {v:g}) is inside the robot, or far off the plate.", hint="far")
         one = _look([OrientationSensor(target="box", normalized=False)], (x, y))
         (cosine, distance) = one.agents[0].percept["orientation"]
         other = _look([OrientationSensor(target="box", normalized=False)], (u, v))
@@ -220,7 +220,7 @@ def computes_the_angle(angle_to_box: Any) -> Done:
     if wrong:
         true, given = wrong[0]
         raise NotYet(
-            f"The box lies at {true:g} degrees, your function says {given:.1f}.",
+            f"The box is at {true:g} degrees, your function says {given:.1f}.",
             hint=_why(found),
         )
     return Done("Eight directions all around the robot, and every angle was right.")

@@ -109,8 +109,8 @@ def _vehicle_heading(done: Drive) -> float:
         "begin": "The other way to connect two eyes with two wheels.",
         "sides": "It turns towards the lamp. This time the wheel on the lamp's side has to be the "
         "faster one.",
-        "backward": "It backs away, with its eyes on the lamp. Who runs away turns round: its "
-        "wheels turn forward, the one on the lamp's side faster.",
+        "backward": "It backs away, with its eyes on the lamp. It should turn round: both wheels "
+        "turn forward, the one on the lamp's side faster.",
         "straight": "Both wheels turn equally fast, so the vehicle can't turn. Each wheel needs "
         "another eye.",
         "rest": "It runs on and on, and falls off the plate in the end. Without light its wheels "

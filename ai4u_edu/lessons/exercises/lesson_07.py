@@ -55,7 +55,7 @@ def _dancer() -> Callable[[Percept], Action]:
     return dance
 
 
-TEMPERS: dict[str, Callable[[], Any]] = {
+CHARACTERS: dict[str, Callable[[], Any]] = {
     "runner": lambda: _steer,
     "stroller": lambda: lambda percept: _steer(percept, 0.4),
     "lingerer": lambda: _linger,
@@ -63,30 +63,34 @@ TEMPERS: dict[str, Callable[[], Any]] = {
     "sleeper": lambda: lambda _: {"move": [0, 0, 0, 0]},
     "jumper": lambda: lambda _: {"move": [1, 0, 0, 0]},
 }
-"""Factories of each temper's controller."""
+"""Factories of each character's controller."""
 
 
-def tempers(name: str, rewards: Sequence[RewardFunc] = ()) -> ControlRequestor:
-    """Return a world in which a robot of that temper lives.
+def character(name: str, rewards: Sequence[RewardFunc] = ()) -> ControlRequestor:
+    """Return a world with a robot of that character.
 
     Args:
-        name: one of ``TEMPERS``.
+        name: one of ``CHARACTERS``.
         rewards: its reward functions.
     """
-    if name not in TEMPERS:
-        raise NotYet(f"Expected one of {', '.join(TEMPERS)}; got `{name!r}`.")
+    if name not in CHARACTERS:
+        raise NotYet(f"Expected one of {', '.join(CHARACTERS)}; got `{name!r}`.")
     agent = BasicAgent(
         body="robot",
         sensors=[BearingSensor(target="box"), OrientationSensor(target="box", normalized=False)],
         actuators=[RBMoveActuator(move_amount=2, turn_amount=3)],
         rewards=list(rewards),
-        brains=[LocalBrain(controller=TEMPERS[name]())],
+        brains=[LocalBrain(controller=CHARACTERS[name]())],
     )
     return ControlRequestor(plate(), [agent])
 
 
+tempers = character
+"""Its name in notebooks that were handed out before."""
+
+
 def contest(rewards: Sequence[RewardFunc], seeds: Sequence[int] = SEEDS) -> dict[str, float]:
-    """Return the mean return of each temper, over the same worlds.
+    """Return the mean return of each character, over the same worlds.
 
     Args:
         rewards: the reward functions of all of them.
@@ -94,8 +98,8 @@ def contest(rewards: Sequence[RewardFunc], seeds: Sequence[int] = SEEDS) -> dict
     """
     rewards = a_list_of(RewardFunc, rewards)
     found = {}
-    for name in TEMPERS:
-        sim = tempers(name, rewards)
+    for name in CHARACTERS:
+        sim = character(name, rewards)
         agent = sim.agents[0]
         total = 0.0
         for seed in seeds:
@@ -152,8 +156,8 @@ WELL_MEANT: dict[str, Callable[[], list[RewardFunc]]] = {
         "quick": "With `quick` everybody pays 1 at each decision until the episode is over. What "
         "ends the episode here? Read the first line of `quick` once more.",
         "name": "Write one of the six names in quotes, for each of the three rewards.",
-        "closer": "With `closer` a step towards the box pays, and a step away costs nothing. Who "
-        "takes most steps towards it?",
+        "closer": "With `closer` a step towards the box pays, and a step away costs nothing. Which "
+        "of them takes most steps towards it?",
     },
 )
 def predicts(winners: Any, well_meant: Any) -> Done:
@@ -216,7 +220,7 @@ def has_a_trail(make: Any) -> Done:
                 f"{paid_in_a_minute:.1f}, more than the runner's {found['runner']:.1f}.",
                 hint="patience",
             )
-    sim = tempers("runner", _made(make))
+    sim = character("runner", _made(make))
     agent = sim.agents[0]
     for seed in seeds:
         paid: list[float] = []
@@ -232,7 +236,7 @@ def has_a_trail(make: Any) -> Done:
 
 def _in_a_minute(name: str, rewards: list[RewardFunc], seeds: Sequence[int]) -> float:
     """Return the mean return in episodes of a minute."""
-    sim = tempers(name, rewards)
+    sim = character(name, rewards)
     agent = sim.agents[0]
     total = 0.0
     for seed in seeds:
@@ -267,4 +271,4 @@ def is_quick(make: Any) -> Done:
         raise NotYet(f"The runner does not win: {_shown(found)}.", hint="runner")
     if min(found, key=lambda name: found[name]) != "jumper":
         raise NotYet(f"The jumper is not the last: {_shown(found)}.", hint="jump")
-    return Done(f"Quick, and nobody wants to jump: {_shown(found)}.")
+    return Done(f"Quick, and jumping does not pay: {_shown(found)}.")

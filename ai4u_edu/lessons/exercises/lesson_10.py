@@ -240,8 +240,8 @@ def is_shown(cloned: Any) -> Done:
         "the two is `done`, and then look who it is.",
         "draw": "Both are still on their way: nobody has won yet. Go on until one of the two is "
         "`done`.",
-        "fell": "Who is done first has not always won: it may have fallen. `touched(agent)` says "
-        "whether it was the box; if it was not, the other one has won.",
+        "fell": "The first to be done has not always won: it may have fallen. `touched(agent)` "
+        "says whether it was the box; if it was not, the other one has won.",
         "time": "Two who never arrive would keep you waiting for ever. After 300 steps return "
         "`None`.",
     },
