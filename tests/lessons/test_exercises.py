@@ -70,7 +70,6 @@ def test_an_answer_gets_its_verdict(exercise: str, number: int) -> None:
     answer = answers_to(exercise).all[number]
     verdict = tried(lesson(exercise[:2]), exercise, answer.code)
     assert is_as_wanted(answer, verdict), f"{answer.name}: {verdict.hint}: {verdict.text}"
-    assert verdict.text.endswith((".", "?", "...", "`"))
     assert "has a fault" not in verdict.text
 
 
