@@ -12,7 +12,8 @@
 # - say what a policy, a value and a discount are,
 # - write the one line by which a learner learns from a step,
 # - train a network with SAC, and read its learning curve,
-# - find out how good it is, on worlds that it never saw.
+# - find out how good it is, on worlds that it never saw,
+# - predict what a learner makes of a wrong reward.
 #
 # *About 55 minutes, some of them waiting. Before: lesson 07.*
 #
@@ -23,6 +24,7 @@
 from ai4u_edu import *
 from ai4u_edu.lessons import check, film, hint, plot, progress, report, show, solution
 from ai4u_edu.lessons.exercises.lesson_09 import corridor, keep, learn
+from ai4u_edu.lessons.wrong_reward import learn_wrong_reward
 from ai4u_edu.training import evaluate
 
 # %% [markdown]
@@ -182,6 +184,29 @@ print(evaluate("sac.onnx", "box_chase", episodes=10, quiet=True))
 # Why worlds that it never saw? A pupil who learned the answers of one test by heart gets full marks in
 # that test. Another test shows whether she understands. A seed below 4 billion is never used in a
 # training here, so all the seeds that you know are "another test".
+#
+# ## A learner and a wrong reward
+#
+# In lesson 07 you said which of six characters a reward asks for. Does a robot that learns by itself find
+# that out, too? This one should touch a box. It is paid 10 for the touch, which ends the episode; and so that
+# it finds the way, up to 3 at each of its 60 decisions for being near the box. A fall costs 1.
+#
+# ### Exercise 09.4: the wrong reward, learned
+#
+# First write down what you think it will do in most worlds once it has learned: `"touches"` (the box),
+# `"lingers"` (on the plate until time is up, without a touch) or `"falls"`. Then run the cell: it trains
+# for about 15 seconds.
+
+
+# %% tags=["exercise-09.4"]
+prediction = "?"
+hacked = learn_wrong_reward()
+
+# %%
+check("09.4", prediction, hacked)
+
+# %% [markdown]
+# Nobody programmed that, and nobody wanted it. The robot did not misunderstand you: it did what pays.
 
 # %%
 progress()

@@ -64,7 +64,7 @@ def search(percept):
     return {"move": [1, 0, 0, 0]}
 
 
-# %% tags=["wrong", "away", "drives where it is small"]
+# %% tags=["wrong", "turn", "drives where it is small"]
 def search(percept):
     cosine = percept["orientation"][0]
     if cosine < 0.97:

@@ -44,6 +44,13 @@ def test_attacking_wins_more_than_the_plan_that_sounds_wiser() -> None:
     assert tried(lesson("12"), "12.2", answer.code).passed
 
 
+@pytest.mark.nightly  # trains a network
+def test_a_learner_with_the_wrong_reward_lingers(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.delenv("AI4U_FAST")
+    verdict = tried(lesson("09"), "09.4", answers_to("09.4").solution)
+    assert verdict.passed, verdict.text
+
+
 @pytest.mark.nightly  # trains two networks
 def test_one_odd_drive_is_too_little_and_five_are_enough() -> None:
     one = next(each for each in answers_to("10.2").all if each.name == "one drive")

@@ -175,7 +175,7 @@ def finds_by_turning(search: Any) -> Done:
 
 def _search_mistake(turned: list[float], driven: list[float], towards: list[float]) -> str:
     """Return the diagnosis that fits how a robot searched."""
-    if not any(turned) and not any(driven):
+    if not any(turned):
         return "turn"
     if not any(driven):
         return "stays"
@@ -183,8 +183,6 @@ def _search_mistake(turned: list[float], driven: list[float], towards: list[floa
         return "away"
     if len(set(turned[1:])) == 1 and len(set(driven[1:])) == 1:
         return "blind"
-    if not any(turned):
-        return "turn"
     return "wide" if sum(driven) > 0.3 * len(driven) else "narrow"
 
 

@@ -92,10 +92,10 @@ def _careful(percept: Percept) -> dict[str, list[float]]:
     "06.2",
     "As lazy as possible",
     hints={
-        "whole": "A tick is the smallest piece of time in the world. Round your result: which of "
-        "the two numbers is safe?",
         "lazier": "It never falls, and could be lazier. The feeler sees 0.98 m ahead of the "
         "robot's middle. How many ticks does it take to drive a metre?",
+        "whole": "A tick is the smallest piece of time in the world. Round your result: which of "
+        "the two numbers is safe?",
         "falls": "It drives too far before it looks again. The blind way has to be shorter than "
         "the 0.98 m that the feeler sees ahead.",
     },

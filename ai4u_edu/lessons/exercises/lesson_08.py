@@ -157,13 +157,13 @@ def drives_from_afar(script: Any) -> Done:
     "08.2",
     "Late news",
     hints={
+        "fast": "It turns on what was true a quarter of a second ago, and by then it looks "
+        "elsewhere. Turn less for the same sine, and drive more slowly: late news is less wrong "
+        "about a slow robot.",
         "blind": "It does the same whatever it senses: look at the bearing.",
         "away": "It turns away from the box: for a box on the left (sine above 0) turn left (below "
         "0).",
         "still": "It never drives. Where the box is ahead, drive slowly.",
-        "fast": "It turns on what was true a quarter of a second ago, and by then it looks "
-        "elsewhere. Turn less for the same sine, and drive more slowly: late news is less wrong "
-        "about a slow robot.",
     },
 )
 def copes_with_lag(careful: Any) -> Done:

@@ -12,6 +12,7 @@ import numpy as np
 from ai4u_edu.lessons.exercise import Done, NotYet, a_function, exercise, named
 from ai4u_edu.lessons.numeric import Slip, chance_for, difference, finite_number, is_close
 from ai4u_edu.lessons.rollouts import drive, seeds_of
+from ai4u_edu.lessons.wrong_reward import OUTCOMES, Hacker, outcomes
 
 if TYPE_CHECKING:
     from ai4u_edu.training.learning import Trained
@@ -115,10 +116,10 @@ def corridor(update: "Update", episodes: int = 40, seed: int = 0) -> list[list[f
     "09.1",
     "What later is worth now",
     hints={
-        "later": "Rewards that come later have to count less. `enumerate(rewards)` gives each "
-        "reward with its number n: 0, 1, 2 ... Multiply each by `discount ** n`.",
         "undiscounted": "Every reward counts in full. Later ones have to count less: multiply the "
         "reward number n by `discount ** n`.",
+        "later": "Rewards that come later have to count less. `enumerate(rewards)` gives each "
+        "reward with its number n: 0, 1, 2 ... Multiply each by `discount ** n`.",
         "linear": "The discount is applied once per reward, not once per step: it is a power, "
         "`discount ** n`, and not a product.",
         "once": "The whole sum is discounted once. Each reward has its own power of the discount.",
@@ -274,3 +275,37 @@ def _expect_trained(trained: Any) -> None:
 
     if not isinstance(trained, Trained):
         raise NotYet(f"Expected what `learn(...)` returned, got {named(trained)}.")
+
+
+@exercise(
+    "09.4",
+    "The wrong reward, learned",
+    hints={
+        "name": 'Write your guess into `prediction`: "touches", "lingers" or "falls".',
+        "touches": "A touch pays 10, once, and ends the episode. Being near pays up to 3 at each "
+        "of 60 decisions. Which sum is larger?",
+        "falls": "A fall costs 1 and ends the payments. What is there to be had on the plate?",
+        "untrained": "`hacked` has to be what `learn_wrong_reward()` returns.",
+    },
+)
+def predicts_the_learner(prediction: Any, hacked: Any) -> Done:
+    """Check the predicted behaviour of a robot that learned with a well-meant reward."""
+    if not isinstance(hacked, Hacker):
+        raise NotYet(
+            f"Expected what `learn_wrong_reward()` returned, got {named(hacked)}.",
+            hint="untrained",
+        )
+    if not isinstance(prediction, str) or prediction not in OUTCOMES:
+        raise NotYet(
+            f"Expected one of {', '.join(OUTCOMES)} as your guess, got {named(prediction)}.",
+            hint="name",
+        )
+    worlds = 20
+    counts, last = outcomes(hacked, seeds_of("09.4", worlds))
+    told = (
+        f"In {worlds} worlds it touched the box in {counts['touches']}, fell in {counts['falls']}, "
+        f"and was still on the plate when time was up in {counts['lingers']}."
+    )
+    if counts[prediction] < max(counts.values()):
+        raise NotYet(told, hint=prediction, picture=last.picture())
+    return Done(f"You saw it coming. {told}", last.picture())

@@ -130,10 +130,10 @@ def is_solved(text: Any, solve: Any) -> Done:
     "15.3",
     "Worth something",
     hints={
-        "impossible": "Chance fails, and so does your `solve`. Make the world easier, or `solve` "
-        "better; it is the one of exercise 15.2.",
         "easy": "Chance succeeds too often. Put the target farther away, behind something, near an "
         "edge; give less time; or ask for two things in turn.",
+        "impossible": "Chance fails, and so does your `solve`. Make the world easier, or `solve` "
+        "better; it is the one of exercise 15.2.",
         "yaml": "The scene itself is not in order yet: first solve exercise 15.1.",
     },
 )
