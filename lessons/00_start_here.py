@@ -13,7 +13,7 @@
 # - send a robot its first action from Python,
 # - read an error message and fix the mistake.
 #
-# *About 45 minutes. All you need is this page.*
+# *About 40 minutes. All you need is this page.*
 
 # %% [markdown]
 # ## Is everything there?

@@ -12,7 +12,7 @@
 # - read what a robot senses,
 # - make a robot stop at the right place because it *looks*.
 #
-# *About 50 minutes. Before: lesson 00.*
+# *About 60 minutes. Before: lesson 00.*
 #
 # **Recap.** Shift + Enter runs a cell. A function gives the action: `{"move": [forward, turn, 0, 0]}`.
 

@@ -13,7 +13,7 @@
 # - read the table of an agent,
 # - make an agent that finds a box wherever it lies.
 #
-# *About 60 minutes. Before: lesson 01.*
+# *About 80 minutes. Before: lesson 01.*
 #
 # **Recap.** An agent senses (percept), decides, and acts (action), twelve times a second.
 

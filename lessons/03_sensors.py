@@ -13,7 +13,7 @@
 # - read a direction from a sine and a cosine,
 # - choose sensors for a task, and say why.
 #
-# *About 55 minutes. Before: lesson 02.*
+# *About 80 minutes. Before: lesson 02.*
 #
 # **Recap.** A sensor turns something about the world into numbers. The brain gets the numbers, never the
 # world.

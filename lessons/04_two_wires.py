@@ -13,7 +13,7 @@
 # - make four characters out of two wires,
 # - say why what we *see* in a robot is more than what is *in* it.
 #
-# *About 50 minutes. Before: lesson 03.*
+# *About 55 minutes. Before: lesson 03.*
 #
 # **Recap.** A robot knows only what its sensors tell it. The controller turns readings into an action.
 

@@ -13,7 +13,7 @@
 # - draw a state machine, and turn it into Python,
 # - say which tasks no controller without memory can solve.
 #
-# *About 60 minutes. Before: lesson 04.*
+# *About 100 minutes. Before: lesson 04.*
 #
 # **Recap.** A controller turns a percept into an action. Two wires can be enough for that.
 

@@ -13,7 +13,7 @@
 # - choose how often an agent decides, and say what it costs,
 # - listen to what happens inside an agent.
 #
-# *About 50 minutes. Before: lesson 05.*
+# *About 60 minutes. Before: lesson 05.*
 #
 # **Recap.** A controller turns each percept into an action. It may keep a memory.
 

@@ -13,7 +13,7 @@
 # - say what lag does to a driver, and cope with it,
 # - ask an unknown robot which actions it takes.
 #
-# *About 50 minutes. Before: lesson 06.*
+# *About 70 minutes. Before: lesson 06.*
 #
 # **Recap.** Sense, decide, act, reward: that is one decision. So far your code ran in the same program as
 # the world.

@@ -15,7 +15,7 @@
 # - find out how good it is, on worlds that it never saw,
 # - predict what a learner makes of a wrong reward.
 #
-# *About 55 minutes, some of them waiting. Before: lesson 07.*
+# *About 85 minutes, some of them waiting. Before: lesson 07.*
 #
 # **Recap.** A reward is paid after each decision. An agent that learns does more of what paid, whether or
 # not you meant it.

@@ -14,7 +14,7 @@
 # - say where a clone fails, and why,
 # - let two networks race in one world, and judge who won.
 #
-# *About 50 minutes. Before: lesson 09.*
+# *About 60 minutes. Before: lesson 09.*
 #
 # **Recap.** A policy gets a percept and gives an action. In lesson 09 a network found its policy by trying
 # things out, from rewards alone.

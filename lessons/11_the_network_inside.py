@@ -13,7 +13,7 @@
 # - set six weights by hand, so that two neurons find a box,
 # - understand the messages when a network and a robot don't match.
 #
-# *About 55 minutes. Before: lesson 09 or 10. It helps to have seen what `@` does in NumPy.*
+# *About 95 minutes. Before: lesson 09 or 10. It helps to have seen what `@` does in NumPy.*
 #
 # **Recap.** A policy gets a percept and gives an action. Lessons 09 and 10 made networks that are policies.
 

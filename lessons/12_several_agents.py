@@ -13,7 +13,7 @@
 # - say whose interests are the same, and whose are opposed,
 # - let two controllers compete in a fair way.
 #
-# *About 60 minutes. Before: lesson 05.*
+# *About 90 minutes. Before: lesson 05.*
 #
 # **Recap.** A controller turns a percept into an action. Rules have priorities; some tasks need a memory.
 

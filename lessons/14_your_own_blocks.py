@@ -13,7 +13,7 @@
 # - have your blocks examined, and understand what the examiner says,
 # - share a block, so that others can use it in their scenes.
 #
-# *About 60 minutes. Before: lessons 02 and 07.*
+# *About 80 minutes. Before: lessons 02 and 07.*
 #
 # **Recap.** An agent is put together from blocks. Each block has parameters.
 
