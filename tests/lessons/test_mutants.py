@@ -9,7 +9,22 @@ import pytest
 
 from tests.lessons.mutants import mutants_of, survivors
 
-EXACT = ("01.1", "01.2", "02.1", "04.1", "04.2", "06.1", "09.1", "09.2", "11.1", "11.3", "13.1")
+EXACT = (
+    "01.1",
+    "01.2",
+    "02.1",
+    "04.1",
+    "04.2",
+    "06.1",
+    "09.1",
+    "09.2",
+    "10.3",
+    "11.1",
+    "11.3",
+    "11.4",
+    "13.1",
+    "13.2",
+)
 SAMPLE = ("01.1", "13.1")
 CASES = [pytest.param(each, marks=[] if each in SAMPLE else pytest.mark.nightly) for each in EXACT]
 

@@ -258,9 +258,13 @@ def referees(race: Any) -> Done:
     pairs = [
         ("a slow one", "a good one"),
         ("a good one", "a slow one"),
+        ("a good one", "one that sleeps"),
+        ("a good one", "a slow one"),
         ("one that sleeps", "a good one"),
         ("one that falls", "a good one"),
         ("a slow one", "one that falls"),
+        ("one that falls", "one that sleeps"),
+        ("one that sleeps", "one that falls"),
         ("one that sleeps", "one that sleeps"),
     ]
     shown = b""
@@ -281,7 +285,7 @@ def referees(race: Any) -> Done:
                 hint=hint,
                 picture=drive.picture(),
             )
-    return Done("Six races, and you saw who won each of them.", shown)
+    return Done("Ten races, and you saw who won each of them.", shown)
 
 
 def _patient(driver: Callable[..., Any], seed: int) -> Callable[[Percept], Any]:
