@@ -79,7 +79,7 @@ def race(sim, seed):
             return purple
 
 
-# %% tags=["wrong", "time", "one step"]
+# %% tags=["wrong", "begin", "one step"]
 def race(sim, seed):
     blue, purple = sim.agents
     sim.reset(seed)
