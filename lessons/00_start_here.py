@@ -3,27 +3,28 @@
 #
 # ![A blue robot on a grey plate drives to an orange box](pictures/00.png)
 #
-# In this course you build robots that live in a small flat world. You drive them yourself, you tell
-# them how to drive, and in the end you let them learn it. It begins with a click.
+# In this course you build robots that live in a small flat world. First you drive them yourself, then you
+# tell them how to drive, and in the end you let them learn it. It starts with a click.
 #
-# **When you are through, you can**
+# **When you have finished, you can**
 #
 # - run a notebook, cell by cell,
 # - open the sandbox and drive a robot,
 # - send a robot its first action from Python,
-# - read an error message, and mend what it is about.
+# - read an error message and fix the mistake.
 #
-# *About 45 minutes. You need nothing but this page.*
+# *About 40 minutes. All you need is this page.*
 
 # %% [markdown]
 # ## Is everything there?
 #
-# The grey box below is a **cell**: a piece of a program. Click into it, then press **Shift + Enter**.
-# The cell runs, and what it has to say appears under it.
+# The grey box below is a **cell**: a piece of a program. Click into it, then press **Shift + Enter**. The
+# cell runs, and its output appears below it.
 #
-# You will see a robot on a plate. **Click into the picture**, then hold **W** to drive forward, **S**
-# to drive backward, **A** and **D** to turn. **R** starts again. Reach the orange box, and don't fall
-# off the plate!
+# Wait until *Idle* stands at the bottom of the window before you run the first cell. You will see a robot
+# on a plate, with a blue frame: the keys go to it. (No blue frame? **Click the picture**.) Hold **W** to
+# drive forward, **S** to drive backward, **A** and **D** to turn. **R** starts again. Reach the orange
+# box, and don't fall off the plate!
 
 # %%
 from ai4u_edu.lessons import ready, show
@@ -32,21 +33,21 @@ ready()
 show("box_chase", seed=1)
 
 # %% [markdown]
-# The green line says whether all is installed that you need. No robot to see? Click on the line above
-# the picture: it opens the world in a tab of its own. If that does not help either, show your teacher
-# what stands under the cell.
+# The green box tells you whether everything you need is installed. You see no robot? Click the line above
+# the picture: it opens the world in its own tab. If that does not help either, show your teacher the
+# output of the cell.
 #
 # ## What is a notebook?
 #
 # A notebook is a page of text and cells. Three things to know:
 #
-# 1. **Shift + Enter** runs a cell and goes on to the next one. The number on the left says in which
+# 1. **Shift + Enter** runs a cell and moves on to the next one. The number on the left shows in which
 #    order the cells ran.
-# 2. Cells remember. What one cell made, the next one can use. So run them **from top to bottom**.
-# 3. If everything is in a muddle, choose **Kernel > Restart Kernel**, and run the cells again from
-#    the top. Your text stays.
+# 2. Cells remember. The next cell can use what this one made. So run them **from top to bottom**.
+# 3. If things get mixed up, choose **Kernel > Restart Kernel**, and run the cells again from the top.
+#    Your text stays.
 #
-# Try it: change the word in quotes, and run the cell. (The two lines above it fetch what we need later.)
+# Try it: change the word in quotes, and run the cell. (The two lines above it import what we need later.)
 
 # %% tags=["setup"]
 from ai4u_edu import Scene
@@ -65,9 +66,9 @@ print("Hello,", name)
 # {"move": [1, 0, 0, 0]}
 # ```
 #
-# The first number drives, the second one turns. (The other two jump; this robot can't.) Each goes from
-# -1 to 1. A **function** gives the answer; the robot calls it again and again. It also hands over a
-# `percept`: all that the robot senses. We don't look at that yet.
+# The first number drives, the second one turns. (The other two jump; this robot can't.) Each goes from -1
+# to 1. A **function** returns the action; the robot calls it again and again. The function also gets a
+# `percept`: everything the robot senses. We don't look at that yet.
 
 
 # %%
@@ -78,13 +79,13 @@ def spin(percept):
 film("box_chase", spin, seed=1, limit=36)
 
 # %% [markdown]
-# `film` lets one **episode** run and shows it as a little film. An episode is one try, from the start
-# until the robot reaches its goal, falls, or time is up. `limit=36` ends it after 36 decisions: that is
-# three seconds.
+# `film` runs one **episode** and shows it as a short film. An episode is one try, from the start until
+# the robot reaches its goal, falls, or time is up. `limit=36` ends it after 36 decisions: that is three
+# seconds.
 #
 # ### Exercise 00.1: make it go
 #
-# Write a function that lets the robot drive **forward**. Replace the first 0.
+# Write a function that makes the robot drive **forward**. Replace the first 0.
 
 
 # %% tags=["exercise-00.1"]
@@ -93,8 +94,8 @@ def go(percept):
 
 
 # %% [markdown]
-# Now ask whether it works. `check` puts your function on robots in several worlds, and says what
-# happened. Ask as often as you like. If you are stuck, there is a hint; and if nothing helps,
+# Now find out whether it works. `check` tries your function on robots in several worlds, and tells you
+# what happened. Ask as often as you like. If you are stuck, there is a hint; and if nothing helps,
 # `solution("00.1")` shows one way to do it.
 
 # %%
@@ -106,8 +107,8 @@ hint("00.1")
 # %% [markdown]
 # ### Exercise 00.2: turn left
 #
-# The cell with `spin` turned the robot to the right. Write a function that turns it to the **left**,
-# and leaves it on its spot.
+# The cell with `spin` turned the robot to the right. Write a function that turns it to the **left**, and
+# keeps it in its place.
 
 
 # %% tags=["exercise-00.2"]
@@ -124,7 +125,7 @@ check("00.2", turn_left)
 # Everybody's programs stop with errors, every day. The trick is to read them. **The last line says
 # what is wrong.** The lines above it say where.
 #
-# The robot knows only actions called `move`. Look what it answers if we call it something else:
+# The robot only knows an action called `move`. See what happens when we use a different name:
 
 
 # %%
@@ -140,10 +141,10 @@ except Exception as error:
 # %% [markdown]
 # It even guesses what we meant.
 #
-# ### Exercise 00.3: mend it
+# ### Exercise 00.3: fix it
 #
-# This function should let the robot drive a curve to the right. There are mistakes in it. Run the
-# check, read what it says, mend one thing, and check again.
+# This function should make the robot drive a curve to the right. There are mistakes in it. Run the check,
+# read the message, fix one thing, and check again.
 
 
 # %% tags=["exercise-00.3"]
@@ -161,9 +162,9 @@ check("00.3", curve)
 progress()
 
 # %% [markdown]
-# `progress()` works in every lesson. Your marks lie in the file `progress.json`, beside your notebooks;
-# they go nowhere else. At the end of a lesson `report()` writes a page, `report.html`, which you can
-# hand in: it holds your code, what the checks said, and their pictures.
+# `progress()` works in every lesson. Your results are saved in the file `progress.json`, next to your
+# notebooks; they go nowhere else. At the end of a lesson `report()` writes a page, `report.html`, which
+# you can hand in: it holds your code, what the checks said, and their pictures.
 
 # %%
 report()
@@ -171,8 +172,8 @@ report()
 # %% [markdown]
 # ## Stretch
 #
-# - Let the robot drive a circle that fits on the plate: `film("box_chase", your_function, seed=1)`.
-#   Which two numbers make a small circle, which ones a large one?
+# - Make the robot drive a circle that fits on the plate: `film("box_chase", your_function, seed=1)`.
+#   Which two numbers make a small circle, and which a large one?
 # - `Scene.names()` lists all worlds. Put another name into `show("...")`, and play.
 
 # %%

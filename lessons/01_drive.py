@@ -5,14 +5,14 @@
 #
 # You press a key, and the robot moves. What happens in between?
 #
-# **When you are through, you can**
+# **When you have finished, you can**
 #
-# - tell where a body is, with three numbers,
+# - say where a body is, with three numbers,
 # - say what the four numbers of an action do, and for how long,
 # - read what a robot senses,
 # - make a robot stop at the right place because it *looks*.
 #
-# *About 50 minutes. Before: lesson 00.*
+# *About 60 minutes. Before: lesson 00.*
 #
 # **Recap.** Shift + Enter runs a cell. A function gives the action: `{"move": [forward, turn, 0, 0]}`.
 
@@ -25,12 +25,13 @@ from ai4u_edu.lessons import check, film, hint, plot, progress, report, show, so
 # %% [markdown]
 # ## Drive, and watch
 #
-# Run the cell, click into the world, and drive with **W A S D**. **Space** jumps, **J** jumps forward:
-# you need that for the low wall. Reach the cube. Then drive again, and keep an eye on the panel at the
-# right:
+# Run the cell, and drive with **W A S D**. **Space** jumps, **J** jumps forward: you need that for the
+# low wall. Reach the cube. Then open the panel (the button at the top right), drive again, and keep an
+# eye on:
 #
-# - **action**: the four numbers that your keys become,
-# - **readings**: what the robot senses. Turn on the spot: which numbers change, and which don't?
+# - **Action**: the four numbers that your keys turn into,
+# - **Senses**: the readings of the robot's sensors. Turn on the spot: which numbers change, and which
+#   don't?
 
 # %%
 show("sample_scene", seed=1)
@@ -49,9 +50,9 @@ print("x, y in metres:    ", robot.position)
 print("heading in degrees:", math.degrees(robot.heading))
 
 # %% [markdown]
-# The robot is a **body**: a disc of half a metre radius. Where it is, three numbers tell: **x** (to the
-# right), **y** (up on the screen), and the **heading**: the direction in which it looks. Heading 0
-# looks to the right; turning left makes it grow, so 90 degrees look up.
+# The robot is a **body**: a disc of half a metre radius. Three numbers say where it is: **x** (to the
+# right), **y** (up on the screen), and the **heading**: the direction it faces. Heading 0 faces right;
+# turning left makes it grow, so at 90 degrees it faces up.
 #
 # ## The action
 #
@@ -82,9 +83,8 @@ film("sample_scene", ahead, seed=1, limit=12)
 #
 # ### Exercise 01.1: how far?
 #
-# A robot drives at `speed` metres a second. For how many decisions do you have to let it drive until it
-# has covered `distance` metres? Compute it from the two numbers. (A whole number is not needed: the
-# check rounds.)
+# A robot drives at `speed` metres a second. How many decisions does it take to cover `distance` metres?
+# Compute it from the two numbers. (It need not be a whole number: the check rounds.)
 
 
 # %% tags=["exercise-01.1"]
@@ -98,7 +98,7 @@ check("01.1", decisions_for)
 # %% [markdown]
 # ### Exercise 01.2: a quarter turn
 #
-# A robot turns at so many degrees a second. How many decisions does it take to turn by 90 degrees?
+# A robot turns at `degrees_per_second`. How many decisions does it take to turn by 90 degrees?
 
 
 # %% tags=["exercise-01.2"]
@@ -122,15 +122,15 @@ for name, reading in percept.items():
     print(f"{name:12}", getattr(reading, "shape", ""), reading if name != "vision" else "...")
 
 # %% [markdown]
-# - `bearing` says in which direction the cube lies: two numbers, we come to them in lesson 03.
+# - `bearing` says in which direction the cube is: two numbers that lesson 03 explains.
 # - `orientation` says: is it in front of me (1), beside me (0), behind me (-1)? And how far away?
 # - `velocity` says how fast the robot moves and turns.
 # - `vision` is a small picture: 45 rays that look ahead.
 # - `last_action` is what the robot did last.
-# - `id` and `done` are on every robot: who am I, and is the episode over?
+# - Every robot has `id` and `done`: who am I, and is the episode over?
 #
-# Let the robot drive ahead, and write down the distance at each decision. `use_brain` says who decides
-# from now on; `step` is one decision. In this scene the distance is a share of the world's size: 1
+# Let the robot drive straight on, and record the distance at each decision. `use_brain` says who decides
+# from now on; `step` runs one decision. In this scene the distance is a share of the world's size: 1
 # would be as far as it goes.
 #
 # Before you run it: what will the curve look like? And what happens to it at the low wall?
@@ -146,8 +146,8 @@ plot({"distance": distances}, xlabel="decision", ylabel="distance to the cube (s
 # %% [markdown]
 # ### Exercise 01.3: stop in time
 #
-# The robot looks at the box. It is to drive up to it and stop when the middle of the box is **2 metres**
-# away. The box is at another distance in each world, so counting does not help: the robot has to look.
+# The robot faces the box. It should drive towards the box and stop **2 metres** from its centre. The
+# distance is different in each world, so counting does not help: the robot has to look.
 #
 # Here the distance is in metres: `percept["orientation"][1]`.
 
@@ -177,10 +177,10 @@ progress()
 # %% [markdown]
 # ## Stretch
 #
-# - Let the robot slow down gently: the nearer the box, the smaller the first number. Which formula did
-#   you take? Does `check("01.3", ...)` still agree?
-# - Who needs the fewest seconds for the cube in `sample_scene`? The page shows the time.
-# - Write a function that drives an eight. You need to count decisions: a variable outside of the
+# - Make the robot slow down gently: the nearer the box, the smaller the first number. Which formula did
+#   you use? Does `check("01.3", ...)` still agree?
+# - Who reaches the cube in `sample_scene` in the fewest seconds? The page shows the time.
+# - Write a function that drives a figure of eight. You need to count decisions: a variable outside of the
 #   function can do that (look up `global`).
 #
 # **Words of this lesson:** body, heading, actuator, action, sensor, percept, agent. **Next:** 02, in which

@@ -6,14 +6,14 @@
 # So far you drove robots that others had built. Today you build one: legs, eyes, a bumper, a sense of
 # what is good, and a brain.
 #
-# **When you are through, you can**
+# **When you have finished, you can**
 #
 # - name the five parts of an agent, and say what each is for,
 # - put them together in Python,
 # - read the table of an agent,
 # - make an agent that finds a box wherever it lies.
 #
-# *About 60 minutes. Before: lesson 01.*
+# *About 80 minutes. Before: lesson 01.*
 #
 # **Recap.** An agent senses (percept), decides, and acts (action), twelve times a second.
 
@@ -24,8 +24,8 @@ from ai4u_edu.lessons import bars, check, film, hint, progress, report, show, so
 # %% [markdown]
 # ## A world
 #
-# First a place to live: a plate of 10 by 10 metres over nothing, a disc that will be the robot, and a
-# box. A function makes it, since we need it more than once.
+# First it needs a place to live: a plate of 10 by 10 metres above the void, a disc that will be the
+# robot, and a box. We write a function for it, as we need it more than once.
 
 
 # %%
@@ -48,7 +48,7 @@ def make_world(seed=0):
 # | rewards | `TouchRewardFunc`, `FallReward`, ... | What is good for me? |
 # | brain | `LocalBrain` with a controller | What do I do next? |
 #
-# A body with a brain alone is an agent already. It only can't do anything.
+# A body with only a brain is already an agent. It just can't do anything yet.
 
 
 # %%
@@ -78,8 +78,8 @@ except AI4UError as error:
 # %% [markdown]
 # ### Exercise 02.1: legs
 #
-# Give the agent an `RBMoveActuator`. A 1 in the action is to mean **2 metres a second** (`move_amount`),
-# and turning at **3 radians a second** (`turn_amount`; a full turn has 6.28 radians).
+# Give the agent an `RBMoveActuator`. An action of 1 should mean driving at **2 metres per second**
+# (`move_amount`), or turning at **3 radians per second** (`turn_amount`; a full turn is 6.28 radians).
 
 
 # %% tags=["exercise-02.1"]
@@ -94,8 +94,8 @@ check("02.1", walker)
 # %% [markdown]
 # ## Eyes and a bumper
 #
-# A sensor turns something about the world into numbers. This is all that the agent will ever know: its
-# brain sees the readings, never the world.
+# A sensor turns something about the world into numbers. That is all the agent will ever know: its brain
+# sees the readings, never the world.
 #
 # `BearingSensor(target="box")` reads the direction of the box, as two numbers:
 #
@@ -123,7 +123,7 @@ check("02.2", watcher)
 # %% [markdown]
 # ## Praise and blame
 #
-# How does an agent know that it did well? Somebody has to say so, in numbers: the **reward**. A reward
+# How does an agent know that it did well? Somebody has to tell it, in numbers: the **reward**. A reward
 # function looks at the world after each decision and pays, or makes the agent pay. An agent may have
 # several; each has its name.
 #
@@ -195,7 +195,7 @@ progress()
 #
 # - Put a second box into `make_world`, and an agent that loves one and fears the other: two rewards, two
 #   bearings.
-# - How little can it sense, and still find the box? Try `OrientationSensor(target="box")`, which has the
+# - How little can it sense and still find the box? Try `OrientationSensor(target="box")`, which has the
 #   cosine alone. (Lesson 03 is about that.)
 # - Let the robot begin somewhere else in each episode: `add_body(..., random=Variation(x=(-4, 4),
 #   y=(-4, 4), heading_deg=(-180, 180)))`.

@@ -4,16 +4,16 @@
 # ![A robot that searched for the box by turning, and then drove to it](pictures/03.png)
 #
 # Close your eyes, and let somebody call "warm" or "cold". You will find the chair. But can you tell
-# whether it is to your left or to your right? A robot knows what its sensors tell, and nothing else.
+# whether it is on your left or on your right? A robot knows what its sensors tell it, and nothing else.
 #
-# **When you are through, you can**
+# **When you have finished, you can**
 #
 # - say what a sensor can tell apart, and what it can't,
 # - find something with a poor sensor, by moving,
 # - read a direction from a sine and a cosine,
 # - choose sensors for a task, and say why.
 #
-# *About 55 minutes. Before: lesson 02.*
+# *About 80 minutes. Before: lesson 02.*
 #
 # **Recap.** A sensor turns something about the world into numbers. The brain gets the numbers, never the
 # world.
@@ -46,12 +46,12 @@ def look(sensors, box=(3, 1), wall=False):
 # %% [markdown]
 # ## Warm and cold
 #
-# `OrientationSensor` gives two numbers. The first says how well the robot looks at its target: **1**
+# `OrientationSensor` gives two numbers. The first says how directly the robot faces its target: **1**
 # straight ahead, **0** beside it, **-1** behind. Mathematicians call it the *cosine* of the angle. The
 # second number is the distance, in metres.
 #
-# `look` puts a robot into the middle of a plate, looking to the right, and a box somewhere. Before you
-# run this: for which two boxes will the readings be the same?
+# `look` puts a robot in the middle of a plate, facing right, and a box somewhere. Before you run this:
+# for which two boxes will the readings be the same?
 
 # %%
 for place in [(3, 1), (3, -1), (-3, 1), (1, 3)]:
@@ -64,8 +64,8 @@ for place in [(3, 1), (3, -1), (-3, 1), (1, 3)]:
 #
 # ### Exercise 03.1: the twin
 #
-# The robot stands at (0, 0) and looks to the right. A box lies at (x, y). Where else could it lie, so
-# that the robot senses exactly the same? Return the other place.
+# The robot stands at (0, 0) and faces right. A box lies at (x, y). Where else could it be, so that the
+# robot senses exactly the same? Return the other place.
 
 
 # %% tags=["exercise-03.1"]
@@ -85,7 +85,7 @@ check("03.1", twin)
 # ### Exercise 03.2: search
 #
 # Find the box with the cosine alone: `percept["orientation"][0]`. One idea: turn until you look at the
-# box, then drive. How well is well enough? In one decision the robot turns by up to a quarter of a
+# box, then drive. How exact is exact enough? In one decision the robot turns by up to a quarter of a
 # radian, about 14 degrees; the cosine of 14 degrees is 0.97.
 
 
@@ -102,7 +102,7 @@ check("03.2", search)
 # ## Two numbers for a direction
 #
 # `BearingSensor` adds the number that was missing: the **sine**. It is above 0 where the target is on the
-# left, and below 0 on the right. Let a box wander around the robot, once around the circle:
+# left, and below 0 on the right. Move a box around the robot, once around the circle:
 
 # %%
 angles = range(-180, 181, 10)
@@ -121,8 +121,8 @@ plot(
 )
 
 # %% [markdown]
-# Put a ruler upright onto the plot. A height of the cosine alone fits two angles. A height of the sine
-# alone fits two as well. Both together fit only one.
+# Lay a ruler flat across the plot. Each height of the cosine curve belongs to two angles, and so does
+# each height of the sine curve. Both together belong to only one.
 #
 # ### Exercise 03.3: the angle
 #
@@ -143,9 +143,9 @@ check("03.3", angle_to_box)
 # %% [markdown]
 # ## Rays
 #
-# Orientation and bearing know where the box is even if a wall stands in between. Nobody's eyes can do
-# that. A **ray sensor** is more honest: it sends out rays, and each tells what it meets first, and how
-# far away that is.
+# Orientation and bearing know where the box is even if a wall stands in between. No eyes can do that. A
+# **ray sensor** is more honest: it sends out rays, and each tells what it hits first, and how far away
+# that is.
 
 # %%
 rays = LinearRayCastingSensor(
@@ -162,8 +162,8 @@ print("with a wall", look([rays], box=(4, 0), wall=True))
 
 # %% [markdown]
 # For each ray, the rightmost first: a **code** (which kind of thing? 1 is a target here, 0 nothing), then
-# the **distance** in metres. The wall has no code of its own yet in our world: what carries no known tag
-# reads 0, but its distance is there.
+# the **distance** in metres. The wall in our world has no code of its own yet: things without a known tag
+# read 0, but their distance is there.
 #
 # In the page, rays are lines with a dot where they meet something. Drive around in the sample scene, and
 # watch them:
@@ -174,7 +174,7 @@ show("sample_scene", seed=2)
 # %% [markdown]
 # ### Exercise 03.4: tell them apart
 #
-# Choose sensors so that these three pairs of worlds give **different** percepts. Take as few sensors as
+# Choose sensors so that these three pairs of worlds give **different** percepts. Use as few sensors as
 # you can.
 #
 # 1. the box on the left, or at the same angle on the right,
@@ -194,10 +194,11 @@ progress()
 # %% [markdown]
 # ## Stretch
 #
-# - Real sensors are never exact. Give a sensor `noise=0.1` and drive with it. From how much noise on does
-#   your `search` fail? What would help: several readings at once (`stacked_observations=3`)?
-# - `delay=5` shows the robot what was five decisions ago. Try to drive like that, in `show`.
-# - How many rays does one need to find a box of one metre, 8 metres away, without turning? Compute first.
+# - Real sensors are never exact. Give a sensor `noise=0.1` and drive with it. How much noise does it take
+#   to make your `search` fail? What would help: several readings at once (`stacked_observations=3`)?
+# - `delay=5` shows the robot what it would have sensed five decisions ago. Try to drive like that, in
+#   `show`.
+# - How many rays do you need to find a 1 m box 8 m away, without turning? Compute first.
 #
 # **Words of this lesson:** reading, cosine, sine, bearing, ray, code, noise. **Next:** 04, in which two
 # wires are enough for a brain.

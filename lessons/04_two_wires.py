@@ -3,19 +3,19 @@
 #
 # ![A vehicle that found the lamp with two wires](pictures/04.png)
 #
-# Here comes a robot whose whole brain is two wires. And yet people who watch it say things like "it is
+# Here is a robot whose whole brain is two wires. And yet people who watch it say things like "it is
 # afraid", or "it loves the lamp". How much brain does a feeling need?
 #
-# **When you are through, you can**
+# **When you have finished, you can**
 #
 # - drive with two wheels,
 # - wire sensors straight to motors, and predict what the vehicle will do,
 # - make four characters out of two wires,
 # - say why what we *see* in a robot is more than what is *in* it.
 #
-# *About 50 minutes. Before: lesson 03.*
+# *About 55 minutes. Before: lesson 03.*
 #
-# **Recap.** A robot knows what its sensors tell. The controller turns readings into an action.
+# **Recap.** A robot knows only what its sensors tell it. The controller turns readings into an action.
 
 # %% tags=["setup"]
 import math
@@ -63,9 +63,9 @@ film(vehicle(try_wheels), limit=60)
 # %% [markdown]
 # ## Two eyes
 #
-# A `LightSensor` tells how bright it is: 0 in the dark, up to 1. The left eye looks 60 degrees to the
-# left, the right eye 60 degrees to the right. The nearer the lamp, and the more it lies where the eye
-# looks, the brighter.
+# A `LightSensor` reads how bright it is: 0 in the dark, up to 1. The left eye looks 60 degrees to the
+# left, the right eye 60 degrees to the right. The nearer the lamp, and the more directly the eye looks at
+# it, the brighter.
 
 # %%
 distances = [0.5 * step for step in range(2, 23)]
@@ -93,7 +93,7 @@ plot(
 #
 # ### Exercise 04.1: attack
 #
-# Wire the vehicle so that it drives at the lamp and hits it.
+# Wire the vehicle so that it drives into the lamp.
 
 
 # %% tags=["exercise-04.1"]
@@ -114,8 +114,8 @@ film(vehicle(attack), limit=120)
 #
 # ### Exercise 04.2: fear
 #
-# Now one that turns away from the lamp, and runs as long as it sees it. At a distance, in the dark, it
-# comes to rest.
+# Now build one that turns away from the lamp, and runs forward as long as it sees it. Far away, in the
+# dark, it comes to rest.
 
 
 # %% tags=["exercise-04.2"]
@@ -134,14 +134,14 @@ film(vehicle(fear, heading_deg=-20), limit=120)
 # %% [markdown]
 # ## Wires that slow down
 #
-# A wire can also **brake**: the brighter, the slower. Such a wheel turns fast in the dark:
-# `1 - 2 * brightness`, say. In living brains there are both kinds of connections, too: those that excite
+# A wire can also **brake**: the brighter, the slower. Such a wheel turns fast in the dark, as with
+# `1 - 2 * brightness`. (The 2 is too weak a brake: that vehicle runs into the lamp.) In living brains there are both kinds of connections, too: those that excite
 # and those that *inhibit*.
 #
 # ### Exercise 04.3: love
 #
-# Make a vehicle that comes to the lamp and stays before it, looking at it, **1 to 3 metres** away (from
-# middle to middle). There are two things to find out: which eye brakes which wheel, and how strongly.
+# Make a vehicle that comes to the lamp and stays in front of it, looking at it, **1 to 3.5 metres** away
+# (from middle to middle). There are two things to find out: which eye brakes which wheel, and how strongly.
 
 
 # %% tags=["exercise-04.3"]
@@ -161,7 +161,7 @@ show(vehicle(love))
 # Show your three vehicles to somebody who does not know the wires. Ask: what does it want? What does it
 # feel? Then show the two lines of code.
 #
-# Valentino Braitenberg, a brain researcher, thought up these vehicles in 1984. He called it the law of
+# Valentino Braitenberg, a brain researcher, invented these vehicles in 1984. He called it the law of
 # **uphill analysis and downhill invention**: it is easy to build something that behaves in a surprising
 # way, and hard to guess from the behaviour what is inside. Remember that when you watch animals, or
 # people, or a chatbot.

@@ -3,17 +3,17 @@
 #
 # ![A robot that bumped into a wall, and found its way around it](pictures/05.png)
 #
-# "If the light is red, stop." A rule like that needs no thinking and no memory. How far do rules get
-# you? And what can't they do?
+# "If the light is red, stop." A rule like that takes no thinking and no memory. How far do rules get you?
+# And what can't they do?
 #
-# **When you are through, you can**
+# **When you have finished, you can**
 #
 # - write a controller as a list of rules, in the right order,
 # - give a controller a memory,
 # - draw a state machine, and turn it into Python,
 # - say which tasks no controller without memory can solve.
 #
-# *About 60 minutes. Before: lesson 04.*
+# *About 100 minutes. Before: lesson 04.*
 #
 # **Recap.** A controller turns a percept into an action. Two wires can be enough for that.
 
@@ -69,8 +69,8 @@ def feelers():
 # otherwise:                go on
 # ```
 #
-# The **order** matters. "Don't fall" has to stand above "go ahead". Engineers call a rule that stands
-# above others a rule of higher *priority*.
+# The **order** matters. "Don't fall" has to come before "go ahead". Engineers say that such a rule has
+# higher *priority*.
 
 # %%
 film(room(lambda percept: {"move": [1, 0, 0, 0]}, [feelers()]), seed=1)
@@ -78,8 +78,8 @@ film(room(lambda percept: {"move": [1, 0, 0, 0]}, [feelers()]), seed=1)
 # %% [markdown]
 # ### Exercise 05.1: stay on the plate
 #
-# Let the robot stroll about for 30 seconds without falling. It must not just stand or spin: it has to
-# cover at least 15 metres.
+# Let the robot stroll about for 30 seconds without falling. It begins near an edge. It must not just
+# stand, spin or drive in a small circle: it has to cover at least 15 metres, and get 4 metres away.
 
 
 # %% tags=["exercise-05.1"]
@@ -97,14 +97,24 @@ film(room(stroll, [feelers()]), seed=1, limit=150)
 # %% [markdown]
 # ## What rules can't do
 #
-# Two posts stand on the plate, a red one and a blue one. The robot is to run between them: red, blue,
-# red, blue. It senses the bearing of both, and whether it touches one.
+# Two posts stand on the plate, a red one and a blue one. The robot is a guard: it drives to red, stands
+# still there for **2 seconds**, drives to blue, stands still for 2 seconds, and so on. It senses the
+# bearing of both posts, and whether it touches one.
 #
-# Imagine it halfway between the posts. Where should it go? That depends on where it **was**. But the
-# percept is the same, whether it comes from red or from blue. A rule sees the percept alone, so it has to
-# give the same answer in both cases. The task can't be solved by rules. It takes a **memory**.
+# Think of the robot standing at the red post. Nothing moves, so **the percept is the same at every
+# decision**: after a tenth of a second, after one second, after two. A rule sees the percept alone, so it
+# gives the same answer each time. If the answer is "stand still", the robot stands there for ever; if it
+# is "go", the robot never rests. No rule can do this. It takes a **memory**: somebody has to count.
 #
-# A controller with a memory is a class. What it has to keep stands in `self`:
+# (What about running between the posts without a rest? Rules can do that. The post you come from is
+# behind you, so the percept is *not* the same on the way there and on the way back. Find such a rule, if
+# you like.)
+#
+# A controller with a memory is a **class**: a plan for an object that keeps its own values. `class
+# Counter(Controller)` means: a Counter is a kind of Controller. The line `count = 0` gives the value at
+# the start. `get_action` is called at each decision, and `self` is the object itself: `self.count` is
+# *its* count, and lasts until the next decision. (A name without `self` is forgotten when the function
+# returns.)
 
 
 # %%
@@ -125,11 +135,11 @@ film(room(Counter(), [feelers()]), seed=2, limit=100)
 # %% [markdown]
 # ### Exercise 05.2: patrol
 #
-# Touch red, then blue, then red, and so on: at least six posts in 60 seconds. `to` is a helper that
-# drives towards a bearing.
+# Rest at red, at blue, at red, and so on: at least six rests of 2 seconds (24 decisions) in a minute.
+# `to` is a helper that drives towards a bearing.
 
 
-# %% tags=["exercise-05.2"]
+# %% tags=["setup"]
 def to(bearing):
     left, ahead = bearing
     if ahead < 0:
@@ -137,10 +147,12 @@ def to(bearing):
     return {"move": [1, -left, 0, 0]}
 
 
+# %% tags=["exercise-05.2"]
 class Patrol(Controller):
-    """Runs between the posts."""
+    """Guards the posts."""
 
     goal = "red"
+    waited = 0  # decisions for which it has stood still
 
     def get_action(self, percept):
         touches_red = percept["at red"][0] == 1
@@ -164,19 +176,21 @@ show(room(Patrol(), posts, red=post, blue=post), seed=1)
 # %% [markdown]
 # ## State machines
 #
-# What you have built has two **states**, "to red" and "to blue", and it changes from one to the other when
-# something happens. That is a *state machine*. Lifts, vending machines and the creatures in many games
-# are built like that. One draws it with a bubble for each state, and an arrow for each change:
+# What you have built has **states**, such as "to red" and "resting at red", and it changes from one to
+# another when something happens. That is a *state machine*. Lifts, vending machines and the creatures in
+# many games are built like that. You draw it with a bubble for each state, and an arrow for each change:
 #
 # ```
-#               touches red
-#    (to red)  ------------->  (to blue)
-#              <-------------
-#               touches blue
+#              touches red                2 seconds later
+#   (to red) --------------> (rest at red) --------------> (to blue)
+#       ^                                                      | touches blue
+#       +------------------------------------------- (rest at blue)
+#                       2 seconds later
 # ```
 #
-# Now a harder one. A wall stands between robot and box. The robot has a bumper, which reads 1 while it
-# touches the wall; and it knows the bearing of the box, as if it could smell it through the wall.
+# Now a harder one. A long wall stands between robot and box; some walls have a corner, like an L. The
+# robot has a bumper, which reads 1 while it touches the wall; and it knows the bearing of the box, as if
+# it could smell it through the wall.
 #
 # ```
 #            bumps                6 decisions later            14 decisions later
@@ -202,13 +216,6 @@ class AroundTheWall(Controller):
         return {"move": [0, 0, 0, 0]}
 
 
-def to(bearing):
-    left, ahead = bearing
-    if ahead < 0:
-        return {"move": [0, -1 if left > 0 else 1, 0, 0]}
-    return {"move": [1, -left, 0, 0]}
-
-
 # %%
 check("05.3", AroundTheWall)
 
@@ -218,8 +225,7 @@ progress()
 # %% [markdown]
 # ## Stretch
 #
-# - Where does your machine go wrong? Think of a wall with a corner, like an L. Build it, and mend the
-#   machine.
+# - Where does your machine go wrong? Think of a dead end, like a U. Build it, and improve the machine.
 # - Write a creature with three states of its own: it sleeps, it is hungry and looks for food, it eats.
 #   Let a friend guess the drawing from watching it.
 # - `line_follow` is a scene of the library: a robot that follows a line. Off the line all its eyes read

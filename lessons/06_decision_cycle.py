@@ -6,14 +6,14 @@
 # How often does a robot think? Sixty times a second, or once? Today you slow time down and look into a
 # single decision.
 #
-# **When you are through, you can**
+# **When you have finished, you can**
 #
 # - name the four steps of a decision: sense, decide, act, reward,
 # - say how far a robot drives before it looks again,
 # - choose how often an agent decides, and say what it costs,
 # - listen to what happens inside an agent.
 #
-# *About 50 minutes. Before: lesson 05.*
+# *About 60 minutes. Before: lesson 05.*
 #
 # **Recap.** A controller turns each percept into an action. It may keep a memory.
 
@@ -64,11 +64,11 @@ def go(percept):
 # reward   every reward function is asked, once
 # ```
 #
-# The number `skip_frame` says how many ticks it lets pass without thinking. With `skip_frame=4`, as in
-# most of our scenes, a decision takes 5 ticks, so there are 60 / 5 = 12 decisions a second.
+# The number `skip_frame` says how many ticks pass without thinking. With `skip_frame=4`, as in most of
+# our scenes, a decision takes 5 ticks, so there are 60 / 5 = 12 decisions a second.
 #
-# Run the page, choose the speed **0.1x**, and drive. Watch the strip with the four steps in the panel: it
-# shows where in the cycle the agent is.
+# Run the cell, open the panel, choose the speed **0.1x**, and drive. Watch the strip with the four steps:
+# it shows where in the cycle the agent is.
 
 # %%
 show("box_chase", seed=4)
@@ -76,7 +76,7 @@ show("box_chase", seed=4)
 # %% [markdown]
 # ### Exercise 06.1: blind
 #
-# Between two decisions an agent is blind: whatever happens, it goes on with what it decided. How many
+# Between two decisions an agent is blind: whatever happens, it carries on with what it decided. How many
 # **metres** does a robot drive from one decision to the next, at `speed` metres a second?
 
 
@@ -155,8 +155,9 @@ plot(
 # %% [markdown]
 # ## Events
 #
-# An agent tells everybody who wants to know what it is doing. Such a moment is called an **event**, and
-# who listens **connects** a function with it:
+# An agent announces what it does. Each announcement is an **event**; to listen, **connect** a function to
+# it. (The line with `@` connects the function below it; `agent.end_of_step.connect(told)` would do the
+# same.)
 
 # %%
 sim = runway(go)
@@ -181,13 +182,12 @@ for _ in range(3):
 # | `end_of_step` | the decision is over, and the rewards are paid |
 # | `end_of_episode` | the episode is over |
 #
-# There are ten; the others stand in `ai4u_edu.agent.events`.
+# There are ten; the others are listed in `ai4u_edu.agent.events`.
 #
 # ### Exercise 06.3: a diary
 #
-# Write `diary`. It gets an agent, connects what it needs, and returns a list. Whenever an episode begins,
-# `"begin"` is to be appended to the list; for each decision once `"decision"`; and `"end"` when the
-# episode is over.
+# Write `diary`. It gets an agent, connects what it needs, and returns a list. It appends `"begin"` when
+# an episode begins, `"decision"` once for each decision, and `"end"` when the episode is over.
 
 
 # %% tags=["exercise-06.3"]
@@ -208,7 +208,8 @@ progress()
 # - People need about 0.2 seconds to react. Which `skip_frame` is that? Set the `delay` of a sensor so that
 #   the robot is as slow as you, and drive a race against it.
 # - Which of your earlier controllers still works with `skip_frame=30`? Try the patrol of lesson 05.
-# - Count with events how many ticks and how many decisions an episode has. Which number divides the other?
+# - Count with events how many ticks and how many decisions an episode has. Divide one by the other: what
+#   do you get?
 #
 # **Words of this lesson:** tick, decision cycle, skip_frame, event, to connect. **Next:** 07, in which you
 # say what you want, and get what you said.

@@ -3,14 +3,14 @@
 #
 # ![A runner's way to the box](pictures/07.png)
 #
-# A cleaning robot was paid for each crumb that it picked up. It found out that one can also throw crumbs
-# out again. Nobody had said that this was not allowed.
+# A cleaning robot was paid for each crumb that it picked up. It found out that it could throw crumbs out
+# again. Nobody had told it not to.
 #
-# **When you are through, you can**
+# **When you have finished, you can**
 #
 # - say what a reward function is, and when it pays,
 # - guess which behaviour a reward really asks for,
-# - mend a reward that can be tricked,
+# - fix a reward that can be tricked,
 # - say why the reward is the most important line of a learning robot.
 #
 # *About 50 minutes. Before: lesson 06.*
@@ -21,14 +21,14 @@
 # %% tags=["setup"]
 from ai4u_edu import *
 from ai4u_edu.lessons import bars, check, film, hint, progress, report, show, solution
-from ai4u_edu.lessons.exercises.lesson_07 import contest, tempers
+from ai4u_edu.lessons.exercises.lesson_07 import character, contest
 
 # %% [markdown]
-# ## Six tempers
+# ## Six characters
 #
-# Later you will let agents learn. An agent that learns tries many things, and does more of what paid most.
-# So before we let one learn, we ask: **what pays most?** Here are six robots with different tempers on a
-# plate with a box:
+# Later you will let agents learn. An agent that learns tries many things, and does more of what paid
+# most. So before we let one learn, we ask: **what pays most?** Here are six robots with different
+# characters on a plate with a box:
 #
 # | name | what it does |
 # |---|---|
@@ -42,13 +42,13 @@ from ai4u_edu.lessons.exercises.lesson_07 import contest, tempers
 # Have a look at the dancer (or at another one):
 
 # %%
-film(tempers("dancer"), seed=3, limit=120)
+film(character("dancer"), seed=3, limit=120)
 
 # %% [markdown]
 # ## A contest
 #
-# `contest(rewards)` lets all six live with the same rewards, ten seconds in each of some worlds, and gives
-# the mean return of each. The winner is who a learning agent would become.
+# `contest(rewards)` runs all six with the same rewards, for ten seconds in each of several worlds, and
+# returns the mean return of each. A learning agent would try to end up like the winner.
 #
 # Our wish: *touch the box*. Our first try: 10 for the touch, and the episode ends.
 
@@ -60,9 +60,9 @@ bars(
 )
 
 # %% [markdown]
-# Runner and stroller win, and so they should. But look at it with the eyes of a beginner, who knows
+# Runner and stroller win, and so they should. But look at it with the eyes of a beginner who knows
 # nothing: it tries this and that, and gets 0, and 0, and 0, until it bumps into the box by chance. That
-# may take very long. So people add a trail: a reward for being **near**.
+# may take a very long time. So people add a trail: a reward for being **near**.
 #
 # ## Three well-meant rewards
 
@@ -119,7 +119,7 @@ winners = {
 check("07.1", winners, well_meant)
 
 # %% [markdown]
-# Run the contests, and look at who got what:
+# Run the contests, and see who got what:
 
 # %%
 for name, rewards in well_meant.items():
@@ -153,8 +153,8 @@ bars(contest(my_rewards()), ylabel="mean return", title="mine")
 # %% [markdown]
 # ### Exercise 07.3: quick, but not at any price
 #
-# Time is to cost something, so that the runner gets more than the stroller. But the **jumper** must be
-# the last of all six: nobody shall learn to jump off because that ends the trouble.
+# Time should cost something, so that the runner gets more than the stroller. But the **jumper** must come
+# last of all six: no robot should learn to jump off just to stop the costs.
 #
 # Two numbers are yours to choose: what a fall pays (`success_reward`), and what each decision costs (the
 # `reward` for restlessness: nobody can move 5 metres in one decision, so everybody pays it).
@@ -178,11 +178,11 @@ progress()
 # %% [markdown]
 # ## Stretch
 #
-# - Invent a reward with which the **sleeper** wins. And one for the dancer.
+# - Invent a reward that lets the **sleeper** win. And one for the dancer.
 # - Look up the rewards of a scene: `print(Scene.load("soccer").description.rewards)`. Can you think of a
 #   way to trick them?
-# - Where do people get what was said and not what was meant? Find three examples, and a better "reward"
-#   for each.
+# - Where in life do people get what was said and not what was meant? Find three examples, and a better
+#   "reward" for each.
 #
 # **Words of this lesson:** reward function, return, reward hacking, trail (shaping). **Next:** 08, in which
 # your script drives a robot on another machine.

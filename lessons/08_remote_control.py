@@ -3,17 +3,17 @@
 #
 # ![A robot that a script drove to the box](pictures/08.png)
 #
-# The rovers on Mars are driven from the Earth. Whoever drives one sees what its cameras saw minutes ago. In
+# The rovers on Mars are driven from the Earth. Their drivers see what the cameras saw minutes ago. In
 # this lesson the robot is somewhere else too: on your neighbour's machine, or on the teacher's.
 #
-# **When you are through, you can**
+# **When you have finished, you can**
 #
 # - drive a robot over a network with `connect`, `sense` and `act`,
-# - say what *realtime* and *lockstep* mean, and when to take which,
+# - say what *realtime* and *lockstep* mean, and when to use which,
 # - say what lag does to a driver, and cope with it,
-# - ask a robot that you don't know what it takes.
+# - ask an unknown robot which actions it takes.
 #
-# *About 50 minutes. Before: lesson 06.*
+# *About 70 minutes. Before: lesson 06.*
 #
 # **Recap.** Sense, decide, act, reward: that is one decision. So far your code ran in the same program as
 # the world.
@@ -28,17 +28,17 @@ from ai4u_edu.remote import connect
 # %% [markdown]
 # ## Two programs
 #
-# A **server** is a program that waits for others to ask. The world below is served: it has an address. A
-# **client** is who asks; in a moment that will be your script. The **token** in the address is a password,
-# so that nobody drives your robot but who got the address from you.
+# A **server** is a program that waits for others to ask. The world below is served: it has an address.
+# The **client** is the program that asks; in a moment that will be your script. The **token** in the
+# address is a password, so only people you gave the address to can drive it.
 
 # %%
 live = show("box_chase", seed=1)
 print(live.url.partition("token=")[0] + "token=...")
 
 # %% [markdown]
-# `connect(address)` takes the robot over; whoever drove it before gets it back in the end. Three verbs are
-# enough:
+# `connect(address)` takes the robot over; whoever drove it before gets it back in the end. Three methods
+# are enough:
 #
 # | verb | does |
 # |---|---|
@@ -61,7 +61,7 @@ stop()
 # With a friend: start `ai4u-edu play box_chase --host 0.0.0.0` on one machine. It prints an address for the
 # other one; put that into `connect("...")`. The script there needs no world of its own.
 #
-# A loop over a robot gives one percept after the other, until the episode is over:
+# A loop over a robot gives one percept after another, until the episode is over:
 #
 # ```python
 # for percept in robot:
@@ -70,8 +70,8 @@ stop()
 #
 # ### Exercise 08.1: a script drives
 #
-# Drive the robot to the box. (The check serves three worlds, and gives you a robot that is connected.) The
-# recipe is an old one: turn until you look at the box, then go.
+# Drive the robot to the box. (The check serves three worlds, and gives you a connected robot.) The recipe
+# is an old one: turn until you face the box, then go.
 
 
 # %% tags=["exercise-08.1"]
@@ -86,14 +86,15 @@ check("08.1", script)
 # %% [markdown]
 # ## Who waits for whom?
 #
-# Above the world did not wait: while your script was thinking, the robot went on. That is **realtime**, and
-# it is how the real world is. With `connect(..., mode="lockstep")` the world stands still until your action
-# is there. That is **lockstep**; it is slower or faster than a clock, but the same each time. Trainings
-# want that, and checks too.
+# In the world above nobody waited: while your script was thinking, the robot went on. That is
+# **realtime**, and it is how the real world is. With `connect(..., mode="lockstep")` the world stands
+# still until your action is there. That is **lockstep**; it is slower or faster than a clock, but the
+# same each time. Training needs that, and so do checks.
 #
-# In realtime, every message is on its way for a while. What your script senses has been true some time ago;
-# that is **lag**. We can make lag without a network: `late` gives a driver percepts that are some decisions
-# old. Here is one that drives well without lag. What will happen to it if its percepts are 0.25 s old?
+# In realtime, every message takes a while to arrive. What your script senses was true some time ago; that
+# delay is **lag**. We can make lag without a network: `late` gives a driver percepts that are some
+# decisions old. Here is one that drives well without lag. What will happen to it if its percepts are 0.25
+# s old?
 
 
 # %%
@@ -116,9 +117,9 @@ bars(won, ylabel="worlds won, of 3", title="the quick driver")
 film(late(quick, lag=3), seed=1, limit=100)
 
 # %% [markdown]
-# It sees the box on the left, turns left, and by the time that it hears of it the box is on its right. So
-# it turns back, too far again. Engineers call that *overshoot*, and a loop like this one *unstable*. You
-# know it from showers whose hot water takes a while.
+# It sees the box on the left and turns left; by the time it finds out, the box is on its right. So it
+# turns back, too far again. Engineers call that *overshoot*, and a loop like this one *unstable*. You
+# know it from showers in which the hot water takes a while to arrive.
 #
 # ### Exercise 08.2: late news
 #
@@ -142,16 +143,17 @@ film(late(careful, lag=3), seed=1, limit=200)
 # %% [markdown]
 # ## A robot that you don't know
 #
-# Your neighbour built a robot. What does it sense? What does it take? It tells who asks:
+# Your neighbour built a robot. What does it sense? What actions does it take? Ask it:
 #
 # - `list(robot.sense())`: the names of its readings,
 # - `robot.spaces.observation`: what range each reading has,
-# - `robot.spaces.action`: what it takes; `.low` and `.high` are the ends of the range, number by number.
+# - `robot.spaces.action`: the actions it takes; `.low` and `.high` are the ends of the range, number by
+#   number.
 #
 # ### Exercise 08.3: a robot that you don't know
 #
 # Return the action that is full power: every number as high as this robot takes it. The check gives you
-# three robots with different actuators.
+# four robots with different actuators.
 
 
 # %% tags=["exercise-08.3"]
@@ -168,9 +170,9 @@ progress()
 # %% [markdown]
 # ## Stretch
 #
-# - Drive your neighbour's robot, over the network, with your script of 08.1. Then pull out the cable for a
+# - Drive your neighbour's robot, over the network, with your script of 08.1. Then unplug the cable for a
 #   second. What happens? (`connect` has an answer to that.)
-# - How much lag does your careful driver stand? Let `lag` grow until it fails.
+# - How much lag can your careful driver cope with? Let `lag` grow until it fails.
 # - Four people, one world: let everybody drive one agent of `soccer` with a script of their own:
 #   `connect(address, agent="...")`.
 #

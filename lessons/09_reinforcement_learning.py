@@ -7,14 +7,15 @@
 # tries this and that, falls off, tries again. Some minutes later it drives to the box as if it had always
 # known.
 #
-# **When you are through, you can**
+# **When you have finished, you can**
 #
 # - say what a policy, a value and a discount are,
 # - write the one line by which a learner learns from a step,
 # - train a network with SAC, and read its learning curve,
-# - find out how good it is, on worlds that it never saw.
+# - find out how good it is, on worlds that it never saw,
+# - predict what a learner makes of a wrong reward.
 #
-# *About 55 minutes, some of them waiting. Before: lesson 07.*
+# *About 85 minutes, some of them waiting. Before: lesson 07.*
 #
 # **Recap.** A reward is paid after each decision. An agent that learns does more of what paid, whether or
 # not you meant it.
@@ -23,13 +24,15 @@
 from ai4u_edu import *
 from ai4u_edu.lessons import check, film, hint, plot, progress, report, show, solution
 from ai4u_edu.lessons.exercises.lesson_09 import corridor, keep, learn
+from ai4u_edu.lessons.wrong_reward import learn_wrong_reward
 from ai4u_edu.training import evaluate
 
 # %% [markdown]
 # ## A beginner
 #
-# What decides is called the **policy**: from a percept to an action. Everything that you wrote in lesson
-# 05 was a policy. A beginner's policy is chance. `evaluate` lets somebody drive in many worlds and counts.
+# The part that decides is called the **policy**: it maps a percept to an action. Everything that you
+# wrote in lesson 05 was a policy. A beginner's policy is chance. `evaluate` lets a policy drive in many
+# worlds, and counts.
 #
 # The robot in the box chase is out after 3000 decisions. Guess: in how many of 20 worlds does pure chance
 # reach the box, and in how many does the robot fall?
@@ -39,23 +42,23 @@ beginner = evaluate("random", "box_chase", episodes=20, quiet=True)
 print(beginner)
 
 # %% [markdown]
-# So chance does find the box now and then. That is the door through which all learning comes in: what
-# never happens can't be learned from.
+# So chance does find the box now and then. All learning by reward starts there: what never happens can't
+# be learned from.
 #
 # What pays in this world? 100 for touching the box, -1 for falling; both end the episode. Each decision
 # that brings the robot closer than ever before pays 0.01, any other one costs 0.001.
 #
 # ## Now or later
 #
-# Would you rather get 100 coins now, or 100 coins next year? A learner thinks like you. It counts a reward
-# that comes one decision later a bit less, by a factor that is called the **discount**; 0.98 is usual. Two
-# decisions later counts 0.98 · 0.98, and so on. The sum of all rewards of an episode, each counted like
-# this, is the **discounted return**. Because of it, a quick robot earns more than a slow one.
+# Would you rather get 100 coins now, or 100 coins next year? A learner thinks like you. It counts a
+# reward that comes one decision later a bit less, by a factor that is called the **discount**; 0.98 is
+# usual. Two decisions later counts 0.98 · 0.98, and so on. The sum of all rewards of an episode, each
+# counted like this, is the **discounted return**. That is why a quick robot earns more than a slow one.
 #
 # ### Exercise 09.1: what later is worth now
 #
 # `rewards` is a list: the first reward is paid now, the next one a decision later. Return what they are
-# worth together. For `[0, 0, 100]` and a discount of 0.5 that is 0 + 0 + 100 · 0.25 = 25.
+# worth now, all together. For `[0, 0, 100]` and a discount of 0.5 that is 0 + 0 + 100 · 0.25 = 25.
 
 
 # %% tags=["exercise-09.1"]
@@ -92,8 +95,8 @@ plot(
 # target = reward + discount * best_next
 # ```
 #
-# Its old `value` was something else. But once is no proof, for example because it may have slipped. So it
-# moves the value only a part of the way to the target; the **learning rate** says which part.
+# Its old `value` was something else. But once proves nothing: it may have slipped. So it moves the value
+# only a part of the way to the target; the **learning rate** says which part.
 #
 # ### Exercise 09.2: one step of learning
 #
@@ -110,7 +113,7 @@ check("09.2", update)
 
 # %% [markdown]
 # Watch what the walker knows after 1, 5, 10 and 40 walks. Before you run it: which cell will learn first
-# that the goal is near, and how does the next one get to know?
+# that the goal is near, and how does the next one find out?
 
 # %%
 history = corridor(update)
@@ -137,15 +140,15 @@ plot(
 # early with the first thing that worked.
 #
 # `learn(steps, seed)` trains with it, and is one line: `train("box_chase", "sac", steps=..., seed=...)`
-# from `ai4u_edu.training`. The robot decides six times a second in it, and a try ends after 100 decisions.
-# Each 500 decisions it drives in 30 worlds, to find out how good it is, and it stops by itself when it won
-# all of them three times running.
+# from `ai4u_edu.training`. The robot decides six times a second in it, and a try ends after 100
+# decisions. Every 500 decisions it drives in 30 worlds, to find out how good it is; it stops by itself
+# when it has won all of them three times in a row.
 #
 # ### Exercise 09.3: long enough
 #
 # 400 decisions are a minute of the robot's life. Is that enough? Run it, look at the curve below, and let
 # the robot learn for as long as it takes to reach the box in at least 95 of 100 worlds that it never saw.
-# (Training takes about a minute on most machines.)
+# (Training takes about half a minute on most machines.)
 
 # %% tags=["exercise-09.3"]
 trained = learn(steps=400, seed=0)
@@ -167,8 +170,8 @@ plot(
 )
 
 # %% [markdown]
-# And this is what it looks like. `keep` writes the network into a file, `sac.onnx`; you will need it in
-# lesson 10. Nobody has told this robot which way is left.
+# And this is what it looks like. `keep` writes the network to a file, `sac.onnx`; you will need it in
+# lesson 10. Nobody told this robot which way is left.
 
 # %%
 keep(trained, "sac.onnx")
@@ -179,8 +182,31 @@ print(evaluate("sac.onnx", "box_chase", episodes=10, quiet=True))
 
 # %% [markdown]
 # Why worlds that it never saw? A pupil who learned the answers of one test by heart gets full marks in
-# that test. Whether she understands shows in another one. A seed below 4 billion is never used in a
+# that test. Another test shows whether she understands. A seed below 4 billion is never used in a
 # training here, so all the seeds that you know are "another test".
+#
+# ## A learner and a wrong reward
+#
+# In lesson 07 you said which of six characters a reward asks for. Does a robot that learns by itself find
+# that out, too? This one should touch a box. It is paid 10 for the touch, which ends the episode; and so that
+# it finds the way, up to 3 at each of its 60 decisions for being near the box. A fall costs 1.
+#
+# ### Exercise 09.4: the wrong reward, learned
+#
+# First write down what you think it will do in most worlds once it has learned: `"touches"` (the box),
+# `"lingers"` (on the plate until time is up, without a touch) or `"falls"`. Then run the cell: it trains
+# for about 15 seconds.
+
+
+# %% tags=["exercise-09.4"]
+prediction = "?"
+hacked = learn_wrong_reward()
+
+# %%
+check("09.4", prediction, hacked)
+
+# %% [markdown]
+# Nobody programmed that, and nobody wanted it. The robot did not misunderstand you: it did what pays.
 
 # %%
 progress()
@@ -190,8 +216,8 @@ progress()
 #
 # - Train with three other seeds, and draw the three curves into one plot. How much of learning is luck?
 # - `train("box_chase", "ppo", out="runs/ppo")` is another recipe. It needs more decisions, but less
-#   arithmetic for each. Which one is sooner good: by decisions? by seconds (`each.seconds`)?
-# - Write the scene's rewards anew (lesson 07), and train. Did you get what you said?
+#   arithmetic for each. Which one gets good sooner: in decisions? in seconds (`each.seconds`)?
+# - Change the scene's rewards (lesson 07), and train. Did you get what you said?
 #
 # **Words of this lesson:** policy, discount, discounted return, value, learning rate, Q-learning, neural
 # network, SAC, learning curve. **Next:** 10, in which a network learns from you.

@@ -4,16 +4,16 @@
 # ![A robot's way to a box, driven by two neurons](pictures/11.png)
 #
 # You have a file that drives better than you do. What is in it? No rule, no "if the box is on the left".
-# In this lesson you open it, and in the end you do with a few lines of your own all that it does.
+# In this lesson you open it; by the end, a few lines of your own do everything it does.
 #
-# **When you are through, you can**
+# **When you have finished, you can**
 #
 # - say what goes into a network and what comes out,
 # - compute a neuron, a layer and a whole network,
 # - set six weights by hand, so that two neurons find a box,
-# - understand the messages that come when a network and a robot don't fit.
+# - understand the messages when a network and a robot don't match.
 #
-# *About 55 minutes. Before: lesson 09 or 10. It helps to have seen what `@` does in NumPy.*
+# *About 95 minutes. Before: lesson 09 or 10. It helps to have seen what `@` does in NumPy.*
 #
 # **Recap.** A policy gets a percept and gives an action. Lessons 09 and 10 made networks that are policies.
 
@@ -36,13 +36,13 @@ from ai4u_edu.lessons.exercises.lesson_11 import (
 # %% [markdown]
 # ## From outside
 #
-# A network lies in a file that ends in `.onnx`. **ONNX** is a form in which nearly all programs that train
-# networks can write them, and nearly all that run them can read them. Nothing in it can be run like a
-# program: it holds numbers, and the order in which to multiply and add them. So you may take one from
-# somebody else.
+# A network is a file that ends in `.onnx`. **ONNX** is a format that nearly all programs that train
+# networks can write, and nearly all that run them can read. Nothing in it can be run like a program: it
+# holds numbers, and the order in which to multiply and add them. So it is safe to use one from somebody
+# else.
 #
-# `trained_brain("zoo:box_chase")` is a LocalBrain that asks such a file. The **zoo** are networks that
-# come with the package. What does this one read, and what does it say?
+# `trained_brain("zoo:box_chase")` is a LocalBrain that asks such a file. The **zoo** is a set of networks
+# that comes with the package. What does this one read, and what does it return?
 
 # %%
 brain = trained_brain("zoo:box_chase")
@@ -60,8 +60,8 @@ print("learned by", network.about["algorithm"], "in", network.about["steps"], "s
 #
 # ## Change one input
 #
-# Take a real percept, and ask the network. Then turn one knob: the cosine of the direction to the box. 1
-# is straight ahead, -1 is behind. What do you expect it to do when the box is behind?
+# Take a real percept, and ask the network. Then change one input: the cosine of the direction to the box.
+# 1 is straight ahead, -1 is behind. What do you expect it to do when the box is behind?
 
 # %%
 percept = first_percept()
@@ -75,14 +75,14 @@ plot(
 )
 
 # %% [markdown]
-# A small change of an input changes the action a little. There is no switch in it as in an `if`. That is
-# why it can be learned: one can always ask "a little more or a little less?"
+# A small change of an input changes the action a little. There is no sudden switch in it, as in an `if`.
+# That is why it can be learned: you can always ask "a little more or a little less?"
 #
 # ## One neuron
 #
-# A network is made of **neurons**. Each has a **weight** for every input and one number more, its **bias**.
-# It multiplies every input by its weight, adds all that up, adds the bias, and squashes the sum with `tanh`
-# into the range from -1 to 1:
+# A network is made of **neurons**. Each has a **weight** for every input and one more number, its
+# **bias**. It multiplies every input by its weight, adds all that up, adds the bias, and squashes the sum
+# with `tanh` into the range from -1 to 1:
 
 # %%
 sums = [each / 10 for each in range(-40, 41)]
@@ -105,14 +105,14 @@ check("11.1", neuron)
 # %% [markdown]
 # ## Two neurons drive
 #
-# Two neurons are enough to find a box. Both read the bearing: its sine (above 0: the box is on the left) and
-# its cosine (above 0: ahead). The first neuron says how much forward, the second how much turn (above 0:
-# right).
+# Two neurons are enough to find a box. Both read the bearing: its sine (above 0: the box is on the left)
+# and its cosine (above 0: ahead). The first neuron says how fast to drive, the second how fast to turn
+# (above 0: right).
 #
 # ### Exercise 11.2: two neurons by hand
 #
 # Set the numbers. The first row belongs to *forward*, the second to *turn*; the first number of a row
-# weighs the sine, the second the cosine. Nobody learns here but you.
+# weighs the sine, the second the cosine. Here nobody learns but you.
 
 # %% tags=["exercise-11.2"]
 weights = [
@@ -128,8 +128,8 @@ check("11.2", weights, bias)
 film(by_hand(weights, bias), seed=3, limit=150)
 
 # %% [markdown]
-# How did you find your numbers? You thought about what each of them means. With six numbers one can do
-# that. Look into the file:
+# How did you find your numbers? You thought about what each of them means. With six numbers that works.
+# Now look into the file:
 
 # %%
 layers = layers_of("zoo:box_chase")
@@ -148,14 +148,16 @@ print(
 # ## All of it
 #
 # Neurons that read the same inputs stand side by side in a **layer**. All weights of a layer together are
-# a table (a *matrix*): one row a neuron. NumPy computes all their sums at once: `weights @ inputs + bias`.
-# What comes out of a layer goes into the next one. Between the layers everything is squashed by `np.tanh`;
-# what the last layer says is taken as it is.
+# a table (a *matrix*) with one row for each neuron. NumPy computes all their sums at once: `weights @
+# inputs + bias`. Here `@` multiplies each row by the inputs, number by number, and adds up: the same as
+# `[sum(w * x for w, x in zip(row, inputs)) for row in weights]`. The output of a layer is the input of
+# the next one. Between the layers everything is squashed by `np.tanh`; the output of the last layer is
+# taken as it is.
 #
 # ### Exercise 11.3: all of it
 #
-# Compute what a network says. `layers` is a list of pairs (weights, bias), the first layer first. The check
-# lets your lines drive the robot, with the numbers from the file.
+# Compute the output of a network. `layers` is a list of pairs (weights, bias), the first layer first. The
+# check lets your lines drive the robot, with the numbers from the file.
 
 
 # %% tags=["exercise-11.3"]
@@ -168,8 +170,8 @@ def think(inputs, layers):
 check("11.3", think)
 
 # %% [markdown]
-# Compare it with the file, for the percept from above. The numbers of both rows should be the same (but for
-# the range of the actuator: the file cuts off what is out of it).
+# Compare it with the file, for the percept from above. The numbers of both rows should be the same
+# (except that the file clips them to the actuator's range).
 
 # %%
 print("yours:   ", np.round(think(inputs_of(percept), layers), 4))
@@ -193,8 +195,8 @@ except AI4UError as error:
 # %% [markdown]
 # ### Exercise 11.4: sensors that fit
 #
-# Return the sensors with which the network finds the box. The message tells you what is missing; what the
-# sensors were like where it learned stands in `network.about["sensors"]`:
+# Return sensors that read the same numbers as those with which the network learned. The message tells you
+# what is missing; `network.about["sensors"]` says what the sensors were like:
 
 # %%
 for key, about in network.about["sensors"].items():
@@ -210,9 +212,10 @@ def senses():
 check("11.4", senses)
 
 # %% [markdown]
-# Shapes are checked for you; what the numbers *mean* is not. Give your ray sensor `group_code={}`, so that it
-# no longer tells floor from void: everything fits, nobody complains, and now and then the robot drives off
-# the plate. With real robots that is the more dangerous mistake.
+# Shapes are checked for you; what the numbers *mean* is not. Leave out the angles of the ray sensor, or swap
+# the two codes: everything fits, the network does not complain, and the robot still finds the box most of
+# the time. But it is told something else than it believes, and one day that matters. Our check compares the
+# readings; with a real robot nobody does. That makes it the more dangerous mistake.
 
 # %%
 progress()

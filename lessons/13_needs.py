@@ -6,16 +6,16 @@
 # Nobody gives you points for drinking. You drink because you are thirsty. Could a robot want something by
 # itself?
 #
-# **When you are through, you can**
+# **When you have finished, you can**
 #
-# - say what a need is: a level, a zone in which one feels well, and a drift,
+# - say what a need is: a level, a zone in which you feel well, and a drift,
 # - compute how long a creature lives without food,
 # - write a controller that weighs two needs,
 # - say how a reward can come from inside.
 #
 # *About 50 minutes. Before: lessons 05 and 07.*
 #
-# **Recap.** Rules have priorities. A reward says what is good, and one gets what was said.
+# **Recap.** Rules have priorities. A reward says what is good, and you get what you said.
 
 # %% tags=["setup"]
 import math
@@ -27,8 +27,9 @@ from ai4u_edu.lessons.exercises.lesson_13 import creature
 # %% [markdown]
 # ## Levels
 #
-# Our creature has two inner levels, **energy** and **water**, each from 0 to 100. Both sink by themselves.
-# That is their *drift*. Food adds 40 to the energy, water 40 to the water. Who has nothing left dies.
+# Our creature has two inner levels, **energy** and **water**, each from 0 to 100. Both go down by
+# themselves. That is their *drift*. Food adds 40 to the energy, water 40 to the water. A creature whose
+# level reaches 0 dies.
 #
 # Between 40 and 80 the creature feels well: its **comfort zone**. Too much is not good either.
 #
@@ -60,9 +61,11 @@ check("13.1", seconds_of_comfort)
 # ## What do I need most?
 #
 # The creature senses where food and water are (`to food`, `to water`: sine and cosine of the bearing, as
-# in lesson 03), and its levels (`inside`: energy and water, from 0 to 1).
+# in lesson 03), and its levels. Careful: in `inside`, energy and water go **from 0 to 1**. What the panel
+# shows as 40 is 0.4 here.
 #
-# `to` steers towards a bearing. What has been eaten comes back somewhere else three seconds later.
+# `to` steers towards a bearing. Food and water that were taken come back somewhere else three seconds
+# later.
 
 
 # %% tags=["setup"]
@@ -76,7 +79,8 @@ def to(bearing):
 # %% [markdown]
 # ### Exercise 13.2: stay alive
 #
-# Keep the creature alive for a minute.
+# Keep the creature alive for a minute. In some of the worlds it begins with hardly any energy, or hardly
+# any water.
 
 
 # %% tags=["exercise-13.2"]
@@ -94,7 +98,7 @@ film(creature(live), seed=1)
 # %% [markdown]
 # ## Too much
 #
-# To live is not to live well. Write down the levels of a life:
+# Staying alive is not yet living well. Record the levels during a life:
 
 
 # %%
@@ -115,7 +119,7 @@ plot(levels(live), xlabel="decision (12 a second)", ylabel="level")
 # %% [markdown]
 # ### Exercise 13.3: live well
 #
-# Keep **both** levels between 40 and 80, for at least 70 of 100 decisions. When should the creature eat?
+# Keep **both** levels between 40 and 80, for at least 60 of 100 decisions. When should the creature eat?
 # When should it rather do nothing? (`{"move": [0, 0, 0, 0]}`)
 
 
@@ -134,9 +138,8 @@ plot(levels(live_well), xlabel="decision (12 a second)", ylabel="level")
 # %% [markdown]
 # ## A reward from inside
 #
-# `HomeostaticReward` turns needs into a reward: each bit of discomfort that goes away pays, and each bit
-# that comes costs. Nobody says "eat". The creature finds out by itself that eating feels good, and only
-# while it is hungry.
+# `HomeostaticReward` turns needs into a reward: less discomfort pays, more discomfort costs. Nobody says
+# "eat". The creature finds out by itself that eating feels good, and only while it is hungry.
 
 # %%
 for name, controller in {"live": live, "live_well": live_well}.items():
@@ -152,7 +155,8 @@ progress()
 # %% [markdown]
 # ## Stretch
 #
-# - Which needs has a phone? A vacuum robot? A class? Give one of them levels, drifts and a comfort zone.
+# - Which needs does a phone have? A vacuum robot? A class? Give one of them levels, drifts and a comfort
+#   zone.
 # - `forage` is a scene of the library with rocks and two kinds of food. Play it, then write a controller for
 #   it (it sees with rays: lesson 03).
 # - Animals eat before they are hungry if food is rare. When is that clever? Change the time after which

@@ -6,14 +6,14 @@
 # Everything that you have used so far is a block that somebody wrote. Today you write some that nobody
 # has thought of.
 #
-# **When you are through, you can**
+# **When you have finished, you can**
 #
 # - write a sensor, an actuator and a reward function, in ten lines each,
 # - give a block parameters, with limits that are checked,
 # - have your blocks examined, and understand what the examiner says,
 # - share a block, so that others can use it in their scenes.
 #
-# *About 60 minutes. Before: lessons 02 and 07.*
+# *About 80 minutes. Before: lessons 02 and 07.*
 #
 # **Recap.** An agent is put together from blocks. Each block has parameters.
 
@@ -36,7 +36,7 @@ def world_with_box():
 # %% [markdown]
 # ## A sensor
 #
-# A block is a **class**: a plan from which things are built. `class Height(Sensor)` says: a Height is a
+# A block is a **class**: a plan from which objects are built. `class Height(Sensor)` says: a Height is a
 # Sensor. Two functions make a sensor out of it:
 #
 # - `space` says what a reading looks like: `Box(low, high, (how many numbers,))`,
@@ -62,7 +62,7 @@ print(check_sensor(Height()))
 
 # %% [markdown]
 # The line `highest: float = 5.0` is a **parameter**: its name, its kind, its default value. The text in
-# triple quotes says what the block is for. Never leave it out: the examiner asks for it.
+# triple quotes says what the block is for. Never leave it out: the examiner insists on it.
 #
 # `check_sensor` puts the sensor into worlds and drives around. Is the reading always within the space that
 # the sensor promised? Is it the same when everything happens twice? Does it change at all?
@@ -70,8 +70,8 @@ print(check_sensor(Height()))
 # ### Exercise 14.1: nearness
 #
 # Write a sensor `Nearness` that reads **1** right at its target, **0** at `reach` metres and everywhere
-# beyond, and in between evenly less: half of it at half the way. `body.distance(view[self.target])` is
-# the distance in metres.
+# beyond, and falls evenly in between: 0.5 at half the way. `body.distance(view[self.target])` is the
+# distance in metres.
 
 
 # %% tags=["exercise-14.1"]
@@ -97,7 +97,7 @@ print(check_sensor(Nearness(target="box")))
 # %% [markdown]
 # ## A reward function
 #
-# It has one function, `on_update`, which is asked after each decision and returns what is paid. Here is
+# It has one function, `on_update`, which is called after each decision and returns the payment. Here is
 # one that likes the dance of lesson 07:
 
 
@@ -115,9 +115,9 @@ class Motion(RewardFunc):
 # %% [markdown]
 # ### Exercise 14.2: calm
 #
-# Write a reward function `Calm`: it pays **-cost** for each decision after which the robot turns faster than
-# `limit` radians a second, to whichever side, and **0** else. `body.angular_velocity` is the turning
-# speed: above 0 to the left, below 0 to the right.
+# Write a reward function `Calm`: it pays **-cost** for each decision after which the robot turns faster
+# than `limit` radians a second, to either side, and **0** otherwise. `body.angular_velocity` is the
+# turning speed: above 0 to the left, below 0 to the right.
 
 
 # %% tags=["exercise-14.2"]
@@ -138,7 +138,7 @@ check("14.2", Calm)
 # ## An actuator
 #
 # It says what an action looks like (`space`), and what it does (`act`). `act` is called at each tick, with
-# the action as a row of numbers. What it may do with the body:
+# the action as a list of numbers: `action[0]` is the first one. What it may do with the body:
 #
 # | | |
 # |---|---|

@@ -3,6 +3,7 @@
 import html
 import json
 import os
+from collections.abc import Callable
 from contextlib import suppress
 from itertools import count
 from pathlib import Path
@@ -11,6 +12,7 @@ from secrets import token_urlsafe
 from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.base.errors import AI4UError
 from ai4u_edu.lessons.notebook_output import card, image, in_notebook, replace
+from ai4u_edu.lessons.page_watch import PageWatch
 from ai4u_edu.lessons.pictures import PICTURE_SIZE_PX, animation, picture
 from ai4u_edu.recording import Episode, Recorder
 from ai4u_edu.runtime.runner import Runner
@@ -65,6 +67,7 @@ class Live:
         self._server.start()
         self.running = True
         self._kept: Episode | None = None
+        self._page_watch: PageWatch | None = None
         self.handle = f"ai4u-live-{os.getpid()}-{next(_numbers)}"
 
     @property
@@ -79,10 +82,20 @@ class Live:
         under_way = [now] if now is not None and any(map(len, now.agents)) else []
         return [*self.recorder.episodes, *under_way]
 
+    def end_without_page(self, end: Callable[["Live"], object]) -> None:
+        """Call a function when the page was open, and has been gone for a minute.
+
+        Worlds of closed tabs would run on for as long as the notebook's kernel does.
+        """
+        self._page_watch = PageWatch(lambda: len(self._viewer.viewer_clients), lambda: end(self))
+        self._page_watch.start()
+
     def close(self) -> None:
         """End the world silently."""
         if self.running:
             self.running = False
+            if self._page_watch is not None:
+                self._page_watch.stop()
             self._server.stop()
             self._viewer.stop()
             self.runner.stop()

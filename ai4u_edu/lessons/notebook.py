@@ -105,7 +105,12 @@ def _cell(lines: list[str], is_text: bool, tags: tuple[str, ...], begin: int) ->
 
 
 def _plain(cell: Cell, index: int) -> dict[str, Any]:
-    metadata = {"tags": list(cell.tags)} if cell.tags else {}
+    # a slip of a key (D D in command mode) shall delete none of the cells that were handed out
+    metadata: dict[str, Any] = {"deletable": False}
+    if cell.is_text:
+        metadata["editable"] = False
+    if cell.tags:
+        metadata["tags"] = list(cell.tags)
     source = cell.source.splitlines(keepends=True)
     plain: dict[str, Any] = {"id": f"cell-{index}", "metadata": metadata, "source": source}
     if cell.is_text:

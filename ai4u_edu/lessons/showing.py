@@ -23,7 +23,7 @@ def show(
     brain: Any = None,
     *,
     seed: int | None = None,
-    height: int = 520,
+    height: int = 440,
     record: str | Path | None = None,
 ) -> Live:
     """Run a world and show its page under the cell; the one shown before ends.
@@ -33,7 +33,7 @@ def show(
             world alone.
         brain: the first agent's driver: a function, a controller or a brain; left out, its own.
         seed: seed of the first episode.
-        height: height of the page, pixels.
+        height: height of the page, pixels; 440 fits a laptop's screen beside JupyterLab's bars.
         record: a folder in which every episode is saved as a file.
     """
     global _current
@@ -49,6 +49,7 @@ def show(
     else:
         recorder = Recorder(sim, scene=description)
     _current = live = Live(sim, recorder, title, seed)
+    live.end_without_page(_end)
     put(live.page(height), f"{title} runs at {live.url}", live.handle)
     if in_notebook():
         put("", "", live.film)
@@ -62,6 +63,14 @@ def stop() -> None:
     if _current is not None:
         ended, _current = _current, None
         ended.stop()
+
+
+def _end(live: Live) -> None:
+    """End a world whose page is gone."""
+    global _current
+    if _current is live:
+        _current = None
+    live.stop()
 
 
 def _keep(_: object = None) -> None:

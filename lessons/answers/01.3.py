@@ -29,4 +29,84 @@ count = 0
 def stop_in_time(percept):
     global count
     count = count + 1
-    return {"move": [1 if count % 81 < 4 else 0, 0, 0, 0]}
+    return {"move": [1 if (count - 1) % 180 < 4 else 0, 0, 0, 0]}
+
+
+# %% tags=["right", "slows down"]
+def stop_in_time(percept):
+    distance = percept["orientation"][1]
+    return {"move": [min(1, 0.5 * (distance - 2)), 0, 0, 0]}
+
+
+# %% tags=["right", "slows down gently"]
+def stop_in_time(percept):
+    distance = percept["orientation"][1]
+    return {"move": [0.3 * (distance - 2), 0, 0, 0]}
+
+
+# %% tags=["right", "one expression"]
+def stop_in_time(percept):
+    return {"move": [float(percept["orientation"][1] > 2.1), 0, 0, 0]}
+
+
+# %% tags=["wrong", "never", "equals 2"]
+def stop_in_time(percept):
+    distance = percept["orientation"][1]
+    if distance == 2:
+        return {"move": [0, 0, 0, 0]}
+    return {"move": [1, 0, 0, 0]}
+
+
+# %% tags=["wrong", "endless", "a loop until it is there"]
+def stop_in_time(percept):
+    distance = percept["orientation"][1]
+    while distance > 2:
+        action = {"move": [1, 0, 0, 0]}
+    return action
+
+
+# %% tags=["wrong", "no-return", "nothing where it has to stop"]
+def stop_in_time(percept):
+    distance = percept["orientation"][1]
+    if distance > 2.1:
+        return {"move": [1, 0, 0, 0]}
+
+
+# %% tags=["wrong", "early", "stops a metre too early"]
+def stop_in_time(percept):
+    distance = percept["orientation"][1]
+    if distance > 3:
+        return {"move": [1, 0, 0, 0]}
+    return {"move": [0, 0, 0, 0]}
+
+
+# %% tags=["wrong", "reversed", "backward while it is far"]
+def stop_in_time(percept):
+    distance = percept["orientation"][1]
+    if distance > 2:
+        return {"move": [-1, 0, 0, 0]}
+    return {"move": [0, 0, 0, 0]}
+
+
+# %% tags=["lucky", "always half a second"]
+count = 0
+
+
+def stop_in_time(percept):
+    global count
+    count = count + 1
+    return {"move": [1 if count < 7 else 0, 0, 0, 0]}
+
+
+# %% tags=["lucky", "by chance"]
+import random
+
+
+def stop_in_time(percept):
+    return {"move": [random.choice([0, 1]), 0, 0, 0]}
+
+
+# %% tags=["lucky", "to and fro"]
+def stop_in_time(percept):
+    distance = percept["orientation"][1]
+    return {"move": [1 if distance > 2 else -1, 0, 0, 0]}

@@ -22,3 +22,80 @@ def diary(agent):
     agent.begin_of_episode.connect(lambda agent: notes.append("begin"))
     agent.end_of_step.connect(lambda agent: notes.append("decision"))
     return notes
+
+
+# %% tags=["right", "decorated"]
+def diary(agent):
+    notes = []
+
+    @agent.begin_of_episode.connect
+    def begin(agent):
+        notes.append("begin")
+
+    @agent.end_of_step.connect
+    def step(agent):
+        notes.append("decision")
+
+    @agent.end_of_episode.connect
+    def end(agent):
+        notes.append("end")
+
+    return notes
+
+
+# %% tags=["right", "another event"]
+def diary(agent):
+    notes = []
+    agent.begin_of_episode.connect(lambda agent: notes.append("begin"))
+    agent.begin_of_step.connect(lambda agent: notes.append("decision"))
+    agent.end_of_episode.connect(lambda agent: notes.append("end"))
+    return notes
+
+
+# %% tags=["wrong", "begins", "no begin"]
+def diary(agent):
+    notes = []
+    agent.end_of_step.connect(lambda agent: notes.append("decision"))
+    agent.end_of_episode.connect(lambda agent: notes.append("end"))
+    return notes
+
+
+# %% tags=["wrong", "called", "calls in place of connecting"]
+def diary(agent):
+    notes = []
+    agent.begin_of_episode.connect(notes.append("begin"))
+    return notes
+
+
+# %% tags=["wrong", "begin", "connects the names only"]
+def diary(agent):
+    notes = []
+    agent.begin_of_episode.connect(lambda agent: notes.append("begin"))
+    agent.end_of_episode.connect(lambda agent: notes.append("end"))
+    return notes
+
+
+# %% tags=["wrong", "no-return", "returns nothing"]
+def diary(agent):
+    notes = []
+    agent.end_of_step.connect(lambda agent: notes.append("decision"))
+
+
+# %% tags=["lucky", "written beforehand"]
+def diary(agent):
+    notes = []
+    notes += ["begin"] + ["decision"] * agent.max_steps_per_episode + ["end"]
+    return notes
+
+
+# %% tags=["lucky", "seven decisions"]
+def diary(agent):
+    notes = []
+    notes += ["begin"] + ["decision"] * 7 + ["end"]
+    return notes
+
+
+# %% tags=["lucky", "an empty one"]
+def diary(agent):
+    notes = []
+    return notes

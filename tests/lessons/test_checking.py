@@ -40,7 +40,7 @@ def written(source: str) -> Any:
 
 def test_what_was_right_is_said(capsys: pytest.CaptureFixture[str]) -> None:
     check("00.1", go)
-    assert "Right. Your robot drives forward. It did so in 5 worlds." in capsys.readouterr().out
+    assert "Right. Your robot drives forward. It did so in 12 worlds." in capsys.readouterr().out
 
 
 def test_what_happened_is_said_with_seed_step_picture_and_where_to_get_help(
@@ -97,7 +97,7 @@ def test_hints_begin_with_the_one_that_fits(capsys: pytest.CaptureFixture[str]) 
     hint("00.1")
     assert "drove backward" in capsys.readouterr().out
     hint("00.1")
-    assert "The first number drives" in capsys.readouterr().out
+    assert "turns at the same time" in capsys.readouterr().out
 
 
 def test_a_solution_is_printed_without_the_wrong_ones(capsys: pytest.CaptureFixture[str]) -> None:

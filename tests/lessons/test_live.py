@@ -14,6 +14,7 @@ from ai4u_edu import CircleShape, Episode, Scene, World
 from ai4u_edu.base.errors import AI4UError, SetupError
 from ai4u_edu.lessons import film, filming, live, readiness, ready, show, showing, stop
 from ai4u_edu.lessons import notebook_output as out
+from ai4u_edu.lessons.page_watch import PageWatch
 from ai4u_edu.lessons.rollouts import drives
 from tests.builders import small_sim
 from tests.server.rooms import raw_answer, until
@@ -178,3 +179,25 @@ def test_what_is_missing_is_said(
     monkeypatch.setattr(readiness, "find_spec", lambda name: None if name in hidden else name)
     ready()
     assert "torch and onnx must be installed too" in capsys.readouterr().out
+
+
+def test_a_world_ends_when_its_page_is_gone_and_not_before_there_was_one() -> None:
+    counts = iter([0, 0, 0, 1, 1, 0, 1, 0, 0, 0, 0, 0, 0])
+    seen: list[int] = []
+    gone: list[int] = []
+
+    def count() -> int:
+        seen.append(next(counts))
+        return seen[-1]
+
+    watch = PageWatch(count, lambda: gone.append(len(seen)), gone_s=0.021, poll_s=0.005)
+    watch.start()
+    until(lambda: bool(gone))
+    assert seen == [0, 0, 0, 1, 1, 0, 1, 0, 0, 0, 0, 0]  # a reload is not the end
+
+
+def test_the_shown_world_is_forgotten_when_its_page_is_gone() -> None:
+    world = show("box_chase")
+    showing._end(world)
+    assert not world.running
+    assert show("box_chase").running

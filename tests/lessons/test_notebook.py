@@ -29,6 +29,9 @@ def test_a_notebook_is_valid_has_no_outputs_and_is_the_same_each_time(lesson: Le
     nbformat.validate(book)
     assert not any(cell.get("outputs") or cell.get("execution_count") for cell in book.cells)
     assert dumps(lesson.cells) == dumps(Lesson(lesson.path).cells)
+    for cell in book.cells:
+        assert cell.metadata["deletable"] is False
+        assert cell.metadata.get("editable", True) is (cell.cell_type == "code")
 
 
 @EACH
@@ -36,7 +39,7 @@ def test_the_form_of_a_lesson(lesson: Lesson) -> None:
     text = "\n".join(cell.source for cell in lesson.cells if cell.is_text)
     head = lesson.cells[0].source
     assert head.startswith(f"# {lesson.number} ")
-    assert "**When you are through, you can**" in head
+    assert "**When you have finished, you can**" in head
     assert lesson.number == "00" or "**Recap.**" in head
     assert "## Stretch" in text
     for exercise in lesson.exercises:

@@ -3,6 +3,8 @@
 import math
 from typing import Any
 
+import numpy as np
+
 from ai4u_edu.lessons.exercise import Done, exercise
 from ai4u_edu.lessons.rollouts import Drive, drives, seeds_of
 
@@ -20,11 +22,22 @@ def _turned(drive: Drive, heading: float) -> float:
     return math.degrees(math.remainder(drive.agent.body.heading - heading, math.tau))
 
 
+def _turned_somewhere(drive: Drive) -> float:
+    """Turn the robot into a direction drawn from the seed; return its heading, radians."""
+    heading = float(np.random.default_rng(drive.seed).uniform(-math.pi, math.pi))
+    drive.agent.body.move_to(*drive.agent.body.position, heading=heading)
+    return heading
+
+
 @exercise(
     "00.1",
     "Make it go",
     hints=STILL
-    | {"backward": "Your robot drove backward. What happens if you take the minus sign away?"},
+    | {
+        "backward": "Your robot drove backward. What happens if you take the minus sign away?",
+        "circle": "It drives, and turns at the same time. The second number turns: here it has to "
+        "be 0.",
+    },
 )
 def goes(drive_it: Any) -> Done:
     """Check that the robot drives forward, wherever it begins."""
@@ -32,16 +45,20 @@ def goes(drive_it: Any) -> Done:
 
     def watch(drive: Drive) -> None:
         if drive.steps == 0:
-            headings.append(drive.agent.body.heading)
+            headings.append(_turned_somewhere(drive))
 
-    for drive in drives(SCENE, drive_it, seeds_of("00.1", 5), limit=STEPS, watch=watch):
+    for drive in drives(SCENE, drive_it, seeds_of("00.1", 12), limit=STEPS, watch=watch):
         (x, y), (u, v) = drive.trail[0], drive.trail[-1]
         forward = (u - x) * math.cos(headings[-1]) + (v - y) * math.sin(headings[-1])
         if forward < -0.1:
             raise drive.not_yet("Your robot drove backward ({where}).", "backward")
-        if math.hypot(u - x, v - y) < 0.5:
+        if drive.moved < 0.1:
             raise drive.not_yet("Your robot hardly moved ({where}).", "still")
-    return Done("Your robot drives forward. It did so in 5 worlds.", drive.picture())
+        if abs(_turned(drive, headings[-1])) > 20:
+            raise drive.not_yet("Your robot turned away from its course ({where}).", "circle")
+        if forward < 0.25:
+            raise drive.not_yet("Your robot hardly moved ({where}).", "still")
+    return Done("Your robot drives forward. It did so in 12 worlds.", drive.picture())
 
 
 @exercise(
@@ -60,9 +77,9 @@ def turns_left(drive_it: Any) -> Done:
 
     def watch(drive: Drive) -> None:
         if drive.steps == 0:
-            headings.append(drive.agent.body.heading)
+            headings.append(_turned_somewhere(drive))
 
-    for drive in drives(SCENE, drive_it, seeds_of("00.2", 5), limit=3, watch=watch):
+    for drive in drives(SCENE, drive_it, seeds_of("00.2", 12), limit=3, watch=watch):
         turned = _turned(drive, headings[-1])
         if drive.moved > 0.2:
             raise drive.not_yet("Your robot left its place ({where}).", "moved")
@@ -77,21 +94,26 @@ def turns_left(drive_it: Any) -> Done:
 
 @exercise(
     "00.3",
-    "Mend it",
+    "Fix it",
     hints={
+        "backward": "It runs now, and goes backward. The first number has to be above 0.",
         "curve": "It runs now, well done. But the robot has to drive a curve to the right: both "
         "the first and the second number are above 0.",
     },
 )
-def is_mended(drive_it: Any) -> Done:
+def is_fixed(drive_it: Any) -> Done:
     """Check that the function runs, and drives a curve to the right."""
     headings: list[float] = []
 
     def watch(drive: Drive) -> None:
         if drive.steps == 0:
-            headings.append(drive.agent.body.heading)
+            headings.append(_turned_somewhere(drive))
 
-    for drive in drives(SCENE, drive_it, seeds_of("00.3", 5), limit=4, watch=watch):
-        if drive.moved < 0.3 or _turned(drive, headings[-1]) > -1:
+    for drive in drives(SCENE, drive_it, seeds_of("00.3", 12), limit=4, watch=watch):
+        (x, y), (u, v) = drive.trail[0], drive.trail[-1]
+        forward = (u - x) * math.cos(headings[-1]) + (v - y) * math.sin(headings[-1])
+        if forward < -0.1:
+            raise drive.not_yet("Your robot drove backward ({where}).", "backward")
+        if forward < 0.15 or _turned(drive, headings[-1]) > -1:
             raise drive.not_yet("No curve to the right yet ({where}).", "curve")
-    return Done("Mended: your robot drives a curve to the right.", drive.picture())
+    return Done("Fixed: your robot drives a curve to the right.", drive.picture())

@@ -7,24 +7,27 @@ from ai4u_edu.agent import BasicAgent
 from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.blocks import BearingSensor, LocalBrain, OrientationSensor, RBMoveActuator
 from ai4u_edu.lessons.exercise import Done, NotYet, a_function, exercise
-from ai4u_edu.lessons.numeric import finite_number, is_close
+from ai4u_edu.lessons.numeric import chance_for, difference, finite_number, is_close
 from ai4u_edu.lessons.rollouts import Drive, as_brain, drive, seeds_of
 from ai4u_edu.lessons.worlds import plate
 from ai4u_edu.world import Variation
 
 DECISIONS_A_SECOND = 12
+SECONDS_TO_STOP = 15
+"""Time that a robot has to come to rest."""
 
 
-def _number(made: Any, *given: float) -> int:
-    """Return a student's function's result for some numbers."""
-    a_function(made)
-    found = made(*given)
+def _is_count(found: float, exact: float) -> bool:
+    """Return True for a number of decisions that is right, rounded up, down or not at all."""
+    return is_close(found, exact, 0.55) or found in {math.floor(exact), math.ceil(exact)}
+
+
+def _count(made: Any, *given: float) -> float:
+    """Return a student's number of decisions."""
     shown = ", ".join(f"{each:g}" for each in given)
-    if found is None or found is ...:
-        raise NotYet(f"With ({shown}) your function returned nothing yet.")
-    count = round(finite_number(found))
-    if not 0 <= count <= 500:
-        raise NotYet(f"With ({shown}) expected 0 to 500 decisions, got {count}.", hint="time")
+    count = finite_number(a_function(made)(*given))
+    if count < 0:
+        raise NotYet(f"With ({shown}) your function says {count:g}: that is below 0.")
     return count
 
 
@@ -57,27 +60,43 @@ def _repeated(count: int, action: list[float], *, move: float, turn: float, size
         "one decision. How often does that fit into the distance?",
         "speed": "Your answer does not change with the speed. A faster robot needs fewer "
         "decisions.",
+        "seconds": "That is how many seconds it takes. There are 12 decisions in a second.",
+        "ticks": "That is how many ticks of the world's clock it takes: 60 a second. A decision "
+        "lasts 5 of them.",
+        "inverted": "A faster robot needs fewer decisions: divide by the speed.",
+        "one-more": "It is one decision too many.",
     },
 )
 def drives_so_far(made: Any) -> Done:
     """Check ``decisions_for(distance, speed)``."""
-    slow, fast = _number(made, 6, 2), _number(made, 6, 4)
-    if slow == 0:
-        raise NotYet("For 6 m at 2 m/s your function says 0 decisions.", hint="time")
-    if slow == fast:
+    if _count(made, 6, 2) == _count(made, 6, 4):
+        found = _count(made, 6, 2)
         raise NotYet(
-            f"For 6 m your function says {slow} decisions, at 2 m/s as at 4 m/s.", hint="speed"
+            f"For 6 m your function says {found:g} decisions, at 2 m/s as at 4 m/s.",
+            hint="speed" if found else "time",
         )
-    for distance, speed in ((6.0, 3.0), (4.0, 2.0), (5.0, 4.5), (2.0, 1.0), (6.5, 1.5)):
-        done = _repeated(_number(made, distance, speed), [1, 0, 0, 0], move=speed, turn=1, size=16)
-        if not is_close(done.moved, distance, 1.01 * speed / DECISIONS_A_SECOND):
-            raise done.not_yet(
-                f"At {speed:g} m/s the robot should drive {distance:g} m. It drove "
-                f"{done.moved:.2f} m ({{where}}).",
-                "time",
+    chance = chance_for("01.1", made)
+    for _ in range(8):
+        distance = round(float(chance.uniform(2, 6.9)), 2)
+        speed = round(float(chance.uniform(1, 4.5)), 2)
+        exact = DECISIONS_A_SECOND * distance / speed
+        found = _count(made, distance, speed)
+        if not _is_count(found, exact):
+            slips = {
+                "seconds": ("the time in seconds", distance / speed),
+                "ticks": ("the number of ticks", 5 * exact),
+                "inverted": ("right for a division by the speed", distance * speed * 12),
+                "one-more": ("one too many", exact + 1),
+            }
+            slip = difference(found, slips, 0.05)
+            raise NotYet(
+                f"For {distance:g} m at {speed:g} m/s expected {exact:.1f} decisions, got "
+                f"{found:.1f}{slip.words}.",
+                hint=slip.name or "time",
             )
+        done = _repeated(round(found), [1, 0, 0, 0], move=speed, turn=1, size=16)
     return Done(
-        "Five speeds, five distances, and the robot stopped where it should.", done.picture()
+        "Eight speeds, eight distances, and the robot stopped where it should.", done.picture()
     )
 
 
@@ -89,21 +108,39 @@ def drives_so_far(made: Any) -> Done:
         "120/12 = 10 degrees in one decision. How many are 90 degrees?",
         "other-speed": "It fits one turning speed, but not another one. Compute with the number "
         "that your function gets.",
+        "seconds": "That is how many seconds it takes. There are 12 decisions in a second.",
+        "ticks": "That is how many ticks of the world's clock it takes: 60 a second. A decision "
+        "lasts 5 of them.",
+        "inverted": "It is upside down: a robot that turns faster needs fewer decisions.",
     },
 )
 def turns_a_quarter(made: Any) -> Done:
     """Check ``decisions_for_quarter(degrees_per_second)``."""
-    for index, speed in enumerate((120.0, 60.0, 90.0, 180.0, 45.0)):
-        count = _number(made, speed)
-        done = _repeated(count, [0, -1, 0, 0], move=1, turn=math.radians(speed), size=8)
-        turned = math.degrees(done.agent.body.heading)
-        if not is_close(turned, 90, 1.01 * speed / DECISIONS_A_SECOND):
-            raise done.not_yet(
-                f"At {speed:g} degrees a second the robot turned {turned:.0f} degrees, not 90 "
-                "({where}).",
-                "other-speed" if index else "time",
+    if _count(made, 60) == _count(made, 120):
+        found = _count(made, 60)
+        raise NotYet(
+            f"Your function says {found:g} decisions, at 60 degrees a second as at 120.",
+            hint="other-speed" if found else "time",
+        )
+    chance = chance_for("01.2", made)
+    for _ in range(8):
+        speed = round(float(chance.uniform(30, 200)), 1)
+        exact = 90 / speed * DECISIONS_A_SECOND
+        found = _count(made, speed)
+        if not _is_count(found, exact):
+            slips = {
+                "seconds": ("the time in seconds", 90 / speed),
+                "ticks": ("the number of ticks", 5 * exact),
+                "inverted": ("upside down", speed / 90 * 12),
+            }
+            slip = difference(found, slips, 0.02)
+            raise NotYet(
+                f"At {speed:g} degrees a second a quarter turn takes {exact:.1f} decisions; your "
+                f"function says {found:.1f}{slip.words}.",
+                hint=slip.name or "time",
             )
-    return Done("A quarter turn at five turning speeds.", done.picture())
+        turning = _repeated(round(found), [0, -1, 0, 0], move=1, turn=math.radians(speed), size=8)
+    return Done("A quarter turn at eight turning speeds.", turning.picture())
 
 
 @exercise(
@@ -116,6 +153,10 @@ def turns_a_quarter(made: Any) -> Done:
         "each world: the robot has to look.",
         "late": "It stopped too late. The number that you compare with is the distance to the "
         "middle of the box.",
+        "early": "It stands still, but too far away: drive on while the distance is above 2.",
+        "never": "It never stands still. A distance is hardly ever exactly 2: compare with `>` or "
+        "`<`, and return an action with 0 where it has to stop.",
+        "reversed": "It drives away from the box. Drive where the distance is above 2, not below.",
     },
 )
 def stops_in_time(drive_it: Any) -> Done:
@@ -124,19 +165,43 @@ def stops_in_time(drive_it: Any) -> Done:
     agent = _robot(3, 2, LocalBrain(controller=lambda _: {}))
     sim = ControlRequestor(plate(None, somewhere, size=16), [agent])
     agent.use_brain(as_brain(drive_it))
-    ends: list[Drive] = []
-    for seed in seeds_of("01.3", 10):
-        last = drive(sim, agent, seed, limit=80)
-        away = float(agent.percept["orientation"][1])
-        ends.append(last)
-        if last.fell or away < 1.5:
-            how = "fell" if last.fell else f"came as near as {away:.1f} m to the box"
-            same = len({round(each.moved, 1) for each in ends}) == 1 and len(ends) > 1
-            raise last.not_yet(f"The robot {how} ({{where}}).", "blind" if same else "late")
-        if not is_close(away, 2, 0.5) or last.trail[-1] != last.trail[-2]:
-            same = len({round(each.moved, 1) for each in ends}) == 1 and last.moved > 0.1
-            raise last.not_yet(
-                f"At the end the box was {away:.1f} m away, not 2 ({{where}}).",
-                "blind" if same else "look",
-            )
-    return Done("In 10 worlds the robot stopped about 2 m before the box.", last.picture())
+    moved: set[float] = set()
+    reason: NotYet | None = None
+    for seed in seeds_of("01.3", 8):
+        last = drive(sim, agent, seed, limit=SECONDS_TO_STOP * DECISIONS_A_SECOND)
+        moved.add(round(last.moved, 1))
+        reason = reason or _not_stopped(last)
+    if reason is not None:
+        if len(moved) == 1 and reason.hint in {"late", "early"}:
+            reason.hint = "blind"
+        raise reason
+    return Done("In 8 worlds the robot stopped about 2 m before the box.", last.picture())
+
+
+def _not_stopped(last: Drive) -> NotYet | None:
+    """Return the reason why a robot has not stopped where it should, if it has not."""
+    away = float(last.agent.percept["orientation"][1])
+    rests = math.dist(last.trail[-1], last.trail[-2]) < 0.02 if last.steps else True
+    if not last.fell and rests and is_close(away, 2, 0.5):
+        return None
+    if last.fell:
+        how = "The robot fell"
+    elif away < 1.5:
+        how = f"The robot came as near as {away:.1f} m to the box"
+    elif not rests:
+        how = f"The robot was still moving after {SECONDS_TO_STOP} seconds"
+    else:
+        how = f"At the end the box was {away:.1f} m away, not 2"
+    return last.not_yet(f"{how} ({{where}}).", _why(last, away, rests))
+
+
+def _why(last: Drive, away: float, rests: bool) -> str:
+    """Return the diagnosis that fits how a robot did not stop."""
+    if last.moved < 0.05:
+        return "look"
+    if last.trail[-1][0] < last.trail[0][0]:
+        return "reversed"
+    acts = any(next(iter(last.agent.last_action.values()), ()))
+    if acts and (last.fell or away < 1.5 or not rests):
+        return "never"
+    return "late" if away < 2 else "early"

@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from ai4u_edu.blocks import TouchRewardFunc
+from ai4u_edu.blocks import LocalBrain, RBMoveActuator, TouchRewardFunc
 from ai4u_edu.lessons.exercise import Done, NotYet, exercise
 from ai4u_edu.lessons.numeric import is_close
 from ai4u_edu.lessons.rollouts import Drive, drive, seeds_of
@@ -15,6 +15,8 @@ from ai4u_edu.world import Variation
 ASIDE = Variation(x=(-4, 4), y=(3, 4))
 """Places of a box that is out of the way."""
 BEHIND = Variation(places=((-3.0, 0.0),))
+Turn = tuple[float, float, float, float]
+IDLE = LocalBrain(controller=lambda _: {})
 STATUS = ("done", "id")
 """Perception keys that every agent has."""
 
@@ -33,7 +35,7 @@ STATUS = ("done", "id")
 )
 def has_legs(agent: Any) -> Done:
     """Check that it drives at 2 m/s, and turns at 3 rad/s."""
-    if not put_in(agent, plate(None, ASIDE), forward()).agents[0].actuators:
+    if not put_in(agent, plate(None, ASIDE), IDLE).agents[0].actuators:
         raise NotYet("Your agent has no actuator yet: it can't do anything.", hint="actuator")
     straight = _driven(agent, 1, 0, decisions=12)
     if not is_close(straight.moved, 2, 0.05):
@@ -52,7 +54,11 @@ def has_legs(agent: Any) -> Done:
 
 
 def _driven(agent: Any, move: float, turn: float, decisions: int) -> Drive:
-    sim = put_in(agent, plate(None, ASIDE), forward(move, turn))
+    names = [each.action_name for each in agent.actuators if isinstance(each, RBMoveActuator)]
+    if not names:
+        raise NotYet("Your agent has no RBMoveActuator.", hint="actuator")
+    brain = LocalBrain(controller=lambda _: {names[0]: [move, turn, 0, 0]})
+    sim = put_in(agent, plate(None, ASIDE), brain)
     return drive(sim, sim.agents[0], seed=3, limit=decisions)
 
 
@@ -70,14 +76,15 @@ def _driven(agent: Any, move: float, turn: float, decisions: int) -> Drive:
 )
 def has_senses(agent: Any) -> Done:
     """Check that one reading is the box's bearing, and another one tells of its touch."""
-    sim = put_in(agent, plate(), forward(0))
+    sim = put_in(agent, plate(), IDLE)
     if not sim.agents[0].sensors:
         raise NotYet("Your agent has no sensor yet: it knows nothing of the world.", hint="sensors")
     for seed in seeds_of("02.2", 10):
         seen = drive(sim, sim.agents[0], seed, limit=1)
         if not _sees(seen):
             raise seen.not_yet("No reading tells where the box is ({where}).", "bearing")
-    sim = put_in(agent, plate(None, None), forward())
+    legs = RBMoveActuator(move_amount=2, turn_amount=3)  # whether or not it has legs of its own
+    sim = put_in(agent.changed(actuators=[legs]), plate(None, None), forward())
     felt: list[dict[str, float]] = []
     bumped = drive(sim, sim.agents[0], 5, 30, watch=lambda done: felt.append(_single(done)))
     if not any(first == -1 and felt[-1].get(key) == 1 for key, first in felt[0].items()):
@@ -92,9 +99,10 @@ def _sees(done: Drive) -> bool:
     angle = done.agent.body.bearing(done.sim.world["box"])
     true = np.array([np.sin(angle), np.cos(angle)])
     return any(
-        is_close(reading, true, 0.01)
+        is_close(row, true, 0.01)
         for key, reading in done.agent.percept.items()
-        if key not in STATUS
+        if key not in STATUS and np.size(reading) % 2 == 0
+        for row in np.reshape(reading, (-1, 2))  # several moments, where they are stacked
     )
 
 
@@ -116,7 +124,7 @@ def _single(done: Drive) -> dict[str, float]:
         "amount": "How much is paid for the touch is the parameter `reward`.",
         "end": "The episode goes on after the touch. Every reward function has a parameter "
         "`cause_episode_to_end`, which is False unless you say so.",
-        "fall": "Whoever falls is to get -1. That is what `FallReward()` pays.",
+        "fall": "A fall should cost 1. That is what `FallReward()` pays.",
     },
 )
 def is_paid(agent: Any) -> Done:
@@ -124,7 +132,7 @@ def is_paid(agent: Any) -> Done:
     sim = put_in(agent, plate(None, None), forward())
     if not sim.agents[0].rewards:
         raise NotYet("Your agent has no reward function yet.", hint="rewards")
-    touched = drive(sim, sim.agents[0], seed=5, limit=16)
+    touched = drive(sim, sim.agents[0], seed=5, limit=24)
     paid = _paid(touched)
     if not is_close(paid, 10, 1e-6):
         raise touched.not_yet(
@@ -152,6 +160,10 @@ def _paid(done: Drive) -> float:
         "left. Turn by it: the second number of the action has to follow from it.",
         "mirrored": "Your robot turns away from the box. Above 0 the bearing means left, but in "
         "the action above 0 means right: a minus sign is missing.",
+        "stays": "It turns and never drives: the first number of the action is always 0. Drive "
+        "where the box is ahead.",
+        "sideways": "It turns by the cosine. That is the same for a box on the left and on the "
+        "right: the side is in the sine, the first of the two numbers.",
         "behind": "Straight behind the robot the sine is 0 too. Look at the cosine: where it is "
         "below 0, turn on the spot, without driving.",
     },
@@ -164,7 +176,7 @@ def reaches_the_box(agent: Any) -> Done:
     for count, seed in enumerate(seeds):
         world = plate(None, BEHIND) if seed == seeds[-1] else plate()
         sim = put_in(agent.changed(rewards=[arrived]), world)
-        turns: list[tuple[float, float]] = []
+        turns: list[Turn] = []
         done = drive(sim, sim.agents[0], seed, 240, lambda done: turns.append(_turn(done)))  # noqa: B023
         if not is_close(_paid(done), 1, 1e-6):
             how = "fell off the plate" if done.fell else "did not get to the box"
@@ -175,16 +187,23 @@ def reaches_the_box(agent: Any) -> Done:
     return Done(f"In {len(seeds)} worlds the robot got to the box.", done.picture())
 
 
-def _turn(done: Drive) -> tuple[float, float]:
-    """Return the sine of the box's bearing, and the robot's last turn."""
-    body = done.agent.body
+def _turn(done: Drive) -> Turn:
+    """Return sine and cosine of the box's bearing, and the robot's last speed and turn."""
+    angle = done.agent.body.bearing(done.sim.world["box"])
     last = next(iter(done.agent.last_action.values()), (0.0, 0.0))
-    return float(np.sin(body.bearing(done.sim.world["box"]))), last[1] if len(last) > 1 else 0.0
+    speed, turn = (last[0], last[1]) if len(last) > 1 else (0.0, 0.0)
+    return float(np.sin(angle)), float(np.cos(angle)), speed, turn
 
 
-def _why(turns: list[tuple[float, float]]) -> str:
+def _why(turns: list[Turn]) -> str:
     """Return the name of the hint that fits how a robot turned."""
-    pairs = [(sine, turn) for (sine, _), (_, turn) in pairwise(turns)]
-    if len({turn for _, turn in pairs}) < 2:
+    pairs = [(sine, cosine, turn) for (sine, cosine, *_), (*_, turn) in pairwise(turns)]
+    if len({turn for *_, turn in pairs}) < 2:
         return "look"
-    return "mirrored" if sum(sine * turn for sine, turn in pairs) > 0 else "behind"
+    if not any(speed for *_, speed, _ in turns):
+        return "stays"
+    by_cosine = sum(abs(abs(turn) - abs(cosine)) < 0.01 for _, cosine, turn in pairs)
+    by_sine = sum(abs(abs(turn) - abs(sine)) < 0.01 for sine, _, turn in pairs)
+    if by_cosine > 0.8 * len(pairs) > by_sine:
+        return "sideways"
+    return "mirrored" if sum(sine * turn for sine, _, turn in pairs) > 0 else "behind"

@@ -18,7 +18,7 @@ from ai4u_edu.blocks import (
     TouchRewardFunc,
 )
 from ai4u_edu.lessons.exercise import Done, NotYet, a_function, a_list_of, exercise
-from ai4u_edu.lessons.numeric import finite_number, finite_numbers, is_close
+from ai4u_edu.lessons.numeric import chance_for, finite_number, finite_numbers, is_close
 from ai4u_edu.lessons.pictures import picture
 from ai4u_edu.lessons.rollouts import as_brain, drive, seeds_of
 from ai4u_edu.lessons.worlds import plate
@@ -59,12 +59,17 @@ def _same(one: Percept, other: Percept) -> bool:
     return all(np.allclose(ones[key], others[key], atol=1e-4) for key in ones)
 
 
+def _same_of(sensor: Sensor, one: Percept, other: Percept) -> bool:
+    key = sensor.perception_key
+    return bool(np.allclose(one[key], other[key], atol=1e-4))
+
+
 @exercise(
     "03.1",
     "The twin",
     hints={
-        "other": "You gave the same place. There is a second one: think of a mirror that lies "
-        "along the line in which the robot looks.",
+        "other": "You gave the same place. There is a second one: think of a mirror "
+        "along the line in which the robot faces.",
         "behind": "The cosine is not the same there. Ahead must stay ahead: only left and right "
         "change places.",
         "far": "The distance is not the same there. The twin is as far away as the box.",
@@ -73,13 +78,13 @@ def _same(one: Percept, other: Percept) -> bool:
 def finds_the_twin(twin: Any) -> Done:
     """Check for the other place that has the same orientation."""
     a_function(twin)
-    for x, y in ((3.0, 1.0), (2.0, -4.0), (-3.0, 2.5), (0.5, 3.0), (-4.0, -1.5)):
+    for x, y in _places(twin):
         given = twin(x, y)
         u, v = finite_numbers(given, 2, expected=f"For ({x:g}, {y:g}) expected two numbers")
         if math.hypot(u - x, v - y) < 0.1:
             raise NotYet(f"For ({x:g}, {y:g}) your function gives the same place.", hint="other")
         if not 1.5 < math.hypot(u, v) < 11:
-            raise NotYet(f"({u:g}, {v:g}) lies in the robot, or far off the plate.", hint="far")
+            raise NotYet(f"({u:g}, {v:g}) is inside the robot, or far off the plate.", hint="far")
         one = _look([OrientationSensor(target="box", normalized=False)], (x, y))
         (cosine, distance) = one.agents[0].percept["orientation"]
         other = _look([OrientationSensor(target="box", normalized=False)], (u, v))
@@ -98,7 +103,20 @@ def finds_the_twin(twin: Any) -> Done:
                 hint="behind",
                 picture=picture(capture_snapshot(other)),
             )
-    return Done("In five worlds the robot can't tell the box from its twin.")
+    return Done("In eight worlds the robot can't tell the box from its twin.")
+
+
+def _places(twin: Any) -> list[tuple[float, float]]:
+    """Return places all around the robot, none straight ahead or behind."""
+    chance = chance_for("03.1", twin)
+    found = [(3.0, 1.0), (-3.0, 2.5)]
+    for _ in range(6):
+        angle, away = chance.uniform(0.3, math.pi - 0.3), chance.uniform(2, 5)
+        side = chance.choice([-1.0, 1.0])
+        found.append(
+            (round(float(away * np.cos(angle)), 1), round(float(side * away * np.sin(angle)), 1))
+        )
+    return found
 
 
 @exercise(
@@ -109,6 +127,9 @@ def finds_the_twin(twin: Any) -> Done:
         "the same direction.",
         "narrow": "The robot turns past the box again and again. In one decision it turns by up to "
         "14 degrees: be content with a smaller cosine, or turn more slowly.",
+        "blind": "It does the same whatever it senses. Ask for the cosine: `if cosine > ...:`.",
+        "stays": "It turns and never drives. Where the cosine is large, the box is ahead: drive.",
+        "away": "It drives away from the box: when it looks at it, the cosine is large.",
         "wide": "The robot drives although it does not look at the box. A cosine of 0 is a box "
         "beside you: ask for more.",
     },
@@ -129,21 +150,40 @@ def finds_by_turning(search: Any) -> Done:
     for count, seed in enumerate(seeds):
         turned: list[float] = []
         driven: list[float] = []
+        towards: list[float] = []  # speed towards the box, of what was driven
 
-        def watch(_: object, turned: list[float] = turned, driven: list[float] = driven) -> None:
+        def watch(
+            _: object,
+            turned: list[float] = turned,
+            driven: list[float] = driven,
+            towards: list[float] = towards,
+        ) -> None:
             action = next(iter(agent.last_action.values()), ())
             turned.append(abs(action[1]) if len(action) > 1 else 0.0)
             driven.append(abs(action[0]) if action else 0.0)
+            towards.append((action[0] if action else 0.0) * float(agent.percept["orientation"][0]))
 
         done = drive(sim, agent, seed, 360, watch)
         if not is_close(agent.ledger.episode_total, 1, 1e-6):
             how = "fell off the plate" if done.fell else "did not get to the box"
-            often = sum(driven) > 0.3 * len(driven)
-            why = "turn" if not any(turned) else "wide" if often else "narrow"
+            why = _search_mistake(turned, driven, towards)
             raise done.not_yet(
                 f"The robot {how} ({{where}}). In {count} worlds before that it got there.", why
             )
     return Done(f"With one number it found the box in {len(seeds)} worlds.", done.picture())
+
+
+def _search_mistake(turned: list[float], driven: list[float], towards: list[float]) -> str:
+    """Return the diagnosis that fits how a robot searched."""
+    if not any(turned):
+        return "turn"
+    if not any(driven):
+        return "stays"
+    if sum(towards) < 0:
+        return "away"
+    if len(set(turned[1:])) == 1 and len(set(driven[1:])) == 1:
+        return "blind"
+    return "wide" if sum(driven) > 0.3 * len(driven) else "narrow"
 
 
 @exercise(
@@ -152,6 +192,8 @@ def finds_by_turning(search: Any) -> Done:
     hints={
         "begin": "`math.degrees(math.atan2(sine, cosine))`: the sine comes first.",
         "degrees": "That is the angle in radians: `math.degrees` makes degrees of it.",
+        "mirrored": "Left and right are swapped: above 0 is to the left.",
+        "swapped": "`math.atan2` takes the sine first, then the cosine.",
         "side": "The size is right, the side is not. A function of the cosine alone can't tell "
         "left from right.",
         "behind": "Ahead it is right, behind it is not. A function of the sine alone can't tell "
@@ -162,19 +204,21 @@ def computes_the_angle(angle_to_box: Any) -> Done:
     """Check the degrees computed from a sine and a cosine."""
     a_function(angle_to_box)
     found: list[tuple[float, float]] = []
-    for angle in (20, 75, -35, -80, 110, 160, -100, -170):
+    chance = chance_for("03.3", angle_to_box)
+    drawn = [
+        round(float(sign * chance.uniform(low, low + 70))) for sign in (1, -1) for low in (10, 100)
+    ]
+    for angle in (20, -35, 110, -170, *drawn):
         turned = math.radians(angle)
         box = (4 * math.cos(turned), 4 * math.sin(turned))
         percept = _look([BearingSensor(target="box")], box).agents[0].percept
         given = angle_to_box(percept)
-        if given is None or given is ...:
-            raise NotYet("Your function returned nothing yet.", hint="begin")
-        found.append((float(angle), finite_number(given, hint="begin")))
+        found.append((float(angle), finite_number(given)))
     wrong = [(true, given) for true, given in found if not is_close(given, true, 0.5)]
     if wrong:
         true, given = wrong[0]
         raise NotYet(
-            f"The box lies at {true:g} degrees, your function says {given:.1f}.",
+            f"The box is at {true:g} degrees, your function says {given:.1f}.",
             hint=_why(found),
         )
     return Done("Eight directions all around the robot, and every angle was right.")
@@ -188,6 +232,10 @@ def _why(found: list[tuple[float, float]]) -> str:
 
     if fits(math.radians):
         return "degrees"
+    if fits(lambda true: -true):
+        return "mirrored"
+    if fits(lambda true: math.remainder(90 - true, 360)):
+        return "swapped"
     if fits(abs):
         return "side"
     if all(is_close(given, true, 0.5) for true, given in found if abs(true) < 90):
@@ -202,6 +250,8 @@ def _why(found: list[tuple[float, float]]) -> str:
         "mirror": "The mirrored worlds look the same. Which sensor tells left from right?",
         "distance": "Near and far look the same: one of the sensors has to tell a distance.",
         "wall": "The wall is not seen. Which sensor is stopped by what stands in between?",
+        "narrow": "The rays look ahead only. `field_of_view` is the angle that they cover, and "
+        "between few rays there are gaps: `number_of_rays`.",
         "many": "It works, and with fewer sensors too: two are enough.",
     },
 )
@@ -224,9 +274,13 @@ def tells_apart(sensors: Any) -> Done:
             )
         hidden = _look(sensors, (4 * ahead, 4 * side), wall=True)
         if _same(left, hidden.agents[0].percept):
+            rays = [each for each in sensors if "RayCasting" in type(each).__name__]
+            nowhere = _look(sensors, (-11, -11)).agents[0].percept
+            misses = rays and all(_same_of(each, left, nowhere) for each in rays)
+            why = " No ray hits the box there: give them a wider field of view." if misses else ""
             raise NotYet(
-                f"With {shown}, in sight or behind a wall, the percept is the same.",
-                hint="wall",
+                f"With {shown}, in sight or behind a wall, the percept is the same.{why}",
+                hint="narrow" if misses else "wall",
                 picture=picture(capture_snapshot(hidden)),
             )
     if len(sensors) > 2:

@@ -1,7 +1,7 @@
 """A vehicle with two wires."""
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from typing import Any
 
 import numpy as np
@@ -13,6 +13,8 @@ from ai4u_edu.lessons.exercise import Done, exercise
 from ai4u_edu.lessons.rollouts import Drive, as_brain, drive, seeds_of
 from ai4u_edu.world import BoxShape, CircleShape, World
 
+FARTHEST = 3.6
+"""Distance in 04.3 that still counts as 3.5 m."""
 TOUCH = 1.0
 """Distance of the centres at which vehicle and lamp touch, and a little more; metres."""
 
@@ -45,11 +47,16 @@ def _vehicle(wires: Any, seed: int) -> ControlRequestor:
     return ControlRequestor(world, [agent])
 
 
-def _drives(wires: Any, exercise_id: str, limit: int) -> Iterator[tuple[Drive, list[float]]]:
+def _drives(
+    wires: Any,
+    exercise_id: str,
+    limit: int,
+    watch: Callable[[Drive], object] = lambda _: None,
+) -> Iterator[tuple[Drive, list[float]]]:
     """Run episodes, with the distances of the centres to the lamp on the way; metres."""
     for seed in seeds_of(exercise_id, 12):
         sim = _vehicle(wires, seed)
-        done = drive(sim, sim.agents[0], seed, limit)
+        done = drive(sim, sim.agents[0], seed, limit, watch)
         yield done, [math.hypot(x, y) for x, y in done.trail]
 
 
@@ -76,7 +83,7 @@ def attacks(wires: Any) -> Done:
         if done.moved < 0.2:
             raise done.not_yet("The vehicle stands still ({where}).", "begin")
         if min(away) > TOUCH:
-            hint = "sides" if _aside(done) > 100 else "straight"
+            hint = "sides" if _aside(done) > 100 else ""
             raise done.not_yet(
                 f"The vehicle did not hit the lamp: it came as near as {min(away):.1f} m "
                 "({where}).",
@@ -102,22 +109,36 @@ def _vehicle_heading(done: Drive) -> float:
         "begin": "The other way to connect two eyes with two wheels.",
         "sides": "It turns towards the lamp. This time the wheel on the lamp's side has to be the "
         "faster one.",
+        "backward": "It backs away, with its eyes on the lamp. It should turn round: both wheels "
+        "turn forward, the one on the lamp's side faster.",
+        "straight": "Both wheels turn equally fast, so the vehicle can't turn. Each wheel needs "
+        "another eye.",
         "rest": "It runs on and on, and falls off the plate in the end. Without light its wheels "
         "have to stand still: nothing may be added.",
     },
 )
 def is_afraid(wires: Any) -> Done:
     """Check that it turns away, and comes to rest."""
-    for done, away in _drives(wires, "04.2", 300):
+    speeds: list[float] = []
+
+    def watch(done: Drive) -> None:
+        if done.steps == 0:
+            speeds.clear()
+        speeds.append(sum(done.agent.last_action.get("wheels", ())))
+
+    for done, away in _drives(wires, "04.2", 300, watch):
         if len(done.trail) > 1 and max(math.dist(done.trail[0], each) for each in done.trail) < 0.2:
             raise done.not_yet("The vehicle stands still ({where}).", "begin")
+        if sum(speeds) < 0:
+            raise done.not_yet("The vehicle runs backward ({where}).", "backward")
         if done.fell or away[-1] > 11:
-            raise done.not_yet("The vehicle runs on, off the plate ({where}).", "rest")
+            hint = "rest" if _turned(done) else "straight"
+            raise done.not_yet("The vehicle runs on, off the plate ({where}).", hint)
         if _aside(done) < 90 or min(away) < 1.5:
             raise done.not_yet(
                 f"At the end the lamp is {away[-1]:.1f} m away, {_aside(done):.0f} degrees from "
                 "where the vehicle looks ({where}). It should have turned away.",
-                "sides",
+                "sides" if _turned(done) else "straight",
             )
         pace = math.dist(done.trail[-1], done.trail[-2])
         if pace > 0.05:
@@ -129,7 +150,7 @@ def is_afraid(wires: Any) -> Done:
     "04.3",
     "Love",
     hints={
-        "begin": "In the dark the wheels are to turn: begin with 1, and take something away for "
+        "begin": "In the dark the wheels have to turn: begin with 1, and take something away for "
         "the light that an eye sees.",
         "sides": "It turns away from the lamp. The wheel on the bright side has to be the slower "
         "one: each eye brakes the wheel on its own side.",
@@ -140,7 +161,7 @@ def is_afraid(wires: Any) -> Done:
     },
 )
 def loves(wires: Any) -> Done:
-    """Check that it comes, and stays 1 to 3 m in front of the lamp."""
+    """Check that it comes, and stays 1 to 3.5 m in front of the lamp."""
     for done, away in _drives(wires, "04.3", 240):
         if len(done.trail) > 1 and max(math.dist(done.trail[0], each) for each in done.trail) < 0.2:
             idle = not any(done.agent.last_action["wheels"])
@@ -151,8 +172,8 @@ def loves(wires: Any) -> Done:
             raise done.not_yet("The vehicle runs into the lamp ({where}).", "weak")
         if done.fell or away[-1] > 8:
             raise done.not_yet(f"{seen} ({{where}}). The vehicle has left it.", "sides")
-        if not 1 <= away[-1] <= 3:
-            raise done.not_yet(f"{seen}, not 1 to 3 ({{where}}).", "strong")
+        if not 1 <= away[-1] <= FARTHEST:
+            raise done.not_yet(f"{seen}, not 1 to 3.5 ({{where}}).", "strong")
         if _aside(done) > 45:
             raise done.not_yet(
                 f"{seen}, but {_aside(done):.0f} degrees from where the vehicle looks ({{where}}).",

@@ -1,13 +1,15 @@
 """The decision cycle."""
 
+import math
 from typing import Any
 
 from ai4u_edu.agent import BasicAgent
 from ai4u_edu.agent.cycle import ControlRequestor
-from ai4u_edu.blocks import LocalBrain, Percept, RayCastingSensor, RBMoveActuator
-from ai4u_edu.lessons.exercise import Done, NotYet, a_function, exercise
-from ai4u_edu.lessons.numeric import finite_number, is_close
+from ai4u_edu.blocks import FallReward, LocalBrain, Percept, RayCastingSensor, RBMoveActuator
+from ai4u_edu.lessons.exercise import Done, NotYet, a_function, exercise, named
+from ai4u_edu.lessons.numeric import chance_for, difference, finite_number, is_close
 from ai4u_edu.lessons.rollouts import drive
+from ai4u_edu.lessons.student_errors import NOTHING_RETURNED
 from ai4u_edu.world import BoxShape, CircleShape, World
 
 LAZY = 16
@@ -50,27 +52,36 @@ def _go(_: Percept) -> dict[str, list[float]]:
         "one-more": "Nearly. With `skip_frame=0` the agent decides at every tick, and drives for "
         "one tick in between: it is one tick more than you count.",
         "seconds": "A tick is not a second: 60 of them are.",
+        "twelve": "Twelve decisions a second are true of `skip_frame=4` alone. With another "
+        "number, a decision takes another time.",
+        "ticks": "That is the number of ticks or seconds. How far does the robot get in that time?",
     },
 )
 def computes_the_blind_way(blind_way: Any) -> Done:
     """Check the metres from one decision to the next."""
     a_function(blind_way)
-    for speed, skip_frame in ((2.0, 4), (3.0, 0), (1.0, 9), (4.0, 29), (2.5, 14)):
+    chance = chance_for("06.1", blind_way)
+    for number in range(6):
+        speed = round(float(chance.uniform(1, 4)), 1)
+        skip_frame = 0 if number == 1 else int(chance.integers(5, 30))
         sim = _runway(_go, skip_frame, speed=speed)
         done = drive(sim, sim.agents[0], 1, limit=1)
         found = finite_number(blind_way(speed, skip_frame))
         if not is_close(found, done.moved, 0.005):
-            hint = "begin"
-            if is_close(found, speed * skip_frame / 60, 1e-6) and found:
-                hint = "one-more"
-            elif found > 20 * done.moved:
-                hint = "seconds"
+            ticks = skip_frame + 1
+            slips = {
+                "one-more": ("one tick less than there are", speed * skip_frame / 60),
+                "seconds": ("right if a tick were a second", speed * ticks),
+                "twelve": ("right for `skip_frame=4` alone", speed / 12),
+                "ticks": ("the time in seconds, not the way", ticks / 60),
+            }
+            slip = difference(found, slips, 1e-4)
             raise done.not_yet(
                 f"At {speed:g} m/s with skip_frame={skip_frame} the robot drove "
-                f"{done.moved:.3f} m in one decision; your function says {found:.3f}.",
-                hint,
+                f"{done.moved:.3f} m in one decision; your function says {found:.3f}{slip.words}.",
+                slip.name if found else "begin",
             )
-    return Done("Five speeds, five ways, and each was right.")
+    return Done("Six speeds, six ways, and each was right.")
 
 
 def _careful(percept: Percept) -> dict[str, list[float]]:
@@ -83,14 +94,22 @@ def _careful(percept: Percept) -> dict[str, list[float]]:
     hints={
         "lazier": "It never falls, and could be lazier. The feeler sees 0.98 m ahead of the "
         "robot's middle. How many ticks does it take to drive a metre?",
+        "whole": "A tick is the smallest piece of time in the world. Round your result: which of "
+        "the two numbers is safe?",
         "falls": "It drives too far before it looks again. The blind way has to be shorter than "
         "the 0.98 m that the feeler sees ahead.",
     },
 )
 def is_lazy(skip_frame: Any) -> Done:
     """Check that it never falls, and decides seldom."""
-    if isinstance(skip_frame, bool) or not isinstance(skip_frame, int):
-        raise NotYet(f"Expected a whole number, got `{skip_frame!r}`.")
+    given = finite_number(skip_frame)
+    if given != round(given):
+        low = math.floor(given)
+        raise NotYet(
+            f"`skip_frame` counts ticks, so it is a whole number: is it {low} or {low + 1}?",
+            hint="whole",
+        )
+    skip_frame = round(given)
     if not 0 <= skip_frame <= 600:
         raise NotYet(f"Expected a number from 0 to 600, got {skip_frame}.", hint="falls")
     for number in range(40):
@@ -119,6 +138,9 @@ def is_lazy(skip_frame: Any) -> Done:
     hints={
         "begin": "Connect a function that appends to `notes`, like `agent.end_of_step.connect("
         'lambda agent: notes.append("decision"))`.',
+        "begins": 'The first note has to be "begin": connect with `begin_of_episode`.',
+        "counted": "It is right as long as an episode takes as many decisions as you thought. This "
+        "one ended earlier: connect a function, so that each note is written when it happens.",
         "ticks": "You wrote more than once for a decision. `begin_of_apply_action` comes at each "
         "tick; `end_of_step` comes once a decision.",
         "end": 'The last note of an episode has to be "end": connect with `end_of_episode`.',
@@ -127,20 +149,29 @@ def is_lazy(skip_frame: Any) -> Done:
 def keeps_a_diary(diary: Any) -> Done:
     """Check for entries of the begin, the decisions and the end."""
     a_function(diary)
-    for limit in (7, 3, 11):
-        sim = _runway(_go, 4)
-        agent = sim.agents[0].changed(max_steps_per_episode=limit)
+    for limit, start in ((7, -9.0), (3, -9.0), (60, 2.0)):  # the last one falls before
+        sim = _runway(_go, 4, start=start)
+        falls = FallReward(cause_episode_to_end=True)
+        agent = sim.agents[0].changed(max_steps_per_episode=limit, rewards=[falls])
         sim = ControlRequestor(sim.world, [agent])
         notes = diary(agent)
+        if notes is None:
+            raise NotYet(NOTHING_RETURNED, hint="no-return")
         if not isinstance(notes, list):
-            raise NotYet(f"Expected that `diary` returns a list, got `{notes!r}`.", hint="begin")
-        drive(sim, agent, 1)
-        wanted = ["begin", *["decision"] * limit, "end"]
+            raise NotYet(f"Expected that `diary` returns a list, got {named(notes)}.", hint="begin")
+        done = drive(sim, agent, 1)
+        wanted = ["begin", *["decision"] * done.steps, "end"]
         if notes != wanted:
             count = notes.count("decision")
-            hint = "ticks" if count > limit else "end" if count == limit else "begin"
+            hint = "begin"
+            if count == limit > done.steps:
+                hint = "counted"
+            elif count > done.steps:
+                hint = "ticks"
+            elif count == done.steps:
+                hint = "end" if notes[:1] == ["begin"] else "begins"
             raise NotYet(
-                f"In an episode of {limit} decisions your diary says {notes[:12]!r}"
+                f"In an episode of {done.steps} decisions your diary says {notes[:12]!r}"
                 f"{' ...' if len(notes) > 12 else ''}, not {wanted[:12]!r}.",
                 hint=hint,
             )

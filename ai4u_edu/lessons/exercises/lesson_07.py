@@ -7,16 +7,22 @@ from ai4u_edu.agent import BasicAgent
 from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.blocks import (
     BearingSensor,
+    DistanceToTargetRewardFunc,
+    FallReward,
     LocalBrain,
     OrientationSensor,
     Percept,
     RBMoveActuator,
+    RestlessnessRewardFunc,
     RewardFunc,
+    TouchRewardFunc,
 )
-from ai4u_edu.lessons.exercise import Done, NotYet, a_function, a_list_of, exercise
+from ai4u_edu.blocks.agent_view import AgentView
+from ai4u_edu.lessons.exercise import Done, NotYet, a_function, a_list_of, exercise, named
 from ai4u_edu.lessons.numeric import finite_number
 from ai4u_edu.lessons.rollouts import drive, seeds_of
 from ai4u_edu.lessons.worlds import plate
+from ai4u_edu.world import BodyView, WorldView
 
 Action = dict[str, list[float]]
 SEEDS = (1, 2, 3, 4, 5)
@@ -49,7 +55,7 @@ def _dancer() -> Callable[[Percept], Action]:
     return dance
 
 
-TEMPERS: dict[str, Callable[[], Any]] = {
+CHARACTERS: dict[str, Callable[[], Any]] = {
     "runner": lambda: _steer,
     "stroller": lambda: lambda percept: _steer(percept, 0.4),
     "lingerer": lambda: _linger,
@@ -57,30 +63,34 @@ TEMPERS: dict[str, Callable[[], Any]] = {
     "sleeper": lambda: lambda _: {"move": [0, 0, 0, 0]},
     "jumper": lambda: lambda _: {"move": [1, 0, 0, 0]},
 }
-"""Factories of each temper's controller."""
+"""Factories of each character's controller."""
 
 
-def tempers(name: str, rewards: Sequence[RewardFunc] = ()) -> ControlRequestor:
-    """Return a world in which a robot of that temper lives.
+def character(name: str, rewards: Sequence[RewardFunc] = ()) -> ControlRequestor:
+    """Return a world with a robot of that character.
 
     Args:
-        name: one of ``TEMPERS``.
+        name: one of ``CHARACTERS``.
         rewards: its reward functions.
     """
-    if name not in TEMPERS:
-        raise NotYet(f"Expected one of {', '.join(TEMPERS)}; got `{name!r}`.")
+    if name not in CHARACTERS:
+        raise NotYet(f"Expected one of {', '.join(CHARACTERS)}; got `{name!r}`.")
     agent = BasicAgent(
         body="robot",
         sensors=[BearingSensor(target="box"), OrientationSensor(target="box", normalized=False)],
         actuators=[RBMoveActuator(move_amount=2, turn_amount=3)],
         rewards=list(rewards),
-        brains=[LocalBrain(controller=TEMPERS[name]())],
+        brains=[LocalBrain(controller=CHARACTERS[name]())],
     )
     return ControlRequestor(plate(), [agent])
 
 
+tempers = character
+"""Its name in notebooks that were handed out before."""
+
+
 def contest(rewards: Sequence[RewardFunc], seeds: Sequence[int] = SEEDS) -> dict[str, float]:
-    """Return the mean return of each temper, over the same worlds.
+    """Return the mean return of each character, over the same worlds.
 
     Args:
         rewards: the reward functions of all of them.
@@ -88,8 +98,8 @@ def contest(rewards: Sequence[RewardFunc], seeds: Sequence[int] = SEEDS) -> dict
     """
     rewards = a_list_of(RewardFunc, rewards)
     found = {}
-    for name in TEMPERS:
-        sim = tempers(name, rewards)
+    for name in CHARACTERS:
+        sim = character(name, rewards)
         agent = sim.agents[0]
         total = 0.0
         for seed in seeds:
@@ -107,6 +117,36 @@ def _shown(found: Mapping[str, float]) -> str:
     return ", ".join(f"{name} {paid:.1f}" for name, paid in found.items())
 
 
+class Approach(RewardFunc):
+    """Pays 1 for each decision that brought the agent closer to the box; the notebook's."""
+
+    def on_reset(self, _agent: AgentView, view: WorldView) -> None:
+        """Forget the last distance."""
+        self._before = view["box"].distance(view["robot"])
+
+    def on_update(self, body: BodyView, view: WorldView) -> float:
+        """Return 1 if it came closer."""
+        now = view["box"].distance(body)
+        paid = 1.0 if now < self._before - 0.01 else 0.0
+        self._before = now
+        return paid
+
+
+WELL_MEANT: dict[str, Callable[[], list[RewardFunc]]] = {
+    "near": lambda: [
+        DistanceToTargetRewardFunc(target="box", max_reward=1),
+        TouchRewardFunc(target="box", reward=10, cause_episode_to_end=True),
+    ],
+    "quick": lambda: [
+        TouchRewardFunc(target="box", reward=10),
+        FallReward(success_reward=-1, cause_episode_to_end=True),
+        RestlessnessRewardFunc(reward=-1, min_dist=5),
+    ],
+    "closer": lambda: [Approach()],
+}
+"""The notebook's rewards; the check does not trust those that it is given."""
+
+
 @exercise(
     "07.1",
     "Who wins?",
@@ -115,21 +155,25 @@ def _shown(found: Mapping[str, float]) -> str:
         "little at each of 120 decisions. Which sum is larger?",
         "quick": "With `quick` everybody pays 1 at each decision until the episode is over. What "
         "ends the episode here? Read the first line of `quick` once more.",
-        "closer": "With `closer` a step towards the box pays, and a step away costs nothing. Who "
-        "takes most steps towards it?",
+        "name": "Write one of the six names in quotes, for each of the three rewards.",
+        "closer": "With `closer` a step towards the box pays, and a step away costs nothing. Which "
+        "of them takes most steps towards it?",
     },
 )
 def predicts(winners: Any, well_meant: Any) -> Done:
     """Check the predicted winner with each of three rewards."""
     if not isinstance(winners, Mapping):
         raise NotYet(f"Expected a name for each reward, got `{winners!r}`.")
-    if not isinstance(well_meant, Mapping) or not well_meant:
-        raise NotYet(f"Expected the well-meant rewards, got `{well_meant!r}`.")
-    for name, rewards in well_meant.items():
+    if not isinstance(well_meant, Mapping) or set(well_meant) != set(WELL_MEANT):
+        raise NotYet("Run the cell with the three well-meant rewards once more.")
+    for name, rewards in WELL_MEANT.items():
         said = winners.get(name)
         found = contest(rewards(), seeds_of("07.1", 5))
-        if said not in found:
-            raise NotYet(f"For `{name}` expected one of {', '.join(found)}; got `{said!r}`.")
+        if not isinstance(said, str) or said not in found:
+            raise NotYet(
+                f"For `{name}` expected one of {', '.join(found)}; got {named(said)}.",
+                hint="name",
+            )
         if said != _best(found):
             raise NotYet(
                 f"With `{name}` the {said} gets {found[said]:.1f}, and somebody else gets more.",
@@ -148,6 +192,10 @@ def _made(make: Any) -> list[RewardFunc]:
     hints={
         "linger": "Somebody gets more than the runner by staying near, or by dancing. A trail must "
         "pay for *getting* nearer, and take it back from who goes away: `ProgressReward`.",
+        "patience": "In ten seconds the runner wins. In a minute somebody else does, who is paid "
+        "for staying near: every reward for *being* somewhere can be collected without end.",
+        "nothing": "Nobody is paid anything yet.",
+        "lost": "The runner does not win. What does it get for the touch?",
         "trail": "The runner wins, but until the touch it gets nothing: a beginner would not know "
         "where to go. Add a reward for progress.",
     },
@@ -156,10 +204,23 @@ def has_a_trail(make: Any) -> Done:
     """Check that the runner wins, and is rewarded on the way."""
     seeds = seeds_of("07.2", 5)
     found = contest(_made(make), seeds)
+    if not any(found.values()):
+        raise NotYet(f"Nobody gets anything: {_shown(found)}.", hint="nothing")
     others = max(paid for name, paid in found.items() if name not in ("runner", "stroller"))
     if found["runner"] < others + 1 or found["runner"] < found["stroller"] - 1:
-        raise NotYet(f"The runner does not win clearly: {_shown(found)}.", hint="linger")
-    sim = tempers("runner", _made(make))
+        stays = max(found["lingerer"], found["dancer"]) >= found["runner"] - 1
+        raise NotYet(
+            f"The runner does not win clearly: {_shown(found)}.", hint="linger" if stays else "lost"
+        )
+    for name in ("lingerer", "dancer"):
+        paid_in_a_minute = _in_a_minute(name, _made(make), seeds[:2])
+        if paid_in_a_minute > found["runner"] - 1:
+            raise NotYet(
+                f"In ten seconds the runner wins. In a minute the {name} gets "
+                f"{paid_in_a_minute:.1f}, more than the runner's {found['runner']:.1f}.",
+                hint="patience",
+            )
+    sim = character("runner", _made(make))
     agent = sim.agents[0]
     for seed in seeds:
         paid: list[float] = []
@@ -173,6 +234,17 @@ def has_a_trail(make: Any) -> Done:
     return Done(f"The runner wins, and the way is paid: {_shown(found)}.", done.picture())
 
 
+def _in_a_minute(name: str, rewards: list[RewardFunc], seeds: Sequence[int]) -> float:
+    """Return the mean return in episodes of a minute."""
+    sim = character(name, rewards)
+    agent = sim.agents[0]
+    total = 0.0
+    for seed in seeds:
+        drive(sim, agent, seed, 6 * TEN_SECONDS)
+        total += agent.ledger.episode_total
+    return finite_number(total / len(seeds))
+
+
 @exercise(
     "07.3",
     "Quick, but not at any price",
@@ -181,16 +253,22 @@ def has_a_trail(make: Any) -> Done:
         "the `reward` for restlessness below 0.",
         "jump": "The jumper is not the last: a fall ends the episode, and who is out pays no "
         "more. The fall has to cost more than all the time that it saves.",
+        "pays": "Time pays instead of costing: the `reward` for restlessness has to be below 0.",
+        "dear": "Time costs so much that the runner, too, gets less than nothing: make it cheaper.",
         "runner": "The runner has to get the most of all.",
     },
 )
 def is_quick(make: Any) -> Done:
     """Check that the runner beats the stroller, and the jumper is last."""
     found = contest(_made(make), seeds_of("07.3", 5))
+    if found["sleeper"] > 0.1:
+        raise NotYet(f"The sleeper is paid for sleeping: {_shown(found)}.", hint="pays")
+    if found["runner"] < 0:
+        raise NotYet(f"The runner gets less than nothing: {_shown(found)}.", hint="dear")
     if found["runner"] <= found["stroller"] + 0.1:
         raise NotYet(f"Time costs nothing yet: {_shown(found)}.", hint="time")
     if _best(found) != "runner":
         raise NotYet(f"The runner does not win: {_shown(found)}.", hint="runner")
     if min(found, key=lambda name: found[name]) != "jumper":
         raise NotYet(f"The jumper is not the last: {_shown(found)}.", hint="jump")
-    return Done(f"Quick, and nobody wants to jump: {_shown(found)}.")
+    return Done(f"Quick, and jumping does not pay: {_shown(found)}.")

@@ -8,10 +8,12 @@ from json import dumps
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from gymnasium.spaces import Box
 
 from ai4u_edu.agent import BasicAgent
 from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.blocks import (
+    Actuator,
     BearingSensor,
     FallReward,
     LocalBrain,
@@ -25,6 +27,7 @@ from ai4u_edu.lessons.numeric import finite_numbers, is_close
 from ai4u_edu.lessons.rollouts import Drive, drives, seeds_of
 from ai4u_edu.lessons.worlds import plate
 from ai4u_edu.scenes import Scene
+from ai4u_edu.world import Body
 
 if TYPE_CHECKING:
     from ai4u_edu.remote import Robot
@@ -34,7 +37,20 @@ RECEIVE_TIMEOUT_MS = 20_000
 """Time for which the world waits for an action, milliseconds."""
 LAG_DECISIONS = 3
 """Lag of the percepts, in decisions of 1/12 s each."""
-SCENES = ("box_chase", "line_follow", "parking")
+SCENES = ("box_chase", "line_follow", "strong", "parking")
+"""Robots that are asked for; ``strong`` is one whose numbers go beyond 1."""
+
+
+class Winch(Actuator):
+    """Robot's motor with ranges of its own."""
+
+    def space(self) -> Box:
+        """Return the ranges: forward to 3, turn to 0.5, a spare to 0.25."""
+        return Box(np.array([-1, -0.5, 0], np.float32), np.array([3, 0.5, 0.25], np.float32), (3,))
+
+    def act(self, body: Body, action: Any) -> None:
+        """Drive and turn."""
+        body.apply_force(float(action[0]), 0.0)
 
 
 @contextmanager
@@ -86,6 +102,15 @@ def late(controller: Callable[[Any], Any], lag: int = LAG_DECISIONS) -> ControlR
 
 def _short(name: str) -> ControlRequestor:
     """Return a scene whose episodes end soon, whatever a script does."""
+    if name == "strong":
+        agent = BasicAgent(
+            body="robot",
+            max_steps_per_episode=LIMIT,
+            sensors=[BearingSensor(target="box")],
+            actuators=[Winch(action_name="winch")],
+            brains=[LocalBrain(controller=lambda _: {})],
+        )
+        return ControlRequestor(plate(), [agent])
     plain = Scene.load(name).plain()
     plain["agents"][0]["max_steps_per_episode"] = LIMIT
     return Scene.loads(dumps(plain), name=name).build()  # JSON is YAML as well
@@ -135,6 +160,10 @@ def drives_from_afar(script: Any) -> Done:
         "fast": "It turns on what was true a quarter of a second ago, and by then it looks "
         "elsewhere. Turn less for the same sine, and drive more slowly: late news is less wrong "
         "about a slow robot.",
+        "blind": "It does the same whatever it senses: look at the bearing.",
+        "away": "It turns away from the box: for a box on the left (sine above 0) turn left (below "
+        "0).",
+        "still": "It never drives. Where the box is ahead, drive slowly.",
     },
 )
 def copes_with_lag(careful: Any) -> Done:
@@ -146,11 +175,26 @@ def copes_with_lag(careful: Any) -> Done:
             how = "fell" if done.fell else "did not get there in time"
             raise done.not_yet(
                 f"With percepts {LAG_DECISIONS} decisions old the robot {how} ({{where}}).",
-                "fast",
+                _why(drive_late),
             )
     return Done(
         f"A quarter of a second late, and it found the box in {worlds} worlds.", done.picture()
     )
+
+
+def _why(careful: Callable[..., Any]) -> str:
+    """Return the diagnosis that fits how a driver answers."""
+    seen = {"left": (0.8, 0.6), "right": (-0.8, 0.6), "ahead": (0.0, 1.0)}
+    moves = {}
+    for name, bearing in seen.items():
+        answer = careful({"bearing": np.array(bearing)})
+        move = answer.get("move", ()) if isinstance(answer, dict) else ()
+        moves[name] = [float(each) for each in move]
+    if len({repr(each) for each in moves.values()}) == 1:
+        return "blind"
+    if len(moves["left"]) == 4 and moves["left"][1] > moves["right"][1]:
+        return "away"
+    return "still" if not any(move[:1] != [0.0] for move in moves.values()) else "fast"
 
 
 @exercise(
@@ -159,12 +203,14 @@ def copes_with_lag(careful: Any) -> Done:
     hints={
         "ask": "Robots differ: this one takes another number of numbers, or another range. Ask it: "
         "`robot.spaces.action.high` are the highest numbers that it takes.",
+        "one": "It gives 1 for each number. Not every robot's range ends at 1: ask for the highest "
+        "numbers.",
         "full": "The robot takes that, but it is not full power: each number should be the highest "
         "that its range allows.",
     },
 )
 def asks_the_robot(full_power: Any) -> str:
-    """Check the function with robots of three scenes."""
+    """Check the function with four robots."""
     ask = a_function(full_power)
     for name in SCENES:
         sim = _short(name)
@@ -177,9 +223,9 @@ def asks_the_robot(full_power: Any) -> str:
             if not is_close(got, high, 1e-5):
                 raise NotYet(
                     f"For the robot of `{name}` full power is {high.tolist()}, and it got {got}.",
-                    hint="full",
+                    hint="one" if set(got) == {1.0} else "full",
                 )
             robot.sense()
             robot.act({output: got})
             robot.sense()
-    return "Three different robots, each at full power."
+    return "Four different robots, each at full power."

@@ -9,9 +9,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ai4u_edu.lessons.exercise import Done, NotYet, a_function, exercise
-from ai4u_edu.lessons.numeric import finite_number, is_close
+from ai4u_edu.lessons.exercise import Done, NotYet, a_function, exercise, named
+from ai4u_edu.lessons.numeric import Slip, chance_for, difference, finite_number, is_close
 from ai4u_edu.lessons.rollouts import drive, seeds_of
+from ai4u_edu.lessons.wrong_reward import OUTCOMES, Hacker, outcomes
 
 if TYPE_CHECKING:
     from ai4u_edu.training.learning import Trained
@@ -115,25 +116,45 @@ def corridor(update: "Update", episodes: int = 40, seed: int = 0) -> list[list[f
     "09.1",
     "What later is worth now",
     hints={
+        "undiscounted": "Every reward counts in full. Later ones have to count less: multiply the "
+        "reward number n by `discount ** n`.",
         "later": "Rewards that come later have to count less. `enumerate(rewards)` gives each "
         "reward with its number n: 0, 1, 2 ... Multiply each by `discount ** n`.",
+        "linear": "The discount is applied once per reward, not once per step: it is a power, "
+        "`discount ** n`, and not a product.",
+        "once": "The whole sum is discounted once. Each reward has its own power of the discount.",
+        "backward": "The order is turned round: the first reward comes now, the last one latest.",
         "first": "The first reward comes now: it counts in full. Its number is 0, and "
         "`discount ** 0` is 1.",
     },
 )
 def discounts(worth: Any) -> str:
     """Check the discounted return of rewards."""
-    chance = np.random.default_rng(seeds_of("09.1", 1)[0])
+    chance = chance_for("09.1", worth)
     for length in (3, 1, 0, 6, 20):
         rewards = [float(each) for each in chance.integers(-5, 10, length)]
-        discount = round(float(chance.uniform(0.3, 0.99)), 2)
+        discount = round(float(chance.uniform(0.3, 0.9)), 2)
         right = sum(reward * discount**n for n, reward in enumerate(rewards))
         got = finite_number(a_function(worth)(list(rewards), discount))
         if not is_close(got, right, 1e-6):
+            slips = {
+                "first": ("the right sum, discounted once more", discount * right),
+                "undiscounted": ("the sum without the discount", sum(rewards)),
+                "linear": (
+                    "right for `discount * n` in place of `discount ** n`",
+                    sum(reward * discount * n for n, reward in enumerate(rewards)),
+                ),
+                "once": ("the whole sum, discounted once", discount * sum(rewards)),
+                "backward": (
+                    "right for the list turned round",
+                    sum(reward * discount**n for n, reward in enumerate(reversed(rewards))),
+                ),
+            }
+            slip = difference(got, slips, 1e-6) if length > 1 else Slip("", "")
             raise NotYet(
                 f"With the rewards {rewards[:6]} and a discount of {discount} expected "
-                f"{right:.3f}, got {got:.3f}.",
-                hint="first" if is_close(got, discount * right, 1e-6) else "later",
+                f"{right:.3f}, got {got:.3f}{slip.words}.",
+                hint=slip.name or ("later" if is_close(got, 0, 0) else ""),
             )
     return "Five lists of rewards, all of them worth what they should be."
 
@@ -147,6 +168,15 @@ def discounts(worth: Any) -> str:
         "value a part of the way to that.",
         "jump": "The value jumps all the way to what happened last. Once is no proof: go only the "
         "part `rate` of the way, `value + rate * (target - value)`.",
+        "undiscounted": "What is to be had later counts less than what is paid now: multiply "
+        "`best_next` by `discount`.",
+        "minus-value": "The value grows and grows. Move it by a part of the *difference* between "
+        "target and value: `rate * (target - value)`.",
+        "bracket": "Without brackets the rate multiplies only the target: "
+        "`value + rate * (target - value)`.",
+        "other-side": "A rate of 0 should change nothing, a rate of 1 everything. With yours it is "
+        "the other way round.",
+        "all-discounted": "The reward of this step is paid now: only `best_next` is discounted.",
         "future": "Only the reward of this very step counts with you. The goal pays at the last "
         "step alone, so no cell before it would ever be worth anything: add "
         "`discount * best_next`.",
@@ -154,21 +184,46 @@ def discounts(worth: Any) -> str:
 )
 def learns_a_step(update: Any) -> str:
     """Check the update of a value, and a walker that learns by it."""
-    chance = np.random.default_rng(seeds_of("09.2", 1)[0])
+    chance = chance_for("09.2", update)
     for _ in range(20):
-        value, reward, best, rate, discount = (float(each) for each in chance.uniform(0.1, 0.9, 5))
-        right = value + rate * (reward + discount * best - value)
+        value, reward, best, rate, discount = (
+            round(float(each), 2) for each in chance.uniform(0.1, 0.9, 5)
+        )
+        target = reward + discount * best
+        right = value + rate * (target - value)
         got = finite_number(a_function(update)(value, reward, best, rate, discount))
-        slips = {
-            "jump": reward + discount * best,
-            "future": value + rate * (reward - value),
-        }
         if not is_close(got, right, 1e-6):
+            slips = {
+                "stays": ("the value as it was: nothing is learned", value),
+                "jump": ("the target itself, as if the rate were 1", target),
+                "future": (
+                    "right without what is to be had from there",
+                    value + rate * (reward - value),
+                ),
+                "undiscounted": (
+                    "right without the discount",
+                    value + rate * (reward + best - value),
+                ),
+                "minus-value": ("right without `- value`", value + rate * target),
+                "bracket": (
+                    "right but for a bracket: the rate has to multiply the whole difference",
+                    value + rate * target - value,
+                ),
+                "other-side": (
+                    "right with the rate on the wrong side",
+                    rate * value + (1 - rate) * target,
+                ),
+                "all-discounted": (
+                    "right if the reward were discounted too",
+                    value + rate * (discount * (reward + best) - value),
+                ),
+            }
+            slip = difference(got, slips, 1e-6)
             raise NotYet(
                 f"A value of {value:.2f}, a reward of {reward:.2f}, {best:.2f} to be had from "
                 f"there, a rate of {rate:.2f} and a discount of {discount:.2f}: expected "
-                f"{right:.3f}, got {got:.3f}.",
-                hint=next((name for name in slips if is_close(got, slips[name], 1e-6)), "stays"),
+                f"{right:.3f}, got {got:.3f}{slip.words}.",
+                hint=slip.name,
             )
     learned = [corridor(update, seed=seed)[-1][START] for seed in seeds_of("09.2", 10)]
     return (
@@ -219,4 +274,38 @@ def _expect_trained(trained: Any) -> None:
     from ai4u_edu.training.learning import Trained
 
     if not isinstance(trained, Trained):
-        raise NotYet(f"Expected what `learn(...)` returned, got `{trained!r}`.")
+        raise NotYet(f"Expected what `learn(...)` returned, got {named(trained)}.")
+
+
+@exercise(
+    "09.4",
+    "The wrong reward, learned",
+    hints={
+        "name": 'Write your guess into `prediction`: "touches", "lingers" or "falls".',
+        "touches": "A touch pays 10, once, and ends the episode. Being near pays up to 3 at each "
+        "of 60 decisions. Which sum is larger?",
+        "falls": "A fall costs 1 and ends the payments. What is there to be had on the plate?",
+        "untrained": "`hacked` has to be what `learn_wrong_reward()` returns.",
+    },
+)
+def predicts_the_learner(prediction: Any, hacked: Any) -> Done:
+    """Check the predicted behaviour of a robot that learned with a well-meant reward."""
+    if not isinstance(hacked, Hacker):
+        raise NotYet(
+            f"Expected what `learn_wrong_reward()` returned, got {named(hacked)}.",
+            hint="untrained",
+        )
+    if not isinstance(prediction, str) or prediction not in OUTCOMES:
+        raise NotYet(
+            f"Expected one of {', '.join(OUTCOMES)} as your guess, got {named(prediction)}.",
+            hint="name",
+        )
+    worlds = 20
+    counts, last = outcomes(hacked, seeds_of("09.4", worlds))
+    told = (
+        f"In {worlds} worlds it touched the box in {counts['touches']}, fell in {counts['falls']}, "
+        f"and was still on the plate when time was up in {counts['lingers']}."
+    )
+    if counts[prediction] < max(counts.values()):
+        raise NotYet(told, hint=prediction, picture=last.picture())
+    return Done(f"You saw it coming. {told}", last.picture())

@@ -10,14 +10,16 @@ from ai4u_edu.agent import BasicAgent
 from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.blocks import Brain, LocalBrain, NeuralNetController, Percept
 from ai4u_edu.lessons.exercise import Done, NotYet, a_function, exercise, named
+from ai4u_edu.lessons.numeric import chance_for
 from ai4u_edu.lessons.rollouts import Drive, as_brain, drives, seeds_of
+from ai4u_edu.lessons.student_errors import NOTHING_RETURNED
 from ai4u_edu.scenes import Scene
 
 if TYPE_CHECKING:
     from ai4u_edu.recording import Episode
 
 ENOUGH = 5
-WORLDS, NEEDED, LIMIT = 40, 24, 300
+WORLDS, NEEDED, LIMIT = 40, 20, 300
 MAX_RACE_STEPS = 300
 """Steps after which a race is over."""
 
@@ -30,6 +32,10 @@ def player(percept: Percept) -> dict[str, list[float]]:
 
 PLACES = (0, 1, 5, 7, 9)
 """Seeds of the scripted player's episodes, which begin in five different places."""
+
+
+ODD_ONE = 3
+"""Index of the episode whose clone does worst: it reaches the box in about one world of seven."""
 
 
 @cache
@@ -68,6 +74,11 @@ def my_drives(folder: str | Path = "drives", count: int = ENOUGH) -> "list[Episo
             f"{count - len(won)}."
         )
     return [*won, *_shown(count - len(won))]
+
+
+def one_drive() -> "list[Episode]":
+    """Return a drive of the scripted player that teaches little about other places."""
+    return list(_shown(len(PLACES))[ODD_ONE : ODD_ONE + 1])
 
 
 def best_network() -> str:
@@ -120,6 +131,10 @@ def _driver(who: Any, agent: BasicAgent) -> Brain:
     hints={
         "all": "Drives in which the robot fell are among them too, and it would learn to fall. An "
         "episode knows whether the goal was reached: `episode.success`.",
+        "parts": "The list has to hold the episodes, not their seeds or seconds.",
+        "twice": "Each episode belongs in the list once.",
+        "some": "You left some out that reached the box: go through the whole list.",
+        "none": "Your list is empty.",
         "quick": "A fall can be quick too, and a good drive may be long, when the way is. Ask "
         "whether the goal was reached: `episode.success`.",
     },
@@ -130,30 +145,45 @@ def chooses(good: Any) -> str:
 
     a_function(good)
     seed = seeds_of("10.1", 1)[0]
-    drivers = (player, _slowly, _straight_on)
+    drivers = (player, _slowly, _straight_on, _tired)
     given = [
         episode
         for each in drivers
         for episode in demonstrate(each, "box_chase", episodes=3, seed=seed, quiet=True)
-    ][::-1]
+    ]
+    order = chance_for("10.1", good).permutation(len(given))
+    given = [given[number] for number in order]
     right = [each for each in given if each.success]
     got = good(list(given))
+    if got is None:
+        raise NotYet(NOTHING_RETURNED, hint="no-return")
     if not isinstance(got, list | tuple) or not all(any(e is g for g in given) for e in got):
-        raise NotYet(f"Expected a list with some of the episodes, got `{type(got).__name__}`.")
+        part = named(got[0]) if isinstance(got, list | tuple) and got else named(got)
+        raise NotYet(
+            f"Expected a list with some of the episodes themselves, and found {part} in it.",
+            hint="parts",
+        )
+    if len({id(each) for each in got}) < len(got):
+        raise NotYet("The same episode is in your list more than once.", hint="twice")
     bad = [each for each in got if not each.success]
     if bad:
-        hint = "all" if len(got) == len(given) else "quick"
         raise NotYet(
-            f"Of 9 episodes {len(right)} reached the box. You chose {len(got)}, and in {len(bad)} "
-            "of those the robot fell.",
-            hint=hint,
+            f"Of {len(given)} episodes {len(right)} reached the box. You chose {len(got)}, and in "
+            f"{len(bad)} of those the robot did not.",
+            hint="all" if len(got) == len(given) else "quick",
         )
     if len(got) != len(right):
         raise NotYet(
-            f"Of 9 episodes {len(right)} reached the box, and you chose {len(got)} of them.",
-            hint="quick",
+            f"Of {len(given)} episodes {len(right)} reached the box, and you chose {len(got)} of "
+            "them.",
+            hint="some" if got else "none",
         )
-    return f"Of 9 episodes you chose the {len(right)} that reached the box."
+    return f"Of {len(given)} episodes you chose the {len(right)} that reached the box."
+
+
+def _tired(percept: Percept) -> dict[str, list[float]]:
+    """Crawl towards the edge, so that a fall takes longer than most good drives."""
+    return {"move": [0.15, 0, 0, 0]} if percept["orientation"][0] < 2 else {}
 
 
 def _slowly(percept: Percept) -> dict[str, list[float]]:
@@ -169,17 +199,16 @@ def _straight_on(_percept: Percept) -> dict[str, list[float]]:
     "Show it",
     hints={
         "few": "It was shown a single way, from a single place. Elsewhere it only guesses. Let it "
-        "learn from five drives that began in different places: `my_drives()` without the "
-        "rest.",
+        "learn from five drives that began in different places: `clone(my_drives(), ...)`.",
         "sloppy": "It does what it was shown, detours too. Record five new drives, each of them "
         "as you would want it to drive: turn until you look at the box, then go.",
     },
 )
 def is_shown(cloned: Any) -> Done:
-    """Check for success in 60 of 100 worlds, from demonstrations."""
+    """Check for success in half of the worlds, from demonstrations."""
     path = getattr(cloned, "path", None)
     if not isinstance(path, Path) or not hasattr(cloned, "decisions"):
-        raise NotYet(f"Expected what `clone(...)` returned, got `{cloned!r}`.")
+        raise NotYet(f"Expected what `clone(...)` returned, got {named(cloned)}.")
     controller = NeuralNetController(model_path=str(path))
     about = controller.network.about
     brain = LocalBrain(controller=controller, **controller.network.rhythm)
@@ -195,15 +224,9 @@ def is_shown(cloned: Any) -> Done:
                 "The last one that failed: {where}.",
                 "few" if count < ENOUGH else "sloppy",
             )
-    if count < ENOUGH:
-        raise NotYet(
-            f"It reached the box in {won} of {WORLDS} worlds, and has seen {shown} only. How good "
-            f"does it get with {ENOUGH}?",
-            hint="few",
-        )
     return Done(
-        f"It reached the box in {won} of {WORLDS} worlds, after {cloned.decisions} decisions of "
-        "yours.",
+        f"It reached the box in {won} of {WORLDS} worlds, after {shown} with "
+        f"{cloned.decisions} decisions.",
         done.picture(),
     )
 
@@ -215,8 +238,10 @@ def is_shown(cloned: Any) -> Done:
     hints={
         "begin": "Nobody has run yet. Begin with `sim.reset(seed)`, call `sim.step()` until one of "
         "the two is `done`, and then look who it is.",
-        "fell": "Who is done first has not always won: it may have fallen. `touched(agent)` says "
-        "whether it was the box; if it was not, the other one has won.",
+        "draw": "Both are still on their way: nobody has won yet. Go on until one of the two is "
+        "`done`.",
+        "fell": "The first to be done has not always won: it may have fallen. `touched(agent)` "
+        "says whether it was the box; if it was not, the other one has won.",
         "time": "Two who never arrive would keep you waiting for ever. After 300 steps return "
         "`None`.",
     },
@@ -233,9 +258,13 @@ def referees(race: Any) -> Done:
     pairs = [
         ("a slow one", "a good one"),
         ("a good one", "a slow one"),
+        ("a good one", "one that sleeps"),
+        ("a good one", "a slow one"),
         ("one that sleeps", "a good one"),
         ("one that falls", "a good one"),
         ("a slow one", "one that falls"),
+        ("one that falls", "one that sleeps"),
+        ("one that sleeps", "one that falls"),
         ("one that sleeps", "one that sleeps"),
     ]
     shown = b""
@@ -256,7 +285,7 @@ def referees(race: Any) -> Done:
                 hint=hint,
                 picture=drive.picture(),
             )
-    return Done("Six races, and you saw who won each of them.", shown)
+    return Done("Ten races, and you saw who won each of them.", shown)
 
 
 def _patient(driver: Callable[..., Any], seed: int) -> Callable[[Percept], Any]:

@@ -55,45 +55,65 @@ def _looks_around(chase: Any, done: Drive) -> bool:
     "Stay in the ring",
     hints={
         "edge": "It falls out by itself. Turn to the opponent before you drive: `go_to` with the "
-        "two numbers of `opponent`. And near the edge, first turn to the middle.",
+        "first two numbers of `opponent`.",
+        "away": "It turns away from the opponent. `go_to` gets how far ahead, then how far to the "
+        "left: in that order.",
+        "careful": "It wins more often than not, and loses fights by being careful: while it turns "
+        "to the middle, the other one pushes. Try what happens if it just attacks.",
         "shy": "It does not attack: nobody wins by waiting. Drive at the opponent.",
     },
 )
 def wins_fights(fight: Any) -> Done:
-    """Check that it wins 15 of 20 fights."""
-    fights, won = 20, 0
+    """Check that it wins 17 of 20 fights."""
+    fights, needed, won = 20, 17, 0
     reason: NotYet | None = None
     for played, done in enumerate(drives("sumo", fight, seeds_of("12.2", fights)), 1):
         won += done.won
         if not done.won and reason is None:
             how = "fell out of the ring" if done.fell else "did not win"
-            reason = done.not_yet(
-                f"Your robot {how} ({{where}}).", "shy" if _waits(done) else "edge"
-            )
-        if played - won > fights - 15:
+            reason = done.not_yet(f"Your robot {how} ({{where}}).", _fight_mistake(fight, done))
+        if played - won > fights - needed:
             break
-    if won < 15 and reason is not None:
-        reason.text = f"{won} of {played} fights won; 15 of {fights} are needed. {reason.text}"
+    if won < needed and reason is not None:
+        if won > 6 and reason.hint == "edge":
+            reason.hint = "careful"
+        reason.text = (
+            f"{won} of {played} fights won; {needed} of {fights} are needed. {reason.text}"
+        )
         raise reason
     return Done(f"{won} of {fights} fights won.", done.picture())
 
 
-def _waits(done: Drive) -> bool:
-    """Return True if it did not drive."""
-    return not any(done.agent.last_action.get("move", (0.0,))[:1])
+def _fight_mistake(fight: Any, done: Drive) -> str:
+    """Return the diagnosis that fits a lost fight."""
+    if callable(fight) and not isinstance(fight, type):
+        percept = dict(done.agent.percept)
+        turns = []
+        for left in (0.3, -0.3):
+            there = {"opponent": np.array([0.1, left, 0.0]), "position": [0, 0, 0]}
+            answer = fight({**percept, **there})
+            turns.append(float(answer["move"][1]) if isinstance(answer, dict) else 0.0)
+        if turns[0] > turns[1]:
+            return "away"
+    return "edge" if done.moved > 0.5 and any(done.agent.last_action.get("move", ())[:1]) else "shy"
 
 
 @exercise(
     "12.3",
     "The striker",
     hints={
-        "begin": "Running at the ball is not enough: it flies away from where you come from. Go to "
-        "a place behind it first, seen from the goal.",
+        "begin": "Running at the ball is not enough: it flies off the way you were running. First "
+        "go to a place behind it, seen from the goal: `behind(ball, goal)`.",
+        "through": "You get behind the ball, and then? When you are there, run through the ball: "
+        "go to `ball`, or to `goal`.",
+        "when": "How do you know that you are behind it? Seen from there, ball and goal lie in the "
+        "same direction: `math.atan2(ball[1], ball[0])` and the same for the goal differ by less "
+        "than 0.5, say.",
     },
 )
 def scores(strike: Any) -> Done:
-    """Check for 10 goals in 12 games that begin in front of the ball."""
-    games, needed, won = 12, 10, 0
+    """Check for 6 goals in 12 games that begin in front of the ball."""
+    games, needed, won = 12, 6, 0
     reason: NotYet | None = None
     for played, done in enumerate(
         drives("soccer", strike, seeds_of("12.3", games), watch=_in_front), 1
@@ -105,6 +125,8 @@ def scores(strike: Any) -> Done:
         if played - won > games - needed:
             break
     if won < needed and reason is not None:
+        if won > needed / 2:
+            reason.hint = "when"
         reason.text = f"{won} goals in {played} games; {needed} in {games} needed. {reason.text}"
         raise reason
     return Done(f"{won} goals in {played} games.", done.picture())

@@ -1,5 +1,6 @@
 """Needs: a creature that gets hungry."""
 
+import math
 from typing import Any
 
 from ai4u_edu.agent import BasicAgent
@@ -16,7 +17,7 @@ from ai4u_edu.blocks import (
     RBMoveActuator,
 )
 from ai4u_edu.lessons.exercise import Done, NotYet, a_function, exercise
-from ai4u_edu.lessons.numeric import finite_number, is_close
+from ai4u_edu.lessons.numeric import chance_for, difference, finite_number, is_close
 from ai4u_edu.lessons.rollouts import Drive, as_brain, drive, seeds_of
 from ai4u_edu.world import BoxShape, CircleShape, Variation, World
 
@@ -24,16 +25,34 @@ DECISIONS_PER_MINUTE = 720
 """Number of decisions in a minute."""
 LOW, HIGH = 0.4, 0.8
 """Ends of the comfort zone, as shares of the range."""
+MINUTES = 6
+"""Worlds in which it has to live for a minute; in the others it begins with little of one."""
+LOW_LIMIT = 120
+"""Decisions in a world that begins with little of one: 10 s."""
+WELL = 0.6
+"""Share of the decisions in which both levels have to be in the zone."""
+HUNDRED = (
+    "In the percept the levels go from 0 to 1: what the panel shows as 40 is 0.4 here. Compare "
+    "with 0.4, not with 40."
+)
 ROOM = Variation(x=(-4, 4), y=(-4, 4), heading_deg=(-180, 180), clearance=0.3)
 
 
-def creature(controller: Any) -> ControlRequestor:
+def creature(
+    controller: Any,
+    energy: float = 60,
+    water: float = 60,
+    losses: tuple[float, float] = (3.0, 4.0),
+) -> ControlRequestor:
     """Return a creature on a plate with food and water.
 
     Args:
         controller: a function, a controller or a brain; drives it.
+        energy: level at the beginning, from 0 to 100.
+        water: level at the beginning, from 0 to 100.
+        losses: of energy and water, in each second.
     """
-    needs = _needs()
+    needs = _needs((energy, water), losses)
     agent = BasicAgent(
         body="creature",
         max_steps_per_episode=DECISIONS_PER_MINUTE,
@@ -102,17 +121,17 @@ def _meadow() -> World:
     return world
 
 
-def _needs() -> list[HomeostaticVariable]:
+def _needs(levels: tuple[float, float], losses: tuple[float, float]) -> list[HomeostaticVariable]:
     return [
         HomeostaticVariable(
             name=name,
             range_max=100,
             comfort_min=100 * LOW,
             comfort_max=100 * HIGH,
-            value=60,
+            value=level,
             drift_per_second=-loss,
         )
-        for name, loss in (("energy", 3.0), ("water", 4.0))
+        for name, level, loss in zip(("energy", "water"), levels, losses, strict=True)
     ]
 
 
@@ -122,38 +141,52 @@ def _needs() -> list[HomeostaticVariable]:
     hints={
         "begin": "How much is there to lose until 40? And how much of it goes in a second?",
         "empty": "That is how long it takes until nothing is left. Comfort ends at 40.",
+        "whole": "A time need not be a whole number of seconds: divide with `/`.",
+        "up": "A time need not be a whole number of seconds: do not count, divide.",
+        "product": "The larger the loss, the shorter the time: divide by it.",
         "below": "Below 40 there is no comfort left: the answer is 0, not less.",
     },
 )
 def computes_comfort(seconds: Any) -> Done:
     """Check the seconds until a level reaches 40."""
     a_function(seconds)
-    for level, loss in ((60.0, 4.0), (80.0, 2.0), (45.0, 0.5), (100.0, 3.0), (30.0, 2.0)):
+    chance = chance_for("13.1", seconds)
+    cases = [(60.0, 4.0), (50.0, 3.0), (30.0, 2.0)]
+    for low, high in ((45, 100), (45, 100), (5, 39), (60, 100), (41, 60)):
+        level = round(float(chance.uniform(low, high)), 1)
+        cases.append((level, round(float(chance.uniform(0.5, 6)), 1)))
+    for level, loss in cases:
         found = finite_number(seconds(level, loss))
         wanted = max(0.0, (level - 40) / loss)
         if not is_close(found, wanted, 0.01):
-            hint = "begin"
-            if is_close(found, level / loss, 0.01):
-                hint = "empty"
-            elif level < 40:
-                hint = "below"
+            slips = {
+                "empty": ("the time until nothing is left", level / loss),
+                "below": ("below 0", (level - 40) / loss),
+                "whole": ("right, but cut off to a whole number", float(int(wanted))),
+                "up": ("right, but rounded up", float(math.ceil(wanted))),
+                "product": ("the loss times what there is to lose", (level - 40) * loss),
+                "begin": ("the level itself", level),
+            }
+            slip = difference(found, slips, 0.01)
             raise NotYet(
-                f"With a level of {level:g} and a loss of {loss:g} a second it takes {wanted:g} s, "
-                f"your function says {found:g}.",
-                hint=hint,
+                f"With a level of {level:g} and a loss of {loss:g} a second it takes {wanted:.2f} "
+                f"s, your function says {found:.2f}{slip.words}.",
+                hint=slip.name,
             )
-    return Done("Five levels, five times right.")
+    return Done("Eight levels, eight times right.")
 
 
-def _life(controller: Any, seed: int) -> tuple[Drive, float, int]:
+def _life(
+    controller: Any, seed: int, limit: int = DECISIONS_PER_MINUTE, **levels: Any
+) -> tuple[Drive, float, int]:
     """Return an episode, the share with both levels in the zone, and the empty level (or -1)."""
-    sim = creature(controller)
+    sim = creature(controller, **levels)
     inside: list[tuple[float, ...]] = []
     done = drive(
         sim,
         sim.agents[0],
         seed,
-        DECISIONS_PER_MINUTE,
+        limit,
         lambda done: inside.append(_levels(done.agent)),
     )
     well = sum(all(LOW <= level <= HIGH for level in levels) for levels in inside) / len(inside)
@@ -171,25 +204,42 @@ def _levels(agent: BasicAgent) -> tuple[float, ...]:
     hints={
         "thirst": "It dies although there is enough of both. It has to go for what it has less of: "
         "compare `energy` and `water`.",
+        "hundred": HUNDRED,
         "reversed": "It goes for what it has more of. Where energy is the smaller one, food is "
         "needed.",
     },
 )
 def stays_alive(live: Any) -> Done:
-    """Check that it lives for a minute in 8 worlds."""
-    for seed in seeds_of("13.2", 8):
-        done, _, ran_out = _life(live, seed)
+    """Check that it lives for a minute, and begins with what it needs most."""
+    seeds = seeds_of("13.2", 14)
+    worlds: list[tuple[int, dict[str, Any]]] = [(seed, {}) for seed in seeds[:MINUTES]]
+    for seed in seeds[MINUTES:]:
+        for low in ("energy", "water"):
+            short = {"energy": 85, "water": 85, "losses": (2, 2), "limit": LOW_LIMIT, low: 12}
+            worlds.append((seed, short))
+    trails: list[list[tuple[float, float]]] = []
+    for seed, begins in worlds:
+        done, _, ran_out = _life(live, seed, **begins)
         if ran_out >= 0:
             name = ("energy", "water")[ran_out]
             other = ("water", "energy")[ran_out]
             level = _levels(done.agent)[1 - ran_out]
             hint = "reversed" if _goes_for_more(live, done) else "thirst"
+            hint = "hundred" if _hundred(live, done) else hint
+            told = "It began with little of one. " if begins else ""
             raise done.not_yet(
-                f"After {done.steps / 12:.0f} seconds its {name} had run out, with {other} at "
-                f"{100 * level:.0f} ({{where}}).",
+                f"{told}After {done.steps / 12:.0f} seconds its {name} had run out, with {other} "
+                f"at {100 * level:.0f} ({{where}}).",
                 hint,
             )
-    return Done("In 8 worlds it lived for a minute.", done.picture())
+        trails.append(done.trail)
+    pairs = zip(trails[MINUTES::2], trails[MINUTES + 1 :: 2], strict=True)
+    if all(one == other for one, other in pairs):
+        raise done.not_yet(
+            "It lived, by luck: it goes the same way whether energy or water is short ({where}).",
+            "thirst",
+        )
+    return Done(f"It lived, in {len(worlds)} worlds.", done.picture())
 
 
 def _goes_for_more(live: Any, done: Drive) -> bool:
@@ -201,12 +251,28 @@ def _goes_for_more(live: Any, done: Drive) -> bool:
     return repr(answers[0]) != repr(answers[1])
 
 
+def _hundred(live: Any, done: Drive) -> bool:
+    """Return True if it takes the levels for numbers from 0 to 100."""
+    if not callable(live):
+        return False
+    percept = dict(done.agent.percept)
+    small, large = (
+        {repr(live({**percept, "inside": [one * unit, two * unit]})) for one, two in _LEVELS}
+        for unit in (1, 100)
+    )
+    return len(small) == 1 < len(large)
+
+
+_LEVELS = ((0.1, 0.9), (0.9, 0.1), (0.6, 0.6), (0.1, 0.1), (0.9, 0.9))
+
+
 @exercise(
     "13.3",
     "Live well",
     hints={
         "begin": "Three cases: all is well, then rest; energy is lower, then food; water is lower, "
         "then water.",
+        "hundred": HUNDRED,
         "greedy": "It has too much most of the time. Eat when a level has sunk towards 40, not "
         "before.",
         "late": "It waits too long. On the way to the food the levels go on sinking: start a bit "
@@ -214,22 +280,24 @@ def _goes_for_more(live: Any, done: Drive) -> bool:
     },
 )
 def lives_well(live: Any) -> Done:
-    """Check for both levels in the zone in 70 of 100 decisions."""
+    """Check for both levels in the zone in 60 of 100 decisions."""
     shares = []
     for seed in seeds_of("13.3", 6):
         done, well, ran_out = _life(live, seed)
         shares.append(well)
         mean = sum(_levels(done.agent)) / 2
         if ran_out >= 0:
-            still = done.moved < 0.1
+            why = "begin" if done.moved < 0.1 else "late"
             raise done.not_yet(
                 f"It died after {done.steps / 12:.0f} seconds ({{where}}).",
-                "begin" if still else "late",
+                "hundred" if _hundred(live, done) else why,
             )
-        if well < 0.7:
+        if well < WELL:
+            why = "greedy" if mean > 0.6 else "late"
             raise done.not_yet(
-                f"It felt well in {100 * well:.0f} of 100 decisions, not 70 ({{where}}).",
-                "greedy" if mean > 0.6 else "late",
+                f"It felt well in {100 * well:.0f} of 100 decisions, not {100 * WELL:.0f}; at the "
+                f"end its mean level was {100 * mean:.0f} ({{where}}).",
+                "hundred" if _hundred(live, done) else why,
             )
     share = 100 * sum(shares) / len(shares)
     return Done(f"It felt well in {share:.0f} of 100 decisions.", done.picture())

@@ -8,7 +8,7 @@ from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.base.errors import AI4UError
 from ai4u_edu.blocks import Actuator, Block, LocalBrain, RBMoveActuator, RewardFunc, Sensor
 from ai4u_edu.check import Report, check_actuator, check_reward, check_sensor
-from ai4u_edu.lessons.exercise import Done, NotYet, exercise
+from ai4u_edu.lessons.exercise import Done, NotYet, exercise, named
 from ai4u_edu.lessons.numeric import is_close
 from ai4u_edu.lessons.rollouts import drive
 from ai4u_edu.world import BoxShape, CircleShape, World
@@ -21,7 +21,8 @@ def _made(cls: Any, kind: type[B], **parameters: Any) -> B:
     if not isinstance(cls, type) or not issubclass(cls, kind):
         raise NotYet(
             f"Expected a class that is a {kind.__name__}: `class ...({kind.__name__}):`. Got "
-            f"`{cls!r}`."
+            f"{named(cls)}.",
+            hint="no-base",
         )
     return cls(**parameters)
 
@@ -37,12 +38,12 @@ def _examined(report: Report) -> None:
         raise NotYet(f"The examiner says: {report.failed[0]}")
 
 
-def _world(box: tuple[float, float], heading_deg: float = 0.0) -> World:
+def _world(box: tuple[float, float], heading_deg: float = 0.0, name: str = "box") -> World:
     world = World()
     world.add_floor("plate", BoxShape(size=(30, 30)))
     robot = CircleShape(radius=0.5)
     world.add_body("robot", robot, tags=("agent",), heading_deg=heading_deg)
-    world.add_body("box", BoxShape(size=(1, 1)), position=box, tags=("target",))
+    world.add_body(name, BoxShape(size=(1, 1)), position=box, tags=("target",))
     return world
 
 
@@ -55,19 +56,25 @@ def _world(box: tuple[float, float], heading_deg: float = 0.0) -> World:
         "reversed": "Near and far are mixed up: at the target it has to be 1.",
         "beyond": "Beyond the reach your reading is below 0. `max(0.0, ...)` takes the larger one "
         "of two numbers.",
+        "target": "It looks for a body that is always called the same. Which body is meant says "
+        "the parameter: `view[self.target]`.",
         "reach": "With another `reach` the reading is wrong. Use the parameter: `self.reach`.",
     },
 )
 def senses_nearness(cls: Any) -> Done:
     """Check for 1 at the target, 0 at the reach and beyond."""
-    for reach in (8.0, 5.0):
+    for reach, target in ((8.0, "box"), (5.0, "box"), (6.0, "lamp")):
         for away in (2.0, 4.0, 3.3, 6.0, 12.0):
-            sensor = _made(cls, Sensor, target="box", reach=reach)
+            sensor = _made(cls, Sensor, target=target, reach=reach)
             brain = LocalBrain(controller=lambda _: {})
             agent = BasicAgent(body="robot", sensors=[sensor], brains=[brain])
             try:
-                ControlRequestor(_world((away, 0)), [agent]).reset(1)
+                ControlRequestor(_world((away, 0), name=target), [agent]).reset(1)
             except AI4UError as error:
+                if target != "box":
+                    raise NotYet(
+                        f"With `target={target!r}`: {error}. Use `self.target`.", hint="target"
+                    ) from error
                 if away < reach:
                     raise
                 raise NotYet(
@@ -90,7 +97,7 @@ def senses_nearness(cls: Any) -> Done:
                     hint=hint,
                 )
     _examined(check_sensor(_made(cls, Sensor, target="box"), decisions=40))
-    return Done("Ten distances, and the examiner has nothing to complain about.")
+    return Done("Fifteen distances, and the examiner has nothing to complain about.")
 
 
 @exercise(
@@ -99,6 +106,8 @@ def senses_nearness(cls: Any) -> Done:
     hints={
         "begin": "`on_update` returns what is paid: `-self.cost` if the robot turns too fast, "
         "else 0.",
+        "limit": "The limit is a parameter: compare with `self.limit`.",
+        "always": "It costs even to turn slowly.",
         "side": "To one side it costs, to the other it does not. `abs` makes every number a "
         "positive one.",
         "sign": "It pays for turning fast. A cost is below 0.",
@@ -120,6 +129,10 @@ def pays_for_calm(cls: Any) -> Done:
             wanted = -cost if abs(turn) > limit else 0.0
             if not is_close(found, wanted, 1e-6):
                 hint = "sign" if found > 0 else "side" if turn < 0 else "begin"
+                if found < 0:
+                    hint = "limit" if limit != 1.0 or abs(turn) > 1 else "always"
+                elif limit != 1.0 and turn > 0 and found == 0:
+                    hint = "limit"
                 raise NotYet(
                     f"With limit {limit:g} and cost {cost:g}, a robot that turns at {turn:g} rad/s "
                     f"is paid {found:g}, not {wanted:g}.",
@@ -137,6 +150,8 @@ def pays_for_calm(cls: Any) -> Done:
         "`self.newtons * action[0]`.",
         "forward": "It goes forward. The second number of `apply_force` is the push to the left.",
         "right": "Left and right are mixed up: above 0 is a push to the left.",
+        "strength": "Multiply the newtons by the number in the action: `action[0]`.",
+        "speed": "It sets a speed. `apply_force` pushes, and a push makes a body ever faster.",
         "world": "It goes up on the screen, wherever it looks. Left of the robot is somewhere else "
         "when it has turned: `apply_force` knows that.",
     },
@@ -169,6 +184,18 @@ def walks_sideways(cls: Any) -> Done:
                     f"{forward:.1f} m forward and {left:.1f} m to its left.",
                     hint,
                 )
+    half, full = (_pushed(cls, 10.0, push) for push in (0.5, 1.0))
+    if not is_close(half / full, 0.5, 0.1):
+        raise NotYet(
+            f"With the action 0.5 the body went {half:.2f} m, with 1 {full:.2f} m: the number in "
+            "the action says how strong the push is.",
+            hint="strength",
+        )
+    if _pushed(cls, 10.0, decisions=12) < 2.5 * full:
+        raise NotYet(
+            "In twice the time the body got only twice as far. A push makes it faster and faster.",
+            hint="speed",
+        )
     weak = _pushed(cls, 5.0)
     strong = _pushed(cls, 20.0)
     if strong < 2 * weak:
@@ -177,9 +204,9 @@ def walks_sideways(cls: Any) -> Done:
     return Done("It walks sideways, wherever it looks.", done.picture())
 
 
-def _pushed(cls: Any, newtons: float) -> float:
+def _pushed(cls: Any, newtons: float, push: float = 1.0, decisions: int = 6) -> float:
     """Return how far a push takes the body; metres."""
     crab = _made(cls, Actuator, newtons=newtons)
-    brain = _always(crab.action_name, 1)
+    brain = _always(crab.action_name, push)
     agent = BasicAgent(body="robot", actuators=[crab], brains=[brain])
-    return drive(ControlRequestor(_world((9, 9)), [agent]), agent, 1, limit=6).moved
+    return drive(ControlRequestor(_world((9, 9)), [agent]), agent, 1, limit=decisions).moved

@@ -6,13 +6,15 @@ import numpy as np
 
 from ai4u_edu.agent import BasicAgent
 from ai4u_edu.base.errors import AI4UError
-from ai4u_edu.blocks import LocalBrain
+from ai4u_edu.blocks import LocalBrain, Percept
 from ai4u_edu.lessons.exercise import Done, NotYet, exercise, named
 from ai4u_edu.lessons.pictures import picture
 from ai4u_edu.lessons.rollouts import drive, drives, seeds_of
 from ai4u_edu.scenes import Scene
 from ai4u_edu.snapshot import capture_snapshot
 
+SOLVED = 6
+"""Episodes of 10 in which the solver has to succeed in a hard world."""
 WANTED = ("goal", "controls", "rewards")
 
 
@@ -68,15 +70,26 @@ def is_complete(text: Any) -> Done:
             )
     if not told.success:
         raise NotYet("Nothing says when the task is done: `success:` is missing.", hint="success")
-    if told.success not in {reward.name for reward in agent.rewards}:
-        raise NotYet(f"No reward term is called `{told.success}`.", hint="success")
+    taking_part = _taking_part(agent)
     places = []
     for seed in seeds_of("15.1", 3):
         sim.reset(seed)
-        places.append([body.position for body in sim.world.bodies.values()])
+        bodies = [sim.world[name] for name in taking_part]
+        places.append([(*body.position, body.heading) for body in bodies])
     if places[0] == places[1] == places[2]:
-        raise NotYet("All episodes begin in the same way.", hint="random")
+        names = " and ".join(f"`{name}`" for name in taking_part)
+        raise NotYet(f"All episodes begin in the same way for {names}.", hint="random")
     return Done(f"{told.title or told.name}: complete.", picture(capture_snapshot(sim)))
+
+
+def _taking_part(agent: BasicAgent) -> list[str]:
+    """Return the bodies of the task: the agent's, and those that the rewards and sensors name."""
+    names = [agent.body.name]
+    for block in (*agent.rewards, *agent.sensors):
+        target = getattr(block, "target", "")
+        if isinstance(target, str) and target and target not in names:
+            names.append(target)
+    return names
 
 
 @exercise(
@@ -86,6 +99,7 @@ def is_complete(text: Any) -> Done:
         "begin": "Write `solve` for your scene. What did you do in lessons 02 and 05?",
         "seldom": "It works sometimes. Watch an episode that failed: `film(Scene.loads(my_scene), "
         "solve, seed=...)`.",
+        "idle": "The robot begins where it should get to. Put it farther away.",
         "yaml": "The scene itself is not in order yet: first solve exercise 15.1.",
     },
 )
@@ -94,6 +108,13 @@ def is_solved(text: Any, solve: Any) -> Done:
     scene, won = _scene(text), 0
     if not scene.description.success:
         raise NotYet("The scene does not say what success is: see exercise 15.1.", hint="begin")
+    idle = sum(done.won for done in drives(scene, _idle, seeds_of("15.2", 10), limit=100))
+    if idle > 2:
+        raise NotYet(
+            f"In {idle} of 10 episodes it succeeds without doing anything: the task is done before "
+            "it begins.",
+            hint="idle",
+        )
     reason = None
     for done in drives(scene, solve, seeds_of("15.2", 10)):
         won += done.won
@@ -111,11 +132,13 @@ def is_solved(text: Any, solve: Any) -> Done:
     hints={
         "easy": "Chance succeeds too often. Put the target farther away, behind something, near an "
         "edge; give less time; or ask for two things in turn.",
+        "impossible": "Chance fails, and so does your `solve`. Make the world easier, or `solve` "
+        "better; it is the one of exercise 15.2.",
         "yaml": "The scene itself is not in order yet: first solve exercise 15.1.",
     },
 )
-def is_no_chance(text: Any) -> Done:
-    """Check that random actions succeed in fewer than 3 of 10 episodes."""
+def is_no_chance(text: Any, solve: Any) -> Done:
+    """Check that a solver succeeds in most episodes, and chance in fewer than 3 of 10."""
     scene = _scene(text)
     if not scene.description.success:
         raise NotYet("The scene does not say what success is: see exercise 15.1.", hint="easy")
@@ -135,7 +158,22 @@ def is_no_chance(text: Any) -> Done:
             hint="easy",
             picture=done.picture(),
         )
-    return Done(f"With random actions {won} of 10 episodes succeeded.", done.picture())
+    solved = sum(done.won for done in drives(scene, solve, seeds_of("15.3", 10)))
+    if solved < SOLVED:
+        raise NotYet(
+            f"With random actions {won} of 10 episodes succeeded, with your `solve` {solved}. A "
+            f"world that nobody can solve is not worth much: {SOLVED} are needed.",
+            hint="impossible",
+        )
+    return Done(
+        f"With random actions {won} of 10 episodes succeeded, with `solve` {solved}.",
+        done.picture(),
+    )
+
+
+def _idle(_percept: Percept) -> dict[str, list[float]]:
+    """Do nothing."""
+    return {}
 
 
 def _by_chance(agent: BasicAgent, seed: int) -> Any:
