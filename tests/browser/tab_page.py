@@ -1,10 +1,13 @@
 """One tab of the panel on a page of its own, with a fake panel that answers at once."""
 
 import json
+import socket
+import threading
 from functools import cache
 from typing import Any
 from urllib.parse import urlencode
 
+import uvicorn
 from playwright.sync_api import Browser, ConsoleMessage, Locator, Page
 from starlette.applications import Starlette
 from starlette.requests import Request
@@ -12,7 +15,6 @@ from starlette.responses import HTMLResponse
 from starlette.routing import Mount, Route
 from starlette.staticfiles import StaticFiles
 
-from ai4u_edu.server import ServerThread
 from ai4u_edu.server.web_files import web_folder
 from tests.chromium import new_page
 
@@ -102,7 +104,7 @@ class TabPage:
         self.page.on("console", self._on_console)
         attributes = "data-ai4u-details" if has_details else ""
         query = {"module": module, "name": name, "part": part, "scheme": scheme}
-        self.page.goto(f"{_server().url}?{urlencode(query | {'attributes': attributes})}")
+        self.page.goto(f"{_address()}?{urlencode(query | {'attributes': attributes})}")
         self.page.wait_for_function("window.isReady")
 
     def head(self, title: str) -> Locator:
@@ -161,12 +163,17 @@ class TabPage:
 
 
 @cache
-def _server() -> ServerThread:
-    """Start the server of all tabs, which ends with the process."""
+def _address() -> str:
+    """Start the server of all tabs, which ends with the process; return its address."""
 
     def index(request: Request) -> HTMLResponse:
         return HTMLResponse(INDEX.format(styles=styles, style=FREE, **request.query_params))
 
     styles = "\n".join(f'<link rel="stylesheet" href="./web/{style}" />' for style in STYLES)
     files = StaticFiles(directory=web_folder())
-    return ServerThread(Starlette(routes=[Route("/", index), Mount("/web", files)])).start()
+    app = Starlette(routes=[Route("/", index), Mount("/web", files)])
+    # not ServerThread, which limits the process's logs for as long as it runs
+    server = uvicorn.Server(uvicorn.Config(app, log_config=None, lifespan="off"))
+    listener = socket.create_server(("127.0.0.1", 0))
+    threading.Thread(target=server.run, args=([listener],), daemon=True).start()
+    return f"http://127.0.0.1:{listener.getsockname()[1]}/"
