@@ -22,7 +22,7 @@ export class ScenePicker {
     this.element.append(this.#title, icon("down", 14));
     setAttributes(this.element, { "aria-haspopup": "dialog" });
     panel.addEventListener("part:scene", ({ detail }) => {
-      setText(this.#title, detail.title || "Untitled");
+      setText(this.#title, detail.title || document.title);
       this.element.disabled = !detail.can_edit;
       setAttributes(this.element, { title: detail.can_edit ? `${detail.title}: choose another scene` : detail.title });
     });

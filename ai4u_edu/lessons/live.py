@@ -16,6 +16,7 @@ from ai4u_edu.lessons.page_watch import PageWatch
 from ai4u_edu.lessons.pictures import PICTURE_SIZE_PX, animation, picture
 from ai4u_edu.recording import Episode, Recorder
 from ai4u_edu.runtime.runner import Runner
+from ai4u_edu.scenes import Scene
 
 TOKEN = token_urlsafe(24)
 """Token of all pages of this process. Many may share one notebook server under any host name, so
@@ -35,29 +36,36 @@ class Live:
         recorder: records the world.
         title: the page's title.
         seed: seed of the first episode.
+        scene: the scene that the world was built from; with it the page can change the world.
     """
 
     def __init__(
-        self, sim: ControlRequestor, recorder: Recorder, title: str, seed: int | None = None
+        self,
+        sim: ControlRequestor,
+        recorder: Recorder,
+        title: str,
+        seed: int | None = None,
+        scene: Scene | None = None,
     ) -> None:
         # loaded when a world is shown: exercises can be checked without a page
+        from ai4u_edu.editing import SceneEditor
         from ai4u_edu.panel import PanelSockets
         from ai4u_edu.server import Rules, ServerThread, lock_viser_port, room_app, with_token
         from ai4u_edu.viewer import Viewer
 
-        self.sim = sim
         self.title = title
         self.recorder = recorder
         self.runner = Runner(sim, seed=seed, recorder=recorder, wait_for_key=True)
-        self._viewer = Viewer(self.runner, title=title)
+        editor = None if scene is None else SceneEditor(self.runner, scene)
+        self._viewer = Viewer(self.runner, title=title, editor=editor)
         lock_viser_port(self._viewer.server)
         room = room_app(
             self.runner,
             viser_port=self._viewer.port,
-            title=title,
+            title=title if editor is None else lambda: editor.title,
             allowed_hosts=("*",),  # the token is asked for; a proxy passes any name on
             rules=Rules(token=TOKEN, lockstep=True),  # the world is whose notebook it is
-            panel=PanelSockets(self.runner, self._viewer),
+            panel=PanelSockets(self.runner, self._viewer, editor),
         )
         self._server = ServerThread(room)
         self.url = with_token(self._server.url, TOKEN)
@@ -69,6 +77,11 @@ class Live:
         self._kept: Episode | None = None
         self._page_watch: PageWatch | None = None
         self.handle = f"ai4u-live-{os.getpid()}-{next(_numbers)}"
+
+    @property
+    def sim(self) -> ControlRequestor:
+        """The world and its agents; others after another scene was opened in the page."""
+        return self.runner.sim
 
     @property
     def port(self) -> int:

@@ -48,7 +48,7 @@ def show(
         raise SetupError("record: expected a scene or its name to go with it; give show a scene")
     else:
         recorder = Recorder(sim, scene=description)
-    _current = live = Live(sim, recorder, title, seed)
+    _current = live = Live(sim, recorder, title, seed, scene)
     live.end_without_page(_end)
     put(live.page(height), f"{title} runs at {live.url}", live.handle)
     if in_notebook():

@@ -17,6 +17,7 @@ from ai4u_edu.lessons import notebook_output as out
 from ai4u_edu.lessons.page_watch import PageWatch
 from ai4u_edu.lessons.rollouts import drives
 from tests.builders import small_sim
+from tests.panel.rooms import PanelPage
 from tests.server.rooms import raw_answer, until
 
 
@@ -47,6 +48,24 @@ def test_outside_of_a_notebook_the_address_is_said(capsys: pytest.CaptureFixture
     assert capsys.readouterr().out == f"Box chase runs at {world.url}\n"
     assert httpx.get(world.url, follow_redirects=True).status_code == 200
     assert world.runner.latest.seed == 4
+
+
+def test_the_page_can_change_a_scene_and_the_students_function_drives_on() -> None:
+    world = show("box_chase", drive, seed=1)
+    url = f"http://127.0.0.1:{world.port}/ws/panel?token={live.TOKEN}"
+    with PanelPage(url) as page:
+        scene = page.part("scene")
+        assert (scene["title"], scene["can_edit"], scene["has_past"]) == ("Box chase", True, True)
+        page.show("0", "blocks")
+        page.done("add_block", **{"class": "GroundStatusSensor", "parent": ["sensors"]})
+        until(lambda: "ground_status" in world.sim.agents[0].percept)
+        until(lambda: world.runner.latest.agents[0].action.get("move", ())[:2] == (1, 0.2))
+
+
+def test_a_world_without_a_scene_can_only_be_driven() -> None:
+    world = show(small_sim())
+    with PanelPage(f"http://127.0.0.1:{world.port}/ws/panel?token={live.TOKEN}") as page:
+        assert not page.part("scene")["can_edit"]
 
 
 def test_who_does_not_know_the_token_neither_sees_nor_drives() -> None:
