@@ -1,5 +1,6 @@
 """Tiers of the suite (``--fast``, ``--nightly``), the order of files, and the report at the end."""
 
+import os
 from itertools import zip_longest
 from pathlib import Path
 
@@ -15,6 +16,11 @@ NOT_FAST = ("attacks", "benchmarks", "browser", "envs", "fuzz", "lessons", "load
 NOT_FAST_MARKERS = {"alone", "browser", "slow"}
 COMPONENT_TABLE = "components"
 LEFT_OUT = pytest.StashKey[int]()
+
+# Small networks gain nothing from threads, which wait actively: several tests at once would slow
+# each other down. Programs that tests start inherit it.
+for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS"):
+    os.environ.setdefault(name, "1")
 
 # A busy machine makes an example slow, and no test asserts a time.
 settings.register_profile("project", deadline=None)

@@ -41,10 +41,10 @@ def levels_up(cls: type, name: str) -> int:
 
 
 def is_built_in(cls: type[Block]) -> bool:
-    """Return True for a class that a module of this package defines."""
-    module = sys.modules.get(cls.__module__)
-    own = cls.__module__.startswith("ai4u_edu.")
-    return own and getattr(module, cls.__name__, None) is cls
+    """Return True for a class that a module of this package defines, except for a lesson."""
+    place, module = cls.__module__, sys.modules.get(cls.__module__)
+    is_ours = place.startswith("ai4u_edu.") and not place.startswith("ai4u_edu.lessons.")
+    return is_ours and getattr(module, cls.__name__, None) is cls
 
 
 def default_name(cls: type[Block], *endings: str) -> str:

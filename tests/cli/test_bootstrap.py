@@ -69,6 +69,7 @@ def test_a_known_torch_is_brought_first_where_it_can_be_had(
     subprocess.run([python, "-c", "import torch"], check=True)
 
 
+@pytest.mark.nightly
 def test_an_environment_without_stamp_and_pip_is_kept_and_completed(made: Path) -> None:
     venv = made / ".venv"
     mine = venv / "mine.txt"
@@ -82,6 +83,7 @@ def test_an_environment_without_stamp_and_pip_is_kept_and_completed(made: Path) 
     assert mine.exists()
 
 
+@pytest.mark.nightly
 def test_an_environment_whose_python_is_gone_is_made_anew(made: Path) -> None:
     python = bootstrap.ensure(made)
     python.unlink()

@@ -5,6 +5,7 @@ from typing import Any
 import pytest
 
 from ai4u_edu import Scene
+from ai4u_edu.blocks.block import is_built_in
 from ai4u_edu.editing import ChangeError
 from ai4u_edu.editing.blocks import types_of
 from ai4u_edu.editing.forms import NONE_LABEL, Field, block_form
@@ -26,7 +27,7 @@ ALL = [
     (kind, cls.__name__)
     for kind in ("sensors", "actuators", "rewards", "brains")
     for cls in types_of(kind)
-    if cls.__module__.startswith("ai4u_edu.")
+    if is_built_in(cls)
 ]
 
 

@@ -59,9 +59,18 @@ def test_unfinished_they_run_to_the_end_and_every_check_says_not_yet(
         assert told[number]["words"].count("Not yet.") == len(exercises)
 
 
+@pytest.mark.parametrize(
+    "numbers",
+    [
+        [each for each in ALL if each not in {*IN_KERNEL, *LONG}],
+        pytest.param([each for each in LONG if each not in IN_KERNEL], marks=pytest.mark.nightly),
+    ],
+    ids=" ".join,
+)
 @pytest.mark.timeout(300)
-def test_solved_they_run_as_scripts_and_every_check_passes(tmp_path: Path) -> None:
-    numbers = [each for each in ALL if each not in IN_KERNEL]
+def test_solved_they_run_as_scripts_and_every_check_passes(
+    numbers: list[str], tmp_path: Path
+) -> None:
     told = ran(tmp_path, numbers, "--solved")
     for number in numbers:
         entries = told[number]["entries"]

@@ -44,6 +44,7 @@ def solved(name: str, seeds: tuple[int, ...]) -> list[Episode]:
     return list(recorder.episodes)
 
 
+@pytest.mark.nightly  # a lesson's check asks the same of a clone
 def test_five_episodes_are_enough_for_box_chase(tmp_path: Path) -> None:
     # they begin in five different places; there are eight
     path = tmp_path / "policy.onnx"
