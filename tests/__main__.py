@@ -30,7 +30,7 @@ STATIC_CHECKS = {
     "mypy": ["-m", "mypy"],
     "imports": ["-c", LINT_IMPORTS],
 }
-PARALLEL = ["-n", str((os.cpu_count() or 1) + 1)]  # many tests wait for a moment
+PARALLEL = ["-n", "auto"]
 LONG_RUNS = {
     "fuzz": ["-m", "tests.fuzz"],
     "hammer": ["-m", "tests.attacks.hammer", "--seconds", "300"],

@@ -10,6 +10,9 @@ from tests.server.rooms import until
 
 pytestmark = pytest.mark.browser
 
+PATIENCE_S = 20
+"""Time that a page with viser may take: without a graphics card it draws a few frames a second."""
+
 
 @pytest.fixture
 def waits_for_key() -> bool:
@@ -130,14 +133,14 @@ def test_keys_drive_again_after_the_panel_was_used(chromium: Browser) -> None:
                 page.keyboard.press(leave)
             expect(driver_status(page).first).to_have_text("Press a key to start")
             page.keyboard.press("KeyW")
-            until(lambda: server.snapshot()["tick"] > 0)
+            until(lambda: server.snapshot()["tick"] > 0, PATIENCE_S)
             page.keyboard.press("KeyR")
-            until(lambda: server.snapshot()["waiting"] == "key")
+            until(lambda: server.snapshot()["waiting"] == "key", PATIENCE_S)
         page.get_by_label("Speed", exact=True).select_option("2x")
-        until(lambda: server.snapshot()["time_scale"] == 2)
+        until(lambda: server.snapshot()["time_scale"] == 2, PATIENCE_S)
         page.mouse.click(400, 300)
         page.keyboard.press("KeyW")
-        until(lambda: server.snapshot()["tick"] > 0)
+        until(lambda: server.snapshot()["tick"] > 0, PATIENCE_S)
         page.context.close()
 
 

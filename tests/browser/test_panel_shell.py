@@ -114,6 +114,8 @@ def test_sections_remember_that_they_are_folded(desk: PanelPage) -> None:
     needs = desk.page.locator("details", has_text="energy")
     needs.locator("summary").click()
     expect(desk.page.get_by_text("energy")).to_be_hidden()
+    # a browser reports it a moment later
+    desk.page.wait_for_function("Object.values(localStorage).includes('false')")
     desk.page.reload()
     expect(desk.page.get_by_role("heading", name="Needs")).to_be_visible()
     expect(desk.page.get_by_text("energy")).to_be_hidden()

@@ -4,7 +4,7 @@ viser draws a label's plate: neither its corners nor its opacity can be set.
 """
 
 import math
-from typing import NamedTuple
+from dataclasses import dataclass, replace
 
 import numpy as np
 from viser import LabelHandle, SceneApi
@@ -83,7 +83,11 @@ class Labels:
                 if number not in self.turned:
                     scene = viewer_client.client.scene
                     self.turned[number] = [
-                        each._replace(handle=_add(scene, each.parent, each.number, each.text))
+                        replace(
+                            each,
+                            handle=_add(scene, each.parent, each.number, each.text),
+                            drawn=None,
+                        )
                         for each in self.labels
                     ]
                 self._draw(self.turned[number], snapshot, body.heading + math.pi)
@@ -107,15 +111,18 @@ class Labels:
             driven_at = self._driven_at.get(body.name, -math.inf)
             is_driven = 0.0 <= snapshot.time - driven_at < HIDDEN_AFTER_DRIVING_S
             problem = problems.get(body.name)
-            label.handle.text = f"{label.text}  {problem}" if problem else label.text
             dx, dy = rotate(label.centre[None], body.heading)[0]
             x = body.x + dx + label.reach * math.cos(down)
             y = body.y + dy + label.reach * math.sin(down)
-            label.handle.position = (x, y, body.z + label.height)
-            label.handle.visible = not body.fallen and (not is_driven or bool(problem))
+            label.draw(
+                f"{label.text}  {problem}" if problem else label.text,
+                (x, y, body.z + label.height),
+                is_visible=not body.fallen and (not is_driven or bool(problem)),
+            )
 
 
-class _Label(NamedTuple):
+@dataclass
+class _Label:
     number: int
     """Index of the body in the snapshot."""
     text: str
@@ -128,6 +135,15 @@ class _Label(NamedTuple):
     handle: LabelHandle
     parent: str
     """Name of the parent node."""
+    drawn: object = None
+    """Text, position and visibility that were drawn last."""
+
+    def draw(self, text: str, position: tuple[float, float, float], *, is_visible: bool) -> None:
+        """Set what viser draws, if it has changed: viser compares positions slowly."""
+        drawn = text, position, is_visible
+        if drawn != self.drawn:
+            self.drawn = drawn
+            self.handle.text, self.handle.position, self.handle.visible = drawn
 
 
 def _add(scene: SceneApi, parent: str, index: int, text: str) -> LabelHandle:
