@@ -48,7 +48,7 @@ class Parameterized:
         super().__init_subclass__(**options)
         own = vars(cls).get("__init__")
         if own is not None:
-            setattr(cls, "__post_init__", _run_once(own, cls.__name__))  # noqa: B010 - as below
+            setattr(cls, "__post_init__", _run_once(own, cls.__name__))  # noqa: B010 - mypy: it is no method
         dataclass(cls, kw_only=True, eq=False, repr=False, config=_CONFIG)
         # the constructor that pydantic made raises its own errors; convert them to ours
         setattr(cls, "__init__", _explained(cls.__init__, cls))  # noqa: B010 - mypy: it is no method

@@ -13,8 +13,9 @@ from pathlib import Path
 
 from ai4u_edu.base.atomic_write import write_atomically
 from ai4u_edu.base.errors import SetupError
-from ai4u_edu.lessons.course import Lesson, lessons
-from ai4u_edu.lessons.exercise import find
+from ai4u_edu.lessons.course import Lesson, exercise_ids, lessons
+from ai4u_edu.lessons.diagnoses import COMMON
+from ai4u_edu.lessons.exercise import Exercise, find
 from ai4u_edu.lessons.progress_file import FILE, Entry, read_entries
 
 HTML_FILE, CSV_FILE = "class.html", "class.csv"
@@ -92,8 +93,9 @@ def table(collected: Collected) -> str:
     out = io.StringIO()
     writer = csv.writer(out, lineterminator="\n")
     writer.writerow(HEADER)
+    exercises = exercise_ids()
     for student, entries in collected.students.items():
-        for each in _exercises():
+        for each in exercises:
             if each in entries:
                 entry = entries[each]
                 passed = "yes" if entry.passed else "no"
@@ -106,7 +108,8 @@ def table(collected: Collected) -> str:
 def page(collected: Collected) -> str:
     """Return the HTML of the class: a table, and what was difficult; all of it escaped."""
     course = lessons()
-    parts = [_table(collected, course), *_difficult(collected)]
+    exercises = [each for one in course for each in one.exercises]
+    parts = [_table(collected, course, exercises), *_difficult(collected, exercises)]
     if collected.problems:
         parts.append("<h2>Files that could not be read</h2>")
         parts.append(_list(html.escape(each) for each in collected.problems))
@@ -120,11 +123,7 @@ def page(collected: Collected) -> str:
     )
 
 
-def _exercises() -> list[str]:
-    return [each for lesson in lessons() for each in lesson.exercises]
-
-
-def _table(collected: Collected, course: list[Lesson]) -> str:
+def _table(collected: Collected, course: list[Lesson], exercises: list[str]) -> str:
     heads = "".join(
         f'<th colspan="{len(each.exercises)}" title="{html.escape(each.title)}">{each.number}</th>'
         for each in course
@@ -132,12 +131,12 @@ def _table(collected: Collected, course: list[Lesson]) -> str:
     )
     numbers = "".join(
         f'<th scope="col" title="{html.escape(find(each).title)}">{each.partition(".")[2]}</th>'
-        for each in _exercises()
+        for each in exercises
     )
     rows = []
     for student, entries in collected.students.items():
         solved = sum(entry.passed for entry in entries.values())
-        cells = "".join(_cell(each, entries.get(each)) for each in _exercises())
+        cells = "".join(_cell(each, entries.get(each)) for each in exercises)
         rows.append(f'<tr><th scope="row">{html.escape(student)}</th><td>{solved}</td>{cells}</tr>')
     return (
         f'<table><thead><tr><th rowspan="2">student</th><th rowspan="2">solved</th>{heads}</tr>'
@@ -153,10 +152,10 @@ def _cell(exercise: str, entry: Entry | None) -> str:
     return f'<td class="{kind}" title="{title}">{entry.tries}</td>'
 
 
-def _difficult(collected: Collected) -> Iterator[str]:
+def _difficult(collected: Collected, exercises: list[str]) -> Iterator[str]:
     """Yield a paragraph for each exercise with known mistakes: how many made which."""
     yield "<h2>Mistakes</h2>"
-    for each in _exercises():
+    for each in exercises:
         entries = [one[each] for one in collected.students.values() if each in one]
         counts = Counter(name for entry in entries for name in entry.diagnoses)
         if not counts:
@@ -165,9 +164,15 @@ def _difficult(collected: Collected) -> Iterator[str]:
         yield f"<h3>{html.escape(f'{each} {exercise.title}')}</h3>"
         yield f"<p>{len(entries)} began, {stuck} did not solve it yet.</p>"
         yield _list(
-            html.escape(f"{count}: {exercise.hints.get(name.partition('/')[2], name)}")
+            html.escape(f"{count}: {_hint(exercise, name)}")
             for name, count in counts.most_common(COMMON_MISTAKES)
         )
+
+
+def _hint(exercise: Exercise, diagnosis: str) -> str:
+    """Return the hint of a diagnosis, the exercise's own or the common one; else its id."""
+    name = diagnosis.rpartition("/")[2]
+    return {**COMMON, **exercise.hints}.get(name, diagnosis)
 
 
 def _list(items: Iterator[str]) -> str:

@@ -62,6 +62,11 @@ def lessons() -> list[Lesson]:
     return [Lesson(path) for path in sorted(course_folder().glob("[0-9][0-9]_*.py"))]
 
 
+def exercise_ids() -> list[str]:
+    """Return the ids of all exercises, in the course's order."""
+    return [each for one in lessons() for each in one.exercises]
+
+
 def lesson(number: str) -> Lesson:
     """Return a lesson by its number.
 

@@ -1,5 +1,7 @@
 """Mistakes that may occur in every exercise, each with a hint."""
 
+from collections.abc import Container
+
 UNKNOWN = "unknown"
 """Name of the diagnosis of a mistake that no check knows."""
 
@@ -44,7 +46,7 @@ COMMON_ID = "any"
 """First part of the ids of these diagnoses."""
 
 
-def diagnosis_id(exercise_id: str, name: str, own: object) -> str:
+def diagnosis_id(exercise_id: str, name: str, own: Container[str]) -> str:
     """Return the id of a diagnosis, unique in the course and never changed.
 
     Args:
@@ -55,6 +57,6 @@ def diagnosis_id(exercise_id: str, name: str, own: object) -> str:
     >>> diagnosis_id("03.2", "narrow", {"narrow": "..."}), diagnosis_id("03.2", "", {})
     ('03.2/narrow', 'any/unknown')
     """
-    if name and name in own:  # type: ignore[operator]
+    if name and name in own:
         return f"{exercise_id}/{name}"
     return f"{COMMON_ID}/{name or UNKNOWN}"

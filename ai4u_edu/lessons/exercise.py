@@ -107,10 +107,10 @@ def find(exercise_id: Any) -> Exercise:
         if not (error.name or "").startswith("ai4u_edu.lessons.exercises"):
             raise
     if exercise_id not in EXERCISES:
-        from ai4u_edu.lessons.course import lessons
+        from ai4u_edu.lessons.course import exercise_ids
 
-        known = [each for lesson in lessons() for each in lesson.exercises]
-        raise SetupError(f"no exercise is called {exercise_id!r}; {suggest(exercise_id, known)}")
+        known = suggest(exercise_id, exercise_ids())
+        raise SetupError(f"no exercise is called {exercise_id!r}; {known}")
     return EXERCISES[exercise_id]
 
 

@@ -74,6 +74,16 @@ def seeds_of(exercise_id: str, count: int = 20) -> list[int]:
     return list(range(first, first + count))
 
 
+def driven_by(trained: Any, scene: Scene) -> ControlRequestor:
+    """Return a scene's world whose first agent is driven by a trained policy."""
+    from ai4u_edu.training.policies import entrant_of
+
+    policy = entrant_of(trained)
+    sim = policy.fitted(scene).build()
+    sim.agents[0].use_brain(policy.brain(sim.agents[0]))
+    return sim
+
+
 def as_brain(thing: Any) -> Brain:
     """Return a student's controller, function or brain as a brain.
 

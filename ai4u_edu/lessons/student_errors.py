@@ -35,7 +35,14 @@ class Mistake:
 
 
 def mistake_in(error: BaseException) -> Mistake | None:
-    """Return the mistake behind an exception; None if no student's line and no block caused it."""
+    r"""Return the mistake behind an exception; None if no student's line and no block caused it.
+
+    >>> try:
+    ...     exec(compile("def f(x):\n    return 1 / x\nf(0)", "<cell>", "exec"))
+    ... except ZeroDivisionError as error:
+    ...     print(mistake_in(error).text)
+    Your code stopped with ZeroDivisionError: division by zero (line 2 of its cell).
+    """
     line = line_of(error)
     if line:  # it says more than the notes about which block was asked
         name = "called" if str(error).startswith("connect: ") else "error"
@@ -57,19 +64,6 @@ def mistake_in(error: BaseException) -> Mistake | None:
     return None
 
 
-def told(error: BaseException) -> str:
-    r"""Return a sentence for an exception; empty if no student's line and no block caused it.
-
-    >>> try:
-    ...     exec(compile("def f(x):\n    return 1 / x\nf(0)", "<cell>", "exec"))
-    ... except ZeroDivisionError as error:
-    ...     print(told(error))
-    Your code stopped with ZeroDivisionError: division by zero (line 2 of its cell).
-    """
-    mistake = mistake_in(error)
-    return mistake.text if mistake else ""
-
-
 def line_of(error: BaseException) -> str:
     """Return the student's innermost line in a traceback, in words; empty if there is none."""
     frames = [
@@ -77,9 +71,12 @@ def line_of(error: BaseException) -> str:
     ]
     if not frames:
         return ""
-    last = frames[-1]
-    number = last.lineno or 0
-    text = linecache.getline(last.filename, number).strip()
+    return line_words(frames[-1].filename, frames[-1].lineno or 0)
+
+
+def line_words(file: str, number: int) -> str:
+    """Return a line of a student's cell, in words."""
+    text = linecache.getline(file, number).strip()
     return f"line {number} of its cell" + (f": {text}" if text else "")
 
 

@@ -11,7 +11,7 @@ from types import FrameType, TracebackType
 from typing import Any, Self
 
 from ai4u_edu.base.syntax import parsed
-from ai4u_edu.lessons.student_errors import is_students
+from ai4u_edu.lessons.student_errors import is_students, line_words
 
 CALL_LIMIT_S = 5.0
 """Longest time that one call of a student's function may take."""
@@ -122,11 +122,11 @@ class TimeLimit:
         if not self.is_endless:
             return (
                 f"All calls of your code took more than {self.total_s:g} s together. Each of them "
-                f"is slow ({_line(calls[0].f_code.co_filename, calls[0].f_lineno)})."
+                f"is slow ({line_words(calls[0].f_code.co_filename, calls[0].f_lineno)})."
             )
         loops = [loop for call in calls if (loop := _loop_around(call))]
         file, number = loops[0] if loops else (calls[0].f_code.co_filename, calls[0].f_lineno)
-        said = f"Your code did not answer for {self.call_s:g} s ({_line(file, number)})."
+        said = f"Your code did not answer for {self.call_s:g} s ({line_words(file, number)})."
         if not loops:
             return f"{said} Something in it never ends, or takes very long."
         code = calls[-1].f_code
@@ -139,11 +139,6 @@ def _raise_in(thread: int, error: type[BaseException] | None) -> None:
     """Raise an error in another thread; None withdraws one that has not arrived."""
     raised = None if error is None else ctypes.py_object(error)
     ctypes.pythonapi.PyThreadState_SetAsyncExc(ctypes.c_ulong(thread), raised)
-
-
-def _line(file: str, number: int) -> str:
-    text = linecache.getline(file, number).strip()
-    return f"line {number} of its cell" + (f": {text}" if text else "")
 
 
 def _loop_around(frame: FrameType) -> tuple[str, int] | None:

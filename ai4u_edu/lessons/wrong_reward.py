@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from ai4u_edu.blocks import LocalBrain
-from ai4u_edu.lessons.rollouts import Drive, drive
+from ai4u_edu.lessons.rollouts import Drive, drive, driven_by
 from ai4u_edu.scenes import Scene
 
 SCENE = """
@@ -75,17 +75,14 @@ def learn_wrong_reward(steps: int = 3000, seed: int = 0) -> Hacker:
 
 def outcomes(hacker: Hacker, seeds: list[int]) -> tuple[dict[str, int], Drive]:
     """Return how often a robot touched, lingered and fell, and the last episode."""
-    sim = Scene.loads(SCENE, name="wrong_reward").build()
-    agent = sim.agents[0]
+    scene = Scene.loads(SCENE, name="wrong_reward")
     if hacker.trained is None:
-        agent.use_brain(LocalBrain(controller=lambda _: {"move": [0, 0, 0, 0]}, skip_frame=9))
+        sim = scene.build()
+        idle = LocalBrain(controller=lambda _: {"move": [0, 0, 0, 0]}, skip_frame=9)
+        sim.agents[0].use_brain(idle)
     else:
-        from ai4u_edu.training.policies import entrant_of
-
-        policy = entrant_of(hacker.trained)
-        sim = policy.fitted(Scene.loads(SCENE, name="wrong_reward")).build()
-        agent = sim.agents[0]
-        agent.use_brain(policy.brain(agent))
+        sim = driven_by(hacker.trained, scene)
+    agent = sim.agents[0]
     counts = dict.fromkeys(OUTCOMES, 0)
     for seed in seeds:
         done = drive(sim, agent, seed, LIMIT)

@@ -52,6 +52,7 @@ class Page:
 
     def __init__(self, title: Callable[[], str], *, has_panel: bool = False) -> None:
         self._files = WebFiles()
+        self._modules = self._files.modules("main.js", *["panel.js"] * has_panel)
         self._title, self._has_panel = title, has_panel
         self._index = self._read_index()
 
@@ -82,8 +83,7 @@ class Page:
 
     def _read_index(self) -> "_Index":
         """Return the page with its present title."""
-        modules = self._files.modules("main.js", *["panel.js"] * self._has_panel)
-        return _index(self._title(), modules, has_panel=self._has_panel)
+        return _index(self._title(), self._modules, has_panel=self._has_panel)
 
 
 class _Index(NamedTuple):

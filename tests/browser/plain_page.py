@@ -40,3 +40,7 @@ class PlainPage:
             self._html = text.replace(ROOT, self._root)
         kept = {key: text for key, text in response.headers.items() if key in KEPT_HEADERS}
         route.fulfill(headers=kept, body=self._html, content_type="text/html")
+
+
+WITHOUT_VISER = PlainPage(ROOT)
+"""The page with our own parts only."""

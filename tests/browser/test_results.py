@@ -6,7 +6,7 @@ import time
 import pytest
 from playwright.sync_api import Browser, Page, expect
 
-from tests.browser.plain_page import ROOT, PlainPage
+from tests.browser.plain_page import WITHOUT_VISER
 from tests.browser.served_viser import ServedViser, connected, ready
 from tests.chromium import new_page
 from tests.playing import played
@@ -63,7 +63,7 @@ def test_a_tone_is_played_once_it_is_turned_on(site: ServedViser) -> None:
 def test_after_a_win_the_next_scene_is_one_click_away(chromium: Browser) -> None:
     with played("box_chase_ai4u") as server:
         page = new_page(chromium)
-        PlainPage(ROOT).serve(page, server.url)
+        WITHOUT_VISER.serve(page, server.url)
         page.goto(server.url)
         connected(page)
         page.keyboard.down("KeyS")  # seed 5: the box is right behind

@@ -7,7 +7,7 @@ from playwright.sync_api import Browser, Page, expect
 
 from ai4u_edu.editing.sharing import read_shared, shared_link
 from ai4u_edu.scenes import Scene
-from tests.browser.plain_page import ROOT, PlainPage
+from tests.browser.plain_page import WITHOUT_VISER
 from tests.browser.served_viser import connected
 from tests.chromium import new_page
 from tests.playing import Played, played
@@ -15,7 +15,6 @@ from tests.server.rooms import until
 
 pytestmark = pytest.mark.browser
 
-WITHOUT_SCENE = PlainPage(ROOT)
 LINK = shared_link(Scene.load("maze"), 77).fragment
 
 
@@ -30,7 +29,7 @@ def server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Played]:
 @pytest.fixture
 def page(chromium: Browser, server: Played) -> Iterator[Page]:
     page = new_page(chromium, permissions=["clipboard-read", "clipboard-write"])
-    WITHOUT_SCENE.serve(page, server.url)
+    WITHOUT_VISER.serve(page, server.url)
     yield page
     page.context.close()
 

@@ -10,6 +10,7 @@ import pytest
 from ai4u_edu.base.errors import SetupError
 from ai4u_edu.cli.main import app
 from ai4u_edu.lessons.collecting import collect, page, table
+from ai4u_edu.lessons.diagnoses import COMMON
 from ai4u_edu.lessons.exercise import find
 from ai4u_edu.lessons.progress_file import ProgressFile
 
@@ -48,6 +49,12 @@ def test_the_command_writes_a_page_and_a_table(
     assert '<th scope="row">ann</th><td>1</td><td class="passed"' in text
     assert "2 began, 1 did not solve it yet" in text
     assert html.escape(next(iter(find("00.1").hints.values()))) in text
+
+
+def test_a_mistake_that_any_exercise_may_have_is_said_in_words(tmp_path: Path) -> None:
+    hand_in(tmp_path / "ann", passed=False, diagnosis="any/endless")
+    text = page(collect(tmp_path))
+    assert html.escape(f"1: {COMMON['endless']}") in text
 
 
 def test_files_are_left_as_they_are_and_can_be_collected_again(handed_in: Path) -> None:

@@ -14,13 +14,13 @@ import pytest
 from ai4u_edu import BasicAgent
 from ai4u_edu.lessons.answers import answers_to
 from ai4u_edu.lessons.checking import judge
-from ai4u_edu.lessons.course import course_folder, lesson, lessons
+from ai4u_edu.lessons.course import course_folder, exercise_ids, lesson, lessons
 from ai4u_edu.lessons.diagnoses import COMMON
 from ai4u_edu.lessons.exercise import EXERCISES, find
 from tests.lessons.verdicts import PAGE, beginning, is_as_wanted
-from tests.lessons.workbook import handed_in, tried
+from tests.lessons.workbook import SLOW, handed_in, tried
 
-IDS = [each for one in lessons() for each in one.exercises]
+IDS = exercise_ids()
 JUNK = [
     *(True, 10**400, "x", [], {}, object(), int, BasicAgent(body="robot")),
     lambda *_: None,
@@ -41,12 +41,10 @@ JUNK = [
     lambda *_: {"move": [math.nan, math.inf, 0, 0]},
 ]
 """Answers of wrong types and values, which every check must reject without failing."""
-SLOW = ("09.3", "10.2")
-"""Exercises whose answers train a network: only the solution is tried each time."""
 
 
 def _is_sample(exercise: str, number: int) -> bool:
-    """Return True for the solution and some others; the rest is tried at night."""
+    """Return True for the solution, and for some others of quick exercises; the rest is nightly."""
     if exercise in SLOW:
         return number == 0
     return number == 0 or (number + sum(map(ord, exercise))) % 4 == 0

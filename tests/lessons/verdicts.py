@@ -13,7 +13,7 @@ from pathlib import Path
 
 from ai4u_edu.lessons.answers import Answer, answers_to
 from ai4u_edu.lessons.checking import Verdict
-from ai4u_edu.lessons.course import lesson, lessons
+from ai4u_edu.lessons.course import exercise_ids, lesson
 from ai4u_edu.lessons.diagnoses import diagnosis_id
 from ai4u_edu.lessons.exercise import find
 from tests.lessons.workbook import tried
@@ -65,7 +65,7 @@ def main() -> int:
     lines, bad = [], 0
     with tempfile.TemporaryDirectory() as folder:
         os.chdir(folder)
-        for exercise in (each for one in lessons() for each in one.exercises):
+        for exercise in exercise_ids():
             if wanted and not exercise.startswith(tuple(wanted)):
                 continue
             for answer in answers_to(exercise).all:

@@ -12,6 +12,8 @@ from ai4u_edu.lessons.course import Lesson
 from ai4u_edu.lessons.exercise import find
 from ai4u_edu.lessons.notebook import Cell
 
+SLOW = ("09.3", "10.2")
+"""Exercises whose answers train a network."""
 SETUP = "setup"
 """Cells with this tag are run before an exercise is tried alone."""
 

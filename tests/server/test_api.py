@@ -97,13 +97,8 @@ def test_a_training_tells_its_progress(room: Room) -> None:
 
 
 def test_a_snapshot_tells_what_the_world_is_like(room: Room) -> None:
-    with room.page() as page:
-
-        def drives() -> bool:
-            page.hold("KeyW")  # said again, as pages do: the server soon forgets what is not
-            return bool(get(room, "api/snapshot")["agents"][0]["action"]["move"][0] == 1)
-
-        until(drives)
+    with room.page() as page, page.holding("KeyW"):
+        until(lambda: get(room, "api/snapshot")["agents"][0]["action"]["move"][0] == 1)
     room.runner.pause().result(5)
     seen, latest = get(room, "api/snapshot"), room.runner.latest
     assert (seen["tick"], seen["episode"], seen["seed"]) == (latest.tick, latest.episode, 1)

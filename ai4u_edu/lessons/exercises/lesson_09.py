@@ -11,7 +11,7 @@ import numpy as np
 
 from ai4u_edu.lessons.exercise import Done, NotYet, a_function, exercise, named
 from ai4u_edu.lessons.numeric import Slip, chance_for, difference, finite_number, is_close
-from ai4u_edu.lessons.rollouts import drive, seeds_of
+from ai4u_edu.lessons.rollouts import drive, driven_by, seeds_of
 from ai4u_edu.lessons.wrong_reward import OUTCOMES, Hacker, outcomes
 
 if TYPE_CHECKING:
@@ -249,12 +249,8 @@ def has_learned(trained: Any) -> Done:
 
     if not isinstance(trained, Shortened):
         _expect_trained(trained)
-    from ai4u_edu.training.policies import entrant_of
-
-    who = entrant_of(trained)
-    sim = who.fitted(Scene.load("box_chase")).build()
+    sim = driven_by(trained, Scene.load("box_chase"))
     agent = sim.agents[0]
-    agent.use_brain(who.brain(agent))
     fast = bool(os.environ.get("AI4U_FAST"))
     episodes = EPISODES // 10 if fast else EPISODES
     won = lost = 0

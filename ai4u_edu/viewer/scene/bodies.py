@@ -122,7 +122,7 @@ class _BodyGroup:
     ) -> None:
         self._members = np.array(members)
         self._looks: tuple[Array, Array, Array] | None = None
-        self._placed: tuple[npt.NDArray[Any], ...] | None = None
+        self._placed: tuple[npt.NDArray[Any], ...] = (np.empty(0),) * 3
         self._frame = scene.add_frame(name, show_axes=False) if is_node else None
         drawer = MeshDrawer(scene, name)
         bodies = [static_scene.bodies[index] for index in members]
@@ -180,12 +180,10 @@ class _BodyGroup:
             placed: positions (n, 3) and positions of the shadows (n, 3) in metres, wxyzs (n, 4).
         """
         positions, shadow_positions, wxyzs = placed
-        if self._placed is None:
-            changed = [True] * 3
-        else:
-            changed = [not np.array_equal(*each) for each in zip(placed, self._placed, strict=True)]
-        self._placed = placed
-        moved, shadow_moved, turned = changed
+        before, self._placed = self._placed, placed
+        moved, shadow_moved, turned = (
+            not np.array_equal(*each) for each in zip(placed, before, strict=True)
+        )
         if self._frame is None:
             for batch in (self._body, *self._marks):
                 if moved:
