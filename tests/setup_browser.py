@@ -14,6 +14,10 @@ with sync_playwright() as playwright:
 """
 
 
+HEADLESS = "chromium-headless-shell"
+"""Debian's Chromium without windows and menus, which takes a third less processor time in tests."""
+
+
 class BrowserError(Exception):
     """There is no Chromium and none could be had; the text says what was tried."""
 
@@ -62,16 +66,20 @@ def find(python: Path) -> str | None:
                 f"AI4U_CHROMIUM is {given!r}, and that is no program. Mend or unset it."
             )
         return given
-    names = ["chromium", "chromium-browser", "google-chrome"]
-    if on_ubuntu():  # its Chromium is a snap, whose confinement Playwright can't work with
-        names = ["google-chrome"]
-    for name in names:
-        path = shutil.which(name)
-        if path:
-            return path
+    path = on_path()
+    if path:
+        return path
     code, output = run([str(python), "-c", MANAGED])
     path = output.strip().rpartition("\n")[-1]
     return path if code == 0 and Path(path).exists() else None
+
+
+def on_path() -> str | None:
+    """Return the path of the Chromium of the system, without a window if there is one."""
+    names = [HEADLESS, "chromium", "chromium-browser", "google-chrome"]
+    if on_ubuntu():  # its Chromium is a snap, whose confinement Playwright can't work with
+        names = ["google-chrome"]
+    return next(filter(None, map(shutil.which, names)), None)
 
 
 def ways(python: Path) -> list[list[str]]:
@@ -83,8 +91,8 @@ def ways(python: Path) -> list[list[str]]:
     if on_ubuntu():
         return [[*playwright, "--with-deps"], playwright]
     apt = [*admin, "env", "DEBIAN_FRONTEND=noninteractive", "apt-get"]
-    install = [*apt, "install", "-y", "--no-install-recommends", "chromium"]
-    return [[*apt, "update"], install, playwright]
+    install = [*apt, "install", "-y", "--no-install-recommends"]
+    return [[*apt, "update"], [*install, HEADLESS], [*install, "chromium"], playwright]
 
 
 def as_root() -> list[str] | None:

@@ -73,9 +73,7 @@ def find_place(calls: Sequence[tuple[FrameType, int]], agents: Iterable[BasicAge
     inner = calls[first:]
     own = [call for call in inner if _is_users(call[0])]
     frame_and_line = (own or inner)[-1:]
-    where = "".join(
-        f"{Path(frame.f_code.co_filename).name}, line {line}" for frame, line in frame_and_line
-    )
+    where = "".join(f"{_file_of(frame)}, line {line}" for frame, line in frame_and_line)
     if isinstance(owner, Event):
         agent = calls[first][0].f_locals.get("agent")
         return Place(f"Handler of {owner.name}", getattr(agent, "id", ""), where)
@@ -120,6 +118,12 @@ def _first_argument(frame: FrameType) -> object:
     """Return ``self`` of a method's frame, by whatever name it goes."""
     code = frame.f_code
     return frame.f_locals.get(code.co_varnames[0]) if code.co_argcount else None
+
+
+def _file_of(frame: FrameType) -> str:
+    """Return the name of a frame's file; of a notebook's cell it would be a number."""
+    path = Path(frame.f_code.co_filename)
+    return "a notebook's cell" if path.parent.name.startswith("ipykernel_") else path.name
 
 
 def _agent_of(

@@ -63,6 +63,12 @@ class Runner(WorldThread):
         return self.submit(command)
 
     @property
+    def thread_id(self) -> int:
+        """Identifier of the world's thread; 0 while it does not run."""
+        thread = self._thread
+        return thread.ident or 0 if thread is not None and thread.is_alive() else 0
+
+    @property
     def is_waiting_for_key(self) -> bool:
         """True while the world waits on its first frame until a key is pressed."""
         return self._start_wait.is_waiting

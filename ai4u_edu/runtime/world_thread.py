@@ -4,11 +4,12 @@ import logging
 import math
 import threading
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from concurrent.futures import Future
 from dataclasses import replace
 from typing import TypeVar
 
+from ai4u_edu.agent import BasicAgent
 from ai4u_edu.agent.block_errors import sentence_of, storable
 from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.blocks import Brain, RemoteBrain
@@ -25,7 +26,6 @@ from ai4u_edu.runtime.training_progress import TrainingProgress
 from ai4u_edu.snapshot import Snapshot, StaticScene, capture_snapshot, capture_static_scene
 
 T = TypeVar("T")
-
 logger = logging.getLogger(__name__)
 
 DECISION_WAIT_S = 0.25
@@ -75,6 +75,8 @@ class WorldThread:
         self.training: TrainingProgress | None = None
         """Progress of the training whose policy drives in this world; replaced, never changed."""
         self.paused, self.error = False, ""
+        self.describe_error: Callable[[BaseException, Sequence[BasicAgent]], str] = sentence_of
+        """Returns the sentence on a block's error that pages show; may be replaced."""
         self.time_scale = sim.default_time_scale
         if time_scale is not None:
             self.set_time_scale(time_scale)
@@ -317,7 +319,7 @@ class WorldThread:
         except BaseException as error:
             if not self._may_keep(error):
                 raise
-            self.error = sentence_of(error, self.sim.agents)
+            self.error = self.describe_error(error, self.sim.agents)
 
     def _may_keep(self, error: BaseException) -> bool:
         """Return True for a block's error; Ctrl-C is raised in the main thread only."""
@@ -334,8 +336,6 @@ class WorldThread:
             if not self._may_keep(error):
                 raise
             logger.warning("%s could not be closed", type(brain).__name__, exc_info=True)
-
-    # -- another world ---------------------------------------------------------------------------
 
     def _replace(self, sim: ControlRequestor, recorder: Recorder | None) -> None:
         before, self.sim = self.sim, sim

@@ -28,7 +28,8 @@ MAX_SHOWN_CHARS = 200
 
 _PORTS = {"http": 80, "https": 443}
 _OWN_SITES = {"same-origin", "none"}  # "none": typed in, or opened from a bookmark
-_PAGES = {"", "/", "/start"}
+PAGES = re.compile(r"/?|/start")
+"""Paths of pages, to which other sites may lead a person."""
 _NAVIGATION_DESTS = {"document", "iframe", "frame"}
 _HOST = re.compile(r"(\[[0-9a-f:.]+\]|[a-z0-9._-]+)(:\d{1,5})?")
 
@@ -70,6 +71,7 @@ class HostOriginCheck:
             ``"*"`` for any.
         proxy_hosts: more such names, of a reverse proxy in front. It may have changed ``Host`` and
             terminated TLS: so pages with these names count as ours, with any port and scheme.
+        pages: paths of pages, to which other sites may lead a person.
     """
 
     def __init__(
@@ -77,8 +79,9 @@ class HostOriginCheck:
         app: ASGIApp,
         allowed_hosts: Collection[str] = LOOPBACK,
         proxy_hosts: Collection[str] = (),
+        pages: re.Pattern[str] = PAGES,
     ) -> None:
-        self._app = app
+        self._app, self._pages = app, pages
         self._proxies = {name.lower() for name in proxy_hosts}
         self._hosts = {name.lower() for name in allowed_hosts} | self._proxies
 
@@ -129,7 +132,11 @@ with --allow-host NAME"
                 f"{_cut(', '.join(origins))!r}; behind a proxy, start with --allow-host NAME"
             )
         sites = [site.lower() for site in headers.getlist("sec-fetch-site")]
-        if not origins and not set(sites) <= _OWN_SITES and not _is_navigation(scope, headers):
+        if (
+            not origins
+            and not set(sites) <= _OWN_SITES
+            and not _is_navigation(scope, headers, self._pages)
+        ):
             return (
                 f"Sec-Fetch-Site: expected same-origin (the page that this server gives out), got "
                 f"{_cut(', '.join(sites))!r}; open the page itself"
@@ -161,13 +168,13 @@ with --allow-host NAME"
         return is_secure and _with_port(place, theirs) == _with_port(host, theirs)
 
 
-def _is_navigation(scope: Scope, headers: Headers) -> bool:
+def _is_navigation(scope: Scope, headers: Headers, pages: re.Pattern[str]) -> bool:
     """Return True for a navigation: another site leads a person to the page."""
     path = scope["path"].removeprefix(scope.get("root_path", ""))
     return (
         scope["type"] == "http"
         and scope["method"] in ("GET", "HEAD")
-        and path in _PAGES
+        and pages.fullmatch(path) is not None
         and headers.get("sec-fetch-mode") == "navigate"
         and headers.get("sec-fetch-dest", "document") in _NAVIGATION_DESTS
     )

@@ -529,6 +529,7 @@ def test_a_page_follows_into_another_world(site: ServedViser, query: str) -> Non
     page = site.page(query)
     page.keyboard.down("KeyW")
     until(lambda: site.room.held == ["KeyW"])
+    expect(driver_status(page)).to_have_text("You drive")
     new = worlds_robot(site)
     expect(driver_status(page)).to_have_text("Press a key to drive", timeout=10_000)
     page.keyboard.up("KeyW")

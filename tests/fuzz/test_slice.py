@@ -11,16 +11,16 @@ from tests.fuzz.target import Target
 from tests.fuzz.targets import TARGETS
 
 SLICE = {
-    "native-said": 6000,
-    "native-heard": 6000,
-    "ai4u-request": 6000,
-    "ai4u-reply": 6000,
-    "percept": 2000,
-    "page-words": 2000,
-    "recording": 1500,
-    "scene": 80,
-    "http": 800,
-    "conversations": 60,
+    "native-said": 3000,
+    "native-heard": 3000,
+    "ai4u-request": 3000,
+    "ai4u-reply": 3000,
+    "percept": 1000,
+    "page-words": 1000,
+    "recording": 750,
+    "scene": 40,
+    "http": 400,
+    "conversations": 30,
 }
 
 

@@ -18,8 +18,8 @@ class Told(Exception):
 def rules_of(monkeypatch: pytest.MonkeyPatch, *arguments: str) -> Rules:
     """The rules with which a command would serve its room."""
 
-    def tell(**fields: Any) -> None:
-        raise Told(Rules(**fields))
+    def tell(*values: Any) -> None:
+        raise Told(Rules(*values))
 
     monkeypatch.setattr(server, "Rules", tell)
     result = CliRunner().invoke(app, ["play", "sumo", "--no-open", "--no-autosave", *arguments])

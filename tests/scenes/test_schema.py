@@ -1,25 +1,24 @@
 """The JSON Schema of scene files says what the loader says."""
 
+from functools import cache
 from typing import Any
 
-import jsonschema
 import pytest
 
 from ai4u_edu import Block, Scene
 from ai4u_edu.blocks.block import is_built_in
 from ai4u_edu.scenes.schema import scene_schema
 from ai4u_edu.scenes.serialization import is_serializable
+from tests.json_schema import validator_of
 
-SCHEMA = scene_schema()
+
+@cache
+def schema() -> dict[str, Any]:
+    return scene_schema()
 
 
 def errors_in(scene: dict[str, Any]) -> list[str]:
-    validator = jsonschema.Draft202012Validator(SCHEMA)
-    return [error.json_path for error in validator.iter_errors(scene)]
-
-
-def test_it_is_a_schema() -> None:
-    jsonschema.Draft202012Validator.check_schema(SCHEMA)
+    return [error.json_path for error in validator_of(schema()).iter_errors(scene)]
 
 
 @pytest.mark.parametrize("name", Scene.names())
@@ -54,7 +53,7 @@ def test_what_is_random_fits_and_is_explained() -> None:
     thing = {"name": "a", "shape": {"type": "circle"}, "random": vary}
     scene = {"name": "x", "agents": [{"body": "a"}]}
     assert errors_in(scene | {"bodies": [thing], "areas": [thing], "floors": [thing]}) == []
-    for about in SCHEMA["$defs"]["Variation"]["properties"].values():
+    for about in schema()["$defs"]["Variation"]["properties"].values():
         assert about["description"]
 
 
@@ -64,7 +63,7 @@ def test_every_block_has_a_definition_with_a_description() -> None:
     ]
     assert len(blocks) > 15
     for name in blocks:
-        definition = SCHEMA["$defs"][name]
+        definition = schema()["$defs"][name]
         assert definition["description"]
         assert ">>>" not in definition["description"]
         assert definition["properties"]["type"] == {"const": name}

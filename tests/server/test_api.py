@@ -5,10 +5,9 @@ import math
 import threading
 from collections.abc import Iterator
 from datetime import UTC, datetime
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import httpx
-import jsonschema
 import numpy as np
 import pytest
 from gymnasium.spaces import Box
@@ -20,7 +19,11 @@ from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.runtime.training_progress import CurvePoint, TrainingProgress
 from ai4u_edu.server.api import SnapshotView, finite
 from tests.builders import small_sim
+from tests.json_schema import validator_of
 from tests.server.rooms import Room, served, until
+
+if TYPE_CHECKING:
+    from jsonschema import Draft202012Validator
 
 
 @pytest.fixture
@@ -34,10 +37,9 @@ def room() -> Iterator[Room]:
         yield room
 
 
-def checker(document: dict[str, Any], schema: dict[str, Any]) -> jsonschema.Draft202012Validator:
+def checker(document: dict[str, Any], schema: dict[str, Any]) -> "Draft202012Validator":
     """Return a validator of one schema of a document."""
-    jsonschema.Draft202012Validator.check_schema(schema)
-    return jsonschema.Draft202012Validator({"components": document["components"], **schema})
+    return validator_of({"components": document["components"], **schema})
 
 
 def get(room: Room, path: str) -> Any:

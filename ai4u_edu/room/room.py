@@ -1,0 +1,133 @@
+"""Construction of a room from its settings, its start and its end."""
+
+from collections.abc import Callable
+from contextlib import ExitStack
+from typing import Self
+
+from ai4u_edu.agent import ControlRequestor
+from ai4u_edu.editing import SceneEditor
+from ai4u_edu.editing.autosave import Autosave, unsaved_scenes
+from ai4u_edu.editing.scene_store import SceneStore
+from ai4u_edu.editing.sharing import SharedScene, read_shared
+from ai4u_edu.editing.unsaved import Unsaved, choose_unsaved
+from ai4u_edu.lessons.course import lessons
+from ai4u_edu.panel import PanelSockets
+from ai4u_edu.recording import Episode, recorder_into
+from ai4u_edu.room.settings import RoomSettings
+from ai4u_edu.runtime.runner import Runner
+from ai4u_edu.scenes import Scene
+from ai4u_edu.scenes.scene_link import is_link
+from ai4u_edu.server import LessonView, lock_viser_port, room_app
+from ai4u_edu.viewer import Viewer
+
+
+class Room:
+    """A world, the threads that run and draw it, and the app that serves its page and API.
+
+    ``with Room(settings) as room: serve(room.app, ...)``
+
+    Args:
+        settings: of the room.
+        warn: called with a sentence when something goes wrong later, in any thread.
+
+    Raises:
+        AI4UError: the scene or a file can't be used; the message says why.
+    """
+
+    def __init__(
+        self, settings: RoomSettings, warn: Callable[[str], object] = lambda _: None
+    ) -> None:
+        self.unsaved = unsaved_scenes(settings.unsaved) if settings.unsaved else []
+        restored = _restored(settings, self.unsaved)
+        scene, linked_seed = _scene_of(settings, restored)
+        self.title = scene.description.title or scene.description.name
+        sim, scene = _build(scene, settings.drivers)
+        recorder = recorder_into(settings.record, sim, scene, settings.keep)
+        ghost = Episode.load(settings.ghost) if settings.ghost else None
+        self.runner = Runner(
+            sim,
+            seed=_first_seed(settings, ghost, linked_seed),
+            time_scale=settings.time_scale,
+            recorder=recorder,
+            wait_for_key=settings.wait_for_key,
+        )
+        self._autosave = None
+        if settings.unsaved is not None and settings.autosave:
+            self._autosave = Autosave(settings.unsaved, scene.description.name, warn)
+        self.editor = SceneEditor(self.runner, scene, offers=[*settings.offers])
+        self.editor.recovery.autosave = self._autosave
+        if settings.saved_scenes is not None:
+            self.editor.scene_store = SceneStore(settings.saved_scenes)
+        if restored is not None:
+            self.editor.recovery.mark_restored(restored)
+        elif self.unsaved:
+            self.editor.recovery.unsaved = self.unsaved[0]
+        self._viewer = Viewer(self.runner, title=self.title, editor=self.editor)
+        if ghost is not None and settings.ghost is not None:
+            self._viewer.ghosts.race(ghost, settings.ghost.name)
+        lock_viser_port(self._viewer.server)
+        self.app = room_app(
+            self.runner,
+            viser_port=self._viewer.port,
+            title=lambda: self.editor.title,
+            allowed_hosts=settings.allowed_hosts,
+            proxy_hosts=settings.proxy_hosts,
+            rules=settings.rules,
+            editor=self.editor,
+            lessons=_lessons,
+            panel=PanelSockets(self.runner, self._viewer, self.editor),
+        )
+        self._ending = ExitStack()
+
+    def __enter__(self) -> Self:
+        self.runner.start()
+        self._viewer.start()
+        # the last one first: the runner may yet change what is saved
+        self._ending.callback(self._viewer.stop)
+        if self._autosave is not None:
+            self._ending.callback(self._autosave.stop)
+        self._ending.callback(self.runner.stop)
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._ending.close()
+
+
+def _restored(settings: RoomSettings, unsaved: list[Unsaved]) -> Unsaved | None:
+    if not settings.restore:
+        return None
+    return choose_unsaved(unsaved, settings.scene if settings.is_scene_named else "")
+
+
+def _scene_of(settings: RoomSettings, restored: Unsaved | None) -> SharedScene:
+    """Return the scene to serve, and the seed that comes with it in a link."""
+    if restored is not None:
+        return SharedScene(restored.scene(), None)
+    if is_link(settings.scene):
+        return read_shared(settings.scene)
+    return SharedScene(Scene.load(settings.scene), None)
+
+
+def _build(scene: Scene, drivers: tuple[str, ...]) -> tuple[ControlRequestor, Scene]:
+    if not drivers:
+        return scene.build(), scene
+    from ai4u_edu.training.assigned import with_drivers  # loads packages that most don't need
+
+    return with_drivers(scene, [*drivers], is_served=True)
+
+
+def _first_seed(settings: RoomSettings, ghost: Episode | None, linked: int | None) -> int | None:
+    if settings.seed is not None:
+        return settings.seed
+    return linked if ghost is None else ghost.seed
+
+
+def _lessons() -> list[LessonView]:
+    return [
+        LessonView(
+            number=each.number,
+            title=each.title.removeprefix(each.number).strip(),
+            duration=each.duration,
+        )
+        for each in lessons()
+    ]

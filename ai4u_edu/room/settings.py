@@ -1,0 +1,35 @@
+"""Settings of a room."""
+
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from ai4u_edu.base.limits import DEFAULT_KEPT_EPISODES
+from ai4u_edu.server import Rules
+from ai4u_edu.server.host_origin import LOOPBACK
+
+
+@dataclass(frozen=True, kw_only=True)
+class RoomSettings:
+    """Settings of a room; most are options of ``ai4u-edu play`` of the same name."""
+
+    scene: str
+    """Name in the library, path of a file, or link."""
+    is_scene_named: bool = True
+    """False if the scene is only the default."""
+    seed: int | None = None
+    time_scale: float | None = None
+    wait_for_key: bool = True
+    allowed_hosts: tuple[str, ...] = LOOPBACK
+    proxy_hosts: tuple[str, ...] = ()
+    rules: Rules = field(default_factory=Rules)
+    drivers: tuple[str, ...] = ()
+    record: Path | None = None
+    keep: int = DEFAULT_KEPT_EPISODES
+    ghost: Path | None = None
+    offers: tuple[str, ...] = ()
+    saved_scenes: Path | None = None
+    restore: bool = False
+    unsaved: Path | None = None
+    """Folder of scenes that were changed and not saved; None neither writes nor offers them."""
+    autosave: bool = True
+    """False only offers unsaved scenes, and writes none."""
