@@ -4,7 +4,7 @@
 # ![A blue robot on a grey plate drives to an orange box](pictures/00.png)
 #
 # In this course you build robots that live in a small flat world. First you drive them yourself, then you
-# tell them how to drive, and in the end you let them learn it. It starts with a click.
+# tell them how to drive, and in the end they learn it by themselves. It starts with a click.
 #
 # **When you have finished, you can**
 #
@@ -13,7 +13,7 @@
 # - send a robot its first action from Python,
 # - read an error message and fix the mistake.
 #
-# *About 40 minutes. All you need is this page.*
+# *About 45 minutes. All you need is this page.*
 
 # %% [markdown]
 # ## Is everything there?
@@ -21,10 +21,10 @@
 # The grey box below is a **cell**: a piece of a program. Click into it, then press **Shift + Enter**. The
 # cell runs, and its output appears below it.
 #
-# Wait until *Idle* stands at the bottom of the window before you run the first cell. You will see a robot
-# on a plate, with a blue frame: the keys go to it. (No blue frame? **Click the picture**.) Hold **W** to
-# drive forward, **S** to drive backward, **A** and **D** to turn. **R** starts again. Reach the orange
-# box, and don't fall off the plate!
+# Before you run the first cell, wait until you see *Idle* at the bottom of the window. Then you will see
+# a robot on a plate. The blue frame means that your keys go to it. (No blue frame? **Click the
+# picture**.) Hold **W** to drive forward, **S** to drive backward, **A** and **D** to turn. **R** starts
+# again. Reach the orange box, and don't fall off the plate!
 
 # %%
 from ai4u_edu.lessons import ready, show
@@ -33,9 +33,9 @@ ready()
 show("box_chase", seed=1)
 
 # %% [markdown]
-# The green box tells you whether everything you need is installed. You see no robot? Click the line above
-# the picture: it opens the world in its own tab. If that does not help either, show your teacher the
-# output of the cell.
+# The green box tells you whether everything you need is installed. Can't you see a robot? Click the line
+# above the picture: it opens the world in its own tab. If that does not help either, show your teacher
+# the output of the cell.
 #
 # ## What is a notebook?
 #
@@ -60,7 +60,7 @@ print("Hello,", name)
 # ## Your first action
 #
 # You drove with keys. A program drives with numbers. Twelve times a second the robot asks: *what
-# shall I do?* The answer is called an **action**, and it looks like this:
+# should I do?* The answer is called an **action**, and it looks like this:
 #
 # ```python
 # {"move": [1, 0, 0, 0]}
@@ -107,8 +107,8 @@ hint("00.1")
 # %% [markdown]
 # ### Exercise 00.2: turn left
 #
-# The cell with `spin` turned the robot to the right. Write a function that turns it to the **left**, and
-# keeps it in its place.
+# The cell with `spin` turned the robot to the right. Write a function that turns it to the **left**, without
+# driving away.
 
 
 # %% tags=["exercise-00.2"]
@@ -122,7 +122,7 @@ check("00.2", turn_left)
 # %% [markdown]
 # ## Errors are messages
 #
-# Everybody's programs stop with errors, every day. The trick is to read them. **The last line says
+# Everybody's programs stop with errors, every day. The trick is to read the messages. **The last line says
 # what is wrong.** The lines above it say where.
 #
 # The robot only knows an action called `move`. See what happens when we use a different name:
@@ -156,6 +156,37 @@ def curve(percept):
 check("00.3", curve)
 
 # %% [markdown]
+# ## Exit ticket
+#
+# Three questions to see what stays with you. Write your three letters into the list.
+#
+# **1.** What does this action do? `{"move": [0.5, -1, 0, 0]}`
+#
+# - a: drives forward and turns left, in a curve
+# - b: drives backward and turns right
+# - c: drives forward for half a second, then turns left
+#
+# **2.** You change the function `go` in its cell, but you don't run that cell. Then you run
+# `check("00.1", go)`. What is checked?
+#
+# - a: the new function: it is what the page shows
+# - b: nothing: there will be an error
+# - c: the old function
+#
+# **3.** The last line of an error message is `NameError: name 'forward' is not defined`. What does it
+# tell you?
+#
+# - a: the robot can't drive forward
+# - b: the program uses a name that stands for nothing yet
+# - c: the cell has to be run a second time
+
+# %% tags=["exercise-00.exit"]
+answers = ["", "", ""]
+
+# %%
+check("00.exit", answers)
+
+# %% [markdown]
 # ## How far are you?
 
 # %%
@@ -180,5 +211,6 @@ report()
 print(Scene.names())
 
 # %% [markdown]
-# **Words of this lesson:** cell, action, percept, decision, episode, seed. You find them in
-# `GLOSSARY.md`. **Next:** 01, in which you find out what the robot is told while you drive.
+# **Words of this lesson:** cell, action, percept, decision, episode, seed. They are explained in
+# `GLOSSARY.md`. **Next:** 01 if you have never programmed in Python; otherwise 02, in which you find
+# out what the robot is told while you drive.

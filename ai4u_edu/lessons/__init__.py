@@ -11,29 +11,37 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from ai4u_edu.lessons.checking import check, hint, progress, solution
+    from ai4u_edu.lessons.controls import cards, sliders
     from ai4u_edu.lessons.filming import film
     from ai4u_edu.lessons.plots import bars, plot
+    from ai4u_edu.lessons.predictions import compare, predict
     from ai4u_edu.lessons.readiness import ready
     from ai4u_edu.lessons.report_page import report
     from ai4u_edu.lessons.showing import show, stop
 
 __all__ = [
     "bars",
+    "cards",
     "check",
+    "compare",
     "film",
     "hint",
     "plot",
+    "predict",
     "progress",
     "ready",
     "report",
     "show",
+    "sliders",
     "solution",
     "stop",
 ]
 
 _HOMES = {
     "checking": ("check", "hint", "progress", "solution"),
+    "controls": ("cards", "sliders"),
     "filming": ("film",),
+    "predictions": ("compare", "predict"),
     "report_page": ("report",),
     "showing": ("show", "stop"),
     "plots": ("bars", "plot"),

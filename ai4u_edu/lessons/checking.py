@@ -6,6 +6,7 @@ from typing import Any
 
 from ai4u_edu.lessons.answers import answers_to
 from ai4u_edu.lessons.cell_source import definition_line, written
+from ai4u_edu.lessons.course import is_ticket
 from ai4u_edu.lessons.diagnoses import COMMON, UNKNOWN, diagnosis_id
 from ai4u_edu.lessons.exercise import Done, Exercise, NotYet, find, unfinished
 from ai4u_edu.lessons.notebook_output import card, put
@@ -17,6 +18,12 @@ YES, NO = "\u2714", "\u2013"
 NONE_GIVEN = (
     "What you handed in is None: nothing. Give the function's name without brackets after it. If "
     "it is what a function returned, that function lacks a `return`."
+)
+READ_AGAIN = (
+    "The lesson's text answers all three questions: read the part again that the question is about."
+)
+NO_SOLUTION = (
+    "An exit ticket has no solution to print, since it is there to find out what you know."
 )
 UNFINISHED = "There is still `...` where your answer should be: run its cell once you wrote it."
 
@@ -55,8 +62,17 @@ def check(exercise_id: str, *things: Any) -> None:
     """Check an exercise, show what is right or what happened, and save the result.
 
     Args:
-        exercise_id: such as ``"03.2"``.
+        exercise_id: such as ``"04.2"``.
         things: what you made in the exercise's cell.
+
+    Raises:
+        SetupError: there is no such exercise.
+    """
+    check_as(exercise_id, *things)
+
+
+def check_as(exercise_id: str, *things: Any, code: str | None = None) -> None:
+    """Check an exercise as :func:`check` does, and save the code that is given, if any is.
 
     Raises:
         SetupError: there is no such exercise.
@@ -76,13 +92,13 @@ def check(exercise_id: str, *things: Any) -> None:
         text=verdict.text,
         diagnosis=diagnosis_id(exercise_id, verdict.hint, exercise.hints) if verdict.hint else "",
         picture=verdict.picture,
-        code=written(exercise_id),
+        code=written(exercise_id) if code is None else code,
     )
     if verdict.passed:
         colour, sign, more = "green", f"{YES} Right.", []
     else:
         colour, sign = "vermillion", "Not yet."
-        more = [f'Stuck? Run `hint("{exercise_id}")`.']
+        more = [] if is_ticket(exercise_id) else [f'Stuck? Run `hint("{exercise_id}")`.']
     lines = [verdict.text, *more, *([progress.trouble] if progress.trouble else [])]
     put(card(colour, sign, lines, verdict.picture), _words(sign, lines))
 
@@ -108,6 +124,8 @@ def hint(exercise_id: str) -> None:
 def _hints_in_order(exercise: Exercise, pointed: str) -> list[str]:
     """Return the hints: the one that fits, the exercise's others, a neutral one at the end."""
     own = list(exercise.hints)
+    if is_ticket(exercise.id):  # the sentences on other choices would leave the right one over
+        return [exercise.hints[pointed if pointed in own else own[0]], READ_AGAIN]
     if pointed in own:
         start = own.index(pointed)
         return [exercise.hints[name] for name in own[start:] + own[:start]] + [COMMON[UNKNOWN]]
@@ -126,7 +144,9 @@ def solution(exercise_id: str) -> None:
     Raises:
         SetupError: there is no such exercise.
     """
-    find(exercise_id)
+    if is_ticket(find(exercise_id).id):
+        print(f"{NO_SOLUTION} {READ_AGAIN}")  # noqa: T201 - as below
+        return
     print(answers_to(exercise_id).solution)  # noqa: T201 - to be copied from
 
 

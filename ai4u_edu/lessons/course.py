@@ -8,6 +8,9 @@ from pathlib import Path
 from ai4u_edu.base.errors import SetupError, suggest
 from ai4u_edu.lessons.notebook import Cell, read_cells
 
+TICKET = ".exit"
+"""End of the id of an exit ticket, such as ``04.exit``."""
+
 
 @dataclass(frozen=True)
 class Lesson:
@@ -44,7 +47,7 @@ class Lesson:
 
     @property
     def exercises(self) -> list[str]:
-        """Return the ids of its exercises, in order."""
+        """Return the ids of its exercises, in order; an exit ticket is one of them."""
         return [cell.exercise for cell in self.cells if cell.exercise]
 
 
@@ -65,6 +68,11 @@ def lessons() -> list[Lesson]:
 def exercise_ids() -> list[str]:
     """Return the ids of all exercises, in the course's order."""
     return [each for one in lessons() for each in one.exercises]
+
+
+def is_ticket(exercise_id: str) -> bool:
+    """Return True for an exit ticket: it has questions, and no code to write."""
+    return exercise_id.endswith(TICKET)
 
 
 def lesson(number: str) -> Lesson:

@@ -50,12 +50,12 @@ def diagnosis_id(exercise_id: str, name: str, own: Container[str]) -> str:
     """Return the id of a diagnosis, unique in the course and never changed.
 
     Args:
-        exercise_id: such as ``"03.2"``.
+        exercise_id: such as ``"04.2"``.
         name: of the diagnosis; empty for an unknown mistake.
         own: the exercise's own hints, by name.
 
-    >>> diagnosis_id("03.2", "narrow", {"narrow": "..."}), diagnosis_id("03.2", "", {})
-    ('03.2/narrow', 'any/unknown')
+    >>> diagnosis_id("04.2", "narrow", {"narrow": "..."}), diagnosis_id("04.2", "", {})
+    ('04.2/narrow', 'any/unknown')
     """
     if name and name in own:
         return f"{exercise_id}/{name}"

@@ -1,8 +1,8 @@
 """Exercises: a check that runs a student's work, and hints.
 
-A lesson's exercises stand in ``exercises/lesson_03.py``::
+A lesson's exercises stand in ``exercises/lesson_04.py``::
 
-    @exercise("03.2", "Turn to the box", hints={"mirrored": "Left and right are swapped ..."})
+    @exercise("04.2", "Turn to the box", hints={"mirrored": "Left and right are swapped ..."})
     def turns_to_the_box(drive: Any) -> str:
         ...
         raise NotYet("With seed 5 the robot turned away.", hint="mirrored", picture=...)
@@ -98,7 +98,7 @@ def find(exercise_id: Any) -> Exercise:
     """
     if not isinstance(exercise_id, str):
         raise SetupError(
-            f"expected an exercise's number in quotes, such as '01.1', got {exercise_id!r}"
+            f"expected an exercise's number in quotes, such as '02.1', got {exercise_id!r}"
         )
     number = exercise_id.partition(".")[0]
     try:

@@ -1,12 +1,14 @@
 """``film``: an episode as an animation in the notebook, without a server."""
 
 from collections import deque
+from contextlib import suppress
 from typing import Any
 
 from ai4u_edu.agent.cycle import ControlRequestor
+from ai4u_edu.lessons.exercise import Exercise, NotYet
 from ai4u_edu.lessons.notebook_output import card, image, put
 from ai4u_edu.lessons.pictures import FRAMES_PER_S, MAX_ANIMATION_S, animation, moving
-from ai4u_edu.lessons.rollouts import DEFAULT_MAX_DECISIONS, Drive, drives
+from ai4u_edu.lessons.rollouts import DEFAULT_MAX_DECISIONS, Drive, drives, observed
 from ai4u_edu.lessons.time_limit import TimeLimit, TimeLimitError
 from ai4u_edu.recording import Episode
 from ai4u_edu.scenes import Scene
@@ -31,28 +33,80 @@ def film(
     if isinstance(world, Episode):
         put(image(animation(world), "the episode"), f"An episode of {world.seconds:.1f} s.")
         return
-    shown: deque[Snapshot] = deque(maxlen=FRAMES_PER_S * MAX_ANIMATION_S)
-    due = 0.0
-
-    def watch(drive: Drive) -> None:
-        nonlocal due
-        if drive.sim.world.time >= due or drive.agent.done:
-            shown.append(capture_snapshot(drive.sim))
-            due = drive.sim.world.time + 0.99 / FRAMES_PER_S
-
+    frames = _Frames()
     source = (lambda: world) if isinstance(world, ControlRequestor) else world
     with TimeLimit() as time_limit:
         try:
-            (drive,) = drives(source, brain, [seed], limit=limit, watch=watch)
+            (drive,) = drives(source, brain, [seed], limit=limit, watch=frames.add)
         except TimeLimitError:
             put(card("vermillion", "Stopped.", [time_limit.text]), f"Stopped. {time_limit.text}")
             return
+    _put_film(drive, frames)
+
+
+class _FilmedError(BaseException):
+    """Raised to end a check whose first episode was filmed."""
+
+
+def film_check(exercise: Exercise, *things: Any) -> bool:
+    """Show the first episode of an exercise's check as an animation; nothing is saved.
+
+    Args:
+        exercise: the exercise.
+        things: what a student made.
+
+    Returns:
+        False if the check runs no episode.
+
+    Raises:
+        TimeLimitError: the student's code took too long.
+    """
+    frames = _Frames()
+
+    def watch(drive: Drive) -> None:
+        if frames.drive is not None and frames.drive is not drive:
+            raise _FilmedError
+        frames.add(drive)
+
+    with observed(watch), suppress(NotYet, _FilmedError):
+        exercise.judge(*things)
+    if frames.drive is None:
+        return False
+    _put_film(frames.drive, frames)
+    return True
+
+
+class _Frames:
+    """Pictures of an episode, at the rate of an animation."""
+
+    def __init__(self) -> None:
+        self.shown: deque[Snapshot] = deque(maxlen=FRAMES_PER_S * MAX_ANIMATION_S)
+        self.drive: Drive | None = None
+        self.end = ""
+        """End of the episode; kept at once, since the next one resets the agent."""
+        self._due = 0.0
+
+    def add(self, drive: Drive) -> None:
+        """Take a picture if one is due."""
+        self.drive = drive
+        if drive.sim.world.time >= self._due or drive.agent.done:
+            self.shown.append(capture_snapshot(drive.sim))
+            self._due = drive.sim.world.time + 0.99 / FRAMES_PER_S
+        if drive.agent.done:
+            self.end = _end_of(drive)
+
+
+def _end_of(drive: Drive) -> str:
     ends = (
         (drive.won, "the robot reached its goal"),
         (drive.fell, "the robot fell"),
         (drive.agent.done, "the episode was over"),
         (True, "the film stops"),
     )
-    how = next(words for happened, words in ends if happened)
-    words = f"Seed {seed}: after {drive.steps} decisions {how}."
-    put(f"<p>{words}</p>{image(moving(shown), 'the episode')}", words)
+    return next(words for happened, words in ends if happened)
+
+
+def _put_film(drive: Drive, frames: _Frames) -> None:
+    how = frames.end or _end_of(drive)
+    words = f"Seed {drive.seed}: after {drive.steps} decisions {how}."
+    put(f"<p>{words}</p>{image(moving(frames.shown), 'the episode')}", words)

@@ -14,6 +14,7 @@ from ai4u_edu.base.errors import AI4UError
 from ai4u_edu.lessons.notebook_output import card, image, in_notebook, replace
 from ai4u_edu.lessons.page_watch import PageWatch
 from ai4u_edu.lessons.pictures import PICTURE_SIZE_PX, animation, picture
+from ai4u_edu.lessons.stall_watch import StallWatch
 from ai4u_edu.recording import Episode, Recorder
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.scenes import Scene
@@ -56,6 +57,7 @@ class Live:
         self.title = title
         self.recorder = recorder
         self.runner = Runner(sim, seed=seed, recorder=recorder, wait_for_key=True)
+        self._stall_watch = StallWatch(self.runner)
         editor = None if scene is None else SceneEditor(self.runner, scene)
         self._viewer = Viewer(self.runner, title=title, editor=editor)
         lock_viser_port(self._viewer.server)
@@ -71,6 +73,7 @@ class Live:
         self.url = with_token(self._server.url, TOKEN)
         """The page's address on this machine, with the token."""
         self.runner.start()
+        self._stall_watch.start()
         self._viewer.start()
         self._server.start()
         self.running = True
@@ -112,6 +115,7 @@ class Live:
             self._server.stop()
             self._viewer.stop()
             self.runner.stop()
+            self._stall_watch.stop()
 
     def stop(self) -> None:
         """End the world, and leave an animation of the last episode in its place."""

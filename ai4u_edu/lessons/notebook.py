@@ -16,7 +16,7 @@ from ai4u_edu.base.errors import SetupError
 _HEAD = re.compile(r"# %%(?P<text> \[markdown\])?(?: tags=(?P<tags>\[[^\]]*\]))?")
 KERNEL = {"display_name": "Python 3 (ipykernel)", "language": "python", "name": "python3"}
 EXERCISE = "exercise-"
-"""Prefix of the tag of a cell in which a student writes, such as ``exercise-03.2``."""
+"""Prefix of the tag of a cell in which a student writes, such as ``exercise-04.2``."""
 
 
 @dataclass(frozen=True)
@@ -31,7 +31,7 @@ class Cell:
 
     @property
     def exercise(self) -> str:
-        """Id of the exercise that is solved here, such as ``03.2``; empty for none."""
+        """Id of the exercise that is solved here, such as ``04.2``; empty for none."""
         found = [tag.removeprefix(EXERCISE) for tag in self.tags if tag.startswith(EXERCISE)]
         return found[0] if found else ""
 

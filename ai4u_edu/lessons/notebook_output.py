@@ -57,7 +57,7 @@ def card(colour: str, sign: str, lines: Iterable[str], picture: bytes = b"") -> 
     """
     first = f'<b style="color:{PALETTE[colour]}">{html.escape(sign)}</b> '
     paragraphs = "".join(
-        f'<p style="margin:.3em 0">{first if not number else ""}{_marked(line)}</p>'
+        f'<p style="margin:.3em 0">{first if not number else ""}{marked(line)}</p>'
         for number, line in enumerate(lines)
     )
     return (
@@ -79,7 +79,8 @@ def address(picture: bytes) -> str:
     return f"data:image/{kind};base64,{base64.b64encode(picture).decode()}"
 
 
-def _marked(line: str) -> str:
+def marked(line: str) -> str:
+    """Return a line as HTML; text between backquotes is code."""
     pieces = html.escape(line).split("`")
     if len(pieces) % 2 == 0:  # a backquote alone
         return html.escape(line)

@@ -142,7 +142,7 @@ def chance_for(exercise_id: str, function: Any) -> np.random.Generator:
     the right results from the messages.
 
     Args:
-        exercise_id: such as ``"01.1"``.
+        exercise_id: such as ``"02.1"``.
         function: the student's function.
     """
     code = getattr(function, "__code__", None)

@@ -4,21 +4,24 @@ import json
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
-from dataclasses import asdict, dataclass, field, fields
+from dataclasses import asdict, dataclass, field, fields, replace
 from datetime import datetime
 from pathlib import Path
+from typing import Any
 
 from ai4u_edu.base.atomic_write import partial_file, write_atomically
 from ai4u_edu.base.file_lock import FileLock, LockedError
+from ai4u_edu.lessons.moved_exercises import moved
+from ai4u_edu.lessons.prediction_values import Prediction, Value, read_predictions
 
 FILE = "progress.json"
 FOLDER = ".ai4u-edu"
 """Folder for the progress and the pictures of the checks."""
-VERSION = 1
+VERSION = 2
 LOCK_FILE = "progress.lock"
-LOCK_TIMEOUT_S = 5.0
-"""Time-out for another notebook that holds the file's lock."""
-LOCK_POLL_S = 0.01
+LOCK_TIMEOUT_S = 30.0
+"""Time-out for other notebooks that hold the file's lock; after it, an entry may get lost."""
+LOCK_POLL_S = 0.002
 
 
 @dataclass
@@ -33,7 +36,7 @@ class Entry:
     text: str = ""
     """Text of the last check."""
     diagnosis: str = ""
-    """Id of the mistake that it found, such as ``03.2/narrow``."""
+    """Id of the mistake that it found, such as ``04.2/narrow``."""
     diagnoses: dict[str, int] = field(default_factory=dict)
     """Count of the checks with each diagnosis, up to the first check that passed."""
     code: str = ""
@@ -55,16 +58,37 @@ class ProgressFile:
 
     def entries(self) -> dict[str, Entry]:
         """Return the entries by exercise id; a damaged file is renamed, and a new one begins."""
+        return self._read()[0]
+
+    def predictions(self) -> dict[str, Prediction]:
+        """Return the predictions by id."""
+        return self._read()[1]
+
+    def note_prediction(
+        self, prediction: str, *, guess: Value | None = None, actual: Value | None = None
+    ) -> Prediction | None:
+        """Save a guess, or the result of one; return both, or None without a guess."""
+        with self._alone():
+            entries, predictions = self._read()
+            known = predictions.get(prediction)
+            if guess is not None and (known is None or known.guess != guess):
+                known = Prediction(guess)
+            if known is None:
+                return None
+            known = known if actual is None else replace(known, actual=actual)
+            predictions[prediction] = known
+            self._write(entries, predictions)
+        return known
+
+    def _read(self) -> tuple[dict[str, Entry], dict[str, Prediction]]:
         try:
             text = self.path.read_text(encoding="utf-8")
+            return read_entries(text), read_predictions(json.loads(text).get("predictions"))
         except FileNotFoundError:
-            return {}
-        except (OSError, UnicodeDecodeError) as error:
-            return self._damaged(str(error))
-        try:
-            return read_entries(text)
-        except ValueError as error:
-            return self._damaged(str(error))
+            pass
+        except (OSError, ValueError) as error:  # UnicodeDecodeError is a ValueError
+            self._set_aside(str(error))
+        return {}, {}
 
     def note(
         self,
@@ -83,7 +107,7 @@ class ProgressFile:
     def _note(
         self, exercise: str, passed: bool, text: str, diagnosis: str, picture: bytes, code: str
     ) -> None:
-        entries = self.entries()
+        entries, predictions = self._read()
         entry = entries.setdefault(exercise, Entry())
         if not entry.passed:
             entry.tries += 1
@@ -94,7 +118,7 @@ class ProgressFile:
         elif not passed:
             return
         entry.text, entry.diagnosis, entry.code = text, diagnosis, code
-        self._write(entries)
+        self._write(entries, predictions)
         if picture:
             place = self.picture(exercise)
             place.parent.mkdir(exist_ok=True)
@@ -104,11 +128,13 @@ class ProgressFile:
         """Return the path of the last check's picture, if there is one."""
         return self.folder / FOLDER / f"{exercise}.picture"
 
-    def _write(self, entries: dict[str, Entry]) -> None:
-        plain = {
+    def _write(self, entries: dict[str, Entry], predictions: dict[str, Prediction]) -> None:
+        plain: dict[str, Any] = {
             "version": VERSION,
             "exercises": {name: asdict(entries[name]) for name in sorted(entries)},
         }
+        if predictions:
+            plain["predictions"] = {name: asdict(predictions[name]) for name in sorted(predictions)}
         with partial_file(self.path) as beside, beside.open("w", encoding="utf-8") as out:
             json.dump(plain, out, indent=1)
 
@@ -131,15 +157,14 @@ class ProgressFile:
             if lock is not None:
                 lock.release()
 
-    def _damaged(self, why: str) -> dict[str, Entry]:
+    def _set_aside(self, why: str) -> None:
         aside = self.path.with_name("progress.damaged.json")
         self.trouble = f"{FILE} could not be read ({why})"
         try:
             self.path.replace(aside)
         except OSError:
-            return {}
+            return
         self.trouble += f"; it was put aside as {aside.name}, and a new one is begun"
-        return {}
 
 
 def read_entries(text: str) -> dict[str, Entry]:
@@ -150,11 +175,21 @@ def read_entries(text: str) -> dict[str, Entry]:
     """
     try:
         plain = json.loads(text)
-        if plain["version"] != VERSION:
-            raise ValueError(f"version {plain['version']!r}, expected {VERSION}")
-        return {str(name): _entry(each) for name, each in plain["exercises"].items()}
+        entries = {str(name): _entry(each) for name, each in plain["exercises"].items()}
+        version = plain["version"]
     except (TypeError, KeyError, AttributeError, RecursionError) as error:
         raise ValueError(str(error)) from error
+    if version == 1:
+        return {moved(name): _moved_entry(each) for name, each in entries.items()}
+    if version != VERSION:
+        raise ValueError(f"version {version!r}, expected {VERSION}")
+    return entries
+
+
+def _moved_entry(entry: Entry) -> Entry:
+    """Return an entry of version 1 with the new ids of its diagnoses."""
+    counts = {moved(name): count for name, count in entry.diagnoses.items()}
+    return replace(entry, diagnosis=moved(entry.diagnosis), diagnoses=counts)
 
 
 def _entry(plain: object) -> Entry:

@@ -13,6 +13,7 @@ from ai4u_edu.lessons.course import lessons
 from ai4u_edu.lessons.exercise import find
 from ai4u_edu.lessons.notebook import EXERCISE
 from ai4u_edu.lessons.notebook_output import address, card, put
+from ai4u_edu.lessons.prediction_values import Prediction, shown
 from ai4u_edu.lessons.progress_file import Entry, ProgressFile
 
 STYLE = """body{font:16px/1.5 system-ui,sans-serif;max-width:48em;margin:2em auto;padding:0 1em}
@@ -38,16 +39,20 @@ def report(name: str = "", file: str | Path = "report.html") -> None:
 
 def page(progress: ProgressFile, name: str = "") -> str:
     """Return the page's HTML; everything from outside is escaped."""
-    entries = progress.entries()
+    entries, predictions = progress.entries(), progress.predictions()
     parts, passed, total = [], 0, 0
     for lesson in lessons():
         done = [each for each in lesson.exercises if each in entries]
         passed += sum(entries[each].passed for each in done)
         total += len(lesson.exercises)
-        if done:
+        guessed = {
+            name: each for name, each in predictions.items() if name.startswith(lesson.number)
+        }
+        if done or guessed:
             code = codes(progress.folder / f"{lesson.name}.ipynb")
             parts.append(f"<h2>{html.escape(lesson.title)}</h2>")
             parts += [_exercise(progress, each, entries[each], code) for each in done]
+            parts.append(_predictions(guessed))
     whose = f"{html.escape(name)}: " if name else ""
     title = f"{whose}AI4U Edu lessons"
     policy = "default-src 'none'; style-src 'unsafe-inline'; img-src data:"
@@ -88,6 +93,17 @@ def _exercise(progress: ProgressFile, name: str, entry: Entry, code: Mapping[str
         f'<pre>{written}</pre><p class="text">{html.escape(entry.text)}</p>'
         f"{_picture(progress, name)}"
     )
+
+
+def _predictions(guessed: Mapping[str, Prediction]) -> str:
+    """Return the list of a lesson's predictions; empty if there are none."""
+    items = "".join(
+        f"<li>{html.escape(f'{name}: said {shown(each.guess)}')}"
+        + ("" if each.actual is None else html.escape(f"; it was {shown(each.actual)}"))
+        + "</li>"
+        for name, each in guessed.items()
+    )
+    return f"<h3>Predictions</h3><ul>{items}</ul>" if items else ""
 
 
 def _picture(progress: ProgressFile, name: str) -> str:

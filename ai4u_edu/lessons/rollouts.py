@@ -2,6 +2,8 @@
 
 import zlib
 from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from contextvars import ContextVar
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -147,6 +149,19 @@ def drives(
         yield drive(sim, driven, seed, limit, watch)
 
 
+_observer: ContextVar[Callable[[Drive], object]] = ContextVar("observer", default=lambda _: None)
+
+
+@contextmanager
+def observed(observer: Callable[[Drive], object]) -> Iterator[None]:
+    """Call a function at the beginning of all rollouts in this context, and after each decision."""
+    token = _observer.set(observer)
+    try:
+        yield
+    finally:
+        _observer.reset(token)
+
+
 def drive(
     sim: ControlRequestor,
     agent: BasicAgent,
@@ -156,7 +171,8 @@ def drive(
 ) -> Drive:
     """Run one episode, from a reset to its end or the limit."""
     sim.reset(seed)
-    done = Drive(sim, agent, seed, [agent.body.position])
+    done, observer = Drive(sim, agent, seed, [agent.body.position]), _observer.get()
+    observer(done)
     watch(done)
     episode = sim.episode
     while not agent.done and done.steps < limit:
@@ -164,5 +180,6 @@ def drive(
         if sim.episode != episode or agent.stopped or agent.paused:
             break  # it gave up
         done.trail.append(agent.body.position)
+        observer(done)
         watch(done)
     return done

@@ -7,6 +7,7 @@ import signal
 import sys
 import threading
 import time
+from collections.abc import Sequence
 from types import FrameType, TracebackType
 from typing import Any, Self
 
@@ -71,7 +72,7 @@ class TimeLimit:
         with self._lock:
             self._ended.set()
         if self._timer is None:
-            _raise_in(threading.get_ident(), None)  # what was raised and has not arrived yet
+            raise_in(threading.get_ident(), None)  # what was raised and has not arrived yet
         else:
             handler, remaining, interval, began = self._timer
             if remaining:  # somebody else's timer goes on
@@ -89,7 +90,7 @@ class TimeLimit:
             frame = sys._current_frames().get(thread)
             with self._lock:
                 if not self._ended.is_set() and self._is_over(frame):
-                    _raise_in(thread, TimeLimitError)
+                    raise_in(thread, TimeLimitError)
             del frame
 
     def _is_over(self, frame: FrameType | None) -> bool:
@@ -124,18 +125,28 @@ class TimeLimit:
                 f"All calls of your code took more than {self.total_s:g} s together. Each of them "
                 f"is slow ({line_words(calls[0].f_code.co_filename, calls[0].f_lineno)})."
             )
-        loops = [loop for call in calls if (loop := _loop_around(call))]
-        file, number = loops[0] if loops else (calls[0].f_code.co_filename, calls[0].f_lineno)
-        said = f"Your code did not answer for {self.call_s:g} s ({line_words(file, number)})."
-        if not loops:
-            return f"{said} Something in it never ends, or takes very long."
-        code = calls[-1].f_code
-        if "percept" in code.co_varnames[: code.co_argcount]:
-            return f"{said} The robot asks it again at each decision: use `if`, not `while`."
-        return f"{said} The loop never ends: its condition stays true."
+        return endless_call(calls, self.call_s)
 
 
-def _raise_in(thread: int, error: type[BaseException] | None) -> None:
+def endless_call(calls: Sequence[FrameType], seconds: float) -> str:
+    """Return a sentence on a call that does not end.
+
+    Args:
+        calls: the student's frames, the innermost one first; at least one.
+        seconds: time since the call began.
+    """
+    loops = [loop for call in calls if (loop := _loop_around(call))]
+    file, number = loops[0] if loops else (calls[0].f_code.co_filename, calls[0].f_lineno)
+    said = f"Your code did not answer for {seconds:g} s ({line_words(file, number)})."
+    if not loops:
+        return f"{said} Something in it never ends, or takes very long."
+    code = calls[-1].f_code
+    if "percept" in code.co_varnames[: code.co_argcount]:
+        return f"{said} The robot asks it again at each decision: use `if`, not `while`."
+    return f"{said} The loop never ends: its condition stays true."
+
+
+def raise_in(thread: int, error: type[BaseException] | None) -> None:
     """Raise an error in another thread; None withdraws one that has not arrived."""
     raised = None if error is None else ctypes.py_object(error)
     ctypes.pythonapi.PyThreadState_SetAsyncExc(ctypes.c_ulong(thread), raised)

@@ -54,7 +54,9 @@ class ProgressBar:
     def note(self, line: str) -> None:
         """Print a line above the bar, which stays."""
         if self._is_shown:
-            self._bar.write(line, file=self._file or sys.stderr)
+            # a notebook marks what comes from stderr as an error
+            usual = sys.stdout if "ipykernel" in sys.modules else sys.stderr
+            self._bar.write(line, file=self._file or usual)
 
     def close(self) -> None:
         """Draw the bar for the last time, or remove it."""

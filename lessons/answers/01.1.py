@@ -1,71 +1,95 @@
 # %% tags=["solution"]
-def decisions_for(distance, speed):
-    seconds = distance / speed
-    return seconds * 12
+def speed_for(distance, seconds):
+    return distance / seconds
 
 
-# %% tags=["wrong", "speed"]
-def decisions_for(distance, speed):
-    return distance * 4
+# %% tags=["right", "with a variable"]
+def speed_for(distance, seconds):
+    speed = distance / seconds
+    print("the robot needs", speed)
+    return speed
 
 
-# %% tags=["right", "metres a decision"]
-def decisions_for(distance, speed):
-    step = speed / 12
-    return distance / step
+# %% tags=["right", "rounded"]
+def speed_for(distance, seconds):
+    return round(distance / seconds, 2)
 
 
-# %% tags=["right", "rounded up"]
-def decisions_for(distance, speed):
-    return math.ceil(12 * distance / speed)
+# %% tags=["right", "by the share of a metre"]
+def speed_for(distance, seconds):
+    share = 1 / seconds
+    return distance * share
 
 
-# %% tags=["right", "counted"]
-def decisions_for(distance, speed):
-    count = 0
-    while (count + 1) * speed / 12 <= distance:
-        count = count + 1
-    return count
+# %% tags=["right", "with an if"]
+def speed_for(distance, seconds):
+    if seconds == 0:
+        return 0
+    return distance / seconds
 
 
-# %% tags=["wrong", "ticks", "ticks for decisions"]
-def decisions_for(distance, speed):
-    return distance / speed * 60
+# %% tags=["wrong", "no-return", "prints"]
+def speed_for(distance, seconds):
+    print(distance / seconds)
 
 
-# %% tags=["wrong", "inverted", "multiplies by the speed"]
-def decisions_for(distance, speed):
-    return distance * speed * 12
+# %% tags=["wrong", "no-return", "keeps it in a variable"]
+def speed_for(distance, seconds):
+    speed = distance / seconds
 
 
-# %% tags=["wrong", "seconds", "seconds for decisions"]
-def decisions_for(distance, speed):
-    return distance / speed
+# %% tags=["wrong", "inverted", "upside down"]
+def speed_for(distance, seconds):
+    return seconds / distance
 
 
-# %% tags=["wrong", "one-more", "one too many"]
-def decisions_for(distance, speed):
-    return distance / speed * 12 + 1
+# %% tags=["wrong", "times", "multiplies"]
+def speed_for(distance, seconds):
+    return distance * seconds
 
 
-# %% tags=["wrong", "not-a-number", "text"]
-def decisions_for(distance, speed):
-    return str(distance / speed * 12)
+# %% tags=["wrong", "whole", "whole metres"]
+def speed_for(distance, seconds):
+    return distance // seconds
 
 
-# %% tags=["lucky", "the number of the example"]
-def decisions_for(distance, speed):
-    return 24
+# %% tags=["wrong", "distance", "the distance"]
+def speed_for(distance, seconds):
+    return distance
 
 
-# %% tags=["lucky", "a table"]
-TABLE = {(6, 2): 36, (6, 4): 18, (6.0, 3.0): 24, (4.0, 2.0): 24, (5.0, 4.5): 13}
+# %% tags=["wrong", "same", "numbers of its own"]
+def speed_for(distance, seconds):
+    distance = 6
+    seconds = 3
+    return distance / seconds
 
 
-def decisions_for(distance, speed):
-    return TABLE.get((distance, speed), 20)
+# %% tags=["wrong", "error", "words in place of variables"]
+def speed_for(distance, seconds):
+    return "distance" / "seconds"
 
 
-# %% tags=["lucky", "a straight line through two points"]
-def decisions_for(distance, speed):
-    return 36 - 9 * (speed - 2)
+# %% tags=["lucky", "the number of the hint"]
+def speed_for(distance, seconds):
+    return 2
+
+
+# %% tags=["lucky", "a usual speed"]
+def speed_for(distance, seconds):
+    if distance > 5:
+        return 2
+    return 1.5
+
+
+# %% tags=["lucky", "half the distance"]
+def speed_for(distance, seconds):
+    return distance / 2
+
+
+# %% tags=["lucky", "by chance"]
+import random
+
+
+def speed_for(distance, seconds):
+    return random.uniform(1, 3)

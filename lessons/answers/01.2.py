@@ -1,57 +1,132 @@
 # %% tags=["solution"]
-def decisions_for_quarter(degrees_per_second):
-    return 90 / degrees_per_second * 12
+def turn_for(side):
+    if side == "left":
+        return -1
+    elif side == "right":
+        return 1
+    else:
+        return 0
 
 
-# %% tags=["wrong", "other-speed"]
-def decisions_for_quarter(degrees_per_second):
-    return 9
+# %% tags=["right", "three ifs"]
+def turn_for(side):
+    turn = 0
+    if side == "left":
+        turn = -1
+    if side == "right":
+        turn = 1
+    return turn
 
 
-# %% tags=["right", "degrees a decision"]
-def decisions_for_quarter(degrees_per_second):
-    return 90 / (degrees_per_second / 12)
+# %% tags=["right", "a dictionary"]
+def turn_for(side):
+    return {"left": -1, "right": 1, "ahead": 0}[side]
 
 
-# %% tags=["right", "in radians"]
-def decisions_for_quarter(degrees_per_second):
-    quarter = math.pi / 2
-    return round(12 * quarter / math.radians(degrees_per_second))
+# %% tags=["right", "ahead first"]
+def turn_for(side):
+    if side == "ahead":
+        return 0
+    if side != "left":
+        return 1
+    return -1
 
 
-# %% tags=["wrong", "ticks", "ticks for decisions"]
-def decisions_for_quarter(degrees_per_second):
-    return 90 / degrees_per_second * 60
+# %% tags=["wrong", "mirrored", "the other way round"]
+def turn_for(side):
+    if side == "left":
+        return 1
+    elif side == "right":
+        return -1
+    else:
+        return 0
 
 
-# %% tags=["wrong", "inverted", "upside down"]
-def decisions_for_quarter(degrees_per_second):
-    return degrees_per_second / 90 * 12
+# %% tags=["wrong", "no-return", "prints"]
+def turn_for(side):
+    if side == "left":
+        print(-1)
+    elif side == "right":
+        print(1)
+    else:
+        print(0)
 
 
-# %% tags=["wrong", "seconds", "seconds for decisions"]
-def decisions_for_quarter(degrees_per_second):
-    return 90 / degrees_per_second
+# %% tags=["wrong", "no-return", "no answer for ahead"]
+def turn_for(side):
+    if side == "left":
+        return -1
+    elif side == "right":
+        return 1
 
 
-# %% tags=["wrong", "time", "a full turn"]
-def decisions_for_quarter(degrees_per_second):
-    return 360 / degrees_per_second * 12
+# %% tags=["wrong", "spins", "else for the right"]
+def turn_for(side):
+    if side == "left":
+        return -1
+    else:
+        return 1
 
 
-# %% tags=["lucky", "one turn more"]
-def decisions_for_quarter(degrees_per_second):
-    return 450 / degrees_per_second * 12
+# %% tags=["wrong", "one-side", "a capital letter"]
+def turn_for(side):
+    if side == "Left":
+        return -1
+    elif side == "right":
+        return 1
+    else:
+        return 0
 
 
-# %% tags=["lucky", "a table"]
-TABLE = {120: 9, 60: 18, 90: 12, 180: 6, 45: 24}
+# %% tags=["wrong", "error", "a word without quotes"]
+def turn_for(side):
+    if side == left:
+        return -1
+    return 1
 
 
-def decisions_for_quarter(degrees_per_second):
-    return TABLE.get(degrees_per_second, 10)
+# %% tags=["wrong", "not-a-number", "words"]
+def turn_for(side):
+    return side
 
 
-# %% tags=["lucky", "never below 6"]
-def decisions_for_quarter(degrees_per_second):
-    return max(6, 20 - degrees_per_second // 12)
+# %% tags=["wrong", "spins", "an or that is always true"]
+def turn_for(side):
+    if side == "left" or "ahead":
+        return -1
+    return 1
+
+
+# %% tags=["wrong", "one-side", "one way round will do"]
+def turn_for(side):
+    if side == "ahead":
+        return 0
+    return 1
+
+
+# %% tags=["wrong", "one-side", "gently to the left"]
+def turn_for(side):
+    if side == "left":
+        return -0.5
+    elif side == "right":
+        return 1
+    else:
+        return 0
+
+
+# %% tags=["lucky", "always left"]
+def turn_for(side):
+    return -1
+
+
+# %% tags=["lucky", "by the length of the word"]
+def turn_for(side):
+    return len(side) - 5
+
+
+# %% tags=["lucky", "by chance"]
+import random
+
+
+def turn_for(side):
+    return random.choice([-1, 0, 1])

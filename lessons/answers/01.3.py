@@ -1,112 +1,142 @@
 # %% tags=["solution"]
-def stop_in_time(percept):
-    distance = percept["orientation"][1]
-    if distance > 2.1:
-        return {"move": [1, 0, 0, 0]}
-    return {"move": [0, 0, 0, 0]}
-
-
-# %% tags=["wrong", "look"]
-def stop_in_time(percept):
-    distance = percept["orientation"][1]
-    if distance < 2:
-        return {"move": [1, 0, 0, 0]}
-    return {"move": [0, 0, 0, 0]}
-
-
-# %% tags=["wrong", "late"]
-def stop_in_time(percept):
-    distance = percept["orientation"][1]
-    if distance > 1:
-        return {"move": [1, 0, 0, 0]}
-    return {"move": [0, 0, 0, 0]}
-
-
-# %% tags=["wrong", "blind"]
-count = 0
-
-
-def stop_in_time(percept):
-    global count
-    count = count + 1
-    return {"move": [1 if (count - 1) % 180 < 4 else 0, 0, 0, 0]}
-
-
-# %% tags=["right", "slows down"]
-def stop_in_time(percept):
-    distance = percept["orientation"][1]
-    return {"move": [min(1, 0.5 * (distance - 2)), 0, 0, 0]}
-
-
-# %% tags=["right", "slows down gently"]
-def stop_in_time(percept):
-    distance = percept["orientation"][1]
-    return {"move": [0.3 * (distance - 2), 0, 0, 0]}
-
-
-# %% tags=["right", "one expression"]
-def stop_in_time(percept):
-    return {"move": [float(percept["orientation"][1] > 2.1), 0, 0, 0]}
-
-
-# %% tags=["wrong", "never", "equals 2"]
-def stop_in_time(percept):
-    distance = percept["orientation"][1]
-    if distance == 2:
+def moth(percept):
+    brightness = percept["light"][0]
+    if brightness > 0.7:
         return {"move": [0, 0, 0, 0]}
+    elif brightness > 0.2:
+        return {"move": [0.4, 0, 0, 0]}
+    else:
+        return {"move": [1, 0, 0, 0]}
+
+
+# %% tags=["right", "dark first"]
+def moth(percept):
+    brightness = percept["light"][0]
+    if brightness <= 0.2:
+        speed = 1
+    elif brightness <= 0.7:
+        speed = 0.4
+    else:
+        speed = 0
+    return {"move": [speed, 0, 0, 0]}
+
+
+# %% tags=["right", "both ends"]
+def moth(percept):
+    brightness = percept["light"][0]
+    speed = 1
+    if 0.2 < brightness <= 0.7:
+        speed = 0.4
+    if brightness > 0.7:
+        speed = 0
+    return {"move": [speed, 0, 0, 0]}
+
+
+# %% tags=["right", "one in another"]
+def moth(percept):
+    brightness = percept["light"][0]
+    if brightness > 0.2:
+        if brightness > 0.7:
+            return {"move": [0, 0, 0, 0]}
+        return {"move": [0.4, 0, 0, 0]}
     return {"move": [1, 0, 0, 0]}
 
 
-# %% tags=["wrong", "endless", "a loop until it is there"]
-def stop_in_time(percept):
-    distance = percept["orientation"][1]
-    while distance > 2:
+# %% tags=["wrong", "order", "the wider case first"]
+def moth(percept):
+    brightness = percept["light"][0]
+    if brightness > 0.2:
+        return {"move": [0.4, 0, 0, 0]}
+    elif brightness > 0.7:
+        return {"move": [0, 0, 0, 0]}
+    else:
+        return {"move": [1, 0, 0, 0]}
+
+
+# %% tags=["wrong", "overwritten", "the second if overwrites"]
+def moth(percept):
+    brightness = percept["light"][0]
+    speed = 0
+    if brightness < 0.2:
+        speed = 1
+    if brightness < 0.7:
+        speed = 0.4
+    return {"move": [speed, 0, 0, 0]}
+
+
+# %% tags=["wrong", "reversed", "fast in the light"]
+def moth(percept):
+    brightness = percept["light"][0]
+    if brightness < 0.2:
+        return {"move": [0, 0, 0, 0]}
+    elif brightness < 0.7:
+        return {"move": [0.4, 0, 0, 0]}
+    else:
+        return {"move": [1, 0, 0, 0]}
+
+
+# %% tags=["wrong", "number", "another speed"]
+def moth(percept):
+    brightness = percept["light"][0]
+    if brightness > 0.7:
+        return {"move": [0, 0, 0, 0]}
+    elif brightness > 0.2:
+        return {"move": [0.5, 0, 0, 0]}
+    else:
+        return {"move": [1, 0, 0, 0]}
+
+
+# %% tags=["wrong", "no-return", "nothing in the dark"]
+def moth(percept):
+    brightness = percept["light"][0]
+    if brightness > 0.7:
+        return {"move": [0, 0, 0, 0]}
+    elif brightness > 0.2:
+        return {"move": [0.4, 0, 0, 0]}
+
+
+# %% tags=["wrong", "endless", "a loop while it is dark"]
+def moth(percept):
+    action = {"move": [0, 0, 0, 0]}
+    while percept["light"][0] < 0.7:
         action = {"move": [1, 0, 0, 0]}
     return action
 
 
-# %% tags=["wrong", "no-return", "nothing where it has to stop"]
-def stop_in_time(percept):
-    distance = percept["orientation"][1]
-    if distance > 2.1:
-        return {"move": [1, 0, 0, 0]}
+# %% tags=["wrong", "error", "another name of the sensor"]
+def moth(percept):
+    if percept["brightness"][0] > 0.7:
+        return {"move": [0, 0, 0, 0]}
+    return {"move": [1, 0, 0, 0]}
 
 
-# %% tags=["wrong", "early", "stops a metre too early"]
-def stop_in_time(percept):
-    distance = percept["orientation"][1]
-    if distance > 3:
-        return {"move": [1, 0, 0, 0]}
-    return {"move": [0, 0, 0, 0]}
+# %% tags=["lucky", "always slow"]
+def moth(percept):
+    return {"move": [0.4, 0, 0, 0]}
 
 
-# %% tags=["wrong", "reversed", "backward while it is far"]
-def stop_in_time(percept):
-    distance = percept["orientation"][1]
-    if distance > 2:
-        return {"move": [-1, 0, 0, 0]}
-    return {"move": [0, 0, 0, 0]}
-
-
-# %% tags=["lucky", "always half a second"]
+# %% tags=["lucky", "counts its decisions"]
 count = 0
 
 
-def stop_in_time(percept):
+def moth(percept):
     global count
     count = count + 1
-    return {"move": [1 if count < 7 else 0, 0, 0, 0]}
+    if count < 12:
+        return {"move": [1, 0, 0, 0]}
+    if count < 60:
+        return {"move": [0.4, 0, 0, 0]}
+    return {"move": [0, 0, 0, 0]}
+
+
+# %% tags=["lucky", "the darker the faster"]
+def moth(percept):
+    return {"move": [1 - percept["light"][0], 0, 0, 0]}
 
 
 # %% tags=["lucky", "by chance"]
 import random
 
 
-def stop_in_time(percept):
-    return {"move": [random.choice([0, 1]), 0, 0, 0]}
-
-
-# %% tags=["lucky", "to and fro"]
-def stop_in_time(percept):
-    distance = percept["orientation"][1]
-    return {"move": [1 if distance > 2 else -1, 0, 0, 0]}
+def moth(percept):
+    return {"move": [random.choice([0, 0.4, 1]), 0, 0, 0]}

@@ -1,78 +1,71 @@
 # %% tags=["solution"]
-walker = BasicAgent(
-    body="robot",
-    actuators=[RBMoveActuator(move_amount=2, turn_amount=3)],
-)
+def decisions_for(distance, speed):
+    seconds = distance / speed
+    return seconds * 12
+
 
 # %% tags=["wrong", "speed"]
-walker = BasicAgent(
-    body="robot",
-    actuators=[RBMoveActuator()],
-)
-
-# %% tags=["wrong", "turn"]
-walker = BasicAgent(
-    body="robot",
-    actuators=[RBMoveActuator(move_amount=2)],
-)
+def decisions_for(distance, speed):
+    return distance * 4
 
 
-# %% tags=["right", "an actuator with its own name"]
-walker = BasicAgent(
-    body="robot",
-    actuators=[RBMoveActuator(action_name="legs", move_amount=2, turn_amount=3)],
-)
+# %% tags=["right", "metres a decision"]
+def decisions_for(distance, speed):
+    step = speed / 12
+    return distance / step
 
 
-# %% tags=["right", "made before"]
-legs = RBMoveActuator(turn_amount=3.0, move_amount=2.0)
-walker = BasicAgent(body="robot", actuators=[legs])
+# %% tags=["right", "rounded up"]
+def decisions_for(distance, speed):
+    return math.ceil(12 * distance / speed)
 
 
-# %% tags=["wrong", "speed", "both swapped"]
-walker = BasicAgent(
-    body="robot",
-    actuators=[RBMoveActuator(move_amount=3, turn_amount=2)],
-)
+# %% tags=["right", "counted"]
+def decisions_for(distance, speed):
+    count = 0
+    while (count + 1) * speed / 12 <= distance:
+        count = count + 1
+    return count
 
 
-# %% tags=["wrong", "turn", "a full turn"]
-walker = BasicAgent(
-    body="robot",
-    actuators=[RBMoveActuator(move_amount=2, turn_amount=6.28)],
-)
+# %% tags=["wrong", "ticks", "ticks for decisions"]
+def decisions_for(distance, speed):
+    return distance / speed * 60
 
 
-# %% tags=["wrong", "actuator", "two wheels"]
-walker = BasicAgent(
-    body="robot",
-    actuators=[DifferentialDriveActuator(max_wheel_speed=2)],
-)
+# %% tags=["wrong", "inverted", "multiplies by the speed"]
+def decisions_for(distance, speed):
+    return distance * speed * 12
 
 
-# %% tags=["lucky", "half of each"]
-walker = BasicAgent(
-    body="robot",
-    actuators=[RBMoveActuator(move_amount=1, turn_amount=1.5)],
-)
+# %% tags=["wrong", "seconds", "seconds for decisions"]
+def decisions_for(distance, speed):
+    return distance / speed
 
 
-# %% tags=["lucky", "turns the other way"]
-walker = BasicAgent(
-    body="robot",
-    actuators=[RBMoveActuator(move_amount=2.5, turn_amount=3)],
-)
+# %% tags=["wrong", "one-more", "one too many"]
+def decisions_for(distance, speed):
+    return distance / speed * 12 + 1
 
 
-# %% tags=["lucky", "nearly"]
-walker = BasicAgent(
-    body="robot",
-    actuators=[RBMoveActuator(move_amount=2, turn_amount=2.7)],
-)
+# %% tags=["wrong", "not-a-number", "text"]
+def decisions_for(distance, speed):
+    return str(distance / speed * 12)
 
 
-# %% tags=["wrong", "turn", "degrees for radians"]
-walker = BasicAgent(
-    body="robot",
-    actuators=[RBMoveActuator(move_amount=2, turn_amount=57.3)],
-)
+# %% tags=["lucky", "the number of the example"]
+def decisions_for(distance, speed):
+    return 24
+
+
+# %% tags=["lucky", "a table"]
+TABLE = {(6, 2): 36, (6, 4): 18, (6.0, 3.0): 24, (4.0, 2.0): 24, (5.0, 4.5): 13}
+
+
+def decisions_for(distance, speed):
+    return TABLE.get((distance, speed), 20)
+
+
+# %% tags=["lucky", "a straight line through two points"]
+def decisions_for(distance, speed):
+    return 36 - 9 * (speed - 2)

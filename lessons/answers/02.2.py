@@ -1,102 +1,57 @@
 # %% tags=["solution"]
-watcher = BasicAgent(
-    body="robot",
-    sensors=[BearingSensor(target="box"), TouchSensor(target="box")],
-    actuators=[RBMoveActuator(move_amount=2, turn_amount=3)],
-)
-
-# %% tags=["wrong", "bearing"]
-watcher = BasicAgent(
-    body="robot",
-    sensors=[OrientationSensor(target="box"), TouchSensor(target="box")],
-    actuators=[RBMoveActuator(move_amount=2, turn_amount=3)],
-)
-
-# %% tags=["wrong", "touch"]
-watcher = BasicAgent(
-    body="robot",
-    sensors=[BearingSensor(target="box"), GroundStatusSensor()],
-    actuators=[RBMoveActuator(move_amount=2, turn_amount=3)],
-)
+def decisions_for_quarter(degrees_per_second):
+    return 90 / degrees_per_second * 12
 
 
-# %% tags=["right", "without legs"]
-watcher = BasicAgent(
-    body="robot",
-    sensors=[BearingSensor(target="box"), TouchSensor(target="box")],
-)
+# %% tags=["wrong", "other-speed"]
+def decisions_for_quarter(degrees_per_second):
+    return 9
 
 
-# %% tags=["right", "names of its own"]
-watcher = BasicAgent(
-    body="robot",
-    sensors=[
-        TouchSensor(target="box", perception_key="bump"),
-        BearingSensor(target="box", perception_key="where"),
-    ],
-    actuators=[RBMoveActuator(move_amount=2, turn_amount=3)],
-)
+# %% tags=["right", "degrees a decision"]
+def decisions_for_quarter(degrees_per_second):
+    return 90 / (degrees_per_second / 12)
 
 
-# %% tags=["right", "several moments"]
-watcher = BasicAgent(
-    body="robot",
-    sensors=[BearingSensor(target="box", stacked_observations=3), TouchSensor(target="box")],
-    actuators=[RBMoveActuator(move_amount=2, turn_amount=3)],
-)
+# %% tags=["right", "in radians"]
+def decisions_for_quarter(degrees_per_second):
+    quarter = math.pi / 2
+    return round(12 * quarter / math.radians(degrees_per_second))
 
 
-# %% tags=["wrong", "bearing", "touch alone"]
-watcher = BasicAgent(
-    body="robot",
-    sensors=[TouchSensor(target="box")],
-    actuators=[RBMoveActuator(move_amount=2, turn_amount=3)],
-)
+# %% tags=["wrong", "ticks", "ticks for decisions"]
+def decisions_for_quarter(degrees_per_second):
+    return 90 / degrees_per_second * 60
 
 
-# %% tags=["wrong", "touch", "bearing alone"]
-watcher = BasicAgent(
-    body="robot",
-    sensors=[BearingSensor(target="box")],
-    actuators=[RBMoveActuator(move_amount=2, turn_amount=3)],
-)
+# %% tags=["wrong", "inverted", "upside down"]
+def decisions_for_quarter(degrees_per_second):
+    return degrees_per_second / 90 * 12
 
 
-# %% tags=["wrong", "bearing", "distance for direction"]
-watcher = BasicAgent(
-    body="robot",
-    sensors=[TouchSensor(target="box"), VelocitySensor()],
-    actuators=[RBMoveActuator(move_amount=2, turn_amount=3)],
-)
+# %% tags=["wrong", "seconds", "seconds for decisions"]
+def decisions_for_quarter(degrees_per_second):
+    return 90 / degrees_per_second
 
 
-# %% tags=["wrong", "sensors", "no sensors"]
-watcher = BasicAgent(
-    body="robot",
-    sensors=[],
-    actuators=[RBMoveActuator(move_amount=2, turn_amount=3)],
-)
+# %% tags=["wrong", "time", "a full turn"]
+def decisions_for_quarter(degrees_per_second):
+    return 360 / degrees_per_second * 12
 
 
-# %% tags=["lucky", "rays only"]
-watcher = BasicAgent(
-    body="robot",
-    sensors=[LinearRayCastingSensor(group_code={"target": 1}), TouchSensor(target="box")],
-    actuators=[RBMoveActuator(move_amount=2, turn_amount=3)],
-)
+# %% tags=["lucky", "one turn more"]
+def decisions_for_quarter(degrees_per_second):
+    return 450 / degrees_per_second * 12
 
 
-# %% tags=["lucky", "bearing twice"]
-watcher = BasicAgent(
-    body="robot",
-    sensors=[BearingSensor(target="box"), BearingSensor(target="box", perception_key="too")],
-    actuators=[RBMoveActuator(move_amount=2, turn_amount=3)],
-)
+# %% tags=["lucky", "a table"]
+TABLE = {120: 9, 60: 18, 90: 12, 180: 6, 45: 24}
 
 
-# %% tags=["lucky", "feels the floor"]
-watcher = BasicAgent(
-    body="robot",
-    sensors=[BearingSensor(target="box"), TouchSensor(target="plate")],
-    actuators=[RBMoveActuator(move_amount=2, turn_amount=3)],
-)
+def decisions_for_quarter(degrees_per_second):
+    return TABLE.get(degrees_per_second, 10)
+
+
+# %% tags=["lucky", "never below 6"]
+def decisions_for_quarter(degrees_per_second):
+    return max(6, 20 - degrees_per_second // 12)

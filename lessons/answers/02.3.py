@@ -1,128 +1,112 @@
 # %% tags=["solution"]
-keen = BasicAgent(
-    body="robot",
-    actuators=[RBMoveActuator(move_amount=2, turn_amount=3)],
-    rewards=[
-        TouchRewardFunc(target="box", reward=10, cause_episode_to_end=True),
-        FallReward(cause_episode_to_end=True),
-    ],
-)
-
-# %% tags=["wrong", "end"]
-keen = BasicAgent(
-    body="robot",
-    actuators=[RBMoveActuator(move_amount=2, turn_amount=3)],
-    rewards=[TouchRewardFunc(target="box", reward=10), FallReward()],
-)
-
-# %% tags=["wrong", "amount"]
-keen = BasicAgent(
-    body="robot",
-    actuators=[RBMoveActuator(move_amount=2, turn_amount=3)],
-    rewards=[TouchRewardFunc(target="box", cause_episode_to_end=True)],
-)
-
-# %% tags=["wrong", "fall"]
-keen = BasicAgent(
-    body="robot",
-    actuators=[RBMoveActuator(move_amount=2, turn_amount=3)],
-    rewards=[TouchRewardFunc(target="box", reward=10, cause_episode_to_end=True)],
-)
+def stop_in_time(percept):
+    distance = percept["orientation"][1]
+    if distance > 2.1:
+        return {"move": [1, 0, 0, 0]}
+    return {"move": [0, 0, 0, 0]}
 
 
-# %% tags=["right", "the other order"]
-keen = BasicAgent(
-    body="robot",
-    actuators=[RBMoveActuator(move_amount=2, turn_amount=3)],
-    rewards=[
-        FallReward(cause_episode_to_end=True),
-        TouchRewardFunc(target="box", reward=10, cause_episode_to_end=True),
-    ],
-)
+# %% tags=["wrong", "look"]
+def stop_in_time(percept):
+    distance = percept["orientation"][1]
+    if distance < 2:
+        return {"move": [1, 0, 0, 0]}
+    return {"move": [0, 0, 0, 0]}
 
 
-# %% tags=["right", "names of its own"]
-keen = BasicAgent(
-    body="robot",
-    actuators=[RBMoveActuator(move_amount=2, turn_amount=3)],
-    rewards=[
-        TouchRewardFunc(name="hit", target="box", reward=10, cause_episode_to_end=True),
-        FallReward(name="oops", cause_episode_to_end=True),
-    ],
-)
+# %% tags=["wrong", "late"]
+def stop_in_time(percept):
+    distance = percept["orientation"][1]
+    if distance > 1:
+        return {"move": [1, 0, 0, 0]}
+    return {"move": [0, 0, 0, 0]}
 
 
-# %% tags=["right", "a fall ends an episode anyway"]
-keen = BasicAgent(
-    body="robot",
-    actuators=[RBMoveActuator(move_amount=2, turn_amount=3)],
-    rewards=[TouchRewardFunc(target="box", reward=10, cause_episode_to_end=True), FallReward()],
-)
+# %% tags=["wrong", "blind"]
+count = 0
 
 
-# %% tags=["wrong", "amount", "a tenth"]
-keen = BasicAgent(
-    body="robot",
-    actuators=[RBMoveActuator(move_amount=2, turn_amount=3)],
-    rewards=[
-        TouchRewardFunc(target="box", reward=1, cause_episode_to_end=True),
-        FallReward(cause_episode_to_end=True),
-    ],
-)
+def stop_in_time(percept):
+    global count
+    count = count + 1
+    return {"move": [1 if (count - 1) % 180 < 4 else 0, 0, 0, 0]}
 
 
-# %% tags=["wrong", "fall", "a fall pays"]
-keen = BasicAgent(
-    body="robot",
-    actuators=[RBMoveActuator(move_amount=2, turn_amount=3)],
-    rewards=[
-        TouchRewardFunc(target="box", reward=10, cause_episode_to_end=True),
-        FallReward(success_reward=1, cause_episode_to_end=True),
-    ],
-)
+# %% tags=["right", "slows down"]
+def stop_in_time(percept):
+    distance = percept["orientation"][1]
+    return {"move": [min(1, 0.5 * (distance - 2)), 0, 0, 0]}
 
 
-# %% tags=["wrong", "rewards", "no rewards"]
-keen = BasicAgent(
-    body="robot",
-    actuators=[RBMoveActuator(move_amount=2, turn_amount=3)],
-    rewards=[],
-)
+# %% tags=["right", "slows down gently"]
+def stop_in_time(percept):
+    distance = percept["orientation"][1]
+    return {"move": [0.3 * (distance - 2), 0, 0, 0]}
 
 
-# %% tags=["lucky", "only falls"]
-keen = BasicAgent(
-    body="robot",
-    actuators=[RBMoveActuator(move_amount=2, turn_amount=3)],
-    rewards=[FallReward(cause_episode_to_end=True)],
-)
+# %% tags=["right", "one expression"]
+def stop_in_time(percept):
+    return {"move": [float(percept["orientation"][1] > 2.1), 0, 0, 0]}
 
 
-# %% tags=["lucky", "ten for everything"]
-keen = BasicAgent(
-    body="robot",
-    actuators=[RBMoveActuator(move_amount=2, turn_amount=3)],
-    rewards=[
-        TouchRewardFunc(target="box", reward=10, cause_episode_to_end=True),
-        FallReward(success_reward=-10, cause_episode_to_end=True),
-    ],
-)
+# %% tags=["wrong", "never", "equals 2"]
+def stop_in_time(percept):
+    distance = percept["orientation"][1]
+    if distance == 2:
+        return {"move": [0, 0, 0, 0]}
+    return {"move": [1, 0, 0, 0]}
 
 
-# %% tags=["lucky", "eleven and minus one"]
-keen = BasicAgent(
-    body="robot",
-    actuators=[RBMoveActuator(move_amount=2, turn_amount=3)],
-    rewards=[
-        TouchRewardFunc(target="box", reward=11, cause_episode_to_end=True),
-        FallReward(cause_episode_to_end=True),
-    ],
-)
+# %% tags=["wrong", "endless", "a loop until it is there"]
+def stop_in_time(percept):
+    distance = percept["orientation"][1]
+    while distance > 2:
+        action = {"move": [1, 0, 0, 0]}
+    return action
 
 
-# %% tags=["wrong", "amount", "the touch costs"]
-keen = BasicAgent(
-    body="robot",
-    actuators=[RBMoveActuator(move_amount=2, turn_amount=3)],
-    rewards=[TouchRewardFunc(target="box", reward=-10, cause_episode_to_end=True), FallReward()],
-)
+# %% tags=["wrong", "no-return", "nothing where it has to stop"]
+def stop_in_time(percept):
+    distance = percept["orientation"][1]
+    if distance > 2.1:
+        return {"move": [1, 0, 0, 0]}
+
+
+# %% tags=["wrong", "early", "stops a metre too early"]
+def stop_in_time(percept):
+    distance = percept["orientation"][1]
+    if distance > 3:
+        return {"move": [1, 0, 0, 0]}
+    return {"move": [0, 0, 0, 0]}
+
+
+# %% tags=["wrong", "reversed", "backward while it is far"]
+def stop_in_time(percept):
+    distance = percept["orientation"][1]
+    if distance > 2:
+        return {"move": [-1, 0, 0, 0]}
+    return {"move": [0, 0, 0, 0]}
+
+
+# %% tags=["lucky", "always half a second"]
+count = 0
+
+
+def stop_in_time(percept):
+    global count
+    count = count + 1
+    return {"move": [1 if count < 7 else 0, 0, 0, 0]}
+
+
+# %% tags=["lucky", "by chance"]
+import random
+
+
+def stop_in_time(percept):
+    return {"move": [random.choice([0, 1]), 0, 0, 0]}
+
+
+# %% tags=["lucky", "to and fro"]
+def stop_in_time(percept):
+    distance = percept["orientation"][1]
+    return {"move": [1 if distance > 2 else -1, 0, 0, 0]}

@@ -1,65 +1,78 @@
 # %% tags=["solution"]
-def twin(x, y):
-    return (x, -y)  # as in a mirror that lies along the robot's nose
+walker = BasicAgent(
+    body="robot",
+    actuators=[RBMoveActuator(move_amount=2, turn_amount=3)],
+)
+
+# %% tags=["wrong", "speed"]
+walker = BasicAgent(
+    body="robot",
+    actuators=[RBMoveActuator()],
+)
+
+# %% tags=["wrong", "turn"]
+walker = BasicAgent(
+    body="robot",
+    actuators=[RBMoveActuator(move_amount=2)],
+)
 
 
-# %% tags=["wrong", "behind"]
-def twin(x, y):
-    return (-x, y)
+# %% tags=["right", "an actuator with its own name"]
+walker = BasicAgent(
+    body="robot",
+    actuators=[RBMoveActuator(action_name="legs", move_amount=2, turn_amount=3)],
+)
 
 
-# %% tags=["wrong", "far"]
-def twin(x, y):
-    return (2 * x, -2 * y)
+# %% tags=["right", "made before"]
+legs = RBMoveActuator(turn_amount=3.0, move_amount=2.0)
+walker = BasicAgent(body="robot", actuators=[legs])
 
 
-# %% tags=["right", "by the angle"]
-def twin(x, y):
-    away, angle = math.hypot(x, y), math.atan2(y, x)
-    return [away * math.cos(-angle), away * math.sin(-angle)]
+# %% tags=["wrong", "speed", "both swapped"]
+walker = BasicAgent(
+    body="robot",
+    actuators=[RBMoveActuator(move_amount=3, turn_amount=2)],
+)
 
 
-# %% tags=["right", "an array"]
-import numpy as np
+# %% tags=["wrong", "turn", "a full turn"]
+walker = BasicAgent(
+    body="robot",
+    actuators=[RBMoveActuator(move_amount=2, turn_amount=6.28)],
+)
 
 
-def twin(x, y):
-    return np.array([x, -y])
+# %% tags=["wrong", "actuator", "two wheels"]
+walker = BasicAgent(
+    body="robot",
+    actuators=[DifferentialDriveActuator(max_wheel_speed=2)],
+)
 
 
-# %% tags=["wrong", "other", "the same place"]
-def twin(x, y):
-    return (x, y)
+# %% tags=["lucky", "half of each"]
+walker = BasicAgent(
+    body="robot",
+    actuators=[RBMoveActuator(move_amount=1, turn_amount=1.5)],
+)
 
 
-# %% tags=["wrong", "behind", "behind it"]
-def twin(x, y):
-    return (-x, -y)
+# %% tags=["lucky", "turns the other way"]
+walker = BasicAgent(
+    body="robot",
+    actuators=[RBMoveActuator(move_amount=2.5, turn_amount=3)],
+)
 
 
-# %% tags=["wrong", "behind", "swapped"]
-def twin(x, y):
-    return (y, x)
+# %% tags=["lucky", "nearly"]
+walker = BasicAgent(
+    body="robot",
+    actuators=[RBMoveActuator(move_amount=2, turn_amount=2.7)],
+)
 
 
-# %% tags=["wrong", "far", "nearer"]
-def twin(x, y):
-    return (x, -y / 2)
-
-
-# %% tags=["lucky", "a table"]
-TABLE = {(3.0, 1.0): (3, -1), (-3.0, 2.5): (-3, -2.5)}
-
-
-def twin(x, y):
-    return TABLE.get((x, y), (x, -abs(y)))
-
-
-# %% tags=["lucky", "always on the right"]
-def twin(x, y):
-    return (x, -abs(y))
-
-
-# %% tags=["lucky", "a constant"]
-def twin(x, y):
-    return (3, -1)
+# %% tags=["wrong", "turn", "degrees for radians"]
+walker = BasicAgent(
+    body="robot",
+    actuators=[RBMoveActuator(move_amount=2, turn_amount=57.3)],
+)

@@ -1,90 +1,102 @@
 # %% tags=["solution"]
-def search(percept):
-    cosine = percept["orientation"][0]
-    if cosine > 0.97:
-        return {"move": [1, 0, 0, 0]}
-    return {"move": [0, 0.5, 0, 0]}
+watcher = BasicAgent(
+    body="robot",
+    sensors=[BearingSensor(target="box"), TouchSensor(target="box")],
+    actuators=[RBMoveActuator(move_amount=2, turn_amount=3)],
+)
+
+# %% tags=["wrong", "bearing"]
+watcher = BasicAgent(
+    body="robot",
+    sensors=[OrientationSensor(target="box"), TouchSensor(target="box")],
+    actuators=[RBMoveActuator(move_amount=2, turn_amount=3)],
+)
+
+# %% tags=["wrong", "touch"]
+watcher = BasicAgent(
+    body="robot",
+    sensors=[BearingSensor(target="box"), GroundStatusSensor()],
+    actuators=[RBMoveActuator(move_amount=2, turn_amount=3)],
+)
 
 
-# %% tags=["wrong", "narrow"]
-def search(percept):
-    cosine = percept["orientation"][0]
-    if cosine > 0.9999:
-        return {"move": [1, 0, 0, 0]}
-    return {"move": [0, 1, 0, 0]}
+# %% tags=["right", "without legs"]
+watcher = BasicAgent(
+    body="robot",
+    sensors=[BearingSensor(target="box"), TouchSensor(target="box")],
+)
 
 
-# %% tags=["wrong", "wide"]
-def search(percept):
-    cosine = percept["orientation"][0]
-    if cosine > 0:
-        return {"move": [1, 0, 0, 0]}
-    return {"move": [0, 1, 0, 0]}
+# %% tags=["right", "names of its own"]
+watcher = BasicAgent(
+    body="robot",
+    sensors=[
+        TouchSensor(target="box", perception_key="bump"),
+        BearingSensor(target="box", perception_key="where"),
+    ],
+    actuators=[RBMoveActuator(move_amount=2, turn_amount=3)],
+)
 
 
-# %% tags=["right", "slowly"]
-def search(percept):
-    cosine = percept["orientation"][0]
-    return {"move": [1 if cosine > 0.9 else 0, 0.3, 0, 0]}
+# %% tags=["right", "several moments"]
+watcher = BasicAgent(
+    body="robot",
+    sensors=[BearingSensor(target="box", stacked_observations=3), TouchSensor(target="box")],
+    actuators=[RBMoveActuator(move_amount=2, turn_amount=3)],
+)
 
 
-# %% tags=["right", "backward"]
-def search(percept):
-    cosine = percept["orientation"][0]
-    if cosine < -0.97:
-        return {"move": [-1, 0, 0, 0]}
-    return {"move": [0, 0.5, 0, 0]}
+# %% tags=["wrong", "bearing", "touch alone"]
+watcher = BasicAgent(
+    body="robot",
+    sensors=[TouchSensor(target="box")],
+    actuators=[RBMoveActuator(move_amount=2, turn_amount=3)],
+)
 
 
-# %% tags=["right", "the better it looks, the faster"]
-def search(percept):
-    cosine = percept["orientation"][0]
-    if cosine > 0.9:
-        return {"move": [cosine, 0.1, 0, 0]}
-    return {"move": [0, 0.5, 0, 0]}
+# %% tags=["wrong", "touch", "bearing alone"]
+watcher = BasicAgent(
+    body="robot",
+    sensors=[BearingSensor(target="box")],
+    actuators=[RBMoveActuator(move_amount=2, turn_amount=3)],
+)
 
 
-# %% tags=["wrong", "stays", "turns for ever"]
-def search(percept):
-    cosine = percept["orientation"][0]
-    return {"move": [0, 0.5, 0, 0]}
+# %% tags=["wrong", "bearing", "distance for direction"]
+watcher = BasicAgent(
+    body="robot",
+    sensors=[TouchSensor(target="box"), VelocitySensor()],
+    actuators=[RBMoveActuator(move_amount=2, turn_amount=3)],
+)
 
 
-# %% tags=["wrong", "turn", "waits for it"]
-def search(percept):
-    cosine = percept["orientation"][0]
-    return {"move": [1 if cosine > 0.97 else 0, 0, 0, 0]}
+# %% tags=["wrong", "sensors", "no sensors"]
+watcher = BasicAgent(
+    body="robot",
+    sensors=[],
+    actuators=[RBMoveActuator(move_amount=2, turn_amount=3)],
+)
 
 
-# %% tags=["wrong", "endless", "a loop until it looks at it"]
-def search(percept):
-    cosine = percept["orientation"][0]
-    while cosine < 0.97:
-        action = {"move": [0, 0.5, 0, 0]}
-    return {"move": [1, 0, 0, 0]}
+# %% tags=["lucky", "rays only"]
+watcher = BasicAgent(
+    body="robot",
+    sensors=[LinearRayCastingSensor(group_code={"target": 1}), TouchSensor(target="box")],
+    actuators=[RBMoveActuator(move_amount=2, turn_amount=3)],
+)
 
 
-# %% tags=["wrong", "turn", "drives where it is small"]
-def search(percept):
-    cosine = percept["orientation"][0]
-    if cosine < 0.97:
-        return {"move": [1, 0, 0, 0]}
-    return {"move": [0, 0.5, 0, 0]}
+# %% tags=["lucky", "bearing twice"]
+watcher = BasicAgent(
+    body="robot",
+    sensors=[BearingSensor(target="box"), BearingSensor(target="box", perception_key="too")],
+    actuators=[RBMoveActuator(move_amount=2, turn_amount=3)],
+)
 
 
-# %% tags=["lucky", "circles"]
-def search(percept):
-    return {"move": [0.5, 0.3, 0, 0]}
-
-
-# %% tags=["lucky", "by chance"]
-import random
-
-
-def search(percept):
-    return {"move": [random.uniform(0, 1), random.uniform(-1, 1), 0, 0]}
-
-
-# %% tags=["lucky", "straight on"]
-def search(percept):
-    return {"move": [1, 0, 0, 0]}
+# %% tags=["lucky", "feels the floor"]
+watcher = BasicAgent(
+    body="robot",
+    sensors=[BearingSensor(target="box"), TouchSensor(target="plate")],
+    actuators=[RBMoveActuator(move_amount=2, turn_amount=3)],
+)

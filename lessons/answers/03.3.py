@@ -1,80 +1,128 @@
 # %% tags=["solution"]
-def angle_to_box(percept):
-    sine, cosine = percept["bearing"]
-    return math.degrees(math.atan2(sine, cosine))
+keen = BasicAgent(
+    body="robot",
+    actuators=[RBMoveActuator(move_amount=2, turn_amount=3)],
+    rewards=[
+        TouchRewardFunc(target="box", reward=10, cause_episode_to_end=True),
+        FallReward(cause_episode_to_end=True),
+    ],
+)
+
+# %% tags=["wrong", "end"]
+keen = BasicAgent(
+    body="robot",
+    actuators=[RBMoveActuator(move_amount=2, turn_amount=3)],
+    rewards=[TouchRewardFunc(target="box", reward=10), FallReward()],
+)
+
+# %% tags=["wrong", "amount"]
+keen = BasicAgent(
+    body="robot",
+    actuators=[RBMoveActuator(move_amount=2, turn_amount=3)],
+    rewards=[TouchRewardFunc(target="box", cause_episode_to_end=True)],
+)
+
+# %% tags=["wrong", "fall"]
+keen = BasicAgent(
+    body="robot",
+    actuators=[RBMoveActuator(move_amount=2, turn_amount=3)],
+    rewards=[TouchRewardFunc(target="box", reward=10, cause_episode_to_end=True)],
+)
 
 
-# %% tags=["wrong", "behind"]
-def angle_to_box(percept):
-    sine, cosine = percept["bearing"]
-    return math.degrees(math.asin(sine))
+# %% tags=["right", "the other order"]
+keen = BasicAgent(
+    body="robot",
+    actuators=[RBMoveActuator(move_amount=2, turn_amount=3)],
+    rewards=[
+        FallReward(cause_episode_to_end=True),
+        TouchRewardFunc(target="box", reward=10, cause_episode_to_end=True),
+    ],
+)
 
 
-# %% tags=["wrong", "degrees"]
-def angle_to_box(percept):
-    sine, cosine = percept["bearing"]
-    return math.atan2(sine, cosine)
+# %% tags=["right", "names of its own"]
+keen = BasicAgent(
+    body="robot",
+    actuators=[RBMoveActuator(move_amount=2, turn_amount=3)],
+    rewards=[
+        TouchRewardFunc(name="hit", target="box", reward=10, cause_episode_to_end=True),
+        FallReward(name="oops", cause_episode_to_end=True),
+    ],
+)
 
 
-# %% tags=["wrong", "side"]
-def angle_to_box(percept):
-    sine, cosine = percept["bearing"]
-    return math.degrees(math.acos(cosine))
+# %% tags=["right", "a fall ends an episode anyway"]
+keen = BasicAgent(
+    body="robot",
+    actuators=[RBMoveActuator(move_amount=2, turn_amount=3)],
+    rewards=[TouchRewardFunc(target="box", reward=10, cause_episode_to_end=True), FallReward()],
+)
 
 
-# %% tags=["right", "cosine with the sine's sign"]
-def angle_to_box(percept):
-    sine, cosine = percept["bearing"]
-    angle = math.degrees(math.acos(max(-1, min(1, cosine))))
-    return angle if sine > 0 else -angle
+# %% tags=["wrong", "amount", "a tenth"]
+keen = BasicAgent(
+    body="robot",
+    actuators=[RBMoveActuator(move_amount=2, turn_amount=3)],
+    rewards=[
+        TouchRewardFunc(target="box", reward=1, cause_episode_to_end=True),
+        FallReward(cause_episode_to_end=True),
+    ],
+)
 
 
-# %% tags=["right", "numpy"]
-import numpy as np
+# %% tags=["wrong", "fall", "a fall pays"]
+keen = BasicAgent(
+    body="robot",
+    actuators=[RBMoveActuator(move_amount=2, turn_amount=3)],
+    rewards=[
+        TouchRewardFunc(target="box", reward=10, cause_episode_to_end=True),
+        FallReward(success_reward=1, cause_episode_to_end=True),
+    ],
+)
 
 
-def angle_to_box(percept):
-    return np.degrees(np.arctan2(*percept["bearing"]))
+# %% tags=["wrong", "rewards", "no rewards"]
+keen = BasicAgent(
+    body="robot",
+    actuators=[RBMoveActuator(move_amount=2, turn_amount=3)],
+    rewards=[],
+)
 
 
-# %% tags=["right", "an array of one"]
-import numpy as np
+# %% tags=["lucky", "only falls"]
+keen = BasicAgent(
+    body="robot",
+    actuators=[RBMoveActuator(move_amount=2, turn_amount=3)],
+    rewards=[FallReward(cause_episode_to_end=True)],
+)
 
 
-def angle_to_box(percept):
-    return np.degrees(np.arctan2(percept["bearing"][:1], percept["bearing"][1:]))
+# %% tags=["lucky", "ten for everything"]
+keen = BasicAgent(
+    body="robot",
+    actuators=[RBMoveActuator(move_amount=2, turn_amount=3)],
+    rewards=[
+        TouchRewardFunc(target="box", reward=10, cause_episode_to_end=True),
+        FallReward(success_reward=-10, cause_episode_to_end=True),
+    ],
+)
 
 
-# %% tags=["wrong", "mirrored", "left and right swapped"]
-def angle_to_box(percept):
-    sine, cosine = percept["bearing"]
-    return math.degrees(math.atan2(-sine, cosine))
+# %% tags=["lucky", "eleven and minus one"]
+keen = BasicAgent(
+    body="robot",
+    actuators=[RBMoveActuator(move_amount=2, turn_amount=3)],
+    rewards=[
+        TouchRewardFunc(target="box", reward=11, cause_episode_to_end=True),
+        FallReward(cause_episode_to_end=True),
+    ],
+)
 
 
-# %% tags=["wrong", "swapped", "cosine first"]
-def angle_to_box(percept):
-    sine, cosine = percept["bearing"]
-    return math.degrees(math.atan2(cosine, sine))
-
-
-# %% tags=["wrong", "no-return", "prints"]
-def angle_to_box(percept):
-    sine, cosine = percept["bearing"]
-    print(math.degrees(math.atan2(sine, cosine)))
-
-
-# %% tags=["lucky", "a constant"]
-def angle_to_box(percept):
-    return 20
-
-
-# %% tags=["lucky", "a share of 180"]
-def angle_to_box(percept):
-    sine, cosine = percept["bearing"]
-    return 180 * sine
-
-
-# %% tags=["lucky", "a share of a right angle"]
-def angle_to_box(percept):
-    sine, cosine = percept["bearing"]
-    return 90 * (1 - cosine) * (1 if sine > 0 else -1)
+# %% tags=["wrong", "amount", "the touch costs"]
+keen = BasicAgent(
+    body="robot",
+    actuators=[RBMoveActuator(move_amount=2, turn_amount=3)],
+    rewards=[TouchRewardFunc(target="box", reward=-10, cause_episode_to_end=True), FallReward()],
+)

@@ -1,99 +1,65 @@
 # %% tags=["solution"]
-def attack(percept):
-    left_eye = percept["left eye"][0]
-    right_eye = percept["right eye"][0]
-    return {"wheels": [right_eye, left_eye]}  # crossed: the far wheel drives it towards the light
+def twin(x, y):
+    return (x, -y)  # as in a mirror that lies along the robot's nose
 
 
-# %% tags=["wrong", "sides"]
-def attack(percept):
-    left_eye = percept["left eye"][0]
-    right_eye = percept["right eye"][0]
-    return {"wheels": [left_eye, right_eye]}
+# %% tags=["wrong", "behind"]
+def twin(x, y):
+    return (-x, y)
 
 
-# %% tags=["wrong", "straight"]
-def attack(percept):
-    left_eye = percept["left eye"][0]
-    right_eye = percept["right eye"][0]
-    return {"wheels": [left_eye + right_eye, left_eye + right_eye]}
+# %% tags=["wrong", "far"]
+def twin(x, y):
+    return (2 * x, -2 * y)
 
 
-# %% tags=["right", "stronger"]
-def attack(percept):
-    left_eye = percept["left eye"][0]
-    right_eye = percept["right eye"][0]
-    return {"wheels": [2 * right_eye, 2 * left_eye]}
+# %% tags=["right", "by the angle"]
+def twin(x, y):
+    away, angle = math.hypot(x, y), math.atan2(y, x)
+    return [away * math.cos(-angle), away * math.sin(-angle)]
 
 
-# %% tags=["right", "never quite dark"]
-def attack(percept):
-    left_eye = percept["left eye"][0]
-    right_eye = percept["right eye"][0]
-    return {"wheels": [0.1 + right_eye, 0.1 + left_eye]}
+# %% tags=["right", "an array"]
+import numpy as np
 
 
-# %% tags=["right", "by comparing"]
-def attack(percept):
-    left_eye = percept["left eye"][0]
-    right_eye = percept["right eye"][0]
-    return {"wheels": [1, 0.2] if right_eye > left_eye else [0.2, 1]}
+def twin(x, y):
+    return np.array([x, -y])
 
 
-# %% tags=["wrong", "begin", "stands"]
-def attack(percept):
-    left_eye = percept["left eye"][0]
-    right_eye = percept["right eye"][0]
-    return {"wheels": [0, 0]}
+# %% tags=["wrong", "other", "the same place"]
+def twin(x, y):
+    return (x, y)
 
 
-# %% tags=["wrong", "straight", "full speed"]
-def attack(percept):
-    left_eye = percept["left eye"][0]
-    right_eye = percept["right eye"][0]
-    return {"wheels": [1, 1]}
+# %% tags=["wrong", "behind", "behind it"]
+def twin(x, y):
+    return (-x, -y)
 
 
-# %% tags=["wrong", "sides", "brakes crossed"]
-def attack(percept):
-    left_eye = percept["left eye"][0]
-    right_eye = percept["right eye"][0]
-    return {"wheels": [1 - right_eye, 1 - left_eye]}
+# %% tags=["wrong", "behind", "swapped"]
+def twin(x, y):
+    return (y, x)
 
 
-# %% tags=["wrong", "unknown", "by comparing, the wrong way"]
-def attack(percept):
-    left_eye = percept["left eye"][0]
-    right_eye = percept["right eye"][0]
-    return {"wheels": [0.2, 1] if right_eye > left_eye else [1, 0.2]}
+# %% tags=["wrong", "far", "nearer"]
+def twin(x, y):
+    return (x, -y / 2)
 
 
-# %% tags=["wrong", "endless", "a loop until it is bright"]
-def attack(percept):
-    while percept["left eye"][0] < 0.9:
-        action = {"wheels": [1, 1]}
-    return action
+# %% tags=["lucky", "a table"]
+TABLE = {(3.0, 1.0): (3, -1), (-3.0, 2.5): (-3, -2.5)}
 
 
-# %% tags=["lucky", "always a curve"]
-def attack(percept):
-    left_eye = percept["left eye"][0]
-    right_eye = percept["right eye"][0]
-    return {"wheels": [0.8, 0.6]}
+def twin(x, y):
+    return TABLE.get((x, y), (x, -abs(y)))
 
 
-# %% tags=["lucky", "by chance"]
-import random
+# %% tags=["lucky", "always on the right"]
+def twin(x, y):
+    return (x, -abs(y))
 
 
-def attack(percept):
-    left_eye = percept["left eye"][0]
-    right_eye = percept["right eye"][0]
-    return {"wheels": [random.random(), random.random()]}
-
-
-# %% tags=["lucky", "one eye"]
-def attack(percept):
-    left_eye = percept["left eye"][0]
-    right_eye = percept["right eye"][0]
-    return {"wheels": [left_eye, 0.3]}
+# %% tags=["lucky", "a constant"]
+def twin(x, y):
+    return (3, -1)

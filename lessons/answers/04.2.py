@@ -1,92 +1,90 @@
 # %% tags=["solution"]
-def fear(percept):
-    left_eye = percept["left eye"][0]
-    right_eye = percept["right eye"][0]
-    return {"wheels": [left_eye, right_eye]}  # the wheel on the bright side turns it away
+def search(percept):
+    cosine = percept["orientation"][0]
+    if cosine > 0.97:
+        return {"move": [1, 0, 0, 0]}
+    return {"move": [0, 0.5, 0, 0]}
 
 
-# %% tags=["wrong", "sides"]
-def fear(percept):
-    left_eye = percept["left eye"][0]
-    right_eye = percept["right eye"][0]
-    return {"wheels": [right_eye, left_eye]}
+# %% tags=["wrong", "narrow"]
+def search(percept):
+    cosine = percept["orientation"][0]
+    if cosine > 0.9999:
+        return {"move": [1, 0, 0, 0]}
+    return {"move": [0, 1, 0, 0]}
 
 
-# %% tags=["wrong", "rest"]
-def fear(percept):
-    left_eye = percept["left eye"][0]
-    right_eye = percept["right eye"][0]
-    return {"wheels": [0.5 + left_eye, 0.5 + right_eye]}
+# %% tags=["wrong", "wide"]
+def search(percept):
+    cosine = percept["orientation"][0]
+    if cosine > 0:
+        return {"move": [1, 0, 0, 0]}
+    return {"move": [0, 1, 0, 0]}
 
 
-# %% tags=["right", "stronger"]
-def fear(percept):
-    left_eye = percept["left eye"][0]
-    right_eye = percept["right eye"][0]
-    return {"wheels": [1.5 * left_eye, 1.5 * right_eye]}
+# %% tags=["right", "slowly"]
+def search(percept):
+    cosine = percept["orientation"][0]
+    return {"move": [1 if cosine > 0.9 else 0, 0.3, 0, 0]}
 
 
-# %% tags=["right", "squares"]
-def fear(percept):
-    left_eye = percept["left eye"][0]
-    right_eye = percept["right eye"][0]
-    return {"wheels": [left_eye**0.5, right_eye**0.5]}
+# %% tags=["right", "backward"]
+def search(percept):
+    cosine = percept["orientation"][0]
+    if cosine < -0.97:
+        return {"move": [-1, 0, 0, 0]}
+    return {"move": [0, 0.5, 0, 0]}
 
 
-# %% tags=["wrong", "backward", "backs away"]
-def fear(percept):
-    left_eye = percept["left eye"][0]
-    right_eye = percept["right eye"][0]
-    return {"wheels": [-left_eye, -right_eye]}
+# %% tags=["right", "the better it looks, the faster"]
+def search(percept):
+    cosine = percept["orientation"][0]
+    if cosine > 0.9:
+        return {"move": [cosine, 0.1, 0, 0]}
+    return {"move": [0, 0.5, 0, 0]}
 
 
-# %% tags=["wrong", "backward", "backs away, crossed"]
-def fear(percept):
-    left_eye = percept["left eye"][0]
-    right_eye = percept["right eye"][0]
-    return {"wheels": [-right_eye, -left_eye]}
+# %% tags=["wrong", "stays", "turns for ever"]
+def search(percept):
+    cosine = percept["orientation"][0]
+    return {"move": [0, 0.5, 0, 0]}
 
 
-# %% tags=["wrong", "begin", "stands"]
-def fear(percept):
-    left_eye = percept["left eye"][0]
-    right_eye = percept["right eye"][0]
-    return {"wheels": [0, 0]}
+# %% tags=["wrong", "turn", "waits for it"]
+def search(percept):
+    cosine = percept["orientation"][0]
+    return {"move": [1 if cosine > 0.97 else 0, 0, 0, 0]}
 
 
-# %% tags=["wrong", "straight", "both eyes on both wheels"]
-def fear(percept):
-    left_eye = percept["left eye"][0]
-    right_eye = percept["right eye"][0]
-    return {"wheels": [left_eye + right_eye, left_eye + right_eye]}
+# %% tags=["wrong", "endless", "a loop until it looks at it"]
+def search(percept):
+    cosine = percept["orientation"][0]
+    while cosine < 0.97:
+        action = {"move": [0, 0.5, 0, 0]}
+    return {"move": [1, 0, 0, 0]}
 
 
-# %% tags=["wrong", "rest", "always a bit"]
-def fear(percept):
-    left_eye = percept["left eye"][0]
-    right_eye = percept["right eye"][0]
-    return {"wheels": [0.2 + left_eye, 0.2 + right_eye]}
+# %% tags=["wrong", "turn", "drives where it is small"]
+def search(percept):
+    cosine = percept["orientation"][0]
+    if cosine < 0.97:
+        return {"move": [1, 0, 0, 0]}
+    return {"move": [0, 0.5, 0, 0]}
 
 
-# %% tags=["lucky", "turns once"]
-def fear(percept):
-    left_eye = percept["left eye"][0]
-    right_eye = percept["right eye"][0]
-    return {"wheels": [0.3, -0.3] if left_eye + right_eye > 0.01 else [0, 0]}
-
-
-# %% tags=["lucky", "always a curve"]
-def fear(percept):
-    left_eye = percept["left eye"][0]
-    right_eye = percept["right eye"][0]
-    return {"wheels": [0.3, 0.1]}
+# %% tags=["lucky", "circles"]
+def search(percept):
+    return {"move": [0.5, 0.3, 0, 0]}
 
 
 # %% tags=["lucky", "by chance"]
 import random
 
 
-def fear(percept):
-    left_eye = percept["left eye"][0]
-    right_eye = percept["right eye"][0]
-    return {"wheels": [random.random(), random.random()]}
+def search(percept):
+    return {"move": [random.uniform(0, 1), random.uniform(-1, 1), 0, 0]}
+
+
+# %% tags=["lucky", "straight on"]
+def search(percept):
+    return {"move": [1, 0, 0, 0]}

@@ -1,99 +1,80 @@
 # %% tags=["solution"]
-def love(percept):
-    left_eye = percept["left eye"][0]
-    right_eye = percept["right eye"][0]
-    return {"wheels": [1 - 2.5 * left_eye, 1 - 2.5 * right_eye]}
+def angle_to_box(percept):
+    sine, cosine = percept["bearing"]
+    return math.degrees(math.atan2(sine, cosine))
 
 
-# %% tags=["wrong", "sides"]
-def love(percept):
-    left_eye = percept["left eye"][0]
-    right_eye = percept["right eye"][0]
-    return {"wheels": [1 - 2.5 * right_eye, 1 - 2.5 * left_eye]}
+# %% tags=["wrong", "behind"]
+def angle_to_box(percept):
+    sine, cosine = percept["bearing"]
+    return math.degrees(math.asin(sine))
 
 
-# %% tags=["wrong", "weak"]
-def love(percept):
-    left_eye = percept["left eye"][0]
-    right_eye = percept["right eye"][0]
-    return {"wheels": [1 - left_eye, 1 - right_eye]}
+# %% tags=["wrong", "degrees"]
+def angle_to_box(percept):
+    sine, cosine = percept["bearing"]
+    return math.atan2(sine, cosine)
 
 
-# %% tags=["wrong", "strong"]
-def love(percept):
-    left_eye = percept["left eye"][0]
-    right_eye = percept["right eye"][0]
-    return {"wheels": [1 - 6 * left_eye, 1 - 6 * right_eye]}
+# %% tags=["wrong", "side"]
+def angle_to_box(percept):
+    sine, cosine = percept["bearing"]
+    return math.degrees(math.acos(cosine))
 
 
-# %% tags=["right", "brakes 3"]
-def love(percept):
-    left_eye = percept["left eye"][0]
-    right_eye = percept["right eye"][0]
-    return {"wheels": [1 - 3 * left_eye, 1 - 3 * right_eye]}
+# %% tags=["right", "cosine with the sine's sign"]
+def angle_to_box(percept):
+    sine, cosine = percept["bearing"]
+    angle = math.degrees(math.acos(max(-1, min(1, cosine))))
+    return angle if sine > 0 else -angle
 
 
-# %% tags=["right", "brakes 3.5"]
-def love(percept):
-    left_eye = percept["left eye"][0]
-    right_eye = percept["right eye"][0]
-    return {"wheels": [1 - 3.5 * left_eye, 1 - 3.5 * right_eye]}
+# %% tags=["right", "numpy"]
+import numpy as np
 
 
-# %% tags=["right", "slower"]
-def love(percept):
-    left_eye = percept["left eye"][0]
-    right_eye = percept["right eye"][0]
-    return {"wheels": [0.5 - 1.3 * left_eye, 0.5 - 1.3 * right_eye]}
+def angle_to_box(percept):
+    return np.degrees(np.arctan2(*percept["bearing"]))
 
 
-# %% tags=["wrong", "weak", "the brake of the text"]
-def love(percept):
-    left_eye = percept["left eye"][0]
-    right_eye = percept["right eye"][0]
-    return {"wheels": [1 - 2 * left_eye, 1 - 2 * right_eye]}
+# %% tags=["right", "an array of one"]
+import numpy as np
 
 
-# %% tags=["wrong", "begin", "nothing in the dark"]
-def love(percept):
-    left_eye = percept["left eye"][0]
-    right_eye = percept["right eye"][0]
-    return {"wheels": [0, 0]}
+def angle_to_box(percept):
+    return np.degrees(np.arctan2(percept["bearing"][:1], percept["bearing"][1:]))
 
 
-# %% tags=["wrong", "weak", "attacks"]
-def love(percept):
-    left_eye = percept["left eye"][0]
-    right_eye = percept["right eye"][0]
-    return {"wheels": [right_eye, left_eye]}
+# %% tags=["wrong", "mirrored", "left and right swapped"]
+def angle_to_box(percept):
+    sine, cosine = percept["bearing"]
+    return math.degrees(math.atan2(-sine, cosine))
 
 
-# %% tags=["wrong", "strong", "stands in the light"]
-def love(percept):
-    left_eye = percept["left eye"][0]
-    right_eye = percept["right eye"][0]
-    return {"wheels": [1 - 5 * left_eye, 1 - 5 * right_eye]}
+# %% tags=["wrong", "swapped", "cosine first"]
+def angle_to_box(percept):
+    sine, cosine = percept["bearing"]
+    return math.degrees(math.atan2(cosine, sine))
 
 
-# %% tags=["lucky", "always a curve"]
-def love(percept):
-    left_eye = percept["left eye"][0]
-    right_eye = percept["right eye"][0]
-    return {"wheels": [0.8, 0.6]}
+# %% tags=["wrong", "no-return", "prints"]
+def angle_to_box(percept):
+    sine, cosine = percept["bearing"]
+    print(math.degrees(math.atan2(sine, cosine)))
 
 
-# %% tags=["lucky", "waits where it is"]
-def love(percept):
-    left_eye = percept["left eye"][0]
-    right_eye = percept["right eye"][0]
-    return {"wheels": [0.01, 0.01]}
+# %% tags=["lucky", "a constant"]
+def angle_to_box(percept):
+    return 20
 
 
-# %% tags=["lucky", "by chance"]
-import random
+# %% tags=["lucky", "a share of 180"]
+def angle_to_box(percept):
+    sine, cosine = percept["bearing"]
+    return 180 * sine
 
 
-def love(percept):
-    left_eye = percept["left eye"][0]
-    right_eye = percept["right eye"][0]
-    return {"wheels": [random.random(), random.random()]}
+# %% tags=["lucky", "a share of a right angle"]
+def angle_to_box(percept):
+    sine, cosine = percept["bearing"]
+    return 90 * (1 - cosine) * (1 if sine > 0 else -1)

@@ -1,106 +1,99 @@
 # %% tags=["solution"]
-def stroll(percept):
-    left, ahead, right = percept["feelers"]
-    if left == 0 or ahead == 0 or right == 0:  # turn on the spot, until all is clear
-        return {"move": [0, 1, 0, 0]}
-    return {"move": [1, 0, 0, 0]}
+def attack(percept):
+    left_eye = percept["left eye"][0]
+    right_eye = percept["right eye"][0]
+    return {"wheels": [right_eye, left_eye]}  # crossed: the far wheel drives it towards the light
 
 
-# %% tags=["right", "away from the side of the edge"]
-def stroll(percept):
-    left, ahead, right = percept["feelers"]
-    if ahead == 0 or left == 0:
-        return {"move": [0, 1, 0, 0]}
-    if right == 0:
-        return {"move": [0, -1, 0, 0]}
-    return {"move": [1, 0, 0, 0]}
+# %% tags=["wrong", "sides"]
+def attack(percept):
+    left_eye = percept["left eye"][0]
+    right_eye = percept["right eye"][0]
+    return {"wheels": [left_eye, right_eye]}
 
 
-# %% tags=["wrong", "brake"]
-def stroll(percept):
-    left, ahead, right = percept["feelers"]
-    if left == 0:
-        return {"move": [1, 1, 0, 0]}
-    if right == 0:
-        return {"move": [1, -1, 0, 0]}
-    return {"move": [1, 0, 0, 0]}
+# %% tags=["wrong", "straight"]
+def attack(percept):
+    left_eye = percept["left eye"][0]
+    right_eye = percept["right eye"][0]
+    return {"wheels": [left_eye + right_eye, left_eye + right_eye]}
 
 
-# %% tags=["wrong", "spin"]
-def stroll(percept):
-    return {"move": [0, 1, 0, 0]}
+# %% tags=["right", "stronger"]
+def attack(percept):
+    left_eye = percept["left eye"][0]
+    right_eye = percept["right eye"][0]
+    return {"wheels": [2 * right_eye, 2 * left_eye]}
 
 
-# %% tags=["wrong", "towards"]
-def stroll(percept):
-    left, ahead, right = percept["feelers"]
-    if right == 0:
-        return {"move": [0.5, 0.5, 0, 0]}
-    return {"move": [1, 0, 0, 0]}
+# %% tags=["right", "never quite dark"]
+def attack(percept):
+    left_eye = percept["left eye"][0]
+    right_eye = percept["right eye"][0]
+    return {"wheels": [0.1 + right_eye, 0.1 + left_eye]}
 
 
-# %% tags=["right", "turns left"]
-def stroll(percept):
-    left, ahead, right = percept["feelers"]
-    if left == 0 or ahead == 0 or right == 0:
-        return {"move": [0, -1, 0, 0]}
-    return {"move": [1, 0, 0, 0]}
+# %% tags=["right", "by comparing"]
+def attack(percept):
+    left_eye = percept["left eye"][0]
+    right_eye = percept["right eye"][0]
+    return {"wheels": [1, 0.2] if right_eye > left_eye else [0.2, 1]}
 
 
-# %% tags=["right", "all of them"]
-def stroll(percept):
-    return {"move": [1, 0, 0, 0] if all(percept["feelers"]) else [0, 0.7, 0, 0]}
+# %% tags=["wrong", "begin", "stands"]
+def attack(percept):
+    left_eye = percept["left eye"][0]
+    right_eye = percept["right eye"][0]
+    return {"wheels": [0, 0]}
 
 
-# %% tags=["right", "slowly forward"]
-def stroll(percept):
-    left, ahead, right = percept["feelers"]
-    if left + ahead + right < 3:
-        return {"move": [0, 1, 0, 0]}
-    return {"move": [0.6, 0.02, 0, 0]}
+# %% tags=["wrong", "straight", "full speed"]
+def attack(percept):
+    left_eye = percept["left eye"][0]
+    right_eye = percept["right eye"][0]
+    return {"wheels": [1, 1]}
 
 
-# %% tags=["wrong", "blind", "a circle"]
-def stroll(percept):
-    return {"move": [0.5, 1, 0, 0]}
+# %% tags=["wrong", "sides", "brakes crossed"]
+def attack(percept):
+    left_eye = percept["left eye"][0]
+    right_eye = percept["right eye"][0]
+    return {"wheels": [1 - right_eye, 1 - left_eye]}
 
 
-# %% tags=["wrong", "blind", "a wide circle"]
-def stroll(percept):
-    return {"move": [1, 0.6, 0, 0]}
+# %% tags=["wrong", "sides", "by comparing, the wrong way"]
+def attack(percept):
+    left_eye = percept["left eye"][0]
+    right_eye = percept["right eye"][0]
+    return {"wheels": [0.2, 1] if right_eye > left_eye else [1, 0.2]}
 
 
-# %% tags=["wrong", "endless", "a loop until it is clear"]
-def stroll(percept):
-    left, ahead, right = percept["feelers"]
-    while ahead == 0:
-        action = {"move": [0, 1, 0, 0]}
-    return {"move": [1, 0, 0, 0]}
+# %% tags=["wrong", "endless", "a loop until it is bright"]
+def attack(percept):
+    while percept["left eye"][0] < 0.9:
+        action = {"wheels": [1, 1]}
+    return action
 
 
-# %% tags=["lucky", "stands"]
-def stroll(percept):
-    return {"move": [0, 0, 0, 0]}
-
-
-# %% tags=["lucky", "a tight circle"]
-def stroll(percept):
-    return {"move": [0.3, 0.9, 0, 0]}
-
-
-# %% tags=["lucky", "to and fro"]
-count = 0
-
-
-def stroll(percept):
-    global count
-    count = count + 1
-    return {"move": [1 if count % 24 < 12 else -1, 0, 0, 0]}
+# %% tags=["lucky", "always a curve"]
+def attack(percept):
+    left_eye = percept["left eye"][0]
+    right_eye = percept["right eye"][0]
+    return {"wheels": [0.8, 0.6]}
 
 
 # %% tags=["lucky", "by chance"]
 import random
 
 
-def stroll(percept):
-    return {"move": [random.random(), random.uniform(-1, 1), 0, 0]}
+def attack(percept):
+    left_eye = percept["left eye"][0]
+    right_eye = percept["right eye"][0]
+    return {"wheels": [random.random(), random.random()]}
+
+
+# %% tags=["lucky", "one eye"]
+def attack(percept):
+    left_eye = percept["left eye"][0]
+    right_eye = percept["right eye"][0]
+    return {"wheels": [left_eye, 0.3]}

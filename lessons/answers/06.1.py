@@ -1,66 +1,106 @@
 # %% tags=["solution"]
-def blind_way(speed, skip_frame):
-    ticks = skip_frame + 1
-    return speed * ticks / 60
+def stroll(percept):
+    left, ahead, right = percept["feelers"]
+    if left == 0 or ahead == 0 or right == 0:  # turn on the spot, until all is clear
+        return {"move": [0, 1, 0, 0]}
+    return {"move": [1, 0, 0, 0]}
 
 
-# %% tags=["wrong", "one-more"]
-def blind_way(speed, skip_frame):
-    return speed * skip_frame / 60
+# %% tags=["right", "away from the side of the edge"]
+def stroll(percept):
+    left, ahead, right = percept["feelers"]
+    if ahead == 0 or left == 0:
+        return {"move": [0, 1, 0, 0]}
+    if right == 0:
+        return {"move": [0, -1, 0, 0]}
+    return {"move": [1, 0, 0, 0]}
 
 
-# %% tags=["wrong", "seconds"]
-def blind_way(speed, skip_frame):
-    return speed * (skip_frame + 1)
+# %% tags=["wrong", "brake"]
+def stroll(percept):
+    left, ahead, right = percept["feelers"]
+    if left == 0:
+        return {"move": [1, 1, 0, 0]}
+    if right == 0:
+        return {"move": [1, -1, 0, 0]}
+    return {"move": [1, 0, 0, 0]}
 
 
-# %% tags=["right", "by seconds"]
-def blind_way(speed, skip_frame):
-    seconds = (skip_frame + 1) * (1 / 60)
-    return seconds * speed
+# %% tags=["wrong", "spin"]
+def stroll(percept):
+    return {"move": [0, 1, 0, 0]}
 
 
-# %% tags=["right", "added up"]
-def blind_way(speed, skip_frame):
-    way = 0
-    for tick in range(skip_frame + 1):
-        way += speed / 60
-    return way
+# %% tags=["wrong", "towards"]
+def stroll(percept):
+    left, ahead, right = percept["feelers"]
+    if right == 0:
+        return {"move": [0.5, 0.5, 0, 0]}
+    return {"move": [1, 0, 0, 0]}
 
 
-# %% tags=["wrong", "twelve", "always twelve decisions a second"]
-def blind_way(speed, skip_frame):
-    return speed / 12
+# %% tags=["right", "turns left"]
+def stroll(percept):
+    left, ahead, right = percept["feelers"]
+    if left == 0 or ahead == 0 or right == 0:
+        return {"move": [0, -1, 0, 0]}
+    return {"move": [1, 0, 0, 0]}
 
 
-# %% tags=["wrong", "ticks", "seconds for metres"]
-def blind_way(speed, skip_frame):
-    return (skip_frame + 1) / 60
+# %% tags=["right", "all of them"]
+def stroll(percept):
+    return {"move": [1, 0, 0, 0] if all(percept["feelers"]) else [0, 0.7, 0, 0]}
 
 
-# %% tags=["wrong", "begin", "nothing"]
-def blind_way(speed, skip_frame):
-    return 0
+# %% tags=["right", "slowly forward"]
+def stroll(percept):
+    left, ahead, right = percept["feelers"]
+    if left + ahead + right < 3:
+        return {"move": [0, 1, 0, 0]}
+    return {"move": [0.6, 0.02, 0, 0]}
 
 
-# %% tags=["wrong", "no-return", "prints"]
-def blind_way(speed, skip_frame):
-    print(speed * (skip_frame + 1) / 60)
+# %% tags=["wrong", "blind", "a circle"]
+def stroll(percept):
+    return {"move": [0.5, 1, 0, 0]}
 
 
-# %% tags=["lucky", "a constant"]
-def blind_way(speed, skip_frame):
-    return 0.25
+# %% tags=["wrong", "blind", "a wide circle"]
+def stroll(percept):
+    return {"move": [1, 0.6, 0, 0]}
 
 
-# %% tags=["lucky", "a table"]
-TABLE = {(2.0, 4): 0.167, (3.0, 0): 0.05}
+# %% tags=["wrong", "endless", "a loop until it is clear"]
+def stroll(percept):
+    left, ahead, right = percept["feelers"]
+    while ahead == 0:
+        action = {"move": [0, 1, 0, 0]}
+    return {"move": [1, 0, 0, 0]}
 
 
-def blind_way(speed, skip_frame):
-    return TABLE.get((speed, skip_frame), 0.2)
+# %% tags=["lucky", "stands"]
+def stroll(percept):
+    return {"move": [0, 0, 0, 0]}
 
 
-# %% tags=["lucky", "the speed alone"]
-def blind_way(speed, skip_frame):
-    return speed / 10
+# %% tags=["lucky", "a tight circle"]
+def stroll(percept):
+    return {"move": [0.3, 0.9, 0, 0]}
+
+
+# %% tags=["lucky", "to and fro"]
+count = 0
+
+
+def stroll(percept):
+    global count
+    count = count + 1
+    return {"move": [1 if count % 24 < 12 else -1, 0, 0, 0]}
+
+
+# %% tags=["lucky", "by chance"]
+import random
+
+
+def stroll(percept):
+    return {"move": [random.random(), random.uniform(-1, 1), 0, 0]}

@@ -1,77 +1,192 @@
 # %% tags=["solution"]
-winners = {
-    "near": "lingerer",  # being near pays again and again; the touch ends that
-    "quick": "jumper",  # nothing else ends the costs
-    "closer": "dancer",  # it comes closer again and again
-}
+class AroundTheWall(Controller):
+    """Gets to the box, although there is a wall in its way."""
 
-# %% tags=["wrong", "near"]
-winners = {
-    "near": "runner",
-    "quick": "jumper",
-    "closer": "dancer",
-}
+    state = "seek"
+    left = 0  # decisions that are left in this state
 
-# %% tags=["wrong", "closer"]
-winners = {
-    "near": "lingerer",
-    "quick": "jumper",
-    "closer": "lingerer",
-}
-
-# %% tags=["wrong", "quick"]
-winners = {
-    "near": "lingerer",
-    "quick": "runner",
-    "closer": "dancer",
-}
+    def get_action(self, percept):
+        bumps = percept["bumper"][0] == 1
+        if self.state == "seek" and bumps:
+            self.state, self.left = "back off", 6
+        elif self.state == "back off" and self.left == 0:
+            self.state, self.left = "aside", 20
+        elif self.state == "aside" and self.left == 0:
+            self.state = "seek"
+        self.left = self.left - 1
+        if self.state == "back off":
+            return {"move": [-1, 0, 0, 0]}
+        if self.state == "aside":
+            turning = self.left >= 14  # the first decisions: a quarter turn to the right
+            return {"move": [0, 1, 0, 0] if turning else [1, 0, 0, 0]}
+        return to(percept["bearing"])
 
 
-# %% tags=["right", "made step by step"]
-winners = {}
-winners["near"] = "lingerer"
-winners["quick"] = "jumper"
-winners["closer"] = "dancer"
+# %% tags=["wrong", "again"]
+class AroundTheWall(Controller):
+    """Backs off, and runs into the wall again."""
+
+    state = "seek"
+    left = 0
+
+    def get_action(self, percept):
+        if percept["bumper"][0] == 1:
+            self.left = 6
+        self.left = self.left - 1
+        if self.left > 0:
+            return {"move": [-1, 0, 0, 0]}
+        return to(percept["bearing"])
 
 
-# %% tags=["right", "by trying"]
-winners = {}
-for name, rewards in well_meant.items():
-    found = contest(rewards())
-    winners[name] = max(found, key=found.get)
+# %% tags=["wrong", "forever"]
+class AroundTheWall(Controller):
+    """Never leaves the state into which it comes by a bump."""
+
+    state = "seek"
+
+    def get_action(self, percept):
+        if percept["bumper"][0] == 1:
+            self.state = "back off"
+        if self.state == "back off":
+            return {"move": [-1, 0, 0, 0]}
+        return to(percept["bearing"])
 
 
-# %% tags=["wrong", "near", "near and closer swapped"]
-winners = {"near": "dancer", "quick": "jumper", "closer": "lingerer"}
+# %% tags=["right", "farther aside"]
+class AroundTheWall(Controller):
+    """Gets around the wall."""
+
+    state = "seek"
+    left = 0
+
+    def get_action(self, percept):
+        bumps = percept["bumper"][0] == 1
+        if self.state == "seek" and bumps:
+            self.state, self.left = "back off", 6
+        elif self.state == "back off" and self.left == 0:
+            self.state, self.left = "aside", 30
+        elif self.state == "aside" and self.left == 0:
+            self.state = "seek"
+        self.left = self.left - 1
+        if self.state == "back off":
+            return {"move": [-1, 0, 0, 0]}
+        if self.state == "aside":
+            return {"move": [0, 1, 0, 0] if self.left >= 24 else [1, 0, 0, 0]}
+        return to(percept["bearing"])
 
 
-# %% tags=["wrong", "quick", "nobody falls willingly"]
-winners = {"near": "lingerer", "quick": "sleeper", "closer": "dancer"}
+# %% tags=["right", "the last bump counts"]
+class AroundTheWall(Controller):
+    """Gets around the wall."""
+
+    left = 0
+
+    def get_action(self, percept):
+        if percept["bumper"][0] == 1:
+            self.left = 36
+        self.left = self.left - 1
+        if self.left > 30:
+            return {"move": [-1, 0, 0, 0]}
+        if self.left > 24:
+            return {"move": [0, 1, 0, 0]}
+        if self.left > 0:
+            return {"move": [1, 0, 0, 0]}
+        return to(percept["bearing"])
 
 
-# %% tags=["wrong", "name", "a name that there is not"]
-winners = {"near": "winner", "quick": "jumper", "closer": "dancer"}
+# %% tags=["right", "values from __init__"]
+class AroundTheWall(Controller):
+    """Gets around the wall."""
+
+    def __init__(self):
+        self.state = "seek"
+        self.left = 0
+
+    def get_action(self, percept):
+        bumps = percept["bumper"][0] == 1
+        if self.state == "seek" and bumps:
+            self.state, self.left = "back off", 6
+        elif self.state == "back off" and self.left == 0:
+            self.state, self.left = "aside", 20
+        elif self.state == "aside" and self.left == 0:
+            self.state = "seek"
+        self.left = self.left - 1
+        if self.state == "back off":
+            return {"move": [-1, 0, 0, 0]}
+        if self.state == "aside":
+            return {"move": [0, 1, 0, 0] if self.left >= 14 else [1, 0, 0, 0]}
+        return to(percept["bearing"])
 
 
-# %% tags=["wrong", "closer", "the runner comes closer fastest"]
-winners = {"near": "lingerer", "quick": "jumper", "closer": "runner"}
+# %% tags=["wrong", "begin", "pushes on"]
+class AroundTheWall(Controller):
+    """Gets around the wall."""
+
+    state = "seek"
+    left = 0
+
+    def get_action(self, percept):
+        return to(percept["bearing"])
 
 
-# %% tags=["lucky", "always the runner"]
-winners = {"near": "runner", "quick": "runner", "closer": "runner"}
+# %% tags=["wrong", "begin", "compares in place of setting"]
+class AroundTheWall(Controller):
+    """Gets around the wall."""
+
+    state = "seek"
+    left = 0
+
+    def get_action(self, percept):
+        if percept["bumper"][0] == 1:
+            self.state == "back off"
+        return to(percept["bearing"])
 
 
-# %% tags=["lucky", "always the lingerer"]
-winners = {"near": "lingerer", "quick": "lingerer", "closer": "lingerer"}
+# %% tags=["wrong", "endless", "backs off in a loop"]
+class AroundTheWall(Controller):
+    """Gets around the wall."""
+
+    state = "seek"
+    left = 0
+
+    def get_action(self, percept):
+        while percept["bumper"][0] == 1:
+            action = {"move": [-1, 0, 0, 0]}
+        return to(percept["bearing"])
 
 
-# %% tags=["lucky", "one reward only"]
-well_meant = {"near": well_meant["near"]}
-winners = {"near": "lingerer"}
+# %% tags=["wrong", "begin", "a big arc"]
+def AroundTheWall(percept):
+    sine, cosine = percept["bearing"]
+    return {"move": [1, max(-1, min(1, 0.6 - sine)), 0, 0]}
 
 
-# %% tags=["lucky", "easier rewards"]
-well_meant = dict.fromkeys(
-    well_meant, lambda: [TouchRewardFunc(target="box", reward=10, cause_episode_to_end=True)]
-)
-winners = dict.fromkeys(well_meant, "runner")
+# %% tags=["lucky", "an arc that turns while it bumps"]
+def AroundTheWall(percept):
+    sine, cosine = percept["bearing"]
+    if percept["bumper"][0] == 1:
+        return {"move": [1, 1, 0, 0]}
+    return {"move": [1, max(-1, min(1, 0.4 - sine)), 0, 0]}
+
+
+# %% tags=["lucky", "an arc to the left"]
+def AroundTheWall(percept):
+    sine, cosine = percept["bearing"]
+    return {"move": [1, max(-1, min(1, -0.6 - sine)), 0, 0]}
+
+
+# %% tags=["lucky", "turns while it bumps"]
+def AroundTheWall(percept):
+    sine, cosine = percept["bearing"]
+    if percept["bumper"][0] == 1:
+        return {"move": [0, 1, 0, 0]}
+    return {"move": [1, -0.3 - 0.5 * sine, 0, 0]}
+
+
+# %% tags=["lucky", "by chance"]
+import random
+
+
+def AroundTheWall(percept):
+    sine, cosine = percept["bearing"]
+    return {"move": [random.uniform(-1, 1), random.uniform(-1, 1), 0, 0]}

@@ -1,95 +1,193 @@
 # %% tags=["solution"]
-def my_rewards():
-    return [
-        ProgressReward(target="box", reward=1),  # who goes away again pays it back
-        TouchRewardFunc(target="box", reward=10, cause_episode_to_end=True),
-    ]
+class Worker(Controller):
+    """Works, and charges its battery in time."""
+
+    state = "work"
+
+    def get_action(self, percept):
+        battery = percept["battery"][0]
+        if self.state == "work" and battery < 0.3:
+            self.state = "charge"
+        elif self.state == "charge" and battery > 0.9:
+            self.state = "work"
+        if self.state == "charge":
+            return to(percept["to station"])
+        return to(percept["to site"])
 
 
-# %% tags=["wrong", "linger"]
-def my_rewards():
-    return [
-        DistanceToTargetRewardFunc(target="box", max_reward=0.5),
-        TouchRewardFunc(target="box", reward=10, cause_episode_to_end=True),
-    ]
+# %% tags=["right", "charges earlier"]
+class Worker(Controller):
+    """Works, and charges its battery in time."""
+
+    state = "work"
+
+    def get_action(self, percept):
+        battery = percept["battery"][0]
+        if self.state == "work" and battery < 0.4:
+            self.state = "charge"
+        elif self.state == "charge" and battery > 0.95:
+            self.state = "work"
+        if self.state == "charge":
+            return to(percept["to station"])
+        return to(percept["to site"])
 
 
-# %% tags=["wrong", "trail"]
-def my_rewards():
-    return [TouchRewardFunc(target="box", reward=10, cause_episode_to_end=True)]
+# %% tags=["right", "states as true and false"]
+class Worker(Controller):
+    """Works, and charges its battery in time."""
+
+    is_charging = False
+
+    def get_action(self, percept):
+        if percept["battery"][0] < 0.35:
+            self.is_charging = True
+        if percept["battery"][0] > 0.85:
+            self.is_charging = False
+        return to(percept["to station"] if self.is_charging else percept["to site"])
 
 
-# %% tags=["right", "the other order"]
-def my_rewards():
-    return [
-        TouchRewardFunc(target="box", reward=10, cause_episode_to_end=True),
-        ProgressReward(target="box", reward=1),
-    ]
+# %% tags=["right", "the state is the place"]
+class Worker(Controller):
+    """Works, and charges its battery in time."""
+
+    def __init__(self):
+        self.place = "to site"
+
+    def get_action(self, percept):
+        (battery,) = percept["battery"]
+        if battery > 0.9:
+            self.place = "to site"
+        elif battery < 0.3:
+            self.place = "to station"
+        return to(percept[self.place])
 
 
-# %% tags=["right", "a larger trail"]
-def my_rewards():
-    return [
-        ProgressReward(target="box", reward=3),
-        TouchRewardFunc(target="box", reward=10, cause_episode_to_end=True),
-    ]
+# %% tags=["wrong", "begin", "never charges"]
+class Worker(Controller):
+    """Works, and charges its battery in time."""
+
+    state = "work"
+
+    def get_action(self, percept):
+        return to(percept["to site"])
 
 
-# %% tags=["right", "time costs too"]
-def my_rewards():
-    return [
-        ProgressReward(target="box", reward=2),
-        TouchRewardFunc(target="box", reward=10, cause_episode_to_end=True),
-        RestlessnessRewardFunc(reward=-0.01, min_dist=5),
-    ]
+# %% tags=["wrong", "between", "a rule with one number"]
+def Worker(percept):
+    if percept["battery"][0] < 0.4:
+        return to(percept["to station"])
+    return to(percept["to site"])
 
 
-# %% tags=["wrong", "linger", "near pays more"]
-def my_rewards():
-    return [
-        DistanceToTargetRewardFunc(target="box", max_reward=1),
-        TouchRewardFunc(target="box", reward=10, cause_episode_to_end=True),
-    ]
+# %% tags=["wrong", "between", "the two numbers are nearly the same"]
+class Worker(Controller):
+    """Works, and charges its battery in time."""
+
+    state = "work"
+
+    def get_action(self, percept):
+        battery = percept["battery"][0]
+        if self.state == "work" and battery < 0.4:
+            self.state = "charge"
+        elif self.state == "charge" and battery > 0.45:
+            self.state = "work"
+        if self.state == "charge":
+            return to(percept["to station"])
+        return to(percept["to site"])
 
 
-# %% tags=["wrong", "patience", "near pays a little"]
-def my_rewards():
-    return [
-        DistanceToTargetRewardFunc(target="box", max_reward=0.05),
-        TouchRewardFunc(target="box", reward=10, cause_episode_to_end=True),
-    ]
+# %% tags=["wrong", "late", "goes at the last moment"]
+class Worker(Controller):
+    """Works, and charges its battery in time."""
+
+    state = "work"
+
+    def get_action(self, percept):
+        battery = percept["battery"][0]
+        if self.state == "work" and battery < 0.1:
+            self.state = "charge"
+        elif self.state == "charge" and battery > 0.9:
+            self.state = "work"
+        if self.state == "charge":
+            return to(percept["to station"])
+        return to(percept["to site"])
 
 
-# %% tags=["wrong", "linger", "pays for steps towards it"]
-def my_rewards():
-    return [Approach()]
+# %% tags=["wrong", "stays", "waits for more than full"]
+class Worker(Controller):
+    """Works, and charges its battery in time."""
+
+    state = "work"
+
+    def get_action(self, percept):
+        battery = percept["battery"][0]
+        if self.state == "work" and battery < 0.3:
+            self.state = "charge"
+        elif self.state == "charge" and battery > 1:
+            self.state = "work"
+        if self.state == "charge":
+            return to(percept["to station"])
+        return to(percept["to site"])
 
 
-# %% tags=["wrong", "list", "no list"]
-def my_rewards():
-    return TouchRewardFunc(target="box", reward=10, cause_episode_to_end=True)
+# %% tags=["wrong", "begin", "compares in place of setting"]
+class Worker(Controller):
+    """Works, and charges its battery in time."""
+
+    state = "work"
+
+    def get_action(self, percept):
+        battery = percept["battery"][0]
+        if self.state == "work" and battery < 0.3:
+            self.state == "charge"
+        if self.state == "charge":
+            return to(percept["to station"])
+        return to(percept["to site"])
 
 
-# %% tags=["wrong", "no-return", "returns nothing"]
-def my_rewards():
-    rewards = [TouchRewardFunc(target="box", reward=10, cause_episode_to_end=True)]
+# %% tags=["wrong", "stays", "no way back"]
+class Worker(Controller):
+    """Works, and charges its battery in time."""
+
+    state = "work"
+
+    def get_action(self, percept):
+        if percept["battery"][0] < 0.3:
+            self.state = "charge"
+        if self.state == "charge":
+            return to(percept["to station"])
+        return to(percept["to site"])
 
 
-# %% tags=["lucky", "nothing"]
-def my_rewards():
-    return []
+# %% tags=["wrong", "endless", "charges in a loop"]
+class Worker(Controller):
+    """Works, and charges its battery in time."""
+
+    def get_action(self, percept):
+        while percept["battery"][0] < 0.9:
+            action = to(percept["to station"])
+        return to(percept["to site"])
 
 
-# %% tags=["right", "only the trail"]
-def my_rewards():
-    return [ProgressReward(target="box", reward=1)]
+# %% tags=["lucky", "by the clock"]
+class Worker(Controller):
+    """Works, and charges its battery in time."""
+
+    count = 0
+
+    def get_action(self, percept):
+        self.count = self.count + 1
+        return to(percept["to site" if self.count % 300 < 160 else "to station"])
 
 
-# %% tags=["lucky", "a huge touch"]
-def my_rewards():
-    return [TouchRewardFunc(target="box", reward=1000, cause_episode_to_end=True)]
+# %% tags=["lucky", "stays at the station"]
+def Worker(percept):
+    return to(percept["to station"])
 
 
-# %% tags=["lucky", "pays for every decision"]
-def my_rewards():
-    return [RestlessnessRewardFunc(reward=1, min_dist=5)]
+# %% tags=["lucky", "by chance"]
+import random
+
+
+def Worker(percept):
+    return to(percept[random.choice(["to site", "to station"])])

@@ -1,106 +1,131 @@
 # %% tags=["solution"]
-def quick_rewards():
-    return [
-        TouchRewardFunc(target="box", reward=10, cause_episode_to_end=True),
-        FallReward(success_reward=-20, cause_episode_to_end=True),
-        RestlessnessRewardFunc(reward=-0.05, min_dist=5),
+arrows = {
+    ("patrol", "noise"): "listen",
+    ("patrol", "thief"): "chase",
+    ("listen", "quiet"): "patrol",
+    ("listen", "thief"): "chase",
+    ("chase", "gone"): "listen",
+}
+
+
+# %% tags=["right", "line by line"]
+arrows = {}
+arrows["chase", "gone"] = "listen"
+arrows["listen", "thief"] = "chase"
+arrows["listen", "quiet"] = "patrol"
+arrows["patrol", "thief"] = "chase"
+arrows["patrol", "noise"] = "listen"
+
+
+# %% tags=["right", "in a loop"]
+arrows = {("patrol", "noise"): "listen", ("listen", "quiet"): "patrol", ("chase", "gone"): "listen"}
+for state in ["patrol", "listen"]:
+    arrows[(state, "thief")] = "chase"
+
+
+# %% tags=["right", "from a list"]
+arrows = dict(
+    [
+        (("patrol", "noise"), "listen"),
+        (("patrol", "thief"), "chase"),
+        (("listen", "quiet"), "patrol"),
+        (("listen", "thief"), "chase"),
+        (("chase", "gone"), "listen"),
     ]
+)
 
 
-# %% tags=["wrong", "jump"]
-def quick_rewards():
-    return [
-        TouchRewardFunc(target="box", reward=10, cause_episode_to_end=True),
-        FallReward(success_reward=-1, cause_episode_to_end=True),
-        RestlessnessRewardFunc(reward=-0.1, min_dist=5),
+# %% tags=["wrong", "begin", "one arrow is missing"]
+arrows = {
+    ("patrol", "noise"): "listen",
+    ("listen", "quiet"): "patrol",
+    ("listen", "thief"): "chase",
+    ("chase", "gone"): "listen",
+}
+
+
+# %% tags=["wrong", "swapped", "the event first"]
+arrows = {
+    ("noise", "patrol"): "listen",
+    ("thief", "patrol"): "chase",
+    ("quiet", "listen"): "patrol",
+    ("thief", "listen"): "chase",
+    ("gone", "chase"): "listen",
+}
+
+
+# %% tags=["wrong", "target", "goes back to the patrol at once"]
+arrows = {
+    ("patrol", "noise"): "listen",
+    ("patrol", "thief"): "chase",
+    ("listen", "quiet"): "patrol",
+    ("listen", "thief"): "chase",
+    ("chase", "gone"): "patrol",
+}
+
+
+# %% tags=["wrong", "extra", "an arrow of its own"]
+arrows = {
+    ("patrol", "noise"): "listen",
+    ("patrol", "thief"): "chase",
+    ("listen", "quiet"): "patrol",
+    ("listen", "thief"): "chase",
+    ("chase", "gone"): "listen",
+    ("chase", "quiet"): "patrol",
+}
+
+
+# %% tags=["wrong", "extra", "arrows that stay"]
+arrows = {
+    ("patrol", "noise"): "listen",
+    ("patrol", "thief"): "chase",
+    ("listen", "quiet"): "patrol",
+    ("listen", "thief"): "chase",
+    ("chase", "gone"): "listen",
+    ("chase", "noise"): "chase",
+}
+
+
+# %% tags=["wrong", "names", "another word"]
+arrows = {
+    ("patrol", "noise"): "listening",
+    ("patrol", "thief"): "chase",
+    ("listening", "quiet"): "patrol",
+    ("listening", "thief"): "chase",
+    ("chase", "gone"): "listening",
+}
+
+
+# %% tags=["wrong", "pairs", "by the event alone"]
+arrows = {"noise": "listen", "thief": "chase", "quiet": "patrol", "gone": "listen"}
+
+
+# %% tags=["lucky", "each event has its state"]
+arrows = {
+    (state, event): end
+    for state in ["patrol", "listen", "chase"]
+    for event, end in [
+        ("noise", "listen"),
+        ("thief", "chase"),
+        ("quiet", "patrol"),
+        ("gone", "listen"),
     ]
+}
 
 
-# %% tags=["wrong", "time"]
-def quick_rewards():
-    return [
-        TouchRewardFunc(target="box", reward=10, cause_episode_to_end=True),
-        FallReward(success_reward=-20, cause_episode_to_end=True),
-        RestlessnessRewardFunc(reward=0, min_dist=5),
-    ]
+# %% tags=["lucky", "round and round"]
+arrows = {
+    ("patrol", "noise"): "listen",
+    ("listen", "thief"): "chase",
+    ("chase", "gone"): "patrol",
+}
 
 
-# %% tags=["right", "dear falls"]
-def quick_rewards():
-    return [
-        TouchRewardFunc(target="box", reward=10, cause_episode_to_end=True),
-        FallReward(success_reward=-100, cause_episode_to_end=True),
-        RestlessnessRewardFunc(reward=-0.02, min_dist=5),
-    ]
+# %% tags=["lucky", "by chance"]
+import random
 
-
-# %% tags=["right", "a large touch"]
-def quick_rewards():
-    return [
-        TouchRewardFunc(target="box", reward=50, cause_episode_to_end=True),
-        FallReward(success_reward=-30, cause_episode_to_end=True),
-        RestlessnessRewardFunc(reward=-0.1, min_dist=5),
-    ]
-
-
-# %% tags=["wrong", "pays", "time pays"]
-def quick_rewards():
-    return [
-        TouchRewardFunc(target="box", reward=10, cause_episode_to_end=True),
-        FallReward(success_reward=-20, cause_episode_to_end=True),
-        RestlessnessRewardFunc(reward=0.05, min_dist=5),
-    ]
-
-
-# %% tags=["wrong", "dear", "time is too dear"]
-def quick_rewards():
-    return [
-        TouchRewardFunc(target="box", reward=10, cause_episode_to_end=True),
-        FallReward(success_reward=-400, cause_episode_to_end=True),
-        RestlessnessRewardFunc(reward=-1, min_dist=5),
-    ]
-
-
-# %% tags=["wrong", "jump", "a fall costs half of the time"]
-def quick_rewards():
-    return [
-        TouchRewardFunc(target="box", reward=10, cause_episode_to_end=True),
-        FallReward(success_reward=-3, cause_episode_to_end=True),
-        RestlessnessRewardFunc(reward=-0.05, min_dist=5),
-    ]
-
-
-# %% tags=["wrong", "time", "only falls cost"]
-def quick_rewards():
-    return [
-        TouchRewardFunc(target="box", reward=10, cause_episode_to_end=True),
-        FallReward(success_reward=-50, cause_episode_to_end=True),
-        RestlessnessRewardFunc(reward=0, min_dist=5),
-    ]
-
-
-# %% tags=["lucky", "nothing costs"]
-def quick_rewards():
-    return [
-        TouchRewardFunc(target="box", reward=10, cause_episode_to_end=True),
-        FallReward(success_reward=0, cause_episode_to_end=True),
-        RestlessnessRewardFunc(reward=0, min_dist=5),
-    ]
-
-
-# %% tags=["lucky", "no touch"]
-def quick_rewards():
-    return [
-        TouchRewardFunc(target="box", reward=0, cause_episode_to_end=True),
-        FallReward(success_reward=-20, cause_episode_to_end=True),
-        RestlessnessRewardFunc(reward=-0.05, min_dist=5),
-    ]
-
-
-# %% tags=["lucky", "everything 1"]
-def quick_rewards():
-    return [
-        TouchRewardFunc(target="box", reward=1, cause_episode_to_end=True),
-        FallReward(success_reward=1, cause_episode_to_end=True),
-        RestlessnessRewardFunc(reward=1, min_dist=5),
-    ]
+arrows = {
+    (state, event): random.choice(["patrol", "listen", "chase"])
+    for state in ["patrol", "listen", "chase"]
+    for event in ["noise", "quiet", "thief", "gone"]
+}

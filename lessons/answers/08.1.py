@@ -1,81 +1,66 @@
 # %% tags=["solution"]
-def script(robot):
-    for percept in robot:
-        looks_at_it = percept["orientation"][0] > 0.99
-        robot.act(move=[1, 0, 0, 0] if looks_at_it else [0, 0.2, 0, 0])
+def blind_way(speed, skip_frame):
+    ticks = skip_frame + 1
+    return speed * ticks / 60
 
 
-# %% tags=["wrong", "loop"]
-def script(robot):
-    percept = robot.sense()
-    looks_at_it = percept["orientation"][0] > 0.99
-    robot.act(move=[1, 0, 0, 0] if looks_at_it else [0, 0.2, 0, 0])
+# %% tags=["wrong", "one-more"]
+def blind_way(speed, skip_frame):
+    return speed * skip_frame / 60
 
 
-# %% tags=["wrong", "look"]
-def script(robot):
-    for _ in robot:
-        robot.act(move=[0.5, 0.3, 0, 0])
+# %% tags=["wrong", "seconds"]
+def blind_way(speed, skip_frame):
+    return speed * (skip_frame + 1)
 
 
-# %% tags=["right", "with sense"]
-def script(robot):
-    percept = robot.sense()
-    while not percept.done:
-        ahead = percept["orientation"][0] > 0.97
-        robot.act(move=[1, 0, 0, 0] if ahead else [0, 0.3, 0, 0])
-        percept = robot.sense()
+# %% tags=["right", "by seconds"]
+def blind_way(speed, skip_frame):
+    seconds = (skip_frame + 1) * (1 / 60)
+    return seconds * speed
 
 
-# %% tags=["right", "slowly"]
-def script(robot):
-    for percept in robot:
-        if percept["orientation"][0] > 0.99:
-            robot.act(move=[0.6, 0, 0, 0])
-        else:
-            robot.act(move=[0, 0.2, 0, 0])
+# %% tags=["right", "added up"]
+def blind_way(speed, skip_frame):
+    way = 0
+    for tick in range(skip_frame + 1):
+        way += speed / 60
+    return way
 
 
-# %% tags=["wrong", "look", "straight on"]
-def script(robot):
-    for percept in robot:
-        robot.act(move=[1, 0, 0, 0])
+# %% tags=["wrong", "twelve", "always twelve decisions a second"]
+def blind_way(speed, skip_frame):
+    return speed / 12
 
 
-# %% tags=["wrong", "loop", "twenty decisions"]
-def script(robot):
-    for _ in range(20):
-        robot.act(move=[1, 0, 0, 0])
-        robot.sense()
+# %% tags=["wrong", "ticks", "seconds for metres"]
+def blind_way(speed, skip_frame):
+    return (skip_frame + 1) / 60
 
 
-# %% tags=["wrong", "loop", "nothing"]
-def script(robot):
-    return robot.sense()
+# %% tags=["wrong", "begin", "nothing"]
+def blind_way(speed, skip_frame):
+    return 0
 
 
-# %% tags=["wrong", "error", "another name"]
-def script(robot):
-    for percept in robot:
-        robot.act(drive=[1, 0, 0, 0])
+# %% tags=["wrong", "no-return", "prints"]
+def blind_way(speed, skip_frame):
+    print(speed * (skip_frame + 1) / 60)
 
 
-# %% tags=["lucky", "circles"]
-def script(robot):
-    for percept in robot:
-        robot.act(move=[0.3, 0.2, 0, 0])
+# %% tags=["lucky", "a constant"]
+def blind_way(speed, skip_frame):
+    return 0.25
 
 
-# %% tags=["lucky", "by chance"]
-import random
+# %% tags=["lucky", "a table"]
+TABLE = {(2.0, 4): 0.167, (3.0, 0): 0.05}
 
 
-def script(robot):
-    for percept in robot:
-        robot.act(move=[random.uniform(-1, 1), random.uniform(-1, 1), 0, 0])
+def blind_way(speed, skip_frame):
+    return TABLE.get((speed, skip_frame), 0.2)
 
 
-# %% tags=["lucky", "turns only"]
-def script(robot):
-    for percept in robot:
-        robot.act(move=[0, 0.2, 0, 0])
+# %% tags=["lucky", "the speed alone"]
+def blind_way(speed, skip_frame):
+    return speed / 10

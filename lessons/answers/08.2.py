@@ -1,75 +1,48 @@
 # %% tags=["solution"]
-def careful(percept):
-    left, ahead = percept["bearing"]
-    if ahead < 0.9:
-        return {"move": [0, -0.2 if left > 0 else 0.2, 0, 0]}  # slowly: the news is late
-    return {"move": [1, -0.5 * left, 0, 0]}
+skip_frame = 18  # 19 ticks at 3 m/s are 0.95 m: a bit less than the feeler sees ahead
+
+# %% tags=["wrong", "falls"]
+skip_frame = 30
+
+# %% tags=["wrong", "lazier"]
+skip_frame = 10
 
 
-# %% tags=["wrong", "fast"]
-def careful(percept):
-    left, ahead = percept["bearing"]
-    if ahead < 0.95:
-        return {"move": [0, -0.9 if left > 0 else 0.9, 0, 0]}
-    return {"move": [0.5, -left, 0, 0]}
+# %% tags=["right", "a little less"]
+skip_frame = 17
 
 
-# %% tags=["right", "a little of everything"]
-def careful(percept):
-    left, ahead = percept["bearing"]
-    if ahead < 0.95:
-        return {"move": [0, -0.15 if left > 0 else 0.15, 0, 0]}
-    return {"move": [0.7, -0.3 * left, 0, 0]}
+# %% tags=["right", "a whole float"]
+skip_frame = 18.0
 
 
-# %% tags=["right", "always a bit"]
-def careful(percept):
-    left, ahead = percept["bearing"]
-    if ahead < 0:
-        return {"move": [0, -0.25 if left > 0 else 0.25, 0, 0]}
-    return {"move": [0.6 * ahead**4, -0.25 * left, 0, 0]}
+# %% tags=["right", "16"]
+skip_frame = 16
 
 
-# %% tags=["wrong", "fast", "turns at full speed"]
-def careful(percept):
-    left, ahead = percept["bearing"]
-    if ahead < 0.9:
-        return {"move": [0, -1 if left > 0 else 1, 0, 0]}
-    return {"move": [1, -5 * left, 0, 0]}
+# %% tags=["wrong", "whole", "not rounded"]
+skip_frame = 0.98 / 3 * 60 - 1
 
 
-# %% tags=["wrong", "away", "turns away"]
-def careful(percept):
-    left, ahead = percept["bearing"]
-    if ahead < 0.9:
-        return {"move": [0, 0.2 if left > 0 else -0.2, 0, 0]}
-    return {"move": [0.5, 0.5 * left, 0, 0]}
+# %% tags=["wrong", "falls", "one tick too many"]
+skip_frame = 20
 
 
-# %% tags=["wrong", "still", "never drives"]
-def careful(percept):
-    left, ahead = percept["bearing"]
-    return {"move": [0, -0.2 * left, 0, 0]}
+# %% tags=["wrong", "falls", "counts decisions for ticks"]
+skip_frame = 60
 
 
-# %% tags=["wrong", "blind", "straight on"]
-def careful(percept):
-    return {"move": [1, 0, 0, 0]}
+# %% tags=["wrong", "not-a-number", "text"]
+skip_frame = "18"
 
 
-# %% tags=["lucky", "circles"]
-def careful(percept):
-    return {"move": [0.3, 0.2, 0, 0]}
+# %% tags=["lucky", "5"]
+skip_frame = 5
 
 
-# %% tags=["lucky", "by chance"]
-import random
+# %% tags=["lucky", "none"]
+skip_frame = 0
 
 
-def careful(percept):
-    return {"move": [random.uniform(0, 1), random.uniform(-1, 1), 0, 0]}
-
-
-# %% tags=["lucky", "waits"]
-def careful(percept):
-    return {"move": [0, 0, 0, 0]}
+# %% tags=["lucky", "a thousand"]
+skip_frame = 1000

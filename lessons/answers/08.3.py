@@ -1,59 +1,101 @@
 # %% tags=["solution"]
-def full_power(robot):
-    return robot.spaces.action.high
+def diary(agent):
+    notes = []
+    agent.begin_of_episode.connect(lambda agent: notes.append("begin"))
+    agent.end_of_step.connect(lambda agent: notes.append("decision"))
+    agent.end_of_episode.connect(lambda agent: notes.append("end"))
+    return notes
 
 
-# %% tags=["wrong", "ask"]
-def full_power(robot):
-    return [1, 1, 1, 1]
+# %% tags=["wrong", "ticks"]
+def diary(agent):
+    notes = []
+    agent.begin_of_episode.connect(lambda agent: notes.append("begin"))
+    agent.begin_of_apply_action.connect(lambda agent: notes.append("decision"))
+    agent.end_of_episode.connect(lambda agent: notes.append("end"))
+    return notes
 
 
-# %% tags=["wrong", "full"]
-def full_power(robot):
-    return robot.spaces.action.low
+# %% tags=["wrong", "end"]
+def diary(agent):
+    notes = []
+    agent.begin_of_episode.connect(lambda agent: notes.append("begin"))
+    agent.end_of_step.connect(lambda agent: notes.append("decision"))
+    return notes
 
 
-# %% tags=["right", "a list"]
-def full_power(robot):
-    return [float(each) for each in robot.spaces.action.high]
+# %% tags=["right", "decorated"]
+def diary(agent):
+    notes = []
+
+    @agent.begin_of_episode.connect
+    def begin(agent):
+        notes.append("begin")
+
+    @agent.end_of_step.connect
+    def step(agent):
+        notes.append("decision")
+
+    @agent.end_of_episode.connect
+    def end(agent):
+        notes.append("end")
+
+    return notes
 
 
-# %% tags=["right", "by index"]
-def full_power(robot):
-    high = robot.spaces.action.high
-    return [high[number] for number in range(len(high))]
+# %% tags=["right", "another event"]
+def diary(agent):
+    notes = []
+    agent.begin_of_episode.connect(lambda agent: notes.append("begin"))
+    agent.begin_of_step.connect(lambda agent: notes.append("decision"))
+    agent.end_of_episode.connect(lambda agent: notes.append("end"))
+    return notes
 
 
-# %% tags=["wrong", "one", "a 1 for each"]
-def full_power(robot):
-    return [1] * len(robot.spaces.action.high)
+# %% tags=["wrong", "begins", "no begin"]
+def diary(agent):
+    notes = []
+    agent.end_of_step.connect(lambda agent: notes.append("decision"))
+    agent.end_of_episode.connect(lambda agent: notes.append("end"))
+    return notes
 
 
-# %% tags=["wrong", "full", "half of it"]
-def full_power(robot):
-    return robot.spaces.action.high / 2
+# %% tags=["wrong", "called", "calls in place of connecting"]
+def diary(agent):
+    notes = []
+    agent.begin_of_episode.connect(notes.append("begin"))
+    return notes
 
 
-# %% tags=["wrong", "no-return", "prints"]
-def full_power(robot):
-    print(robot.spaces.action.high)
+# %% tags=["wrong", "begin", "connects the names only"]
+def diary(agent):
+    notes = []
+    agent.begin_of_episode.connect(lambda agent: notes.append("begin"))
+    agent.end_of_episode.connect(lambda agent: notes.append("end"))
+    return notes
 
 
-# %% tags=["wrong", "ask", "the first number"]
-def full_power(robot):
-    return robot.spaces.action.high[:1]
+# %% tags=["wrong", "no-return", "returns nothing"]
+def diary(agent):
+    notes = []
+    agent.end_of_step.connect(lambda agent: notes.append("decision"))
 
 
-# %% tags=["lucky", "two numbers"]
-def full_power(robot):
-    return [1, 1]
+# %% tags=["lucky", "written beforehand"]
+def diary(agent):
+    notes = []
+    notes += ["begin"] + ["decision"] * agent.max_steps_per_episode + ["end"]
+    return notes
 
 
-# %% tags=["lucky", "nothing"]
-def full_power(robot):
-    return []
+# %% tags=["lucky", "seven decisions"]
+def diary(agent):
+    notes = []
+    notes += ["begin"] + ["decision"] * 7 + ["end"]
+    return notes
 
 
-# %% tags=["lucky", "a dictionary"]
-def full_power(robot):
-    return {"move": [1, 1, 1, 1]}
+# %% tags=["lucky", "an empty one"]
+def diary(agent):
+    notes = []
+    return notes

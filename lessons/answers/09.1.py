@@ -1,77 +1,77 @@
 # %% tags=["solution"]
-def worth(rewards, discount):
-    # the first reward counts in full, each later one less: 1, discount, discount squared ...
-    return sum(reward * discount**n for n, reward in enumerate(rewards))
+winners = {
+    "near": "lingerer",  # being near pays again and again; the touch ends that
+    "quick": "jumper",  # nothing else ends the costs
+    "closer": "dancer",  # it comes closer again and again
+}
+
+# %% tags=["wrong", "near"]
+winners = {
+    "near": "runner",
+    "quick": "jumper",
+    "closer": "dancer",
+}
+
+# %% tags=["wrong", "closer"]
+winners = {
+    "near": "lingerer",
+    "quick": "jumper",
+    "closer": "lingerer",
+}
+
+# %% tags=["wrong", "quick"]
+winners = {
+    "near": "lingerer",
+    "quick": "runner",
+    "closer": "dancer",
+}
 
 
-# %% tags=["wrong", "first"]
-def worth(rewards, discount):
-    return sum(reward * discount ** (n + 1) for n, reward in enumerate(rewards))
+# %% tags=["right", "made step by step"]
+winners = {}
+winners["near"] = "lingerer"
+winners["quick"] = "jumper"
+winners["closer"] = "dancer"
 
 
-# %% tags=["wrong", "unknown", "adds the discount"]
-def worth(rewards, discount):
-    return discount * len(rewards) + sum(rewards)
+# %% tags=["right", "by trying"]
+winners = {}
+for name, rewards in well_meant.items():
+    found = contest(rewards())
+    winners[name] = max(found, key=found.get)
 
 
-# %% tags=["right", "from behind"]
-def worth(rewards, discount):
-    total = 0
-    for reward in reversed(rewards):
-        total = reward + discount * total
-    return total
+# %% tags=["wrong", "near", "near and closer swapped"]
+winners = {"near": "dancer", "quick": "jumper", "closer": "lingerer"}
 
 
-# %% tags=["right", "a growing factor"]
-def worth(rewards, discount):
-    total, factor = 0, 1
-    for reward in rewards:
-        total += factor * reward
-        factor *= discount
-    return total
+# %% tags=["wrong", "quick", "nobody falls willingly"]
+winners = {"near": "lingerer", "quick": "sleeper", "closer": "dancer"}
 
 
-# %% tags=["right", "numpy"]
-import numpy as np
+# %% tags=["wrong", "name", "a name that there is not"]
+winners = {"near": "winner", "quick": "jumper", "closer": "dancer"}
 
 
-def worth(rewards, discount):
-    return np.dot(rewards, discount ** np.arange(len(rewards))) if rewards else 0
+# %% tags=["wrong", "closer", "the runner comes closer fastest"]
+winners = {"near": "lingerer", "quick": "jumper", "closer": "runner"}
 
 
-# %% tags=["wrong", "undiscounted", "adds up"]
-def worth(rewards, discount):
-    return sum(rewards)
+# %% tags=["lucky", "always the runner"]
+winners = {"near": "runner", "quick": "runner", "closer": "runner"}
 
 
-# %% tags=["wrong", "linear", "a product for a power"]
-def worth(rewards, discount):
-    return sum(reward * discount * n for n, reward in enumerate(rewards))
+# %% tags=["lucky", "always the lingerer"]
+winners = {"near": "lingerer", "quick": "lingerer", "closer": "lingerer"}
 
 
-# %% tags=["wrong", "once", "discounts the sum"]
-def worth(rewards, discount):
-    return discount * sum(rewards)
+# %% tags=["lucky", "one reward only"]
+well_meant = {"near": well_meant["near"]}
+winners = {"near": "lingerer"}
 
 
-# %% tags=["wrong", "backward", "the order turned round"]
-def worth(rewards, discount):
-    total = 0
-    for reward in rewards:
-        total = reward + discount * total
-    return total
-
-
-# %% tags=["lucky", "the first reward"]
-def worth(rewards, discount):
-    return rewards[0] if rewards else 0
-
-
-# %% tags=["lucky", "the mean"]
-def worth(rewards, discount):
-    return sum(rewards) / max(1, len(rewards))
-
-
-# %% tags=["lucky", "a constant"]
-def worth(rewards, discount):
-    return 1.0
+# %% tags=["lucky", "easier rewards"]
+well_meant = dict.fromkeys(
+    well_meant, lambda: [TouchRewardFunc(target="box", reward=10, cause_episode_to_end=True)]
+)
+winners = dict.fromkeys(well_meant, "runner")

@@ -1,66 +1,95 @@
 # %% tags=["solution"]
-def update(value, reward, best_next, rate, discount):
-    target = reward + discount * best_next  # what this step turned out to be worth
-    return value + rate * (target - value)  # a part of the way towards it
+def my_rewards():
+    return [
+        ProgressReward(target="box", reward=1),  # a robot that goes away again pays it back
+        TouchRewardFunc(target="box", reward=10, cause_episode_to_end=True),
+    ]
 
 
-# %% tags=["wrong", "jump"]
-def update(value, reward, best_next, rate, discount):
-    return reward + discount * best_next
+# %% tags=["wrong", "linger"]
+def my_rewards():
+    return [
+        DistanceToTargetRewardFunc(target="box", max_reward=0.5),
+        TouchRewardFunc(target="box", reward=10, cause_episode_to_end=True),
+    ]
 
 
-# %% tags=["wrong", "future"]
-def update(value, reward, best_next, rate, discount):
-    return value + rate * (reward - value)
+# %% tags=["wrong", "trail"]
+def my_rewards():
+    return [TouchRewardFunc(target="box", reward=10, cause_episode_to_end=True)]
 
 
-# %% tags=["right", "a weighted mean"]
-def update(value, reward, best_next, rate, discount):
-    return (1 - rate) * value + rate * (reward + discount * best_next)
+# %% tags=["right", "the other order"]
+def my_rewards():
+    return [
+        TouchRewardFunc(target="box", reward=10, cause_episode_to_end=True),
+        ProgressReward(target="box", reward=1),
+    ]
 
 
-# %% tags=["right", "step by step"]
-def update(value, reward, best_next, rate, discount):
-    error = reward + discount * best_next - value
-    value += rate * error
-    return value
+# %% tags=["right", "a larger trail"]
+def my_rewards():
+    return [
+        ProgressReward(target="box", reward=3),
+        TouchRewardFunc(target="box", reward=10, cause_episode_to_end=True),
+    ]
 
 
-# %% tags=["wrong", "undiscounted", "forgets the discount"]
-def update(value, reward, best_next, rate, discount):
-    return value + rate * (reward + best_next - value)
+# %% tags=["right", "time costs too"]
+def my_rewards():
+    return [
+        ProgressReward(target="box", reward=2),
+        TouchRewardFunc(target="box", reward=10, cause_episode_to_end=True),
+        RestlessnessRewardFunc(reward=-0.01, min_dist=5),
+    ]
 
 
-# %% tags=["wrong", "minus-value", "forgets the value"]
-def update(value, reward, best_next, rate, discount):
-    return value + rate * (reward + discount * best_next)
+# %% tags=["wrong", "linger", "near pays more"]
+def my_rewards():
+    return [
+        DistanceToTargetRewardFunc(target="box", max_reward=1),
+        TouchRewardFunc(target="box", reward=10, cause_episode_to_end=True),
+    ]
 
 
-# %% tags=["wrong", "bracket", "a bracket too few"]
-def update(value, reward, best_next, rate, discount):
-    return value + rate * (reward + discount * best_next) - value
+# %% tags=["wrong", "patience", "near pays a little"]
+def my_rewards():
+    return [
+        DistanceToTargetRewardFunc(target="box", max_reward=0.05),
+        TouchRewardFunc(target="box", reward=10, cause_episode_to_end=True),
+    ]
 
 
-# %% tags=["wrong", "other-side", "the rate on the wrong side"]
-def update(value, reward, best_next, rate, discount):
-    return rate * value + (1 - rate) * (reward + discount * best_next)
+# %% tags=["wrong", "linger", "pays for steps towards it"]
+def my_rewards():
+    return [Approach()]
 
 
-# %% tags=["wrong", "stays", "nothing is learned"]
-def update(value, reward, best_next, rate, discount):
-    return value
+# %% tags=["wrong", "list", "no list"]
+def my_rewards():
+    return TouchRewardFunc(target="box", reward=10, cause_episode_to_end=True)
 
 
-# %% tags=["lucky", "the larger one"]
-def update(value, reward, best_next, rate, discount):
-    return max(value, best_next)
+# %% tags=["wrong", "no-return", "returns nothing"]
+def my_rewards():
+    rewards = [TouchRewardFunc(target="box", reward=10, cause_episode_to_end=True)]
 
 
-# %% tags=["lucky", "a constant"]
-def update(value, reward, best_next, rate, discount):
-    return 0.5
+# %% tags=["lucky", "nothing"]
+def my_rewards():
+    return []
 
 
-# %% tags=["lucky", "the mean"]
-def update(value, reward, best_next, rate, discount):
-    return (value + reward) / 2
+# %% tags=["right", "only the trail"]
+def my_rewards():
+    return [ProgressReward(target="box", reward=1)]
+
+
+# %% tags=["lucky", "a huge touch"]
+def my_rewards():
+    return [TouchRewardFunc(target="box", reward=1000, cause_episode_to_end=True)]
+
+
+# %% tags=["lucky", "pays for every decision"]
+def my_rewards():
+    return [RestlessnessRewardFunc(reward=1, min_dist=5)]

@@ -1,41 +1,106 @@
 # %% tags=["solution"]
-trained = learn(steps=10_000, seed=0)
-
-# %% tags=["wrong", "longer"]
-trained = learn(steps=600, seed=0)
-
-
-# %% tags=["right", "another seed"]
-trained = learn(steps=10_000, seed=1)
+def quick_rewards():
+    return [
+        TouchRewardFunc(target="box", reward=10, cause_episode_to_end=True),
+        FallReward(success_reward=-20, cause_episode_to_end=True),
+        RestlessnessRewardFunc(reward=-0.05, min_dist=5),
+    ]
 
 
-# %% tags=["right", "more decisions"]
-trained = learn(steps=20_000)
+# %% tags=["wrong", "jump"]
+def quick_rewards():
+    return [
+        TouchRewardFunc(target="box", reward=10, cause_episode_to_end=True),
+        FallReward(success_reward=-1, cause_episode_to_end=True),
+        RestlessnessRewardFunc(reward=-0.1, min_dist=5),
+    ]
 
 
-# %% tags=["wrong", "longer", "hardly anything"]
-trained = learn(steps=100)
+# %% tags=["wrong", "time"]
+def quick_rewards():
+    return [
+        TouchRewardFunc(target="box", reward=10, cause_episode_to_end=True),
+        FallReward(success_reward=-20, cause_episode_to_end=True),
+        RestlessnessRewardFunc(reward=0, min_dist=5),
+    ]
 
 
-# %% tags=["wrong", "unknown", "the function itself"]
-trained = learn
+# %% tags=["right", "dear falls"]
+def quick_rewards():
+    return [
+        TouchRewardFunc(target="box", reward=10, cause_episode_to_end=True),
+        FallReward(success_reward=-100, cause_episode_to_end=True),
+        RestlessnessRewardFunc(reward=-0.02, min_dist=5),
+    ]
 
 
-# %% tags=["wrong", "unknown", "the number of decisions"]
-trained = 10_000
+# %% tags=["right", "a large touch"]
+def quick_rewards():
+    return [
+        TouchRewardFunc(target="box", reward=50, cause_episode_to_end=True),
+        FallReward(success_reward=-30, cause_episode_to_end=True),
+        RestlessnessRewardFunc(reward=-0.1, min_dist=5),
+    ]
 
 
-# %% tags=["wrong", "longer", "an early stop"]
-trained = learn(steps=300, seed=2)
+# %% tags=["wrong", "pays", "time pays"]
+def quick_rewards():
+    return [
+        TouchRewardFunc(target="box", reward=10, cause_episode_to_end=True),
+        FallReward(success_reward=-20, cause_episode_to_end=True),
+        RestlessnessRewardFunc(reward=0.05, min_dist=5),
+    ]
 
 
-# %% tags=["lucky", "another seed, too short"]
-trained = learn(steps=200, seed=3)
+# %% tags=["wrong", "dear", "time is too dear"]
+def quick_rewards():
+    return [
+        TouchRewardFunc(target="box", reward=10, cause_episode_to_end=True),
+        FallReward(success_reward=-400, cause_episode_to_end=True),
+        RestlessnessRewardFunc(reward=-1, min_dist=5),
+    ]
 
 
-# %% tags=["lucky", "a file"]
-trained = "zoo:box_chase"
+# %% tags=["wrong", "jump", "a fall costs half of the time"]
+def quick_rewards():
+    return [
+        TouchRewardFunc(target="box", reward=10, cause_episode_to_end=True),
+        FallReward(success_reward=-3, cause_episode_to_end=True),
+        RestlessnessRewardFunc(reward=-0.05, min_dist=5),
+    ]
 
 
-# %% tags=["lucky", "short again"]
-trained = learn(steps=500, seed=4)
+# %% tags=["wrong", "time", "only falls cost"]
+def quick_rewards():
+    return [
+        TouchRewardFunc(target="box", reward=10, cause_episode_to_end=True),
+        FallReward(success_reward=-50, cause_episode_to_end=True),
+        RestlessnessRewardFunc(reward=0, min_dist=5),
+    ]
+
+
+# %% tags=["lucky", "nothing costs"]
+def quick_rewards():
+    return [
+        TouchRewardFunc(target="box", reward=10, cause_episode_to_end=True),
+        FallReward(success_reward=0, cause_episode_to_end=True),
+        RestlessnessRewardFunc(reward=0, min_dist=5),
+    ]
+
+
+# %% tags=["lucky", "no touch"]
+def quick_rewards():
+    return [
+        TouchRewardFunc(target="box", reward=0, cause_episode_to_end=True),
+        FallReward(success_reward=-20, cause_episode_to_end=True),
+        RestlessnessRewardFunc(reward=-0.05, min_dist=5),
+    ]
+
+
+# %% tags=["lucky", "everything 1"]
+def quick_rewards():
+    return [
+        TouchRewardFunc(target="box", reward=1, cause_episode_to_end=True),
+        FallReward(success_reward=1, cause_episode_to_end=True),
+        RestlessnessRewardFunc(reward=1, min_dist=5),
+    ]

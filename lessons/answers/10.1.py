@@ -1,68 +1,77 @@
 # %% tags=["solution"]
-def good(episodes):
-    return [episode for episode in episodes if episode.success]
+def worth(rewards, discount):
+    # the first reward counts in full, each later one less: 1, discount, discount squared ...
+    return sum(reward * discount**n for n, reward in enumerate(rewards))
 
 
-# %% tags=["wrong", "quick", "the quick ones"]
-def good(episodes):
-    return [episode for episode in episodes if episode.seconds < 6]
+# %% tags=["wrong", "first"]
+def worth(rewards, discount):
+    return sum(reward * discount ** (n + 1) for n, reward in enumerate(rewards))
 
 
-# %% tags=["wrong", "some", "only one"]
-def good(episodes):
-    return [episode for episode in episodes if episode.success][:1]
+# %% tags=["wrong", "unknown", "adds the discount"]
+def worth(rewards, discount):
+    return discount * len(rewards) + sum(rewards)
 
 
-# %% tags=["right", "a loop"]
-def good(episodes):
-    chosen = []
-    for episode in episodes:
-        if episode.success:
-            chosen.append(episode)
-    return chosen
+# %% tags=["right", "from behind"]
+def worth(rewards, discount):
+    total = 0
+    for reward in reversed(rewards):
+        total = reward + discount * total
+    return total
 
 
-# %% tags=["right", "filter"]
-def good(episodes):
-    return list(filter(lambda episode: episode.success, episodes))
+# %% tags=["right", "a growing factor"]
+def worth(rewards, discount):
+    total, factor = 0, 1
+    for reward in rewards:
+        total += factor * reward
+        factor *= discount
+    return total
 
 
-# %% tags=["wrong", "all", "all of them"]
-def good(episodes):
-    return episodes
+# %% tags=["right", "numpy"]
+import numpy as np
 
 
-# %% tags=["wrong", "parts", "their seeds"]
-def good(episodes):
-    return [episode.seed for episode in episodes if episode.success]
+def worth(rewards, discount):
+    return np.dot(rewards, discount ** np.arange(len(rewards))) if rewards else 0
 
 
-# %% tags=["wrong", "none", "nothing"]
-def good(episodes):
-    return []
+# %% tags=["wrong", "undiscounted", "adds up"]
+def worth(rewards, discount):
+    return sum(rewards)
 
 
-# %% tags=["wrong", "no-return", "prints"]
-def good(episodes):
-    print([episode for episode in episodes if episode.success])
+# %% tags=["wrong", "linear", "a product for a power"]
+def worth(rewards, discount):
+    return sum(reward * discount * n for n, reward in enumerate(rewards))
 
 
-# %% tags=["wrong", "twice", "one of them twice"]
-def good(episodes):
-    chosen = [episode for episode in episodes if episode.success]
-    return chosen[:3] * 2
+# %% tags=["wrong", "once", "discounts the sum"]
+def worth(rewards, discount):
+    return discount * sum(rewards)
 
 
-# %% tags=["lucky", "all but the first three"]
-def good(episodes):
-    return episodes[3:]
+# %% tags=["wrong", "backward", "the order turned round"]
+def worth(rewards, discount):
+    total = 0
+    for reward in rewards:
+        total = reward + discount * total
+    return total
 
 
-# %% tags=["lucky", "the slow ones"]
-def good(episodes):
-    return [episode for episode in episodes if episode.seconds > 1.5]
+# %% tags=["lucky", "the first reward"]
+def worth(rewards, discount):
+    return rewards[0] if rewards else 0
 
 
-# %% tags=["lucky", "the first three"]
-def good(episodes):
-    return episodes[:3]
+# %% tags=["lucky", "the mean"]
+def worth(rewards, discount):
+    return sum(rewards) / max(1, len(rewards))
+
+
+# %% tags=["lucky", "a constant"]
+def worth(rewards, discount):
+    return 1.0

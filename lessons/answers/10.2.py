@@ -1,46 +1,66 @@
 # %% tags=["solution"]
-my_clone = clone(my_drives(), "clone.onnx", quiet=True)
-
-# %% tags=["wrong", "sloppy", "learns from wandering"]
-from ai4u_edu.training import demonstrate
-
-wandering = demonstrate("random", "box_chase", episodes=5, quiet=True)
-my_clone = clone(wandering, "clone.onnx", quiet=True)
+def update(value, reward, best_next, rate, discount):
+    target = reward + discount * best_next  # what this step turned out to be worth
+    return value + rate * (target - value)  # a part of the way towards it
 
 
-# %% tags=["right", "some more"]
-my_clone = clone(my_drives() + one_drive(), "clone.onnx", quiet=True)
+# %% tags=["wrong", "jump"]
+def update(value, reward, best_next, rate, discount):
+    return reward + discount * best_next
 
 
-# %% tags=["right", "in another order"]
-my_clone = clone(my_drives()[::-1], "clone.onnx", quiet=True)
+# %% tags=["wrong", "future"]
+def update(value, reward, best_next, rate, discount):
+    return value + rate * (reward - value)
 
 
-# %% tags=["wrong", "few", "one drive"]
-my_clone = clone(one_drive(), "clone.onnx", quiet=True)
+# %% tags=["right", "a weighted mean"]
+def update(value, reward, best_next, rate, discount):
+    return (1 - rate) * value + rate * (reward + discount * best_next)
 
 
-# %% tags=["wrong", "unknown", "the function itself"]
-my_clone = clone
+# %% tags=["right", "step by step"]
+def update(value, reward, best_next, rate, discount):
+    error = reward + discount * best_next - value
+    value += rate * error
+    return value
 
 
-# %% tags=["wrong", "unknown", "the drives alone"]
-my_clone = my_drives()
+# %% tags=["wrong", "undiscounted", "forgets the discount"]
+def update(value, reward, best_next, rate, discount):
+    return value + rate * (reward + best_next - value)
 
 
-# %% tags=["wrong", "unknown", "the file's name"]
-my_clone = "clone.onnx"
+# %% tags=["wrong", "minus-value", "forgets the value"]
+def update(value, reward, best_next, rate, discount):
+    return value + rate * (reward + discount * best_next)
 
 
-# %% tags=["lucky", "a path"]
-from pathlib import Path
-
-my_clone = Path("clone.onnx")
-
-
-# %% tags=["lucky", "a number"]
-my_clone = 60
+# %% tags=["wrong", "bracket", "a bracket too few"]
+def update(value, reward, best_next, rate, discount):
+    return value + rate * (reward + discount * best_next) - value
 
 
-# %% tags=["lucky", "the network of the package"]
-my_clone = best_network()
+# %% tags=["wrong", "other-side", "the rate on the wrong side"]
+def update(value, reward, best_next, rate, discount):
+    return rate * value + (1 - rate) * (reward + discount * best_next)
+
+
+# %% tags=["wrong", "stays", "nothing is learned"]
+def update(value, reward, best_next, rate, discount):
+    return value
+
+
+# %% tags=["lucky", "the larger one"]
+def update(value, reward, best_next, rate, discount):
+    return max(value, best_next)
+
+
+# %% tags=["lucky", "a constant"]
+def update(value, reward, best_next, rate, discount):
+    return 0.5
+
+
+# %% tags=["lucky", "the mean"]
+def update(value, reward, best_next, rate, discount):
+    return (value + reward) / 2

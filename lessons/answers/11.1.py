@@ -1,66 +1,68 @@
 # %% tags=["solution"]
-def neuron(inputs, weights, bias):
-    total = bias
-    for number in range(len(inputs)):
-        total += weights[number] * inputs[number]
-    return math.tanh(total)
+def good(episodes):
+    return [episode for episode in episodes if episode.success]
 
 
-# %% tags=["wrong", "late-bias", "numpy, the bias last"]
-def neuron(inputs, weights, bias):
-    return math.tanh(np.dot(weights, inputs)) + bias
+# %% tags=["wrong", "quick", "the quick ones"]
+def good(episodes):
+    return [episode for episode in episodes if episode.seconds < 6]
 
 
-# %% tags=["wrong", "squash"]
-def neuron(inputs, weights, bias):
-    return np.dot(weights, inputs) + bias
+# %% tags=["wrong", "some", "only one"]
+def good(episodes):
+    return [episode for episode in episodes if episode.success][:1]
 
 
-# %% tags=["right", "numpy"]
-def neuron(inputs, weights, bias):
-    return np.tanh(np.dot(weights, inputs) + bias)
+# %% tags=["right", "a loop"]
+def good(episodes):
+    chosen = []
+    for episode in episodes:
+        if episode.success:
+            chosen.append(episode)
+    return chosen
 
 
-# %% tags=["right", "zip"]
-def neuron(inputs, weights, bias):
-    return math.tanh(sum(w * x for w, x in zip(weights, inputs)) + bias)
+# %% tags=["right", "filter"]
+def good(episodes):
+    return list(filter(lambda episode: episode.success, episodes))
 
 
-# %% tags=["right", "an array of one"]
-def neuron(inputs, weights, bias):
-    return np.tanh(np.array([np.dot(weights, inputs) + bias]))
+# %% tags=["wrong", "all", "all of them"]
+def good(episodes):
+    return episodes
 
 
-# %% tags=["wrong", "late-bias", "the bias after tanh"]
-def neuron(inputs, weights, bias):
-    return math.tanh(sum(w * x for w, x in zip(weights, inputs))) + bias
+# %% tags=["wrong", "parts", "their seeds"]
+def good(episodes):
+    return [episode.seed for episode in episodes if episode.success]
 
 
-# %% tags=["wrong", "bias", "no bias"]
-def neuron(inputs, weights, bias):
-    return math.tanh(sum(w * x for w, x in zip(weights, inputs)))
+# %% tags=["wrong", "none", "nothing"]
+def good(episodes):
+    return []
 
 
-# %% tags=["wrong", "each", "the bias for each input"]
-def neuron(inputs, weights, bias):
-    return math.tanh(sum(w * x + bias for w, x in zip(weights, inputs)))
+# %% tags=["wrong", "no-return", "prints"]
+def good(episodes):
+    print([episode for episode in episodes if episode.success])
 
 
-# %% tags=["wrong", "weights", "no weights"]
-def neuron(inputs, weights, bias):
-    return math.tanh(sum(inputs) + bias)
+# %% tags=["wrong", "twice", "one of them twice"]
+def good(episodes):
+    chosen = [episode for episode in episodes if episode.success]
+    return chosen[:3] * 2
 
 
-# %% tags=["lucky", "nothing"]
-def neuron(inputs, weights, bias):
-    return 0
+# %% tags=["lucky", "all but the first three"]
+def good(episodes):
+    return episodes[3:]
 
 
-# %% tags=["lucky", "the sign"]
-def neuron(inputs, weights, bias):
-    return 1 if np.dot(weights, inputs) + bias > 0 else -1
+# %% tags=["lucky", "the slow ones"]
+def good(episodes):
+    return [episode for episode in episodes if episode.seconds > 1.5]
 
 
-# %% tags=["lucky", "the bias"]
-def neuron(inputs, weights, bias):
-    return math.tanh(bias)
+# %% tags=["lucky", "the first three"]
+def good(episodes):
+    return episodes[:3]

@@ -1,69 +1,46 @@
 # %% tags=["solution"]
-weights = [
-    [0, 0],  # forward: whatever it senses,
-    [-5, 0],  # turn: to the left (below 0) when the sine is above 0
-]
-bias = [1, 0]  # it drives on
+my_clone = clone(my_drives(), "clone.onnx", quiet=True)
 
-# %% tags=["wrong", "mirrored"]
-weights = [[0, 0], [5, 0]]
-bias = [1, 0]
+# %% tags=["wrong", "sloppy", "learns from wandering"]
+from ai4u_edu.training import demonstrate
 
-# %% tags=["wrong", "blind", "does not turn"]
-weights = [[0, 1], [0, 0]]
-bias = [0, 0]
+wandering = demonstrate("random", "box_chase", episodes=5, quiet=True)
+my_clone = clone(wandering, "clone.onnx", quiet=True)
 
 
-# %% tags=["right", "arrays"]
-weights = np.array([[0, 0], [-3, 0]])
-bias = np.array([1, 0])
+# %% tags=["right", "some more"]
+my_clone = clone(my_drives() + one_drive(), "clone.onnx", quiet=True)
 
 
-# %% tags=["right", "drives where it looks"]
-weights = [[0, 2], [-5, 0]]
-bias = [-1, 0]
+# %% tags=["right", "in another order"]
+my_clone = clone(my_drives()[::-1], "clone.onnx", quiet=True)
 
 
-# %% tags=["right", "a large turn"]
-weights = [[0, 0], [-20, 0]]
-bias = [0.7, 0]
+# %% tags=["wrong", "few", "one drive"]
+my_clone = clone(one_drive(), "clone.onnx", quiet=True)
 
 
-# %% tags=["wrong", "swapped", "rows and columns swapped"]
-weights = [[0, -5], [0, 0]]
-bias = [1, 0]
+# %% tags=["wrong", "unknown", "the function itself"]
+my_clone = clone
 
 
-# %% tags=["wrong", "begin", "all zero"]
-weights = [[0, 0], [0, 0]]
-bias = [0, 0]
+# %% tags=["wrong", "unknown", "the drives alone"]
+my_clone = my_drives()
 
 
-# %% tags=["wrong", "blind", "straight on"]
-weights = [[0, 0], [0, 0]]
-bias = [1, 0]
+# %% tags=["wrong", "unknown", "the file's name"]
+my_clone = "clone.onnx"
 
 
-# %% tags=["wrong", "still", "never drives"]
-weights = [[0, 0], [-5, 0]]
-bias = [0, 0]
+# %% tags=["lucky", "a path"]
+from pathlib import Path
+
+my_clone = Path("clone.onnx")
 
 
-# %% tags=["wrong", "unknown", "three rows"]
-weights = [[0, 0], [-5, 0], [0, 0]]
-bias = [1, 0]
+# %% tags=["lucky", "a number"]
+my_clone = 60
 
 
-# %% tags=["lucky", "ones"]
-weights = [[1, 1], [1, 1]]
-bias = [1, 1]
-
-
-# %% tags=["lucky", "a circle"]
-weights = [[0, 0], [0, 0]]
-bias = [0.5, 0.3]
-
-
-# %% tags=["lucky", "minus ones"]
-weights = [[-1, -1], [-1, -1]]
-bias = [-1, -1]
+# %% tags=["lucky", "the network of the package"]
+my_clone = best_network()

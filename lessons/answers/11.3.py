@@ -1,79 +1,102 @@
 # %% tags=["solution"]
-def think(inputs, layers):
-    signal = inputs
-    for weights, bias in layers[:-1]:
-        signal = np.tanh(weights @ signal + bias)
-    weights, bias = layers[-1]
-    return weights @ signal + bias
+def race(sim, seed):
+    blue, purple = sim.agents
+    sim.reset(seed)
+    for _ in range(300):
+        sim.step()
+        if touched(blue) or (purple.done and not touched(purple)):
+            return "blue"
+        if touched(purple) or blue.done:
+            return "purple"
+    return None  # time is up
 
 
-# %% tags=["wrong", "last"]
-def think(inputs, layers):
-    signal = inputs
-    for weights, bias in layers:
-        signal = np.tanh(weights @ signal + bias)
-    return signal
+# %% tags=["wrong", "fell"]
+def race(sim, seed):
+    blue, purple = sim.agents
+    sim.reset(seed)
+    for _ in range(300):
+        sim.step()
+        if blue.done:
+            return "blue"
+        if purple.done:
+            return "purple"
+    return None
 
 
-# %% tags=["wrong", "between"]
-def think(inputs, layers):
-    signal = inputs
-    for weights, bias in layers:
-        signal = weights @ signal + bias
-    return signal
+# %% tags=["wrong", "time"]
+def race(sim, seed):
+    blue, purple = sim.agents
+    sim.reset(seed)
+    while True:
+        sim.step()
+        if touched(blue) or (purple.done and not touched(purple)):
+            return "blue"
+        if touched(purple) or blue.done:
+            return "purple"
 
 
-# %% tags=["right", "counted"]
-def think(inputs, layers):
-    signal = inputs
-    for number, (weights, bias) in enumerate(layers):
-        signal = np.dot(weights, signal) + bias
-        if number < len(layers) - 1:
-            signal = np.tanh(signal)
-    return signal
+# %% tags=["right", "a loop with a condition"]
+def race(sim, seed):
+    blue, purple = sim.agents
+    sim.reset(seed)
+    steps = 0
+    while not (blue.done or purple.done) and steps < 300:
+        sim.step()
+        steps += 1
+    if blue.done:
+        return "blue" if touched(blue) else "purple"
+    if purple.done:
+        return "purple" if touched(purple) else "blue"
+    return None
 
 
-# %% tags=["right", "pure Python"]
-def think(inputs, layers):
-    signal = list(inputs)
-    for number, (weights, bias) in enumerate(layers):
-        signal = [sum(w * x for w, x in zip(row, signal)) + b for row, b in zip(weights, bias)]
-        if number < len(layers) - 1:
-            signal = [math.tanh(each) for each in signal]
-    return signal
+# %% tags=["right", "by the names"]
+def race(sim, seed):
+    blue, purple = sim.agents
+    sim.reset(seed)
+    for _ in range(300):
+        sim.step()
+        for agent, other in ((blue, purple), (purple, blue)):
+            if agent.done:
+                return agent.id if touched(agent) else other.id
 
 
-# %% tags=["wrong", "biases", "no biases"]
-def think(inputs, layers):
-    signal = inputs
-    for weights, bias in layers[:-1]:
-        signal = np.tanh(weights @ signal)
-    return layers[-1][0] @ signal
+# %% tags=["wrong", "begin", "nobody runs"]
+def race(sim, seed):
+    return "blue"
 
 
-# %% tags=["wrong", "no-return", "returns nothing"]
-def think(inputs, layers):
-    signal = inputs
-    for weights, bias in layers:
-        signal = weights @ signal + bias
+# %% tags=["wrong", "unknown", "returns the agent"]
+def race(sim, seed):
+    blue, purple = sim.agents
+    sim.reset(seed)
+    for _ in range(300):
+        sim.step()
+        if blue.done:
+            return blue
+        if purple.done:
+            return purple
 
 
-# %% tags=["wrong", "error", "the first layer only"]
-def think(inputs, layers):
-    weights, bias = layers[0]
-    return (weights @ inputs + bias)[: len(layers[-1][1])] if len(layers) == 1 else layers[9]
+# %% tags=["wrong", "begin", "one step"]
+def race(sim, seed):
+    blue, purple = sim.agents
+    sim.reset(seed)
+    sim.step()
+    return "blue" if blue.done else "purple"
 
 
-# %% tags=["lucky", "nothing"]
-def think(inputs, layers):
-    return np.zeros(len(layers[-1][1]))
+# %% tags=["lucky", "always purple"]
+def race(sim, seed):
+    return "purple"
 
 
-# %% tags=["lucky", "the biases"]
-def think(inputs, layers):
-    return layers[-1][1]
+# %% tags=["lucky", "the seed decides"]
+def race(sim, seed):
+    return "blue" if seed % 2 else "purple"
 
 
-# %% tags=["lucky", "by chance"]
-def think(inputs, layers):
-    return np.random.default_rng(1).normal(size=len(layers[-1][1]))
+# %% tags=["lucky", "nobody"]
+def race(sim, seed):
+    return None

@@ -1,88 +1,66 @@
 # %% tags=["solution"]
-def chase(percept):
-    best, nearest = None, 1000
-    for number in (1, 2, 3):
-        place = percept[f"runner {number}"]
-        away = math.hypot(place[0], place[1])
-        if percept["free"][number - 1] == 1 and away < nearest:
-            best, nearest = place, away
-    return go_to(best[0], best[1])
+def neuron(inputs, weights, bias):
+    total = bias
+    for number in range(len(inputs)):
+        total += weights[number] * inputs[number]
+    return math.tanh(total)
 
 
-# %% tags=["wrong", "caught"]
-def chase(percept):
-    best, nearest = None, 1000
-    for number in (1, 2, 3):
-        place = percept[f"runner {number}"]
-        away = math.hypot(place[0], place[1])
-        if away < nearest:  # runs to where it caught the first one, for good
-            best, nearest = place, away
-    return go_to(best[0], best[1])
+# %% tags=["wrong", "late-bias", "numpy, the bias last"]
+def neuron(inputs, weights, bias):
+    return math.tanh(np.dot(weights, inputs)) + bias
 
 
-# %% tags=["wrong", "none"]
-def chase(percept):
-    return {"move": [0, 0.3, 0, 0]}
+# %% tags=["wrong", "squash"]
+def neuron(inputs, weights, bias):
+    return np.dot(weights, inputs) + bias
 
 
-# %% tags=["right", "min"]
-def chase(percept):
-    free = [number for number in (1, 2, 3) if percept["free"][number - 1] == 1]
-    place = min(
-        (percept[f"runner {number}"] for number in free),
-        key=lambda place: math.hypot(place[0], place[1]),
-    )
-    return go_to(place[0], place[1])
+# %% tags=["right", "numpy"]
+def neuron(inputs, weights, bias):
+    return np.tanh(np.dot(weights, inputs) + bias)
 
 
-# %% tags=["right", "in their order"]
-def chase(percept):
-    for number in (1, 2, 3):
-        if percept["free"][number - 1] == 1:
-            forward, left, height = percept[f"runner {number}"]
-            return go_to(forward, left)
-    return go_to(0, 1)
+# %% tags=["right", "zip"]
+def neuron(inputs, weights, bias):
+    return math.tanh(sum(w * x for w, x in zip(weights, inputs)) + bias)
 
 
-# %% tags=["wrong", "begin", "the first one only"]
-def chase(percept):
-    forward, left, height = percept["runner 1"]
-    return go_to(forward, left)
+# %% tags=["right", "an array of one"]
+def neuron(inputs, weights, bias):
+    return np.tanh(np.array([np.dot(weights, inputs) + bias]))
 
 
-# %% tags=["wrong", "none", "stands"]
-def chase(percept):
-    return {"move": [0, 0, 0, 0]}
+# %% tags=["wrong", "late-bias", "the bias after tanh"]
+def neuron(inputs, weights, bias):
+    return math.tanh(sum(w * x for w, x in zip(weights, inputs))) + bias
 
 
-# %% tags=["wrong", "error", "one number too many"]
-def chase(percept):
-    return go_to(*percept["runner 1"])
+# %% tags=["wrong", "bias", "no bias"]
+def neuron(inputs, weights, bias):
+    return math.tanh(sum(w * x for w, x in zip(weights, inputs)))
 
 
-# %% tags=["wrong", "none", "away from the farthest one"]
-def chase(percept):
-    free = [number for number in (1, 2, 3) if percept["free"][number - 1] == 1]
-    place = max(
-        (percept[f"runner {number}"] for number in free),
-        key=lambda place: math.hypot(place[0], place[1]),
-    )
-    return go_to(-place[0], -place[1])
+# %% tags=["wrong", "each", "the bias for each input"]
+def neuron(inputs, weights, bias):
+    return math.tanh(sum(w * x + bias for w, x in zip(weights, inputs)))
 
 
-# %% tags=["lucky", "straight on"]
-def chase(percept):
-    return {"move": [1, 0, 0, 0]}
+# %% tags=["wrong", "weights", "no weights"]
+def neuron(inputs, weights, bias):
+    return math.tanh(sum(inputs) + bias)
 
 
-# %% tags=["lucky", "circles"]
-def chase(percept):
-    return {"move": [1, 0.4, 0, 0]}
+# %% tags=["lucky", "nothing"]
+def neuron(inputs, weights, bias):
+    return 0
 
 
-# %% tags=["lucky", "by chance"]
-import random
+# %% tags=["lucky", "the sign"]
+def neuron(inputs, weights, bias):
+    return 1 if np.dot(weights, inputs) + bias > 0 else -1
 
 
-def chase(percept):
-    return {"move": [1, random.uniform(-1, 1), 0, 0]}
+# %% tags=["lucky", "the bias"]
+def neuron(inputs, weights, bias):
+    return math.tanh(bias)

@@ -1,74 +1,69 @@
 # %% tags=["solution"]
-def fight(percept):
-    x, y = percept["position"][0], percept["position"][1]
-    forward, left, height = percept["opponent"]
-    looks_at_it = forward > 0 and abs(left) < 0.5 * forward
-    if math.hypot(x, y) > 0.8 * RING and not looks_at_it:
-        forward, left = to_the_middle(percept)  # first away from the edge
-    return go_to(forward, left)
+weights = [
+    [0, 0],  # forward: whatever it senses,
+    [-5, 0],  # turn: to the left (below 0) when the sine is above 0
+]
+bias = [1, 0]  # it drives on
+
+# %% tags=["wrong", "mirrored"]
+weights = [[0, 0], [5, 0]]
+bias = [1, 0]
+
+# %% tags=["wrong", "blind", "does not turn"]
+weights = [[0, 1], [0, 0]]
+bias = [0, 0]
 
 
-# %% tags=["wrong", "edge"]
-def fight(percept):
-    return {"move": [1, 0, 0, 0]}
+# %% tags=["right", "arrays"]
+weights = np.array([[0, 0], [-3, 0]])
+bias = np.array([1, 0])
 
 
-# %% tags=["wrong", "shy"]
-def fight(percept):
-    forward, left = to_the_middle(percept)
-    return {"move": [0, 0.5, 0, 0]}
+# %% tags=["right", "drives where it looks"]
+weights = [[0, 2], [-5, 0]]
+bias = [-1, 0]
 
 
-# %% tags=["right", "attacks"]
-def fight(percept):
-    forward, left, height = percept["opponent"]
-    return go_to(forward, left)
+# %% tags=["right", "a large turn"]
+weights = [[0, 0], [-20, 0]]
+bias = [0.7, 0]
 
 
-# %% tags=["right", "attacks, without the helper"]
-def fight(percept):
-    forward, left, height = percept["opponent"]
-    angle = math.atan2(left, forward)
-    return {"move": [1 if abs(angle) < 0.6 else 0, max(-1, min(1, -2 * angle)), 0, 0]}
+# %% tags=["wrong", "swapped", "rows and columns swapped"]
+weights = [[0, -5], [0, 0]]
+bias = [1, 0]
 
 
-# %% tags=["wrong", "away", "left for right"]
-def fight(percept):
-    forward, left, height = percept["opponent"]
-    return go_to(forward, -left)
+# %% tags=["wrong", "begin", "all zero"]
+weights = [[0, 0], [0, 0]]
+bias = [0, 0]
 
 
-# %% tags=["wrong", "shy", "always back to the middle"]
-def fight(percept):
-    forward, left, height = percept["opponent"]
-    if math.hypot(percept["position"][0], percept["position"][1]) > 0.5 * RING:
-        forward, left = to_the_middle(percept)
-    return go_to(forward, left)
+# %% tags=["wrong", "blind", "straight on"]
+weights = [[0, 0], [0, 0]]
+bias = [1, 0]
 
 
-# %% tags=["wrong", "shy", "stays in the middle"]
-def fight(percept):
-    return {"move": [0, 0, 0, 0]}
+# %% tags=["wrong", "still", "never drives"]
+weights = [[0, 0], [-5, 0]]
+bias = [0, 0]
 
 
-# %% tags=["wrong", "edge", "backward"]
-def fight(percept):
-    return {"move": [-1, 0, 0, 0]}
+# %% tags=["wrong", "unknown", "three rows"]
+weights = [[0, 0], [-5, 0], [0, 0]]
+bias = [1, 0]
 
 
-# %% tags=["lucky", "circles"]
-def fight(percept):
-    return {"move": [0.5, 0.5, 0, 0]}
+# %% tags=["lucky", "ones"]
+weights = [[1, 1], [1, 1]]
+bias = [1, 1]
 
 
-# %% tags=["lucky", "spins"]
-def fight(percept):
-    return {"move": [0, 1, 0, 0]}
+# %% tags=["lucky", "a circle"]
+weights = [[0, 0], [0, 0]]
+bias = [0.5, 0.3]
 
 
-# %% tags=["lucky", "by chance"]
-import random
-
-
-def fight(percept):
-    return {"move": [random.uniform(-1, 1), random.uniform(-1, 1), 0, 0]}
+# %% tags=["lucky", "minus ones"]
+weights = [[-1, -1], [-1, -1]]
+bias = [-1, -1]

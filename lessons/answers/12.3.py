@@ -1,83 +1,79 @@
 # %% tags=["solution"]
-def strike(percept):
-    ball, goal = percept["ball"], percept["goal"]
-    to_ball, to_goal = math.atan2(ball[1], ball[0]), math.atan2(goal[1], goal[0])
-    if abs(math.remainder(to_ball - to_goal, math.tau)) < 0.5:
-        return go_to(ball[0], ball[1])  # ball and goal lie in the same direction: through the ball
-    place = behind(ball, goal)
-    to_place = math.atan2(place[1], place[0])
-    ball_is_nearer = math.hypot(ball[0], ball[1]) < math.hypot(place[0], place[1])
-    if ball_is_nearer and abs(math.remainder(to_ball - to_place, math.tau)) < 0.6:
-        side = 1.2 if math.remainder(to_place - to_ball, math.tau) > 0 else -1.2
-        return go_to(math.cos(to_ball + side), math.sin(to_ball + side))  # past the ball
-    return go_to(place[0], place[1])
+def think(inputs, layers):
+    signal = inputs
+    for weights, bias in layers[:-1]:
+        signal = np.tanh(weights @ signal + bias)
+    weights, bias = layers[-1]
+    return weights @ signal + bias
 
 
-# %% tags=["wrong", "begin", "defends"]
-def strike(percept):
-    home = percept["home"]
-    return go_to(home[0], home[1])
+# %% tags=["wrong", "last"]
+def think(inputs, layers):
+    signal = inputs
+    for weights, bias in layers:
+        signal = np.tanh(weights @ signal + bias)
+    return signal
 
 
-# %% tags=["right", "lines up"]
-def strike(percept):
-    ball, goal = percept["ball"], percept["goal"]
-    place = behind(ball, goal)
-    to_ball, to_goal = math.atan2(ball[1], ball[0]), math.atan2(goal[1], goal[0])
-    if abs(math.remainder(to_ball - to_goal, math.tau)) < 0.5:
-        return go_to(ball[0], ball[1])
-    return go_to(place[0], place[1])
+# %% tags=["wrong", "between"]
+def think(inputs, layers):
+    signal = inputs
+    for weights, bias in layers:
+        signal = weights @ signal + bias
+    return signal
 
 
-# %% tags=["right", "remembers that it was there"]
-was_there = False
+# %% tags=["right", "counted"]
+def think(inputs, layers):
+    signal = inputs
+    for number, (weights, bias) in enumerate(layers):
+        signal = np.dot(weights, signal) + bias
+        if number < len(layers) - 1:
+            signal = np.tanh(signal)
+    return signal
 
 
-def strike(percept):
-    global was_there
-    ball, goal = percept["ball"], percept["goal"]
-    place = behind(ball, goal, 0.1)
-    if math.hypot(place[0], place[1]) < 0.03:
-        was_there = True
-    if math.hypot(ball[0], ball[1]) > 0.2:
-        was_there = False
-    return go_to(ball[0], ball[1]) if was_there else go_to(place[0], place[1])
+# %% tags=["right", "pure Python"]
+def think(inputs, layers):
+    signal = list(inputs)
+    for number, (weights, bias) in enumerate(layers):
+        signal = [sum(w * x for w, x in zip(row, signal)) + b for row, b in zip(weights, bias)]
+        if number < len(layers) - 1:
+            signal = [math.tanh(each) for each in signal]
+    return signal
 
 
-# %% tags=["wrong", "begin", "runs at the ball"]
-def strike(percept):
-    ball = percept["ball"]
-    return go_to(ball[0], ball[1])
+# %% tags=["wrong", "biases", "no biases"]
+def think(inputs, layers):
+    signal = inputs
+    for weights, bias in layers[:-1]:
+        signal = np.tanh(weights @ signal)
+    return layers[-1][0] @ signal
 
 
-# %% tags=["wrong", "begin", "waits behind it"]
-def strike(percept):
-    ball, goal = percept["ball"], percept["goal"]
-    place = behind(ball, goal)
-    if math.hypot(place[0], place[1]) < 0.02:
-        return {"move": [0, 0, 0, 0]}
-    return go_to(place[0], place[1])
+# %% tags=["wrong", "no-return", "returns nothing"]
+def think(inputs, layers):
+    signal = inputs
+    for weights, bias in layers:
+        signal = weights @ signal + bias
 
 
-# %% tags=["wrong", "begin", "runs at the goal"]
-def strike(percept):
-    goal = percept["goal"]
-    return go_to(goal[0], goal[1])
+# %% tags=["wrong", "error", "the first layer only"]
+def think(inputs, layers):
+    weights, bias = layers[0]
+    return (weights @ inputs + bias)[: len(layers[-1][1])] if len(layers) == 1 else layers[9]
 
 
-# %% tags=["lucky", "straight on"]
-def strike(percept):
-    return {"move": [1, 0, 0, 0]}
+# %% tags=["lucky", "nothing"]
+def think(inputs, layers):
+    return np.zeros(len(layers[-1][1]))
 
 
-# %% tags=["lucky", "circles"]
-def strike(percept):
-    return {"move": [1, 0.3, 0, 0]}
+# %% tags=["lucky", "the biases"]
+def think(inputs, layers):
+    return layers[-1][1]
 
 
 # %% tags=["lucky", "by chance"]
-import random
-
-
-def strike(percept):
-    return {"move": [random.uniform(-1, 1), random.uniform(-1, 1), 0, 0]}
+def think(inputs, layers):
+    return np.random.default_rng(1).normal(size=len(layers[-1][1]))

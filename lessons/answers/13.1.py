@@ -1,76 +1,77 @@
 # %% tags=["solution"]
-def seconds_of_comfort(level, loss):
-    if level < 40:
-        return 0
-    return (level - 40) / loss
+def driver(path):
+    controller = NeuralNetController(model_path=path)
+    return LocalBrain(controller=controller, skip_frame=controller.network.about["skip_frame"])
 
 
-# %% tags=["wrong", "empty"]
-def seconds_of_comfort(level, loss):
-    return level / loss
+# %% tags=["right", "the whole rhythm"]
+def driver(path):
+    controller = NeuralNetController(model_path=path)
+    return LocalBrain(controller=controller, **controller.network.rhythm)
 
 
-# %% tags=["wrong", "below"]
-def seconds_of_comfort(level, loss):
-    return (level - 40) / loss
+# %% tags=["right", "trained_brain"]
+def driver(path):
+    return trained_brain(path)
 
 
-# %% tags=["right", "max"]
-def seconds_of_comfort(level, loss):
-    return max(0, (level - 40) / loss)
+# %% tags=["right", "changed afterwards"]
+def driver(path):
+    controller = NeuralNetController(model_path=path, repeat=False)
+    about = controller.network.about
+    return LocalBrain(controller=controller).changed(skip_frame=about["skip_frame"])
 
 
-# %% tags=["right", "one expression"]
-def seconds_of_comfort(level, loss):
-    return (level - 40) / loss if level > 40 else 0.0
+# %% tags=["wrong", "default", "no skip_frame"]
+def driver(path):
+    return LocalBrain(controller=NeuralNetController(model_path=path))
 
 
-# %% tags=["wrong", "whole", "whole seconds"]
-def seconds_of_comfort(level, loss):
-    return max(0, (level - 40) // loss)
+# %% tags=["wrong", "fixed", "the first network's"]
+def driver(path):
+    return LocalBrain(controller=NeuralNetController(model_path=path), skip_frame=9)
 
 
-# %% tags=["wrong", "up", "counts"]
-def seconds_of_comfort(level, loss):
-    seconds = 0
-    while level > 40:
-        level = level - loss
-        seconds = seconds + 1
-    return seconds
+# %% tags=["wrong", "fixed", "one tick too many"]
+def driver(path):
+    controller = NeuralNetController(model_path=path)
+    return LocalBrain(controller=controller, skip_frame=controller.network.about["skip_frame"] + 1)
 
 
-# %% tags=["wrong", "endless", "counts until it is exactly 40"]
-def seconds_of_comfort(level, loss):
-    seconds = 0
-    while level != 40:
-        level = level - loss
-        seconds = seconds + 1
-    return seconds
+# %% tags=["wrong", "path", "always the same file"]
+def driver(path):
+    return trained_brain("zoo:box_chase")
 
 
-# %% tags=["wrong", "product", "times the loss"]
-def seconds_of_comfort(level, loss):
-    return max(0, (level - 40) * loss)
+# %% tags=["wrong", "controller", "no brain"]
+def driver(path):
+    return NeuralNetController(model_path=path)
 
 
-# %% tags=["wrong", "begin", "the level"]
-def seconds_of_comfort(level, loss):
-    return level
+# %% tags=["wrong", "begin", "a function that steers"]
+def driver(path):
+    return LocalBrain(controller=lambda percept: {"move": [1, 0, 0, 0]})
 
 
-# %% tags=["lucky", "a constant"]
-def seconds_of_comfort(level, loss):
-    return 5
+# %% tags=["wrong", "no-return", "no return"]
+def driver(path):
+    trained_brain(path)
 
 
-# %% tags=["lucky", "a table"]
-TABLE = {(60.0, 4.0): 5, (50.0, 3.0): 10 / 3, (30.0, 2.0): 0}
+# %% tags=["lucky", "the file's name"]
+def driver(path):
+    return path
 
 
-def seconds_of_comfort(level, loss):
-    return TABLE.get((level, loss), 10)
+# %% tags=["lucky", "every tick"]
+def driver(path):
+    return LocalBrain(controller=NeuralNetController(model_path=path), skip_frame=0)
 
 
-# %% tags=["lucky", "half of it"]
-def seconds_of_comfort(level, loss):
-    return level / 2 / loss
+# %% tags=["lucky", "by chance"]
+import random
+
+
+def driver(path):
+    controller = NeuralNetController(model_path=path)
+    return LocalBrain(controller=controller, skip_frame=random.randint(5, 8))

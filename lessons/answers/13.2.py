@@ -1,95 +1,90 @@
 # %% tags=["solution"]
-def live(percept):
-    energy, water = percept["inside"]
-    if energy < water:
-        return to(percept["to food"])
-    return to(percept["to water"])
+def influence(ask, percept, key):
+    blind = {**percept, key: 0 * percept[key]}
+    return abs(ask(blind)[1] - ask(percept)[1])
 
 
-# %% tags=["wrong", "thirst"]
-def live(percept):
-    energy, water = percept["inside"]
-    return to(percept["to food"])
+# %% tags=["right", "a copy that is changed"]
+def influence(ask, percept, key):
+    changed = dict(percept)
+    changed[key] = np.zeros_like(percept[key])
+    before, after = ask(percept), ask(changed)
+    return abs(before[1] - after[1])
 
 
-# %% tags=["wrong", "reversed"]
-def live(percept):
-    energy, water = percept["inside"]
-    if energy > water:
-        return to(percept["to food"])
-    return to(percept["to water"])
+# %% tags=["right", "max of both signs"]
+def influence(ask, percept, key):
+    turn = ask(percept)[1]
+    other = ask({name: x * (name != key) for name, x in percept.items()})[1]
+    return max(turn - other, other - turn)
 
 
-# %% tags=["right", "by index"]
-def live(percept):
-    inside = percept["inside"]
-    return to(percept["to food" if inside[0] < inside[1] else "to water"])
+# %% tags=["right", "changes it and puts it back"]
+def influence(ask, percept, key):
+    before = ask(percept)[1]
+    kept = percept[key]
+    percept[key] = 0 * kept
+    after = ask(percept)[1]
+    percept[key] = kept
+    return abs(after - before)
 
 
-# %% tags=["right", "with a margin"]
-def live(percept):
-    energy, water = percept["inside"]
-    if energy < water - 0.05:
-        return to(percept["to food"])
-    return to(percept["to water"])
+# %% tags=["wrong", "same", "changes it too early"]
+def influence(ask, percept, key):
+    percept[key] = 0 * percept[key]
+    return abs(ask(percept)[1] - ask(percept)[1])
 
 
-# %% tags=["right", "the urgent one, else what is ahead"]
-def live(percept):
-    energy, water = percept["inside"]
-    if energy < 0.4 and energy < water:
-        return to(percept["to food"])
-    if water < 0.4:
-        return to(percept["to water"])
-    if percept["to food"][1] > percept["to water"][1]:
-        return to(percept["to food"])
-    return to(percept["to water"])
+# %% tags=["wrong", "spoiled", "changes the given one"]
+def influence(ask, percept, key):
+    before = ask(percept)[1]
+    percept[key] = 0 * percept[key]
+    return abs(ask(percept)[1] - before)
 
 
-# %% tags=["wrong", "hundred", "40 for 0.4"]
-def live(percept):
-    energy, water = percept["inside"]
-    if energy < 40:
-        return to(percept["to food"])
-    return to(percept["to water"])
+# %% tags=["wrong", "signed", "without abs"]
+def influence(ask, percept, key):
+    return ask(percept)[1] - ask({**percept, key: 0 * percept[key]})[1]
 
 
-# %% tags=["wrong", "no-return", "nothing where both are equal"]
-def live(percept):
-    energy, water = percept["inside"]
-    if energy < water - 0.2:
-        return to(percept["to food"])
-    if water < energy - 0.2:
-        return to(percept["to water"])
+# %% tags=["wrong", "forward", "the first number"]
+def influence(ask, percept, key):
+    return abs(ask(percept)[0] - ask({**percept, key: 0 * percept[key]})[0])
 
 
-# %% tags=["wrong", "thirst", "water only"]
-def live(percept):
-    return to(percept["to water"])
+# %% tags=["wrong", "part", "only the first number is 0"]
+def influence(ask, percept, key):
+    reading = percept[key].copy()
+    reading[0] = 0
+    return abs(ask(percept)[1] - ask({**percept, key: reading})[1])
 
 
-# %% tags=["lucky", "takes turns"]
-count = 0
+# %% tags=["wrong", "ones", "ones for zeros"]
+def influence(ask, percept, key):
+    return abs(ask(percept)[1] - ask({**percept, key: np.ones_like(percept[key])})[1])
 
 
-def live(percept):
-    global count
-    count = count + 1
-    if count % 96 < 48:
-        return to(percept["to food"])
-    return to(percept["to water"])
+# %% tags=["wrong", "other", "takes the others away"]
+def influence(ask, percept, key):
+    alone = {name: x * (name == key) for name, x in percept.items()}
+    return abs(ask(percept)[1] - ask(alone)[1])
 
 
-# %% tags=["lucky", "whatever is more ahead"]
-def live(percept):
-    if percept["to food"][1] > percept["to water"][1]:
-        return to(percept["to food"])
-    return to(percept["to water"])
+# %% tags=["wrong", "begin", "forgets to compare"]
+def influence(ask, percept, key):
+    return ask({**percept, key: 0 * percept[key]})[1]
 
 
-# %% tags=["lucky", "by chance"]
-import random
+# %% tags=["lucky", "a constant"]
+def influence(ask, percept, key):
+    return 0.5
 
 
-def live(percept):
-    return random.choice([to(percept["to food"]), to(percept["to water"])])
+# %% tags=["lucky", "the size of the reading"]
+def influence(ask, percept, key):
+    return float(np.abs(percept[key]).sum())
+
+
+# %% tags=["lucky", "the turn itself"]
+def influence(ask, percept, key):
+    return abs(ask(percept)[1])

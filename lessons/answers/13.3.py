@@ -1,116 +1,188 @@
 # %% tags=["solution"]
-def live_well(percept):
-    energy, water = percept["inside"]
-    if energy > 0.45 and water > 0.45:
-        return {"move": [0, 0, 0, 0]}  # all is well: rest
-    if energy < water:
-        return to(percept["to food"])
-    return to(percept["to water"])
+def senses():
+    return [
+        RayCastingSensor(
+            perception_key="vision",
+            rows=3,
+            columns=5,
+            field_of_view=120,
+            vertical_field_of_view=45,
+            vertical_shift=20,
+            vision_max_distance=12,
+            group_code={"floor": 1, "target": 2},
+            return_distance=True,
+            stacked_observations=4,
+        ),
+        OrientationSensor(target="box"),
+        ActionSensor(perception_key="last_action", action_name="move"),
+    ]
 
 
-# %% tags=["wrong", "greedy"]
-def live_well(percept):
-    energy, water = percept["inside"]
-    if energy < water:
-        return to(percept["to food"])
-    return to(percept["to water"])
+# %% tags=["wrong", "shape"]
+def senses():
+    return [
+        RayCastingSensor(perception_key="vision", rows=3, columns=5),
+        OrientationSensor(target="box"),
+        ActionSensor(perception_key="last_action", action_name="move"),
+    ]
 
 
-# %% tags=["wrong", "late"]
-def live_well(percept):
-    energy, water = percept["inside"]
-    if energy > 0.2 and water > 0.2:
-        return {"move": [0, 0, 0, 0]}
-    if energy < water:
-        return to(percept["to food"])
-    return to(percept["to water"])
+# %% tags=["wrong", "missing"]
+def senses():
+    return [
+        RayCastingSensor(perception_key="rays", rows=3, columns=5),
+        OrientationSensor(target="box"),
+        ActionSensor(perception_key="last_action", action_name="move"),
+    ]
 
 
-# %% tags=["right", "begins at 0.5"]
-def live_well(percept):
-    energy, water = percept["inside"]
-    if energy > 0.5 and water > 0.5:
-        return {"move": [0, 0, 0, 0]}
-    if energy < water:
-        return to(percept["to food"])
-    return to(percept["to water"])
+# %% tags=["right", "another order"]
+def senses():
+    return [
+        OrientationSensor(target="box"),
+        RayCastingSensor(
+            perception_key="vision",
+            rows=3,
+            columns=5,
+            field_of_view=120,
+            vertical_field_of_view=45,
+            vertical_shift=20,
+            vision_max_distance=12,
+            group_code={"floor": 1, "target": 2},
+            return_distance=True,
+            stacked_observations=4,
+        ),
+        ActionSensor(perception_key="last_action", action_name="move"),
+    ]
 
 
-# %% tags=["right", "begins at 0.48"]
-def live_well(percept):
-    energy, water = percept["inside"]
-    if energy > 0.48 and water > 0.48:
-        return {"move": [0, 0, 0, 0]}
-    if energy < water:
-        return to(percept["to food"])
-    return to(percept["to water"])
+# %% tags=["right", "the scene's own"]
+def senses():
+    return list(Scene.load("box_chase").build().agents[0].sensors)
 
 
-# %% tags=["right", "begins at 0.4"]
-def live_well(percept):
-    energy, water = percept["inside"]
-    if energy > 0.4 and water > 0.4:
-        return {"move": [0, 0, 0, 0]}
-    if energy < water:
-        return to(percept["to food"])
-    return to(percept["to water"])
+# %% tags=["wrong", "meaning", "swapped codes"]
+def senses():
+    return [
+        RayCastingSensor(
+            perception_key="vision",
+            rows=3,
+            columns=5,
+            field_of_view=120,
+            vertical_field_of_view=45,
+            vertical_shift=20,
+            vision_max_distance=12,
+            group_code={"floor": 2, "target": 1},
+            return_distance=True,
+            stacked_observations=4,
+        ),
+        OrientationSensor(target="box"),
+        ActionSensor(perception_key="last_action", action_name="move"),
+    ]
 
 
-# %% tags=["wrong", "hundred", "45 for 0.45"]
-def live_well(percept):
-    energy, water = percept["inside"]
-    if energy < 45 and water < 45:
-        return {"move": [0, 0, 0, 0]}
-    if energy < water:
-        return to(percept["to food"])
-    return to(percept["to water"])
+# %% tags=["wrong", "meaning", "angles left out"]
+def senses():
+    return [
+        RayCastingSensor(
+            perception_key="vision",
+            rows=3,
+            columns=5,
+            vision_max_distance=12,
+            group_code={"floor": 1, "target": 2},
+            return_distance=True,
+            stacked_observations=4,
+        ),
+        OrientationSensor(target="box"),
+        ActionSensor(perception_key="last_action", action_name="move"),
+    ]
 
 
-# %% tags=["wrong", "begin", "rests"]
-def live_well(percept):
-    return {"move": [0, 0, 0, 0]}
+# %% tags=["wrong", "meaning", "no codes"]
+def senses():
+    return [
+        RayCastingSensor(
+            perception_key="vision",
+            rows=3,
+            columns=5,
+            field_of_view=120,
+            vertical_field_of_view=45,
+            vertical_shift=20,
+            vision_max_distance=12,
+            group_code={},
+            return_distance=True,
+            stacked_observations=4,
+        ),
+        OrientationSensor(target="box"),
+        ActionSensor(perception_key="last_action", action_name="move"),
+    ]
 
 
-# %% tags=["wrong", "late", "at 0.1"]
-def live_well(percept):
-    energy, water = percept["inside"]
-    if energy > 0.1 and water > 0.1:
-        return {"move": [0, 0, 0, 0]}
-    if energy < water:
-        return to(percept["to food"])
-    return to(percept["to water"])
+# %% tags=["wrong", "shape", "one moment"]
+def senses():
+    return [
+        RayCastingSensor(
+            perception_key="vision",
+            rows=3,
+            columns=5,
+            field_of_view=120,
+            vertical_field_of_view=45,
+            vertical_shift=20,
+            vision_max_distance=12,
+            group_code={"floor": 1, "target": 2},
+            return_distance=True,
+            stacked_observations=1,
+        ),
+        OrientationSensor(target="box"),
+        ActionSensor(perception_key="last_action", action_name="move"),
+    ]
 
 
-# %% tags=["wrong", "greedy", "at 0.8"]
-def live_well(percept):
-    energy, water = percept["inside"]
-    if energy > 0.8 and water > 0.8:
-        return {"move": [0, 0, 0, 0]}
-    if energy < water:
-        return to(percept["to food"])
-    return to(percept["to water"])
+# %% tags=["wrong", "missing", "one sensor"]
+def senses():
+    return [OrientationSensor(target="box")]
 
 
-# %% tags=["lucky", "food only"]
-def live_well(percept):
-    return to(percept["to food"])
+# %% tags=["lucky", "nothing"]
+def senses():
+    return []
 
 
-# %% tags=["lucky", "takes turns"]
-count = 0
+# %% tags=["lucky", "a wider view"]
+def senses():
+    return [
+        RayCastingSensor(
+            perception_key="vision",
+            rows=3,
+            columns=5,
+            field_of_view=180,
+            vertical_field_of_view=45,
+            vertical_shift=20,
+            vision_max_distance=12,
+            group_code={"floor": 1, "target": 2},
+            return_distance=True,
+            stacked_observations=4,
+        ),
+        OrientationSensor(target="box"),
+        ActionSensor(perception_key="last_action", action_name="move"),
+    ]
 
 
-def live_well(percept):
-    global count
-    count = count + 1
-    if count % 96 < 48:
-        return to(percept["to food"])
-    return to(percept["to water"])
-
-
-# %% tags=["lucky", "by chance"]
-import random
-
-
-def live_well(percept):
-    return random.choice([to(percept["to food"]), to(percept["to water"]), {"move": [0, 0, 0, 0]}])
+# %% tags=["lucky", "a shorter view"]
+def senses():
+    return [
+        RayCastingSensor(
+            perception_key="vision",
+            rows=3,
+            columns=5,
+            field_of_view=120,
+            vertical_field_of_view=45,
+            vertical_shift=20,
+            vision_max_distance=8,
+            group_code={"floor": 1, "target": 2},
+            return_distance=True,
+            stacked_observations=4,
+        ),
+        OrientationSensor(target="box"),
+        ActionSensor(perception_key="last_action", action_name="move"),
+    ]

@@ -1,169 +1,83 @@
 # %% tags=["solution"]
-class Nearness(Sensor):
-    """How near the target is: 1 right at it, 0 at the reach and beyond."""
-
-    target: str
-    reach: float = 8.0
-
-    def space(self):
-        return Box(0.0, 1.0, (1,))
-
-    def read(self, body, view):
-        away = body.distance(view[self.target])
-        return max(0.0, 1.0 - away / self.reach)
+def epsilon(walk, walks):
+    return max(0, 1 - walk / (0.75 * walks))  # from 1 to 0, at three quarters of the walks
 
 
-# %% tags=["wrong", "reversed"]
-class Nearness(Sensor):
-    """How far the target is."""
-
-    target: str
-    reach: float = 8.0
-
-    def space(self):
-        return Box(0.0, 1.0, (1,))
-
-    def read(self, body, view):
-        return min(1.0, body.distance(view[self.target]) / self.reach)
+# %% tags=["right", "first try, then use"]
+def epsilon(walk, walks):
+    return 1 if walk < walks // 2 else 0
 
 
-# %% tags=["wrong", "beyond"]
-class Nearness(Sensor):
-    """Forgets that one can be beyond the reach."""
-
-    target: str
-    reach: float = 8.0
-
-    def space(self):
-        return Box(0.0, 1.0, (1,))
-
-    def read(self, body, view):
-        return 1.0 - body.distance(view[self.target]) / self.reach
+# %% tags=["right", "falls by a factor"]
+def epsilon(walk, walks):
+    return 0.98**walk
 
 
-# %% tags=["wrong", "reach"]
-class Nearness(Sensor):
-    """Has forgotten its parameter."""
-
-    target: str
-    reach: float = 8.0
-
-    def space(self):
-        return Box(0.0, 1.0, (1,))
-
-    def read(self, body, view):
-        return max(0.0, 1.0 - body.distance(view[self.target]) / 8)
+# %% tags=["right", "two stages"]
+def epsilon(walk, walks):
+    if walk < 60:
+        return 0.9
+    return 0.3 if walk < 150 else 0.01
 
 
-# %% tags=["right", "clip"]
-class Nearness(Sensor):
-    """Mine."""
-
-    target: str
-    reach: float = 8.0
-
-    def space(self):
-        return Box(0.0, 1.0, (1,))
-
-    def read(self, body, view):
-        share = 1 - body.distance(view[self.target]) / self.reach
-        return share if share > 0 else 0.0
+# %% tags=["right", "a square"]
+def epsilon(walk, walks):
+    return (1 - walk / walks) ** 2
 
 
-# %% tags=["right", "a list"]
-class Nearness(Sensor):
-    """Mine."""
-
-    target: str
-    reach: float = 8.0
-
-    def space(self):
-        return Box(0.0, 1.0, (1,))
-
-    def read(self, body, view):
-        return [max(0.0, 1.0 - body.distance(view[self.target]) / self.reach)]
+# %% tags=["wrong", "none", "never"]
+def epsilon(walk, walks):
+    return 0
 
 
-# %% tags=["wrong", "target", "the box by name"]
-class Nearness(Sensor):
-    """Mine."""
-
-    target: str
-    reach: float = 8.0
-
-    def space(self):
-        return Box(0.0, 1.0, (1,))
-
-    def read(self, body, view):
-        return max(0.0, 1.0 - body.distance(view["box"]) / self.reach)
+# %% tags=["wrong", "always", "always"]
+def epsilon(walk, walks):
+    return 1
 
 
-# %% tags=["wrong", "no-base", "no Sensor"]
-class Nearness:
-    """Mine."""
-
-    target: str
-    reach: float = 8.0
-
-    def space(self):
-        return Box(0.0, 1.0, (1,))
-
-    def read(self, body, view):
-        return max(0.0, 1.0 - body.distance(view[self.target]) / self.reach)
+# %% tags=["wrong", "always", "always a little"]
+def epsilon(walk, walks):
+    return 0.1
 
 
-# %% tags=["wrong", "no-return", "returns nothing"]
-class Nearness(Sensor):
-    """Mine."""
-
-    target: str
-    reach: float = 8.0
-
-    def space(self):
-        return Box(0.0, 1.0, (1,))
-
-    def read(self, body, view):
-        away = body.distance(view[self.target])
-        max(0.0, 1.0 - away / self.reach)
+# %% tags=["wrong", "short", "ten walks only"]
+def epsilon(walk, walks):
+    return 1 if walk < 10 else 0
 
 
-# %% tags=["lucky", "a constant"]
-class Nearness(Sensor):
-    """Mine."""
-
-    target: str
-    reach: float = 8.0
-
-    def space(self):
-        return Box(0.0, 1.0, (1,))
-
-    def read(self, body, view):
-        return 0.5
+# %% tags=["wrong", "short", "one over n"]
+def epsilon(walk, walks):
+    return 1 / (walk + 1)
 
 
-# %% tags=["lucky", "the reach"]
-class Nearness(Sensor):
-    """Mine."""
-
-    target: str
-    reach: float = 8.0
-
-    def space(self):
-        return Box(0.0, 1.0, (1,))
-
-    def read(self, body, view):
-        return 1 / self.reach
+# %% tags=["wrong", "reversed", "more and more"]
+def epsilon(walk, walks):
+    return walk / walks
 
 
-# %% tags=["lucky", "near or not"]
-class Nearness(Sensor):
-    """Mine."""
+# %% tags=["wrong", "percent", "in percent"]
+def epsilon(walk, walks):
+    return 100 - 100 * walk / walks
 
-    target: str
-    reach: float = 8.0
 
-    def space(self):
-        return Box(0.0, 1.0, (1,))
+# %% tags=["wrong", "no-return", "prints"]
+def epsilon(walk, walks):
+    print(1 - walk / walks)
 
-    def read(self, body, view):
-        return 1.0 if body.distance(view[self.target]) < self.reach else 0.0
+
+# %% tags=["lucky", "a coin"]
+def epsilon(walk, walks):
+    return 0.5
+
+
+# %% tags=["lucky", "by chance"]
+import random
+
+
+def epsilon(walk, walks):
+    return random.random()
+
+
+# %% tags=["lucky", "every third walk"]
+def epsilon(walk, walks):
+    return 1 if walk % 3 == 0 else 0

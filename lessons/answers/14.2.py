@@ -1,136 +1,148 @@
 # %% tags=["solution"]
-class Calm(RewardFunc):
-    """A cost for turning fast."""
-
-    limit: float = 1.0
-    cost: float = 0.1
-
-    def on_update(self, body, view):
-        return -self.cost if abs(body.angular_velocity) > self.limit else 0.0
-
-
-# %% tags=["wrong", "side"]
-class Calm(RewardFunc):
-    """Looks to one side only."""
-
-    limit: float = 1.0
-    cost: float = 0.1
-
-    def on_update(self, body, view):
-        return -self.cost if body.angular_velocity > self.limit else 0.0
+def reinforce(preferences, episode, rate, discount):
+    after = preferences.copy()
+    worth = 0
+    for cell, action, reward in reversed(episode):
+        worth = reward + discount * worth  # what came from this step on
+        step = -softmax(preferences[cell])
+        step[action] += 1  # the gradient of the logarithm of its probability
+        after[cell] += rate * worth * step
+    return after
 
 
-# %% tags=["wrong", "sign"]
-class Calm(RewardFunc):
-    """Pays for what it should punish."""
-
-    limit: float = 1.0
-    cost: float = 0.1
-
-    def on_update(self, body, view):
-        return self.cost if abs(body.angular_velocity) > self.limit else 0.0
-
-
-# %% tags=["right", "if and return"]
-class Calm(RewardFunc):
-    """Mine."""
-
-    limit: float = 1.0
-    cost: float = 0.1
-
-    def on_update(self, body, view):
-        if abs(body.angular_velocity) > self.limit:
-            return -self.cost
-        return 0.0
+# %% tags=["right", "one after another"]
+def reinforce(preferences, episode, rate, discount):
+    worth = 0
+    for cell, action, reward in reversed(episode):
+        worth = reward + discount * worth
+        chances = softmax(preferences[cell])
+        for other in range(len(chances)):
+            preferences[cell, other] += rate * worth * ((other == action) - chances[other])
+    return preferences
 
 
-# %% tags=["right", "both sides"]
-class Calm(RewardFunc):
-    """Mine."""
-
-    limit: float = 1.0
-    cost: float = 0.1
-
-    def on_update(self, body, view):
-        turns = body.angular_velocity
-        if turns > self.limit or turns < -self.limit:
-            return -self.cost
-        return 0
+# %% tags=["right", "forward, with sums"]
+def reinforce(preferences, episode, rate, discount):
+    after = np.array(preferences)
+    for n, (cell, action, _) in enumerate(episode):
+        worth = sum(discount**k * step[2] for k, step in enumerate(episode[n:]))
+        after[cell] += rate * worth * (np.eye(after.shape[1])[action] - softmax(preferences[cell]))
+    return after
 
 
-# %% tags=["wrong", "limit", "a fixed limit"]
-class Calm(RewardFunc):
-    """Mine."""
-
-    limit: float = 1.0
-    cost: float = 0.1
-
-    def on_update(self, body, view):
-        return -self.cost if abs(body.angular_velocity) > 1 else 0.0
-
-
-# %% tags=["wrong", "always", "costs always"]
-class Calm(RewardFunc):
-    """Mine."""
-
-    limit: float = 1.0
-    cost: float = 0.1
-
-    def on_update(self, body, view):
-        return -self.cost
+# %% tags=["right", "later steps count less"]
+def reinforce(preferences, episode, rate, discount):
+    after = preferences.copy()
+    for n, (cell, action, _) in enumerate(episode):
+        worth = sum(discount**k * step[2] for k, step in enumerate(episode[n:]))
+        step = -softmax(preferences[cell])
+        step[action] += 1
+        after[cell] += rate * discount**n * worth * step
+    return after
 
 
-# %% tags=["wrong", "no-return", "nothing else"]
-class Calm(RewardFunc):
-    """Mine."""
-
-    limit: float = 1.0
-    cost: float = 0.1
-
-    def on_update(self, body, view):
-        if abs(body.angular_velocity) > self.limit:
-            return -self.cost
+# %% tags=["wrong", "begin", "nothing"]
+def reinforce(preferences, episode, rate, discount):
+    return preferences
 
 
-# %% tags=["wrong", "no-base", "no RewardFunc"]
-class Calm:
-    """Mine."""
-
-    limit: float = 1.0
-    cost: float = 0.1
-
-    def on_update(self, body, view):
-        return 0.0
-
-
-# %% tags=["lucky", "nothing"]
-class Calm(RewardFunc):
-    """Mine."""
-
-    limit: float = 1.0
-    cost: float = 0.1
-
-    def on_update(self, body, view):
-        return 0.0
+# %% tags=["wrong", "sign", "downhill"]
+def reinforce(preferences, episode, rate, discount):
+    after, worth = preferences.copy(), 0
+    for cell, action, reward in reversed(episode):
+        worth = reward + discount * worth
+        step = -softmax(preferences[cell])
+        step[action] += 1
+        after[cell] -= rate * worth * step
+    return after
 
 
-# %% tags=["lucky", "a fixed cost"]
-class Calm(RewardFunc):
-    """Mine."""
-
-    limit: float = 1.0
-    cost: float = 0.1
-
-    def on_update(self, body, view):
-        return -0.1 if abs(body.angular_velocity) > self.limit else 0.0
+# %% tags=["wrong", "onehot", "only the action taken"]
+def reinforce(preferences, episode, rate, discount):
+    after, worth = preferences.copy(), 0
+    for cell, action, reward in reversed(episode):
+        worth = reward + discount * worth
+        after[cell, action] += rate * worth
+    return after
 
 
-# %% tags=["lucky", "what it turns"]
-class Calm(RewardFunc):
-    """Mine."""
+# %% tags=["wrong", "probability", "the gradient of the probability"]
+def reinforce(preferences, episode, rate, discount):
+    after, worth = preferences.copy(), 0
+    for cell, action, reward in reversed(episode):
+        worth = reward + discount * worth
+        chances = softmax(preferences[cell])
+        step = -chances
+        step[action] += 1
+        after[cell] += rate * worth * chances[action] * step
+    return after
 
-    limit: float = 1.0
-    cost: float = 0.1
 
-    def on_update(self, body, view):
-        return -abs(body.angular_velocity)
+# %% tags=["wrong", "reward", "the step's own reward"]
+def reinforce(preferences, episode, rate, discount):
+    after = preferences.copy()
+    for cell, action, reward in episode:
+        step = -softmax(preferences[cell])
+        step[action] += 1
+        after[cell] += rate * reward * step
+    return after
+
+
+# %% tags=["wrong", "undiscounted", "no discount"]
+def reinforce(preferences, episode, rate, discount):
+    after, worth = preferences.copy(), 0
+    for cell, action, reward in reversed(episode):
+        worth += reward
+        step = -softmax(preferences[cell])
+        step[action] += 1
+        after[cell] += rate * worth * step
+    return after
+
+
+# %% tags=["wrong", "past", "the whole return for each step"]
+def reinforce(preferences, episode, rate, discount):
+    after = preferences.copy()
+    worth = sum(discount**n * reward for n, (_, _, reward) in enumerate(episode))
+    for cell, action, _ in episode:
+        step = -softmax(preferences[cell])
+        step[action] += 1
+        after[cell] += rate * worth * step
+    return after
+
+
+# %% tags=["wrong", "forward", "sums up from the wrong end"]
+def reinforce(preferences, episode, rate, discount):
+    after, worth = preferences.copy(), 0
+    for cell, action, reward in episode:
+        worth = reward + discount * worth
+        step = -softmax(preferences[cell])
+        step[action] += 1
+        after[cell] += rate * worth * step
+    return after
+
+
+# %% tags=["wrong", "rate", "no learning rate"]
+def reinforce(preferences, episode, rate, discount):
+    after, worth = preferences.copy(), 0
+    for cell, action, reward in reversed(episode):
+        worth = reward + discount * worth
+        step = -softmax(preferences[cell])
+        step[action] += 1
+        after[cell] += worth * step
+    return after
+
+
+# %% tags=["lucky", "always to the right"]
+def reinforce(preferences, episode, rate, discount):
+    preferences[:, 1] += rate
+    return preferences
+
+
+# %% tags=["lucky", "zeros"]
+def reinforce(preferences, episode, rate, discount):
+    return np.zeros_like(preferences)
+
+
+# %% tags=["lucky", "by chance"]
+def reinforce(preferences, episode, rate, discount):
+    return np.random.default_rng(1).normal(size=preferences.shape)

@@ -1,186 +1,123 @@
 # %% tags=["solution"]
-class Crab(Actuator):
-    """Pushes the body sideways."""
+def claim(first, second):
+    difference = np.mean(first) - np.mean(second)
+    noise = math.sqrt(np.var(first, ddof=1) / len(first) + np.var(second, ddof=1) / len(second))
+    if abs(difference) < 2 * noise:
+        return "unclear"
+    return "first" if difference > 0 else "second"
+
 
-    newtons: float = 20.0
+# %% tags=["right", "intervals that don't overlap"]
+def claim(first, second):
+    low, high = zip(
+        *[
+            (
+                np.mean(each) - 2 * np.std(each) / len(each) ** 0.5,
+                np.mean(each) + 2 * np.std(each) / len(each) ** 0.5,
+            )
+            for each in (first, second)
+        ]
+    )
+    if low[0] > high[1]:
+        return "first"
+    return "second" if low[1] > high[0] else "unclear"
 
-    def space(self):
-        return Box(-1.0, 1.0, (1,))
 
-    def act(self, body, action):
-        body.apply_force(0.0, self.newtons * action[0])
+# %% tags=["right", "mixing the results"]
+def claim(first, second):
+    chance = np.random.default_rng(0)
+    difference = np.mean(first) - np.mean(second)
+    both, count, as_large = np.array(first + second), len(first), 0
+    for _ in range(300):
+        mixed = chance.permutation(both)
+        as_large += abs(mixed[:count].mean() - mixed[count:].mean()) >= abs(difference)
+    if as_large > 15:  # that happens by chance alone, in more than 5 of 100 cases
+        return "unclear"
+    return "first" if difference > 0 else "second"
 
 
-# %% tags=["wrong", "forward"]
-class Crab(Actuator):
-    """Pushes forward, like everybody."""
+# %% tags=["right", "without numpy"]
+import statistics
 
-    newtons: float = 20.0
 
-    def space(self):
-        return Box(-1.0, 1.0, (1,))
+def claim(first, second):
+    means = [statistics.mean(each) for each in (first, second)]
+    errors = [statistics.stdev(each) ** 2 / len(each) for each in (first, second)]
+    if (means[0] - means[1]) ** 2 < 5 * sum(errors):
+        return "unclear"
+    return ["first", "second"][means[1] > means[0]]
 
-    def act(self, body, action):
-        body.apply_force(self.newtons * action[0], 0.0)
 
+# %% tags=["wrong", "mean", "the larger mean"]
+def claim(first, second):
+    return "first" if np.mean(first) > np.mean(second) else "second"
 
-# %% tags=["wrong", "right"]
-class Crab(Actuator):
-    """Left and right are swapped."""
 
-    newtons: float = 20.0
+# %% tags=["wrong", "mean", "the best run"]
+def claim(first, second):
+    return "first" if max(first) > max(second) else "second"
 
-    def space(self):
-        return Box(-1.0, 1.0, (1,))
 
-    def act(self, body, action):
-        body.apply_force(0.0, -self.newtons * action[0])
+# %% tags=["wrong", "timid", "more than two deviations apart"]
+def claim(first, second):
+    difference = np.mean(first) - np.mean(second)
+    if abs(difference) < np.std(first) + np.std(second):
+        return "unclear"
+    return "first" if difference > 0 else "second"
 
 
-# %% tags=["wrong", "world"]
-class Crab(Actuator):
-    """Walks up on the screen, wherever it looks."""
+# %% tags=["wrong", "timid", "no run may overlap"]
+def claim(first, second):
+    if min(first) > max(second):
+        return "first"
+    return "second" if min(second) > max(first) else "unclear"
 
-    newtons: float = 20.0
 
-    def space(self):
-        return Box(-1.0, 1.0, (1,))
+# %% tags=["wrong", "reversed", "the lower one"]
+def claim(first, second):
+    difference = np.mean(first) - np.mean(second)
+    noise = math.sqrt(np.var(first, ddof=1) / len(first) + np.var(second, ddof=1) / len(second))
+    if abs(difference) < 2 * noise:
+        return "unclear"
+    return "first" if difference < 0 else "second"
 
-    def act(self, body, action):
-        body.set_velocity(0.0, self.newtons / 10 * action[0])
 
+# %% tags=["wrong", "one-sided", "only the first one"]
+def claim(first, second):
+    noise = math.sqrt(np.var(first, ddof=1) / len(first) + np.var(second, ddof=1) / len(second))
+    return "first" if np.mean(first) - np.mean(second) > 2 * noise else "unclear"
 
-# %% tags=["right", "named"]
-class Crab(Actuator):
-    """Mine."""
 
-    newtons: float = 20.0
+# %% tags=["wrong", "few", "one error apart"]
+def claim(first, second):
+    difference = np.mean(first) - np.mean(second)
+    noise = math.sqrt(np.var(first) / len(first) + np.var(second) / len(second))
+    if abs(difference) < noise:
+        return "unclear"
+    return "first" if difference > 0 else "second"
 
-    def space(self):
-        return Box(-1.0, 1.0, (1,))
 
-    def act(self, body, action):
-        push = self.newtons * float(action[0])
-        body.apply_force(forward=0.0, left=push)
+# %% tags=["wrong", "name", "a number"]
+def claim(first, second):
+    return np.mean(first) - np.mean(second)
 
 
-# %% tags=["right", "unpacked"]
-class Crab(Actuator):
-    """Mine."""
+# %% tags=["lucky", "never"]
+def claim(first, second):
+    return "unclear"
 
-    newtons: float = 20.0
 
-    def space(self):
-        return Box(-1.0, 1.0, (1,))
+# %% tags=["lucky", "ten points"]
+def claim(first, second):
+    difference = np.mean(first) - np.mean(second)
+    if abs(difference) < 10:
+        return "unclear"
+    return "first" if difference > 0 else "second"
 
-    def act(self, body, action):
-        (push,) = action
-        body.apply_force(0, push * self.newtons)
 
+# %% tags=["lucky", "by chance"]
+import random
 
-# %% tags=["wrong", "strength", "the sign alone"]
-class Crab(Actuator):
-    """Mine."""
 
-    newtons: float = 20.0
-
-    def space(self):
-        return Box(-1.0, 1.0, (1,))
-
-    def act(self, body, action):
-        body.apply_force(0.0, self.newtons if action[0] > 0 else -self.newtons)
-
-
-# %% tags=["wrong", "error", "a list times a number"]
-class Crab(Actuator):
-    """Mine."""
-
-    newtons: float = 20.0
-
-    def space(self):
-        return Box(-1.0, 1.0, (1,))
-
-    def act(self, body, action):
-        body.apply_force(0.0, self.newtons * action)
-
-
-# %% tags=["wrong", "begin", "nothing"]
-class Crab(Actuator):
-    """Mine."""
-
-    newtons: float = 20.0
-
-    def space(self):
-        return Box(-1.0, 1.0, (1,))
-
-    def act(self, body, action):
-        pass
-
-
-# %% tags=["wrong", "no-base", "no Actuator"]
-class Crab:
-    """Mine."""
-
-    newtons: float = 20.0
-
-    def space(self):
-        return Box(-1.0, 1.0, (1,))
-
-    def act(self, body, action):
-        pass
-
-
-# %% tags=["wrong", "speed", "sets a speed"]
-import math
-
-
-class Crab(Actuator):
-    """Mine."""
-
-    newtons: float = 20.0
-
-    def space(self):
-        return Box(-1.0, 1.0, (1,))
-
-    def act(self, body, action):
-        speed = self.newtons * action[0] / 10
-        body.set_velocity(-math.sin(body.heading) * speed, math.cos(body.heading) * speed)
-
-
-# %% tags=["lucky", "a constant push"]
-class Crab(Actuator):
-    """Mine."""
-
-    newtons: float = 20.0
-
-    def space(self):
-        return Box(-1.0, 1.0, (1,))
-
-    def act(self, body, action):
-        body.apply_force(0.0, 20.0)
-
-
-# %% tags=["lucky", "turns"]
-class Crab(Actuator):
-    """Mine."""
-
-    newtons: float = 20.0
-
-    def space(self):
-        return Box(-1.0, 1.0, (1,))
-
-    def act(self, body, action):
-        body.set_angular_velocity(action[0])
-
-
-# %% tags=["lucky", "jumps"]
-class Crab(Actuator):
-    """Mine."""
-
-    newtons: float = 20.0
-
-    def space(self):
-        return Box(-1.0, 1.0, (1,))
-
-    def act(self, body, action):
-        body.jump(1)
+def claim(first, second):
+    return random.choice(["first", "second", "unclear"])

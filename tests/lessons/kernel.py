@@ -5,11 +5,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from ai4u_edu.lessons.answers import answers_to
 from ai4u_edu.lessons.course import Lesson
 from ai4u_edu.lessons.notebook import dumps
 from ai4u_edu.lessons.progress_file import Entry, ProgressFile
-from tests.lessons.workbook import solved
+from tests.lessons.workbook import solution_of, solved
 
 CELL_TIMEOUT_S = 120
 """Longest time (s) that a cell may take."""
@@ -39,7 +38,7 @@ def executed(lesson: Lesson, folder: Path) -> Executed:
     from nbclient import NotebookClient
 
     read: Any = nbformat.reads
-    answers = {each: answers_to(each).solution for each in lesson.exercises}
+    answers = {each: solution_of(each) for each in lesson.exercises}
     book = read(dumps(solved(lesson, answers)), as_version=4)
     times: list[float] = []
     client = NotebookClient(

@@ -16,15 +16,14 @@ from pathlib import Path
 from typing import Any
 
 from ai4u_edu.lessons import stop
-from ai4u_edu.lessons.answers import answers_to
 from ai4u_edu.lessons.course import Lesson, lesson
 from ai4u_edu.lessons.progress_file import ProgressFile
-from tests.lessons.workbook import run, solved
+from tests.lessons.workbook import run, solution_of, solved
 
 
 def through(one: Lesson, folder: Path, *, is_solved: bool) -> dict[str, Any]:
     """Runs a lesson's cells in a folder of its own."""
-    answers = {each: answers_to(each).solution for each in one.exercises} if is_solved else {}
+    answers = {each: solution_of(each) for each in one.exercises} if is_solved else {}
     folder.mkdir()
     os.chdir(folder)
     names: dict[str, Any] = {"__name__": "__main__"}

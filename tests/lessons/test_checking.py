@@ -1,6 +1,8 @@
 """Feedback of an exercise's check, and the progress that is saved."""
 
 import json
+import subprocess
+import sys
 import threading
 from pathlib import Path
 from typing import Any
@@ -110,7 +112,7 @@ def test_a_solution_is_printed_without_the_wrong_ones(capsys: pytest.CaptureFixt
 def test_an_unknown_exercise_is_told(ask: Any) -> None:
     with pytest.raises(SetupError, match=r"^no exercise is called '00\.9'; did you mean '00\.\d'"):
         ask("00.9")
-    with pytest.raises(SetupError, match=r"in quotes, such as '01.1', got 0\.1"):
+    with pytest.raises(SetupError, match=r"in quotes, such as '02.1', got 0\.1"):
         ask(0.1)
 
 
@@ -127,6 +129,19 @@ def test_progress_counts_and_keeps_what_was_passed(capsys: pytest.CaptureFixture
     assert "00 Start here: 00.1 \u2714   00.2 \u2013" in out
 
 
+def test_a_file_of_the_first_course_gets_the_new_numbers(folder: Path) -> None:
+    """It had 16 lessons; the third exercise of its fifth one has a lesson of its own now."""
+    old = {"passed": False, "diagnosis": "05.3/begin", "diagnoses": {"05.3/begin": 2}}
+    exercises = {"00.1": {"passed": True}, "03.2": {"passed": True}, "05.3": old}
+    (folder / FILE).write_text(json.dumps({"version": 1, "exercises": exercises}))
+    entries = ProgressFile().entries()
+    assert [name for name, each in entries.items() if each.passed] == ["00.1", "04.2"]
+    assert entries["07.1"].diagnosis == "07.1/begin"
+    assert entries["07.1"].diagnoses == {"07.1/begin": 2}
+    check("00.1", go)
+    assert list(ProgressFile().entries()) == ["00.1", "04.2", "07.1"]
+
+
 @pytest.mark.parametrize(
     "text",
     [
@@ -134,7 +149,7 @@ def test_progress_counts_and_keeps_what_was_passed(capsys: pytest.CaptureFixture
         "{",
         "[]",
         "null",
-        '{"version": 2, "exercises": {}}',
+        '{"version": 3, "exercises": {}}',
         '{"version": 1}',
         '{"version": 1, "exercises": []}',
         '{"version": 1, "exercises": {"00.1": {"passed": "yes"}}}',
@@ -184,6 +199,21 @@ def test_the_code_that_was_checked_is_kept(monkeypatch: pytest.MonkeyPatch) -> N
     check("00.1", go)
     assert ProgressFile().entries()["00.1"].code == cells[0]
     assert written_module.latest({"go"}, cells) == "go = 7"
+
+
+def test_kernels_that_write_at_once_lose_no_entry(folder: Path) -> None:
+    code = (
+        "import sys; from ai4u_edu.lessons.progress_file import ProgressFile as File\n"
+        "for number in range(25):\n"
+        "    name = f'0{sys.argv[1]}.{number}'\n"
+        "    File().note(name, passed=True, text='', diagnosis='', picture=b'')\n"
+        "    File().note_prediction(name, guess=1.0)\n"
+    )
+    kernels = [subprocess.Popen([sys.executable, "-c", code, each]) for each in ("1", "2")]
+    assert [each.wait() for each in kernels] == [0, 0]
+    progress = ProgressFile(folder)
+    assert (len(progress.entries()), len(progress.predictions())) == (50, 50)
+    assert not progress.trouble
 
 
 def test_two_notebooks_that_check_at_once_both_keep_their_result(folder: Path) -> None:

@@ -1,7 +1,6 @@
 """The table of a class, from the progress files of its students."""
 
 import csv
-import html
 import json
 from pathlib import Path
 
@@ -9,9 +8,11 @@ import pytest
 
 from ai4u_edu.base.errors import SetupError
 from ai4u_edu.cli.main import app
-from ai4u_edu.lessons.collecting import collect, page, table
+from ai4u_edu.lessons.class_page import page
+from ai4u_edu.lessons.collecting import collect, table
 from ai4u_edu.lessons.diagnoses import COMMON
 from ai4u_edu.lessons.exercise import find
+from ai4u_edu.lessons.notebook_output import marked
 from ai4u_edu.lessons.progress_file import ProgressFile
 
 EVIL = "=HYPERLINK(<b>"
@@ -46,15 +47,20 @@ def test_the_command_writes_a_page_and_a_table(
         ("ben", "no", "2"),
     ]
     text = (handed_in / "class.html").read_text(encoding="utf-8")
-    assert '<th scope="row">ann</th><td>1</td><td class="passed"' in text
-    assert "2 began, 1 did not solve it yet" in text
-    assert html.escape(next(iter(find("00.1").hints.values()))) in text
+    assert '<th scope="row" title="ann">ann</th><td>1</td><td class="passed first"' in text
+    assert '<th scope="row" title="ben">ben</th><td>0</td><td class="tried first"' in text
+    assert ">(2)</td>" in text
+    assert '<td class="count">2</td><td class="count">1</td>' in text
+    assert '<p>Most often not solved yet: <a href="#exercise-00.1">00.1</a> (1).</p>' in text
+    assert '<tr id="exercise-00.1">' in text
+    assert "01 Drive" not in text
+    assert marked(next(iter(find("00.1").hints.values()))) in text
 
 
 def test_a_mistake_that_any_exercise_may_have_is_said_in_words(tmp_path: Path) -> None:
     hand_in(tmp_path / "ann", passed=False, diagnosis="any/endless")
     text = page(collect(tmp_path))
-    assert html.escape(f"1: {COMMON['endless']}") in text
+    assert marked(f"1: {COMMON['endless']}") in text
 
 
 def test_files_are_left_as_they_are_and_can_be_collected_again(handed_in: Path) -> None:

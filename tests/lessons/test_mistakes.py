@@ -23,13 +23,13 @@ SLIPS: dict[str, tuple[str, str, str, str]] = {
         "Your function returned nothing (None). Is `return` missing?",
     ),
     "no return of a number": (
-        "13.1",
+        "18.1",
         "def seconds_of_comfort(level, loss):\n    (level - 40) / loss",
         "no-return",
         "Your function returned nothing (None). Is `return` missing?",
     ),
     "no return on one way": (
-        "14.2",
+        "19.2",
         "class Calm(RewardFunc):\n    limit: float = 1.0\n    cost: float = 0.1\n\n"
         "    def on_update(self, body, view):\n"
         "        if abs(body.angular_velocity) > self.limit:\n            return -self.cost",
@@ -44,57 +44,57 @@ SLIPS: dict[str, tuple[str, str, str, str]] = {
         "was given. Its first line has to be `def go(percept):`.",
     ),
     "a parameter less": (
-        "01.1",
+        "02.1",
         "def decisions_for(distance):\n    return distance",
         "parameters",
         "Its first line has to be `def decisions_for(distance, speed):`.",
     ),
     "no self": (
-        "05.2",
+        "06.2",
         "class Patrol(Controller):\n    def get_action(percept):\n        return {}",
         "parameters",
         "Its first line has to be `def get_action(self, percept):`.",
     ),
     "no base": (
-        "05.2",
+        "06.2",
         "class Patrol:\n    def get_action(self, percept):\n        return {}",
         "no-base",
         "`Patrol` has a `get_action`, and is no Controller yet: begin with "
         "`class Patrol(Controller):`.",
     ),
     "a call for a function": (
-        "06.3",
+        "08.3",
         "def diary(agent):\n    notes = []\n"
         "    agent.begin_of_episode.connect(notes.append('begin'))\n    return notes",
         "called",
         "connect: expected a function that gets the agent, got None",
     ),
     "one reward without a list": (
-        "07.2",
+        "09.2",
         "def my_rewards():\n    return TouchRewardFunc(target='box', reward=10)",
         "list",
         "Put it into a list: `return [...]`.",
     ),
     "a list for a number": (
-        "13.1",
+        "18.1",
         "def seconds_of_comfort(level, loss):\n    return [(level - 40) / loss]",
         "list-for-number",
         "Expected a number, got a list with one number: `[5.0]`.",
     ),
     "text for a number": (
-        "13.1",
+        "18.1",
         "def seconds_of_comfort(level, loss):\n    return 'five'",
         "not-a-number",
         "Expected a number, got `'five'`.",
     ),
     "no number": (
-        "13.1",
+        "18.1",
         "def seconds_of_comfort(level, loss):\n    return float('nan')",
         "not-finite",
         "which is no number: perhaps 0 was divided by 0",
     ),
     "a number for a list": (
-        "03.1",
+        "04.1",
         "def twin(x, y):\n    return x",
         "number-for-list",
         "For (3, 1) expected two numbers, got `3.0`.",
@@ -127,7 +127,7 @@ def test_a_slip_is_told_in_a_sentence(name: str) -> None:
     "given", [5.0, np.float32(5), np.array(5.0), np.array([5.0]), np.array([[5.0]]), np.int64(5)]
 )
 def test_a_number_may_be_an_array_of_one(given: Any) -> None:
-    verdict = judge(find("13.1"), lambda level, loss: given)
+    verdict = judge(find("18.1"), lambda level, loss: given)
     assert "With a level of" in verdict.text  # that is, it was taken for a number
 
 
@@ -137,7 +137,7 @@ def test_what_is_set_in_init_is_there() -> None:
         "        self.goal = 'red'\n    def get_action(self, percept):\n"
         "        return {'move': [0, 0, 0, 0]} if self.goal == 'red' else None"
     )
-    verdict = tried(lesson("05"), "05.2", code)
+    verdict = tried(lesson("06"), "06.2", code)
     assert "has no attribute" not in verdict.text
     assert verdict.hint != "no-return"
 

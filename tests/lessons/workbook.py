@@ -7,15 +7,25 @@ from collections.abc import Callable, Mapping
 from dataclasses import replace
 from typing import Any
 
+from ai4u_edu.lessons.answers import answers_to
 from ai4u_edu.lessons.checking import Verdict, judge
-from ai4u_edu.lessons.course import Lesson
+from ai4u_edu.lessons.course import Lesson, is_ticket
 from ai4u_edu.lessons.exercise import find
+from ai4u_edu.lessons.exit_ticket import TICKETS
 from ai4u_edu.lessons.notebook import Cell
 
-SLOW = ("09.3", "10.2")
+SLOW = ("10.3", "11.2")
 """Exercises whose answers train a network."""
 SETUP = "setup"
 """Cells with this tag are run before an exercise is tried alone."""
+
+
+def solution_of(exercise: str) -> str:
+    """The code that solves an exercise; of an exit ticket its right letters."""
+    if not is_ticket(exercise):
+        return answers_to(exercise).solution
+    find(exercise)
+    return f"answers = {[each.right for each in TICKETS[exercise]]}"
 
 
 def solved(lesson: Lesson, answers: Mapping[str, str]) -> list[Cell]:

@@ -4,6 +4,7 @@ import io
 import subprocess
 import sys
 from pathlib import Path
+from types import ModuleType
 from typing import Any
 
 import pytest
@@ -138,6 +139,18 @@ def test_a_bar_has_count_text_and_lines_above_it() -> None:
     bar.close()
     assert "so far\n" in told.getvalue()
     assert "2/3 steps, fast" in told.getvalue()
+
+
+def test_lines_above_a_bar_are_no_errors_in_a_notebook(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setitem(sys.modules, "ipykernel", ModuleType("ipykernel"))
+    bar = ProgressBar(3, "steps")
+    bar.note("so far")
+    bar.close()
+    told = capsys.readouterr()
+    assert "so far" in told.out
+    assert "so far" not in told.err
 
 
 def test_a_quiet_bar_and_one_that_could_not_be_removed_write_nothing() -> None:

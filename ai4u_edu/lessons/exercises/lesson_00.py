@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 
 from ai4u_edu.lessons.exercise import Done, exercise
+from ai4u_edu.lessons.exit_ticket import Question, exit_ticket
 from ai4u_edu.lessons.rollouts import Drive, drives, seeds_of
 
 STEPS = 8
@@ -13,7 +14,7 @@ SCENE = "box_chase"
 
 STILL = {
     "still": 'An action is `{"move": [forward, turn, 0, 0]}`. The first number drives: 1 is full '
-    "speed forward, -1 full speed backward, 0 stands still.",
+    "speed forward, -1 is full speed backward, and 0 is standing still.",
 }
 
 
@@ -98,7 +99,7 @@ def turns_left(drive_it: Any) -> Done:
     hints={
         "backward": "It runs now, and goes backward. The first number has to be above 0.",
         "curve": "It runs now, well done. But the robot has to drive a curve to the right: both "
-        "the first and the second number are above 0.",
+        "the first and the second number have to be above 0.",
     },
 )
 def is_fixed(drive_it: Any) -> Done:
@@ -117,3 +118,31 @@ def is_fixed(drive_it: Any) -> Done:
         if forward < 0.15 or _turned(drive, headings[-1]) > -1:
             raise drive.not_yet("No curve to the right yet ({where}).", "curve")
     return Done("Fixed: your robot drives a curve to the right.", drive.picture())
+
+
+exit_ticket(
+    "00.exit",
+    Question(
+        "a",
+        {
+            "b": "Below 0 the second number turns left, and above 0 the first one drives forward.",
+            "c": "The numbers do not come one after another. All four act at the same time, for "
+            "one decision.",
+        },
+    ),
+    Question(
+        "c",
+        {
+            "a": "Python knows only what was run. The text of a cell counts when the cell runs.",
+            "b": "There is a function called `go`: the one from the last time that its cell ran.",
+        },
+    ),
+    Question(
+        "b",
+        {
+            "a": "Python knows nothing about robots here. It says that a *name* is not known.",
+            "c": "Running it again does not help: the same line fails again. Look for the name in "
+            "it.",
+        },
+    ),
+)

@@ -1,209 +1,240 @@
-"""Build an agent from blocks."""
+"""Drive: body, action, observation."""
 
-from itertools import pairwise
+import math
 from typing import Any
 
-import numpy as np
-
-from ai4u_edu.blocks import LocalBrain, RBMoveActuator, TouchRewardFunc
-from ai4u_edu.lessons.exercise import Done, NotYet, exercise
-from ai4u_edu.lessons.numeric import is_close
-from ai4u_edu.lessons.rollouts import Drive, drive, seeds_of
-from ai4u_edu.lessons.worlds import forward, plate, put_in
+from ai4u_edu.agent import BasicAgent
+from ai4u_edu.agent.cycle import ControlRequestor
+from ai4u_edu.blocks import BearingSensor, LocalBrain, OrientationSensor, RBMoveActuator
+from ai4u_edu.lessons.exercise import Done, NotYet, a_function, exercise
+from ai4u_edu.lessons.exit_ticket import Question, exit_ticket
+from ai4u_edu.lessons.numeric import chance_for, difference, finite_number, is_close
+from ai4u_edu.lessons.rollouts import Drive, as_brain, drive, seeds_of
+from ai4u_edu.lessons.worlds import plate
 from ai4u_edu.world import Variation
 
-ASIDE = Variation(x=(-4, 4), y=(3, 4))
-"""Places of a box that is out of the way."""
-BEHIND = Variation(places=((-3.0, 0.0),))
-Turn = tuple[float, float, float, float]
-IDLE = LocalBrain(controller=lambda _: {})
-STATUS = ("done", "id")
-"""Perception keys that every agent has."""
+DECISIONS_A_SECOND = 12
+SECONDS_TO_STOP = 15
+"""Time that a robot has to come to rest."""
+
+
+def _is_count(found: float, exact: float) -> bool:
+    """Return True for a number of decisions that is right, rounded up, down or not at all."""
+    return is_close(found, exact, 0.55) or found in {math.floor(exact), math.ceil(exact)}
+
+
+def _count(made: Any, *given: float) -> float:
+    """Return a student's number of decisions."""
+    shown = ", ".join(f"{each:g}" for each in given)
+    count = finite_number(a_function(made)(*given))
+    if count < 0:
+        raise NotYet(f"With ({shown}) your function says {count:g}: that is below 0.")
+    return count
+
+
+def _robot(move: float, turn: float, brain: LocalBrain) -> BasicAgent:
+    return BasicAgent(
+        body="robot",
+        sensors=[
+            OrientationSensor(target="box", normalized=False),
+            BearingSensor(target="box"),
+        ],
+        actuators=[RBMoveActuator(move_amount=move, turn_amount=turn)],
+        brains=[brain],
+    )
+
+
+def _repeated(count: int, action: list[float], *, move: float, turn: float, size: float) -> Drive:
+    """Repeat one action a number of times, from the middle of a plate."""
+    edge = size / 2 - 1
+    away = Variation(x=(-edge, edge), y=(edge - 1, edge))
+    agent = _robot(move, turn, LocalBrain(controller=lambda _: {"move": action}))
+    sim = ControlRequestor(plate(None, away, size=size), [agent])
+    return drive(sim, agent, seed=1, limit=count)
 
 
 @exercise(
     "02.1",
-    "Legs",
+    "How far?",
     hints={
-        "actuator": "An actuator is missing: put `RBMoveActuator(...)` into the list "
-        "`actuators=[]`.",
-        "speed": "The parameter `move_amount` is the speed, in metres a second, that the number 1 "
-        "stands for.",
-        "turn": "The parameter `turn_amount` is the turning speed, in radians a second, that the "
-        "number 1 stands for.",
+        "time": "A decision lasts 1/12 of a second. At 3 m/s the robot covers 3/12 of a metre in "
+        "one decision. How often does that fit into the distance?",
+        "speed": "Your answer does not change with the speed. A faster robot needs fewer "
+        "decisions.",
+        "seconds": "That is how many seconds it takes. There are 12 decisions in a second.",
+        "ticks": "That is how many ticks of the world's clock it takes: 60 a second. A decision "
+        "lasts 5 of them.",
+        "inverted": "A faster robot needs fewer decisions: divide by the speed.",
+        "one-more": "It is one decision too many.",
     },
 )
-def has_legs(agent: Any) -> Done:
-    """Check that it drives at 2 m/s, and turns at 3 rad/s."""
-    if not put_in(agent, plate(None, ASIDE), IDLE).agents[0].actuators:
-        raise NotYet("Your agent has no actuator yet: it can't do anything.", hint="actuator")
-    straight = _driven(agent, 1, 0, decisions=12)
-    if not is_close(straight.moved, 2, 0.05):
-        raise straight.not_yet(
-            f"In one second the robot drove {straight.moved:.2f} m, not 2 ({{where}}).", "speed"
+def drives_so_far(made: Any) -> Done:
+    """Check ``decisions_for(distance, speed)``."""
+    if _count(made, 6, 2) == _count(made, 6, 4):
+        found = _count(made, 6, 2)
+        raise NotYet(
+            f"For 6 m your function says {found:g} decisions, at 2 m/s as at 4 m/s.",
+            hint="speed" if found else "time",
         )
-    turning = _driven(agent, 0, 1, decisions=6)
-    turned = -turning.agent.body.heading
-    if not is_close(turned, 1.5, 0.05):
-        raise turning.not_yet(
-            f"In half a second the robot turned {turned:.2f} rad to the right, not 1.5 "
-            "({where}).",
-            "turn",
-        )
-    return Done("Two metres and three radians a second: it has its legs.", straight.picture())
-
-
-def _driven(agent: Any, move: float, turn: float, decisions: int) -> Drive:
-    names = [each.action_name for each in agent.actuators if isinstance(each, RBMoveActuator)]
-    if not names:
-        raise NotYet("Your agent has no RBMoveActuator.", hint="actuator")
-    brain = LocalBrain(controller=lambda _: {names[0]: [move, turn, 0, 0]})
-    sim = put_in(agent, plate(None, ASIDE), brain)
-    return drive(sim, sim.agents[0], seed=3, limit=decisions)
+    chance = chance_for("02.1", made)
+    for _ in range(8):
+        distance = round(float(chance.uniform(2, 6.9)), 2)
+        speed = round(float(chance.uniform(1, 4.5)), 2)
+        exact = DECISIONS_A_SECOND * distance / speed
+        found = _count(made, distance, speed)
+        if not _is_count(found, exact):
+            slips = {
+                "seconds": ("the time in seconds", distance / speed),
+                "ticks": ("the number of ticks", 5 * exact),
+                "inverted": ("right for a division by the speed", distance * speed * 12),
+                "one-more": ("one too many", exact + 1),
+            }
+            slip = difference(found, slips, 0.05)
+            raise NotYet(
+                f"For {distance:g} m at {speed:g} m/s expected {exact:.1f} decisions, got "
+                f"{found:.1f}{slip.words}.",
+                hint=slip.name or "time",
+            )
+        done = _repeated(round(found), [1, 0, 0, 0], move=speed, turn=1, size=16)
+    return Done(
+        "Eight speeds, eight distances, and the robot stopped where it should.", done.picture()
+    )
 
 
 @exercise(
     "02.2",
-    "Eyes and a bumper",
+    "A quarter turn",
     hints={
-        "sensors": "Put two sensors into the list `sensors=[]`: one tells the direction of the "
-        "box, the other one whether it is touched. `ai4u-edu blocks` lists all sensors.",
-        "bearing": "One reading has to tell left from right. That takes two numbers, the sine and "
-        "the cosine of the angle to the box: `BearingSensor`.",
-        "touch": "One reading has to be 1 while the robot touches the box, and -1 else: "
-        "`TouchSensor`.",
+        "time": "A decision lasts 1/12 of a second. A robot that turns 120 degrees a second turns "
+        "120/12 = 10 degrees in one decision. How many are 90 degrees?",
+        "other-speed": "It is right for one turning speed, but not for another. Compute with the "
+        "number that your function gets.",
+        "seconds": "That is how many seconds it takes. There are 12 decisions in a second.",
+        "ticks": "That is how many ticks of the world's clock it takes: 60 a second. A decision "
+        "lasts 5 of them.",
+        "inverted": "It is upside down: a robot that turns faster needs fewer decisions.",
     },
 )
-def has_senses(agent: Any) -> Done:
-    """Check that one reading is the box's bearing, and another one tells of its touch."""
-    sim = put_in(agent, plate(), IDLE)
-    if not sim.agents[0].sensors:
-        raise NotYet("Your agent has no sensor yet: it knows nothing of the world.", hint="sensors")
-    for seed in seeds_of("02.2", 10):
-        seen = drive(sim, sim.agents[0], seed, limit=1)
-        if not _sees(seen):
-            raise seen.not_yet("No reading tells where the box is ({where}).", "bearing")
-    legs = RBMoveActuator(move_amount=2, turn_amount=3)  # whether or not it has legs of its own
-    sim = put_in(agent.changed(actuators=[legs]), plate(None, None), forward())
-    felt: list[dict[str, float]] = []
-    bumped = drive(sim, sim.agents[0], 5, 30, watch=lambda done: felt.append(_single(done)))
-    if not any(first == -1 and felt[-1].get(key) == 1 for key, first in felt[0].items()):
-        raise bumped.not_yet(
-            "The robot touches the box, and no reading says so ({where}).", "touch"
+def turns_a_quarter(made: Any) -> Done:
+    """Check ``decisions_for_quarter(degrees_per_second)``."""
+    if _count(made, 60) == _count(made, 120):
+        found = _count(made, 60)
+        raise NotYet(
+            f"Your function says {found:g} decisions, at 60 degrees a second as at 120.",
+            hint="other-speed" if found else "time",
         )
-    return Done("It sees where the box is, and feels when it touches it.", bumped.picture())
-
-
-def _sees(done: Drive) -> bool:
-    """Return True if a reading is the true bearing of the box."""
-    angle = done.agent.body.bearing(done.sim.world["box"])
-    true = np.array([np.sin(angle), np.cos(angle)])
-    return any(
-        is_close(row, true, 0.01)
-        for key, reading in done.agent.percept.items()
-        if key not in STATUS and np.size(reading) % 2 == 0
-        for row in np.reshape(reading, (-1, 2))  # several moments, where they are stacked
-    )
-
-
-def _single(done: Drive) -> dict[str, float]:
-    """Return the readings of one number."""
-    return {
-        key: float(np.ravel(reading)[0])
-        for key, reading in done.agent.percept.items()
-        if key not in STATUS and np.size(reading) == 1
-    }
+    chance = chance_for("02.2", made)
+    for _ in range(8):
+        speed = round(float(chance.uniform(30, 200)), 1)
+        exact = 90 / speed * DECISIONS_A_SECOND
+        found = _count(made, speed)
+        if not _is_count(found, exact):
+            slips = {
+                "seconds": ("the time in seconds", 90 / speed),
+                "ticks": ("the number of ticks", 5 * exact),
+                "inverted": ("upside down", speed / 90 * 12),
+            }
+            slip = difference(found, slips, 0.02)
+            raise NotYet(
+                f"At {speed:g} degrees a second a quarter turn takes {exact:.1f} decisions; your "
+                f"function says {found:.1f}{slip.words}.",
+                hint=slip.name or "time",
+            )
+        turning = _repeated(round(found), [0, -1, 0, 0], move=1, turn=math.radians(speed), size=8)
+    return Done("A quarter turn at eight turning speeds.", turning.picture())
 
 
 @exercise(
     "02.3",
-    "Praise and blame",
+    "Stop in time",
     hints={
-        "rewards": "Put two reward functions into the list `rewards=[]`: a `TouchRewardFunc` for "
-        "the box, and a `FallReward`.",
-        "amount": "How much is paid for the touch is the parameter `reward`.",
-        "end": "The episode goes on after the touch. Every reward function has a parameter "
-        "`cause_episode_to_end`, which is False unless you say so.",
-        "fall": "A fall should cost 1. That is what `FallReward()` pays.",
+        "look": 'The distance is `percept["orientation"][1]`, in metres. Write an `if`: if it '
+        "is above 2, drive; otherwise stand still.",
+        "blind": "Your robot does the same whatever it senses. The box is at a different distance "
+        "in each world: the robot has to look.",
+        "late": "It stopped too late. The number that you compare with is the distance to the "
+        "middle of the box.",
+        "early": "It stands still, but too far away: drive on while the distance is above 2.",
+        "never": "It never stands still. A distance is hardly ever exactly 2: compare with `>` or "
+        "`<`, and return an action with 0 where it has to stop.",
+        "reversed": "It drives away from the box. Drive where the distance is above 2, not below.",
     },
 )
-def is_paid(agent: Any) -> Done:
-    """Check for +10 for a touch, which ends the episode, and -1 for a fall."""
-    sim = put_in(agent, plate(None, None), forward())
-    if not sim.agents[0].rewards:
-        raise NotYet("Your agent has no reward function yet.", hint="rewards")
-    touched = drive(sim, sim.agents[0], seed=5, limit=24)
-    paid = _paid(touched)
-    if not is_close(paid, 10, 1e-6):
-        raise touched.not_yet(
-            f"The robot touched the box and got {paid:g}, not 10 ({{where}}).", "amount"
-        )
-    if not touched.agent.terminated:
-        raise touched.not_yet("The robot touched the box, and it went on ({where}).", "end")
-    sim = put_in(agent, plate(None, ASIDE), forward())
-    fallen = drive(sim, sim.agents[0], seed=5, limit=120)
-    paid = _paid(fallen)
-    if not is_close(paid, -1, 1e-6):
-        raise fallen.not_yet(f"The robot fell and got {paid:g}, not -1 ({{where}}).", "fall")
-    return Done("A touch pays 10 and ends the episode, a fall costs 1.", touched.picture())
+def stops_in_time(drive_it: Any) -> Done:
+    """Check that it drives up to 2 m from the box, and stops there."""
+    somewhere = Variation(x=(3, 7), y=(0, 0.01))
+    agent = _robot(3, 2, LocalBrain(controller=lambda _: {}))
+    sim = ControlRequestor(plate(None, somewhere, size=16), [agent])
+    agent.use_brain(as_brain(drive_it))
+    moved: set[float] = set()
+    falls = 0
+    reason: NotYet | None = None
+    for seed in seeds_of("02.3", 8):
+        last = drive(sim, agent, seed, limit=SECONDS_TO_STOP * DECISIONS_A_SECOND)
+        moved.add(round(last.moved, 1))
+        falls += last.fell
+        reason = reason or _not_stopped(last)
+    if reason is not None:
+        # a robot that pushes the box off the plate goes as far in each world, and may well look
+        if len(moved) == 1 and not falls and reason.hint in {"late", "early"}:
+            reason.hint = "blind"
+        raise reason
+    return Done("In 8 worlds the robot stopped about 2 m before the box.", last.picture())
 
 
-def _paid(done: Drive) -> float:
-    return float(done.agent.ledger.episode_total)
+def _not_stopped(last: Drive) -> NotYet | None:
+    """Return the reason why a robot has not stopped where it should, if it has not."""
+    away = float(last.agent.percept["orientation"][1])
+    rests = math.dist(last.trail[-1], last.trail[-2]) < 0.02 if last.steps else True
+    if not last.fell and rests and is_close(away, 2, 0.5):
+        return None
+    if last.fell:
+        how = "The robot fell"
+    elif away < 1.5:
+        how = f"The robot came as near as {away:.1f} m to the box"
+    elif not rests:
+        how = f"The robot was still moving after {SECONDS_TO_STOP} seconds"
+    else:
+        how = f"At the end the box was {away:.1f} m away, not 2"
+    return last.not_yet(f"{how} ({{where}}).", _why(last, away, rests))
 
 
-@exercise(
-    "02.4",
-    "To the box, from anywhere",
-    hints={
-        "look": 'The first number of `percept["bearing"]` is above 0 where the box is to the '
-        "left. Turn by it: the second number of the action has to follow from it.",
-        "mirrored": "Your robot turns away from the box. Above 0 the bearing means left, but in "
-        "the action above 0 means right: a minus sign is missing.",
-        "stays": "It turns and never drives: the first number of the action is always 0. Drive "
-        "where the box is ahead.",
-        "sideways": "It turns by the cosine. That is the same for a box on the left and on the "
-        "right: the side is in the sine, the first of the two numbers.",
-        "behind": "Straight behind the robot the sine is 0 too. Look at the cosine: where it is "
-        "below 0, turn on the spot, without driving.",
-    },
-)
-def reaches_the_box(agent: Any) -> Done:
-    """Check that it touches the box in 20 worlds."""
-    arrived = TouchRewardFunc(name="arrived", target="box", reward=1, cause_episode_to_end=True)
-    put_in(agent, plate())
-    seeds = seeds_of("02.4")
-    for count, seed in enumerate(seeds):
-        world = plate(None, BEHIND) if seed == seeds[-1] else plate()
-        sim = put_in(agent.changed(rewards=[arrived]), world)
-        turns: list[Turn] = []
-        done = drive(sim, sim.agents[0], seed, 240, lambda done: turns.append(_turn(done)))  # noqa: B023
-        if not is_close(_paid(done), 1, 1e-6):
-            how = "fell off the plate" if done.fell else "did not get to the box"
-            raise done.not_yet(
-                f"The robot {how} ({{where}}). In {count} worlds before that it got there.",
-                "behind" if seed == seeds[-1] else _why(turns),
-            )
-    return Done(f"In {len(seeds)} worlds the robot got to the box.", done.picture())
-
-
-def _turn(done: Drive) -> Turn:
-    """Return sine and cosine of the box's bearing, and the robot's last speed and turn."""
-    angle = done.agent.body.bearing(done.sim.world["box"])
-    last = next(iter(done.agent.last_action.values()), (0.0, 0.0))
-    speed, turn = (last[0], last[1]) if len(last) > 1 else (0.0, 0.0)
-    return float(np.sin(angle)), float(np.cos(angle)), speed, turn
-
-
-def _why(turns: list[Turn]) -> str:
-    """Return the name of the hint that fits how a robot turned."""
-    pairs = [(sine, cosine, turn) for (sine, cosine, *_), (*_, turn) in pairwise(turns)]
-    if len({turn for *_, turn in pairs}) < 2:
+def _why(last: Drive, away: float, rests: bool) -> str:
+    """Return the diagnosis that fits how a robot did not stop."""
+    if last.moved < 0.05:
         return "look"
-    if not any(speed for *_, speed, _ in turns):
-        return "stays"
-    by_cosine = sum(abs(abs(turn) - abs(cosine)) < 0.01 for _, cosine, turn in pairs)
-    by_sine = sum(abs(abs(turn) - abs(sine)) < 0.01 for sine, _, turn in pairs)
-    if by_cosine > 0.8 * len(pairs) > by_sine:
-        return "sideways"
-    return "mirrored" if sum(sine * turn for sine, _, turn in pairs) > 0 else "behind"
+    if last.trail[-1][0] < last.trail[0][0]:
+        return "reversed"
+    acts = any(next(iter(last.agent.last_action.values()), ()))
+    if acts and (last.fell or away < 1.5 or not rests):
+        return "never"
+    return "late" if away < 2 else "early"
+
+
+exit_ticket(
+    "02.exit",
+    Question(
+        "b",
+        {
+            "a": "The heading grows when the robot turns left. A turn above 0 is a turn to the "
+            "right.",
+            "c": "The first number drives. The second one turns, and that changes the heading.",
+        },
+    ),
+    Question(
+        "a",
+        {
+            "b": "24 decisions are not 24 seconds: each lasts a twelfth of a second.",
+            "c": "6 is a quarter of 24, but decisions are not seconds. What is a quarter of 4 m/s, "
+            "and how many seconds are 24 decisions?",
+        },
+    ),
+    Question(
+        "c",
+        {
+            "a": "The one that counts drives as far as before. It has no way to notice that the "
+            "box has moved.",
+            "b": "One of them senses the new distance at each decision.",
+        },
+    ),
+)

@@ -1,288 +1,297 @@
-"""Sensors: what can it know?"""
+"""Build an agent from blocks."""
 
-import math
-from collections.abc import Sequence
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
 
 from ai4u_edu.agent import BasicAgent
 from ai4u_edu.agent.cycle import ControlRequestor
-from ai4u_edu.blocks import (
-    BearingSensor,
-    LocalBrain,
-    OrientationSensor,
-    Percept,
-    RBMoveActuator,
-    Sensor,
-    TouchRewardFunc,
-)
-from ai4u_edu.lessons.exercise import Done, NotYet, a_function, a_list_of, exercise
-from ai4u_edu.lessons.numeric import chance_for, finite_number, finite_numbers, is_close
-from ai4u_edu.lessons.pictures import picture
-from ai4u_edu.lessons.rollouts import as_brain, drive, seeds_of
-from ai4u_edu.lessons.worlds import plate
-from ai4u_edu.snapshot import capture_snapshot
-from ai4u_edu.world import BoxShape, CircleShape, World
+from ai4u_edu.blocks import BearingSensor, LocalBrain, RBMoveActuator, TouchRewardFunc
+from ai4u_edu.lessons.exercise import Done, NotYet, exercise
+from ai4u_edu.lessons.exit_ticket import Question, exit_ticket
+from ai4u_edu.lessons.numeric import is_close
+from ai4u_edu.lessons.rollouts import Drive, as_brain, drive, seeds_of
+from ai4u_edu.lessons.worlds import forward, plate, put_in
+from ai4u_edu.world import Variation
 
+ASIDE = Variation(x=(-4, 4), y=(3, 4))
+"""Places of a box that is out of the way."""
+BEHIND = Variation(places=((-3.0, 0.0),))
+GOLD_DECISIONS = 20
+"""Mean number of decisions that is enough in 03.5; without driving backward it takes 20.6."""
+Turn = tuple[float, float, float, float]
+IDLE = LocalBrain(controller=lambda _: {})
 STATUS = ("done", "id")
 """Perception keys that every agent has."""
 
 
-def _look(
-    sensors: Sequence[Sensor], box: tuple[float, float], *, wall: bool = False
-) -> ControlRequestor:
-    """Return the percept of a robot in the middle that looks right, with a box somewhere."""
-    world = World()
-    world.add_floor("plate", BoxShape(size=(24, 24)))
-    world.add_body("robot", CircleShape(radius=0.5), tags=("agent",))
-    world.add_body("box", BoxShape(size=(1, 1)), position=box, tags=("target",))
-    if wall:
-        middle, angle = (box[0] * 0.6, box[1] * 0.6), math.degrees(math.atan2(box[1], box[0]))
-        shape = BoxShape(size=(0.3, 2.4))
-        world.add_body(
-            "wall", shape, kind="static", position=middle, heading_deg=angle, tags=("wall",)
-        )
-    idle = LocalBrain(controller=lambda _: {})
-    agent = BasicAgent(body="robot", sensors=list(sensors), brains=[idle])
-    sim = ControlRequestor(world, [agent])
-    sim.reset(1)
-    return sim
-
-
-def _readings(percept: Percept) -> dict[str, Any]:
-    return {key: np.asarray(value) for key, value in percept.items() if key not in STATUS}
-
-
-def _same(one: Percept, other: Percept) -> bool:
-    ones, others = _readings(one), _readings(other)
-    return all(np.allclose(ones[key], others[key], atol=1e-4) for key in ones)
-
-
-def _same_of(sensor: Sensor, one: Percept, other: Percept) -> bool:
-    key = sensor.perception_key
-    return bool(np.allclose(one[key], other[key], atol=1e-4))
-
-
 @exercise(
     "03.1",
-    "The twin",
+    "Legs",
     hints={
-        "other": "You gave the same place. There is a second one: think of a mirror "
-        "along the line in which the robot faces.",
-        "behind": "The cosine is not the same there. Ahead must stay ahead: only left and right "
-        "change places.",
-        "far": "The distance is not the same there. The twin is as far away as the box.",
+        "actuator": "An actuator is missing: put `RBMoveActuator(...)` into the list "
+        "`actuators=[]`.",
+        "speed": "The parameter `move_amount` is the speed, in metres a second, that the number 1 "
+        "stands for.",
+        "turn": "The parameter `turn_amount` is the turning speed, in radians a second, that the "
+        "number 1 stands for.",
     },
 )
-def finds_the_twin(twin: Any) -> Done:
-    """Check for the other place that has the same orientation."""
-    a_function(twin)
-    for x, y in _places(twin):
-        given = twin(x, y)
-        u, v = finite_numbers(given, 2, expected=f"For ({x:g}, {y:g}) expected two numbers")
-        if math.hypot(u - x, v - y) < 0.1:
-            raise NotYet(f"For ({x:g}, {y:g}) your function gives the same place.", hint="other")
-        if not 1.5 < math.hypot(u, v) < 11:
-            raise NotYet(f"({u:g}, {v:g}) is inside the robot, or far off the plate.", hint="far")
-        one = _look([OrientationSensor(target="box", normalized=False)], (x, y))
-        (cosine, distance) = one.agents[0].percept["orientation"]
-        other = _look([OrientationSensor(target="box", normalized=False)], (u, v))
-        (twins_cosine, twins_distance) = other.agents[0].percept["orientation"]
-        if not is_close(twins_distance, distance, 0.01):
-            raise NotYet(
-                f"At ({x:g}, {y:g}) the robot reads a distance of {distance:.2f}, at "
-                f"({u:g}, {v:g}) {twins_distance:.2f}.",
-                hint="far",
-                picture=picture(capture_snapshot(other)),
-            )
-        if not is_close(twins_cosine, cosine, 0.01):
-            raise NotYet(
-                f"At ({x:g}, {y:g}) the robot reads a cosine of {cosine:.2f}, at ({u:g}, {v:g}) "
-                f"{twins_cosine:.2f}.",
-                hint="behind",
-                picture=picture(capture_snapshot(other)),
-            )
-    return Done("In eight worlds the robot can't tell the box from its twin.")
-
-
-def _places(twin: Any) -> list[tuple[float, float]]:
-    """Return places all around the robot, none straight ahead or behind."""
-    chance = chance_for("03.1", twin)
-    found = [(3.0, 1.0), (-3.0, 2.5)]
-    for _ in range(6):
-        angle, away = chance.uniform(0.3, math.pi - 0.3), chance.uniform(2, 5)
-        side = chance.choice([-1.0, 1.0])
-        found.append(
-            (round(float(away * np.cos(angle)), 1), round(float(side * away * np.sin(angle)), 1))
+def has_legs(agent: Any) -> Done:
+    """Check that it drives at 2 m/s, and turns at 3 rad/s."""
+    if not put_in(agent, plate(None, ASIDE), IDLE).agents[0].actuators:
+        raise NotYet("Your agent has no actuator yet: it can't do anything.", hint="actuator")
+    straight = _driven(agent, 1, 0, decisions=12)
+    if not is_close(straight.moved, 2, 0.05):
+        raise straight.not_yet(
+            f"In one second the robot drove {straight.moved:.2f} m, not 2 ({{where}}).", "speed"
         )
-    return found
+    turning = _driven(agent, 0, 1, decisions=6)
+    turned = -turning.agent.body.heading
+    if not is_close(turned, 1.5, 0.05):
+        raise turning.not_yet(
+            f"In half a second the robot turned {turned:.2f} rad to the right, not 1.5 "
+            "({where}).",
+            "turn",
+        )
+    return Done("Two metres and three radians a second: it has its legs.", straight.picture())
+
+
+def _driven(agent: Any, move: float, turn: float, decisions: int) -> Drive:
+    names = [each.action_name for each in agent.actuators if isinstance(each, RBMoveActuator)]
+    if not names:
+        raise NotYet("Your agent has no RBMoveActuator.", hint="actuator")
+    brain = LocalBrain(controller=lambda _: {names[0]: [move, turn, 0, 0]})
+    sim = put_in(agent, plate(None, ASIDE), brain)
+    return drive(sim, sim.agents[0], seed=3, limit=decisions)
 
 
 @exercise(
     "03.2",
-    "Search",
+    "Eyes and a bumper",
     hints={
-        "turn": "Two cases: where the cosine is large, drive; else turn on the spot, always in "
-        "the same direction.",
-        "narrow": "The robot turns past the box again and again. In one decision it turns by up to "
-        "14 degrees: be content with a smaller cosine, or turn more slowly.",
-        "blind": "It does the same whatever it senses. Ask for the cosine: `if cosine > ...:`.",
-        "stays": "It turns and never drives. Where the cosine is large, the box is ahead: drive.",
-        "away": "It drives away from the box: when it looks at it, the cosine is large.",
-        "wide": "The robot drives although it does not look at the box. A cosine of 0 is a box "
-        "beside you: ask for more.",
+        "sensors": "Put two sensors into the list `sensors=[]`: one tells the direction of the "
+        "box, the other one whether it is touched. `ai4u-edu blocks` lists all sensors.",
+        "bearing": "One reading has to tell left from right. That takes two numbers, the sine and "
+        "the cosine of the angle to the box: `BearingSensor`.",
+        "touch": "One reading has to be 1 while the robot touches the box, and -1 otherwise: "
+        "`TouchSensor`.",
     },
 )
-def finds_by_turning(search: Any) -> Done:
-    """Check that it gets to the box with one cosine."""
-    arrived = TouchRewardFunc(name="arrived", target="box", reward=1, cause_episode_to_end=True)
-    agent = BasicAgent(
-        body="robot",
-        sensors=[OrientationSensor(target="box", info="angle")],
-        actuators=[RBMoveActuator(move_amount=2, turn_amount=3)],
-        rewards=[arrived],
-        brains=[LocalBrain(controller=lambda _: {})],
+def has_senses(agent: Any) -> Done:
+    """Check that one reading is the box's bearing, and another one tells of its touch."""
+    sim = put_in(agent, plate(), IDLE)
+    if not sim.agents[0].sensors:
+        raise NotYet("Your agent has no sensor yet: it knows nothing of the world.", hint="sensors")
+    for seed in seeds_of("03.2", 10):
+        seen = drive(sim, sim.agents[0], seed, limit=1)
+        if not _sees(seen):
+            raise seen.not_yet("No reading tells where the box is ({where}).", "bearing")
+    legs = RBMoveActuator(move_amount=2, turn_amount=3)  # whether or not it has legs of its own
+    sim = put_in(agent.changed(actuators=[legs]), plate(None, None), forward())
+    felt: list[dict[str, float]] = []
+    bumped = drive(sim, sim.agents[0], 5, 30, watch=lambda done: felt.append(_single(done)))
+    if not any(first == -1 and felt[-1].get(key) == 1 for key, first in felt[0].items()):
+        raise bumped.not_yet(
+            "The robot touches the box, and no reading says so ({where}).", "touch"
+        )
+    return Done("It sees where the box is, and feels when it touches it.", bumped.picture())
+
+
+def _sees(done: Drive) -> bool:
+    """Return True if a reading is the true bearing of the box."""
+    angle = done.agent.body.bearing(done.sim.world["box"])
+    true = np.array([np.sin(angle), np.cos(angle)])
+    return any(
+        is_close(row, true, 0.01)
+        for key, reading in done.agent.percept.items()
+        if key not in STATUS and np.size(reading) % 2 == 0
+        for row in np.reshape(reading, (-1, 2))  # several moments, where they are stacked
     )
-    sim = ControlRequestor(plate(), [agent])
-    agent.use_brain(as_brain(search))
-    seeds = seeds_of("03.2")
-    for count, seed in enumerate(seeds):
-        turned: list[float] = []
-        driven: list[float] = []
-        towards: list[float] = []  # speed towards the box, of what was driven
-
-        def watch(
-            _: object,
-            turned: list[float] = turned,
-            driven: list[float] = driven,
-            towards: list[float] = towards,
-        ) -> None:
-            action = next(iter(agent.last_action.values()), ())
-            turned.append(abs(action[1]) if len(action) > 1 else 0.0)
-            driven.append(abs(action[0]) if action else 0.0)
-            towards.append((action[0] if action else 0.0) * float(agent.percept["orientation"][0]))
-
-        done = drive(sim, agent, seed, 360, watch)
-        if not is_close(agent.ledger.episode_total, 1, 1e-6):
-            how = "fell off the plate" if done.fell else "did not get to the box"
-            why = _search_mistake(turned, driven, towards)
-            raise done.not_yet(
-                f"The robot {how} ({{where}}). In {count} worlds before that it got there.", why
-            )
-    return Done(f"With one number it found the box in {len(seeds)} worlds.", done.picture())
 
 
-def _search_mistake(turned: list[float], driven: list[float], towards: list[float]) -> str:
-    """Return the diagnosis that fits how a robot searched."""
-    if not any(turned):
-        return "turn"
-    if not any(driven):
-        return "stays"
-    if sum(towards) < 0:
-        return "away"
-    if len(set(turned[1:])) == 1 and len(set(driven[1:])) == 1:
-        return "blind"
-    return "wide" if sum(driven) > 0.3 * len(driven) else "narrow"
+def _single(done: Drive) -> dict[str, float]:
+    """Return the readings of one number."""
+    return {
+        key: float(np.ravel(reading)[0])
+        for key, reading in done.agent.percept.items()
+        if key not in STATUS and np.size(reading) == 1
+    }
 
 
 @exercise(
     "03.3",
-    "The angle",
+    "Praise and blame",
     hints={
-        "begin": "`math.degrees(math.atan2(sine, cosine))`: the sine comes first.",
-        "degrees": "That is the angle in radians: `math.degrees` makes degrees of it.",
-        "mirrored": "Left and right are swapped: above 0 is to the left.",
-        "swapped": "`math.atan2` takes the sine first, then the cosine.",
-        "side": "The size is right, the side is not. A function of the cosine alone can't tell "
-        "left from right.",
-        "behind": "Ahead it is right, behind it is not. A function of the sine alone can't tell "
-        "ahead from behind: `math.atan2` takes both.",
+        "rewards": "Put two reward functions into the list `rewards=[]`: a `TouchRewardFunc` for "
+        "the box, and a `FallReward`.",
+        "amount": "The parameter `reward` says how much the touch pays.",
+        "end": "The episode goes on after the touch. Every reward function has a parameter "
+        "`cause_episode_to_end`, which is False unless you say so.",
+        "fall": "A fall should cost 1. That is what `FallReward()` pays.",
     },
 )
-def computes_the_angle(angle_to_box: Any) -> Done:
-    """Check the degrees computed from a sine and a cosine."""
-    a_function(angle_to_box)
-    found: list[tuple[float, float]] = []
-    chance = chance_for("03.3", angle_to_box)
-    drawn = [
-        round(float(sign * chance.uniform(low, low + 70))) for sign in (1, -1) for low in (10, 100)
-    ]
-    for angle in (20, -35, 110, -170, *drawn):
-        turned = math.radians(angle)
-        box = (4 * math.cos(turned), 4 * math.sin(turned))
-        percept = _look([BearingSensor(target="box")], box).agents[0].percept
-        given = angle_to_box(percept)
-        found.append((float(angle), finite_number(given)))
-    wrong = [(true, given) for true, given in found if not is_close(given, true, 0.5)]
-    if wrong:
-        true, given = wrong[0]
-        raise NotYet(
-            f"The box is at {true:g} degrees, your function says {given:.1f}.",
-            hint=_why(found),
+def is_paid(agent: Any) -> Done:
+    """Check for +10 for a touch, which ends the episode, and -1 for a fall."""
+    sim = put_in(agent, plate(None, None), forward())
+    if not sim.agents[0].rewards:
+        raise NotYet("Your agent has no reward function yet.", hint="rewards")
+    touched = drive(sim, sim.agents[0], seed=5, limit=24)
+    paid = _paid(touched)
+    if not is_close(paid, 10, 1e-6):
+        raise touched.not_yet(
+            f"The robot touched the box and got {paid:g}, not 10 ({{where}}).", "amount"
         )
-    return Done("Eight directions all around the robot, and every angle was right.")
+    if not touched.agent.terminated:
+        raise touched.not_yet("The robot touched the box, and it went on ({where}).", "end")
+    sim = put_in(agent, plate(None, ASIDE), forward())
+    fallen = drive(sim, sim.agents[0], seed=5, limit=120)
+    paid = _paid(fallen)
+    if not is_close(paid, -1, 1e-6):
+        raise fallen.not_yet(f"The robot fell and got {paid:g}, not -1 ({{where}}).", "fall")
+    return Done("A touch pays 10 and ends the episode, a fall costs 1.", touched.picture())
 
 
-def _why(found: list[tuple[float, float]]) -> str:
-    """Return the hint that fits how angles are wrong."""
-
-    def fits(wrong: Any) -> bool:
-        return all(is_close(given, wrong(true), 0.5) for true, given in found)
-
-    if fits(math.radians):
-        return "degrees"
-    if fits(lambda true: -true):
-        return "mirrored"
-    if fits(lambda true: math.remainder(90 - true, 360)):
-        return "swapped"
-    if fits(abs):
-        return "side"
-    if all(is_close(given, true, 0.5) for true, given in found if abs(true) < 90):
-        return "behind"
-    return "begin"
+def _paid(done: Drive) -> float:
+    return float(done.agent.ledger.episode_total)
 
 
 @exercise(
     "03.4",
-    "Tell them apart",
+    "To the box, from anywhere",
     hints={
-        "mirror": "The mirrored worlds look the same. Which sensor tells left from right?",
-        "distance": "Near and far look the same: one of the sensors has to tell a distance.",
-        "wall": "The wall is not seen. Which sensor is stopped by what stands in between?",
-        "narrow": "The rays look ahead only. `field_of_view` is the angle that they cover, and "
-        "between few rays there are gaps: `number_of_rays`.",
-        "many": "It works, and with fewer sensors too: two are enough.",
+        "look": 'The first number of `percept["bearing"]` is above 0 where the box is to the '
+        "left. Turn by it: the second number of the action has to follow from it.",
+        "mirrored": "Your robot turns away from the box. Above 0 the bearing means left, but in "
+        "the action above 0 means right: a minus sign is missing.",
+        "stays": "It turns and never drives: the first number of the action is always 0. Drive "
+        "where the box is ahead.",
+        "sideways": "It turns by the cosine. That is the same for a box on the left and on the "
+        "right: the side is in the sine, the first of the two numbers.",
+        "behind": "Straight behind the robot the sine is 0 too. Look at the cosine: where it is "
+        "below 0, turn on the spot, without driving.",
     },
 )
-def tells_apart(sensors: Any) -> Done:
-    """Check that three pairs of worlds have different percepts."""
-    sensors = a_list_of(Sensor, sensors)
-    for angle in (20.0, 35.0, 50.0):
-        turned = math.radians(angle)
-        ahead, side = math.cos(turned), math.sin(turned)
-        left = _look(sensors, (4 * ahead, 4 * side)).agents[0].percept
-        shown = f"the box at {angle:g} degrees"
-        if _same(left, _look(sensors, (4 * ahead, -4 * side)).agents[0].percept):
-            raise NotYet(
-                f"With {shown} on the left, or as much on the right, the percept is the same.",
-                hint="mirror",
+def reaches_the_box(agent: Any) -> Done:
+    """Check that it touches the box in 20 worlds."""
+    arrived = TouchRewardFunc(name="arrived", target="box", reward=1, cause_episode_to_end=True)
+    put_in(agent, plate())
+    seeds = seeds_of("03.4")
+    for count, seed in enumerate(seeds):
+        world = plate(None, BEHIND) if seed == seeds[-1] else plate()
+        sim = put_in(agent.changed(rewards=[arrived]), world)
+        turns: list[Turn] = []
+        done = drive(sim, sim.agents[0], seed, 240, lambda done: turns.append(_turn(done)))  # noqa: B023
+        if not is_close(_paid(done), 1, 1e-6):
+            how = "fell off the plate" if done.fell else "did not get to the box"
+            raise done.not_yet(
+                f"The robot {how} ({{where}}). In {count} worlds before that it got there.",
+                "behind" if seed == seeds[-1] else _why(turns),
             )
-        if _same(left, _look(sensors, (7 * ahead, 7 * side)).agents[0].percept):
-            raise NotYet(
-                f"With {shown}, 4 or 7 metres away, the percept is the same.", hint="distance"
+    return Done(f"In {len(seeds)} worlds the robot got to the box.", done.picture())
+
+
+def _turn(done: Drive) -> Turn:
+    """Return sine and cosine of the box's bearing, and the robot's last speed and turn."""
+    angle = done.agent.body.bearing(done.sim.world["box"])
+    last = next(iter(done.agent.last_action.values()), (0.0, 0.0))
+    speed, turn = (last[0], last[1]) if len(last) > 1 else (0.0, 0.0)
+    return float(np.sin(angle)), float(np.cos(angle)), speed, turn
+
+
+def _why(turns: list[Turn]) -> str:
+    """Return the name of the hint that fits how a robot turned."""
+    pairs = [(sine, cosine, turn) for (sine, cosine, *_), (*_, turn) in pairwise(turns)]
+    if len({turn for *_, turn in pairs}) < 2:
+        return "look"
+    if not any(speed for *_, speed, _ in turns):
+        return "stays"
+    by_cosine = sum(abs(abs(turn) - abs(cosine)) < 0.01 for _, cosine, turn in pairs)
+    by_sine = sum(abs(abs(turn) - abs(sine)) < 0.01 for sine, _, turn in pairs)
+    if by_cosine > 0.8 * len(pairs) > by_sine:
+        return "sideways"
+    return "mirrored" if sum(sine * turn for sine, _, turn in pairs) > 0 else "behind"
+
+
+@exercise(
+    "03.5",
+    "Gold: the fewest decisions",
+    hints={
+        "begin": "Begin with your `steer` of 03.4: first it has to get there in every world.",
+        "turns": "It gets there in every world. But where the box is behind, it turns round before "
+        "it comes nearer. Does a robot have to face a box to touch it?",
+        "mirrored": "When it drives backward, its back has to point to the box. The box is behind "
+        "it on the left: to which side does the robot have to turn?",
+        "gentle": "It drives both ways now. It still turns too gently: take a larger number times "
+        "the sine.",
+    },
+)
+def is_quick_enough(quick_steer: Any) -> Done:
+    """Check for few decisions on the way to the box, on average over 30 worlds."""
+    arrived = TouchRewardFunc(name="arrived", target="box", reward=1, cause_episode_to_end=True)
+    agent = BasicAgent(
+        body="robot",
+        sensors=[BearingSensor(target="box")],
+        actuators=[RBMoveActuator(move_amount=2, turn_amount=3)],
+        rewards=[arrived],
+        brains=[as_brain(quick_steer)],
+    )
+    sim = ControlRequestor(plate(), [agent])
+    steps: list[int] = []
+    turns: list[Turn] = []
+    for seed in seeds_of("03.5", 30):
+        done = drive(sim, agent, seed, 240, lambda done: turns.append(_turn(done)))
+        if not is_close(_paid(done), 1, 1e-6):
+            raise done.not_yet(
+                f"The robot did not get to the box ({{where}}). In {len(steps)} worlds before that "
+                "it got there.",
+                "mirrored" if _backward(turns) < 0 else "begin",
             )
-        hidden = _look(sensors, (4 * ahead, 4 * side), wall=True)
-        if _same(left, hidden.agents[0].percept):
-            rays = [each for each in sensors if "RayCasting" in type(each).__name__]
-            nowhere = _look(sensors, (-11, -11)).agents[0].percept
-            misses = rays and all(_same_of(each, left, nowhere) for each in rays)
-            why = " No ray hits the box there: give them a wider field of view." if misses else ""
-            raise NotYet(
-                f"With {shown}, in sight or behind a wall, the percept is the same.{why}",
-                hint="narrow" if misses else "wall",
-                picture=picture(capture_snapshot(hidden)),
-            )
-    if len(sensors) > 2:
-        raise NotYet(f"You tell all pairs apart, with {len(sensors)} sensors.", hint="many")
-    return Done(f"Three pairs of worlds, told apart by {len(sensors)} sensor(s).")
+        steps.append(done.steps)
+    mean = sum(steps) / len(steps)
+    if mean > GOLD_DECISIONS:
+        raise done.not_yet(
+            f"On average it takes {mean:.1f} decisions, in 30 worlds; gold is "
+            f"{GOLD_DECISIONS} or fewer.",
+            _slow_way(_backward(turns)),
+        )
+    return Done(f"Gold: {mean:.1f} decisions on average, in 30 worlds.", done.picture())
+
+
+def _backward(turns: list[Turn]) -> float:
+    """Return how much a robot turned its back to the box as it drove backward; 0 if never."""
+    return sum(sine * turn for (sine, *_), (*_, speed, turn) in pairwise(turns) if speed < 0)
+
+
+def _slow_way(backward: float) -> str:
+    """Return the diagnosis of a robot that gets to the box, but slowly."""
+    if not backward:
+        return "turns"
+    return "gentle" if backward > 0 else "mirrored"
+
+
+exit_ticket(
+    "03.exit",
+    Question(
+        "a",
+        {
+            "b": "A reward is a number about what happened. It moves nothing.",
+            "c": "Chance decides nothing here. With an empty action no actuator gets a number.",
+        },
+    ),
+    Question(
+        "c",
+        {
+            "a": "The first number is the sine: below 0 means on the right.",
+            "b": "Look at both signs again: the second number is above 0 if the box is ahead.",
+        },
+    ),
+    Question(
+        "b",
+        {
+            "a": "The reward is paid anyway. This parameter only says whether the episode ends.",
+            "c": "It is the other way round: left out, the parameter is False, and nothing ends.",
+        },
+    ),
+)

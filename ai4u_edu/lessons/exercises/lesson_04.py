@@ -1,184 +1,357 @@
-"""A vehicle with two wires."""
+"""Sensors: what can it know?"""
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 
 from ai4u_edu.agent import BasicAgent
 from ai4u_edu.agent.cycle import ControlRequestor
-from ai4u_edu.blocks import DifferentialDriveActuator, LightSensor
-from ai4u_edu.lessons.exercise import Done, exercise
-from ai4u_edu.lessons.rollouts import Drive, as_brain, drive, seeds_of
+from ai4u_edu.blocks import (
+    BearingSensor,
+    LocalBrain,
+    OrientationSensor,
+    Percept,
+    RBMoveActuator,
+    Sensor,
+    TouchRewardFunc,
+)
+from ai4u_edu.lessons.exercise import Done, NotYet, a_function, a_list_of, exercise
+from ai4u_edu.lessons.exit_ticket import Question, exit_ticket
+from ai4u_edu.lessons.numeric import chance_for, finite_number, finite_numbers, is_close
+from ai4u_edu.lessons.pictures import picture
+from ai4u_edu.lessons.rollouts import as_brain, drive, seeds_of
+from ai4u_edu.lessons.worlds import plate
+from ai4u_edu.snapshot import capture_snapshot
 from ai4u_edu.world import BoxShape, CircleShape, World
 
-FARTHEST = 3.6
-"""Distance in 04.3 that still counts as 3.5 m."""
-TOUCH = 1.0
-"""Distance of the centres at which vehicle and lamp touch, and a little more; metres."""
+STATUS = ("done", "id")
+"""Perception keys that every agent has."""
+GOLD_NUMBERS = 3
 
 
-def _vehicle(wires: Any, seed: int) -> ControlRequestor:
-    """Make a vehicle 4 to 6 m from a lamp, which is in front of it or beside it."""
-    chance = np.random.default_rng(seed)
-    around, away = chance.uniform(-math.pi, math.pi), chance.uniform(4, 6)
-    aside = math.radians(chance.uniform(20, 95)) * chance.choice([-1.0, 1.0])
+def _look(
+    sensors: Sequence[Sensor], box: tuple[float, float], *, wall: bool = False
+) -> ControlRequestor:
+    """Return the percept of a robot in the middle that looks right, with a box somewhere."""
     world = World()
-    world.add_floor("plate", BoxShape(size=(16, 16)))
-    world.add_body(
-        "vehicle",
-        CircleShape(radius=0.5),
-        position=(away * math.cos(around), away * math.sin(around)),
-        heading_deg=math.degrees(around + math.pi + aside),
-    )
-    world.add_body("lamp", CircleShape(radius=0.4), kind="static", tags=("lamp",), colour="yellow")
-    agent = BasicAgent(
-        body="vehicle",
-        sensors=[
-            LightSensor(perception_key="left eye", group="lamp", angle_deg=60, reach=4),
-            LightSensor(perception_key="right eye", group="lamp", angle_deg=-60, reach=4),
-        ],
-        actuators=[
-            DifferentialDriveActuator(action_name="wheels", max_wheel_speed=3, axle_width=1)
-        ],
-        brains=[as_brain(wires)],
-    )
-    return ControlRequestor(world, [agent])
+    world.add_floor("plate", BoxShape(size=(24, 24)))
+    world.add_body("robot", CircleShape(radius=0.5), tags=("agent",))
+    world.add_body("box", BoxShape(size=(1, 1)), position=box, tags=("target",))
+    if wall:
+        middle, angle = (box[0] * 0.6, box[1] * 0.6), math.degrees(math.atan2(box[1], box[0]))
+        shape = BoxShape(size=(0.3, 2.4))
+        world.add_body(
+            "wall", shape, kind="static", position=middle, heading_deg=angle, tags=("wall",)
+        )
+    idle = LocalBrain(controller=lambda _: {})
+    agent = BasicAgent(body="robot", sensors=list(sensors), brains=[idle])
+    sim = ControlRequestor(world, [agent])
+    sim.reset(1)
+    return sim
 
 
-def _drives(
-    wires: Any,
-    exercise_id: str,
-    limit: int,
-    watch: Callable[[Drive], object] = lambda _: None,
-) -> Iterator[tuple[Drive, list[float]]]:
-    """Run episodes, with the distances of the centres to the lamp on the way; metres."""
-    for seed in seeds_of(exercise_id, 12):
-        sim = _vehicle(wires, seed)
-        done = drive(sim, sim.agents[0], seed, limit, watch)
-        yield done, [math.hypot(x, y) for x, y in done.trail]
+def _readings(percept: Percept) -> dict[str, Any]:
+    return {key: np.asarray(value) for key, value in percept.items() if key not in STATUS}
 
 
-def _aside(done: Drive) -> float:
-    """Return the angle between the vehicle's heading and the lamp; degrees."""
-    return abs(math.degrees(done.agent.body.bearing(done.sim.world["lamp"])))
+def _same(one: Percept, other: Percept) -> bool:
+    ones, others = _readings(one), _readings(other)
+    return all(np.allclose(ones[key], others[key], atol=1e-4) for key in ones)
+
+
+def _same_of(sensor: Sensor, one: Percept, other: Percept) -> bool:
+    key = sensor.perception_key
+    return bool(np.allclose(one[key], other[key], atol=1e-4))
 
 
 @exercise(
     "04.1",
-    "Attack",
+    "The twin",
     hints={
-        "begin": "Each wheel gets the number of one eye. There are only two ways to do that: try "
-        "both, and watch.",
-        "sides": "It turns away from the lamp. The wheel on the lamp's side is faster: connect "
-        "each eye with the other wheel.",
-        "straight": "Both wheels turn equally fast, so the vehicle can't turn. Each wheel needs "
-        "another eye.",
+        "other": "You gave the same place. There is a second one: think of a mirror "
+        "along the line in which the robot faces.",
+        "behind": "The cosine is not the same there. Ahead must stay ahead: only left and right "
+        "change places.",
+        "far": "The distance is not the same there. The twin is as far away as the box.",
     },
 )
-def attacks(wires: Any) -> Done:
-    """Check that it hits the lamp."""
-    for done, away in _drives(wires, "04.1", 150):
-        if done.moved < 0.2:
-            raise done.not_yet("The vehicle stands still ({where}).", "begin")
-        if min(away) > TOUCH:
-            hint = "sides" if _aside(done) > 100 else ""
-            raise done.not_yet(
-                f"The vehicle did not hit the lamp: it came as near as {min(away):.1f} m "
-                "({where}).",
-                hint if _turned(done) else "straight",
+def finds_the_twin(twin: Any) -> Done:
+    """Check for the other place that has the same orientation."""
+    a_function(twin)
+    for x, y in _places(twin):
+        given = twin(x, y)
+        u, v = finite_numbers(given, 2, expected=f"For ({x:g}, {y:g}) expected two numbers")
+        if math.hypot(u - x, v - y) < 0.1:
+            raise NotYet(f"For ({x:g}, {y:g}) your function gives the same place.", hint="other")
+        if not 1.5 < math.hypot(u, v) < 11:
+            raise NotYet(f"({u:g}, {v:g}) is inside the robot, or far off the plate.", hint="far")
+        one = _look([OrientationSensor(target="box", normalized=False)], (x, y))
+        (cosine, distance) = one.agents[0].percept["orientation"]
+        other = _look([OrientationSensor(target="box", normalized=False)], (u, v))
+        (twins_cosine, twins_distance) = other.agents[0].percept["orientation"]
+        if not is_close(twins_distance, distance, 0.01):
+            raise NotYet(
+                f"At ({x:g}, {y:g}) the robot reads a distance of {distance:.2f}, at "
+                f"({u:g}, {v:g}) {twins_distance:.2f}.",
+                hint="far",
+                picture=picture(capture_snapshot(other)),
             )
-    return Done("In 12 worlds the vehicle hit the lamp.", done.picture())
+        if not is_close(twins_cosine, cosine, 0.01):
+            raise NotYet(
+                f"At ({x:g}, {y:g}) the robot reads a cosine of {cosine:.2f}, at ({u:g}, {v:g}) "
+                f"{twins_cosine:.2f}.",
+                hint="behind",
+                picture=picture(capture_snapshot(other)),
+            )
+    return Done("In eight worlds the robot can't tell the box from its twin.")
 
 
-def _turned(done: Drive) -> bool:
-    """Return True if it ever turned."""
-    return bool(abs(done.agent.body.heading - _vehicle_heading(done)) > 0.05)
-
-
-def _vehicle_heading(done: Drive) -> float:
-    """Return its heading at the beginning; radians."""
-    return float(_vehicle(lambda _: {}, done.seed).world["vehicle"].heading)
+def _places(twin: Any) -> list[tuple[float, float]]:
+    """Return places all around the robot, none straight ahead or behind."""
+    chance = chance_for("04.1", twin)
+    found = [(3.0, 1.0), (-3.0, 2.5)]
+    for _ in range(6):
+        angle, away = chance.uniform(0.3, math.pi - 0.3), chance.uniform(2, 5)
+        side = chance.choice([-1.0, 1.0])
+        found.append(
+            (round(float(away * np.cos(angle)), 1), round(float(side * away * np.sin(angle)), 1))
+        )
+    return found
 
 
 @exercise(
     "04.2",
-    "Fear",
+    "Search",
     hints={
-        "begin": "The other way to connect two eyes with two wheels.",
-        "sides": "It turns towards the lamp. This time the wheel on the lamp's side has to be the "
-        "faster one.",
-        "backward": "It backs away, with its eyes on the lamp. It should turn round: both wheels "
-        "turn forward, the one on the lamp's side faster.",
-        "straight": "Both wheels turn equally fast, so the vehicle can't turn. Each wheel needs "
-        "another eye.",
-        "rest": "It runs on and on, and falls off the plate in the end. Without light its wheels "
-        "have to stand still: nothing may be added.",
+        "turn": "Two cases: if the cosine is large, drive; otherwise turn on the spot, always in "
+        "the same direction.",
+        "narrow": "The robot turns past the box again and again. In one decision it turns by up to "
+        "14 degrees: accept a smaller cosine, or turn more slowly.",
+        "blind": "It does the same whatever it senses. Ask for the cosine: `if cosine > ...:`.",
+        "stays": "It turns and never drives. Where the cosine is large, the box is ahead: drive.",
+        "away": "It drives away from the box. When it faces the box, the cosine is large.",
+        "wide": "The robot drives although it does not face the box. A cosine of 0 means that the "
+        "box is beside it: ask for more.",
     },
 )
-def is_afraid(wires: Any) -> Done:
-    """Check that it turns away, and comes to rest."""
-    speeds: list[float] = []
+def finds_by_turning(search: Any) -> Done:
+    """Check that it gets to the box with one cosine."""
+    arrived = TouchRewardFunc(name="arrived", target="box", reward=1, cause_episode_to_end=True)
+    agent = BasicAgent(
+        body="robot",
+        sensors=[OrientationSensor(target="box", info="angle")],
+        actuators=[RBMoveActuator(move_amount=2, turn_amount=3)],
+        rewards=[arrived],
+        brains=[LocalBrain(controller=lambda _: {})],
+    )
+    sim = ControlRequestor(plate(), [agent])
+    agent.use_brain(as_brain(search))
+    seeds = seeds_of("04.2")
+    for count, seed in enumerate(seeds):
+        turned: list[float] = []
+        driven: list[float] = []
+        towards: list[float] = []  # speed towards the box, of what was driven
 
-    def watch(done: Drive) -> None:
-        if done.steps == 0:
-            speeds.clear()
-        speeds.append(sum(done.agent.last_action.get("wheels", ())))
+        def watch(
+            _: object,
+            turned: list[float] = turned,
+            driven: list[float] = driven,
+            towards: list[float] = towards,
+        ) -> None:
+            action = next(iter(agent.last_action.values()), ())
+            turned.append(abs(action[1]) if len(action) > 1 else 0.0)
+            driven.append(abs(action[0]) if action else 0.0)
+            towards.append((action[0] if action else 0.0) * float(agent.percept["orientation"][0]))
 
-    for done, away in _drives(wires, "04.2", 300, watch):
-        if len(done.trail) > 1 and max(math.dist(done.trail[0], each) for each in done.trail) < 0.2:
-            raise done.not_yet("The vehicle stands still ({where}).", "begin")
-        if sum(speeds) < 0:
-            raise done.not_yet("The vehicle runs backward ({where}).", "backward")
-        if done.fell or away[-1] > 11:
-            hint = "rest" if _turned(done) else "straight"
-            raise done.not_yet("The vehicle runs on, off the plate ({where}).", hint)
-        if _aside(done) < 90 or min(away) < 1.5:
+        done = drive(sim, agent, seed, 360, watch)
+        if not is_close(agent.ledger.episode_total, 1, 1e-6):
+            how = "fell off the plate" if done.fell else "did not get to the box"
+            why = _search_mistake(turned, driven, towards)
             raise done.not_yet(
-                f"At the end the lamp is {away[-1]:.1f} m away, {_aside(done):.0f} degrees from "
-                "where the vehicle looks ({where}). It should have turned away.",
-                "sides" if _turned(done) else "straight",
+                f"The robot {how} ({{where}}). In {count} worlds before that it got there.", why
             )
-        pace = math.dist(done.trail[-1], done.trail[-2])
-        if pace > 0.05:
-            raise done.not_yet("The vehicle does not come to rest ({where}).", "rest")
-    return Done("In 12 worlds it turned its back on the lamp, and came to rest.", done.picture())
+    return Done(f"With one number it found the box in {len(seeds)} worlds.", done.picture())
+
+
+def _search_mistake(turned: list[float], driven: list[float], towards: list[float]) -> str:
+    """Return the diagnosis that fits how a robot searched."""
+    if not any(turned):
+        return "turn"
+    if not any(driven):
+        return "stays"
+    if sum(towards) < 0:
+        return "away"
+    if len(set(turned[1:])) == 1 and len(set(driven[1:])) == 1:
+        return "blind"
+    return "wide" if sum(driven) > 0.3 * len(driven) else "narrow"
 
 
 @exercise(
     "04.3",
-    "Love",
+    "The angle",
     hints={
-        "begin": "In the dark the wheels have to turn: begin with 1, and take something away for "
-        "the light that an eye sees.",
-        "sides": "It turns away from the lamp. The wheel on the bright side has to be the slower "
-        "one: each eye brakes the wheel on its own side.",
-        "weak": "It runs into the lamp: the brakes are too weak. Take a larger number times the "
-        "brightness.",
-        "strong": "It stops too far away, or never comes: the brakes are too strong. Take a "
-        "smaller number times the brightness.",
+        "begin": "`math.degrees(math.atan2(sine, cosine))`: the sine comes first.",
+        "degrees": "That is the angle in radians: `math.degrees` turns it into degrees.",
+        "mirrored": "Left and right are swapped: above 0 is to the left.",
+        "swapped": "`math.atan2` takes the sine first, then the cosine.",
+        "side": "The size is right, the side is not. A function of the cosine alone can't tell "
+        "left from right.",
+        "behind": "Ahead it is right, behind it is not. A function of the sine alone can't tell "
+        "ahead from behind: `math.atan2` takes both.",
     },
 )
-def loves(wires: Any) -> Done:
-    """Check that it comes, and stays 1 to 3.5 m in front of the lamp."""
-    for done, away in _drives(wires, "04.3", 240):
-        if len(done.trail) > 1 and max(math.dist(done.trail[0], each) for each in done.trail) < 0.2:
-            idle = not any(done.agent.last_action["wheels"])
-            hint = "begin" if idle else "strong"
-            raise done.not_yet("The vehicle stands still ({where}).", hint)
-        seen = f"At the end the lamp is {away[-1]:.1f} m away"
-        if min(away) < TOUCH:
-            raise done.not_yet("The vehicle runs into the lamp ({where}).", "weak")
-        if done.fell or away[-1] > 8:
-            raise done.not_yet(f"{seen} ({{where}}). The vehicle has left it.", "sides")
-        if not 1 <= away[-1] <= FARTHEST:
-            raise done.not_yet(f"{seen}, not 1 to 3.5 ({{where}}).", "strong")
-        if _aside(done) > 45:
-            raise done.not_yet(
-                f"{seen}, but {_aside(done):.0f} degrees from where the vehicle looks ({{where}}).",
-                "sides",
+def computes_the_angle(angle_to_box: Any) -> Done:
+    """Check the degrees computed from a sine and a cosine."""
+    a_function(angle_to_box)
+    found: list[tuple[float, float]] = []
+    chance = chance_for("04.3", angle_to_box)
+    drawn = [
+        round(float(sign * chance.uniform(low, low + 70))) for sign in (1, -1) for low in (10, 100)
+    ]
+    for angle in (20, -35, 110, -170, *drawn):
+        turned = math.radians(angle)
+        box = (4 * math.cos(turned), 4 * math.sin(turned))
+        percept = _look([BearingSensor(target="box")], box).agents[0].percept
+        given = angle_to_box(percept)
+        found.append((float(angle), finite_number(given)))
+    wrong = [(true, given) for true, given in found if not is_close(given, true, 0.5)]
+    if wrong:
+        true, given = wrong[0]
+        raise NotYet(
+            f"The box is at {true:g} degrees, your function says {given:.1f}.",
+            hint=_why(found),
+        )
+    return Done("Eight directions all around the robot, and every angle was right.")
+
+
+def _why(found: list[tuple[float, float]]) -> str:
+    """Return the hint that fits how angles are wrong."""
+
+    def fits(wrong: Any) -> bool:
+        return all(is_close(given, wrong(true), 0.5) for true, given in found)
+
+    if fits(math.radians):
+        return "degrees"
+    if fits(lambda true: -true):
+        return "mirrored"
+    if fits(lambda true: math.remainder(90 - true, 360)):
+        return "swapped"
+    if fits(abs):
+        return "side"
+    if all(is_close(given, true, 0.5) for true, given in found if abs(true) < 90):
+        return "behind"
+    return "begin"
+
+
+@exercise(
+    "04.4",
+    "Tell them apart",
+    hints={
+        "mirror": "The mirrored worlds look the same. Which sensor tells left from right?",
+        "distance": "Near and far look the same: one of the sensors has to tell a distance.",
+        "wall": "The wall is not seen. Which sensor can't look through a wall?",
+        "narrow": "The rays look ahead only. `field_of_view` is the angle that they cover, and "
+        "between few rays there are gaps: `number_of_rays`.",
+        "many": "It works, and with fewer sensors too: two are enough.",
+    },
+)
+def tells_apart(sensors: Any) -> Done:
+    """Check that three pairs of worlds have different percepts."""
+    sensors = a_list_of(Sensor, sensors)
+    _check_pairs(sensors)
+    if len(sensors) > 2:
+        raise NotYet(f"You tell all pairs apart, with {len(sensors)} sensors.", hint="many")
+    return Done(f"Three pairs of worlds, told apart by {len(sensors)} sensor(s).")
+
+
+@exercise(
+    "04.5",
+    "Gold: as few numbers as possible",
+    hints={
+        "mirror": "The mirrored worlds look the same. One number is enough for the side: which "
+        "sensor has it?",
+        "distance": "Near and far look the same. One number is enough for a distance.",
+        "wall": "The wall is not seen. Not only rays are stopped by a wall: look at the parameter "
+        "`visibility_test` of the OrientationSensor.",
+        "narrow": "No ray hits the box. It takes many rays to be sure of hitting it, and each "
+        "gives a number or two: look for sensors without rays.",
+        "many": "It works, and with fewer numbers too. `info` lets an OrientationSensor read only "
+        "one of its two numbers.",
+    },
+)
+def tells_apart_with_few_numbers(sensors: Any) -> Done:
+    """Check that three pairs of worlds are told apart by at most three numbers."""
+    sensors = a_list_of(Sensor, sensors)
+    _check_pairs(sensors)
+    percept = _look(sensors, (4, 1)).agents[0].percept
+    count = sum(reading.size for reading in _readings(percept).values())
+    if count > GOLD_NUMBERS:
+        raise NotYet(
+            f"You tell all pairs apart, with {count} numbers; {GOLD_NUMBERS} are enough.",
+            hint="many",
+        )
+    return Done(f"Gold: three pairs of worlds, told apart by {count} numbers.")
+
+
+def _check_pairs(sensors: Sequence[Sensor]) -> None:
+    """Check that the mirrored, the far and the hidden box give another percept.
+
+    Raises:
+        NotYet: one of them does not.
+    """
+    for angle in (20.0, 35.0, 50.0):
+        turned = math.radians(angle)
+        ahead, side = math.cos(turned), math.sin(turned)
+        left = _look(sensors, (4 * ahead, 4 * side)).agents[0].percept
+        shown = f"the box at {angle:g} degrees"
+        if _same(left, _look(sensors, (4 * ahead, -4 * side)).agents[0].percept):
+            raise NotYet(
+                f"With {shown} on the left, or as much on the right, the percept is the same.",
+                hint="mirror",
             )
-        if math.dist(done.trail[-1], done.trail[-2]) > 0.05:
-            raise done.not_yet(f"{seen}, but the vehicle does not rest ({{where}}).", "strong")
-    return Done("In 12 worlds it came to the lamp, and stayed.", done.picture())
+        if _same(left, _look(sensors, (7 * ahead, 7 * side)).agents[0].percept):
+            raise NotYet(
+                f"With {shown}, 4 or 7 metres away, the percept is the same.", hint="distance"
+            )
+        hidden = _look(sensors, (4 * ahead, 4 * side), wall=True)
+        if _same(left, hidden.agents[0].percept):
+            rays = [each for each in sensors if "RayCasting" in type(each).__name__]
+            nowhere = _look(sensors, (-11, -11)).agents[0].percept
+            misses = rays and all(_same_of(each, left, nowhere) for each in rays)
+            why = " No ray hits the box there: give them a wider field of view." if misses else ""
+            raise NotYet(
+                f"With {shown}, in sight or behind a wall, the percept is the same.{why}",
+                hint="narrow" if misses else "wall",
+                picture=picture(capture_snapshot(hidden)),
+            )
+
+
+exit_ticket(
+    "04.exit",
+    Question(
+        "b",
+        {
+            "a": "Straight ahead the cosine is 1.",
+            "c": "On the right it is 0 as well. Left and right are in the sine.",
+        },
+    ),
+    Question(
+        "a",
+        {
+            "b": "The controller sees the percept only. How should it notice that the worlds are "
+            "different?",
+            "c": "The same numbers in give the same action out. That may be any action.",
+        },
+    ),
+    Question(
+        "c",
+        {
+            "a": "That only divides the distance by a fixed number. It still says nothing about "
+            "before.",
+            "b": "It would read the same number at the same moment. What is needed is the number "
+            "of the moment before.",
+        },
+    ),
+)

@@ -1,263 +1,214 @@
-"""Your own controller: rules, then a state machine."""
+"""A vehicle with two wires."""
 
 import math
-from itertools import pairwise
+from collections.abc import Callable, Iterator
 from typing import Any
 
 import numpy as np
 
 from ai4u_edu.agent import BasicAgent
 from ai4u_edu.agent.cycle import ControlRequestor
-from ai4u_edu.blocks import (
-    BearingSensor,
-    Brain,
-    LocalBrain,
-    RayCastingSensor,
-    RBMoveActuator,
-    RewardFunc,
-    Sensor,
-    TouchRewardFunc,
-    TouchSensor,
-)
+from ai4u_edu.blocks import DifferentialDriveActuator, LightSensor
 from ai4u_edu.lessons.exercise import Done, exercise
-from ai4u_edu.lessons.numeric import is_close
+from ai4u_edu.lessons.exit_ticket import Question, exit_ticket
 from ai4u_edu.lessons.rollouts import Drive, as_brain, drive, seeds_of
-from ai4u_edu.lessons.worlds import ANYWHERE
-from ai4u_edu.world import BoxShape, CircleShape, Variation, World
+from ai4u_edu.world import BoxShape, CircleShape, World
 
-POSTS = ("red", "blue")
-ENOUGH = 6
-"""Rests at posts that are needed."""
-REST_DECISIONS = 24
-"""Decisions for which the robot has to stand still: 2 s."""
-AT_POST_M = 1.25
-"""Distance of the centres within which a robot is at a post; they touch at 1 m."""
-STILL_M = 0.001
-EDGE = Variation(x=(-4.3, 4.3), y=(3.4, 4.2), heading_deg=(-180, 180))
-"""Places near an edge: who drives a circle blindly falls there."""
-FAR_M = 4.0
-"""Distance between the farthest two places that a stroll has to reach."""
+FARTHEST = 3.6
+"""Distance in 05.3 that still counts as 3.5 m."""
+TOUCH = 1.0
+"""Distance of the centres at which vehicle and lamp touch, and a little more; metres."""
 
 
-def _robot(brain: Brain, sensors: list[Sensor], *rewards: RewardFunc) -> BasicAgent:
-    return BasicAgent(
-        body="robot",
-        sensors=sensors,
-        actuators=[RBMoveActuator(move_amount=2, turn_amount=3)],
-        rewards=list(rewards),
-        brains=[brain],
+def _vehicle(wires: Any, seed: int) -> ControlRequestor:
+    """Make a vehicle 4 to 6 m from a lamp, which is in front of it or beside it."""
+    chance = np.random.default_rng(seed)
+    around, away = chance.uniform(-math.pi, math.pi), chance.uniform(4, 6)
+    aside = math.radians(chance.uniform(20, 95)) * chance.choice([-1.0, 1.0])
+    world = World()
+    world.add_floor("plate", BoxShape(size=(16, 16)))
+    world.add_body(
+        "vehicle",
+        CircleShape(radius=0.5),
+        position=(away * math.cos(around), away * math.sin(around)),
+        heading_deg=math.degrees(around + math.pi + aside),
     )
+    world.add_body("lamp", CircleShape(radius=0.4), kind="static", tags=("lamp",), colour="yellow")
+    agent = BasicAgent(
+        body="vehicle",
+        sensors=[
+            LightSensor(perception_key="left eye", group="lamp", angle_deg=60, reach=4),
+            LightSensor(perception_key="right eye", group="lamp", angle_deg=-60, reach=4),
+        ],
+        actuators=[
+            DifferentialDriveActuator(action_name="wheels", max_wheel_speed=3, axle_width=1)
+        ],
+        brains=[as_brain(wires)],
+    )
+    return ControlRequestor(world, [agent])
 
 
-def _reacts(stroll: Any) -> bool:
-    """Return True if a function's action depends on the feelers at all."""
-    if isinstance(stroll, type) or not callable(stroll):
-        return True
-    felt = ([1, 1, 1], [0, 0, 0], [0, 1, 1], [1, 1, 0], [1, 0, 1])
-    return len({repr(stroll({"feelers": each})) for each in felt}) > 1
+def _drives(
+    wires: Any,
+    exercise_id: str,
+    limit: int,
+    watch: Callable[[Drive], object] = lambda _: None,
+) -> Iterator[tuple[Drive, list[float]]]:
+    """Run episodes, with the distances of the centres to the lamp on the way; metres."""
+    for seed in seeds_of(exercise_id, 12):
+        sim = _vehicle(wires, seed)
+        done = drive(sim, sim.agents[0], seed, limit, watch)
+        yield done, [math.hypot(x, y) for x, y in done.trail]
 
 
-def _length(done: Drive) -> float:
-    """Return the length of the trail, metres."""
-    return sum(math.dist(here, there) for here, there in pairwise(done.trail))
+def _aside(done: Drive) -> float:
+    """Return the angle between the vehicle's heading and the lamp; degrees."""
+    return abs(math.degrees(done.agent.body.bearing(done.sim.world["lamp"])))
 
 
 @exercise(
     "05.1",
-    "Stay on the plate",
+    "Attack",
     hints={
-        "begin": "Where `ahead` is 0 there is no floor in front: then turn on the spot, without "
-        "driving.",
-        "brake": "It sees the edge and turns, but drives on while it turns. In a corner that is "
-        "one step too far: turn on the spot.",
-        "spin": "It does not get about. While all three feelers read 1, drive.",
-        "dither": "In a corner it turns left, right, left: a feeler of each side is over the "
-        "void in turn. Turn the same way always, until all feelers read 1.",
-        "blind": "It drives in a circle without looking. Read the feelers: go straight on while "
-        "all of them read 1.",
-        "towards": "It looks to one side only. The edge may come from the left, from ahead and "
-        "from the right.",
+        "begin": "Each wheel gets the number of one eye. There are only two ways to do that: try "
+        "both, and watch.",
+        "sides": "It turns away from the lamp. The wheel on the lamp's side is faster: connect "
+        "each eye with the other wheel.",
+        "straight": "Both wheels turn equally fast, so the vehicle can't turn. Each wheel needs "
+        "another eye.",
     },
 )
-def stays_on_the_plate(stroll: Any) -> Done:
-    """Check for 30 seconds and 15 metres without a fall."""
-    brain = as_brain(stroll)
-    feelers = RayCastingSensor(
-        perception_key="feelers",
-        rows=1,
-        columns=3,
-        field_of_view=140,
-        vertical_field_of_view=1,
-        vertical_shift=27,
-        vision_max_distance=2,
-        group_code={"floor": 1},
-        flattened=True,
-    )
-    world = World()
-    world.add_floor("plate", BoxShape(size=(10, 10)))
-    world.add_body("robot", CircleShape(radius=0.5), tags=("agent",), random=EDGE)
-    agent = _robot(LocalBrain(controller=lambda _: {}), [feelers])
-    sim = ControlRequestor(world, [agent])
-    agent.use_brain(brain)
-    for seed in seeds_of("05.1", 10):
-        turns: set[bool] = set()
-        actions: set[tuple[float, ...]] = set()
-
-        def watch(
-            done: Drive, turns: set[bool] = turns, actions: set[tuple[float, ...]] = actions
-        ) -> None:
-            move = tuple(done.agent.last_action.get("move", (0.0, 0.0)))
-            if done.steps:
-                actions.add(move)
-            if move[1]:
-                turns.add(move[1] > 0)
-
-        done = drive(sim, agent, seed, 360, watch)
-        steady = len(actions) == 1 and bool(turns) and not _reacts(stroll)
-        if done.fell:
-            hint = "begin" if not turns else "brake" if len(turns) > 1 else "towards"
-            hint = "blind" if steady else hint
-            raise done.not_yet("The robot fell off the plate ({where}).", hint)
-        if _length(done) < 15:
+def attacks(wires: Any) -> Done:
+    """Check that it hits the lamp."""
+    for done, away in _drives(wires, "05.1", 150):
+        if done.moved < 0.2:
+            raise done.not_yet("The vehicle stands still ({where}).", "begin")
+        if min(away) > TOUCH:
+            hint = "sides" if _aside(done) > 100 else ""
             raise done.not_yet(
-                f"In 30 seconds the robot covered {_length(done):.1f} m, not 15 ({{where}}).",
-                "dither" if len(turns) > 1 else "spin",
+                f"The vehicle did not hit the lamp: it came as near as {min(away):.1f} m "
+                "({where}).",
+                hint if _turned(done) else "straight",
             )
-        widest = max(math.dist(one, two) for one in done.trail[::6] for two in done.trail[::6])
-        if widest < FAR_M:
-            raise done.not_yet(
-                f"The robot saw little of the plate: its way is {widest:.1f} m wide, expected "
-                f"{FAR_M:g} ({{where}}).",
-                "blind",
-            )
-    return Done("30 seconds in each of 10 worlds, and no fall.", done.picture())
+    return Done("In 12 worlds the vehicle hit the lamp.", done.picture())
+
+
+def _turned(done: Drive) -> bool:
+    """Return True if it ever turned."""
+    return bool(abs(done.agent.body.heading - _vehicle_heading(done)) > 0.05)
+
+
+def _vehicle_heading(done: Drive) -> float:
+    """Return its heading at the beginning; radians."""
+    return float(_vehicle(lambda _: {}, done.seed).world["vehicle"].heading)
 
 
 @exercise(
     "05.2",
-    "Patrol",
+    "Fear",
     hints={
-        "begin": "It rests at one post, and stays there. When it has rested, set `self.goal` to "
-        "the other post; and drive to the post that `self.goal` names.",
-        "short": "It does not rest. Count the decisions in which it stands still, in "
-        "`self.waited`: 2 seconds are 24 of them.",
-        "forgets": "It never rests anywhere for 2 seconds, nor does it get from post to post. What "
-        "has to last until the next decision belongs in `self`, with a value at the beginning.",
-        "back": "It stays at the second post: resting there has to change the goal as well. And "
-        "the count has to begin anew each time.",
+        "begin": "There are two ways to connect two eyes with two wheels. You have used one of "
+        "them.",
+        "sides": "It turns towards the lamp. This time the wheel on the lamp's side has to be the "
+        "faster one.",
+        "backward": "It backs away, with its eyes on the lamp. It should turn round: both wheels "
+        "turn forward, the one on the lamp's side faster.",
+        "straight": "Both wheels turn equally fast, so the vehicle can't turn. Each wheel needs "
+        "another eye.",
+        "rest": "It runs on and on, and falls off the plate in the end. Without light its wheels "
+        "have to stand still: nothing may be added.",
     },
 )
-def patrols(patrol: Any) -> Done:
-    """Check that it rests at the posts in turn."""
-    for seed in seeds_of("05.2", 8):
-        world = World()
-        world.add_floor("plate", BoxShape(size=(10, 10)))
-        world.add_body("robot", CircleShape(radius=0.5), tags=("agent",), random=ANYWHERE)
-        for name in POSTS:
-            world.add_body(name, CircleShape(radius=0.5), kind="static", random=ANYWHERE)
-        senses: list[Sensor] = []
-        for name in POSTS:
-            senses.append(BearingSensor(target=name, perception_key=f"to {name}"))
-            senses.append(TouchSensor(target=name, perception_key=f"at {name}"))
-        agent = _robot(as_brain(patrol), senses)
-        visits = _Visits()
-        done = drive(ControlRequestor(world, [agent]), agent, seed, 720, visits.watch)
-        if len(visits.rested) < ENOUGH:
-            shown = ", ".join(visits.rested) or "no post"
+def is_afraid(wires: Any) -> Done:
+    """Check that it turns away, and comes to rest."""
+    speeds: list[float] = []
+
+    def watch(done: Drive) -> None:
+        if done.steps == 0:
+            speeds.clear()
+        speeds.append(sum(done.agent.last_action.get("wheels", ())))
+
+    for done, away in _drives(wires, "05.2", 300, watch):
+        if len(done.trail) > 1 and max(math.dist(done.trail[0], each) for each in done.trail) < 0.2:
+            raise done.not_yet("The vehicle stands still ({where}).", "begin")
+        if sum(speeds) < 0:
+            raise done.not_yet("The vehicle runs backward ({where}).", "backward")
+        if done.fell or away[-1] > 11:
+            hint = "rest" if _turned(done) else "straight"
+            raise done.not_yet("The vehicle runs on, off the plate ({where}).", hint)
+        if _aside(done) < 90 or min(away) < 1.5:
             raise done.not_yet(
-                f"In a minute the robot rested 2 s at {shown}; it touched "
-                f"{', '.join(visits.touched[:8]) or 'none'} ({{where}}).",
-                visits.why(),
+                f"At the end the lamp is {away[-1]:.1f} m away, {_aside(done):.0f} degrees from "
+                "where the vehicle looks ({where}). It should have turned away.",
+                "sides" if _turned(done) else "straight",
             )
-    return Done(f"In 8 worlds the robot rested at {', '.join(visits.rested[:6])} ...")
-
-
-class _Visits:
-    """The posts that a robot touched, and at which it rested."""
-
-    def __init__(self) -> None:
-        self.touched: list[str] = []
-        self.rested: list[str] = []
-        self._still = 0
-        self._pose = (0.0, 0.0, 0.0)
-
-    def watch(self, done: Drive) -> None:
-        """Look after a decision."""
-        body = done.agent.body
-        pose = (*body.position, body.heading)
-        self._still = self._still + 1 if math.dist(pose, self._pose) < STILL_M else 0
-        self._pose = pose
-        for name in POSTS:
-            if done.agent.percept[f"at {name}"][0] == 1 and self.touched[-1:] != [name]:
-                self.touched.append(name)
-            is_there = body.distance(done.sim.world[name]) < AT_POST_M
-            if is_there and self._still >= REST_DECISIONS and self.rested[-1:] != [name]:
-                self.rested.append(name)
-
-    def why(self) -> str:
-        """Return the diagnosis."""
-        if self.rested:
-            return "back" if len(self.rested) > 1 else "begin"
-        return "short" if len(self.touched) > 3 else "forgets"
+        pace = math.dist(done.trail[-1], done.trail[-2])
+        if pace > 0.05:
+            raise done.not_yet("The vehicle does not come to rest ({where}).", "rest")
+    return Done("In 12 worlds it turned its back on the lamp, and came to rest.", done.picture())
 
 
 @exercise(
     "05.3",
-    "Around the wall",
+    "Love",
     hints={
-        "begin": "It pushes against the wall for good. When the bumper reads 1, change the state; "
-        "in the state `back off`, drive backward.",
-        "again": "It backs off and drives at the same place of the wall again. It needs a third "
-        "state: turn aside and drive for a while, before it seeks.",
-        "forever": "It leaves the wall and does not come back. Count the decisions that are left "
-        "in a state, and change the state when there are none.",
+        "begin": "In the dark the wheels have to turn: begin with 1, and take something away for "
+        "the light that an eye sees.",
+        "sides": "It turns away from the lamp. The wheel on the bright side has to be the slower "
+        "one: each eye brakes the wheel on its own side.",
+        "weak": "It runs into the lamp: the brakes are too weak. Take a larger number times the "
+        "brightness.",
+        "strong": "It stops too far away, or never comes: the brakes are too strong. Take a "
+        "smaller number times the brightness.",
     },
 )
-def gets_around(machine: Any) -> Done:
-    """Check that it gets to the box behind the wall."""
-    for number, seed in enumerate(seeds_of("05.3", 10)):
-        world = _walled(seed, has_arm=number % 2 == 1)
-        bumper = TouchSensor(target="wall", perception_key="bumper")
-        arrived = TouchRewardFunc(name="arrived", target="box", reward=1, cause_episode_to_end=True)
-        agent = _robot(as_brain(machine), [bumper, BearingSensor(target="box")], arrived)
-        sim = ControlRequestor(world, [agent])
-        bumps: list[int] = []
+def loves(wires: Any) -> Done:
+    """Check that it comes, and stays 1 to 3.5 m in front of the lamp."""
+    for done, away in _drives(wires, "05.3", 240):
+        if len(done.trail) > 1 and max(math.dist(done.trail[0], each) for each in done.trail) < 0.2:
+            idle = not any(done.agent.last_action["wheels"])
+            hint = "begin" if idle else "strong"
+            raise done.not_yet("The vehicle stands still ({where}).", hint)
+        seen = f"At the end the lamp is {away[-1]:.1f} m away"
+        if min(away) < TOUCH:
+            raise done.not_yet("The vehicle runs into the lamp ({where}).", "weak")
+        if done.fell or away[-1] > 8:
+            raise done.not_yet(f"{seen} ({{where}}). The vehicle has left it.", "sides")
+        if not 1 <= away[-1] <= FARTHEST:
+            raise done.not_yet(f"{seen}, not 1 to 3.5 ({{where}}).", "strong")
+        if _aside(done) > 45:
+            raise done.not_yet(
+                f"{seen}, but {_aside(done):.0f} degrees from where the vehicle looks ({{where}}).",
+                "sides",
+            )
+        if math.dist(done.trail[-1], done.trail[-2]) > 0.05:
+            raise done.not_yet(f"{seen}, but the vehicle does not rest ({{where}}).", "strong")
+    return Done("In 12 worlds it came to the lamp, and stayed.", done.picture())
 
-        def watch(done: Drive, bumps: list[int] = bumps) -> None:
-            if done.agent.percept["bumper"][0] == 1:
-                bumps.append(done.steps)
 
-        done = drive(sim, agent, seed, 720, watch)
-        if not is_close(agent.ledger.episode_total, 1, 1e-6):
-            gaps = [later - sooner for sooner, later in pairwise(bumps)]
-            hint = "again" if any(gap > 1 for gap in gaps) else "begin"
-            if done.fell or (bumps and done.steps - bumps[-1] > 60):
-                hint = "forever"
-            raise done.not_yet("The robot did not get to the box ({where}).", hint)
-    return Done("In 10 worlds the robot got around the wall.", done.picture())
-
-
-def _walled(seed: int, *, has_arm: bool) -> World:
-    """Return a plate with a wall between robot and box.
-
-    The wall is 8 m long, or 6 m with an arm at one end that points to the robot's side: a curve
-    drawn blindly around it ends in the corner or beyond the box.
-    """
-    chance = np.random.default_rng(seed)
-    length = 6.0 if has_arm else 8.0
-    side, shift, x = chance.choice([-1.0, 1.0]), chance.uniform(-0.7, 0.7), chance.uniform(-1, 1)
-    world = World()
-    world.add_floor("plate", BoxShape(size=(24, 24)))
-    start = Variation(x=(-5, -3.5), y=(-1.5, 1.5), heading_deg=(-180, 180))
-    world.add_body("robot", CircleShape(radius=0.5), tags=("agent",), random=start)
-    place = (float(x), float(shift))
-    world.add_body(
-        "wall", BoxShape(size=(0.4, length)), kind="static", position=place, tags=("wall",)
-    )
-    if has_arm:
-        end = (place[0] - 0.75, float(shift + side * length / 2))
-        arm = BoxShape(size=(1.5, 0.4))
-        world.add_body("arm", arm, kind="static", position=end, tags=("wall",))
-    there = Variation(x=(3, 5), y=(-1, 1))
-    world.add_body("box", BoxShape(size=(1, 1)), kind="static", tags=("target",), random=there)
-    return world
+exit_ticket(
+    "05.exit",
+    Question(
+        "a",
+        {
+            "b": "The left eye sees more light, so the *left* wheel turns faster. To which side "
+            "does that push the vehicle?",
+            "c": "The two eyes do not get the same light, so the wheels do not turn equally fast.",
+        },
+    ),
+    Question(
+        "c",
+        {
+            "a": "You have seen all of the code: two lines that compute two numbers.",
+            "b": "Nothing in it names a lamp. The eyes give numbers, and the wires carry them to "
+            "the wheels.",
+        },
+    ),
+    Question(
+        "a",
+        {
+            "b": "That is an actuator such as the wheels, which takes any number in a range.",
+            "c": "3 is the line that was chosen. The table may have more lines.",
+        },
+    ),
+)

@@ -1,178 +1,354 @@
-"""The decision cycle."""
+"""Your own controller: rules and memory."""
 
 import math
+from collections.abc import Iterator
+from itertools import pairwise
 from typing import Any
+
+import numpy as np
 
 from ai4u_edu.agent import BasicAgent
 from ai4u_edu.agent.cycle import ControlRequestor
-from ai4u_edu.blocks import FallReward, LocalBrain, Percept, RayCastingSensor, RBMoveActuator
-from ai4u_edu.lessons.exercise import Done, NotYet, a_function, exercise, named
-from ai4u_edu.lessons.numeric import chance_for, difference, finite_number, is_close
-from ai4u_edu.lessons.rollouts import drive
-from ai4u_edu.lessons.student_errors import NOTHING_RETURNED
-from ai4u_edu.world import BoxShape, CircleShape, World
+from ai4u_edu.blocks import (
+    BearingSensor,
+    Brain,
+    GroupTouchSensor,
+    LocalBrain,
+    RayCastingSensor,
+    RBMoveActuator,
+    Sensor,
+    TouchSensor,
+)
+from ai4u_edu.lessons.exercise import Done, exercise
+from ai4u_edu.lessons.exit_ticket import Question, exit_ticket
+from ai4u_edu.lessons.rollouts import Drive, as_brain, drive, seeds_of
+from ai4u_edu.lessons.worlds import ANYWHERE
+from ai4u_edu.world import BoxShape, CircleShape, Variation, World
 
-LAZY = 16
-"""Value of ``skip_frame`` that passes; with more than 18 the robot can fall."""
+POSTS = ("red", "blue")
+ENOUGH = 6
+"""Rests at posts that are needed."""
+REST_DECISIONS = 24
+"""Decisions for which the robot has to stand still: 2 s."""
+AT_POST_M = 1.25
+"""Distance of the centres within which a robot is at a post; they touch at 1 m."""
+STILL_M = 0.001
+EDGE = Variation(x=(-4.3, 4.3), y=(3.4, 4.2), heading_deg=(-180, 180))
+"""Places near an edge: a robot that drives a circle blindly falls there."""
+GOLD_M = 55.0
+"""Way that is long enough in 06.4; a robot that turns on the spot covers 51 m."""
+FAR_M = 4.0
+"""Distance between the farthest two places that a stroll has to reach."""
 
 
-def _runway(controller: Any, skip_frame: int, *, speed: float = 3, start: float = -9.0) -> Any:
-    world = World()
-    world.add_floor("runway", BoxShape(size=(20, 4)))
-    world.add_body("robot", CircleShape(radius=0.5), position=(start, 0), tags=("agent",))
-    feeler = RayCastingSensor(
-        perception_key="feeler",
-        rows=1,
-        columns=1,
-        vertical_field_of_view=1,
-        vertical_shift=27,
-        vision_max_distance=2,
-        group_code={"floor": 1},
-        flattened=True,
-    )
-    agent = BasicAgent(
+def _robot(brain: Brain, sensors: list[Sensor]) -> BasicAgent:
+    return BasicAgent(
         body="robot",
-        sensors=[feeler],
-        actuators=[RBMoveActuator(move_amount=speed, turn_amount=3)],
-        brains=[LocalBrain(controller=controller, skip_frame=skip_frame)],
+        sensors=sensors,
+        actuators=[RBMoveActuator(move_amount=2, turn_amount=3)],
+        brains=[brain],
     )
-    return ControlRequestor(world, [agent])
 
 
-def _go(_: Percept) -> dict[str, list[float]]:
-    return {"move": [1, 0, 0, 0]}
+def _reacts(stroll: Any) -> bool:
+    """Return True if a function's action depends on the feelers at all."""
+    if isinstance(stroll, type) or not callable(stroll):
+        return True
+    felt = ([1, 1, 1], [0, 0, 0], [0, 1, 1], [1, 1, 0], [1, 0, 1])
+    return len({repr(stroll({"feelers": each})) for each in felt}) > 1
+
+
+def _turns_away(stroll: Any) -> bool:
+    """Return True for a function that turns away from an edge on one side."""
+    if isinstance(stroll, type) or not callable(stroll):
+        return False
+    actions = [stroll({"feelers": each}) for each in ([0, 1, 1], [1, 1, 0])]
+    if not all(isinstance(each, dict) and "move" in each for each in actions):
+        return False
+    left_edge, right_edge = (each["move"][1] for each in actions)
+    return bool(left_edge > 0 > right_edge)
+
+
+def _length(done: Drive) -> float:
+    """Return the length of the trail, metres."""
+    return sum(math.dist(here, there) for here, there in pairwise(done.trail))
 
 
 @exercise(
     "06.1",
-    "Blind",
+    "Stay on the plate",
     hints={
-        "begin": "From one decision to the next skip_frame + 1 ticks pass, and a tick is 1/60 of a "
-        "second. How far does the robot get in that time?",
-        "one-more": "Nearly. With `skip_frame=0` the agent decides at every tick, and drives for "
-        "one tick in between: it is one tick more than you count.",
-        "seconds": "A tick is not a second: 60 of them are.",
-        "twelve": "Twelve decisions a second are true of `skip_frame=4` alone. With another "
-        "number, a decision takes another time.",
-        "ticks": "That is the number of ticks or seconds. How far does the robot get in that time?",
+        "begin": "Where `ahead` is 0 there is no floor in front: then turn on the spot, without "
+        "driving.",
+        "brake": "It sees the edge and turns, but drives on while it turns. In a corner that is "
+        "one step too far: turn on the spot.",
+        "spin": "It stays in one place. If all three feelers read 1, drive.",
+        "dither": "In a corner it turns left, right, left: first one feeler is over the edge, then "
+        "the other one. Always turn the same way, until all feelers read 1.",
+        "blind": "It drives in a circle without looking. Read the feelers: go straight on while "
+        "all of them read 1.",
+        "towards": "It looks to one side only. The edge may be on the left, ahead, or on the "
+        "right.",
     },
 )
-def computes_the_blind_way(blind_way: Any) -> Done:
-    """Check the metres from one decision to the next."""
-    a_function(blind_way)
-    chance = chance_for("06.1", blind_way)
-    for number in range(6):
-        speed = round(float(chance.uniform(1, 4)), 1)
-        skip_frame = 0 if number == 1 else int(chance.integers(5, 30))
-        sim = _runway(_go, skip_frame, speed=speed)
-        done = drive(sim, sim.agents[0], 1, limit=1)
-        found = finite_number(blind_way(speed, skip_frame))
-        if not is_close(found, done.moved, 0.005):
-            ticks = skip_frame + 1
-            slips = {
-                "one-more": ("one tick less than there are", speed * skip_frame / 60),
-                "seconds": ("right if a tick were a second", speed * ticks),
-                "twelve": ("right for `skip_frame=4` alone", speed / 12),
-                "ticks": ("the time in seconds, not the way", ticks / 60),
-            }
-            slip = difference(found, slips, 1e-4)
+def stays_on_the_plate(stroll: Any) -> Done:
+    """Check for 30 seconds and 15 metres without a fall."""
+    for done, turns in _strolls(stroll, "06.1"):
+        if _length(done) < 15:
             raise done.not_yet(
-                f"At {speed:g} m/s with skip_frame={skip_frame} the robot drove "
-                f"{done.moved:.3f} m in one decision; your function says {found:.3f}{slip.words}.",
-                slip.name if found else "begin",
+                f"In 30 seconds the robot covered {_length(done):.1f} m, not 15 ({{where}}).",
+                "dither" if len(turns) > 1 else "spin",
             )
-    return Done("Six speeds, six ways, and each was right.")
+    return Done("30 seconds in each of 10 worlds, and no fall.", done.picture())
 
 
-def _careful(percept: Percept) -> dict[str, list[float]]:
-    return {"move": [1 if percept["feeler"][0] else 0, 0, 0, 0]}
+@exercise(
+    "06.4",
+    "Gold: a fast stroll",
+    hints={
+        "begin": "Begin with your `stroll` of 06.1: first it has to stay on the plate.",
+        "brake": "It falls. Where there is no floor *ahead*, it must not drive at all.",
+        "towards": "It turns towards the edge. Where the left feeler reads 0, turn to the right, "
+        "and the other way round.",
+        "stops": "It stays on the plate. But it loses metres each time that it stops in order to "
+        "turn. When the edge is only beside the robot, it can drive and turn.",
+        "blind": "It drives in a circle without looking. Read the feelers.",
+    },
+)
+def strolls_fast(quick_stroll: Any) -> Done:
+    """Check for 55 metres in 30 seconds without a fall."""
+    shortest = math.inf
+    for done, _turns in _strolls(quick_stroll, "06.4"):
+        shortest = min(shortest, _length(done))
+        if shortest < GOLD_M:
+            raise done.not_yet(
+                f"In 30 seconds the robot covered {shortest:.1f} m, not {GOLD_M:g} ({{where}}).",
+                "stops" if shortest > 15 else "begin",
+            )
+    return Done(
+        f"Gold: at least {shortest:.1f} m in each of 10 worlds, and no fall.", done.picture()
+    )
+
+
+def _strolls(stroll: Any, exercise_id: str) -> Iterator[tuple[Drive, set[bool]]]:
+    """Run 30 seconds in each of 10 worlds; yield each, with the sides to which the robot turned.
+
+    Raises:
+        NotYet: the robot fell, or it saw little of the plate.
+    """
+    agent = _robot(
+        LocalBrain(controller=lambda _: {}),
+        [
+            RayCastingSensor(
+                perception_key="feelers",
+                rows=1,
+                columns=3,
+                field_of_view=140,
+                vertical_field_of_view=1,
+                vertical_shift=27,
+                vision_max_distance=2,
+                group_code={"floor": 1},
+                flattened=True,
+            )
+        ],
+    )
+    world = World()
+    world.add_floor("plate", BoxShape(size=(10, 10)))
+    world.add_body("robot", CircleShape(radius=0.5), tags=("agent",), random=EDGE)
+    sim = ControlRequestor(world, [agent])
+    agent.use_brain(as_brain(stroll))
+    for seed in seeds_of(exercise_id, 10):
+        turns: set[bool] = set()
+        actions: set[tuple[float, ...]] = set()
+
+        def watch(
+            done: Drive, turns: set[bool] = turns, actions: set[tuple[float, ...]] = actions
+        ) -> None:
+            move = tuple(done.agent.last_action.get("move", (0.0, 0.0)))
+            if done.steps:
+                actions.add(move)
+            if move[1]:
+                turns.add(move[1] > 0)
+
+        done = drive(sim, agent, seed, 360, watch)
+        if done.fell:
+            steady = len(actions) == 1 and bool(turns) and not _reacts(stroll)
+            is_aware = len(turns) > 1 or _turns_away(stroll)
+            hint = "begin" if not turns else "brake" if is_aware else "towards"
+            raise done.not_yet(
+                "The robot fell off the plate ({where}).", "blind" if steady else hint
+            )
+        yield done, turns
+        widest = max(math.dist(one, two) for one in done.trail[::6] for two in done.trail[::6])
+        if widest < FAR_M:
+            raise done.not_yet(
+                f"The robot saw little of the plate: its way is {widest:.1f} m wide, expected "
+                f"{FAR_M:g} ({{where}}).",
+                "blind",
+            )
 
 
 @exercise(
     "06.2",
-    "As lazy as possible",
+    "Patrol",
     hints={
-        "lazier": "It never falls, and could be lazier. The feeler sees 0.98 m ahead of the "
-        "robot's middle. How many ticks does it take to drive a metre?",
-        "whole": "A tick is the smallest piece of time in the world. Round your result: which of "
-        "the two numbers is safe?",
-        "falls": "It drives too far before it looks again. The blind way has to be shorter than "
-        "the 0.98 m that the feeler sees ahead.",
+        "begin": "It rests at one post, and stays there. When it has rested, set `self.goal` to "
+        "the other post; and drive to the post that `self.goal` names.",
+        "short": "It does not rest. Count the decisions in which it stands still, in "
+        "`self.waited`: 2 seconds are 24 of them.",
+        "forgets": "It never rests anywhere for 2 seconds, nor does it get from post to post. What "
+        "has to last until the next decision belongs in `self`, with a value at the beginning.",
+        "back": "It stays at the second post: resting there has to change the goal as well. And "
+        "the count has to begin anew each time.",
     },
 )
-def is_lazy(skip_frame: Any) -> Done:
-    """Check that it never falls, and decides seldom."""
-    given = finite_number(skip_frame)
-    if given != round(given):
-        low = math.floor(given)
-        raise NotYet(
-            f"`skip_frame` counts ticks, so it is a whole number: is it {low} or {low + 1}?",
-            hint="whole",
-        )
-    skip_frame = round(given)
-    if not 0 <= skip_frame <= 600:
-        raise NotYet(f"Expected a number from 0 to 600, got {skip_frame}.", hint="falls")
-    for number in range(40):
-        sim = _runway(_careful, skip_frame, start=-9.0 + 0.05 * number)
-        done = drive(sim, sim.agents[0], number, limit=480 // (skip_frame + 1) + 2)
-        if done.fell:
+def patrols(patrol: Any) -> Done:
+    """Check that it rests at the posts in turn."""
+    for seed in seeds_of("06.2", 8):
+        world = World()
+        world.add_floor("plate", BoxShape(size=(10, 10)))
+        world.add_body("robot", CircleShape(radius=0.5), tags=("agent",), random=ANYWHERE)
+        for name in POSTS:
+            world.add_body(name, CircleShape(radius=0.5), kind="static", random=ANYWHERE)
+        senses: list[Sensor] = []
+        for name in POSTS:
+            senses.append(BearingSensor(target=name, perception_key=f"to {name}"))
+            senses.append(TouchSensor(target=name, perception_key=f"at {name}"))
+        agent = _robot(as_brain(patrol), senses)
+        visits = _Visits()
+        done = drive(ControlRequestor(world, [agent]), agent, seed, 720, visits.watch)
+        if len(visits.rested) < ENOUGH:
+            shown = ", ".join(visits.rested) or "no post"
             raise done.not_yet(
-                f"With skip_frame={skip_frame} the robot fell when it started at "
-                f"x = {-9.0 + 0.05 * number:.2f}.",
-                "falls",
+                f"In a minute the robot rested 2 s at {shown}; it touched "
+                f"{', '.join(visits.touched[:8]) or 'none'} ({{where}}).",
+                visits.why(),
             )
-    if skip_frame < LAZY:
-        raise NotYet(
-            f"With skip_frame={skip_frame} it never fell in 40 runs. It can be lazier.",
-            hint="lazier",
-            picture=done.picture(),
-        )
-    return Done(
-        f"With skip_frame={skip_frame} the robot never fell, from 40 places.", done.picture()
-    )
+    rested = ", ".join(visits.rested[:6])
+    return Done(f"In 8 worlds the robot rested at {rested} ...", done.picture())
+
+
+class _Visits:
+    """The posts that a robot touched, and at which it rested."""
+
+    def __init__(self) -> None:
+        self.touched: list[str] = []
+        self.rested: list[str] = []
+        self._still = 0
+        self._pose = (0.0, 0.0, 0.0)
+
+    def watch(self, done: Drive) -> None:
+        """Look after a decision."""
+        body = done.agent.body
+        pose = (*body.position, body.heading)
+        self._still = self._still + 1 if math.dist(pose, self._pose) < STILL_M else 0
+        self._pose = pose
+        for name in POSTS:
+            if done.agent.percept[f"at {name}"][0] == 1 and self.touched[-1:] != [name]:
+                self.touched.append(name)
+            is_there = body.distance(done.sim.world[name]) < AT_POST_M
+            if is_there and self._still >= REST_DECISIONS and self.rested[-1:] != [name]:
+                self.rested.append(name)
+
+    def why(self) -> str:
+        """Return the diagnosis."""
+        if self.rested:
+            return "back" if len(self.rested) > 1 else "begin"
+        return "short" if len(self.touched) > 3 else "forgets"
 
 
 @exercise(
     "06.3",
-    "A diary",
+    "Three bumps",
     hints={
-        "begin": "Connect a function that appends to `notes`, like `agent.end_of_step.connect("
-        'lambda agent: notes.append("decision"))`.',
-        "begins": 'The first note has to be "begin": connect with `begin_of_episode`.',
-        "counted": "It is right as long as an episode takes as many decisions as you thought. This "
-        "one ended earlier: connect a function, so that each note is written when it happens.",
-        "ticks": "You wrote more than once for a decision. `begin_of_apply_action` comes at each "
-        "tick; `end_of_step` comes once a decision.",
-        "end": 'The last note of an episode has to be "end": connect with `end_of_episode`.',
+        "begin": "It pushes against the first wall and never leaves it. When it bumps, the speed "
+        "has to change, and stay changed: `self.speed = -self.speed`.",
+        "back": "It gets to the second wall and stays there. -1 means backward, however often you "
+        "set it: take the opposite of the speed that it had. And is it three bumps that you wait "
+        "for?",
+        "still": "It rests for a moment at the third bump, and then drives on. While it rests at "
+        "the wall, the bumper still reads 1, so the count goes on: ask for 3 *or more*.",
+        "early": "It rests too early. Count the bumps, in `self.bumps`, and only where the bumper "
+        "reads 1.",
+        "on": "It drives on after the third bump. Count the bumps in `self.bumps`, and return an "
+        "action of zeros as soon as there were three.",
     },
 )
-def keeps_a_diary(diary: Any) -> Done:
-    """Check for entries of the begin, the decisions and the end."""
-    a_function(diary)
-    for limit, start in ((7, -9.0), (3, -9.0), (60, 2.0)):  # the last one falls before
-        sim = _runway(_go, 4, start=start)
-        falls = FallReward(cause_episode_to_end=True)
-        agent = sim.agents[0].changed(max_steps_per_episode=limit, rewards=[falls])
-        sim = ControlRequestor(sim.world, [agent])
-        notes = diary(agent)
-        if notes is None:
-            raise NotYet(NOTHING_RETURNED, hint="no-return")
-        if not isinstance(notes, list):
-            raise NotYet(f"Expected that `diary` returns a list, got {named(notes)}.", hint="begin")
-        done = drive(sim, agent, 1)
-        wanted = ["begin", *["decision"] * done.steps, "end"]
-        if notes != wanted:
-            count = notes.count("decision")
-            hint = "begin"
-            if count == limit > done.steps:
-                hint = "counted"
-            elif count > done.steps:
-                hint = "ticks"
-            elif count == done.steps:
-                hint = "end" if notes[:1] == ["begin"] else "begins"
-            raise NotYet(
-                f"In an episode of {done.steps} decisions your diary says {notes[:12]!r}"
-                f"{' ...' if len(notes) > 12 else ''}, not {wanted[:12]!r}.",
-                hint=hint,
+def rests_after_three_bumps(machine: Any) -> Done:
+    """Check that the robot drives to and fro between walls, and rests after the third bump."""
+    for seed in seeds_of("06.3", 8):
+        bumper = GroupTouchSensor(group="wall", perception_key="bumper")
+        agent = _robot(as_brain(machine), [bumper])
+        touched: list[str] = []
+        pauses: list[bool] = []
+
+        def watch(done: Drive, touched: list[str] = touched, pauses: list[bool] = pauses) -> None:
+            pauses.append(done.steps > 0 and not any(done.agent.last_action.get("move", ())))
+            if done.agent.percept["bumper"][0] == 1:
+                wall = "ahead" if done.agent.body.position[0] > done.trail[0][0] else "behind"
+                if touched[-1:] != [wall]:
+                    touched.append(wall)
+
+        done = drive(ControlRequestor(_corridor(seed), [agent]), agent, seed, 360, watch)
+        rests = math.dist(done.trail[-1], done.trail[-REST_DECISIONS]) < STILL_M
+        if touched != ["ahead", "behind", "ahead"] or not rests:
+            shown = ", ".join(touched[:6]) or "none"
+            raise done.not_yet(
+                f"Expected bumps ahead, behind, ahead, and then a rest; got {shown}"
+                f"{', and no rest' if not rests else ''} ({{where}}).",
+                _bump_mistake(touched, done, rests, any(pauses)),
             )
-    return Done("Three episodes, three diaries without a mistake.")
+    return Done("In 8 worlds the robot rested after the third bump.", done.picture())
+
+
+def _corridor(seed: int) -> World:
+    """Return a corridor with a wall at each end, and a robot somewhere in it."""
+    chance = np.random.default_rng(seed)
+    world = World()
+    world.add_floor("plate", BoxShape(size=(14, 4)))
+    start = float(chance.uniform(-1, 1))
+    world.add_body("robot", CircleShape(radius=0.5), tags=("agent",), position=(start, 0))
+    for name, side in (("ahead", 1), ("behind", -1)):
+        place = (side * float(chance.uniform(2.5, 6)), 0)
+        shape = BoxShape(size=(0.4, 3))
+        world.add_body(name, shape, kind="static", position=place, tags=("wall",))
+    return world
+
+
+def _bump_mistake(touched: list[str], done: Drive, rests: bool, paused: bool) -> str:
+    """Return the diagnosis that fits the walls that a robot touched."""
+    pushes = any(next(iter(done.agent.last_action.values()), ()))
+    if len(touched) == 2:
+        return "back"
+    if len(touched) < 2:
+        return "early" if touched and rests and not pushes else "begin"
+    return "still" if paused else "on"
+
+
+exit_ticket(
+    "06.exit",
+    Question(
+        "b",
+        {
+            "a": "Nobody told the robot what is urgent. The first rule that fits decides, and the "
+            "battery stands first.",
+            "c": "`return` ends the function. Only one of the two rules can answer in a decision.",
+        },
+    ),
+    Question(
+        "c",
+        {
+            "a": "The distance to the wall is in the percept. A rule can compare it at each "
+            "decision.",
+            "b": "The feelers say on which side the edge is. Nothing has to be remembered.",
+        },
+    ),
+    Question(
+        "a",
+        {
+            "b": "Whatever it is, it is gone when the method returns. In fact Python stops at "
+            "once, as there is no such variable yet.",
+            "c": "Methods compute like other functions. The question is where the result is kept.",
+        },
+    ),
+)

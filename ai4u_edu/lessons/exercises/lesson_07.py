@@ -1,274 +1,321 @@
-"""Rewards: say what you want, get what you said."""
+"""State machines."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping
+from itertools import pairwise, product
 from typing import Any
+
+import numpy as np
+from gymnasium.spaces import Box
 
 from ai4u_edu.agent import BasicAgent
 from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.blocks import (
     BearingSensor,
-    DistanceToTargetRewardFunc,
-    FallReward,
-    LocalBrain,
-    OrientationSensor,
-    Percept,
     RBMoveActuator,
-    RestlessnessRewardFunc,
-    RewardFunc,
+    Sensor,
     TouchRewardFunc,
+    TouchSensor,
 )
 from ai4u_edu.blocks.agent_view import AgentView
-from ai4u_edu.lessons.exercise import Done, NotYet, a_function, a_list_of, exercise, named
-from ai4u_edu.lessons.numeric import finite_number
-from ai4u_edu.lessons.rollouts import drive, seeds_of
-from ai4u_edu.lessons.worlds import plate
-from ai4u_edu.world import BodyView, WorldView
+from ai4u_edu.lessons.exercise import Done, NotYet, exercise, named
+from ai4u_edu.lessons.exit_ticket import Question, exit_ticket
+from ai4u_edu.lessons.numeric import is_close
+from ai4u_edu.lessons.rollouts import Drive, as_brain, drive, seeds_of
+from ai4u_edu.lessons.worlds import ANYWHERE
+from ai4u_edu.world import BodyView, BoxShape, CircleShape, Variation, World, WorldView
 
-Action = dict[str, list[float]]
-SEEDS = (1, 2, 3, 4, 5)
-TEN_SECONDS = 120
-NEAR, FAR = 1.6, 3.0
-"""Metres from the box between which the dancer dances."""
-
-
-def _steer(percept: Percept, speed: float = 1.0) -> Action:
-    left, ahead = (float(each) for each in percept["bearing"])
-    if ahead < 0:
-        return {"move": [0, -1 if left > 0 else 1, 0, 0]}
-    return {"move": [speed, -left, 0, 0]}
-
-
-def _linger(percept: Percept) -> Action:
-    return _steer(percept, 0.0 if percept["orientation"][1] < NEAR else 1.0)
+PLACES = ("station", "site")
+AT_M = 1.25
+"""Distance of the centres within which a robot is at a place; they touch at 1 m."""
+CHARGE = 0.01
+"""Part of a full battery that the station gives in a decision."""
+LIMIT = 1440
+"""Decisions of an episode in 07.2: 2 minutes."""
+ENOUGH_WORK = 360
+"""Decisions at the site that are enough in 07.2: half a minute."""
+SHORT_VISITS = 8
+"""Visits of the station in 2 minutes that are not more than a full battery needs."""
 
 
-def _dancer() -> Callable[[Percept], Action]:
-    """Drive to and fro in front of the box."""
-    comes = True
+class BatterySensor(Sensor):
+    """Level of a battery that empties with time, and is charged at a station.
 
-    def dance(percept: Percept) -> Action:
-        nonlocal comes
-        away = percept["orientation"][1]
-        comes = away > FAR or (comes and away >= NEAR)
-        return _steer(percept, 1.0 if comes else -1.0)
+    Reading: (1,), 0 (empty) to 1 (full).
+    """
 
-    return dance
+    station: str
+    """Name of the body at which it is charged."""
+    full: float = 1.0
+    """Level at the beginning of an episode."""
+    drain: float = 0.004
+    """Part of a full battery that a decision costs."""
+
+    def space(self) -> Box:
+        """Return the range 0..1."""
+        return Box(0.0, 1.0, (1,))
+
+    def on_reset(self, _agent: AgentView, _view: WorldView) -> None:
+        """Begin with the first level."""
+        self._level = self.full
+
+    def read(self, body: BodyView, view: WorldView) -> float:
+        """Return the level after another decision."""
+        is_there = body.distance(view[self.station]) < AT_M
+        self._level += CHARGE if is_there else -self.drain
+        self._level = min(1.0, max(0.0, self._level))
+        return self._level
 
 
-CHARACTERS: dict[str, Callable[[], Any]] = {
-    "runner": lambda: _steer,
-    "stroller": lambda: lambda percept: _steer(percept, 0.4),
-    "lingerer": lambda: _linger,
-    "dancer": _dancer,
-    "sleeper": lambda: lambda _: {"move": [0, 0, 0, 0]},
-    "jumper": lambda: lambda _: {"move": [1, 0, 0, 0]},
-}
-"""Factories of each character's controller."""
-
-
-def character(name: str, rewards: Sequence[RewardFunc] = ()) -> ControlRequestor:
-    """Return a world with a robot of that character.
+def battery_world(controller: Any, seed: int = 1) -> ControlRequestor:
+    """Return a world with a station and a site, and a robot with a battery.
 
     Args:
-        name: one of ``CHARACTERS``.
-        rewards: its reward functions.
+        controller: the robot's driver.
+        seed: seed of the places and of the battery.
     """
-    if name not in CHARACTERS:
-        raise NotYet(f"Expected one of {', '.join(CHARACTERS)}; got `{name!r}`.")
-    agent = BasicAgent(
+    chance = np.random.default_rng(seed)
+    away, around = chance.uniform(4, 5), chance.uniform(0, 2 * np.pi)
+    x, y = away * float(np.cos(around)), away * float(np.sin(around))
+    world = World()
+    world.add_floor("plate", BoxShape(size=(16, 16)))
+    world.add_body("robot", CircleShape(radius=0.5), tags=("agent",), random=ANYWHERE)
+    post = CircleShape(radius=0.5)
+    world.add_body("station", post, kind="static", position=(x, y), colour="green")
+    world.add_body("site", post, kind="static", position=(-x, -y), colour="orange")
+    battery = BatterySensor(
+        station="station",
+        perception_key="battery",
+        full=float(chance.uniform(0.5, 1)),
+        drain=float(chance.uniform(0.003, 0.005)),
+    )
+    bearings = [BearingSensor(target=name, perception_key=f"to {name}") for name in PLACES]
+    sensors: list[Sensor] = [battery, *bearings]
+    return ControlRequestor(world, [robot_with(as_brain(controller), sensors)])
+
+
+def robot_with(brain: Any, sensors: list[Sensor], *rewards: TouchRewardFunc) -> BasicAgent:
+    """Return a robot that drives at 2 m/s and turns at 3 rad/s."""
+    return BasicAgent(
         body="robot",
-        sensors=[BearingSensor(target="box"), OrientationSensor(target="box", normalized=False)],
+        sensors=sensors,
         actuators=[RBMoveActuator(move_amount=2, turn_amount=3)],
         rewards=list(rewards),
-        brains=[LocalBrain(controller=CHARACTERS[name]())],
+        brains=[brain],
     )
-    return ControlRequestor(plate(), [agent])
-
-
-tempers = character
-"""Its name in notebooks that were handed out before."""
-
-
-def contest(rewards: Sequence[RewardFunc], seeds: Sequence[int] = SEEDS) -> dict[str, float]:
-    """Return the mean return of each character, over the same worlds.
-
-    Args:
-        rewards: the reward functions of all of them.
-        seeds: seeds of the worlds.
-    """
-    rewards = a_list_of(RewardFunc, rewards)
-    found = {}
-    for name in CHARACTERS:
-        sim = character(name, rewards)
-        agent = sim.agents[0]
-        total = 0.0
-        for seed in seeds:
-            drive(sim, agent, seed, TEN_SECONDS)
-            total += agent.ledger.episode_total
-        found[name] = finite_number(total / len(seeds))
-    return found
-
-
-def _best(found: Mapping[str, float]) -> str:
-    return max(found, key=lambda name: found[name])
-
-
-def _shown(found: Mapping[str, float]) -> str:
-    return ", ".join(f"{name} {paid:.1f}" for name, paid in found.items())
-
-
-class Approach(RewardFunc):
-    """Pays 1 for each decision that brought the agent closer to the box; the notebook's."""
-
-    def on_reset(self, _agent: AgentView, view: WorldView) -> None:
-        """Forget the last distance."""
-        self._before = view["box"].distance(view["robot"])
-
-    def on_update(self, body: BodyView, view: WorldView) -> float:
-        """Return 1 if it came closer."""
-        now = view["box"].distance(body)
-        paid = 1.0 if now < self._before - 0.01 else 0.0
-        self._before = now
-        return paid
-
-
-WELL_MEANT: dict[str, Callable[[], list[RewardFunc]]] = {
-    "near": lambda: [
-        DistanceToTargetRewardFunc(target="box", max_reward=1),
-        TouchRewardFunc(target="box", reward=10, cause_episode_to_end=True),
-    ],
-    "quick": lambda: [
-        TouchRewardFunc(target="box", reward=10),
-        FallReward(success_reward=-1, cause_episode_to_end=True),
-        RestlessnessRewardFunc(reward=-1, min_dist=5),
-    ],
-    "closer": lambda: [Approach()],
-}
-"""The notebook's rewards; the check does not trust those that it is given."""
 
 
 @exercise(
     "07.1",
-    "Who wins?",
+    "Around the wall",
     hints={
-        "near": "With `near` the touch pays 10, once, and ends the episode. Being near pays a "
-        "little at each of 120 decisions. Which sum is larger?",
-        "quick": "With `quick` everybody pays 1 at each decision until the episode is over. What "
-        "ends the episode here? Read the first line of `quick` once more.",
-        "name": "Write one of the six names in quotes, for each of the three rewards.",
-        "closer": "With `closer` a step towards the box pays, and a step away costs nothing. Which "
-        "of them takes most steps towards it?",
+        "begin": "It pushes against the wall and never leaves it. When the bumper reads 1, change "
+        "the state; in the state `back off`, drive backward.",
+        "again": "It backs off and drives at the same place of the wall again. It needs a third "
+        "state: turn aside and drive for a while, before it seeks.",
+        "forever": "It leaves the wall and does not come back. Count the decisions that are left "
+        "in a state, and change the state when there are none.",
     },
 )
-def predicts(winners: Any, well_meant: Any) -> Done:
-    """Check the predicted winner with each of three rewards."""
-    if not isinstance(winners, Mapping):
-        raise NotYet(f"Expected a name for each reward, got `{winners!r}`.")
-    if not isinstance(well_meant, Mapping) or set(well_meant) != set(WELL_MEANT):
-        raise NotYet("Run the cell with the three well-meant rewards once more.")
-    for name, rewards in WELL_MEANT.items():
-        said = winners.get(name)
-        found = contest(rewards(), seeds_of("07.1", 5))
-        if not isinstance(said, str) or said not in found:
-            raise NotYet(
-                f"For `{name}` expected one of {', '.join(found)}; got {named(said)}.",
-                hint="name",
-            )
-        if said != _best(found):
-            raise NotYet(
-                f"With `{name}` the {said} gets {found[said]:.1f}, and somebody else gets more.",
-                hint=name,
-            )
-    return Done("You saw all three winners coming.")
+def gets_around(machine: Any) -> Done:
+    """Check that it gets to the box behind the wall."""
+    for number, seed in enumerate(seeds_of("07.1", 10)):
+        world = wall_world(seed, has_arm=number % 2 == 1)
+        bumper = TouchSensor(target="wall", perception_key="bumper")
+        arrived = TouchRewardFunc(name="arrived", target="box", reward=1, cause_episode_to_end=True)
+        agent = robot_with(as_brain(machine), [bumper, BearingSensor(target="box")], arrived)
+        sim = ControlRequestor(world, [agent])
+        bumps: list[int] = []
+
+        def watch(done: Drive, bumps: list[int] = bumps) -> None:
+            if done.agent.percept["bumper"][0] == 1:
+                bumps.append(done.steps)
+
+        done = drive(sim, agent, seed, 720, watch)
+        if not is_close(agent.ledger.episode_total, 1, 1e-6):
+            gaps = [later - sooner for sooner, later in pairwise(bumps)]
+            hint = "again" if any(gap > 1 for gap in gaps) else "begin"
+            if done.fell or (bumps and done.steps - bumps[-1] > 60):
+                hint = "forever"
+            raise done.not_yet("The robot did not get to the box ({where}).", hint)
+    return Done("In 10 worlds the robot got around the wall.", done.picture())
 
 
-def _made(make: Any) -> list[RewardFunc]:
-    return a_list_of(RewardFunc, a_function(make)())
+def wall_world(seed: int, *, has_arm: bool) -> World:
+    """Return a plate with a wall between robot and box.
+
+    The wall is 8 m long, or 6 m with an arm at one end that points to the robot's side: a curve
+    drawn blindly around it ends in the corner or beyond the box.
+    """
+    chance = np.random.default_rng(seed)
+    length = 6.0 if has_arm else 8.0
+    side, shift, x = chance.choice([-1.0, 1.0]), chance.uniform(-0.7, 0.7), chance.uniform(-1, 1)
+    world = World()
+    world.add_floor("plate", BoxShape(size=(24, 24)))
+    start = Variation(x=(-5, -3.5), y=(-1.5, 1.5), heading_deg=(-180, 180))
+    world.add_body("robot", CircleShape(radius=0.5), tags=("agent",), random=start)
+    place = (float(x), float(shift))
+    world.add_body(
+        "wall", BoxShape(size=(0.4, length)), kind="static", position=place, tags=("wall",)
+    )
+    if has_arm:
+        end = (place[0] - 0.75, float(shift + side * length / 2))
+        arm = BoxShape(size=(1.5, 0.4))
+        world.add_body("arm", arm, kind="static", position=end, tags=("wall",))
+    there = Variation(x=(3, 5), y=(-1, 1))
+    world.add_body("box", BoxShape(size=(1, 1)), kind="static", tags=("target",), random=there)
+    return world
 
 
 @exercise(
     "07.2",
-    "A trail that can't be tricked",
+    "The battery",
     hints={
-        "linger": "Somebody gets more than the runner by staying near, or by dancing. A trail must "
-        "pay for *getting* nearer, and take it back from who goes away: `ProgressReward`.",
-        "patience": "In ten seconds the runner wins. In a minute somebody else does, who is paid "
-        "for staying near: every reward for *being* somewhere can be collected without end.",
-        "nothing": "Nobody is paid anything yet.",
-        "lost": "The runner does not win. What does it get for the touch?",
-        "trail": "The runner wins, but until the touch it gets nothing: a beginner would not know "
-        "where to go. Add a reward for progress.",
+        "begin": "Two states: `work` and `charge`. Two arrows: in the state `work`, if the battery "
+        "is low, change to `charge`; in the state `charge`, if it is nearly full, change to "
+        "`work`. The state says where to drive.",
+        "between": "It leaves the station as soon as it has a little charge, and has to turn back "
+        "at once. Going to the station and leaving it need two different numbers.",
+        "late": "The battery is empty before the robot gets to the station. The way there costs up "
+        "to a quarter of the battery: leave earlier.",
+        "stays": "It stays at the station. In the state `charge`, ask whether the battery is "
+        "nearly full; a reading of more than 1 never comes.",
+        "seldom": "It works too little. How full does the battery have to be before it leaves?",
     },
 )
-def has_a_trail(make: Any) -> Done:
-    """Check that the runner wins, and is rewarded on the way."""
-    seeds = seeds_of("07.2", 5)
-    found = contest(_made(make), seeds)
-    if not any(found.values()):
-        raise NotYet(f"Nobody gets anything: {_shown(found)}.", hint="nothing")
-    others = max(paid for name, paid in found.items() if name not in ("runner", "stroller"))
-    if found["runner"] < others + 1 or found["runner"] < found["stroller"] - 1:
-        stays = max(found["lingerer"], found["dancer"]) >= found["runner"] - 1
-        raise NotYet(
-            f"The runner does not win clearly: {_shown(found)}.", hint="linger" if stays else "lost"
-        )
-    for name in ("lingerer", "dancer"):
-        paid_in_a_minute = _in_a_minute(name, _made(make), seeds[:2])
-        if paid_in_a_minute > found["runner"] - 1:
-            raise NotYet(
-                f"In ten seconds the runner wins. In a minute the {name} gets "
-                f"{paid_in_a_minute:.1f}, more than the runner's {found['runner']:.1f}.",
-                hint="patience",
-            )
-    sim = character("runner", _made(make))
-    agent = sim.agents[0]
-    for seed in seeds:
-        paid: list[float] = []
-        done = drive(sim, agent, seed, TEN_SECONDS, lambda _: paid.append(agent.reward))  # noqa: B023
-        good = sum(each > 0 for each in paid[1:])
-        if good < 0.5 * (len(paid) - 1):
+def works_and_charges(worker: Any) -> Done:
+    """Check that the battery never gets empty, and that the robot works."""
+    for seed in seeds_of("07.2", 8):
+        sim = battery_world(worker, seed)
+        at_site, at_station, visits, empty = 0, 0, 0, False
+
+        def watch(done: Drive) -> None:
+            nonlocal at_site, at_station, visits, empty
+            body, world = done.agent.body, done.sim.world
+            at_site += body.distance(world["site"]) < AT_M
+            is_there = body.distance(world["station"]) < AT_M
+            visits += is_there and not at_station
+            at_station = is_there
+            empty = empty or done.agent.percept["battery"][0] <= 0
+
+        done = drive(sim, sim.agents[0], seed, LIMIT, watch)
+        if empty:
+            raise done.not_yet("The battery was empty ({where}).", "late" if visits else "begin")
+        if at_site < ENOUGH_WORK:
+            why = "stays" if visits == 1 else "between" if visits > SHORT_VISITS else "seldom"
             raise done.not_yet(
-                f"The runner was paid above 0 for {good} of {len(paid) - 1} decisions ({{where}}).",
-                "trail",
+                f"In 2 minutes the robot was at the site for {at_site / 12:.0f} s, not 30; it came "
+                f"to the station {visits} times ({{where}}).",
+                why,
             )
-    return Done(f"The runner wins, and the way is paid: {_shown(found)}.", done.picture())
+    return Done("In 8 worlds the robot worked, and its battery was never empty.", done.picture())
 
 
-def _in_a_minute(name: str, rewards: list[RewardFunc], seeds: Sequence[int]) -> float:
-    """Return the mean return in episodes of a minute."""
-    sim = character(name, rewards)
-    agent = sim.agents[0]
-    total = 0.0
-    for seed in seeds:
-        drive(sim, agent, seed, 6 * TEN_SECONDS)
-        total += agent.ledger.episode_total
-    return finite_number(total / len(seeds))
+STATES = ("patrol", "listen", "chase")
+EVENTS = ("noise", "quiet", "thief", "gone")
+ARROWS = {
+    ("patrol", "noise"): "listen",
+    ("patrol", "thief"): "chase",
+    ("listen", "quiet"): "patrol",
+    ("listen", "thief"): "chase",
+    ("chase", "gone"): "listen",
+}
+"""Table of the drawing in 07.3."""
 
 
 @exercise(
     "07.3",
-    "Quick, but not at any price",
+    "A machine as a table",
     hints={
-        "time": "Runner and stroller get the same. Let each decision cost a little: "
-        "the `reward` for restlessness below 0.",
-        "jump": "The jumper is not the last: a fall ends the episode, and who is out pays no "
-        "more. The fall has to cost more than all the time that it saves.",
-        "pays": "Time pays instead of costing: the `reward` for restlessness has to be below 0.",
-        "dear": "Time costs so much that the runner, too, gets less than nothing: make it cheaper.",
-        "runner": "The runner has to get the most of all.",
+        "begin": "One line for each arrow of the drawing: where it begins, what happens, and where "
+        "it ends. There are five arrows.",
+        "swapped": "In the brackets the state comes first, then the event.",
+        "extra": "Your table has an arrow that is not in the drawing.",
+        "target": "One of your arrows ends in another state than in the drawing.",
+        "names": "A state or an event has another name in the drawing. Copy the words letter by "
+        "letter.",
+        "pairs": 'Each line has the form `("patrol", "noise"): "listen",`: a pair in brackets, a '
+        "colon, and a word.",
     },
 )
-def is_quick(make: Any) -> Done:
-    """Check that the runner beats the stroller, and the jumper is last."""
-    found = contest(_made(make), seeds_of("07.3", 5))
-    if found["sleeper"] > 0.1:
-        raise NotYet(f"The sleeper is paid for sleeping: {_shown(found)}.", hint="pays")
-    if found["runner"] < 0:
-        raise NotYet(f"The runner gets less than nothing: {_shown(found)}.", hint="dear")
-    if found["runner"] <= found["stroller"] + 0.1:
-        raise NotYet(f"Time costs nothing yet: {_shown(found)}.", hint="time")
-    if _best(found) != "runner":
-        raise NotYet(f"The runner does not win: {_shown(found)}.", hint="runner")
-    if min(found, key=lambda name: found[name]) != "jumper":
-        raise NotYet(f"The jumper is not the last: {_shown(found)}.", hint="jump")
-    return Done(f"Quick, and jumping does not pay: {_shown(found)}.")
+def is_the_drawing(arrows: Any) -> Done:
+    """Check a table of arrows against the drawing, by all sequences of events."""
+    table = _table_of(arrows)
+    for length in range(1, 5):
+        for events in product(EVENTS, repeat=length):
+            wanted, got = _end(ARROWS, events), _end(table, events)
+            if wanted != got:
+                raise NotYet(
+                    f"After {', '.join(events)} the robot should be in the state `{wanted}`; with "
+                    f"your table it is in `{got}`.",
+                    hint=_table_mistake(table),
+                )
+    if table != ARROWS:
+        raise NotYet("It works, but your table has more lines than the drawing.", hint="extra")
+    return Done("Five arrows, and your machine does what the drawing says.")
+
+
+def _table_of(given: Any) -> dict[tuple[str, str], str]:
+    """Return a student's table.
+
+    Raises:
+        NotYet: it is none, or it has other states or events.
+    """
+    if not isinstance(given, Mapping):
+        raise NotYet(f"Expected a table in curly brackets, got {named(given)}.", hint="pairs")
+    for key, state in given.items():
+        if not isinstance(key, tuple) or len(key) != 2:
+            raise NotYet(f"Expected a state and an event, got {named(key)}.", hint="pairs")
+        if key[0] in EVENTS and key[1] in STATES:
+            raise NotYet(f"{key!r}: the state comes first, then the event.", hint="swapped")
+        for name, known in ((key[0], STATES), (key[1], EVENTS), (state, STATES)):
+            if not isinstance(name, str) or name not in known:
+                raise NotYet(
+                    f"Expected one of {', '.join(known)}; got {named(name)}.", hint="names"
+                )
+    return dict(given)
+
+
+def _end(table: Mapping[tuple[str, str], str], events: tuple[str, ...]) -> str:
+    """Return the state after some events, from `patrol` on."""
+    state = "patrol"
+    for event in events:
+        state = table.get((state, event), state)
+    return state
+
+
+def _table_mistake(table: Mapping[tuple[str, str], str]) -> str:
+    """Return the diagnosis that fits a wrong table."""
+    if not table.keys() <= ARROWS.keys():
+        return "extra"
+    wrong = any(table[key] != ARROWS[key] for key in table)
+    return "target" if wrong else "begin"
+
+
+exit_ticket(
+    "07.exit",
+    Question(
+        "b",
+        {
+            "a": "With closed doors the same button means: drive. The percept alone does not say "
+            "which.",
+            "c": "That number changes nothing: with open doors it must not drive.",
+        },
+    ),
+    Question(
+        "a",
+        {
+            "b": "An exact thermometer notices even smaller changes, so the heater clicks even "
+            "more often.",
+            "c": "Then it clicks at 25 degrees. A single number is always the place where it "
+            "changes to and fro.",
+        },
+    ),
+    Question(
+        "c",
+        {
+            "a": "There is such an arrow: the robot does back off.",
+            "b": "The robot was in that state before it bumped. The question is how it leaves the "
+            "one in which it is.",
+        },
+    ),
+)

@@ -1,231 +1,206 @@
-"""Remote control: a script drives a robot that is somewhere else."""
+"""The decision cycle."""
 
 import math
-from collections import deque
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
-from json import dumps
-from typing import TYPE_CHECKING, Any
-
-import numpy as np
-from gymnasium.spaces import Box
+from typing import Any
 
 from ai4u_edu.agent import BasicAgent
 from ai4u_edu.agent.cycle import ControlRequestor
-from ai4u_edu.blocks import (
-    Actuator,
-    BearingSensor,
-    FallReward,
-    LocalBrain,
-    Percept,
-    RBMoveActuator,
-    TouchRewardFunc,
-)
-from ai4u_edu.envs.spaces_of import outputs_of
-from ai4u_edu.lessons.exercise import Done, NotYet, a_function, exercise
-from ai4u_edu.lessons.numeric import finite_numbers, is_close
-from ai4u_edu.lessons.rollouts import Drive, drives, seeds_of
-from ai4u_edu.lessons.worlds import plate
-from ai4u_edu.scenes import Scene
-from ai4u_edu.world import Body
+from ai4u_edu.blocks import FallReward, LocalBrain, Percept, RayCastingSensor, RBMoveActuator
+from ai4u_edu.lessons.exercise import Done, NotYet, a_function, exercise, named
+from ai4u_edu.lessons.exit_ticket import Question, exit_ticket
+from ai4u_edu.lessons.numeric import chance_for, difference, finite_number, is_close
+from ai4u_edu.lessons.rollouts import drive
+from ai4u_edu.lessons.student_errors import NOTHING_RETURNED
+from ai4u_edu.world import BoxShape, CircleShape, World
 
-if TYPE_CHECKING:
-    from ai4u_edu.remote import Robot
-
-LIMIT = 300
-RECEIVE_TIMEOUT_MS = 20_000
-"""Time for which the world waits for an action, milliseconds."""
-LAG_DECISIONS = 3
-"""Lag of the percepts, in decisions of 1/12 s each."""
-SCENES = ("box_chase", "line_follow", "strong", "parking")
-"""Robots that are asked for; ``strong`` is one whose numbers go beyond 1."""
+LAZY = 16
+"""Value of ``skip_frame`` that passes; with more than 18 the robot can fall."""
 
 
-class Winch(Actuator):
-    """Robot's motor with ranges of its own."""
-
-    def space(self) -> Box:
-        """Return the ranges: forward to 3, turn to 0.5, a spare to 0.25."""
-        return Box(np.array([-1, -0.5, 0], np.float32), np.array([3, 0.5, 0.25], np.float32), (3,))
-
-    def act(self, body: Body, action: Any) -> None:
-        """Drive and turn."""
-        body.apply_force(float(action[0]), 0.0)
-
-
-@contextmanager
-def served(sim: ControlRequestor) -> "Iterator[Robot]":
-    """Yield a robot of a world served on this machine, in lockstep at full speed."""
-    from ai4u_edu.remote import connect
-    from ai4u_edu.runtime.runner import Runner
-    from ai4u_edu.server import Rules, ServerThread, room_app
-
-    runner = Runner(sim, time_scale=math.inf)
-    # a machine that is busy with thirty students' checks may keep a script waiting
-    rules = Rules(receive_timeout=RECEIVE_TIMEOUT_MS)
-    app = room_app(runner, viser_port=1, title="exercise", rules=rules)
-    runner.start()
-    try:
-        with ServerThread(app) as server, connect(server.url, mode="lockstep") as robot:
-            yield robot
-    finally:
-        runner.stop()
-
-
-def late(controller: Callable[[Any], Any], lag: int = LAG_DECISIONS) -> ControlRequestor:
-    """Return a robot on a plate with a box, whose driver gets old percepts.
-
-    Args:
-        controller: the driver.
-        lag: age of the percepts, in decisions.
-    """
-    seen: deque[Percept] = deque(maxlen=lag + 1)
-
-    def drive(percept: Percept) -> Any:
-        if agent.steps == 0:
-            seen.clear()
-        seen.append(percept)
-        return controller(seen[0])
-
+def _runway(controller: Any, skip_frame: int, *, speed: float = 3, start: float = -9.0) -> Any:
+    world = World()
+    world.add_floor("runway", BoxShape(size=(20, 4)))
+    world.add_body("robot", CircleShape(radius=0.5), position=(start, 0), tags=("agent",))
+    feeler = RayCastingSensor(
+        perception_key="feeler",
+        rows=1,
+        columns=1,
+        vertical_field_of_view=1,
+        vertical_shift=27,
+        vision_max_distance=2,
+        group_code={"floor": 1},
+        flattened=True,
+    )
     agent = BasicAgent(
         body="robot",
-        sensors=[BearingSensor(target="box")],
-        actuators=[RBMoveActuator(move_amount=3, turn_amount=6)],
-        rewards=[
-            TouchRewardFunc(target="box", reward=1, cause_episode_to_end=True),
-            FallReward(),
-        ],
-        brains=[LocalBrain(controller=drive)],
+        sensors=[feeler],
+        actuators=[RBMoveActuator(move_amount=speed, turn_amount=3)],
+        brains=[LocalBrain(controller=controller, skip_frame=skip_frame)],
     )
-    return ControlRequestor(plate(), [agent], success="touch")
+    return ControlRequestor(world, [agent])
 
 
-def _short(name: str) -> ControlRequestor:
-    """Return a scene whose episodes end soon, whatever a script does."""
-    if name == "strong":
-        agent = BasicAgent(
-            body="robot",
-            max_steps_per_episode=LIMIT,
-            sensors=[BearingSensor(target="box")],
-            actuators=[Winch(action_name="winch")],
-            brains=[LocalBrain(controller=lambda _: {})],
-        )
-        return ControlRequestor(plate(), [agent])
-    plain = Scene.load(name).plain()
-    plain["agents"][0]["max_steps_per_episode"] = LIMIT
-    return Scene.loads(dumps(plain), name=name).build()  # JSON is YAML as well
+def _go(_: Percept) -> dict[str, list[float]]:
+    return {"move": [1, 0, 0, 0]}
 
 
 @exercise(
     "08.1",
-    "A script drives",
-    call_limit_s=30,
+    "Blind",
     hints={
-        "loop": "One action is one decision, 1/12 s. Go on until the episode is over: "
-        "`for percept in robot:`, and in the loop one `robot.act(move=...)`.",
-        "look": 'It acts again and again, but never looks. `percept["orientation"][0]` is the '
-        "cosine of the direction to the box: turn until it is above 0.99, then go.",
+        "begin": "From one decision to the next skip_frame + 1 ticks pass, and a tick is 1/60 of a "
+        "second. How far does the robot get in that time?",
+        "one-more": "Nearly. With `skip_frame=0` the agent decides at every tick, and drives for "
+        "one tick in between: it is one tick more than you count.",
+        "seconds": "A tick is not a second: there are 60 of them in a second.",
+        "twelve": "Twelve decisions a second are right only for `skip_frame=4`. With another "
+        "number, a decision takes more or less time.",
+        "ticks": "That is the number of ticks or seconds. How far does the robot get in that time?",
     },
 )
-def drives_from_afar(script: Any) -> Done:
-    """Check a script in three served worlds."""
-    drive = a_function(script)
-    sim = _short("box_chase")
-    agent = sim.agents[0]
-    with served(sim) as robot:
-        for seed in seeds_of("08.1", 3):
-            robot.reset(seed=seed)
-            done = Drive(sim, agent, seed, [agent.body.position])
-            drive(robot)
-            percept = robot.percept if robot.percept and robot.percept.done else robot.sense()
-            if percept.reward_terms.get("touch", 0.0) <= 0:
-                how = (
-                    f"The robot's episode ended without the box, after {percept.step} decisions"
-                    if percept.done
-                    else f"Your script ended after {percept.step} decisions, before the episode did"
-                )
-                raise NotYet(
-                    f"{how} (seed {seed}).",
-                    hint="look" if percept.done else "loop",
-                    picture=done.picture(),
-                )
-            done.trail.append(agent.body.position)
-    return Done("Over the network it found the box, in three worlds.", done.picture())
+def computes_the_blind_way(blind_way: Any) -> Done:
+    """Check the metres from one decision to the next."""
+    a_function(blind_way)
+    chance = chance_for("08.1", blind_way)
+    for number in range(6):
+        speed = round(float(chance.uniform(1, 4)), 1)
+        skip_frame = 0 if number == 1 else int(chance.integers(5, 30))
+        sim = _runway(_go, skip_frame, speed=speed)
+        done = drive(sim, sim.agents[0], 1, limit=1)
+        found = finite_number(blind_way(speed, skip_frame))
+        if not is_close(found, done.moved, 0.005):
+            ticks = skip_frame + 1
+            slips = {
+                "one-more": ("one tick less than there are", speed * skip_frame / 60),
+                "seconds": ("right if a tick were a second", speed * ticks),
+                "twelve": ("right only for `skip_frame=4`", speed / 12),
+                "ticks": ("the time in seconds, not the way", ticks / 60),
+            }
+            slip = difference(found, slips, 1e-4)
+            raise done.not_yet(
+                f"At {speed:g} m/s with skip_frame={skip_frame} the robot drove "
+                f"{done.moved:.3f} m in one decision; your function says {found:.3f}{slip.words}.",
+                slip.name if found else "begin",
+            )
+    return Done("Six speeds, six ways, and each was right.")
+
+
+def _careful(percept: Percept) -> dict[str, list[float]]:
+    return {"move": [1 if percept["feeler"][0] else 0, 0, 0, 0]}
 
 
 @exercise(
     "08.2",
-    "Late news",
+    "As lazy as possible",
     hints={
-        "fast": "It turns on what was true a quarter of a second ago, and by then it looks "
-        "elsewhere. Turn less for the same sine, and drive more slowly: late news is less wrong "
-        "about a slow robot.",
-        "blind": "It does the same whatever it senses: look at the bearing.",
-        "away": "It turns away from the box: for a box on the left (sine above 0) turn left (below "
-        "0).",
-        "still": "It never drives. Where the box is ahead, drive slowly.",
+        "lazier": "It never falls, and could be lazier. The feeler sees 0.98 m ahead of the "
+        "robot's middle. How many ticks does it take to drive a metre?",
+        "whole": "A tick is the smallest piece of time in the world. Round your result: which of "
+        "the two numbers is safe?",
+        "falls": "It drives too far before it looks again. The blind way has to be shorter than "
+        "the 0.98 m that the feeler sees ahead.",
     },
 )
-def copes_with_lag(careful: Any) -> Done:
-    """Check twenty worlds with percepts that are a quarter of a second old."""
-    worlds = 20
-    drive_late = a_function(careful)
-    for done in drives(lambda: late(drive_late), None, seeds_of("08.2", worlds), limit=LIMIT):
-        if not done.won:
-            how = "fell" if done.fell else "did not get there in time"
+def is_lazy(skip_frame: Any) -> Done:
+    """Check that it never falls, and decides seldom."""
+    given = finite_number(skip_frame)
+    if given != round(given):
+        low = math.floor(given)
+        raise NotYet(
+            f"`skip_frame` counts ticks, so it is a whole number: is it {low} or {low + 1}?",
+            hint="whole",
+        )
+    skip_frame = round(given)
+    if not 0 <= skip_frame <= 600:
+        raise NotYet(f"Expected a number from 0 to 600, got {skip_frame}.", hint="falls")
+    for number in range(40):
+        sim = _runway(_careful, skip_frame, start=-9.0 + 0.05 * number)
+        done = drive(sim, sim.agents[0], number, limit=480 // (skip_frame + 1) + 2)
+        if done.fell:
             raise done.not_yet(
-                f"With percepts {LAG_DECISIONS} decisions old the robot {how} ({{where}}).",
-                _why(drive_late),
+                f"With skip_frame={skip_frame} the robot fell when it started at "
+                f"x = {-9.0 + 0.05 * number:.2f}.",
+                "falls",
             )
+    if skip_frame < LAZY:
+        raise NotYet(
+            f"With skip_frame={skip_frame} it never fell in 40 runs. It can be lazier.",
+            hint="lazier",
+            picture=done.picture(),
+        )
     return Done(
-        f"A quarter of a second late, and it found the box in {worlds} worlds.", done.picture()
+        f"With skip_frame={skip_frame} the robot never fell, from 40 places.", done.picture()
     )
-
-
-def _why(careful: Callable[..., Any]) -> str:
-    """Return the diagnosis that fits how a driver answers."""
-    seen = {"left": (0.8, 0.6), "right": (-0.8, 0.6), "ahead": (0.0, 1.0)}
-    moves = {}
-    for name, bearing in seen.items():
-        answer = careful({"bearing": np.array(bearing)})
-        move = answer.get("move", ()) if isinstance(answer, dict) else ()
-        moves[name] = [float(each) for each in move]
-    if len({repr(each) for each in moves.values()}) == 1:
-        return "blind"
-    if len(moves["left"]) == 4 and moves["left"][1] > moves["right"][1]:
-        return "away"
-    return "still" if not any(move[:1] != [0.0] for move in moves.values()) else "fast"
 
 
 @exercise(
     "08.3",
-    "A robot that you don't know",
+    "A diary",
     hints={
-        "ask": "Robots differ: this one takes another number of numbers, or another range. Ask it: "
-        "`robot.spaces.action.high` are the highest numbers that it takes.",
-        "one": "It gives 1 for each number. Not every robot's range ends at 1: ask for the highest "
-        "numbers.",
-        "full": "The robot takes that, but it is not full power: each number should be the highest "
-        "that its range allows.",
+        "begin": "Connect a function that appends to `notes`, like `agent.end_of_step.connect("
+        'lambda agent: notes.append("decision"))`.',
+        "begins": 'The first note has to be "begin": connect with `begin_of_episode`.',
+        "counted": "It is right as long as an episode takes as many decisions as you thought. This "
+        "one ended earlier: connect a function, so that each note is written when it happens.",
+        "ticks": "You wrote more than once for a decision. `begin_of_apply_action` comes at each "
+        "tick; `end_of_step` comes once a decision.",
+        "end": 'The last note of an episode has to be "end": connect with `end_of_episode`.',
     },
 )
-def asks_the_robot(full_power: Any) -> str:
-    """Check the function with four robots."""
-    ask = a_function(full_power)
-    for name in SCENES:
-        sim = _short(name)
-        (output,) = outputs_of(sim.agents[0])
-        with served(sim) as robot:
-            robot.reset()
-            high = np.ravel(robot.spaces.action.high)  # type: ignore[attr-defined]
-            takes = f"The robot of `{name}` takes {len(high)} numbers"
-            got = finite_numbers(ask(robot), len(high), expected=takes, hint="ask")
-            if not is_close(got, high, 1e-5):
-                raise NotYet(
-                    f"For the robot of `{name}` full power is {high.tolist()}, and it got {got}.",
-                    hint="one" if set(got) == {1.0} else "full",
-                )
-            robot.sense()
-            robot.act({output: got})
-            robot.sense()
-    return "Four different robots, each at full power."
+def keeps_a_diary(diary: Any) -> Done:
+    """Check for entries of the begin, the decisions and the end."""
+    a_function(diary)
+    for limit, start in ((7, -9.0), (3, -9.0), (60, 2.0)):  # the last one falls before
+        sim = _runway(_go, 4, start=start)
+        falls = FallReward(cause_episode_to_end=True)
+        agent = sim.agents[0].changed(max_steps_per_episode=limit, rewards=[falls])
+        sim = ControlRequestor(sim.world, [agent])
+        notes = diary(agent)
+        if notes is None:
+            raise NotYet(NOTHING_RETURNED, hint="no-return")
+        if not isinstance(notes, list):
+            raise NotYet(f"Expected that `diary` returns a list, got {named(notes)}.", hint="begin")
+        done = drive(sim, agent, 1)
+        wanted = ["begin", *["decision"] * done.steps, "end"]
+        if notes != wanted:
+            count = notes.count("decision")
+            hint = "begin"
+            if count == limit > done.steps:
+                hint = "counted"
+            elif count > done.steps:
+                hint = "ticks"
+            elif count == done.steps:
+                hint = "end" if notes[:1] == ["begin"] else "begins"
+            raise NotYet(
+                f"In an episode of {done.steps} decisions your diary says {notes[:12]!r}"
+                f"{' ...' if len(notes) > 12 else ''}, not {wanted[:12]!r}.",
+                hint=hint,
+            )
+    return Done("Three episodes, three diaries without a mistake.")
+
+
+exit_ticket(
+    "08.exit",
+    Question(
+        "c",
+        {
+            "a": "Nearly: a decision takes skip_frame + 1 ticks.",
+            "b": "A tick is not a second. 30 ticks are half a second.",
+        },
+    ),
+    Question(
+        "b",
+        {
+            "a": "Then the blind way would be twice as long.",
+            "c": "Then the blind way would be four times as long.",
+        },
+    ),
+    Question(
+        "c",
+        {
+            "a": "`end_of_step` comes once for each decision. An event for each tick is "
+            "`begin_of_apply_action`.",
+            "b": "Once for the whole episode comes `end_of_episode`.",
+        },
+    ),
+)

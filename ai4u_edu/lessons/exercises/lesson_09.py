@@ -1,307 +1,305 @@
-"""Reinforcement learning: it tries things out, and does more of what paid."""
+"""Rewards: say what you want, get what you said."""
 
-import os
-import shutil
-from collections.abc import Callable
-from dataclasses import dataclass
-from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
 
-import numpy as np
+from ai4u_edu.agent import BasicAgent
+from ai4u_edu.agent.cycle import ControlRequestor
+from ai4u_edu.blocks import (
+    BearingSensor,
+    DistanceToTargetRewardFunc,
+    FallReward,
+    LocalBrain,
+    OrientationSensor,
+    Percept,
+    RBMoveActuator,
+    RestlessnessRewardFunc,
+    RewardFunc,
+    TouchRewardFunc,
+)
+from ai4u_edu.blocks.agent_view import AgentView
+from ai4u_edu.lessons.exercise import Done, NotYet, a_function, a_list_of, exercise, named
+from ai4u_edu.lessons.exit_ticket import Question, exit_ticket
+from ai4u_edu.lessons.numeric import finite_number
+from ai4u_edu.lessons.rollouts import drive, seeds_of
+from ai4u_edu.lessons.worlds import plate
+from ai4u_edu.world import BodyView, WorldView
 
-from ai4u_edu.lessons.exercise import Done, NotYet, a_function, exercise, named
-from ai4u_edu.lessons.numeric import Slip, chance_for, difference, finite_number, is_close
-from ai4u_edu.lessons.rollouts import drive, driven_by, seeds_of
-from ai4u_edu.lessons.wrong_reward import OUTCOMES, Hacker, outcomes
-
-if TYPE_CHECKING:
-    from ai4u_edu.training.learning import Trained
-    from ai4u_edu.training.run import Check
-
-    Update = Callable[[float, float, float, float, float], float]
-
-CELLS, START, SLIP = 8, 2, 0.1
-"""Corridor: number of cells, first cell, probability of a slip; from a pit to the goal."""
-RATE, DISCOUNT, TRIES = 0.5, 0.9, 0.3
-SHORT, ENOUGH = 100, 2000
-"""With AI4U_FAST: decisions to learn from, and the requested number that counts as enough."""
-EPISODES, NEEDED, LIMIT = 100, 95, 200
-
-
-@dataclass(frozen=True)
-class Shortened:
-    """Result of :func:`learn` in tests: a finished network, as there is no time to train one."""
-
-    checks: "list[Check]"
-    path: Path
+Action = dict[str, list[float]]
+SEEDS = (1, 2, 3, 4, 5)
+TEN_SECONDS = 120
+NEAR, FAR = 1.6, 3.0
+"""Metres from the box between which the dancer dances."""
 
 
-def learn(steps: int, seed: int = 0, *, quiet: bool = False) -> "Trained | Shortened":
-    """Train SAC in the box chase, in the folder ``runs/sac-STEPS-SEED``.
+def _steer(percept: Percept, speed: float = 1.0) -> Action:
+    left, ahead = (float(each) for each in percept["bearing"])
+    if ahead < 0:
+        return {"move": [0, -1 if left > 0 else 1, 0, 0]}
+    return {"move": [speed, -left, 0, 0]}
 
-    With ``AI4U_FAST=1`` it trains for an instant, and returns the package's network if enough steps
-    were requested.
+
+def _linger(percept: Percept) -> Action:
+    return _steer(percept, 0.0 if percept["orientation"][1] < NEAR else 1.0)
+
+
+def _dancer() -> Callable[[Percept], Action]:
+    """Drive to and fro in front of the box."""
+    comes = True
+
+    def dance(percept: Percept) -> Action:
+        nonlocal comes
+        away = percept["orientation"][1]
+        comes = away > FAR or (comes and away >= NEAR)
+        return _steer(percept, 1.0 if comes else -1.0)
+
+    return dance
+
+
+CHARACTERS: dict[str, Callable[[], Any]] = {
+    "runner": lambda: _steer,
+    "stroller": lambda: lambda percept: _steer(percept, 0.4),
+    "lingerer": lambda: _linger,
+    "dancer": _dancer,
+    "sleeper": lambda: lambda _: {"move": [0, 0, 0, 0]},
+    "jumper": lambda: lambda _: {"move": [1, 0, 0, 0]},
+}
+"""Factories of each character's controller."""
+
+
+def character(name: str, rewards: Sequence[RewardFunc] = ()) -> ControlRequestor:
+    """Return a world with a robot of that character.
 
     Args:
-        steps: decisions to learn from, at the most.
-        seed: seed of the network, the worlds and all random choices.
-        quiet: True shows nothing.
+        name: one of ``CHARACTERS``.
+        rewards: its reward functions.
     """
-    from ai4u_edu.blocks.brains.network import find_network
-    from ai4u_edu.training import train
-
-    fast = bool(os.environ.get("AI4U_FAST"))
-    settings: dict[str, Any] = {"sac": {"check_every": 500}, "enough": 3}
-    trained = train(
-        "box_chase",
-        "sac",
-        steps=min(steps, SHORT) if fast else steps,
-        seed=seed,
-        out=Path("runs") / f"sac-{steps}-{seed}",
-        settings=settings | ({"check_episodes": 2} if fast else {}),
-        overwrite=True,
-        quiet=quiet or fast,
+    if name not in CHARACTERS:
+        raise NotYet(f"Expected one of {', '.join(CHARACTERS)}; got `{name!r}`.")
+    agent = BasicAgent(
+        body="robot",
+        sensors=[BearingSensor(target="box"), OrientationSensor(target="box", normalized=False)],
+        actuators=[RBMoveActuator(move_amount=2, turn_amount=3)],
+        rewards=list(rewards),
+        brains=[LocalBrain(controller=CHARACTERS[name]())],
     )
-    if fast and steps >= ENOUGH:
-        return Shortened(trained.checks, find_network("zoo:box_chase", None))
-    return trained
+    return ControlRequestor(plate(), [agent])
 
 
-def keep(trained: "Trained | Shortened", path: str | Path = "sac.onnx") -> Path:
-    """Write a training's network into a file.
-
-    Args:
-        trained: the result of :func:`learn`.
-        path: the file's path.
-    """
-    from ai4u_edu.training import export
-
-    if isinstance(trained, Shortened):
-        return Path(shutil.copyfile(trained.path, path))
-    return export(trained, path)
+tempers = character
+"""Its name in notebooks that were handed out before."""
 
 
-def corridor(update: "Update", episodes: int = 40, seed: int = 0) -> list[list[float]]:
-    """Let a walker learn a corridor: a pit (-1) at its left end, the goal (+1) at its right end.
-
-    One step in ten slips into the other direction.
+def contest(rewards: Sequence[RewardFunc], seeds: Sequence[int] = SEEDS) -> dict[str, float]:
+    """Return the mean return of each character, over the same worlds.
 
     Args:
-        update: the new value of a step, from (value, reward, best_next, rate, discount).
-        episodes: number of walks.
-        seed: seed of its random choices.
-
-    Returns:
-        The value of the better step in each cell, after each walk.
+        rewards: the reward functions of all of them.
+        seeds: seeds of the worlds.
     """
-    chance = np.random.default_rng(seed)
-    values = np.zeros((CELLS, 2))
-    history = []
-    for _ in range(episodes):
-        cell = START
-        while 0 < cell < CELLS - 1:
-            tries = chance.random() < TRIES or values[cell, 0] == values[cell, 1]
-            step = int(chance.integers(2)) if tries else int(values[cell].argmax())
-            slips = chance.random() < SLIP
-            now = cell + (1 if (step == 1) != slips else -1)
-            reward = {0: -1.0, CELLS - 1: 1.0}.get(now, 0.0)
-            said = update(values[cell, step], reward, values[now].max(), RATE, DISCOUNT)
-            values[cell, step] = finite_number(said)
-            cell = now
-        history.append([float(each) for each in values.max(axis=1)])
-    return history
+    rewards = a_list_of(RewardFunc, rewards)
+    found = {}
+    for name in CHARACTERS:
+        sim = character(name, rewards)
+        agent = sim.agents[0]
+        total = 0.0
+        for seed in seeds:
+            drive(sim, agent, seed, TEN_SECONDS)
+            total += agent.ledger.episode_total
+        found[name] = finite_number(total / len(seeds))
+    return found
+
+
+def _best(found: Mapping[str, float]) -> str:
+    return max(found, key=lambda name: found[name])
+
+
+def _shown(found: Mapping[str, float]) -> str:
+    return ", ".join(f"{name} {paid:.1f}" for name, paid in found.items())
+
+
+class Approach(RewardFunc):
+    """Pays 1 for each decision that brought the agent closer to the box; the notebook's."""
+
+    def on_reset(self, _agent: AgentView, view: WorldView) -> None:
+        """Forget the last distance."""
+        self._before = view["box"].distance(view["robot"])
+
+    def on_update(self, body: BodyView, view: WorldView) -> float:
+        """Return 1 if it came closer."""
+        now = view["box"].distance(body)
+        paid = 1.0 if now < self._before - 0.01 else 0.0
+        self._before = now
+        return paid
+
+
+WELL_MEANT: dict[str, Callable[[], list[RewardFunc]]] = {
+    "near": lambda: [
+        DistanceToTargetRewardFunc(target="box", max_reward=1),
+        TouchRewardFunc(target="box", reward=10, cause_episode_to_end=True),
+    ],
+    "quick": lambda: [
+        TouchRewardFunc(target="box", reward=10),
+        FallReward(success_reward=-1, cause_episode_to_end=True),
+        RestlessnessRewardFunc(reward=-1, min_dist=5),
+    ],
+    "closer": lambda: [Approach()],
+}
+"""The notebook's rewards; the check does not trust those that it is given."""
 
 
 @exercise(
     "09.1",
-    "What later is worth now",
+    "Who wins?",
     hints={
-        "undiscounted": "Every reward counts in full. Later ones have to count less: multiply the "
-        "reward number n by `discount ** n`.",
-        "later": "Rewards that come later have to count less. `enumerate(rewards)` gives each "
-        "reward with its number n: 0, 1, 2 ... Multiply each by `discount ** n`.",
-        "linear": "The discount is applied once per reward, not once per step: it is a power, "
-        "`discount ** n`, and not a product.",
-        "once": "The whole sum is discounted once. Each reward has its own power of the discount.",
-        "backward": "The order is turned round: the first reward comes now, the last one latest.",
-        "first": "The first reward comes now: it counts in full. Its number is 0, and "
-        "`discount ** 0` is 1.",
+        "near": "With `near` the touch pays 10, once, and ends the episode. Being near pays a "
+        "little at each of 120 decisions. Which sum is larger?",
+        "quick": "With `quick` everybody pays 1 at each decision until the episode is over. What "
+        "ends the episode here? Read the first line of `quick` once more.",
+        "name": "Write one of the six names in quotes, for each of the three rewards.",
+        "closer": "With `closer` a step towards the box pays, and a step away costs nothing. Which "
+        "of them takes most steps towards it?",
     },
 )
-def discounts(worth: Any) -> str:
-    """Check the discounted return of rewards."""
-    chance = chance_for("09.1", worth)
-    for length in (3, 1, 0, 6, 20):
-        rewards = [float(each) for each in chance.integers(-5, 10, length)]
-        discount = round(float(chance.uniform(0.3, 0.9)), 2)
-        right = sum(reward * discount**n for n, reward in enumerate(rewards))
-        got = finite_number(a_function(worth)(list(rewards), discount))
-        if not is_close(got, right, 1e-6):
-            slips = {
-                "first": ("the right sum, discounted once more", discount * right),
-                "undiscounted": ("the sum without the discount", sum(rewards)),
-                "linear": (
-                    "right for `discount * n` in place of `discount ** n`",
-                    sum(reward * discount * n for n, reward in enumerate(rewards)),
-                ),
-                "once": ("the whole sum, discounted once", discount * sum(rewards)),
-                "backward": (
-                    "right for the list turned round",
-                    sum(reward * discount**n for n, reward in enumerate(reversed(rewards))),
-                ),
-            }
-            slip = difference(got, slips, 1e-6) if length > 1 else Slip("", "")
+def predicts(winners: Any, well_meant: Any) -> Done:
+    """Check the predicted winner with each of three rewards."""
+    if not isinstance(winners, Mapping):
+        raise NotYet(f"Expected a name for each reward, got `{winners!r}`.")
+    if not isinstance(well_meant, Mapping) or set(well_meant) != set(WELL_MEANT):
+        raise NotYet("Run the cell with the three well-meant rewards once more.")
+    for name, rewards in WELL_MEANT.items():
+        said = winners.get(name)
+        found = contest(rewards(), seeds_of("09.1", 5))
+        if not isinstance(said, str) or said not in found:
             raise NotYet(
-                f"With the rewards {rewards[:6]} and a discount of {discount} expected "
-                f"{right:.3f}, got {got:.3f}{slip.words}.",
-                hint=slip.name or ("later" if is_close(got, 0, 0) else ""),
+                f"For `{name}` expected one of {', '.join(found)}; got {named(said)}.",
+                hint="name",
             )
-    return "Five lists of rewards, all of them worth what they should be."
+        if said != _best(found):
+            raise NotYet(
+                f"With `{name}` the {said} gets {found[said]:.1f}, and somebody else gets more.",
+                hint=name,
+            )
+    return Done("You saw all three winners coming.")
+
+
+def _made(make: Any) -> list[RewardFunc]:
+    return a_list_of(RewardFunc, a_function(make)())
 
 
 @exercise(
     "09.2",
-    "One step of learning",
+    "A trail that can't be tricked",
     hints={
-        "stays": "`value` comes back as it was: nothing is learned. What has the step brought? The "
-        "reward, and what can still be had from there: `reward + discount * best_next`. Move the "
-        "value a part of the way to that.",
-        "jump": "The value jumps all the way to what happened last. Once is no proof: go only the "
-        "part `rate` of the way, `value + rate * (target - value)`.",
-        "undiscounted": "What is to be had later counts less than what is paid now: multiply "
-        "`best_next` by `discount`.",
-        "minus-value": "The value grows and grows. Move it by a part of the *difference* between "
-        "target and value: `rate * (target - value)`.",
-        "bracket": "Without brackets the rate multiplies only the target: "
-        "`value + rate * (target - value)`.",
-        "other-side": "A rate of 0 should change nothing, a rate of 1 everything. With yours it is "
-        "the other way round.",
-        "all-discounted": "The reward of this step is paid now: only `best_next` is discounted.",
-        "future": "Only the reward of this very step counts with you. The goal pays at the last "
-        "step alone, so no cell before it would ever be worth anything: add "
-        "`discount * best_next`.",
+        "linger": "Somebody gets more than the runner by staying near, or by dancing. A trail must "
+        "pay for *getting* nearer, and take it back when the robot goes away again: "
+        "`ProgressReward`.",
+        "patience": "In ten seconds the runner wins. In a minute another one wins, which is paid "
+        "for staying near: every reward for *being* somewhere can be collected without end.",
+        "nothing": "Nobody is paid anything yet.",
+        "lost": "The runner does not win. What does it get for the touch?",
+        "trail": "The runner wins, but until the touch it gets nothing: a beginner would not know "
+        "where to go. Add a reward for progress.",
     },
 )
-def learns_a_step(update: Any) -> str:
-    """Check the update of a value, and a walker that learns by it."""
-    chance = chance_for("09.2", update)
-    for _ in range(20):
-        value, reward, best, rate, discount = (
-            round(float(each), 2) for each in chance.uniform(0.1, 0.9, 5)
+def has_a_trail(make: Any) -> Done:
+    """Check that the runner wins, and is rewarded on the way."""
+    seeds = seeds_of("09.2", 5)
+    found = contest(_made(make), seeds)
+    if not any(found.values()):
+        raise NotYet(f"Nobody gets anything: {_shown(found)}.", hint="nothing")
+    others = max(paid for name, paid in found.items() if name not in ("runner", "stroller"))
+    if found["runner"] < others + 1 or found["runner"] < found["stroller"] - 1:
+        stays = max(found["lingerer"], found["dancer"]) >= found["runner"] - 1
+        raise NotYet(
+            f"The runner does not win clearly: {_shown(found)}.", hint="linger" if stays else "lost"
         )
-        target = reward + discount * best
-        right = value + rate * (target - value)
-        got = finite_number(a_function(update)(value, reward, best, rate, discount))
-        if not is_close(got, right, 1e-6):
-            slips = {
-                "stays": ("the value as it was: nothing is learned", value),
-                "jump": ("the target itself, as if the rate were 1", target),
-                "future": (
-                    "right without what is to be had from there",
-                    value + rate * (reward - value),
-                ),
-                "undiscounted": (
-                    "right without the discount",
-                    value + rate * (reward + best - value),
-                ),
-                "minus-value": ("right without `- value`", value + rate * target),
-                "bracket": (
-                    "right but for a bracket: the rate has to multiply the whole difference",
-                    value + rate * target - value,
-                ),
-                "other-side": (
-                    "right with the rate on the wrong side",
-                    rate * value + (1 - rate) * target,
-                ),
-                "all-discounted": (
-                    "right if the reward were discounted too",
-                    value + rate * (discount * (reward + best) - value),
-                ),
-            }
-            slip = difference(got, slips, 1e-6)
+    for name in ("lingerer", "dancer"):
+        paid_in_a_minute = _in_a_minute(name, _made(make), seeds[:2])
+        if paid_in_a_minute > found["runner"] - 1:
             raise NotYet(
-                f"A value of {value:.2f}, a reward of {reward:.2f}, {best:.2f} to be had from "
-                f"there, a rate of {rate:.2f} and a discount of {discount:.2f}: expected "
-                f"{right:.3f}, got {got:.3f}{slip.words}.",
-                hint=slip.name,
+                f"In ten seconds the runner wins. In a minute the {name} gets "
+                f"{paid_in_a_minute:.1f}, more than the runner's {found['runner']:.1f}.",
+                hint="patience",
             )
-    learned = [corridor(update, seed=seed)[-1][START] for seed in seeds_of("09.2", 10)]
-    return (
-        "A walker who learns by it knew its way after 40 walks: in the cell where it begins, the "
-        f"better step was worth {np.mean(learned):.2f}."
-    )
+    sim = character("runner", _made(make))
+    agent = sim.agents[0]
+    for seed in seeds:
+        paid: list[float] = []
+        done = drive(sim, agent, seed, TEN_SECONDS, lambda _: paid.append(agent.reward))  # noqa: B023
+        good = sum(each > 0 for each in paid[1:])
+        if good < 0.5 * (len(paid) - 1):
+            raise done.not_yet(
+                f"The runner was paid above 0 for {good} of {len(paid) - 1} decisions ({{where}}).",
+                "trail",
+            )
+    return Done(f"The runner wins, and the way is paid: {_shown(found)}.", done.picture())
+
+
+def _in_a_minute(name: str, rewards: list[RewardFunc], seeds: Sequence[int]) -> float:
+    """Return the mean return in episodes of a minute."""
+    sim = character(name, rewards)
+    agent = sim.agents[0]
+    total = 0.0
+    for seed in seeds:
+        drive(sim, agent, seed, 6 * TEN_SECONDS)
+        total += agent.ledger.episode_total
+    return finite_number(total / len(seeds))
 
 
 @exercise(
     "09.3",
-    "Long enough",
+    "Quick, but not at any price",
     hints={
-        "longer": "A decision takes the robot 1/6 s here, so 400 decisions are about a minute of "
-        "life, and in the first 500 it only tries things out. Let it learn from 5,000 or 10,000; "
-        "it stops by itself when it is good.",
-        "again": "It is nearly there. Chance plays a part in learning: look at the curve, let it "
-        "learn from more decisions, or take another `seed`.",
+        "time": "Runner and stroller get the same. Let each decision cost a little: "
+        "the `reward` for restlessness below 0.",
+        "jump": "The jumper is not the last: a fall ends the episode, and after that nothing costs "
+        "any more. The fall has to cost more than all the time that it saves.",
+        "pays": "Time pays, but it should cost: the `reward` for restlessness has to be below 0.",
+        "dear": "Time costs so much that the runner, too, gets less than nothing: make it cheaper.",
+        "runner": "The runner has to get the most of all.",
     },
 )
-def has_learned(trained: Any) -> Done:
-    """Check for success in 95 of 100 unseen worlds."""
-    from ai4u_edu.scenes import Scene
-
-    if not isinstance(trained, Shortened):
-        _expect_trained(trained)
-    sim = driven_by(trained, Scene.load("box_chase"))
-    agent = sim.agents[0]
-    fast = bool(os.environ.get("AI4U_FAST"))
-    episodes = EPISODES // 10 if fast else EPISODES
-    won = lost = 0
-    for done in (drive(sim, agent, seed, LIMIT) for seed in seeds_of("09.3", episodes)):
-        won, lost = won + done.won, lost + (not done.won)
-        if lost > (1 - NEEDED / EPISODES) * episodes:
-            how = "it fell" if done.fell else "it did not get there in time"
-            raise done.not_yet(
-                f"In {lost} of {won + lost} worlds it failed; in the last of them {how} "
-                f"({{where}}).",
-                "again" if won > 4 * lost else "longer",
-            )
-    return Done(f"It reached the box in {won} of {episodes} worlds that it never saw.")
+def is_quick(make: Any) -> Done:
+    """Check that the runner beats the stroller, and the jumper is last."""
+    found = contest(_made(make), seeds_of("09.3", 5))
+    if found["sleeper"] > 0.1:
+        raise NotYet(f"The sleeper is paid for sleeping: {_shown(found)}.", hint="pays")
+    if found["runner"] < 0:
+        raise NotYet(f"The runner gets less than nothing: {_shown(found)}.", hint="dear")
+    if found["runner"] <= found["stroller"] + 0.1:
+        raise NotYet(f"Time costs nothing yet: {_shown(found)}.", hint="time")
+    if _best(found) != "runner":
+        raise NotYet(f"The runner does not win: {_shown(found)}.", hint="runner")
+    if min(found, key=lambda name: found[name]) != "jumper":
+        raise NotYet(f"The jumper is not the last: {_shown(found)}.", hint="jump")
+    return Done(f"Quick, and jumping does not pay: {_shown(found)}.")
 
 
-def _expect_trained(trained: Any) -> None:
-    from ai4u_edu.training.learning import Trained
-
-    if not isinstance(trained, Trained):
-        raise NotYet(f"Expected what `learn(...)` returned, got {named(trained)}.")
-
-
-@exercise(
-    "09.4",
-    "The wrong reward, learned",
-    hints={
-        "name": 'Write your guess into `prediction`: "touches", "lingers" or "falls".',
-        "touches": "A touch pays 10, once, and ends the episode. Being near pays up to 3 at each "
-        "of 60 decisions. Which sum is larger?",
-        "falls": "A fall costs 1 and ends the payments. What is there to be had on the plate?",
-        "untrained": "`hacked` has to be what `learn_wrong_reward()` returns.",
-    },
+exit_ticket(
+    "09.exit",
+    Question(
+        "b",
+        {
+            "a": "That pays 10, once. How much do a hundred decisions near the box pay?",
+            "c": "The touch ends the episode. There is no time after it.",
+        },
+    ),
+    Question(
+        "a",
+        {
+            "b": "It pays for every metre. But a metre back costs as much as a metre forward "
+            "brings.",
+            "c": "A reward function knows nothing about intentions. It computes a number from what"
+            " happened.",
+        },
+    ),
+    Question(
+        "c",
+        {
+            "a": "Searching costs 1 at each decision, up to 120 in all. Is there something "
+            "cheaper?",
+            "b": "Standing still costs 1 at each decision as well.",
+        },
+    ),
 )
-def predicts_the_learner(prediction: Any, hacked: Any) -> Done:
-    """Check the predicted behaviour of a robot that learned with a well-meant reward."""
-    if not isinstance(hacked, Hacker):
-        raise NotYet(
-            f"Expected what `learn_wrong_reward()` returned, got {named(hacked)}.",
-            hint="untrained",
-        )
-    if not isinstance(prediction, str) or prediction not in OUTCOMES:
-        raise NotYet(
-            f"Expected one of {', '.join(OUTCOMES)} as your guess, got {named(prediction)}.",
-            hint="name",
-        )
-    worlds = 20
-    counts, last = outcomes(hacked, seeds_of("09.4", worlds))
-    told = (
-        f"In {worlds} worlds it touched the box in {counts['touches']}, fell in {counts['falls']}, "
-        f"and was still on the plate when time was up in {counts['lingers']}."
-    )
-    if counts[prediction] < max(counts.values()):
-        raise NotYet(told, hint=prediction, picture=last.picture())
-    return Done(f"You saw it coming. {told}", last.picture())

@@ -1,140 +1,317 @@
-"""Several agents: tag, sumo, soccer."""
+"""The network inside: inputs, outputs, and nothing but numbers in between."""
 
-from typing import Any
+from collections.abc import Mapping, Sequence
+from itertools import pairwise
+from typing import Any, NamedTuple
 
 import numpy as np
+import numpy.typing as npt
 
-from ai4u_edu.lessons.exercise import Done, NotYet, exercise
-from ai4u_edu.lessons.rollouts import Drive, drives, seeds_of
+from ai4u_edu.agent import BasicAgent
+from ai4u_edu.agent.cycle import ControlRequestor
+from ai4u_edu.base.optional_deps import need
+from ai4u_edu.blocks import (
+    BearingSensor,
+    FallReward,
+    LocalBrain,
+    NeuralNetController,
+    Percept,
+    RBMoveActuator,
+    TouchRewardFunc,
+)
+from ai4u_edu.lessons.exercise import Done, NotYet, a_function, exercise, named
+from ai4u_edu.lessons.exit_ticket import Question, exit_ticket
+from ai4u_edu.lessons.numeric import (
+    chance_for,
+    difference,
+    finite_number,
+    finite_numbers,
+    is_close,
+)
+from ai4u_edu.lessons.rollouts import drives, seeds_of
+from ai4u_edu.lessons.worlds import plate
+from ai4u_edu.scenes import Scene
+
+Array = npt.NDArray[np.float64]
+Layer = tuple[Array, Array]
+
+ZOO = "zoo:box_chase"
+CLOSE = 1e-4
+
+
+def layers_of(path: str = ZOO) -> list[Layer]:
+    """Return the weights (outputs, inputs) and biases (outputs,) of each layer of a network.
+
+    Args:
+        path: the file of a network such as PPO's: layers one after the other.
+    """
+    need("train", "onnx")
+    import onnx
+    from onnx import numpy_helper
+
+    graph = onnx.load(str(NeuralNetController(model_path=path).network.path)).graph
+    numbers = {each.name: numpy_helper.to_array(each) for each in graph.initializer}
+    return [
+        (np.array(numbers[node.input[1]], float), np.array(numbers[node.input[2]], float))
+        for node in graph.node
+        if node.op_type == "Gemm"
+    ]
+
+
+def inputs_of(percept: Mapping[str, Any], path: str = ZOO) -> Array:
+    """Return a network's inputs from a percept as one row of numbers, in its order."""
+    ports = NeuralNetController(model_path=path).network.inputs
+    return np.concatenate([np.ravel(percept[port.name]) for port in ports]).astype(float)
+
+
+def first_percept(seed: int = 1) -> Percept:
+    """Return the first percept of the box chase's robot."""
+    sim = Scene.load("box_chase").build()
+    sim.reset(seed)
+    return sim.agents[0].percept
+
+
+def decide(percept: Mapping[str, Any], **changes: Any) -> list[float]:
+    """Return the box chase network's action for a percept: forward, turn, jump, forward jump.
+
+    Args:
+        percept: the robot's percept.
+        changes: readings to replace, such as ``orientation=[-1, 0.2]``.
+    """
+    network = NeuralNetController(model_path=ZOO).network
+    (action,) = network.decide({**percept, **changes}).values()
+    return [float(each) for each in action]
+
+
+class TwoNeurons(NamedTuple):
+    """Weights and bias of two neurons: forward and turn."""
+
+    weights: list[list[float]]
+    bias: list[float]
+
+
+def two_neurons(
+    forward_sine: float,
+    forward_cosine: float,
+    forward_bias: float,
+    turn_sine: float,
+    turn_cosine: float,
+    turn_bias: float,
+) -> TwoNeurons:
+    """Return two neurons, each with its two weights and its bias."""
+    weights = [[forward_sine, forward_cosine], [turn_sine, turn_cosine]]
+    return TwoNeurons(weights, [forward_bias, turn_bias])
+
+
+def by_hand(weights: Any, bias: Any) -> ControlRequestor:
+    """Return a robot on a plate that is driven by two neurons: forward and turn.
+
+    Args:
+        weights: two rows (forward, turn) of two numbers (sine, cosine of the direction to the box).
+        bias: two numbers.
+    """
+    w, b = _array(weights, (2, 2), "weights"), _array(bias, (2,), "bias")
+
+    def drive(percept: Percept) -> dict[str, list[float]]:
+        forward, turn = np.tanh(w @ np.asarray(percept["bearing"]) + b)
+        return {"move": [float(forward), float(turn), 0, 0]}
+
+    agent = BasicAgent(
+        body="robot",
+        sensors=[BearingSensor(target="box")],
+        actuators=[RBMoveActuator(move_amount=2, turn_amount=3)],
+        rewards=[
+            TouchRewardFunc(target="box", reward=1, cause_episode_to_end=True),
+            FallReward(),
+        ],
+        brains=[LocalBrain(controller=drive)],
+    )
+    return ControlRequestor(plate(), [agent], success="touch")
+
+
+def _array(given: Any, shape: tuple[int, ...], name: str) -> Array:
+    try:
+        found = np.array(given, float)
+    except (TypeError, ValueError, OverflowError):
+        found = np.array(np.nan)
+    if found.shape != shape or not np.isfinite(found).all():
+        rows = "two rows of two numbers" if len(shape) == 2 else f"{shape[0]} numbers"
+        raise NotYet(f"`{name}`: expected {rows}, got {named(given)}.")
+    return found
 
 
 @exercise(
     "12.1",
-    "The chaser",
+    "One neuron",
     hints={
-        "begin": "It chases the first runner only. Go through all three, and take the nearest one "
-        "that is still free.",
-        "caught": "It drives to where it caught somebody. Whom you caught still has a place: "
-        '`percept["free"]` says who is free.',
-        "none": "It caught nobody. `go_to` gets how far ahead and how far to the left a runner is.",
+        "sum": "Multiply each input by its weight, and add all that up: "
+        "`sum(w * x for w, x in zip(weights, inputs))`. Then the bias, then `math.tanh`.",
+        "bias": "The bias is missing: add it to the sum, before `math.tanh`.",
+        "late-bias": "The bias is added once, to the sum, before `math.tanh`.",
+        "each": "The bias is added once, not once for each input: it stands outside the loop.",
+        "weights": "Each input counts as much as its weight says: multiply it by its weight.",
+        "squash": "The sum itself can be any number. A neuron's output lies between -1 and 1: "
+        "`math.tanh(...)` of the whole.",
     },
 )
-def catches_all(chase: Any) -> Done:
-    """Check that it catches all three runners in nearly all rounds."""
-    rounds, needed, won = 6, 5, 0
-    reason: NotYet | None = None
-    for played, done in enumerate(drives("tag", chase, seeds_of("12.1", rounds)), 1):
-        won += done.won
-        if not done.won and reason is None:
-            free = sum(done.agent.percept["free"])
-            hint = "none" if free == 3 else "caught" if _looks_around(chase, done) else "begin"
-            reason = done.not_yet(
-                f"{3 - free:.0f} of three were caught when the time was up ({{where}}).", hint
+def is_a_neuron(neuron: Any) -> str:
+    """Check one neuron's output."""
+    chance = chance_for("12.1", neuron)
+    for count in (2, 1, 5, 3, 8):
+        inputs, weights = chance.normal(size=(2, count)).round(2).tolist()
+        bias = round(float(chance.normal()), 2)
+        total = float(np.dot(inputs, weights))
+        got = finite_number(a_function(neuron)(list(inputs), list(weights), bias))
+        if not is_close(got, np.tanh(total + bias), CLOSE):
+            slips = {
+                "sum": ("the same whatever comes in", 0.0),
+                "squash": ("right without `math.tanh`", total + bias),
+                "bias": ("right without the bias", float(np.tanh(total))),
+                "late-bias": ("right if the bias came last", float(np.tanh(total)) + bias),
+                "each": (
+                    "right if the bias were added for each input",
+                    float(np.tanh(total + count * bias)),
+                ),
+                "weights": (
+                    "right without the weights",
+                    float(np.tanh(sum(inputs) + bias)),
+                ),
+            }
+            slip = difference(got, slips, CLOSE)
+            raise NotYet(
+                f"Inputs {inputs}, weights {weights}, bias {bias}: expected "
+                f"{np.tanh(total + bias):.3f}, got {got:.3f}{slip.words}.",
+                hint=slip.name,
             )
-        if played - won > rounds - needed:
-            break
-    if won < needed and reason is not None:
-        reason.text = (
-            f"All three caught in {won} of {played} rounds; {needed} of {rounds} are needed. "
-            f"{reason.text}"
-        )
-        raise reason
-    return Done(f"All three caught, in {won} of {rounds} rounds.", done.picture())
-
-
-def _looks_around(chase: Any, done: Drive) -> bool:
-    """Return True if its actions depend on the other runners at all."""
-    percept = dict(done.agent.percept)
-    moved = {**percept, "runner 2": [0.1, 0.2, 0.0], "runner 3": [-0.1, -0.2, 0.0]}
-    answers = [chase(each) for each in (percept, moved)] if callable(chase) else []
-    return bool(answers) and repr(answers[0]) != repr(answers[1])
+    return "Five neurons of different sizes, all of them right."
 
 
 @exercise(
     "12.2",
-    "Stay in the ring",
+    "Two neurons by hand",
     hints={
-        "edge": "It falls out by itself. Turn to the opponent before you drive: `go_to` with the "
-        "first two numbers of `opponent`.",
-        "away": "It turns away from the opponent. `go_to` gets how far ahead, then how far to the "
-        "left: in that order.",
-        "careful": "It wins more often than not, and loses fights by being careful: while it turns "
-        "to the middle, the other one pushes. Try what happens if it just attacks.",
-        "shy": "It does not attack: nobody wins by waiting. Drive at the opponent.",
+        "begin": "All weights are 0, so whatever it senses, it does the same. Begin with the "
+        "forward neuron: a bias of 1 makes it drive, always. Then let the turn neuron look at the "
+        "sine.",
+        "swapped": "The turn neuron does not look at the sine: has a row changed places with a "
+        "column? A row is a neuron (forward, turn), a column an input (sine, cosine).",
+        "blind": "The turn neuron does not look at the sine, so it can't know the box's side: the "
+        "first number of the second row.",
+        "still": "It never drives: give the forward neuron a bias above 0.",
+        "weak": "The signs are right. Let it turn more for the same sine, or drive more slowly.",
+        "mirrored": "It turns away from the box. The sine is above 0 when the box is on the left, "
+        "and turn above 0 is to the right: the weight between them has to be below 0.",
     },
 )
-def wins_fights(fight: Any) -> Done:
-    """Check that it wins 17 of 20 fights."""
-    fights, needed, won = 20, 17, 0
-    reason: NotYet | None = None
-    for played, done in enumerate(drives("sumo", fight, seeds_of("12.2", fights)), 1):
-        won += done.won
-        if not done.won and reason is None:
-            how = "fell out of the ring" if done.fell else "did not win"
-            reason = done.not_yet(f"Your robot {how} ({{where}}).", _fight_mistake(fight, done))
-        if played - won > fights - needed:
-            break
-    if won < needed and reason is not None:
-        if won > 6 and reason.hint == "edge":
-            reason.hint = "careful"
-        reason.text = (
-            f"{won} of {played} fights won; {needed} of {fights} are needed. {reason.text}"
-        )
-        raise reason
-    return Done(f"{won} of {fights} fights won.", done.picture())
+def drives_by_hand(weights: Any, bias: Any = None) -> Done:
+    """Check weights with which two neurons find the box; sliders give weights and bias as one."""
+    if bias is None and isinstance(weights, TwoNeurons):
+        weights, bias = weights
+    worlds = 20
+    for done in drives(lambda: by_hand(weights, bias), None, seeds_of("12.2", worlds), limit=300):
+        if not done.won:
+            how = "fell" if done.fell else "did not get there"
+            raise done.not_yet(f"The robot {how} ({{where}}).", _wiring(weights, bias))
+    return Done(f"With six numbers it found the box in {worlds} worlds.", done.picture())
 
 
-def _fight_mistake(fight: Any, done: Drive) -> str:
-    """Return the diagnosis that fits a lost fight."""
-    if callable(fight) and not isinstance(fight, type):
-        percept = dict(done.agent.percept)
-        turns = []
-        for left in (0.3, -0.3):
-            there = {"opponent": np.array([0.1, left, 0.0]), "position": [0, 0, 0]}
-            answer = fight({**percept, **there})
-            turns.append(float(answer["move"][1]) if isinstance(answer, dict) else 0.0)
-        if turns[0] > turns[1]:
-            return "away"
-    return "edge" if done.moved > 0.5 and any(done.agent.last_action.get("move", ())[:1]) else "shy"
+def _wiring(weights: Any, bias: Any) -> str:
+    """Return the diagnosis that fits six numbers that don't find the box."""
+    w, b = _array(weights, (2, 2), "weights"), _array(bias, (2,), "bias")
+    if not w.any() and not b.any():
+        return "begin"
+    if w[1, 0] == 0 and w[0, 1] < 0:
+        return "swapped"
+    if w[1, 0] == 0:
+        return "blind"
+    if w[1, 0] > 0:
+        return "mirrored"
+    return "still" if not w[0].any() and b[0] <= 0 else "weak"
 
 
 @exercise(
     "12.3",
-    "The striker",
+    "All of it",
     hints={
-        "begin": "Running at the ball is not enough: it flies off the way you were running. First "
-        "go to a place behind it, seen from the goal: `behind(ball, goal)`.",
-        "through": "You get behind the ball, and then? When you are there, run through the ball: "
-        "go to `ball`, or to `goal`.",
-        "when": "How do you know that you are behind it? Seen from there, ball and goal lie in the "
-        "same direction: `math.atan2(ball[1], ball[0])` and the same for the goal differ by less "
-        "than 0.5, say.",
+        "begin": "Go through the layers: `for weights, bias in layers`. What comes out of one goes "
+        "into the next: `signal = weights @ signal + bias`.",
+        "between": "Without `np.tanh` between the layers all of them together can do no more than "
+        "one. Squash what comes out of each layer but the last.",
+        "biases": "The biases are missing: `weights @ signal + bias`.",
+        "last": "The last layer is not squashed here: what it says is the action as it is. Leave "
+        "`np.tanh` out after it.",
     },
 )
-def scores(strike: Any) -> Done:
-    """Check for 6 goals in 12 games that begin in front of the ball."""
-    games, needed, won = 12, 6, 0
-    reason: NotYet | None = None
-    for played, done in enumerate(
-        drives("soccer", strike, seeds_of("12.3", games), watch=_in_front), 1
-    ):
-        won += done.won
-        if not done.won and reason is None:
-            own = done.sim.world["ball"].position[0] < -7
-            reason = done.not_yet(f"{'An own goal' if own else 'No goal'} ({{where}}).", "begin")
-        if played - won > games - needed:
-            break
-    if won < needed and reason is not None:
-        if won > needed / 2:
-            reason.hint = "when"
-        reason.text = f"{won} goals in {played} games; {needed} in {games} needed. {reason.text}"
-        raise reason
-    return Done(f"{won} goals in {played} games.", done.picture())
+def thinks(think: Any) -> Done:
+    """Check the whole network, and a robot that is driven by it."""
+    chance = chance_for("12.3", think)
+    for sizes in ((3, 4, 2), (2, 1), (5, 6, 4, 3), (126, 8, 4)):
+        layers = [
+            (chance.normal(size=(after, before)), chance.normal(size=after))
+            for before, after in pairwise(sizes)
+        ]
+        inputs = chance.normal(size=sizes[0])
+        right = _through(inputs, layers)
+        got = np.array(finite_numbers(a_function(think)(inputs.copy(), list(layers)), len(right)))
+        if not is_close(got, right, CLOSE):
+            slips = {
+                "between": _through(inputs, layers, between=False),
+                "last": _through(inputs, layers, last=True),
+                "begin": np.zeros_like(right),
+                "biases": _through(inputs, [(w, 0 * b) for w, b in layers]),
+            }
+            near = (name for name, each in slips.items() if is_close(got, each, CLOSE))
+            raise NotYet(
+                f"A network with {len(layers)} layers, {sizes[0]} inputs: expected "
+                f"{right.round(2).tolist()}, got {got.round(2).tolist()}.",
+                hint=next(near, ""),
+            )
+    layers = layers_of()
+
+    def drive(percept: Percept) -> dict[str, Any]:
+        return {"move": np.clip(think(inputs_of(percept), layers), [-1, -1, 0, 0], 1)}
+
+    brain = LocalBrain(controller=drive, skip_frame=9)
+    for done in drives("box_chase", brain, seeds_of("12.3", 5), limit=100):
+        if not done.won:
+            raise done.not_yet("With the weights of the box chase it did not get there ({where}).")
+    return Done("Your lines do what the network does, and drive to the box.", done.picture())
 
 
-def _in_front(done: Drive) -> None:
-    """Put the striker between the ball and the goal, at the beginning."""
-    if done.steps == 0:
-        chance = np.random.default_rng(done.seed)
-        x, y, heading = chance.uniform(1.5, 5), chance.uniform(-3.5, 3.5), chance.uniform(-3, 3)
-        done.agent.body.move_to(float(x), float(y), heading=float(heading))
+def _through(
+    inputs: Array, layers: Sequence[Layer], *, between: bool = True, last: bool = False
+) -> Array:
+    signal = inputs
+    for number, (weights, bias) in enumerate(layers, 1):
+        signal = weights @ signal + bias
+        if last if number == len(layers) else between:
+            signal = np.tanh(signal)
+    return signal
+
+
+exit_ticket(
+    "12.exit",
+    Question(
+        "b",
+        {
+            "a": "The sum doubles, and then `tanh` squashes it: the output stays below 1.",
+            "c": "`tanh` squashes a larger sum to a larger output, as long as there is room below "
+            "1.",
+        },
+    ),
+    Question(
+        "a",
+        {
+            "b": "Each row is one neuron, and gives one output. So how many come out?",
+            "c": "The table has 15 weights. Each row is multiplied by the same inputs.",
+        },
+    ),
+    Question(
+        "c",
+        {
+            "a": "Without squashing, two tables can be multiplied into one. Something is lost.",
+            "b": "The numbers still fit, so Python does not complain. That makes it hard to "
+            "notice.",
+        },
+    ),
+)

@@ -1,212 +1,360 @@
-"""Your own sensor, actuator, reward."""
+"""Inside learning: exploration, policy gradient, seeds, and the interfaces of environments."""
 
-import math
-from typing import Any, TypeVar
+from collections.abc import Callable, Mapping
+from typing import Any
 
-from ai4u_edu.agent import BasicAgent
-from ai4u_edu.agent.cycle import ControlRequestor
-from ai4u_edu.base.errors import AI4UError
-from ai4u_edu.blocks import Actuator, Block, LocalBrain, RBMoveActuator, RewardFunc, Sensor
-from ai4u_edu.check import Report, check_actuator, check_reward, check_sensor
-from ai4u_edu.lessons.exercise import Done, NotYet, exercise, named
-from ai4u_edu.lessons.numeric import is_close
-from ai4u_edu.lessons.rollouts import drive
-from ai4u_edu.world import BoxShape, CircleShape, World
+import numpy as np
 
-B = TypeVar("B", bound=Block)
+from ai4u_edu.base.optional_deps import need
+from ai4u_edu.lessons.exercise import Done, NotYet, a_function, exercise, named
+from ai4u_edu.lessons.exercises.lesson_14_gradient import gradient_mistake, rounded, updated
+from ai4u_edu.lessons.exercises.lesson_14_worlds import (
+    BEST,
+    WALKS,
+    Array,
+    Episode,
+    Game,
+    as_preferences,
+    explore,
+    learn,
+)
+from ai4u_edu.lessons.exit_ticket import Question, exit_ticket
+from ai4u_edu.lessons.numeric import chance_for, finite_number, is_close
+from ai4u_edu.lessons.rollouts import seeds_of
+from ai4u_edu.lessons.student_errors import NOTHING_RETURNED
 
-
-def _made(cls: Any, kind: type[B], **parameters: Any) -> B:
-    """Make one of a student's blocks."""
-    if not isinstance(cls, type) or not issubclass(cls, kind):
-        raise NotYet(
-            f"Expected a class that is a {kind.__name__}: `class ...({kind.__name__}):`. Got "
-            f"{named(cls)}.",
-            hint="no-base",
-        )
-    return cls(**parameters)
-
-
-def _always(name: str, *action: float) -> LocalBrain:
-    """Return a brain that always gives the same action."""
-    return LocalBrain(controller=lambda _: {name: list(action)})
-
-
-def _examined(report: Report) -> None:
-    """Raise NotYet with the checker's first finding."""
-    if report.failed:
-        raise NotYet(f"The examiner says: {report.failed[0]}")
-
-
-def _world(box: tuple[float, float], heading_deg: float = 0.0, name: str = "box") -> World:
-    world = World()
-    world.add_floor("plate", BoxShape(size=(30, 30)))
-    robot = CircleShape(radius=0.5)
-    world.add_body("robot", robot, tags=("agent",), heading_deg=heading_deg)
-    world.add_body(name, BoxShape(size=(1, 1)), position=box, tags=("target",))
-    return world
+WALKERS, GOOD_WALKERS = 20, 10
+LAST, GOOD = 20, 0.9
+"""Walks at the end that are looked at, and their share of the best possible return."""
+LATE = 0.05
+"""Mean probability of random steps in the last walks that is too much."""
 
 
 @exercise(
     "14.1",
-    "Nearness",
+    "Explore, then use it",
+    call_limit_s=30,
     hints={
-        "begin": "Divide the distance by the reach: 0 at the target, 1 at the reach. One minus "
-        "that is what is wanted.",
-        "reversed": "Near and far are mixed up: at the target it has to be 1.",
-        "beyond": "Beyond the reach your reading is below 0. `max(0.0, ...)` takes the larger one "
-        "of two numbers.",
-        "target": "It looks for a body that is always called the same. Which body is meant says "
-        "the parameter: `view[self.target]`.",
-        "reach": "With another `reach` the reading is wrong. Use the parameter: `self.reach`.",
+        "none": "It never tries anything new, so it stays with the reward that it found first. "
+        "Begin with a large probability.",
+        "always": "It still tries things when it knows the way. Let the probability fall to 0, or "
+        "nearly, before the last walks.",
+        "short": "It stops trying before it has found the far reward, in too many of the worlds. "
+        "Begin with more, or let it fall more slowly.",
+        "reversed": "It tries more and more. It should be the other way round: try while nothing "
+        "is known.",
+        "percent": "A probability lies between 0 and 1.",
     },
 )
-def senses_nearness(cls: Any) -> Done:
-    """Check for 1 at the target, 0 at the reach and beyond."""
-    for reach, target in ((8.0, "box"), (5.0, "box"), (6.0, "lamp")):
-        for away in (2.0, 4.0, 3.3, 6.0, 12.0):
-            sensor = _made(cls, Sensor, target=target, reach=reach)
-            brain = LocalBrain(controller=lambda _: {})
-            agent = BasicAgent(body="robot", sensors=[sensor], brains=[brain])
-            try:
-                ControlRequestor(_world((away, 0), name=target), [agent]).reset(1)
-            except AI4UError as error:
-                if target != "box":
-                    raise NotYet(
-                        f"With `target={target!r}`: {error}. Use `self.target`.", hint="target"
-                    ) from error
-                if away < reach:
-                    raise
-                raise NotYet(
-                    f"With a reach of {reach:g} m and the target {away:g} m away: {error}",
-                    hint="beyond",
-                ) from error
-            found = float(agent.percept[sensor.perception_key][0])
-            wanted = max(0.0, 1 - away / reach)
-            if not is_close(found, wanted, 0.01):
-                hint = "begin"
-                if is_close(found, min(1.0, away / reach), 0.01):
-                    hint = "reversed"
-                elif is_close(found, 1 - away / reach, 0.01) or away > reach:
-                    hint = "beyond"
-                elif reach != 8.0:
-                    hint = "reach"
-                raise NotYet(
-                    f"With a reach of {reach:g} m and the target {away:g} m away, the reading is "
-                    f"{found:.2f}, not {wanted:.2f}.",
-                    hint=hint,
-                )
-    _examined(check_sensor(_made(cls, Sensor, target="box"), decisions=40))
-    return Done("Fifteen distances, and the examiner has nothing to complain about.")
+def explores(epsilon: Any) -> Done | str:
+    """Check twenty walkers that explore by a schedule."""
+    schedule = a_function(epsilon)
+    chances = [finite_number(schedule(walk, WALKS)) for walk in range(WALKS)]
+    outside = [each for each in chances if not 0 <= each <= 1]
+    if outside:
+        raise NotYet(f"Your function gave {outside[0]:g}.", hint="percent")
+    good = found = 0
+    for seed in seeds_of("14.1", WALKERS):
+        walks = explore(schedule, seed)
+        good += float(np.mean(walks.returns[-LAST:])) >= GOOD * BEST
+        found += bool(walks.values[2, 1] > walks.values[2, 0])
+    told = (
+        f"{found} of {WALKERS} walkers learned that the far reward is better; {good} went straight "
+        f"to it in their last {LAST} walks."
+    )
+    if good >= GOOD_WALKERS:
+        return told
+    early, late = float(np.mean(chances[:LAST])), float(np.mean(chances[-LAST:]))
+    if late > LATE:
+        hint = "reversed" if late > 1.5 * early and late > early + 0.1 else "always"
+    else:
+        hint = "short" if any(chances) else "none"
+    raise NotYet(f"{told} {GOOD_WALKERS} are needed.", hint=hint)
 
 
 @exercise(
     "14.2",
-    "Calm",
+    "Policy gradient",
     hints={
-        "begin": "`on_update` returns what is paid: `-self.cost` if the robot turns too fast, "
-        "else 0.",
-        "limit": "The limit is a parameter: compare with `self.limit`.",
-        "always": "It costs even to turn slowly.",
-        "side": "To one side it costs, to the other it does not. `abs` makes every number a "
-        "positive one.",
-        "sign": "It pays for turning fast. A cost is below 0.",
+        "begin": "The preferences come back as they were. Go through the episode from its end: "
+        "`for cell, action, reward in reversed(episode)`.",
+        "sign": "It goes the wrong way: what paid becomes less probable. Add the step.",
+        "onehot": "Only the action that was taken is changed. All preferences of the cell go down "
+        "by `rate * worth * probability`, and the one of the taken action goes up by "
+        "`rate * worth` besides.",
+        "reward": "Only the reward of the step itself counts with you. In this corridor all steps "
+        "but the last one have none: count what came after, too, discounted.",
+        "undiscounted": "Later rewards count as much as early ones: `worth = reward + discount * "
+        "worth`, from the end of the episode to its beginning.",
+        "past": "You multiply each step by the whole episode's return. That learns as well, only "
+        "with more noise: a step can't change what was paid before it. Count from this step on.",
+        "forward": "The returns are summed up from the wrong end. Begin with the last step.",
+        "probability": "You multiply by the probability of the action. The gradient of its "
+        "*logarithm* is wanted: 1 minus the probability, for the action that was taken.",
+        "rate": "The learning rate is missing.",
     },
 )
-def pays_for_calm(cls: Any) -> Done:
-    """Check for a cost for turning fast, to either side."""
-    for limit, cost in ((1.0, 0.1), (2.0, 0.5)):
-        for turn in (0.0, 0.5, 3.0, -3.0, 1.5, -1.5):
-            calm = _made(cls, RewardFunc, limit=limit, cost=cost)
-            agent = BasicAgent(
-                body="robot",
-                actuators=[RBMoveActuator(turn_amount=3)],
-                rewards=[calm],
-                brains=[_always("move", 0, -turn / 3, 0, 0)],
+def follows_the_gradient(reinforce: Any) -> str:
+    """Check one step of policy gradient, and a training with it."""
+    update = a_function(reinforce)
+    chance = chance_for("14.2", update)
+    for length in (1, 3, 6, 4):
+        cells, actions = int(chance.integers(3, 6)), int(chance.integers(2, 4))
+        before: Array = chance.normal(size=(cells, actions)).round(2)
+        episode: Episode = [
+            (
+                int(chance.integers(cells)),
+                int(chance.integers(actions)),
+                round(float(chance.uniform(0.2, 2)), 1),
             )
-            drive(ControlRequestor(_world((5, 5)), [agent]), agent, 1, limit=3)
-            found = agent.reward
-            wanted = -cost if abs(turn) > limit else 0.0
-            if not is_close(found, wanted, 1e-6):
-                hint = "sign" if found > 0 else "side" if turn < 0 else "begin"
-                if found < 0:
-                    hint = "limit" if limit != 1.0 or abs(turn) > 1 else "always"
-                elif limit != 1.0 and turn > 0 and found == 0:
-                    hint = "limit"
-                raise NotYet(
-                    f"With limit {limit:g} and cost {cost:g}, a robot that turns at {turn:g} rad/s "
-                    f"is paid {found:g}, not {wanted:g}.",
-                    hint=hint,
-                )
-    _examined(check_reward(_made(cls, RewardFunc), decisions=60))
-    return Done("It costs to turn fast, to the left and to the right.")
+            for _ in range(length)
+        ]
+        rate, discount = (round(float(chance.uniform(0.3, 0.9)), 2) for _ in range(2))
+        given = before.copy()
+        got = as_preferences(update(given, list(episode), rate, discount), before.shape)
+        right = [
+            updated(before, episode, rate, discount, order=order, weighted=weighted)
+            for order in ("once", "forward", "backward")
+            for weighted in (False, True)
+        ]
+        if not any(is_close(got, each, 1e-6) for each in right):
+            cell = int(np.abs(got - right[0]).sum(axis=1).argmax())
+            raise NotYet(
+                f"An episode of {length} steps, rate {rate}, discount {discount}: the preferences "
+                f"of cell {cell} should become {rounded(right[0][cell])}, and become "
+                f"{rounded(got[cell])}.",
+                hint=gradient_mistake(before, episode, rate, discount, got),
+            )
+    returns = [np.mean(learn(update, seed=seed)[0][-50:]) for seed in seeds_of("14.2", 5)]
+    told = ", ".join(f"{each:.0f}" for each in returns)
+    return f"Four episodes, all right. Five trainings ended at {told} percent of the best return."
+
+
+CALMS, MAX_FALSE = 200, 24
+"""Comparisons of two equally good methods, and how many of them may end with a claim."""
+CLEAR, MIN_FOUND = 50, 45
+"""Comparisons in which one is clearly better, and how many of them have to be found."""
+CLAIMS = ("first", "second", "unclear")
 
 
 @exercise(
     "14.3",
-    "A crab",
+    "May you claim it?",
     hints={
-        "begin": "`body.apply_force(forward, left)`: no push forward, and to the left "
-        "`self.newtons * action[0]`.",
-        "forward": "It goes forward. The second number of `apply_force` is the push to the left.",
-        "right": "Left and right are mixed up: above 0 is a push to the left.",
-        "strength": "Multiply the newtons by the number in the action: `action[0]`.",
-        "speed": "It sets a speed. `apply_force` pushes, and a push makes a body ever faster.",
-        "world": "It goes up on the screen, wherever it looks. Left of the robot is somewhere else "
-        "when it has turned: `apply_force` knows that.",
+        "mean": "The larger mean is not enough: two equally good methods never have the same mean. "
+        "How large is the difference, compared with its noise?",
+        "timid": "It misses a difference that many runs show. The mean of n runs varies less than "
+        "a single run: by the standard deviation divided by the square root of n.",
+        "reversed": "It claims the one with the lower results.",
+        "one-sided": "Sometimes the second one is better. Say `second` then.",
+        "few": "With few runs your function claims too much. Count how often it claims something "
+        "about two equally good methods: at most about one time in ten.",
+        "name": 'Return "first", "second" or "unclear".',
+        "idle": '"unclear" alone is never wrong, and never of any use.',
     },
 )
-def walks_sideways(cls: Any) -> Done:
-    """Check that it walks to its own left, whatever its heading."""
-    for heading in (0.0, 90.0, -140.0):
-        for push in (1.0, -1.0, 0.5):
-            crab = _made(cls, Actuator, newtons=10.0)
-            agent = BasicAgent(
-                body="robot",
-                actuators=[crab],
-                brains=[_always(crab.action_name, push)],
-            )
-            sim = ControlRequestor(_world((9, 9), heading), [agent])
-            done = drive(sim, agent, 1, limit=12)
-            (x, y), turned = agent.body.position, math.radians(heading)
-            forward = x * math.cos(turned) + y * math.sin(turned)
-            left = y * math.cos(turned) - x * math.sin(turned)
-            if left * push < 0.05 or abs(forward) > 0.2 * abs(left):
-                hint = "begin"
-                if abs(left) > 5 * abs(forward):
-                    hint = "right"
-                elif heading == 0 and abs(forward) > 0.1:
-                    hint = "forward"
-                elif done.moved > 0.1:
-                    hint = "world"
-                raise done.not_yet(
-                    f"With the action {push:g} and a heading of {heading:g} degrees the body went "
-                    f"{forward:.1f} m forward and {left:.1f} m to its left.",
-                    hint,
-                )
-    half, full = (_pushed(cls, 10.0, push) for push in (0.5, 1.0))
-    if not is_close(half / full, 0.5, 0.1):
-        raise NotYet(
-            f"With the action 0.5 the body went {half:.2f} m, with 1 {full:.2f} m: the number in "
-            "the action says how strong the push is.",
-            hint="strength",
-        )
-    if _pushed(cls, 10.0, decisions=12) < 2.5 * full:
-        raise NotYet(
-            "In twice the time the body got only twice as far. A push makes it faster and faster.",
-            hint="speed",
-        )
-    weak = _pushed(cls, 5.0)
-    strong = _pushed(cls, 20.0)
-    if strong < 2 * weak:
-        raise NotYet("With more `newtons` it does not go faster.", hint="begin")
-    _examined(check_actuator(_made(cls, Actuator), decisions=40))
-    return Done("It walks sideways, wherever it looks.", done.picture())
+def claims(claim: Any) -> str:
+    """Check a claim about two methods, with methods that are known."""
+    judge = a_function(claim)
+    chance = np.random.default_rng(seeds_of("14.3", 1)[0])
+    false = _counts(judge, chance, CALMS, [5, 10, 20], 0.0)
+    found: dict[str, dict[str, int]] = {}
+    for name, runs, distance in (("large", 5, 5.0), ("small", 50, 1.0)):
+        found[name] = _counts(judge, chance, CLEAR, [runs], distance)
+    claimed = false["right"] + false["wrong"]
+    told = (
+        f"Two equally good methods: {claimed} claims in {CALMS} comparisons. A difference of 5 "
+        f"standard deviations, 5 runs each: found in {found['large']['right']} of {CLEAR}. Of 1, "
+        f"with 50 runs each: found in {found['small']['right']} of {CLEAR}."
+    )
+    if claimed > MAX_FALSE:
+        raise NotYet(told, hint="mean" if claimed > CALMS / 2 else "few")
+    for each in found.values():
+        if each["wrong"] > CLEAR / 4:
+            raise NotYet(told, hint="reversed")
+        if each["right"] < MIN_FOUND:
+            raise NotYet(told, hint=_shyness(found))
+    return told
 
 
-def _pushed(cls: Any, newtons: float, push: float = 1.0, decisions: int = 6) -> float:
-    """Return how far a push takes the body; metres."""
-    crab = _made(cls, Actuator, newtons=newtons)
-    brain = _always(crab.action_name, push)
-    agent = BasicAgent(body="robot", actuators=[crab], brains=[brain])
-    return drive(ControlRequestor(_world((9, 9)), [agent]), agent, 1, limit=decisions).moved
+def _shyness(found: Mapping[str, Mapping[str, int]]) -> str:
+    if not any(each["right"] for each in found.values()):
+        return "idle"
+    half = all(each["second"] == 0 for each in found.values())
+    return "one-sided" if half else "timid"
+
+
+def _counts(
+    judge: Callable[..., Any],
+    chance: np.random.Generator,
+    comparisons: int,
+    runs: list[int],
+    distance: float,
+) -> dict[str, int]:
+    """Return how many comparisons ended with a right claim, a wrong one, and `second`.
+
+    Args:
+        judge: the student's function.
+        chance: generator of the results.
+        comparisons: number of comparisons.
+        runs: numbers of runs of each method, one of which is taken in each comparison.
+        distance: between the methods' means, in standard deviations.
+    """
+    counts = {"right": 0, "wrong": 0, "second": 0}
+    for _ in range(comparisons):
+        count, deviation, middle = (
+            chance.choice(runs),
+            chance.uniform(3, 12),
+            chance.uniform(30, 70),
+        )
+        ahead = chance.choice([-1, 1]) * distance * deviation / 2
+        lists = [chance.normal(middle + each, deviation, count) for each in (ahead, -ahead)]
+        first, second = ([round(float(each), 1) for each in one] for one in lists)
+        said = judge(first, second)
+        if said is None:
+            raise NotYet(NOTHING_RETURNED, hint="no-return")
+        if not isinstance(said, str) or said not in CLAIMS:
+            raise NotYet(f"Expected one of {', '.join(CLAIMS)}, got {named(said)}.", hint="name")
+        better = "first" if ahead > 0 else "second"
+        counts["second"] += said == "second"
+        if said != "unclear":
+            counts["right" if said == better else "wrong"] += 1
+    return counts
+
+
+@exercise(
+    "14.4",
+    "A game of several agents",
+    hints={
+        "begin": "Begin with `env.reset(seed=seed)`. Then, as long as `env.agents` is not empty, "
+        "give `env.step` an action for each of them, and add up the rewards.",
+        "first": "You stop when the first agent is out. The others go on: play until `env.agents` "
+        "is empty.",
+        "over": "You look at the terminations only. An agent can also be cut off by time: that is "
+        "a truncation. `env.agents` has those that are left, whatever the reason.",
+        "actions": "`step` needs an action for each agent in `env.agents`.",
+        "stale": "The actions answer old observations. `step` returns new ones: keep them.",
+        "policy": "Each agent has its own policy: `policies[name](observations[name])`.",
+        "seed": "The game has to begin with the seed that you are given: `env.reset(seed=seed)`.",
+        "lost": "The last reward of an agent that is out is missing. After `step`, `env.agents` "
+        "has only those that are left: go through `rewards` in place of it.",
+        "last": "That is the reward of the last step. Add up the rewards of all steps.",
+        "all": "One number for all is not enough: a dictionary with the total of each agent.",
+    },
+)
+def plays(play: Any) -> str:
+    """Check the totals of games, with a game whose agents end at different times."""
+    need("multi", "pettingzoo")
+    from ai4u_edu.envs import parallel_env
+
+    run = a_function(play)
+    for seed in seeds_of("14.4", 6):
+        game = Watched("ann", "ben", "eve")
+        got = run(game, game.policies(), seed)
+        _expect_totals(got, game, seed)
+    env = parallel_env("tag", max_cycles=60)
+    policies: dict[str, Callable[[Any], Any]] = dict.fromkeys(env.possible_agents, _still)
+    seed = seeds_of("14.4", 7)[-1]
+    got = _totals(run(env, policies, seed), list(env.possible_agents))
+    wanted = _reference(parallel_env("tag", max_cycles=60), policies, seed)
+    if not all(is_close(got[name], wanted[name], 1e-4) for name in wanted):
+        raise NotYet(f"A game of tag: expected {wanted}, got {got}.")
+    return "Six games with three agents, and a game of tag: all totals are right."
+
+
+def _still(_: Any) -> Any:
+    return np.zeros(4, np.float32)
+
+
+def _reference(env: Any, policies: Mapping[str, Callable[[Any], Any]], seed: int) -> dict[str, Any]:
+    totals = dict.fromkeys(env.possible_agents, 0.0)
+    observations, _ = env.reset(seed=seed)
+    while env.agents:
+        actions = {name: policies[name](observations[name]) for name in env.agents}
+        observations, rewards, _, _, _ = env.step(actions)
+        for name, reward in rewards.items():
+            totals[name] += float(reward)
+    return totals
+
+
+class Watched(Game):
+    """Game that keeps what may be taken for an agent's total."""
+
+    def step(self, actions: Mapping[str, Any]) -> tuple[Any, Any, Any, Any, Any]:
+        """Run one step."""
+        found = super().step(actions)
+        self.last = {**getattr(self, "last", {}), **found[1]}
+        return found
+
+    def kept(self) -> dict[str, float]:
+        """Return the totals without the reward of the step in which an agent went out."""
+        return {name: self.totals[name] - self.last[name] for name in self.totals}
+
+
+def _totals(given: Any, names: list[str]) -> dict[str, float]:
+    if given is None:
+        raise NotYet(NOTHING_RETURNED, hint="no-return")
+    if not isinstance(given, Mapping) or set(given) != set(names):
+        raise NotYet(
+            f"Expected a dictionary with a total for each of {', '.join(names)}, got "
+            f"{named(given)}.",
+            hint="all",
+        )
+    return {name: finite_number(given[name]) for name in names}
+
+
+def _expect_totals(given: Any, game: Watched, seed: int) -> None:
+    """Raise NotYet if the totals of a game are not right, or the game was not played to its end."""
+    if not game.totals:
+        raise NotYet("The game has not begun: `reset` was not called.", hint="begin")
+    if game.seed != seed:
+        raise NotYet(f"The game began with the seed {game.seed}, not {seed}.", hint="seed")
+    if game.agents:
+        out = len(game.possible_agents) - len(game.agents)
+        raise NotYet(
+            f"The game was not over: {', '.join(game.agents)} still took part.",
+            hint="first" if out else "begin",
+        )
+    got = _totals(given, game.possible_agents)
+    wanted = {name: float(game.steps[name]) for name in game.possible_agents}
+    if all(is_close(got[name], wanted[name], 1e-6) for name in wanted):
+        return
+    hint = ""
+    if all(is_close(got[name], game.kept()[name], 1e-6) for name in wanted):
+        hint = "lost"
+    elif all(is_close(got[name], game.last[name], 1e-6) for name in wanted):
+        hint = "last"
+    elif all(is_close(got[name], game.totals[name], 1e-6) for name in wanted):
+        hint = "policy" if game.totals[game.possible_agents[0]] > 0 else "stale"
+    raise NotYet(
+        f"Seed {seed}: with your actions right at each step the totals are {wanted}; you got "
+        f"{got}.",
+        hint=hint,
+    )
+
+
+exit_ticket(
+    "14.exit",
+    Question(
+        "c",
+        {
+            "a": "What looks best is the small reward, from the first time on. Why should it ever "
+            "go elsewhere?",
+            "b": "It does learn from what it does. It finds the small reward, and stays with it.",
+        },
+    ),
+    Question(
+        "b",
+        {
+            "a": "The step is the return times the gradient. What is the return here?",
+            "c": "That would need a return above 0.",
+        },
+    ),
+    Question(
+        "a",
+        {
+            "b": "The means differ by less than 4, the runs of one method by more than 20.",
+            "c": "Three runs can't show that either: a real difference may be hidden in the noise.",
+        },
+    ),
+)

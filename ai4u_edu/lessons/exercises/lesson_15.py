@@ -1,184 +1,318 @@
-"""Project: your own world."""
+"""Remote control: a script drives a robot that is somewhere else."""
 
-from typing import Any
+import math
+import socket
+import time
+from collections import deque
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from json import dumps
+from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
+from gymnasium.spaces import Box
 
 from ai4u_edu.agent import BasicAgent
-from ai4u_edu.base.errors import AI4UError
-from ai4u_edu.blocks import LocalBrain, Percept
-from ai4u_edu.lessons.exercise import Done, NotYet, exercise, named
-from ai4u_edu.lessons.pictures import picture
-from ai4u_edu.lessons.rollouts import drive, drives, seeds_of
+from ai4u_edu.agent.cycle import ControlRequestor
+from ai4u_edu.blocks import (
+    Actuator,
+    BearingSensor,
+    FallReward,
+    LocalBrain,
+    Percept,
+    RBMoveActuator,
+    RemoteBrain,
+    TouchRewardFunc,
+)
+from ai4u_edu.envs.spaces_of import outputs_of
+from ai4u_edu.lessons.exercise import Done, NotYet, a_function, exercise
+from ai4u_edu.lessons.exit_ticket import Question, exit_ticket
+from ai4u_edu.lessons.numeric import finite_numbers, is_close
+from ai4u_edu.lessons.rollouts import Drive, drives, seeds_of
+from ai4u_edu.lessons.worlds import plate
 from ai4u_edu.scenes import Scene
-from ai4u_edu.snapshot import capture_snapshot
+from ai4u_edu.wire.ai4u import decode_request
+from ai4u_edu.world import Body
 
-SOLVED = 6
-"""Episodes of 10 in which the solver has to succeed in a hard world."""
-WANTED = ("goal", "controls", "rewards")
+if TYPE_CHECKING:
+    from ai4u_edu.remote import Robot
+
+LIMIT = 300
+RECEIVE_TIMEOUT_MS = 20_000
+"""Time for which the world waits for an action, milliseconds."""
+MAX_DIALOGUE_S = 10
+"""Time after which :func:`overheard` ends, whatever was said."""
+LAG_DECISIONS = 3
+"""Lag of the percepts, in decisions of 1/12 s each."""
+SCENES = ("box_chase", "line_follow", "strong", "parking")
+"""Robots that are asked for; ``strong`` is one whose numbers go beyond 1."""
 
 
-def _scene(text: Any) -> Scene:
-    if isinstance(text, Scene):
-        return text
-    if not isinstance(text, str):
-        raise NotYet(f"Expected the text of a scene, got {named(text)}.")
-    if not text.strip():
-        raise NotYet(
-            "There is no scene yet: write `my_scene` in exercise 15.1, and run its cell.",
-            hint="unfinished",
-        )
+class Winch(Actuator):
+    """Robot's motor with ranges of its own."""
+
+    def space(self) -> Box:
+        """Return the ranges: forward to 3, turn to 0.5, a spare to 0.25."""
+        return Box(np.array([-1, -0.5, 0], np.float32), np.array([3, 0.5, 0.25], np.float32), (3,))
+
+    def act(self, body: Body, action: Any) -> None:
+        """Drive and turn."""
+        body.apply_force(float(action[0]), 0.0)
+
+
+@contextmanager
+def served(sim: ControlRequestor) -> "Iterator[Robot]":
+    """Yield a robot of a world served on this machine, in lockstep at full speed."""
+    from ai4u_edu.remote import connect
+    from ai4u_edu.runtime.runner import Runner
+    from ai4u_edu.server import Rules, ServerThread, room_app
+
+    runner = Runner(sim, time_scale=math.inf)
+    # a machine that is busy with thirty students' checks may keep a script waiting
+    rules = Rules(receive_timeout=RECEIVE_TIMEOUT_MS)
+    app = room_app(runner, viser_port=1, title="exercise", rules=rules)
+    runner.start()
     try:
-        return Scene.loads(text, name="my_world")
-    except AI4UError as error:
-        raise NotYet(str(error), hint="yaml") from error
+        with ServerThread(app) as server, connect(server.url, mode="lockstep") as robot:
+            yield robot
+    finally:
+        runner.stop()
+
+
+def late(controller: Callable[[Any], Any], lag: int = LAG_DECISIONS) -> ControlRequestor:
+    """Return a robot on a plate with a box, whose driver gets old percepts.
+
+    Args:
+        controller: the driver.
+        lag: age of the percepts, in decisions.
+    """
+    seen: deque[Percept] = deque(maxlen=lag + 1)
+
+    def drive(percept: Percept) -> Any:
+        if agent.steps == 0:
+            seen.clear()
+        seen.append(percept)
+        return controller(seen[0])
+
+    agent = BasicAgent(
+        body="robot",
+        sensors=[BearingSensor(target="box")],
+        actuators=[RBMoveActuator(move_amount=3, turn_amount=6)],
+        rewards=[
+            TouchRewardFunc(target="box", reward=1, cause_episode_to_end=True),
+            FallReward(),
+        ],
+        brains=[LocalBrain(controller=drive)],
+    )
+    return ControlRequestor(plate(), [agent], success="touch")
+
+
+def overheard(brain: Callable[[int], RemoteBrain], answers: Sequence[str]) -> Iterator[str]:
+    """Yield what a world and an AI4U script say to each other, until the script is silent.
+
+    Args:
+        brain: makes the robot's brain from the script's port.
+        answers: the script's answers in AI4U's protocol, one for each decision; then it is silent.
+    """
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as script:
+        script.bind(("127.0.0.1", 0))
+        script.setblocking(False)
+        agent = BasicAgent(
+            body="robot",
+            sensors=[BearingSensor(target="box")],
+            actuators=[RBMoveActuator(move_amount=3, turn_amount=3)],
+            brains=[brain(script.getsockname()[1])],
+        )
+        sim = ControlRequestor(plate(), [agent])
+        sim.reset(1)
+        remote = agent.brain
+        greeting = ["__reset__;1;0", f"max_steps;1;0@id;1;{agent.id}"]
+        try:
+            yield from _said(sim, script, [*greeting, *answers])
+        finally:
+            remote.close()
+
+
+def _said(sim: ControlRequestor, script: socket.socket, answers: list[str]) -> Iterator[str]:
+    """Yield the states that a world sends, and a script's answers to them."""
+    end = time.monotonic() + MAX_DIALOGUE_S
+    status = cast(RemoteBrain, sim.agents[0].brain).status
+    said = 0
+    while time.monotonic() < end and not (said > len(answers) and status().reason):
+        sim.tick()
+        try:
+            request, world = script.recvfrom(2**16)
+        except BlockingIOError:
+            time.sleep(0.001)
+            continue
+        fields = {field.name: field.value for field in decode_request(request)}
+        if "bearing" in fields:
+            told = (f"{name}={fields[name]}" for name in ("bearing", "steps", "reward", "done"))
+            yield f"world:  {' '.join(told)}"
+        if said < len(answers):
+            script.sendto(answers[said].encode(), world)
+            if not answers[said].startswith(("__", "max_steps")):
+                yield f"script: {answers[said]}"
+        said += 1
+    yield f"world:  {status().reason}"
+
+
+def _short(name: str) -> ControlRequestor:
+    """Return a scene whose episodes end soon, whatever a script does."""
+    if name == "strong":
+        agent = BasicAgent(
+            body="robot",
+            max_steps_per_episode=LIMIT,
+            sensors=[BearingSensor(target="box")],
+            actuators=[Winch(action_name="winch")],
+            brains=[LocalBrain(controller=lambda _: {})],
+        )
+        return ControlRequestor(plate(), [agent])
+    plain = Scene.load(name).plain()
+    plain["agents"][0]["max_steps_per_episode"] = LIMIT
+    return Scene.loads(dumps(plain), name=name).build()  # JSON is YAML as well
 
 
 @exercise(
     "15.1",
-    "A complete scene",
+    "A script drives",
+    call_limit_s=30,
     hints={
-        "complete": "Look at a scene of the library: `print(Scene.load('box_chase').dumps())`. "
-        "What has it got that yours has not?",
-        "yaml": "Every name is followed by a colon and a space. What belongs to something stands "
-        "two spaces further to the right; in a list each thing begins with a dash.",
-        "success": "`success: touch` at the top level says which reward term means that the task "
-        "is done. A reward function's `name` is its term.",
-        "random": "`random: {x: [-4, 4], y: [-4, 4]}` at a body lets it begin somewhere else in "
-        "each episode.",
+        "loop": "One action is one decision, 1/12 s. Go on until the episode is over: "
+        "`for percept in robot:`, and in the loop one `robot.act(move=...)`.",
+        "look": 'It acts again and again, but never looks. `percept["orientation"][0]` is the '
+        "cosine of the direction to the box: turn until it is above 0.99, then go.",
     },
 )
-def is_complete(text: Any) -> Done:
-    """Check for a scene that others can play."""
-    scene = _scene(text)
-    told = scene.description
-    missing = [name for name in WANTED if len(getattr(told, name).strip()) < 8]
-    if missing:
-        raise NotYet(f"There is no {missing[0]} in words yet.", hint="complete")
-    sim = scene.build()
-    sim.reset(1)
+def drives_from_afar(script: Any) -> Done:
+    """Check a script in three served worlds."""
+    drive = a_function(script)
+    sim = _short("box_chase")
     agent = sim.agents[0]
-    for name, count, least in (
-        ("sensors", len(agent.sensors), 2),
-        ("actuators", len(agent.actuators), 1),
-        ("reward functions", len(agent.rewards), 2),
-    ):
-        if count < least:
-            raise NotYet(
-                f"The first agent has {count} {name}; at least {least} are needed.",
-                hint="complete",
-            )
-    if not told.success:
-        raise NotYet("Nothing says when the task is done: `success:` is missing.", hint="success")
-    taking_part = _taking_part(agent)
-    places = []
-    for seed in seeds_of("15.1", 3):
-        sim.reset(seed)
-        bodies = [sim.world[name] for name in taking_part]
-        places.append([(*body.position, body.heading) for body in bodies])
-    if places[0] == places[1] == places[2]:
-        names = " and ".join(f"`{name}`" for name in taking_part)
-        raise NotYet(f"All episodes begin in the same way for {names}.", hint="random")
-    return Done(f"{told.title or told.name}: complete.", picture(capture_snapshot(sim)))
-
-
-def _taking_part(agent: BasicAgent) -> list[str]:
-    """Return the bodies of the task: the agent's, and those that the rewards and sensors name."""
-    names = [agent.body.name]
-    for block in (*agent.rewards, *agent.sensors):
-        target = getattr(block, "target", "")
-        if isinstance(target, str) and target and target not in names:
-            names.append(target)
-    return names
+    with served(sim) as robot:
+        for seed in seeds_of("15.1", 3):
+            robot.reset(seed=seed)
+            done = Drive(sim, agent, seed, [agent.body.position])
+            drive(robot)
+            percept = robot.percept if robot.percept and robot.percept.done else robot.sense()
+            if percept.reward_terms.get("touch", 0.0) <= 0:
+                how = (
+                    f"The robot's episode ended without the box, after {percept.step} decisions"
+                    if percept.done
+                    else f"Your script ended after {percept.step} decisions, before the episode did"
+                )
+                raise NotYet(
+                    f"{how} (seed {seed}).",
+                    hint="look" if percept.done else "loop",
+                    picture=done.picture(),
+                )
+            done.trail.append(agent.body.position)
+    return Done("Over the network it found the box, in three worlds.", done.picture())
 
 
 @exercise(
     "15.2",
-    "Solved",
+    "Late news",
     hints={
-        "begin": "Write `solve` for your scene. What did you do in lessons 02 and 05?",
-        "seldom": "It works sometimes. Watch an episode that failed: `film(Scene.loads(my_scene), "
-        "solve, seed=...)`.",
-        "idle": "The robot begins where it should get to. Put it farther away.",
-        "yaml": "The scene itself is not in order yet: first solve exercise 15.1.",
+        "fast": "It turns on what was true a quarter of a second ago, and by then it looks "
+        "elsewhere. Turn less for the same sine, and drive more slowly: late news is less wrong "
+        "about a slow robot.",
+        "blind": "It does the same whatever it senses: look at the bearing.",
+        "away": "It turns away from the box: for a box on the left (sine above 0) turn left (below "
+        "0).",
+        "still": "It never drives. Where the box is ahead, drive slowly.",
     },
 )
-def is_solved(text: Any, solve: Any) -> Done:
-    """Check for success on 8 of 10 seeds."""
-    scene, won = _scene(text), 0
-    if not scene.description.success:
-        raise NotYet("The scene does not say what success is: see exercise 15.1.", hint="begin")
-    idle = sum(done.won for done in drives(scene, _idle, seeds_of("15.2", 10), limit=100))
-    if idle > 2:
-        raise NotYet(
-            f"In {idle} of 10 episodes it succeeds without doing anything: the task is done before "
-            "it begins.",
-            hint="idle",
-        )
-    reason = None
-    for done in drives(scene, solve, seeds_of("15.2", 10)):
-        won += done.won
-        if not done.won and reason is None:
-            reason = done.not_yet("No success ({where}).", "seldom" if done.moved else "begin")
-    if won < 8 and reason is not None:
-        reason.text = f"{won} of 10 episodes succeeded, 8 are needed. {reason.text}"
-        raise reason
-    return Done(f"{won} of 10 episodes succeeded.", done.picture())
+def copes_with_lag(careful: Any) -> Done:
+    """Check twenty worlds with percepts that are a quarter of a second old."""
+    worlds = 20
+    drive_late = a_function(careful)
+    for done in drives(lambda: late(drive_late), None, seeds_of("15.2", worlds), limit=LIMIT):
+        if not done.won:
+            how = "fell" if done.fell else "did not get there in time"
+            raise done.not_yet(
+                f"With percepts {LAG_DECISIONS} decisions old the robot {how} ({{where}}).",
+                _why(drive_late),
+            )
+    return Done(
+        f"A quarter of a second late, and it found the box in {worlds} worlds.", done.picture()
+    )
+
+
+def _why(careful: Callable[..., Any]) -> str:
+    """Return the diagnosis that fits how a driver answers."""
+    seen = {"left": (0.8, 0.6), "right": (-0.8, 0.6), "ahead": (0.0, 1.0)}
+    moves = {}
+    for name, bearing in seen.items():
+        answer = careful({"bearing": np.array(bearing)})
+        move = answer.get("move", ()) if isinstance(answer, dict) else ()
+        moves[name] = [float(each) for each in move]
+    if len({repr(each) for each in moves.values()}) == 1:
+        return "blind"
+    if len(moves["left"]) == 4 and moves["left"][1] > moves["right"][1]:
+        return "away"
+    return "still" if not any(move[:1] != [0.0] for move in moves.values()) else "fast"
 
 
 @exercise(
     "15.3",
-    "Worth something",
+    "A robot that you don't know",
     hints={
-        "easy": "Chance succeeds too often. Put the target farther away, behind something, near an "
-        "edge; give less time; or ask for two things in turn.",
-        "impossible": "Chance fails, and so does your `solve`. Make the world easier, or `solve` "
-        "better; it is the one of exercise 15.2.",
-        "yaml": "The scene itself is not in order yet: first solve exercise 15.1.",
+        "ask": "Robots differ: this one takes another number of numbers, or another range. Ask it: "
+        "`robot.spaces.action.high` are the highest numbers that it takes.",
+        "one": "It gives 1 for each number. Not every robot's range ends at 1: ask for the highest "
+        "numbers.",
+        "full": "The robot takes that, but it is not full power: each number should be the highest "
+        "that its range allows.",
     },
 )
-def is_no_chance(text: Any, solve: Any) -> Done:
-    """Check that a solver succeeds in most episodes, and chance in fewer than 3 of 10."""
-    scene = _scene(text)
-    if not scene.description.success:
-        raise NotYet("The scene does not say what success is: see exercise 15.1.", hint="easy")
-    won = 0
-    for seed in seeds_of("15.3", 10):
-        sim = scene.build()
-        agent = sim.agents[0]
-        before = agent.brain
-        agent.use_brain(
-            LocalBrain(controller=_by_chance(agent, seed), skip_frame=before.skip_frame)
-        )
-        done = drive(sim, agent, seed)
-        won += done.won
-    if won >= 3:
-        raise NotYet(
-            f"With random actions {won} of 10 episodes succeeded.",
-            hint="easy",
-            picture=done.picture(),
-        )
-    solved = sum(done.won for done in drives(scene, solve, seeds_of("15.3", 10)))
-    if solved < SOLVED:
-        raise NotYet(
-            f"With random actions {won} of 10 episodes succeeded, with your `solve` {solved}. A "
-            f"world that nobody can solve is not worth much: {SOLVED} are needed.",
-            hint="impossible",
-        )
-    return Done(
-        f"With random actions {won} of 10 episodes succeeded, with `solve` {solved}.",
-        done.picture(),
-    )
+def asks_the_robot(full_power: Any) -> str:
+    """Check the function with four robots."""
+    ask = a_function(full_power)
+    for name in SCENES:
+        sim = _short(name)
+        (output,) = outputs_of(sim.agents[0])
+        with served(sim) as robot:
+            robot.reset()
+            high = np.ravel(robot.spaces.action.high)  # type: ignore[attr-defined]
+            takes = f"The robot of `{name}` takes {len(high)} numbers"
+            got = finite_numbers(ask(robot), len(high), expected=takes, hint="ask")
+            if not is_close(got, high, 1e-5):
+                raise NotYet(
+                    f"For the robot of `{name}` full power is {high.tolist()}, and it got {got}.",
+                    hint="one" if set(got) == {1.0} else "full",
+                )
+            robot.sense()
+            robot.act({output: got})
+            robot.sense()
+    return "Four different robots, each at full power."
 
 
-def _idle(_percept: Percept) -> dict[str, list[float]]:
-    """Do nothing."""
-    return {}
-
-
-def _by_chance(agent: BasicAgent, seed: int) -> Any:
-    """Return a controller that gives random actions."""
-    spaces = {each.action_name: each.space() for each in agent.actuators if each.is_output}
-    for index, space in enumerate(spaces.values()):
-        space.seed(seed + index)
-    return lambda _: {name: np.asarray(space.sample()) for name, space in spaces.items()}
+exit_ticket(
+    "15.exit",
+    Question(
+        "b",
+        {
+            "a": "In realtime nobody waits, and by default nothing stops the robot: see the three "
+            'ways in "When the script falls silent".',
+            "c": "The world stands still in lockstep. In realtime it goes on.",
+        },
+    ),
+    Question(
+        "c",
+        {
+            "a": "A faster robot turns farther in 0.25 s, so it overshoots even more.",
+            "b": "It would decide more often about the same old news: each percept is still 0.25 s"
+            " late.",
+        },
+    ),
+    Question(
+        "a",
+        {
+            "b": "In lockstep the world waits until the receive time-out is over, which is 2 "
+            "seconds if you say nothing. Then it goes on.",
+            "c": "In realtime the world's time goes on while the program computes, even if the "
+            "robot stands still.",
+        },
+    ),
+)

@@ -1,0 +1,361 @@
+"""Soccer: behind the ball, and then through it."""
+
+import math
+from collections import Counter
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from ai4u_edu.lessons.exercise import Done, NotYet, a_function, exercise, named
+from ai4u_edu.lessons.exercises.lesson_17_pitch import (
+    METRE,
+    SAME_WAY_RAD,
+    Place,
+    behind,
+    in_front,
+    lined_up,
+    practice,
+)
+from ai4u_edu.lessons.exit_ticket import Question, exit_ticket
+from ai4u_edu.lessons.numeric import chance_for, finite_numbers, is_close
+from ai4u_edu.lessons.rollouts import Drive, drives, seeds_of
+from ai4u_edu.lessons.student_errors import NOTHING_RETURNED
+
+GOAL_OF_BLUE_X_M = -7
+DECISIONS_A_SECOND = 12
+PRACTICE_DECISIONS = 150
+GAMES, QUICK_GOALS, QUICK_DECISIONS = 24, 16, 120
+"""Games for gold, quick goals among them, and decisions of a quick one."""
+MAX_BALL_MOVE_M, MAX_BALL_DISTANCE_M = 0.3, 2.5
+"""Limits of how far the ball has moved, and the robot is from it, once it is behind it."""
+
+
+def _angle(place: Place) -> float:
+    return math.atan2(place[1], place[0])
+
+
+def _steep(place: Place) -> float:
+    return math.atan(place[1] / place[0])
+
+
+ALMOST: Mapping[str, Callable[[Place, Place], bool]] = {
+    "wrap": lambda ball, goal: abs(_angle(ball) - _angle(goal)) < SAME_WAY_RAD,
+    "sign": lambda ball, goal: math.remainder(_angle(ball) - _angle(goal), math.tau) < 0.5,
+    "sign ": lambda ball, goal: math.remainder(_angle(goal) - _angle(ball), math.tau) < 0.5,
+    "atan": lambda ball, goal: abs(_steep(ball) - _steep(goal)) < SAME_WAY_RAD,
+    "side": lambda ball, goal: (ball[1] > 0) == (goal[1] > 0),
+    "near": lambda ball, goal: math.dist(ball[:2], goal[:2]) < SAME_WAY_RAD,
+    "begin": lambda *_: False,
+    "begin ": lambda *_: True,
+}
+"""Functions that students write in place of the right one, by the diagnosis."""
+
+
+@exercise(
+    "17.1",
+    "The same direction",
+    hints={
+        "begin": "It gives the same answer to everything. `math.atan2(ball[1], ball[0])` is the "
+        "direction to the ball, in radians; the goal's is computed in the same way.",
+        "wrap": "Two directions straight behind the robot can be 3.1 and -3.1: hardly different, "
+        "and yet 6.2 apart. `math.remainder(a - b, math.tau)` brings a difference of angles back "
+        "to the range from -3.14 to 3.14.",
+        "sign": "A difference can be below 0, too: then it is always less than 0.5. Take `abs`.",
+        "atan": "`math.atan` can't tell ahead from behind. `math.atan2(left, ahead)` can: left is "
+        "the first of its two numbers.",
+        "side": "You ask whether both are on the same side. That is not enough: one may be on the "
+        "left, the other almost behind. Compare the directions.",
+        "near": "Ball and goal may be far from each other, and lie in the same direction all the "
+        "same. Compare directions, not places.",
+    },
+)
+def same_direction(same_way: Any) -> str:
+    """Check whether ball and goal lie in the same direction."""
+    judge = a_function(same_way)
+    cases = _directions(chance_for("17.1", same_way))
+    said = [_truth(judge(*_places(ball, goal))) for ball, goal in cases]
+    for (ball, goal), got in zip(cases, said, strict=True):
+        if got is not lined_up(ball, goal):
+            fits = (
+                name.strip()
+                for name, almost in ALMOST.items()
+                if said == [almost(*each) for each in cases]
+            )
+            apart = math.degrees(abs(math.remainder(_angle(ball) - _angle(goal), math.tau)))
+            raise NotYet(
+                f"The ball at {_shown(ball)}, the goal at {_shown(goal)}: they are {apart:.0f} "
+                f"degrees apart, and your function says {got}.",
+                hint=next(fits, ""),
+            )
+    return f"{len(cases)} pairs of directions, all of them right."
+
+
+def _directions(chance: np.random.Generator) -> list[tuple[Place, Place]]:
+    """Return places of a ball and a goal, none of them at the limit of what counts as the same."""
+    cases: list[tuple[Place, Place]] = []
+    for number in range(60):
+        towards = chance.uniform(-math.pi, math.pi) if number % 3 else math.pi + 0.01
+        small, large = chance.uniform(0, 0.4), chance.uniform(0.65, math.pi)
+        apart = (small if number % 2 else large) * chance.choice([-1, 1])
+        places = []
+        for angle, away in ((towards, chance.uniform(0.05, 0.3)), (towards + apart, 0.4)):
+            places.append((round(away * math.cos(angle), 3), round(away * math.sin(angle), 3)))
+        cases.append((places[0], places[1]))
+    return cases
+
+
+def _places(*places: Place) -> list[Any]:
+    """Return places as a percept has them: arrays of three numbers."""
+    return [np.array([*each, 0.0]) for each in places]
+
+
+def _truth(given: Any) -> bool:
+    if given is None:
+        raise NotYet(NOTHING_RETURNED, hint="no-return")
+    if not isinstance(given, bool | np.bool_):
+        raise NotYet(f"Expected True or False, got {named(given)}.", hint="begin")
+    return bool(given)
+
+
+def _shown(place: Place) -> str:
+    return f"({place[0]:g} ahead, {place[1]:g} left)"
+
+
+@exercise(
+    "17.2",
+    "Behind the ball",
+    hints={
+        "begin": "Begin with the way from the ball to the goal: `x = goal[0] - ball[0]`, and the "
+        "same for left. From the ball, go that way backwards.",
+        "front": "That is before the ball, on the side of the goal. Subtract.",
+        "long": "The way from the ball to the goal has its own length. Divide it by its length "
+        "first, `math.hypot(x, y)`; then `gap` times that is as long as `gap`.",
+        "robot": "That is behind the ball as the robot sees it. It should be behind the ball as "
+        "the goal sees it: on the line from the goal through the ball.",
+        "goal": "That is a place near the goal. Begin at the ball.",
+        "swapped": "Ahead comes first, then left.",
+    },
+)
+def is_behind(place_behind: Any) -> str:
+    """Check the place behind the ball."""
+    find = a_function(place_behind)
+    chance = chance_for("17.2", place_behind)
+    for _ in range(8):
+        ball, goal = chance.uniform(-0.3, 0.3, 2).round(2), chance.uniform(-0.4, 0.4, 2).round(2)
+        gap = round(float(chance.uniform(0.05, 0.12)), 2)
+        got = finite_numbers(find(*_places(ball, goal), gap), 2)
+        x, y = behind(ball, goal, gap)
+        if not is_close(got, [x, y], 1e-4):
+            way, length = goal - ball, math.dist(goal, ball)
+            slips: dict[str, Place] = {
+                "begin": (0.0, 0.0),
+                "front": ball + gap * way / length,
+                "long": ball - gap * way,
+                "robot": ball + gap * ball / math.hypot(*ball),
+                "goal": goal - gap * way / length,
+                "swapped": (y, x),
+            }
+            fits = (name for name, each in slips.items() if is_close(got, list(each), 1e-4))
+            raise NotYet(
+                f"The ball at {_shown(ball)}, the goal at {_shown(goal)}, a gap of {gap:g}: "
+                f"expected {_shown((round(x, 3), round(y, 3)))}, got "
+                f"{_shown([round(each, 3) for each in got])}.",
+                hint=next(fits, ""),
+            )
+    return "Eight balls, and each time the place behind it."
+
+
+@exercise(
+    "17.3",
+    "Around the ball",
+    hints={
+        "pushes": "It runs into the ball on its way. Where ball and place lie in the same "
+        "direction and the ball is nearer, go past the ball first: towards a direction that is 70 "
+        "degrees (1.2 radians) to its side.",
+        "elsewhere": "It does not get behind the ball. Go to `behind(ball, goal)`.",
+        "crawls": "The way is right. Drive faster: there are 150 decisions, 12.5 seconds.",
+    },
+)
+def goes_around(get_behind: Any) -> Done:
+    """Check that it gets behind the ball without a push, in 8 of 10 worlds."""
+    worlds, needed, won = 10, 8, 0
+    reasons: list[NotYet] = []
+    steer = a_function(get_behind)
+    for seed in seeds_of("17.3", worlds):
+        watch = _Practice()
+        (done,) = drives(practice(), steer, [seed], limit=PRACTICE_DECISIONS, watch=watch)
+        won += watch.is_there
+        if not watch.is_there:
+            if watch.ball_moved > MAX_BALL_MOVE_M:
+                how, hint = f"It pushed the ball {watch.ball_moved:.1f} m away", "pushes"
+            elif watch.is_on_its_way:
+                how, hint = "It was still on its way when the time was up", "crawls"
+            else:
+                how, hint = "It did not get behind the ball", "elsewhere"
+            reasons.append(done.not_yet(f"{how} ({{where}}).", hint))
+    if won < needed:
+        (frequent, _), *_ = Counter(each.hint for each in reasons).most_common(1)
+        reason = next(each for each in reasons if each.hint == frequent)
+        reason.text = f"Behind the ball in {won} of {worlds} worlds. {reason.text}"
+        raise reason
+    return Done(f"Behind the ball in {won} of {worlds} worlds.", done.picture())
+
+
+class _Practice:
+    """Watches one drive: whether the robot gets behind a ball that stays where it is."""
+
+    def __init__(self) -> None:
+        self.is_there = False
+        self.ball_moved = 0.0
+        self._away: list[float] = []
+        self._ball: tuple[float, float] | None = None
+
+    @property
+    def is_on_its_way(self) -> bool:
+        """True if it is nearer to the place than at the beginning, and still comes nearer."""
+        before, last = self._away[-DECISIONS_A_SECOND:][0], self._away[-1]
+        return last < self._away[0] and before - last > 0.1 * METRE
+
+    def __call__(self, done: Drive) -> None:
+        """Look once, at the beginning and after each decision."""
+        in_front(done)
+        if done.steps == 0:
+            return
+        now = done.sim.world["ball"].position
+        self._ball = self._ball or now
+        moved = math.dist(now, self._ball)
+        percept = done.agent.percept
+        ball, goal = percept["ball"], percept["goal"]
+        self._away.append(math.hypot(*behind(ball, goal)))
+        if not self.is_there:
+            self.ball_moved = max(self.ball_moved, moved)
+            near = math.hypot(ball[0], ball[1]) < MAX_BALL_DISTANCE_M * METRE
+            self.is_there = moved <= MAX_BALL_MOVE_M and near and _in_line(ball, goal)
+
+
+def _in_line(ball: Place, goal: Place) -> bool:
+    """Return True if the robot is behind the ball, seen from the goal."""
+    return lined_up(ball, goal) and math.hypot(*ball[:2]) < math.hypot(*goal[:2])
+
+
+@exercise(
+    "17.4",
+    "The striker",
+    hints={
+        "begin": "Running at the ball is not enough: it flies off the way you were running. First "
+        "get behind it, as in exercise 17.3.",
+        "through": "It gets behind the ball, and then? When ball and goal lie in the same "
+        "direction, `lined_up(ball, goal)`, run through the ball.",
+        "around": "It scores sometimes. On its way to the place behind the ball it runs into the "
+        "ball: go around it, as in exercise 17.3.",
+    },
+)
+def scores(strike: Any) -> Done:
+    """Check for 9 goals in 12 games that begin in front of the ball."""
+    games, needed, won = 12, 9, 0
+    reason: NotYet | None = None
+    for played, done in enumerate(
+        drives("soccer", strike, seeds_of("17.4", games), watch=in_front), 1
+    ):
+        won += done.won
+        if not done.won and reason is None:
+            own = done.sim.world["ball"].position[0] < GOAL_OF_BLUE_X_M
+            how = "An own goal" if own else "No goal"
+            reason = done.not_yet(f"{how} ({{where}}).", _striker_mistake(strike, done))
+        if played - won > games - needed:
+            break
+    if won < needed and reason is not None:
+        reason.text = f"{won} goals in {played} games; {needed} in {games} needed. {reason.text}"
+        raise reason
+    return Done(f"{won} goals in {played} games.", done.picture())
+
+
+def _striker_mistake(strike: Any, done: Drive) -> str:
+    """Return the diagnosis that fits how a striker answers in three situations."""
+    if isinstance(strike, type) or not callable(strike):
+        return ""  # a controller: it may remember what it saw
+    situations = {
+        "through": ((0.1, 0.0), (0.4, 0.0)),  # ball and goal straight ahead
+        "begin": ((0.1, 0.0), (0.1, -0.3)),  # the goal is on the right
+        "around": ((0.1, 0.0), (-0.3, 0.0)),  # the ball is in the way
+    }
+    runs_straight_on = {}
+    for name, places in situations.items():
+        ball, goal = _places(*places)
+        answer = strike({**done.agent.percept, "ball": ball, "goal": goal, "home": -goal})
+        move: Sequence[float] = answer.get("move", ()) if isinstance(answer, dict) else ()
+        runs_straight_on[name] = len(move) == 4 and move[0] > 0.2 and abs(move[1]) < 0.2
+    if not runs_straight_on["through"]:
+        return "through"
+    return next((name for name in ("begin", "around") if runs_straight_on[name]), "")
+
+
+@exercise(
+    "17.5",
+    "Gold: quick goals",
+    hints={
+        "begin": "First it has to score at all: begin with your `strike` of 17.4.",
+        "turns": "Where a place is 45 degrees to its side, it stops and turns. Write a `go_to` of "
+        "your own that turns faster, and drives on while it turns.",
+        "far": "It turns well. Where are decisions lost now? Try a place nearer behind the ball, "
+        'and pass the ball more closely. Watch it: `film("soccer", quick_strike, seed=3)`.',
+    },
+)
+def scores_quickly(quick_strike: Any) -> Done:
+    """Check for goals within ten seconds, in 16 of 24 games."""
+    quick = won = 0
+    games = drives("soccer", quick_strike, seeds_of("17.5", GAMES), limit=300, watch=in_front)
+    for played, done in enumerate(games, 1):
+        won += done.won
+        quick += done.won and done.steps <= QUICK_DECISIONS
+        if played - won > GAMES - QUICK_GOALS:
+            break
+    told = (
+        f"{won} goals in {played} games, {quick} of them within {QUICK_DECISIONS} decisions (10 "
+        "seconds)"
+    )
+    if quick < QUICK_GOALS:
+        hint = "begin"
+        if won >= 0.6 * played:
+            hint = "turns" if _stops_to_turn(quick_strike, done) else "far"
+        raise NotYet(
+            f"{told}; gold is {QUICK_GOALS} of {GAMES}.", hint=hint, picture=done.picture()
+        )
+    return Done(f"Gold: {told}.", done.picture())
+
+
+def _stops_to_turn(strike: Any, done: Drive) -> bool:
+    """Return True if it does not drive towards a ball that is 45 degrees to its left."""
+    if isinstance(strike, type) or not callable(strike):
+        return False
+    ball, goal = _places((0.07, 0.07), (0.3, 0.3))
+    answer = strike({**done.agent.percept, "ball": ball, "goal": goal, "home": -goal})
+    move = answer.get("move", ()) if isinstance(answer, dict) else ()
+    return not any(move[:1])
+
+
+exit_ticket(
+    "17.exit",
+    Question(
+        "a",
+        {
+            "b": "The ball flies off the way the robot was running. Which way is that?",
+            "c": "A ball that is hit straight on flies off straight ahead of the robot.",
+        },
+    ),
+    Question(
+        "c",
+        {
+            "a": "3.14 and -3.14 are both straight behind.",
+            "b": "Far on the left is 1.57, a quarter turn. 3.1 is nearly a half turn.",
+        },
+    ),
+    Question(
+        "b",
+        {
+            "a": "The computer has the same to compute. It is for you, not for the computer.",
+            "c": "A controller may be as long as you like.",
+        },
+    ),
+)

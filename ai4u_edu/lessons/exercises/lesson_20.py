@@ -1,0 +1,227 @@
+"""Project: your own world."""
+
+from typing import Any
+
+import numpy as np
+
+from ai4u_edu.agent import BasicAgent
+from ai4u_edu.base.errors import AI4UError
+from ai4u_edu.blocks import LocalBrain, Percept
+from ai4u_edu.lessons.exercise import Done, NotYet, exercise, named
+from ai4u_edu.lessons.exit_ticket import Question, exit_ticket
+from ai4u_edu.lessons.pictures import picture
+from ai4u_edu.lessons.rollouts import Drive, drive, drives, seeds_of
+from ai4u_edu.scenes import Scene
+from ai4u_edu.snapshot import capture_snapshot
+
+SOLVED = 6
+"""Episodes of 10 in which the solver has to succeed in a hard world."""
+WANTED = ("goal", "controls", "rewards")
+
+
+def _scene(text: Any) -> Scene:
+    if isinstance(text, Scene):
+        return text
+    if not isinstance(text, str):
+        raise NotYet(f"Expected the text of a scene, got {named(text)}.")
+    if not text.strip():
+        raise NotYet(
+            "There is no scene yet: write `my_scene` in exercise 20.1, and run its cell.",
+            hint="unfinished",
+        )
+    try:
+        return Scene.loads(text, name="my_world")
+    except AI4UError as error:
+        raise NotYet(str(error), hint="yaml") from error
+
+
+@exercise(
+    "20.1",
+    "A complete scene",
+    hints={
+        "complete": "Look at a scene of the library: `print(Scene.load('box_chase').dumps())`. "
+        "What has it got that yours has not?",
+        "yaml": "Every name is followed by a colon and a space. What belongs to something stands "
+        "two spaces further to the right; in a list each thing begins with a dash.",
+        "success": "`success: touch` at the top level says which reward term means that the task "
+        "is done. A reward function's `name` is its term.",
+        "random": "`random: {x: [-4, 4], y: [-4, 4]}` at a body lets it begin somewhere else in "
+        "each episode.",
+    },
+)
+def is_complete(text: Any) -> Done:
+    """Check for a scene that others can play."""
+    scene = _scene(text)
+    told = scene.description
+    missing = [name for name in WANTED if len(getattr(told, name).strip()) < 8]
+    if missing:
+        raise NotYet(f"There is no {missing[0]} in words yet.", hint="complete")
+    sim = scene.build()
+    sim.reset(1)
+    agent = sim.agents[0]
+    for name, count, least in (
+        ("sensors", len(agent.sensors), 2),
+        ("actuators", len(agent.actuators), 1),
+        ("reward functions", len(agent.rewards), 2),
+    ):
+        if count < least:
+            raise NotYet(
+                f"The first agent has {count} {name}; at least {least} are needed.",
+                hint="complete",
+            )
+    if not told.success:
+        raise NotYet("Nothing says when the task is done: `success:` is missing.", hint="success")
+    taking_part = _taking_part(agent)
+    places = []
+    for seed in seeds_of("20.1", 3):
+        sim.reset(seed)
+        bodies = [sim.world[name] for name in taking_part]
+        places.append([(*body.position, body.heading) for body in bodies])
+    if places[0] == places[1] == places[2]:
+        names = " and ".join(f"`{name}`" for name in taking_part)
+        raise NotYet(f"All episodes begin in the same way for {names}.", hint="random")
+    return Done(f"{told.title or told.name}: complete.", picture(capture_snapshot(sim)))
+
+
+def _taking_part(agent: BasicAgent) -> list[str]:
+    """Return the bodies of the task: the agent's, and those that the rewards and sensors name."""
+    names = [agent.body.name]
+    for block in (*agent.rewards, *agent.sensors):
+        target = getattr(block, "target", "")
+        if isinstance(target, str) and target and target not in names:
+            names.append(target)
+    return names
+
+
+@exercise(
+    "20.2",
+    "Solved",
+    hints={
+        "begin": "Write `solve` for your scene. What did you do in lessons 03 and 06?",
+        "seldom": "It works sometimes. Watch an episode that failed: `film(Scene.loads(my_scene), "
+        "solve, seed=...)`.",
+        "idle": "The robot begins where it should get to. Put it farther away.",
+        "yaml": "The scene itself is not in order yet: first solve exercise 20.1.",
+    },
+)
+def is_solved(text: Any, solve: Any) -> Done:
+    """Check for success on 8 of 10 seeds."""
+    scene, won = _scene(text), 0
+    if not scene.description.success:
+        raise NotYet("The scene does not say what success is: see exercise 20.1.", hint="begin")
+    idle = sum(done.won for done in drives(scene, _idle, seeds_of("20.2", 10), limit=100))
+    if idle > 2:
+        raise NotYet(
+            f"In {idle} of 10 episodes it succeeds without doing anything: the task is done before "
+            "it begins.",
+            hint="idle",
+        )
+    reason = None
+    for done in drives(scene, solve, seeds_of("20.2", 10)):
+        won += done.won
+        if not done.won and reason is None:
+            reason = done.not_yet("No success ({where}).", "seldom" if done.moved else "begin")
+    if won < 8 and reason is not None:
+        reason.text = f"{won} of 10 episodes succeeded, 8 are needed. {reason.text}"
+        raise reason
+    return Done(f"{won} of 10 episodes succeeded.", done.picture())
+
+
+@exercise(
+    "20.3",
+    "Worth something",
+    hints={
+        "easy": "Chance succeeds too often. Put the target farther away, behind something, near an "
+        "edge; give less time; or ask for two things in turn.",
+        "impossible": "Chance fails, and so does your `solve`. Make the world easier, or `solve` "
+        "better; it is the one of exercise 20.2.",
+        "yaml": "The scene itself is not in order yet: first solve exercise 20.1.",
+    },
+)
+def is_no_chance(text: Any, solve: Any) -> Done:
+    """Check that a solver succeeds in most episodes, and chance in fewer than 3 of 10."""
+    scene = _scene(text)
+    if not scene.description.success:
+        raise NotYet("The scene does not say what success is: see exercise 20.1.", hint="easy")
+    drives_by_chance = [_driven_by_chance(scene, seed) for seed in seeds_of("20.3", 10)]
+    won, done = sum(each.won for each in drives_by_chance), drives_by_chance[-1]
+    if won >= 3:
+        raise NotYet(
+            f"With random actions {won} of 10 episodes succeeded.",
+            hint="easy",
+            picture=done.picture(),
+        )
+    solved = sum(done.won for done in drives(scene, solve, seeds_of("20.3", 10)))
+    if solved < SOLVED:
+        raise NotYet(
+            f"With random actions {won} of 10 episodes succeeded, with your `solve` {solved}. A "
+            f"world that nobody can solve is not worth much: {SOLVED} are needed.",
+            hint="impossible",
+        )
+    return Done(
+        f"With random actions {won} of 10 episodes succeeded, with `solve` {solved}.",
+        done.picture(),
+    )
+
+
+def won_by_chance(text: str, episodes: int = 10) -> int:
+    """Return in how many episodes of a scene random actions succeed.
+
+    Args:
+        text: the scene's text.
+        episodes: number of episodes, with the seeds 0, 1, 2 and so on.
+
+    Raises:
+        SceneError: the text is no scene.
+    """
+    scene = Scene.loads(text, name="my_world")
+    return sum(_driven_by_chance(scene, seed).won for seed in range(episodes))
+
+
+def _driven_by_chance(scene: Scene, seed: int) -> Drive:
+    sim = scene.build()
+    agent = sim.agents[0]
+    brain = LocalBrain(controller=_by_chance(agent, seed), skip_frame=agent.brain.skip_frame)
+    agent.use_brain(brain)
+    return drive(sim, agent, seed)
+
+
+def _idle(_percept: Percept) -> dict[str, list[float]]:
+    """Do nothing."""
+    return {}
+
+
+def _by_chance(agent: BasicAgent, seed: int) -> Any:
+    """Return a controller that gives random actions."""
+    spaces = {each.action_name: each.space() for each in agent.actuators if each.is_output}
+    for index, space in enumerate(spaces.values()):
+        space.seed(seed + index)
+    return lambda _: {name: np.asarray(space.sample()) for name, space in spaces.items()}
+
+
+exit_ticket(
+    "20.exit",
+    Question(
+        "b",
+        {
+            "a": "The same seed gives the same episode: it was tried once, ten times over.",
+            "c": "With one episode it may have been luck. Chance succeeds now and then, too.",
+        },
+    ),
+    Question(
+        "a",
+        {
+            "b": "Compare it with what chance achieves.",
+            "c": "One episode more of ten is easily luck. Many more episodes, or a harder task, "
+            "would tell.",
+        },
+    ),
+    Question(
+        "c",
+        {
+            "a": "You changed it until it fitted these ten. Other worlds tell how good it really "
+            "is.",
+            "b": "It was fitted to these as well.",
+        },
+    ),
+)

@@ -1,0 +1,56 @@
+"""Sliders in a real JupyterLab, moved and pressed by a student."""
+
+import os
+from pathlib import Path
+
+import pytest
+from playwright.sync_api import Browser
+
+from ai4u_edu.lessons.handout import hand_out
+from ai4u_edu.lessons.notebook import Cell, dumps
+from ai4u_edu.lessons.progress_file import ProgressFile
+from tests.lessons.lab import lab
+from tests.lessons.test_in_lab import chromium
+
+__all__ = ["chromium"]  # a fixture
+pytestmark = [pytest.mark.browser, pytest.mark.timeout(300)]
+
+CODE = """from ai4u_edu.lessons import cards, sliders
+
+
+def make(left=0, right=0):
+    def wires(percept):
+        eyes = percept["left eye"][0], percept["right eye"][0]
+        return {"wheels": [left * eyes[0], left * eyes[1]]}
+
+    return wires
+
+
+sliders("05.2", make, left=(-1, 1), right=(-1, 1))
+"""
+
+
+def test_sliders_are_moved_tried_and_checked(chromium: Browser, tmp_path: Path) -> None:
+    hand_out(tmp_path)  # its settings keep JupyterLab's questions away
+    (tmp_path / "sliders.ipynb").write_text(dumps([Cell(CODE)]), encoding="utf-8")
+    with lab(tmp_path) as url:
+        page = chromium.new_page(viewport={"width": 1366, "height": 768})
+        page.goto(url + "lab/tree/sliders.ipynb")
+        page.get_by_text("Python 3 (ipykernel) | Idle").wait_for(timeout=60_000)
+        page.locator(".jp-CodeCell .cm-content").first.click()
+        page.keyboard.press("Control+Enter")
+        page.get_by_role("slider").first.focus(timeout=60_000)
+        assert page.get_by_text("If nothing happens, run this cell again.").is_visible()
+        page.keyboard.press("End")
+        page.get_by_role("button", name="Try", exact=True).click()
+        page.get_by_alt_text("the episode").wait_for(timeout=60_000)
+        shots = os.environ.get("AI4U_SHOTS")
+        if shots:
+            page.screenshot(path=Path(shots) / "sliders_try.png")
+        page.get_by_role("button", name="Check", exact=True).click()
+        page.get_by_text("In 12 worlds it turned its back").wait_for(timeout=60_000)
+        assert page.get_by_alt_text("the episode").count() == 0
+        if shots:
+            page.screenshot(path=Path(shots) / "sliders_check.png")
+        page.close()
+    assert ProgressFile(tmp_path).entries()["05.2"].code.endswith(": left=1, right=0")
