@@ -30,7 +30,8 @@ STATIC_CHECKS = {
     "mypy": ["-m", "mypy"],
     "imports": ["-c", LINT_IMPORTS],
 }
-PARALLEL = ["-n", "auto"]
+PARALLEL = ["-n", str(3 * (os.cpu_count() or 2) // 2)]
+"""Tests wait for pages and servers a third of their time."""
 LONG_RUNS = {
     "fuzz": ["-m", "tests.fuzz"],
     "hammer": ["-m", "tests.attacks.hammer", "--seconds", "300"],
@@ -54,10 +55,7 @@ def main() -> int:
 
     # else each program that a test starts compiles the package anew
     os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
-    try:
-        python = str(bootstrap.ensure(ROOT, ["test" if options.fast else "dev"]))
-    except bootstrap.SetupError as error:
-        sys.exit(str(error))
+    python, missing = set_up(options.fast, only)
     static = {
         name: [python, *arguments]
         for name, arguments in STATIC_CHECKS.items()
@@ -65,15 +63,32 @@ def main() -> int:
     }
     with ThreadPoolExecutor(2) as pool:
         checks = [pool.submit(run_quietly, name, static[name]) for name in static]
-        failed = [] if only not in ("", "pytest") else run_tests(python, options, only, for_pytest)
+        failed = (
+            []
+            if only not in ("", "pytest")
+            else run_tests(python, missing, options, only, for_pytest)
+        )
     return report([name for check in checks for name in check.result()] + failed)
 
 
+def set_up(is_fast: bool, only: str) -> tuple[str, list[str]]:
+    """Get all that the checks need; return the Python to run them with and what is missing."""
+    wants_all = not is_fast and only in ("", "pytest")
+    with ThreadPoolExecutor(1) as pool:  # one downloads while the other unpacks
+        ai4u = pool.submit(get_ai4u) if wants_all else None
+        try:
+            python = bootstrap.ensure(ROOT, ["test" if is_fast else "dev"])
+        except bootstrap.SetupError as error:
+            sys.exit(str(error))
+        missing = get_browser(python) if wants_all else []
+        return str(python), missing + (ai4u.result() if ai4u else [])
+
+
 def run_tests(
-    python: str, options: argparse.Namespace, only: str, for_pytest: list[str]
+    python: str, missing: list[str], options: argparse.Namespace, only: str, for_pytest: list[str]
 ) -> list[str]:
     """Run the tests of a tier, or those that were chosen; return the names of what failed."""
-    failed = [] if options.fast else prepare(python)
+    failed = list(missing)
     tier_options = ["--fast"] * options.fast + ["--nightly"] * options.nightly
     pytest = [python, "-m", "pytest", *tier_options]
     if for_pytest:  # a few tests, chosen by hand
@@ -93,20 +108,24 @@ def run_tests(
     return failed
 
 
-def prepare(python: str) -> list[str]:
-    """Get what tests need besides Python's packages; return what could not be had."""
-    missing = []
+def get_browser(python: Path) -> list[str]:
+    """Get Chromium for the tests; return its name if it could not be had."""
     try:
-        os.environ["AI4U_CHROMIUM"] = setup_browser.ensure(Path(python))
+        os.environ["AI4U_CHROMIUM"] = setup_browser.ensure(python)
     except setup_browser.BrowserError as error:
         print(f"\n{error}\nGoing on without the tests that need a browser.", flush=True)
-        missing.append("browser")
+        return ["browser"]
+    return []
+
+
+def get_ai4u() -> list[str]:
+    """Get AI4U's own package for the tests; return its name if it could not be had."""
     try:
-        ai4u_venv.ensure(Path(python))
+        ai4u_venv.ensure(Path(sys.executable))
     except ai4u_venv.VenvError as error:
         print(f"\n{error}\nGoing on without the tests that need it.", flush=True)
-        missing.append("AI4U's package")
-    return missing
+        return ["AI4U's package"]
+    return []
 
 
 def run_quietly(name: str, command: list[str]) -> list[str]:

@@ -11,7 +11,6 @@ from typing import Any
 ROOT = Path(__file__).resolve().parent.parent
 OWN = {"ai4u_edu", "tests"}
 NOT_IMPORTED = {
-    "ipywidgets",  # tqdm shows its bars with them
     "jupyterlab",  # started as a program
     "ipykernel",  # the kernel that jupyterlab starts
     "onnxscript",  # torch.onnx imports it

@@ -1,4 +1,4 @@
-"""The wheel, installed alone in an empty environment, as by `pip install`."""
+"""The wheel, installed outside of the checkout; nightly with its dependencies, as a user would."""
 
 import os
 import subprocess
@@ -38,14 +38,25 @@ def wheel(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return built
 
 
-@pytest.fixture(scope="module")
-def scripts(wheel: Path) -> Path:
-    """The folder of programs of an environment that holds the wheel and what it asks for."""
-    venv = wheel.parent / "venv"
-    run(sys.executable, "-m", "venv", venv, cwd=wheel.parent)
-    programs = venv / ("Scripts" if os.name == "nt" else "bin")
-    run(programs / "python", "-m", "pip", "install", "--quiet", wheel, cwd=wheel.parent)
-    return programs
+@pytest.fixture(
+    scope="module",
+    params=["alone", pytest.param("with dependencies", marks=pytest.mark.nightly)],
+)
+def installed(wheel: Path, request: pytest.FixtureRequest) -> list[str | Path]:
+    """Install the wheel, and return the Python that has it.
+
+    Alone it takes a second, and its dependencies are those of this environment.
+    """
+    folder = wheel.parent / "installed"
+    pip = ["-m", "pip", "install", "--quiet"]
+    if request.param == "alone":
+        run(sys.executable, *pip, "--no-deps", "--target", folder, wheel, cwd=wheel.parent)
+        first = f"import sys; sys.path.insert(0, {str(folder)!r}); "
+        return [sys.executable, "-I", "-W", "error", "-c", first]
+    run(sys.executable, "-m", "venv", folder, cwd=wheel.parent)
+    python = folder / ("Scripts/python.exe" if os.name == "nt" else "bin/python")
+    run(python, *pip, wheel, cwd=wheel.parent)
+    return [python, "-I", "-W", "error", "-c", ""]
 
 
 def test_the_wheel_holds_the_page_and_the_scenes_and_no_tests(wheel: Path) -> None:
@@ -53,7 +64,7 @@ def test_the_wheel_holds_the_page_and_the_scenes_and_no_tests(wheel: Path) -> No
         names = packed.namelist()
     assert any(name.startswith("ai4u_edu/web/") for name in names)
     assert "ai4u_edu/scenes/library/box_chase.yaml" in names
-    assert "ai4u_edu/lessons/course/01_drive.py" in names
+    assert "ai4u_edu/lessons/course/02_drive.py" in names
     assert "ai4u_edu/py.typed" in names
     assert "ai4u_edu/world/native/rays.c" in names
     assert {name.partition("/")[0] for name in names} == {
@@ -62,17 +73,32 @@ def test_the_wheel_holds_the_page_and_the_scenes_and_no_tests(wheel: Path) -> No
     }
 
 
-def test_it_imports_without_a_warning(scripts: Path, tmp_path: Path) -> None:
-    run(scripts / "python", "-I", "-W", "error", "-c", "import ai4u_edu", cwd=tmp_path)
+def ran(installed: list[str | Path], code: str, folder: Path) -> str:
+    """Run code in a Python that has the wheel, and return what it printed."""
+    return run(*installed[:-1], f"{installed[-1]}{code}", cwd=folder)
 
 
-def test_the_command_says_its_version(scripts: Path, tmp_path: Path) -> None:
-    assert __version__ in run(scripts / "ai4u-edu", "--version", cwd=tmp_path)
+def command(*words: str) -> str:
+    """Return code that runs ``ai4u-edu`` with these words."""
+    declared = "entry_points(group='console_scripts', name='ai4u-edu')['ai4u-edu']"
+    return (
+        f"import sys; from importlib.metadata import entry_points; sys.argv[1:] = {list(words)!r}; "
+        f"sys.exit({declared}.load()())"
+    )
 
 
-def test_the_command_lists_the_scenes(scripts: Path, tmp_path: Path) -> None:
-    assert "box_chase" in run(scripts / "ai4u-edu", "scenes", cwd=tmp_path)
+def test_it_imports_without_a_warning(installed: list[str | Path], tmp_path: Path) -> None:
+    where = ran(installed, "import ai4u_edu; print(ai4u_edu.__file__)", tmp_path)
+    assert not Path(where.strip()).is_relative_to(REPO)
 
 
-def test_an_episode_runs_without_a_browser(scripts: Path, tmp_path: Path) -> None:
-    run(scripts / "python", "-I", "-c", EPISODE, cwd=tmp_path)
+def test_the_command_says_its_version(installed: list[str | Path], tmp_path: Path) -> None:
+    assert __version__ in ran(installed, command("--version"), tmp_path)
+
+
+def test_the_command_lists_the_scenes(installed: list[str | Path], tmp_path: Path) -> None:
+    assert "box_chase" in ran(installed, command("scenes"), tmp_path)
+
+
+def test_an_episode_runs_without_a_browser(installed: list[str | Path], tmp_path: Path) -> None:
+    ran(installed, EPISODE, tmp_path)

@@ -1,0 +1,9 @@
+"""A class: many rooms behind one address, with seats in place of accounts."""
+
+from ai4u_edu.classroom.gateway import class_app
+from ai4u_edu.classroom.local_rooms import LocalRooms
+from ai4u_edu.classroom.room_rule import RoomRule
+from ai4u_edu.classroom.seats import Seats
+from ai4u_edu.classroom.store import ClassStore
+
+__all__ = ["ClassStore", "LocalRooms", "RoomRule", "Seats", "class_app"]

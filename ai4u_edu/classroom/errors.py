@@ -1,0 +1,19 @@
+"""Errors of a class, each with a sentence for the person in front of it."""
+
+from ai4u_edu.base.errors import AI4UError
+
+
+class JoinError(AI4UError):
+    """A person can't join; the message is for that person."""
+
+
+class WrongCodeError(JoinError):
+    """The code is not the class's."""
+
+
+class NameTakenError(JoinError):
+    """Another seat has that name."""
+
+
+class RoomError(AI4UError):
+    """A room can't be entered now."""

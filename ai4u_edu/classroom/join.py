@@ -1,0 +1,99 @@
+"""HTTP routes of joining: the page, names to choose from, and the seat's cookie."""
+
+import asyncio
+
+from pydantic import BaseModel, ConfigDict, Field
+from starlette.requests import HTTPConnection, Request
+from starlette.responses import JSONResponse, RedirectResponse, Response
+
+from ai4u_edu.classroom.errors import JoinError, NameTakenError, WrongCodeError
+from ai4u_edu.classroom.pages import html_page
+from ai4u_edu.classroom.room_process import path_of
+from ai4u_edu.classroom.seats import Seats
+from ai4u_edu.classroom.store import SeatRow
+from ai4u_edu.server.attempts import Attempts, client_address
+from ai4u_edu.server.json_body import read_json
+
+SEAT_COOKIE = "ai4u_edu_seat"
+"""Cookie with a seat's token; scripts in the page can't read it."""
+COOKIE_LIFE_S = 200 * 24 * 3600
+MAX_BODY_BYTES = 2000
+NO_STORE = {"Cache-Control": "no-store"}
+
+
+class JoinRequest(BaseModel):
+    """Body of a request for a seat."""
+
+    model_config = ConfigDict(extra="forbid")
+
+    code: str = Field(max_length=40)
+    name: str = Field(max_length=60)
+    request: str = Field(pattern=r"^[A-Za-z0-9-]{16,64}$")
+
+
+class Join:
+    """Routes for whoever has no seat yet.
+
+    A school is one address, and one student may mistype for all: so right codes are never delayed
+    by wrong ones of others, beyond a second.
+
+    Args:
+        seats: of the class.
+    """
+
+    def __init__(self, seats: Seats) -> None:
+        self._seats, self._attempts = seats, Attempts()
+
+    async def page(self, request: Request) -> Response:
+        """Return the page, or send a browser that has a seat to its room."""
+        seat = seat_of(self._seats, request)
+        if seat is not None:
+            return RedirectResponse(f"{path_of(seat.room)}/", 303, NO_STORE)
+        return html_page("join.html")
+
+    async def names(self, _: Request) -> Response:
+        """Return names to choose from."""
+        return JSONResponse({"names": self._seats.offered_names()}, headers=NO_STORE)
+
+    async def join(self, request: Request) -> Response:
+        """Give a browser a seat, as a cookie, and tell it the way to its room."""
+        wanted = await read_json(request, JoinRequest, MAX_BODY_BYTES)
+        address = client_address(request.scope)
+        if not await self._attempts.wait(address):
+            seconds = self._attempts.retry_after(address) or 1
+            return _problem(f"Too many wrong codes. Try again in {seconds} s.", 429)
+        try:
+            seat, token = await asyncio.to_thread(
+                self._seats.join,
+                wanted.code,
+                wanted.name,
+                wanted.request,
+                request.cookies.get(SEAT_COOKIE, ""),
+            )
+        except WrongCodeError as error:
+            self._attempts.add_wrong(address)
+            return _problem(str(error), 403)
+        except NameTakenError as error:
+            return _problem(str(error), 409)
+        except JoinError as error:
+            return _problem(str(error), 403)
+        answer = JSONResponse({"room": f"{path_of(seat.room)}/"}, headers=NO_STORE)
+        answer.set_cookie(
+            SEAT_COOKIE,
+            token,
+            max_age=COOKIE_LIFE_S,
+            secure=request.url.scheme == "https",
+            httponly=True,
+            samesite="lax",
+        )
+        return answer
+
+
+def seat_of(seats: Seats, connection: HTTPConnection) -> SeatRow | None:
+    """Return the seat of a browser's cookie; None if it has none."""
+    token = connection.cookies.get(SEAT_COOKIE, "")
+    return seats.by_token(token) if token else None
+
+
+def _problem(text: str, status: int) -> Response:
+    return JSONResponse({"problem": text}, status, NO_STORE)

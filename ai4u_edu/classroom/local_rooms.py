@@ -1,0 +1,145 @@
+"""Rooms as processes of this machine."""
+
+import asyncio
+import multiprocessing
+import secrets
+import sys
+import time
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+from multiprocessing.connection import Connection
+from multiprocessing.process import BaseProcess
+from pathlib import Path
+
+from ai4u_edu.base.errors import shorten
+from ai4u_edu.classroom.errors import RoomError
+from ai4u_edu.classroom.room_host import RoomAddress
+from ai4u_edu.classroom.room_process import HOST, RoomFailed, RoomOrder, RoomReady, run_room
+
+START_TIMEOUT_S = 60.0
+END_TIMEOUT_S = 5.0
+POLL_S = 0.02
+FIRST_BACKOFF_S = 1.0
+MAX_BACKOFF_S = 30.0
+LONG_LIFE_S = 60.0
+"""A process that ran for longer is restarted at once."""
+
+
+@dataclass
+class _Running:
+    process: BaseProcess
+    connection: Connection
+    address: RoomAddress
+    since: float
+
+
+@dataclass
+class _Slot:
+    """State of a room: its process, and how often it ended early."""
+
+    lock: asyncio.Lock = field(default_factory=asyncio.Lock)
+    running: _Running | None = None
+    backoff_s: float = 0.0
+    retry_at: float = 0.0
+
+
+class LocalRooms:
+    """Runs each room in a child process, which ends with this one.
+
+    On Linux processes are forked from one that has loaded all packages, so that they start in
+    tenths of a second and share its memory; elsewhere each one loads them.
+
+    Args:
+        folder: of the class; each room has a folder below it.
+        blocks: Python files with the teacher's blocks, which every room loads.
+    """
+
+    def __init__(self, folder: Path, blocks: Iterable[Path] = ()) -> None:
+        self._folder, self._blocks = folder, tuple(each.absolute() for each in blocks)
+        self._slots: dict[str, _Slot] = {}
+        is_forked = sys.platform == "linux"
+        self._context = multiprocessing.get_context("forkserver" if is_forked else "spawn")
+        if is_forked:
+            self._context.set_forkserver_preload([run_room.__module__])
+
+    async def enter(self, room: str, scene: str) -> RoomAddress:
+        """Return the address of a room's server, which is started if it does not run.
+
+        Raises:
+            RoomError: it does not start, or ended early several times and waits.
+        """
+        slot = self._slots.setdefault(room, _Slot())
+        async with slot.lock:  # two pages that come at once wait for one process
+            if slot.running is not None and slot.running.process.is_alive():
+                return slot.running.address
+            if slot.running is not None:
+                _note_end(slot, slot.running)
+            if time.monotonic() < slot.retry_at:
+                raise RoomError("Your world ended. It starts again in a moment.")
+            slot.running = await asyncio.to_thread(self._start, room, scene)
+            return slot.running.address
+
+    def is_running(self, room: str) -> bool:
+        """Return True if the room's process runs."""
+        running = self._slots.get(room, _Slot()).running
+        return running is not None and running.process.is_alive()
+
+    async def end(self, room: str) -> None:
+        """End a room's process; what was made there is saved."""
+        slot = self._slots.get(room)
+        if slot is None:
+            return
+        async with slot.lock:
+            running, slot.running = slot.running, None
+            if running is not None:
+                await asyncio.to_thread(_end, running)
+
+    def close(self) -> None:
+        """End all processes, when the class's event loop has ended."""
+        running = [slot.running for slot in self._slots.values() if slot.running is not None]
+        for each in running:  # all of them save at the same time
+            each.connection.close()
+        for each in running:
+            _end(each)
+
+    def _start(self, room: str, scene: str) -> _Running:
+        ours, theirs = self._context.Pipe()
+        token = secrets.token_urlsafe(24)
+        order = RoomOrder(room, scene, self._folder / "rooms" / room, token, self._blocks)
+        process = self._context.Process(  # type: ignore[attr-defined]
+            target=run_room, args=(order, theirs), name=f"room {room}", daemon=True
+        )
+        process.start()
+        theirs.close()
+        answer: object = None
+        try:
+            if ours.poll(START_TIMEOUT_S):
+                answer = ours.recv()
+        except EOFError:  # it has ended
+            pass
+        if isinstance(answer, RoomReady):
+            address = RoomAddress(HOST, answer.port, token)
+            return _Running(process, ours, address, time.monotonic())
+        ours.close()
+        process.kill()
+        reason = answer.reason if isinstance(answer, RoomFailed) else "its process did not start"
+        raise RoomError(f"Your world can't be opened: {shorten(reason, 300)}")
+
+
+def _note_end(slot: _Slot, ended: _Running) -> None:
+    """Note that a process ended by itself; the more often early, the longer the next one waits."""
+    if time.monotonic() - ended.since > LONG_LIFE_S:
+        slot.backoff_s = 0.0
+    else:
+        slot.backoff_s = min(MAX_BACKOFF_S, 2 * slot.backoff_s or FIRST_BACKOFF_S)
+    slot.retry_at = time.monotonic() + slot.backoff_s * (slot.backoff_s > FIRST_BACKOFF_S)
+    ended.connection.close()
+    slot.running = None
+
+
+def _end(running: _Running) -> None:
+    running.connection.close()
+    running.process.join(END_TIMEOUT_S)
+    if running.process.is_alive():
+        running.process.kill()
+        running.process.join(END_TIMEOUT_S)

@@ -1,0 +1,19 @@
+"""The pages of a class that are not a room's: files of ``web/``, with a policy for all of them."""
+
+from starlette.requests import Request
+from starlette.responses import HTMLResponse, Response
+
+from ai4u_edu.server.standalone import STANDALONE_POLICY
+from ai4u_edu.server.web_files import WebFiles, web_folder
+
+
+async def web_file(request: Request) -> Response:
+    """Return a script or a style."""
+    return WebFiles().response(request.path_params["file"], request)
+
+
+def html_page(name: str) -> HTMLResponse:
+    """Return a page of ``web/``."""
+    text = (web_folder() / name).read_text(encoding="utf-8")
+    headers = {"Content-Security-Policy": STANDALONE_POLICY, "Cache-Control": "no-cache"}
+    return HTMLResponse(text, headers=headers)

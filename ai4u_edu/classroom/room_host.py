@@ -1,0 +1,33 @@
+"""Interface of what runs the rooms of a class: processes here, or another engine."""
+
+from dataclasses import dataclass
+from typing import Protocol
+
+
+@dataclass(frozen=True)
+class RoomAddress:
+    """Address of a room's server, with its secret."""
+
+    host: str
+    port: int
+    token: str
+
+
+class RoomHost(Protocol):
+    """Runs rooms. Its methods belong to the event loop of the class."""
+
+    async def enter(self, room: str, scene: str) -> RoomAddress:
+        """Return the address of a room's server, which is started if it does not run.
+
+        Raises:
+            RoomError: it does not start.
+        """
+
+    def is_running(self, room: str) -> bool:
+        """Return True if the room's server runs."""
+
+    async def end(self, room: str) -> None:
+        """End a room's server; what was made there is saved."""
+
+    def close(self) -> None:
+        """End all servers, when the class's event loop has ended."""

@@ -1,0 +1,100 @@
+"""Process of one room of a class: ``ai4u-edu play`` without a terminal, behind the class's port."""
+
+import os
+import signal
+import threading
+from dataclasses import dataclass
+from multiprocessing.connection import Connection
+from pathlib import Path
+
+from starlette.applications import Starlette
+
+from ai4u_edu.base.atomic_write import make_folder
+from ai4u_edu.base.errors import AI4UError
+from ai4u_edu.blocks.loading import load_blocks
+from ai4u_edu.classroom.scene_file import SceneFile, last_scene
+from ai4u_edu.room import Room, RoomSettings
+from ai4u_edu.runtime.process_tuning import tuned_process
+from ai4u_edu.server import Rules, serve
+from ai4u_edu.server.app import RoomMount
+
+HOST = "127.0.0.1"
+ROOMS_PATH = "/r/"
+
+
+@dataclass(frozen=True)
+class RoomOrder:
+    """Everything that a process needs to know to serve a room."""
+
+    id: str
+    scene: str
+    folder: Path
+    """Folder of the room's files."""
+    token: str
+    """Secret that the class sends with each request; no browser gets it."""
+    blocks: tuple[Path, ...] = ()
+    """Python files with the teacher's blocks."""
+
+
+@dataclass(frozen=True)
+class RoomReady:
+    """Answer of a process that serves its room."""
+
+    port: int
+
+
+@dataclass(frozen=True)
+class RoomFailed:
+    """Answer of a process that can't serve its room."""
+
+    reason: str
+
+
+def path_of(room: str) -> str:
+    """Return the path of a room's page, without a slash at the end.
+
+    >>> path_of("a1")
+    '/r/a1'
+    """
+    return f"{ROOMS_PATH}{room}"
+
+
+def run_room(order: RoomOrder, parent: Connection) -> None:
+    """Serve a room until the other end of the connection is closed or SIGTERM comes.
+
+    Args:
+        order: the room.
+        parent: gets a :class:`RoomReady` or :class:`RoomFailed`.
+    """
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C in the class's terminal is for the class
+    make_folder(order.folder, "the room's folder")
+    settings = RoomSettings(
+        scene=last_scene(order.folder, order.scene),
+        # the class checks both: the name under which a browser has the page is in its requests
+        allowed_hosts=("*",),
+        rules=Rules(token=order.token),
+        saved_scenes=order.folder / "scenes",
+    )
+    try:
+        for file in order.blocks:
+            load_blocks(file)
+        room = Room(settings)
+    except AI4UError as error:
+        parent.send(RoomFailed(str(error)))
+        return
+    app = Starlette(routes=[RoomMount(path_of(order.id), app=room.app)])
+    threading.Thread(target=_end_with, args=[parent], name="parent", daemon=True).start()
+    with tuned_process(), room, SceneFile(order.folder, room.editor):
+        serve(app, HOST, 0, on_ready=lambda url: parent.send(RoomReady(_port(url))))
+
+
+def _end_with(parent: Connection) -> None:
+    """End this process when the other end is closed: its owner has ended it, or was killed."""
+    try:
+        parent.recv_bytes()
+    except (EOFError, OSError):
+        os.kill(os.getpid(), signal.SIGTERM)
+
+
+def _port(url: str) -> int:
+    return int(url.rstrip("/").rpartition(":")[2])

@@ -1,0 +1,201 @@
+"""Reverse proxy for the pages of rooms: HTTP by httpx, WebSockets by websockets."""
+
+import asyncio
+from collections.abc import AsyncIterator, Iterable
+from contextlib import suppress
+from dataclasses import dataclass
+from http.cookies import SimpleCookie
+
+import httpx
+from starlette.requests import Request
+from starlette.responses import PlainTextResponse, Response, StreamingResponse
+from starlette.types import Receive, Scope, Send
+from starlette.websockets import WebSocket, WebSocketDisconnect
+from websockets.asyncio.client import ClientConnection, connect
+from websockets.exceptions import ConnectionClosed, InvalidHandshake
+from websockets.typing import Subprotocol
+
+from ai4u_edu.classroom.room_host import RoomAddress
+
+_HOP_BY_HOP = {
+    "connection",
+    "keep-alive",
+    "proxy-authenticate",
+    "proxy-authorization",
+    "te",
+    "trailer",
+    "transfer-encoding",
+    "upgrade",
+}
+"""Headers of one connection, which a proxy does not pass on (RFC 9110, 7.6.1)."""
+_OURS = {"authorization", "cookie", "content-length", "origin"}
+_WEBSOCKET = "sec-websocket-"
+NORMAL = 1000
+GOING_AWAY = 1001
+NOT_ALLOWED = 1008
+"""Code of a close: this seat may not enter."""
+TRY_LATER = 1013
+"""Code of a close: the room does not answer; try again later."""
+_STANDARD_CODES = (NORMAL, GOING_AWAY, 1003, NOT_ALLOWED, 1009, TRY_LATER)
+_PRIVATE_CODES = range(3000, 5000)
+
+
+@dataclass(eq=False)
+class _Link:
+    """A browser's socket that is connected with its room."""
+
+    there: ClientConnection
+    refusal: str = ""
+    """Reason for which the class ended it."""
+
+
+class RoomProxy:
+    """Passes requests and sockets on to a room's server. Belongs to one event loop.
+
+    The room gets its own token and not the browser's cookies of the class; only cookies of the page
+    itself are passed on.
+
+    Args:
+        page_cookies: names of cookies that rooms read.
+    """
+
+    def __init__(self, page_cookies: Iterable[str]) -> None:
+        self._page_cookies = frozenset(page_cookies)
+        self._links: dict[int, set[_Link]] = {}
+        self._client = httpx.AsyncClient(
+            limits=httpx.Limits(max_connections=None), timeout=30, trust_env=False
+        )
+
+    def end(self, seat: int, reason: str) -> None:
+        """End all sockets of a seat that may not enter any more."""
+        for link in self._links.get(seat, ()):
+            link.refusal = reason
+            link.there.transport.abort()
+
+    async def http(self, room: RoomAddress, scope: Scope, receive: Receive, send: Send) -> None:
+        """Answer a request with the room's answer."""
+        request = Request(scope, receive)
+        passed = self._client.build_request(
+            request.method,
+            f"http://{room.host}:{room.port}{_raw_target(scope)}",
+            headers=self._headers(room, request.headers.items(), request.headers.get("cookie", "")),
+            content=request.stream() if request.method not in ("GET", "HEAD") else None,
+        )
+        response: Response
+        try:
+            answer = await self._client.send(passed, stream=True)
+        except httpx.HTTPError:
+            response = PlainTextResponse("Your world does not answer. Reload in a moment.\n", 503)
+            await response(scope, receive, send)
+            return
+        response = StreamingResponse(_body_of(answer), answer.status_code)
+        response.raw_headers = [
+            (name.lower(), value)
+            for name, value in answer.headers.raw
+            if name.decode("latin-1").lower() not in _HOP_BY_HOP
+        ]
+        await response(scope, receive, send)
+
+    async def websocket(
+        self, room: RoomAddress, seat: int, scope: Scope, receive: Receive, send: Send
+    ) -> None:
+        """Connect the socket of a seat's browser with the room until one side closes it."""
+        page = WebSocket(scope, receive, send)
+        headers = [
+            (name, value)
+            for name, value in page.headers.items()
+            if name != "host" and not name.startswith(_WEBSOCKET)
+        ]
+        try:
+            there = await connect(
+                # the name under which the browser has the page; where to connect to is said below
+                f"ws://{page.headers['host']}{_raw_target(scope)}",
+                host=room.host,
+                port=room.port,
+                additional_headers=self._headers(room, headers, page.headers.get("cookie", "")),
+                subprotocols=[Subprotocol(each) for each in scope["subprotocols"]] or None,
+                user_agent_header=None,
+                compression=None,
+                max_size=None,
+                max_queue=1,  # what a slow page does not take waits in the room
+                ping_interval=None,
+                proxy=None,
+            )
+        except (OSError, InvalidHandshake):
+            await page.close(TRY_LATER, "the world does not answer; reload the page in a moment")
+            return
+        link = _Link(there)
+        links = self._links.setdefault(seat, set())
+        links.add(link)
+        upward = asyncio.create_task(_upward(page, there))
+        try:
+            await _downward(link, page)
+        finally:
+            links.discard(link)
+            upward.cancel()
+            there.transport.abort()  # a close would wait behind frames that nobody reads
+            with suppress(asyncio.CancelledError):
+                await upward
+
+    def _headers(
+        self, room: RoomAddress, given: Iterable[tuple[str, str]], cookies: str
+    ) -> list[tuple[str, str]]:
+        passed = [
+            (name, value)
+            for name, value in given
+            if name not in _HOP_BY_HOP and name not in _OURS and not name.startswith("sec-fetch-")
+        ]
+        page_cookies = [
+            f"{name}={each.coded_value}"
+            for name, each in SimpleCookie(cookies).items()
+            if name in self._page_cookies
+        ]
+        if page_cookies:
+            passed.append(("cookie", "; ".join(page_cookies)))
+        return [*passed, ("authorization", f"Bearer {room.token}")]
+
+
+def _raw_target(scope: Scope) -> str:
+    """Return path and query as the browser sent them."""
+    path: bytes = scope.get("raw_path") or scope["path"].encode()
+    query: bytes = scope["query_string"]
+    return (path.partition(b"?")[0] + (b"?" + query if query else b"")).decode("ascii")
+
+
+async def _body_of(answer: httpx.Response) -> AsyncIterator[bytes]:
+    try:
+        async for part in answer.aiter_raw():
+            yield part
+    finally:
+        await answer.aclose()
+
+
+async def _downward(link: _Link, page: WebSocket) -> None:
+    there = link.there
+    with suppress(WebSocketDisconnect):
+        await page.accept(there.subprotocol)
+        with suppress(ConnectionClosed):
+            async for message in there:
+                if isinstance(message, str):
+                    await page.send_text(message)
+                else:
+                    await page.send_bytes(message)
+        if link.refusal:
+            await page.close(NOT_ALLOWED, link.refusal)
+        else:
+            await page.close(_passed_code(there.close_code, GOING_AWAY), there.close_reason)
+
+
+async def _upward(page: WebSocket, there: ClientConnection) -> None:
+    with suppress(ConnectionClosed):
+        while (message := await page.receive())["type"] == "websocket.receive":
+            text = message.get("text")
+            await there.send(message["bytes"] if text is None else text)
+        await there.close(_passed_code(message.get("code"), NORMAL), message.get("reason") or "")
+
+
+def _passed_code(code: int | None, other: int) -> int:
+    """Return a close's code if it may be sent, else another one."""
+    if code is not None and (code in _STANDARD_CODES or code in _PRIVATE_CODES):
+        return code
+    return other

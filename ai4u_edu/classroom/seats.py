@@ -1,0 +1,194 @@
+"""Seats of a class: who may enter which room. A seat is no account and names nobody."""
+
+import hashlib
+import secrets
+from dataclasses import replace
+from enum import Enum
+from threading import Lock
+
+from ai4u_edu.classroom.errors import JoinError, NameTakenError, WrongCodeError
+from ai4u_edu.classroom.names import (
+    colour_of,
+    free_names,
+    is_name,
+    new_code,
+    normalized_code,
+)
+from ai4u_edu.classroom.room_rule import MAX_SEATS, RoomRule
+from ai4u_edu.classroom.store import ClassStore, RoomRow, SeatRow
+
+OFFERED_NAMES = 3
+ROOM_ID_BYTES = 6
+
+
+class State(Enum):
+    """State of a seat."""
+
+    IN = "in"
+    LEFT = "left"
+    KICKED = "kicked"
+    BANNED = "banned"
+
+
+class Seats:
+    """All seats of a class, in memory and in its file. Thread-safe.
+
+    Args:
+        store: of the class.
+        scene: of new rooms.
+        rooms: rule for the rooms of new seats.
+        code: join code; left out, the stored one or a new one.
+    """
+
+    def __init__(self, store: ClassStore, scene: str, rooms: RoomRule, code: str = "") -> None:
+        self._store, self._scene, self._rooms = store, scene, rooms
+        self._lock = Lock()
+        self._seats = {each.number: each for each in store.seats()}
+        self._scenes = {each.id: each.scene for each in store.rooms()}
+        self.code = normalized_code(code) or store.setting("code") or new_code()
+        store.set_setting("code", self.code)
+        self.is_open = store.setting("open", "yes") == "yes"
+        """False while nobody else may join."""
+
+    def __len__(self) -> int:
+        return len(self._seats)
+
+    def all(self) -> list[SeatRow]:
+        """Return all seats, by number."""
+        with self._lock:
+            return list(self._seats.values())
+
+    def scenes(self) -> dict[str, str]:
+        """Return the scene of each room."""
+        with self._lock:
+            return dict(self._scenes)
+
+    def offered_names(self) -> list[str]:
+        """Return names to choose from."""
+        with self._lock:
+            return free_names({each.name for each in self._seats.values()}, OFFERED_NAMES)
+
+    def join(self, code: str, name: str, request: str, held: str = "") -> tuple[SeatRow, str]:
+        """Give somebody a seat, and return it with its secret token.
+
+        Repeated with the same request id, because an answer was lost or the seat was sent out, it
+        gives the same seat; the token is then a new one, and the one before is void.
+
+        Args:
+            code: as it was typed in.
+            name: one of those that were offered.
+            request: random id of the request, which the browser makes.
+            held: token that the browser has already; a banned seat's gets no other one.
+
+        Raises:
+            WrongCodeError: the code is not the class's.
+            NameTakenError: somebody else has that name.
+            JoinError: the class is full or closed, or the seat is banned.
+        """
+        token = secrets.token_urlsafe(24)
+        with self._lock:
+            if not secrets.compare_digest(normalized_code(code).encode(), self.code.encode()):
+                raise WrongCodeError("This code is not right. Look at the board again.")
+            own = [each for each in self._seats.values() if _is_of(each, request, held)]
+            if any(each.state == State.BANNED.value for each in own):
+                raise JoinError("You may not join this class. Ask your teacher.")
+            if any(each.state != State.IN.value for each in own) or not own:
+                self._check_open()
+            if own:
+                seat = replace(own[0], token_hash=hash_of(token), state=State.IN.value)
+                self._store.update_seat(seat)
+            else:
+                seat = self._new_seat(name, request, token)
+            self._seats[seat.number] = seat
+        return seat, token
+
+    def _check_open(self) -> None:
+        if not self.is_open:
+            raise JoinError("Nobody else can join at present. Ask your teacher.")
+
+    def _new_seat(self, name: str, request: str, token: str) -> SeatRow:
+        if len(self._seats) >= MAX_SEATS:
+            raise JoinError(f"The class is full: it has {MAX_SEATS} seats. Ask your teacher.")
+        if not is_name(name):
+            raise JoinError("Choose one of the names that are offered.")
+        if name in {each.name for each in self._seats.values()}:
+            raise NameTakenError(f"Somebody else is {name} already. Choose another name.")
+        number = max(self._seats, default=0) + 1
+        room = self._rooms.room_for(list(self._seats.values()))
+        new_room = None
+        if not room:
+            room = secrets.token_hex(ROOM_ID_BYTES)
+            new_room = RoomRow(room, self._scene)
+        seat = SeatRow(
+            number, name, colour_of(number), room, hash_of(token), request, State.IN.value
+        )
+        self._store.add_seat(seat, new_room)
+        if new_room is not None:
+            self._scenes[room] = self._scene
+        return seat
+
+    def by_token(self, token: str) -> SeatRow | None:
+        """Return the seat whose token this is; None if there is none that may enter."""
+        wanted = hash_of(token)
+        with self._lock:
+            for each in self._seats.values():
+                if each.state == State.IN.value and secrets.compare_digest(each.token_hash, wanted):
+                    return each
+        return None
+
+    def set_state(self, number: int, state: State) -> None:
+        """Store that somebody left, was kicked (and may join again) or banned.
+
+        Raises:
+            JoinError: there is no such seat.
+        """
+        with self._lock:
+            seat = replace(self._known(number), state=state.value)
+            self._store.update_seat(seat)
+            self._seats[number] = seat
+
+    def rename(self, number: int, name: str) -> None:
+        """Give a seat another name of the lists.
+
+        Raises:
+            JoinError: there is no such seat, or the name is none of the lists.
+            NameTakenError: somebody else has that name.
+        """
+        with self._lock:
+            seat = self._known(number)
+            if not is_name(name):
+                raise JoinError(f"expected a name of the lists, got {name[:40]!r}")
+            if name in {each.name for each in self._seats.values() if each.number != number}:
+                raise NameTakenError(f"Somebody else is {name} already. Choose another name.")
+            seat = replace(seat, name=name)
+            self._store.update_seat(seat)
+            self._seats[number] = seat
+
+    def change_code(self) -> str:
+        """Set a new code, and return it; seats stay."""
+        with self._lock:
+            self.code = new_code()
+            self._store.set_setting("code", self.code)
+            return self.code
+
+    def set_open(self, is_open: bool) -> None:
+        """Let others join, or nobody else."""
+        with self._lock:
+            self.is_open = is_open
+            self._store.set_setting("open", "yes" if is_open else "no")
+
+    def _known(self, number: int) -> SeatRow:
+        if number not in self._seats:
+            raise JoinError(f"there is no seat {number}")
+        return self._seats[number]
+
+
+def _is_of(seat: SeatRow, request: str, held: str) -> bool:
+    """Return True if a browser with this request id or token had the seat."""
+    is_held = bool(held) and secrets.compare_digest(seat.token_hash, hash_of(held))
+    return seat.request == request or is_held
+
+
+def hash_of(token: str) -> bytes:
+    """Return what is stored of a token. It is random, so a plain digest is enough."""
+    return hashlib.sha256(b"ai4u-edu seat " + token.encode()).digest()

@@ -1,0 +1,59 @@
+"""``ai4u-edu class``: a class of many rooms behind one address."""
+
+from contextlib import closing
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from ai4u_edu.cli import play_options as o
+from ai4u_edu.cli.options import OwnBlocks, load_own_blocks
+
+MAX_PER_ADDRESS = 1000
+"""Limit of connections from one address: a school's students may all have the same one."""
+
+
+def classroom(
+    scene: o.SceneName = "box_chase",
+    rooms: Annotated[
+        str, typer.Option(help="A room for each student, or shared: each, pairs, teams:N or one.")
+    ] = "each",
+    folder: Annotated[
+        Path, typer.Option(help="Folder of the class; started with it again, the class goes on.")
+    ] = Path("ai4u-class"),
+    host: o.Host = "0.0.0.0",  # noqa: S104 - a class is for other machines
+    port: o.Port = 8080,
+    code: Annotated[str, typer.Option(help="Join code. Default: a random one.")] = "",
+    allow_host: o.AllowHost = None,
+    own_blocks: OwnBlocks = None,
+    open_page: o.OpenPage = True,
+) -> None:
+    """Serve a class: students join with a code, and each drives in a world of their own."""
+    from ai4u_edu.classroom import ClassStore, LocalRooms, RoomRule, Seats, class_app
+    from ai4u_edu.classroom.addresses import class_banner, join_address, teacher_address
+    from ai4u_edu.classroom.store import teacher_token
+    from ai4u_edu.scenes import Scene
+    from ai4u_edu.server import hosts_for, open_on_desktop, serve
+    from ai4u_edu.server.process_exit import HAS_SERVED
+
+    load_own_blocks(own_blocks)
+    Scene.load(scene)  # a mistake in it is said here, and not in each room
+    with ClassStore(folder) as store, closing(LocalRooms(folder, own_blocks or ())) as local:
+        seats = Seats(store, scene, RoomRule.parse(rooms), code)
+        token = teacher_token(store)
+
+        def announce(url: str) -> None:
+            typer.echo(class_banner(join_address(host, url), seats.code, url, token))
+            if open_page:
+                open_on_desktop(teacher_address(url, token))
+
+        app = class_app(
+            seats,
+            local,
+            teacher_token=token,
+            join_address=lambda url: join_address(host, url),
+            allowed_hosts=hosts_for(host),
+            proxy_hosts=allow_host or [],
+        )
+        serve(app, host, port, on_ready=announce, per_address=MAX_PER_ADDRESS)
+    HAS_SERVED.set()

@@ -1,0 +1,188 @@
+"""Rooms behind a class: who may enter, what goes through, and what is there after a bad day."""
+
+import os
+import signal
+from collections.abc import Iterator
+from pathlib import Path
+
+import httpx
+import psutil
+import pytest
+from websockets.exceptions import ConnectionClosed
+from websockets.sync.client import connect
+
+from tests.classroom.served_class import CODE, ServedClass, served_class
+from tests.server.rooms import Page, until
+
+pytestmark = pytest.mark.slow
+
+
+@pytest.fixture(scope="module")
+def served(tmp_path_factory: pytest.TempPathFactory) -> Iterator[ServedClass]:
+    with served_class(tmp_path_factory.mktemp("class")) as served:
+        yield served
+
+
+def test_a_room_answers_its_student_and_the_driver_moves_there(served: ServedClass) -> None:
+    ada, ben = served.joined(), served.joined()
+    assert ada.room != ben.room
+    assert ada.get("healthz").json()["status"] == "ok"
+    with Page(ada.address + "ws/input", additional_headers=ada.cookies) as page:
+        page.receive("hello")
+        with page.holding("KeyW"):
+            until(lambda: ada.get("api/snapshot").json()["tick"] > 10)
+    assert ben.get("api/snapshot").json()["tick"] == 0
+
+
+def test_nobody_enters_the_room_of_another(served: ServedClass) -> None:
+    ada, ben, stranger = served.joined(), served.joined(), served.student()
+    assert ada.get("api/snapshot").status_code == 200
+    for other in (ben, stranger):
+        for path in ("api/snapshot", "web/main.js", "../../" + ada.room.strip("/") + "/api/scene"):
+            assert other.client.get(ada.room + path).status_code == 403
+        to_page = other.client.get(ada.room, headers={"Accept": "text/html"})
+        assert (to_page.status_code, to_page.headers["Location"]) == (303, "/")
+        for path in ("", "ws/input", "ws/panel", "ws/remote"):
+            address = (ada.address + path).replace("http", "ws", 1)
+            with connect(address, additional_headers=other.cookies, proxy=None) as socket:
+                with pytest.raises(ConnectionClosed) as closed:
+                    socket.recv(5)
+                assert closed.value.rcvd is not None
+                assert closed.value.rcvd.code == 1008
+
+
+def test_the_room_can_not_be_entered_beside_the_class(served: ServedClass) -> None:
+    ada = served.joined()
+    ada.get("healthz")
+    room = ada.room.split("/")[2]
+    ports = {
+        each.laddr.port
+        for process in psutil.Process(served.process.pid).children(recursive=True)
+        for each in process.net_connections("tcp")
+        if each.status == psutil.CONN_LISTEN
+    }
+    assert ports
+    for port in ports:
+        try:
+            answer = httpx.get(f"http://127.0.0.1:{port}/r/{room}/api/snapshot", timeout=5)
+        except httpx.HTTPError:
+            continue
+        assert answer.status_code != 200
+
+
+def test_no_secret_reaches_a_browser(served: ServedClass) -> None:
+    ada = served.joined()
+    answer = ada.client.get(ada.room)
+    assert answer.status_code == 200
+    assert "ai4u_edu_seat" not in answer.text
+    assert "authorization" not in answer.headers
+    (cookie,) = [each for each in ada.client.cookies.jar if each.name == "ai4u_edu_seat"]
+    assert cookie.has_nonstandard_attr("HttpOnly")
+
+
+def test_the_teachers_page_needs_its_secret(served: ServedClass) -> None:
+    for path in ("teacher", "teacher/state"):
+        assert httpx.get(served.url + path).status_code == 401
+        assert httpx.get(f"{served.url}{path}?token=wrong-wrong").status_code == 401
+    assert httpx.post(f"{served.url}teacher/command", json={"do": "close"}).status_code == 401
+    assert served.state()["open"]
+
+
+def test_other_sites_can_not_join_or_command(served: ServedClass) -> None:
+    evil = {"Origin": "http://evil.example"}
+    for path in ("api/join", "teacher/command", "teacher/state"):
+        assert httpx.post(served.url + path, headers=evil, json={}).status_code == 403
+    assert httpx.get(served.url, headers={"Host": "evil.example"}).status_code == 403
+
+
+def test_a_wrong_code_is_said_and_many_do_not_lock_the_class_out(served: ServedClass) -> None:
+    student = served.student()
+    name = student.client.get("api/names").json()["names"][0]
+    statuses = [student.join("XXXXX", name).status_code for _ in range(65)]
+    assert statuses[:60] == [403] * 60
+    assert student.join(name=name).status_code == 200
+
+
+def test_who_is_sent_out_is_out_at_once(served: ServedClass) -> None:
+    ada = served.joined(request="a" * 20)
+    number = max(each["number"] for each in served.state()["seats"])
+    with Page(ada.address + "ws/input", additional_headers=ada.cookies) as page:
+        page.receive("hello")
+        assert served.command("kick", seat=number).status_code == 200
+        assert page.end() == (1008, "your teacher has sent you out; reload to join again")
+    assert ada.get("api/snapshot").status_code == 403
+    before = ada.room
+    assert ada.join(request="a" * 20).status_code == 200
+    assert ada.room == before
+    assert ada.get("api/snapshot").status_code == 200
+
+
+def test_a_command_that_can_not_be_done_is_a_sentence(served: ServedClass) -> None:
+    answer = served.command("kick", seat=10**6)
+    assert (answer.status_code, answer.json()) == (409, {"problem": "there is no seat 1000000"})
+    assert served.command("explode").status_code == 422
+
+
+def test_a_room_that_is_killed_comes_back_and_the_others_notice_nothing(
+    served: ServedClass,
+) -> None:
+    ben = served.joined()
+    assert ben.get("healthz").status_code == 200
+    others = set(_room_processes(served))
+    ada = served.joined()
+    assert ada.get("healthz").status_code == 200
+    (hers,) = set(_room_processes(served)) - others
+    with Page(ben.address + "ws/input", additional_headers=ben.cookies) as page:
+        page.receive("hello")
+        hers.kill()
+        until(lambda: ada.get("healthz").status_code == 200, 30)
+        with page.holding("KeyW"):
+            until(lambda: ben.get("api/snapshot").json()["tick"] > 10)
+
+
+def test_what_was_made_is_there_after_the_class_was_killed(tmp_path: Path) -> None:
+    with served_class(tmp_path) as served:
+        ada = served.joined()
+        assert ada.client.post(ada.room + "api/scene", json={"name": "maze"}).status_code == 200
+        until((tmp_path / "rooms" / ada.room.split("/")[2] / "scene.yaml").exists)
+        rooms = _room_processes(served)
+        token = dict(ada.client.cookies)
+        os.kill(served.process.pid, signal.SIGKILL)
+        _, alive = psutil.wait_procs(rooms, timeout=20)
+        assert alive == []
+    with served_class(tmp_path) as served:
+        again = served.student()
+        again.client.cookies.update(token)
+        again.room = ada.room
+        assert again.get("api/scene").json()["title"] == "Maze"
+        assert served.state()["code"] == CODE
+
+
+def test_rooms_know_the_teachers_blocks(tmp_path: Path) -> None:
+    blocks, scene = tmp_path / "own.py", tmp_path / "own.yaml"
+    blocks.write_text(
+        "from ai4u_edu import Sensor\n"
+        "from gymnasium.spaces import Box\n\n\n"
+        "class Luck(Sensor):\n"
+        '    """A number."""\n\n'
+        "    def space(self):\n        return Box(0, 1, (1,))\n\n"
+        "    def read(self, body, view):\n        return 0.5\n"
+    )
+    scene.write_text(
+        "name: own\nbodies: [{name: robot, shape: {type: circle}}]\n"
+        "agents: [{body: robot, sensors: [{type: Luck, perception_key: luck}],\n"
+        "  actuators: [{type: RBMoveActuator}],\n"
+        "  brains: [{type: LocalBrain, controller: {type: WASDRBMoveController}}]}]\n"
+    )
+    with served_class(tmp_path / "class", "--blocks", str(blocks), str(scene)) as served:
+        agent = served.joined().get("api/snapshot").json()["agents"][0]
+        assert agent["percept"]["luck"] == [0.5]
+
+
+def _room_processes(served: ServedClass) -> list[psutil.Process]:
+    """Return the processes that serve a port, without the class itself."""
+    return [
+        each
+        for each in psutil.Process(served.process.pid).children(recursive=True)
+        if any(one.status == psutil.CONN_LISTEN for one in each.net_connections("tcp"))
+    ]
