@@ -1,11 +1,13 @@
 """A start waits for a key, is repeated or drawn anew; keys work after the panel was used."""
 
+from functools import partial
+
 import pytest
 from playwright.sync_api import Browser, Locator, Page, expect
 
 from tests.browser.served_viser import ServedViser, driver_status, ready
 from tests.chromium import new_page
-from tests.playing import played
+from tests.playing import Played, played
 from tests.server.rooms import until
 
 pytestmark = pytest.mark.browser
@@ -113,6 +115,10 @@ def test_another_page_says_that_a_player_has_to_start(site: ServedViser) -> None
     expect(driver_status(other)).to_have_text("Page 1 drives")
 
 
+def has_seed(server: Played, seed: int) -> bool:
+    return bool(server.snapshot()["seed"] == seed)
+
+
 # -- the focus -----------------------------------------------------------------------------------
 
 
@@ -132,6 +138,8 @@ def test_keys_drive_again_after_the_panel_was_used(chromium: Browser) -> None:
             else:
                 page.keyboard.press(leave)
             expect(driver_status(page).first).to_have_text("Press a key to start")
+            # the panel's socket and that of the keys don't wait for each other
+            until(partial(has_seed, server, ends), PATIENCE_S)
             page.keyboard.press("KeyW")
             until(lambda: server.snapshot()["tick"] > 0, PATIENCE_S)
             page.keyboard.press("KeyR")
