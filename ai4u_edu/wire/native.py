@@ -15,32 +15,20 @@ counts twice.
 
 The readings of a percept are one block of little-endian numbers, laid out as the welcome says.
 
-Compatibility: a field that was added to a message later stands at its end and has a default. It is
-left out of the frame if it has its default, and takes its default if it is not there. So versions
-work together as long as nobody uses a field that the other side does not know. Any other change
-needs another :data:`VERSION`.
+Compatibility: see :mod:`ai4u_edu.wire.message_codec`. Versions work together as long as nobody uses
+a field that the other side does not know. Any other change needs another :data:`VERSION`.
 """
 
 import math
 from collections.abc import Mapping
-from typing import Annotated, Any, Literal, get_args
+from typing import Annotated, Literal
 
-import msgspec
-from msgspec import Meta, Struct
+from msgspec import Meta
 
 from ai4u_edu.base.errors import shorten
 from ai4u_edu.base.seeding import MAX_SEED
-from ai4u_edu.wire.validation import (
-    LIST,
-    MAX_FLOAT,
-    MAX_TEXT_CHARS,
-    Finite,
-    Int,
-    Text,
-    WireError,
-    find_wrong_field,
-    shown,
-)
+from ai4u_edu.wire.message_codec import MessageCodec, Record, TaggedMessage
+from ai4u_edu.wire.validation import LIST, MAX_FLOAT, MAX_TEXT_CHARS, Finite, Int, Text
 
 VERSION = 1
 SUBPROTOCOL = f"ai4u-edu-remote.v{VERSION}"
@@ -63,15 +51,7 @@ _Data = Annotated[bytes, Meta(max_length=MAX_WORLD_FRAME_BYTES)]
 _ReadingText = Annotated[str, Meta(max_length=MAX_READING_CHARS)]
 
 
-class _Record(Struct, frozen=True, array_like=True, forbid_unknown_fields=True):
-    """The base of messages and their parts: an array of fields on the wire."""
-
-
-class _Message(_Record, frozen=True, tag=str.lower):
-    """The base of messages, which begin with the name of their class in lower case."""
-
-
-class Hello(_Message, frozen=True):
+class Hello(TaggedMessage, frozen=True):
     """A script asks for an agent, or to resume its session."""
 
     version: Int
@@ -88,7 +68,7 @@ class Hello(_Message, frozen=True):
     on_missing: OnMissing = ""
 
 
-class Reading(_Record, frozen=True):
+class Reading(Record, frozen=True):
     """The description of a reading: its space, and its place in a percept."""
 
     key: Text
@@ -109,7 +89,7 @@ class Reading(_Record, frozen=True):
     """True if it is part of a policy's observation."""
 
 
-class Output(_Record, frozen=True):
+class Output(Record, frozen=True):
     """The description of an actuator: the space of its actions."""
 
     name: Text
@@ -124,7 +104,7 @@ class Output(_Record, frozen=True):
             raise ValueError("expected bounds that are numbers or infinities, got nan")
 
 
-class Welcome(_Message, frozen=True):
+class Welcome(TaggedMessage, frozen=True):
     """The world gives the agent to the script, and describes it."""
 
     version: Int
@@ -148,7 +128,7 @@ class Welcome(_Message, frozen=True):
     outputs: Annotated[tuple[Output, ...], LIST]
 
 
-class Percept(_Message, frozen=True):
+class Percept(TaggedMessage, frozen=True):
     """The readings of the agent, and the result of its last decision."""
 
     episode: Int
@@ -172,7 +152,7 @@ class Percept(_Message, frozen=True):
     texts: Annotated[tuple[_ReadingText, ...], LIST]
 
 
-class Action(_Message, frozen=True):
+class Action(TaggedMessage, frozen=True):
     """An action for the agent, as the answer to one percept."""
 
     episode: Int
@@ -183,7 +163,7 @@ class Action(_Message, frozen=True):
     pass here: the actuator refuses them, which makes the error an answer to this percept."""
 
 
-class Reset(_Message, frozen=True):
+class Reset(TaggedMessage, frozen=True):
     """A request for a new episode, as the answer to one percept."""
 
     seq: Int
@@ -191,7 +171,7 @@ class Reset(_Message, frozen=True):
     """With a seed, the whole world is reset; without, the agent alone if there are others."""
 
 
-class Order(_Message, frozen=True):
+class Order(TaggedMessage, frozen=True):
     """A command other than an action, as the answer to one percept."""
 
     seq: Int
@@ -199,7 +179,7 @@ class Order(_Message, frozen=True):
     """``wait`` is no answer: it asks a world in lockstep to wait longer."""
 
 
-class Problem(_Message, frozen=True):
+class Problem(TaggedMessage, frozen=True):
     """An error: the text says what was wrong, and how to mend it."""
 
     code: Annotated[str, Meta(max_length=40)]
@@ -210,7 +190,7 @@ class Problem(_Message, frozen=True):
     """Number of the percept whose answer was wrong; 0 if it was no answer."""
 
 
-class Bye(_Message, frozen=True):
+class Bye(TaggedMessage, frozen=True):
     """The end of the session, from either side."""
 
     reason: Text
@@ -235,23 +215,7 @@ PROBLEMS = {
 }
 """Errors that close the connection, with the WebSocket's close code."""
 
-_FIELDS: dict[str, tuple[msgspec.inspect.Field, ...]] = {}
-for _kind in get_args(Message):
-    _info = msgspec.inspect.type_info(_kind)
-    assert isinstance(_info, msgspec.inspect.StructType)  # noqa: S101
-    _FIELDS[_kind.__name__.lower()] = _info.fields
-
-
-def _plain(value: Any) -> Any:
-    """Convert an instance of a subclass, such as numpy.float64."""
-    for kind in (float, int, str):
-        if isinstance(value, kind):
-            return kind(value)
-    raise TypeError(shown(value))
-
-
-_decoder: msgspec.msgpack.Decoder[Message] = msgspec.msgpack.Decoder(Message)
-_encoder = msgspec.msgpack.Encoder(enc_hook=_plain)
+_codec: MessageCodec[Message] = MessageCodec(Message)
 
 
 def encode(message: Message) -> bytes:
@@ -265,15 +229,7 @@ def encode(message: Message) -> bytes:
         message = Problem(message.code, text, message.seq)
     elif isinstance(message, Bye):
         message = Bye(shorten(message.reason, MAX_TEXT_CHARS))
-    fields: Any = message
-    if message.__struct_defaults__:
-        fields = _without_defaults(message)
-    try:
-        return _encoder.encode(fields)
-    except UnicodeEncodeError:  # half of a surrogate pair, from somebody's text
-        return _encoder.encode(
-            _without_surrogates(msgspec.to_builtins(fields, builtin_types=(bytes,)))
-        )
+    return _codec.encode(message)
 
 
 def decode(frame: bytes, max_bytes: int = MAX_SCRIPT_FRAME_BYTES) -> Message:
@@ -288,52 +244,11 @@ def decode(frame: bytes, max_bytes: int = MAX_SCRIPT_FRAME_BYTES) -> Message:
 
     >>> decode(encode(Reset(seq=3, seed=None)))
     Reset(seq=3, seed=None)
+    >>> import msgspec
     >>> decode(msgspec.msgpack.encode(["rest", 3, None]))
     Traceback (most recent call last):
     ...
     ai4u_edu.wire.validation.WireError: expected a message (hello, welcome, percept, action, \
 reset, order, problem, bye), got 'rest'
     """
-    if len(frame) > max_bytes:
-        raise WireError(f"expected at most {max_bytes} bytes, got {len(frame)}")
-    try:
-        return _decoder.decode(frame)
-    except Exception as error:  # any error is due to the bytes
-        raise WireError(_explain(frame, error)) from None
-
-
-def _explain(frame: bytes, error: Exception) -> str:
-    """Return the text for a frame that is no message."""
-    try:
-        parts = msgspec.msgpack.decode(frame)
-    except Exception as malformed:  # such as bytes that nest too deep
-        return f"expected msgpack, got {shown(frame)} ({malformed})"
-    name = parts[0] if type(parts) is list and parts else None
-    if type(name) is not str or name not in _FIELDS:
-        return f"expected a message ({', '.join(_FIELDS)}), got {shown(name)}"
-    return find_wrong_field(_FIELDS[name], parts[1:]) or str(error)
-
-
-def _without_defaults(message: Message) -> tuple[Any, ...]:
-    """Return the parts of a frame, without trailing fields that have their default."""
-    kind = type(message)
-    fields = msgspec.structs.astuple(message)
-    for default in reversed(kind.__struct_defaults__):
-        if fields[-1] != default:
-            break
-        fields = fields[:-1]
-    return (kind.__name__.lower(), *fields)
-
-
-def _without_surrogates(value: Any) -> Any:
-    """Replace what UTF-8 can't encode in all texts of a message."""
-    match value:
-        case str():
-            return value.encode(errors="replace").decode()
-        case list() | tuple():
-            return [_without_surrogates(each) for each in value]
-        case dict():
-            return {
-                _without_surrogates(key): _without_surrogates(each) for key, each in value.items()
-            }
-    return value
+    return _codec.decode(frame, max_bytes)

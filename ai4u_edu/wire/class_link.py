@@ -1,0 +1,308 @@
+"""Protocol between a room (or a notebook) and its class.
+
+The room opens one WebSocket to the class and keeps it. A frame is one msgpack array: the kind of
+message, then its fields. The room begins::
+
+    room    hello                       which seat or room, by its secret
+    class   welcome                     whose link this is
+    class   people, assignment, attention, race      the present ones, and again at each change
+    room    drawing, poses, state, work              the present ones, and again at each change
+    room    episodeResult, exerciseResult            each with a key
+    class   ack                         the result with that key is stored
+
+All messages except results describe a present state: the latest one counts, and after a reconnect
+each side sends its own again. A room sends a result again with the same key until it is
+acknowledged; the class stores a key once.
+
+Compatibility: see :mod:`ai4u_edu.wire.message_codec`. Any other change needs another
+:data:`VERSION`.
+"""
+
+from typing import Annotated, Literal
+
+from msgspec import Meta
+
+from ai4u_edu.base.errors import shorten
+from ai4u_edu.base.seeding import MAX_SEED
+from ai4u_edu.wire.message_codec import MessageCodec, Record, TaggedMessage
+from ai4u_edu.wire.validation import LIST, MAX_TEXT_CHARS, Finite, Int, Text
+
+VERSION = 1
+SUBPROTOCOL = f"ai4u-edu-class.v{VERSION}"
+"""The WebSocket's subprotocol."""
+PATH = "/link"
+"""Path of the class's WebSocket for links."""
+MAX_FRAME_BYTES = 4 * 2**20
+"""Largest frame of either side."""
+MAX_SCENE_CHARS = 200_000
+MAX_EPISODE_BYTES = 2**20
+MAX_MESSAGE_CHARS = 200
+"""Longest message of a teacher."""
+POSES_PER_S = 4
+HEARTBEAT_S = 2.0
+"""Longest time between two states of a room; they are also its sign of life."""
+
+Key = Annotated[str, Meta(pattern=r"^[A-Za-z0-9_-]{8,64}$")]
+"""Random id of a result."""
+_Colour = Annotated[str, Meta(pattern=r"^#[0-9a-f]{6}$")]
+_Scene = Annotated[str, Meta(max_length=MAX_SCENE_CHARS)]
+_Seed = Annotated[int, Meta(ge=0, le=MAX_SEED)]
+_Numbers = Annotated[tuple[Finite, ...], LIST]
+
+Status = Literal["waiting", "driving", "solved", "fell", "over", "idle", "paused", "error"]
+"""``waiting`` for the first key; ``idle``: nobody has driven or edited for a minute; ``over``: the
+episode has ended in another way."""
+Outcome = Literal["goal", "won", "lost", "fell", "time", "over"]
+
+
+# -- from the room ---------------------------------------------------------------------------------
+
+
+class Hello(TaggedMessage, frozen=True):
+    """A room, or a notebook without a world, begins its link."""
+
+    version: Int
+    secret: Text
+    """Token of the room (on the class's machine), or of the seat."""
+    kind: Literal["room", "notebook"]
+
+
+class Shape(Record, frozen=True):
+    """A filled disc or polygon of a drawing, in metres."""
+
+    colour: _Colour
+    radius: Finite
+    """Radius of a disc; 0 for a polygon."""
+    points: _Numbers
+    """x, y of each corner, or of the disc's centre; in the body's frame, or the world's."""
+
+
+class BodyDrawing(Record, frozen=True):
+    """The shapes of one body, in its frame."""
+
+    name: Text
+    is_agent: bool
+    shapes: Annotated[tuple[Shape, ...], LIST]
+
+
+class Drawing(TaggedMessage, frozen=True):
+    """Everything that a thumbnail shows, apart from poses; sent when something was built."""
+
+    number: Int
+    """Counted by the room, from 1."""
+    bounds: tuple[Finite, Finite, Finite, Finite]
+    """Left, bottom, right, top (m)."""
+    ground: Annotated[tuple[Shape, ...], LIST]
+    """Floors and areas, in the world's frame, in the order in which they are drawn."""
+    bodies: Annotated[tuple[BodyDrawing, ...], LIST]
+
+
+class Poses(TaggedMessage, frozen=True):
+    """Poses of all bodies of a drawing; sent if one has changed."""
+
+    drawing: Int
+    """Number of the drawing."""
+    values: _Numbers
+    """x, y (m), heading (rad) and visibility (1; 0 for a body that fell) of each body in turn."""
+
+
+class State(TaggedMessage, frozen=True):
+    """State of a room; sent at each change, and every :data:`HEARTBEAT_S`."""
+
+    status: Status
+    scene: Text
+    """Title of the scene."""
+    driver: Text
+    """What drives the first agent, such as "A person"; empty if nothing does."""
+    seconds: Finite
+    """Time of the episode."""
+    episodes: Int
+    """Episodes of this scene so far."""
+    falls: Int
+    """Falls in this scene so far."""
+    is_solved: bool
+    """True if the scene's goal was reached at least once."""
+    error: Text = ""
+
+
+class Work(TaggedMessage, frozen=True):
+    """The room's present scene; sent when it was changed or another one was opened."""
+
+    title: Text
+    scene: _Scene
+    """As YAML."""
+
+
+class EpisodeResult(TaggedMessage, frozen=True):
+    """Result of an episode that has ended."""
+
+    key: Key
+    scene: Text
+    """Title of the scene."""
+    seed: _Seed
+    outcome: Outcome
+    seconds: Finite
+    reward: Finite
+    driver: Text
+    race: Text = ""
+    """Id of the race that it belongs to; empty for none."""
+    episode: Annotated[bytes, Meta(max_length=MAX_EPISODE_BYTES)] = b""
+    """The recorded episode; only of a race."""
+
+
+class ExerciseResult(TaggedMessage, frozen=True):
+    """Result of a check, or a hint that was read."""
+
+    key: Key
+    exercise: Text
+    """Its id, such as ``04.2``."""
+    event: Literal["right", "wrong", "hint"]
+    diagnosis: Text = ""
+    """Id of the mistake that was found, such as ``04.2/narrow``."""
+
+
+class Applied(TaggedMessage, frozen=True):
+    """The room has opened an assignment's scene, or could not."""
+
+    assignment: Text
+    """Its id."""
+    problem: Text = ""
+
+
+# -- from the class --------------------------------------------------------------------------------
+
+
+class Welcome(TaggedMessage, frozen=True):
+    """The class accepts the link."""
+
+    version: Int
+    name: Text
+    """Name of the seat; of a room with several, empty."""
+    colour: Text
+
+
+class Ack(TaggedMessage, frozen=True):
+    """The result with this key is on disk."""
+
+    key: Key
+
+
+class Person(Record, frozen=True):
+    """A seat of the room."""
+
+    number: Int
+    name: Text
+    colour: _Colour
+    is_here: bool
+    """True while a page or a notebook of the seat is connected."""
+
+
+class People(TaggedMessage, frozen=True):
+    """All seats of the room."""
+
+    people: Annotated[tuple[Person, ...], LIST]
+
+
+class Assignment(TaggedMessage, frozen=True):
+    """A scene that the teacher gives to the room.
+
+    A room that has opened it before (it remembers the id) only answers with :class:`Applied`.
+    """
+
+    id: Text
+    """Empty if nothing is assigned."""
+    title: Text
+    scene: _Scene
+    """Name in the library, or YAML, which contains a line break."""
+    seed: _Seed | None
+
+
+class Attention(TaggedMessage, frozen=True):
+    """The teacher's request for attention, or its end."""
+
+    kind: Literal["", "pause", "blank"]
+    """``pause``: worlds stand still; ``blank``: pages show the message only, too."""
+    message: Annotated[str, Meta(max_length=MAX_MESSAGE_CHARS)]
+    """Shown in the page, also without a pause."""
+    ends_in_s: Finite
+    """Seconds until it ends by itself; 0: it does not."""
+
+
+class RaceRow(Record, frozen=True):
+    """A place in a race."""
+
+    name: Text
+    colour: _Colour
+    outcome: Text
+    seconds: Finite
+    room: Text
+
+
+class Race(TaggedMessage, frozen=True):
+    """The present race.
+
+    A room resets to the seed, stands still until ``starts_in_s`` is over, and then sends the result
+    of each episode with the race's id. A page shows its own best, and the board if there is one.
+    """
+
+    id: Text
+    """Empty if there is none."""
+    phase: Literal["countdown", "running", "over"]
+    starts_in_s: Finite
+    scene: _Scene
+    """As in an assignment."""
+    seed: _Seed
+    board: Annotated[tuple[RaceRow, ...], LIST]
+    """Best first; empty while the teacher hides it."""
+    ghosts: Annotated[tuple[bytes, ...], Meta(max_length=3)] = ()
+    """Recorded episodes of the best three."""
+
+
+class Problem(TaggedMessage, frozen=True):
+    """An error: the text says what was wrong, and how to mend it."""
+
+    code: Literal["version", "secret", "message", "over"]
+    """The link ends after all but ``message``, and is not opened again."""
+    text: Text
+
+
+FromRoom = Hello | Drawing | Poses | State | Work | EpisodeResult | ExerciseResult | Applied
+FromClass = Welcome | Ack | People | Assignment | Attention | Race | Problem
+Result = EpisodeResult | ExerciseResult
+
+_room_codec: MessageCodec[FromRoom] = MessageCodec(FromRoom)
+_class_codec: MessageCodec[FromClass] = MessageCodec(FromClass)
+
+
+def encode_from_room(message: FromRoom) -> bytes:
+    """Return a room's message as a frame.
+
+    >>> decode_from_room(encode_from_room(Applied("a1")))
+    Applied(assignment='a1', problem='')
+    """
+    return _room_codec.encode(message)
+
+
+def decode_from_room(frame: bytes) -> FromRoom:
+    """Return the room's message in a frame.
+
+    Raises:
+        WireError: there is no valid message in it. No other error is raised for any bytes.
+    """
+    return _room_codec.decode(frame, MAX_FRAME_BYTES)
+
+
+def encode_from_class(message: FromClass) -> bytes:
+    """Return a class's message as a frame; a sentence that is too long is cut."""
+    if isinstance(message, Problem):
+        message = Problem(message.code, shorten(message.text, MAX_TEXT_CHARS))
+    return _class_codec.encode(message)
+
+
+def decode_from_class(frame: bytes) -> FromClass:
+    """Return the class's message in a frame.
+
+    Raises:
+        WireError: there is no valid message in it. No other error is raised for any bytes.
+    """
+    return _class_codec.decode(frame, MAX_FRAME_BYTES)
