@@ -112,7 +112,7 @@ class State(TaggedMessage, frozen=True):
     status: Status
     scene: Text
     """Title of the scene."""
-    driver: Text
+    """Its driver's title, such as "A person"; empty if nothing drives the first agent."""
     """What drives the first agent, such as "A person"; empty if nothing does."""
     seconds: Finite
     """Time of the episode."""
@@ -130,7 +130,7 @@ class Work(TaggedMessage, frozen=True):
 
     title: Text
     scene: _Scene
-    """As YAML."""
+    """Its YAML."""
 
 
 class EpisodeResult(TaggedMessage, frozen=True):
@@ -250,7 +250,7 @@ class Race(TaggedMessage, frozen=True):
     phase: Literal["countdown", "running", "over"]
     starts_in_s: Finite
     scene: _Scene
-    """As in an assignment."""
+    """See :attr:`Assignment.scene`."""
     seed: _Seed
     board: Annotated[tuple[RaceRow, ...], LIST]
     """Best first; empty while the teacher hides it."""
