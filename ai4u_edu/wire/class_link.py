@@ -112,8 +112,8 @@ class State(TaggedMessage, frozen=True):
     status: Status
     scene: Text
     """Title of the scene."""
-    """Its driver's title, such as "A person"; empty if nothing drives the first agent."""
-    """What drives the first agent, such as "A person"; empty if nothing does."""
+    driver: Text
+    """Title of the first agent's driver, such as "A person"; empty if nothing drives it."""
     seconds: Finite
     """Time of the episode."""
     episodes: Int
