@@ -15,6 +15,7 @@ from ai4u_edu.base.errors import shorten
 from ai4u_edu.classroom.errors import RoomError
 from ai4u_edu.classroom.room_host import RoomAddress
 from ai4u_edu.classroom.room_process import HOST, RoomFailed, RoomOrder, RoomReady, run_room
+from ai4u_edu.server.token_auth import is_same_secret
 
 START_TIMEOUT_S = 60.0
 END_TIMEOUT_S = 5.0
@@ -57,6 +58,9 @@ class LocalRooms:
     def __init__(self, folder: Path, blocks: Iterable[Path] = ()) -> None:
         self._folder, self._blocks = folder, tuple(each.absolute() for each in blocks)
         self._slots: dict[str, _Slot] = {}
+        self._secrets: dict[str, str] = {}
+        self.class_url = ""
+        """Address of the class, to which rooms open their links; set before the first one starts."""
         is_forked = sys.platform == "linux"
         self._context = multiprocessing.get_context("forkserver" if is_forked else "spawn")
         if is_forked:
@@ -78,6 +82,13 @@ class LocalRooms:
                 raise RoomError("Your world ended. It starts again in a moment.")
             slot.running = await asyncio.to_thread(self._start, room, scene)
             return slot.running.address
+
+    def room_of(self, secret: str) -> str:
+        """Return the room whose secret this is, also while it starts; empty if it is no room's."""
+        for room, own in [*self._secrets.items()]:  # a thread starts rooms
+            if is_same_secret(own, secret):
+                return room
+        return ""
 
     def is_running(self, room: str) -> bool:
         """Return True if the room's process runs."""
@@ -104,8 +115,9 @@ class LocalRooms:
 
     def _start(self, room: str, scene: str) -> _Running:
         ours, theirs = self._context.Pipe()
-        token = secrets.token_urlsafe(24)
-        order = RoomOrder(room, scene, self._folder / "rooms" / room, token, self._blocks)
+        token = self._secrets[room] = secrets.token_urlsafe(24)
+        folder = self._folder / "rooms" / room
+        order = RoomOrder(room, scene, folder, token, self._blocks, self.class_url)
         process = self._context.Process(  # type: ignore[attr-defined]
             target=run_room, args=(order, theirs), name=f"room {room}", daemon=True
         )

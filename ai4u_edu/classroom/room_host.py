@@ -23,6 +23,9 @@ class RoomHost(Protocol):
             RoomError: it does not start.
         """
 
+    def room_of(self, secret: str) -> str:
+        """Return the room whose secret this is, also while it starts; empty if it is no room's."""
+
     def is_running(self, room: str) -> bool:
         """Return True if the room's server runs."""
 
