@@ -82,7 +82,7 @@ class LocalRooms:
         self._slots: dict[str, _Slot] = {}
         self._secrets: dict[str, str] = {}
         self.class_url = ""
-        """Address of the class, to which rooms open their links; set before the first one starts."""
+        """Address of the class, to which rooms open links; set before the first one starts."""
         is_forked = sys.platform == "linux"
         self._context = multiprocessing.get_context("forkserver" if is_forked else "spawn")
         if is_forked:
