@@ -116,8 +116,8 @@ class ClassEvents:
         is_remote = room.kind == "remote"
         is_running = room.link is not None if is_remote else self._live.host.is_running(room.id)
         status = "away" if is_remote or is_running else "asleep"
-        if state is not None and room.link is not None:
-            status = state.status
+        if room.link is not None:
+            status = state.status if state else "waiting"
         return {
             "id": room.id,
             "seats": seats,

@@ -75,9 +75,10 @@ def guide_words(exercise: str) -> str:
 
 @lru_cache(maxsize=1)
 def _guide() -> dict[str, list[str]]:
-    """Return the points of the guide by the lesson's number; of mistakes only those of one exercise.
+    """Return the points of the guide by the lesson's number.
 
-    They stand below a heading for each lesson, under "Typical mistakes" and "What to say".
+    Mistakes that name no exercise are left out. The points stand
+    below a heading for each lesson, under "Typical mistakes" and "What to say".
     """
     found: dict[str, list[str]] = {}
     text = (course_folder() / GUIDE).read_text(encoding="utf-8")

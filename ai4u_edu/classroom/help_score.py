@@ -70,5 +70,5 @@ def help_score(signals: Signals) -> tuple[int, str]:
             minutes = int(signals.idle_minutes)
             reason = f"nobody has driven for {minutes} minute{'s' * (minutes != 1)}"
             found.append((min(60, 20 + 4 * minutes), reason))
-    score, why = max(found, key=lambda each: each[0])
-    return int(score), why
+    highest, why = max(found, key=lambda each: each[0])
+    return int(highest), why

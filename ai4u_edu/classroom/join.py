@@ -9,6 +9,7 @@ from starlette.requests import HTTPConnection, Request
 from starlette.responses import JSONResponse, RedirectResponse, Response
 
 from ai4u_edu.classroom.errors import JoinError, NameTakenError, StoreError, WrongCodeError
+from ai4u_edu.classroom.move_codes import LIFE_S
 from ai4u_edu.classroom.pages import html_page
 from ai4u_edu.classroom.room_process import path_of
 from ai4u_edu.classroom.seats import Seats
@@ -60,6 +61,14 @@ class Join:
         """Return names to choose from."""
         return JSONResponse({"names": self._seats.offered_names()}, headers=NO_STORE)
 
+    async def move_code(self, request: Request) -> Response:
+        """Return a code with which another device takes this seat, too."""
+        seat = seat_of(self._seats, request)
+        if seat is None:
+            return _problem("You have no place in this class. Join with the code.", 403)
+        code = self._seats.new_move_code(seat.number)
+        return JSONResponse({"code": code, "minutes": LIFE_S // 60}, headers=NO_STORE)
+
     async def join(self, request: Request) -> Response:
         """Give a browser or program a seat, as a cookie, and tell it the way to its room.
 
@@ -88,7 +97,8 @@ class Join:
         except StoreError as error:
             return _problem(f"{error} Tell your teacher.", 503)
         self._on_change()
-        answer = JSONResponse({"room": f"{path_of(seat.room)}/"}, headers=NO_STORE)
+        found = {"room": f"{path_of(seat.room)}/", "name": seat.name, "colour": seat.colour}
+        answer = JSONResponse(found, headers=NO_STORE)
         answer.set_cookie(
             SEAT_COOKIE,
             token,

@@ -1,7 +1,6 @@
 """WebSocket of the class for links of rooms and notebooks; see :mod:`ai4u_edu.wire.class_link`."""
 
 import asyncio
-from collections.abc import Awaitable, Callable
 from contextlib import suppress
 
 from starlette.types import Receive, Scope, Send
@@ -42,19 +41,16 @@ MAX_MISTAKES = 5
 MAX_WAITING_ACKS = 1000
 NOT_ALLOWED, TRY_LATER = 1008, 1013
 
-Keep = Callable[[LiveRoom, Work], Awaitable[None]]
-
 
 class LinkEndpoint:
     """ASGI app that serves links.
 
     Args:
         live: the class.
-        keep_work: stores the scene of a remote room.
     """
 
-    def __init__(self, live: LiveClass, keep_work: Keep) -> None:
-        self._live, self._keep_work = live, keep_work
+    def __init__(self, live: LiveClass) -> None:
+        self._live = live
         self._attempts = Attempts()
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
@@ -65,6 +61,7 @@ class LinkEndpoint:
             room = await self._greet(socket)
             if room is None:
                 return
+            self._live.ensure_ticking()
             link = Link(socket)
             sender = asyncio.create_task(link.run())
             self._live.connect(room, link)
@@ -82,7 +79,9 @@ class LinkEndpoint:
             frame = await asyncio.wait_for(_frame(socket), HELLO_TIMEOUT_S)
             hello = decode_from_room(frame)
         except TimeoutError:
-            await _refuse(socket, Problem("message", f"expected hello within {HELLO_TIMEOUT_S:g} s"))
+            await _refuse(
+                socket, Problem("message", f"expected hello within {HELLO_TIMEOUT_S:g} s")
+            )
             return None
         except WireError as error:
             await _refuse(socket, Problem("message", str(error)))
@@ -119,9 +118,7 @@ class LinkEndpoint:
             if wait_s := limit.take():
                 await asyncio.sleep(wait_s)
             try:
-                message = decode_from_room(await _frame(socket))
-                if isinstance(message, Hello):
-                    raise WireError("expected hello as the first message only")
+                message = _decoded(await _frame(socket))
             except WireError as error:
                 mistakes += 1
                 if mistakes >= MAX_MISTAKES:
@@ -149,7 +146,7 @@ class LinkEndpoint:
                 room.note_state(message)
             case Work():
                 room.work = message
-                await self._keep_work(room, message)
+                await asyncio.to_thread(self._live.keep_work, room, message)
             case Applied():
                 room.problem = message.problem
         self._live.note_change()
@@ -157,7 +154,9 @@ class LinkEndpoint:
     def _take_result(self, room: LiveRoom, link: "Link", result: Result) -> None:
         if isinstance(result, ExerciseResult) and result.exercise not in known_exercises():
             text = f"exercise: no exercise is called {result.exercise[:40]!r}; "
-            link.add(Problem("message", text + "install the version of ai4u-edu that the class has"))
+            link.add(
+                Problem("message", text + "install the version of ai4u-edu that the class has")
+            )
             link.add(Ack(result.key))  # sent again it would be refused again
             return
 
@@ -250,6 +249,18 @@ async def _frame(socket: WebSocket) -> bytes:
     if data is None:
         raise WireError("expected a binary message, got text")
     return data
+
+
+def _decoded(frame: bytes) -> FromRoom:
+    """Return a message after the hello.
+
+    Raises:
+        WireError: there is none in the frame, or another hello.
+    """
+    message = decode_from_room(frame)
+    if isinstance(message, Hello):
+        raise WireError("expected hello as the first message only")
+    return message
 
 
 async def _refuse(socket: WebSocket, problem: Problem) -> None:

@@ -3,18 +3,20 @@
 import asyncio
 import json
 from collections import Counter
+from contextlib import suppress
 from typing import Literal
 
+from ai4u_edu.base.atomic_write import write_atomically
 from ai4u_edu.classroom.assignments import Assignments
 from ai4u_edu.classroom.attention import AttentionState
 from ai4u_edu.classroom.live_rooms import LiveRoom, OpenLink, remote_id
 from ai4u_edu.classroom.progress import Progress
 from ai4u_edu.classroom.result_writer import Received, ResultWriter
 from ai4u_edu.classroom.room_host import RoomHost
+from ai4u_edu.classroom.scene_file import NAME as SCENE_FILE
 from ai4u_edu.classroom.seats import Seats, State
 from ai4u_edu.classroom.store import ClassStore, SeatRow
-from ai4u_edu.wire.class_link import VERSION, ExerciseResult, People, Person, Welcome
-
+from ai4u_edu.wire.class_link import VERSION, ExerciseResult, People, Person, Welcome, Work
 
 TICK_S = 0.5
 """Interval at which ends of times are looked for."""
@@ -146,6 +148,17 @@ class LiveClass:
             if room.link is not None:
                 room.link.send(self.attention.as_message())
         self.note_change()
+
+    def keep_work(self, room: LiveRoom, work: Work) -> None:
+        """Write the scene of a remote room to the class's folder; a thread may do it.
+
+        Rooms of this machine write their own. A scene that can't be written is sent again later.
+        """
+        if room.seat:
+            folder = self.store.folder / "rooms" / room.id
+            with suppress(OSError):
+                folder.mkdir(parents=True, exist_ok=True)
+                write_atomically(folder / SCENE_FILE, work.scene)
 
     def end_links(self, seat: int, sentence: str) -> None:
         """End the link that a seat brought along."""

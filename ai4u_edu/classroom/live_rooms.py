@@ -93,7 +93,7 @@ class LiveRoom:
         state = self.state
         exercise = self.wrong_answer[0]
         if state is None or self.link is None:
-            lost = self.kind == "remote"
+            lost = self.kind == "remote" and self.link is None
             return help_score(Signals(wrong=self.wrong, exercise=exercise, lost=lost))
         return help_score(
             Signals(

@@ -1,5 +1,6 @@
 """The pages of a class that are not a room's: files of ``web/``, with a policy for all of them."""
 
+from collections.abc import Awaitable, Callable
 from functools import lru_cache
 
 from starlette.requests import Request
@@ -19,6 +20,15 @@ def html_page(name: str) -> HTMLResponse:
     text = (web_folder() / name).read_text(encoding="utf-8")
     headers = {"Content-Security-Policy": STANDALONE_POLICY, "Cache-Control": "no-cache"}
     return HTMLResponse(text, headers=headers)
+
+
+def page_route(name: str) -> Callable[[Request], Awaitable[Response]]:
+    """Return a route's function that answers with a page of ``web/``."""
+
+    async def answer(_: Request) -> Response:
+        return html_page(name)
+
+    return answer
 
 
 @lru_cache(maxsize=1)

@@ -61,7 +61,9 @@ class Progress:
     def read(self) -> None:
         """Read everything from the store."""
         self._seen: dict[int, float] = {}
-        rows = self._store.query("select seat, exercise, state, tries, hints, seconds from progress")
+        rows = self._store.query(
+            "select seat, exercise, state, tries, hints, seconds from progress"
+        )
         self.entries: dict[Place, Entry] = {
             (seat, exercise): Entry(*rest) for seat, exercise, *rest in rows
         }
@@ -121,7 +123,11 @@ class Progress:
         found: dict[str, dict[str, dict[str, object]]] = defaultdict(dict)
         for (seat, exercise), entry in self.entries.items():
             minutes = round(entry.seconds / 60, 1)
-            told = {"state": entry.state, "tries": entry.tries, "minutes": minutes}
+            told: dict[str, object] = {
+                "state": entry.state,
+                "tries": entry.tries,
+                "minutes": minutes,
+            }
             found[str(seat)][exercise] = told
         return dict(found)
 

@@ -55,7 +55,9 @@ class ResultWriter:
         """Store a result soon, and then call its ``done``."""
         seconds = 0.0
         if isinstance(received.result, ExerciseResult):
-            seconds = max((self._progress.seconds_since(each) for each in received.seats), default=0)
+            seconds = max(
+                (self._progress.seconds_since(each) for each in received.seats), default=0
+            )
         self._waiting.append((received, seconds))
         if self._task is None:
             self._task = asyncio.create_task(self._run())
@@ -95,7 +97,9 @@ class ResultWriter:
         with self._store.transaction() as database:
             for received, seconds in batch:
                 row = (received.result.key, received.room, *_columns(received.result))
-                cursor = database.execute("insert or ignore into results values (?, ?, ?, ?, ?)", row)
+                cursor = database.execute(
+                    "insert or ignore into results values (?, ?, ?, ?, ?)", row
+                )
                 if cursor.rowcount == 0:  # it came before
                     continue
                 result = received.result

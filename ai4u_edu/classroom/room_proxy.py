@@ -126,7 +126,9 @@ class RoomProxy:
                 f"ws://{page.headers['host']}{_raw_target(scope)}",
                 host=room.host,
                 port=room.port,
-                additional_headers=self._headers(room, seat, page.headers),
+                additional_headers=[
+                    each for each in self._headers(room, seat, page.headers) if each[0] != "host"
+                ],
                 subprotocols=[Subprotocol(each) for each in scope["subprotocols"]] or None,
                 user_agent_header=None,
                 compression=None,

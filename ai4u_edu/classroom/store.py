@@ -171,8 +171,8 @@ class ClassStore:
 
     def seats(self) -> list[SeatRow]:
         """Return all seats, by number."""
-        columns = "number, name, colour, room, state"
-        return [SeatRow(*row) for row in self.query(f"select {columns} from seats order by number")]
+        rows = self.query("select number, name, colour, room, state from seats order by number")
+        return [SeatRow(*row) for row in rows]
 
     def tokens(self) -> list[TokenRow]:
         """Return the devices of all seats, the oldest first."""
@@ -255,7 +255,9 @@ def _opened(path: Path) -> sqlite3.Connection:
         if version == 0:
             database.executescript(f"begin; {_TABLES} pragma user_version = {VERSION}; commit")
     except sqlite3.Error as error:
-        raise SetupError(f"expected a class's file at {path}, and couldn't use it: {error}") from None
+        raise SetupError(
+            f"expected a class's file at {path}, and couldn't use it: {error}"
+        ) from None
     if version not in (0, VERSION):
         raise SetupError(
             f"{path} was made by another version of ai4u-edu (tables {version}, expected "

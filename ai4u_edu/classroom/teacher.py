@@ -50,10 +50,6 @@ class Teacher:
         """Return the page."""
         return html_page("teacher.html")
 
-    async def projector(self, _: Request) -> Response:
-        """Return the page that everybody sees."""
-        return html_page("projector.html")
-
     async def state(self, request: Request) -> Response:
         """Return the class, as the page's socket tells it."""
         url = str(request.url.replace(path="/", query=""))

@@ -42,6 +42,7 @@ def classroom(
     from ai4u_edu.scenes import Scene
     from ai4u_edu.server import hosts_for, open_on_desktop, serve
     from ai4u_edu.server.process_exit import HAS_SERVED
+    from ai4u_edu.wire.class_link import MAX_FRAME_BYTES
 
     load_own_blocks(own_blocks)
     Scene.load(scene)  # a mistake in it is said here, and not in each room
@@ -60,6 +61,7 @@ def classroom(
                 open_on_desktop(teacher_address(url, token))
 
         app = class_app(
+            store,
             seats,
             local,
             teacher_token=token,
@@ -67,5 +69,12 @@ def classroom(
             allowed_hosts=hosts_for(host),
             proxy_hosts=allow_host or [],
         )
-        serve(app, host, port, on_ready=announce, per_address=MAX_PER_ADDRESS)
+        serve(
+            app,
+            host,
+            port,
+            on_ready=announce,
+            per_address=MAX_PER_ADDRESS,
+            max_message_bytes=MAX_FRAME_BYTES,
+        )
     HAS_SERVED.set()

@@ -1,5 +1,6 @@
 """Seats: joining, coming back, and what a teacher does with them."""
 
+import collections
 from pathlib import Path
 
 import pytest
@@ -178,7 +179,7 @@ def test_a_move_code_lets_another_device_in_once(seats: Seats) -> None:
     moved, second = seats.join(code.lower(), "", "b")
     assert moved == seat
     assert seats.by_token(token) == seats.by_token(second) == seat
-    again, third = seats.join(code, "", "b")  # whose answer got lost
+    again, _ = seats.join(code, "", "b")  # whose answer got lost
     assert again == seat
     assert seats.by_token(second) is None
     with pytest.raises(WrongCodeError):
@@ -197,7 +198,7 @@ def test_the_fourth_device_takes_the_place_of_the_oldest(store: ClassStore, seat
 
 
 def test_a_device_that_moves_to_another_seat_leaves_its_own(seats: Seats) -> None:
-    own, held = joined(seats, "a")
+    _, held = joined(seats, "a")
     other, _ = joined(seats, "b")
     moved, token = seats.join(seats.new_move_code(other.number), "", "a", held)
     assert moved == other
@@ -221,8 +222,7 @@ def test_a_disk_that_is_full_is_said_and_nothing_is_half_there(
     pages = store.query("pragma page_count")[0][0]
     store.query(f"pragma max_page_count = {pages}")
     with pytest.raises(StoreError, match="disk full"):
-        for number in range(MAX_SEATS):
-            joined(seats, f"{number}")
+        collections.deque(joined(seats, f"{number}") for number in range(MAX_SEATS))
     assert [each.number for each in store.seats()] == [each.number for each in seats.all()]
     store.query("pragma max_page_count = 100000")
     joined(seats, "later")
