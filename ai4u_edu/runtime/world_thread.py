@@ -57,6 +57,7 @@ class WorldThread:
         time_scale: how fast the time runs (``math.inf``: unlimited); left out, as the sim says.
         recorder: keeps the episodes; it has to listen to the same sim.
         wait_for_key: True may wait on an episode's first frame; see :class:`StartWait`.
+        frame_budget: limits of how often the world is drawn; left out, the usual ones.
         clock: seconds; to be replaced in tests.
     """
 
@@ -68,6 +69,7 @@ class WorldThread:
         time_scale: float | None = None,
         recorder: Recorder | None = None,
         wait_for_key: bool = False,
+        frame_budget: FrameBudget | None = None,
         clock: Callable[[], float] = time.perf_counter,
     ) -> None:
         self.sim = sim
@@ -80,7 +82,7 @@ class WorldThread:
         self.time_scale = sim.default_time_scale
         if time_scale is not None:
             self.set_time_scale(time_scale)
-        self.frame_budget = FrameBudget()
+        self.frame_budget = frame_budget or FrameBudget()
         self._clock = clock
         self._wake = threading.Event()
         self._queue = CommandQueue(clock, self._wake)
