@@ -26,6 +26,7 @@ from ai4u_edu.classroom.room_process import (
     run_room,
 )
 from ai4u_edu.classroom.room_watch import RoomLimits, RoomWatch
+from ai4u_edu.server.token_auth import is_same_secret
 
 START_TIMEOUT_S = 60.0
 END_TIMEOUT_S = 5.0
@@ -79,6 +80,9 @@ class LocalRooms:
         self._watching: asyncio.Task[None] | None = None
         self._folder, self._blocks = folder, tuple(each.absolute() for each in blocks)
         self._slots: dict[str, _Slot] = {}
+        self._secrets: dict[str, str] = {}
+        self.class_url = ""
+        """Address of the class, to which rooms open links; set before the first one starts."""
         is_forked = sys.platform == "linux"
         self._context = multiprocessing.get_context("forkserver" if is_forked else "spawn")
         if is_forked:
@@ -115,6 +119,13 @@ class LocalRooms:
         finally:
             slot.users -= 1
             slot.used_at = time.monotonic()
+
+    def room_of(self, secret: str) -> str:
+        """Return the room whose secret this is, also while it starts; empty if it is no room's."""
+        for room, own in [*self._secrets.items()]:  # a thread starts rooms
+            if is_same_secret(own, secret):
+                return room
+        return ""
 
     def is_running(self, room: str) -> bool:
         """Return True if the room's process runs."""
@@ -170,8 +181,9 @@ class LocalRooms:
 
     def _start(self, room: str, scene: str) -> _Running:
         ours, theirs = self._context.Pipe()
-        token = secrets.token_urlsafe(24)
-        order = RoomOrder(room, scene, self._folder / "rooms" / room, token, self._blocks)
+        token = self._secrets[room] = secrets.token_urlsafe(24)
+        folder = self._folder / "rooms" / room
+        order = RoomOrder(room, scene, folder, token, self._blocks, self.class_url)
         process = self._context.Process(  # type: ignore[attr-defined]
             target=run_room, args=(order, theirs), name=f"room {room}", daemon=True
         )

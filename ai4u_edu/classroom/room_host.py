@@ -27,6 +27,9 @@ class RoomHost(Protocol):
     def in_use(self, room: str) -> AbstractContextManager[None]:
         """Keep a room's server running while a socket of it is open."""
 
+    def room_of(self, secret: str) -> str:
+        """Return the room whose secret this is, also while it starts; empty if it is no room's."""
+
     def is_running(self, room: str) -> bool:
         """Return True if the room's server runs."""
 

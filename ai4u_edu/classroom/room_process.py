@@ -40,6 +40,8 @@ class RoomOrder:
     """Secret that the class sends with each request; no browser gets it."""
     blocks: tuple[Path, ...] = ()
     """Python files with the teacher's blocks."""
+    class_url: str = ""
+    """Address of the class, to which the room opens its link with the token; empty for none."""
 
 
 @dataclass(frozen=True)

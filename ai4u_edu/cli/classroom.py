@@ -54,6 +54,7 @@ def classroom(
         token = teacher_token(store)
 
         def announce(url: str) -> None:
+            local.class_url = url
             typer.echo(class_banner(join_address(host, url), seats.code, url, token))
             if open_page:
                 open_on_desktop(teacher_address(url, token))
