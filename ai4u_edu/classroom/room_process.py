@@ -21,6 +21,11 @@ from ai4u_edu.server.app import RoomMount
 
 HOST = "127.0.0.1"
 ROOMS_PATH = "/r/"
+MAX_FRAMES_PER_S = 17.0
+"""Most pictures a second of each page: after each fourth of 60 ticks, with room for one that comes
+a bit early. A class has many rooms and few cores."""
+MIN_FRAMES_PER_S = 15.0
+"""Pictures a second if ticks are late."""
 
 
 @dataclass(frozen=True)
@@ -79,6 +84,8 @@ def run_room(order: RoomOrder, parent: Connection) -> None:
         allowed_hosts=("*",),
         rules=Rules(token=order.token),
         saved_scenes=order.folder / "scenes",
+        frames_per_s=MAX_FRAMES_PER_S,
+        min_frames_per_s=MIN_FRAMES_PER_S,
     )
     try:
         for file in order.blocks:

@@ -21,9 +21,10 @@ from ai4u_edu.runtime.frame_budget import FrameBudget
 from ai4u_edu.runtime.pending_answers import PendingAnswers
 from ai4u_edu.runtime.snapshot_publisher import SnapshotPublisher
 from ai4u_edu.runtime.start_wait import StartWait
+from ai4u_edu.runtime.static_scene_cache import StaticSceneCache
 from ai4u_edu.runtime.tick_monitor import Stall, TickMonitor
 from ai4u_edu.runtime.training_progress import TrainingProgress
-from ai4u_edu.snapshot import Snapshot, StaticScene, capture_snapshot, capture_static_scene
+from ai4u_edu.snapshot import Snapshot, capture_snapshot
 
 T = TypeVar("T")
 logger = logging.getLogger(__name__)
@@ -57,6 +58,7 @@ class WorldThread:
         time_scale: how fast the time runs (``math.inf``: unlimited); left out, as the sim says.
         recorder: keeps the episodes; it has to listen to the same sim.
         wait_for_key: True may wait on an episode's first frame; see :class:`StartWait`.
+        frame_budget: limits of how often the world is drawn; left out, the usual ones.
         clock: seconds; to be replaced in tests.
     """
 
@@ -68,6 +70,7 @@ class WorldThread:
         time_scale: float | None = None,
         recorder: Recorder | None = None,
         wait_for_key: bool = False,
+        frame_budget: FrameBudget | None = None,
         clock: Callable[[], float] = time.perf_counter,
     ) -> None:
         self.sim = sim
@@ -80,7 +83,7 @@ class WorldThread:
         self.time_scale = sim.default_time_scale
         if time_scale is not None:
             self.set_time_scale(time_scale)
-        self.frame_budget = FrameBudget()
+        self.frame_budget = frame_budget or FrameBudget()
         self._clock = clock
         self._wake = threading.Event()
         self._queue = CommandQueue(clock, self._wake)
@@ -93,8 +96,7 @@ class WorldThread:
         self._episode_clock = EpisodeClock()
         sim.reset(seed)
         self._past: Snapshot | None = None
-        self._static_version: tuple[int, str, str] | None = None
-        self._static_scene: StaticScene = capture_static_scene(sim)
+        self._static_scenes = StaticSceneCache(sim)
         self._publisher = SnapshotPublisher(self._picture(), self.frame_budget, clock)
 
     # -- for any thread --------------------------------------------------------------------------
@@ -345,7 +347,8 @@ class WorldThread:
             self.recorder = recorder
         elif self.recorder is not None:
             self.recorder.listen_to(sim)
-        self.error, self._past, self._static_version = "", None, None
+        self.error, self._past = "", None
+        self._static_scenes.invalidate()
         sim.is_seed_locked = before.is_seed_locked
         self._monitor.forget()
         self._schedule.forget()
@@ -366,24 +369,14 @@ class WorldThread:
 
     def _as_past(self, past: Snapshot) -> Snapshot:
         """Return a past snapshot as it is shown; it shares the current static scene if equal."""
-        same = past.static_scene is self._static_scene or past.static_scene == self._static_scene
-        return replace(
-            past,
-            static_scene=self._static_scene if same else past.static_scene,
-            paused=True,
-            time_scale=self.time_scale,
-        )
+        shared = self._static_scenes.shared(past.static_scene)
+        return replace(past, static_scene=shared, paused=True, time_scale=self.time_scale)
 
     def _picture(self) -> Snapshot:
         sim = self.sim
-        if self._static_version != (version := (sim.world.generation, sim.goal, sim.success)):
-            self._static_version = version
-            static_scene = capture_static_scene(sim)
-            if self._static_scene != static_scene:
-                self._static_scene = static_scene
         return capture_snapshot(
             sim,
-            self._static_scene,
+            self._static_scenes.of(sim),
             paused=self.paused,
             time_scale=self.time_scale,
             real_time_factor=self._real_time_factor(),
