@@ -24,10 +24,14 @@ from ai4u_edu.server.host_origin import LOOPBACK, HostOriginCheck
 from ai4u_edu.server.proxy import AGENT_COOKIE, DARK_COOKIE
 from ai4u_edu.server.token_auth import PageCookie, TokenAuth
 from ai4u_edu.server.token_page import TokenPage
+from ai4u_edu.wire.class_link import MAX_FRAME_BYTES
 from ai4u_edu.wire.class_link import PATH as LINK_PATH
 
 PAGES = re.compile(r"/|/teacher|/projector|/check|/privacy|/r/\w+/(start)?")
 """Paths of pages, to which other sites may lead a person."""
+
+SERVER_LIMITS = {"per_address": 1000, "max_message_bytes": MAX_FRAME_BYTES}
+"""Arguments of :func:`~ai4u_edu.server.serve`: a school's students may all have one address."""
 
 
 def class_app(

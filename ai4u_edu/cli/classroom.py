@@ -9,9 +9,6 @@ import typer
 from ai4u_edu.cli import play_options as o
 from ai4u_edu.cli.options import OwnBlocks, load_own_blocks
 
-MAX_PER_ADDRESS = 1000
-"""Limit of connections from one address: a school's students may all have the same one."""
-
 
 def classroom(
     scene: o.SceneName = "box_chase",
@@ -37,12 +34,12 @@ def classroom(
     """Serve a class: students join with a code, and each drives in a world of their own."""
     from ai4u_edu.classroom import ClassStore, LocalRooms, RoomRule, Seats, class_app
     from ai4u_edu.classroom.addresses import class_banner, join_address, teacher_address
+    from ai4u_edu.classroom.gateway import SERVER_LIMITS
     from ai4u_edu.classroom.room_watch import RoomLimits
     from ai4u_edu.classroom.store import teacher_token
     from ai4u_edu.scenes import Scene
     from ai4u_edu.server import hosts_for, open_on_desktop, serve
     from ai4u_edu.server.process_exit import HAS_SERVED
-    from ai4u_edu.wire.class_link import MAX_FRAME_BYTES
 
     load_own_blocks(own_blocks)
     Scene.load(scene)  # a mistake in it is said here, and not in each room
@@ -69,12 +66,5 @@ def classroom(
             allowed_hosts=hosts_for(host),
             proxy_hosts=allow_host or [],
         )
-        serve(
-            app,
-            host,
-            port,
-            on_ready=announce,
-            per_address=MAX_PER_ADDRESS,
-            max_message_bytes=MAX_FRAME_BYTES,
-        )
+        serve(app, host, port, announce, **SERVER_LIMITS)
     HAS_SERVED.set()
