@@ -105,7 +105,7 @@ class AgentView(_View):
         )
 
 
-Waiting = Literal["", "key"]
+Waiting = Literal["", "key", "teacher"]
 WAITING: Any = Field(
     description="key: the world waits on its first frame until a person presses a key"
 )
@@ -219,7 +219,10 @@ class Health(_View):
 
 
 def _waiting(picture: Snapshot) -> Waiting:
-    return "key" if picture.waiting == "key" else ""
+    match picture.waiting:
+        case "key" | "teacher" as waiting:
+            return waiting
+    return ""
 
 
 def _motion(body: BodyState) -> dict[str, Any]:
