@@ -108,7 +108,8 @@ class _RoomEntrance:
         if scope["type"] == "http":
             await self._proxy.http(address, scope, receive, send)
         else:
-            await self._proxy.websocket(address, seat.number, scope, receive, send)
+            with self._rooms.in_use(room):
+                await self._proxy.websocket(address, seat.number, scope, receive, send)
 
 
 async def _refuse(scope: Scope, receive: Receive, send: Send) -> None:

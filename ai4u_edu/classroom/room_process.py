@@ -12,7 +12,8 @@ from starlette.applications import Starlette
 from ai4u_edu.base.atomic_write import make_folder
 from ai4u_edu.base.errors import AI4UError
 from ai4u_edu.blocks.loading import load_blocks
-from ai4u_edu.classroom.scene_file import SceneFile, last_scene
+from ai4u_edu.classroom.room_watch import limit_own_files
+from ai4u_edu.classroom.scene_file import SceneFile, last_scene, last_seed
 from ai4u_edu.room import Room, RoomSettings
 from ai4u_edu.runtime.process_tuning import tuned_process
 from ai4u_edu.server import Rules, serve
@@ -34,6 +35,8 @@ class RoomOrder:
     """Secret that the class sends with each request; no browser gets it."""
     blocks: tuple[Path, ...] = ()
     """Python files with the teacher's blocks."""
+    class_url: str = ""
+    """Address of the class, to which the room opens its link with the token; empty for none."""
 
 
 @dataclass(frozen=True)
@@ -67,9 +70,11 @@ def run_room(order: RoomOrder, parent: Connection) -> None:
         parent: gets a :class:`RoomReady` or :class:`RoomFailed`.
     """
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C in the class's terminal is for the class
+    limit_own_files()
     make_folder(order.folder, "the room's folder")
     settings = RoomSettings(
         scene=last_scene(order.folder, order.scene),
+        seed=last_seed(order.folder),
         # the class checks both: the name under which a browser has the page is in its requests
         allowed_hosts=("*",),
         rules=Rules(token=order.token),
@@ -84,7 +89,7 @@ def run_room(order: RoomOrder, parent: Connection) -> None:
         return
     app = Starlette(routes=[RoomMount(path_of(order.id), app=room.app)])
     threading.Thread(target=_end_with, args=[parent], name="parent", daemon=True).start()
-    with tuned_process(), room, SceneFile(order.folder, room.editor):
+    with tuned_process(), room, SceneFile(order.folder, room.editor, room.runner):
         serve(app, HOST, 0, on_ready=lambda url: parent.send(RoomReady(_port(url))))
 
 
