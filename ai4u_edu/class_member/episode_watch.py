@@ -2,6 +2,7 @@
 
 import logging
 from collections import deque
+from collections.abc import Callable
 from dataclasses import dataclass
 
 from ai4u_edu.agent import BasicAgent
@@ -57,17 +58,21 @@ class EpisodeWatch:
 
     Args:
         runner: runs the world.
+        scene_of: returns the scene that was opened last, whatever identifies it; called in the
+            world's thread.
     """
 
-    def __init__(self, runner: Runner) -> None:
-        self._runner = runner
+    def __init__(self, runner: Runner, scene_of: Callable[[], object]) -> None:
+        self._runner, self._scene_of = runner, scene_of
         self._sim: ControlRequestor | None = None
         self._agent_episode = 0
         self._began_at = 0.0
         self._is_over = False
         self._ended: deque[EndedEpisode] = deque(maxlen=MAX_WAITING)
+        self.scene: object = None
+        """The scene whose episodes are counted."""
         self.begun = 0
-        """Episodes that have begun."""
+        """Episodes of this scene that have begun."""
         self.has_recordings = False
         """True if the recorded episodes are wanted too."""
 
@@ -96,7 +101,9 @@ class EpisodeWatch:
         sim = self._sim
         if sim is None or sim is not self._runner.sim:
             return
-        agent = sim.agents[0]
+        agent, scene = sim.agents[0], self._scene_of()
+        if scene is not self.scene:
+            self.scene, self.begun = scene, 0
         self._agent_episode = 0
         self._note_episode(agent)
         # connected after the recorder's handler, which has then recorded the same decision

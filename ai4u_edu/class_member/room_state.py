@@ -29,19 +29,17 @@ class RoomState:
         self._active_at = clock()
         self._seen: object = None
         self._scene: object = None
-        self._begun_before = 0
         self.falls = 0
         self.is_solved = False
 
-    def note_scene(self, scene: object, begun: int) -> None:
+    def note_scene(self, scene: object) -> None:
         """Begin to count anew if another scene was opened.
 
         Args:
             scene: identifies the scene that was opened last.
-            begun: episodes that have begun, of all scenes.
         """
         if scene is not self._scene:
-            self._scene, self._begun_before = scene, max(0, begun - 1)
+            self._scene = scene
             self.falls, self.is_solved = 0, False
 
     def note_end(self, word: str) -> None:
@@ -59,7 +57,7 @@ class RoomState:
             sim: the world that runs.
             title: of the scene.
             version: grows with every edit.
-            begun: episodes that have begun, of all scenes.
+            begun: episodes of this scene that have begun.
         """
         driver = ""
         if sim.agents and snapshot.agents:
@@ -70,7 +68,7 @@ class RoomState:
             scene=shorten(title, MAX_TEXT_CHARS),
             driver=shorten(driver, MAX_TEXT_CHARS),
             seconds=round(snapshot.episode_time, 1),
-            episodes=max(0, begun - self._begun_before),
+            episodes=max(1, begun),
             falls=self.falls,
             is_solved=self.is_solved,
             error=shorten(snapshot.error, MAX_TEXT_CHARS),

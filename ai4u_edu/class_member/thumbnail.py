@@ -70,8 +70,8 @@ def drawing_of(static_scene: StaticScene, number: int) -> Drawing:
     if not static_scene.floors:
         corners = [(left, low), (right, low), (right, high), (left, high)]
         ground.append(_polygon(corners, FLOOR))
-    for floor in sorted(static_scene.floors, key=lambda floor: floor.top):
-        ground.append(_region(floor, floor_colour(floor)))
+    floors = sorted(static_scene.floors, key=lambda floor: floor.top)
+    ground += [_region(floor, floor_colour(floor)) for floor in floors]
     ground += [_region(area, area_fill(area)) for area in static_scene.areas]
     bounds = _rounded(left), _rounded(low), _rounded(right), _rounded(high)
     bodies = tuple(

@@ -107,7 +107,8 @@ class AgentView(_View):
 
 Waiting = Literal["", "key", "teacher"]
 WAITING: Any = Field(
-    description="key: the world waits on its first frame until a person presses a key"
+    description="key: the world waits on its first frame until a person presses a key; "
+    "teacher: a teacher has stopped it"
 )
 
 

@@ -16,13 +16,14 @@ def advance(runner: Runner, times: int = 4) -> None:
         runner.advance()
 
 
-def driven(**options: float) -> Runner:
-    return Runner(small_sim(controller=WASDRBMoveController()), seed=1, **options)
+def driven(time_scale: float = 1.0) -> Runner:
+    sim = small_sim(controller=WASDRBMoveController())
+    return Runner(sim, seed=1, time_scale=time_scale)
 
 
 @pytest.mark.parametrize("time_scale", [1.0, math.inf])
 def test_it_stands_still_with_its_keys_released_and_goes_on(time_scale: float) -> None:
-    runner = driven(time_scale=time_scale)
+    runner = driven(time_scale)
     advance(runner)
     keyboard = runner.sim.agents[0].keyboard
     keyboard.hold({"KeyW"})
