@@ -77,7 +77,8 @@ class Join:
             return _problem(str(error), 409)
         except JoinError as error:
             return _problem(str(error), 403)
-        answer = JSONResponse({"room": f"{path_of(seat.room)}/"}, headers=NO_STORE)
+        found = {"room": f"{path_of(seat.room)}/", "name": seat.name, "colour": seat.colour}
+        answer = JSONResponse(found, headers=NO_STORE)
         answer.set_cookie(
             SEAT_COOKIE,
             token,
