@@ -122,6 +122,11 @@ class LinkClient:
             self._dialogue.set(message)
             self._changed.notify_all()
 
+    def clear(self) -> None:
+        """Forget all present states, since what they described is gone; results stay."""
+        with self._changed:
+            self._dialogue.clear()
+
     def send_result(self, result: Result) -> None:
         """Deliver a result, now or as soon as there is a connection, until it is acknowledged.
 

@@ -178,6 +178,11 @@ class LinkDialogue:
         self._latest[kind] = message
         self._unsent[kind] = None
 
+    def clear(self) -> None:
+        """Forget all present states; after a reconnect, none is sent again."""
+        self._latest.clear()
+        self._unsent.clear()
+
     def next_frame(self, now: float) -> bytes | None:
         """Return the next frame to send; None if there is none at present."""
         if self.phase is not Phase.LINKED:

@@ -88,6 +88,18 @@ def test_only_the_latest_state_of_each_kind_is_sent_and_all_again_after_a_reconn
     assert talk.link().sent() == [drawing(1), poses(1, 3.0), state(2)]
 
 
+def test_states_of_a_world_that_is_gone_are_not_sent_again() -> None:
+    talk = Talk().link()
+    talk.dialogue.set(state(1))
+    talk.sent()
+    talk.dialogue.set(drawing(1))
+    talk.dialogue.clear()
+    talk.outbox.add(result(1))
+    assert talk.sent() == [result(1)]
+    talk.lose()
+    assert talk.link().sent() == [result(1)]
+
+
 def test_poses_of_an_older_drawing_are_not_sent() -> None:
     talk = Talk().link()
     talk.dialogue.set(drawing(1))
