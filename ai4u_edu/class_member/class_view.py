@@ -1,4 +1,4 @@
-"""Everything of a class that the pages of one of its worlds show."""
+"""State of a class that the pages of one of its worlds show."""
 
 import threading
 from collections.abc import Callable
@@ -26,7 +26,7 @@ class _Shown:
 
 
 class ClassView:
-    """What a class has told a world. Any thread may write and read it.
+    """The state of a class as a world knows it. Any thread may write and read it.
 
     Args:
         clock: seconds.

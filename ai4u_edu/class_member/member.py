@@ -86,7 +86,7 @@ class ClassMember:
         clock: Callable[[], float] = time.monotonic,
     ) -> None:
         self.view = ClassView(clock)
-        """What pages show of the class."""
+        """State of the class for pages."""
         self._runner, self._editor, self._title, self._clock = runner, editor, title, clock
         self._wake, self._stopping = threading.Event(), False
         self._inbox: deque[tuple[Assignment | Race, float]] = deque()

@@ -14,7 +14,7 @@ IDLE_S = 60.0
 """Time without driving and editing after which a room is idle."""
 WINS = ("goal", "won")
 TEACHER = "teacher"
-"""What a world waits for while it is held; see :attr:`Snapshot.waiting`."""
+"""Value of :attr:`Snapshot.waiting` while a world is held."""
 
 
 class RoomState:

@@ -367,16 +367,6 @@ class WorldThread:
             # a block makes the snapshot fail: publish the last one, with the reason
             self._publisher.publish(lambda: replace(self.latest, error=self.error))
 
-    def _as_past(self, past: Snapshot) -> Snapshot:
-        """Return a past snapshot as it is shown; it shares the current static scene if equal."""
-        same = past.static_scene is self._static_scene or past.static_scene == self._static_scene
-        return replace(
-            past,
-            static_scene=self._static_scene if same else past.static_scene,
-            paused=True,
-            time_scale=self.time_scale,
-        )
-
     def _picture(self) -> Snapshot:
         sim = self.sim
         if self._static_version != (version := (sim.world.generation, sim.goal, sim.success)):

@@ -1,4 +1,4 @@
-"""What pages show of a class, as the input socket sends it."""
+"""State of a class for pages, as the input socket sends it."""
 
 from typing import Any, Protocol
 
@@ -12,7 +12,7 @@ MAX_SEAT_DIGITS = 9
 
 
 class ClassFeed(Protocol):
-    """What a class has told a room; any thread may read it."""
+    """The state of a class as a room knows it; any thread may read it."""
 
     @property
     def version(self) -> int:
