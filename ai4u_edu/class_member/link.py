@@ -24,7 +24,7 @@ class ClassLinkSettings:
     """Address of a class, and the secret that the class gave."""
 
     url: str
-    """Of the class, such as ``http://teacher:8080/``."""
+    """Address, such as ``http://teacher:8080/``."""
     secret: str = field(repr=False)
     kind: Literal["room", "notebook"] = "room"
 

@@ -22,6 +22,11 @@ from ai4u_edu.server.app import RoomMount
 
 HOST = "127.0.0.1"
 ROOMS_PATH = "/r/"
+MAX_FRAMES_PER_S = 17.0
+"""Most pictures a second of each page: after each fourth of 60 ticks, with room for one that comes
+a bit early. A class has many rooms and few cores."""
+MIN_FRAMES_PER_S = 15.0
+"""Pictures a second if ticks are late."""
 
 
 @dataclass(frozen=True)
@@ -82,6 +87,8 @@ def run_room(order: RoomOrder, parent: Connection) -> None:
         saved_scenes=order.folder / "scenes",
         class_link=ClassLinkSettings(order.class_url, order.token) if order.class_url else None,
         class_folder=order.folder,
+        frames_per_s=MAX_FRAMES_PER_S,
+        min_frames_per_s=MIN_FRAMES_PER_S,
     )
     try:
         for file in order.blocks:

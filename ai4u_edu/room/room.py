@@ -15,6 +15,7 @@ from ai4u_edu.lessons.course import lessons
 from ai4u_edu.panel import PanelSockets
 from ai4u_edu.recording import Episode, recorder_into
 from ai4u_edu.room.settings import RoomSettings
+from ai4u_edu.runtime.frame_budget import FrameBudget
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.scenes import Scene
 from ai4u_edu.scenes.scene_link import is_link
@@ -51,6 +52,7 @@ class Room:
             time_scale=settings.time_scale,
             recorder=recorder,
             wait_for_key=settings.wait_for_key,
+            frame_budget=FrameBudget(settings.frames_per_s, settings.min_frames_per_s),
         )
         self._autosave = None
         if settings.unsaved is not None and settings.autosave:

@@ -9,7 +9,6 @@ from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.base.errors import NoDecisionError
 from ai4u_edu.recording import Recorder, Replay
 from ai4u_edu.recording.scene_export import without_unknown_brains
-from ai4u_edu.runtime.snapshot_publisher import as_past
 from ai4u_edu.runtime.world_thread import WorldThread
 from ai4u_edu.scenes import Scene
 from ai4u_edu.snapshot import Snapshot
@@ -165,9 +164,7 @@ class Runner(WorldThread):
                 return
             if not self.paused:
                 self._set_paused(True)
-            self._past = (
-                None if past is None else as_past(past, self._static_scene, self.time_scale)
-            )
+            self._past = None if past is None else self._as_past(past)
 
         return self.submit(command)
 

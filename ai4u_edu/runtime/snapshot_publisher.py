@@ -2,10 +2,9 @@
 
 import threading
 from collections.abc import Callable
-from dataclasses import replace
 
 from ai4u_edu.runtime.frame_budget import FrameBudget
-from ai4u_edu.snapshot import Snapshot, StaticScene
+from ai4u_edu.snapshot import Snapshot
 
 
 class SnapshotPublisher:
@@ -41,14 +40,3 @@ class SnapshotPublisher:
             self._budget.note_snapshot(began, self._clock())
         with self._published:
             self._published.notify_all()
-
-
-def as_past(past: Snapshot, static_scene: StaticScene, time_scale: float) -> Snapshot:
-    """Return a past snapshot as it is shown; it shares the current static scene if equal."""
-    same = past.static_scene is static_scene or past.static_scene == static_scene
-    return replace(
-        past,
-        static_scene=static_scene if same else past.static_scene,
-        paused=True,
-        time_scale=time_scale,
-    )
