@@ -1,6 +1,7 @@
 """The class as the teacher's page and the projector page get it."""
 
 import json
+import time
 from collections import defaultdict
 from collections.abc import Callable, Mapping
 from functools import lru_cache
@@ -14,6 +15,7 @@ from ai4u_edu.scenes import Scene
 
 Event = dict[str, Any]
 QrCode = Callable[[str], tuple[str, str]]
+MAX_AGE_S = 0.5
 MAX_CACHED = 8
 """Addresses under which pages are open, for each of which an event is kept."""
 
@@ -30,7 +32,7 @@ class ClassEvents:
 
     def __init__(self, live: LiveClass, join: QrCode) -> None:
         self._live, self._join = live, join
-        self._cached: dict[tuple[str, bool], tuple[int, str]] = {}
+        self._cached: dict[tuple[str, bool], tuple[int, float, str]] = {}
 
     def text(self, url: str, *, is_projected: bool) -> str:
         """Return the present event as JSON.
@@ -40,13 +42,14 @@ class ClassEvents:
             is_projected: True for the page that everybody sees.
         """
         key = url, is_projected
-        version, text = self._cached.get(key, (-1, ""))
-        if version != self._live.version:
-            version = self._live.version
+        version, built_at, text = self._cached.get(key, (-1, 0.0, ""))
+        now = time.monotonic()
+        # seconds that are left are in it, so it can't be kept for long
+        if version != self._live.version or now - built_at > MAX_AGE_S:
             text = json.dumps(self.event(url, is_projected=is_projected))
             if len(self._cached) >= MAX_CACHED:
                 self._cached.clear()
-            self._cached[key] = version, text
+            self._cached[key] = self._live.version, now, text
         return text
 
     def event(self, url: str, *, is_projected: bool) -> Event:
@@ -62,7 +65,7 @@ class ClassEvents:
             "problem": live.results.problem,
             "attention": live.attention.as_event(),
             "shown": live.shown,
-            "race": None,
+            "race": live.race.event(is_projected=is_projected),
             "scenes": _library(),
             "exercises": [each._asdict() for each in course_index()],
             "seats": self._seats(),

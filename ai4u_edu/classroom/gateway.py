@@ -1,13 +1,15 @@
 """The web app of a class: joining, the way into rooms, and the teacher's page."""
 
 import re
-from collections.abc import Callable, Collection
+from collections.abc import Callable, Collection, Iterable
+from pathlib import Path
 
 from starlette.applications import Starlette
 from starlette.middleware import Middleware
 from starlette.routing import Mount, Route, WebSocketRoute
 
 from ai4u_edu.classroom.class_event import ClassEvents
+from ai4u_edu.classroom.episode_check import EpisodeCheck
 from ai4u_edu.classroom.join import Join
 from ai4u_edu.classroom.link_endpoint import LinkEndpoint
 from ai4u_edu.classroom.live_class import LiveClass
@@ -43,6 +45,7 @@ def class_app(
     join_address: Callable[[str], str] = str,
     allowed_hosts: Collection[str] = LOOPBACK,
     proxy_hosts: Collection[str] = (),
+    blocks: Iterable[Path] = (),
 ) -> Starlette:
     """Return the ASGI app of a class.
 
@@ -54,8 +57,9 @@ def class_app(
         join_address: returns the address that students open, for the one that the teacher opened.
         allowed_hosts: host names that requests may use; see :mod:`ai4u_edu.server.host_origin`.
         proxy_hosts: host names of a reverse proxy in front; see there.
+        blocks: Python files with the teacher's blocks.
     """
-    live = LiveClass(store, seats, rooms)
+    live = LiveClass(store, seats, rooms, EpisodeCheck(blocks))
     attempts = Attempts()
     proxy = RoomProxy([AGENT_COOKIE, DARK_COOKIE], live.page_opened)
 
