@@ -12,6 +12,7 @@ from starlette.applications import Starlette
 from ai4u_edu.base.atomic_write import make_folder
 from ai4u_edu.base.errors import AI4UError
 from ai4u_edu.blocks.loading import load_blocks
+from ai4u_edu.class_member import ClassLinkSettings
 from ai4u_edu.classroom.room_watch import limit_own_files
 from ai4u_edu.classroom.scene_file import SceneFile, last_scene, last_seed
 from ai4u_edu.room import Room, RoomSettings
@@ -21,6 +22,11 @@ from ai4u_edu.server.app import RoomMount
 
 HOST = "127.0.0.1"
 ROOMS_PATH = "/r/"
+MAX_FRAMES_PER_S = 17.0
+"""Most pictures a second of each page: after each fourth of 60 ticks, with room for one that comes
+a bit early. A class has many rooms and few cores."""
+MIN_FRAMES_PER_S = 15.0
+"""Pictures a second if ticks are late."""
 
 
 @dataclass(frozen=True)
@@ -79,6 +85,10 @@ def run_room(order: RoomOrder, parent: Connection) -> None:
         allowed_hosts=("*",),
         rules=Rules(token=order.token),
         saved_scenes=order.folder / "scenes",
+        class_link=ClassLinkSettings(order.class_url, order.token) if order.class_url else None,
+        class_folder=order.folder,
+        frames_per_s=MAX_FRAMES_PER_S,
+        min_frames_per_s=MIN_FRAMES_PER_S,
     )
     try:
         for file in order.blocks:
