@@ -7,10 +7,21 @@ from typing import Annotated
 import typer
 
 from ai4u_edu.cli import play_options as o
-from ai4u_edu.cli.options import OwnBlocks, load_own_blocks
+from ai4u_edu.cli.options import OwnBlocks, finite, load_own_blocks
 
-MAX_PER_ADDRESS = 1000
-"""Limit of connections from one address: a school's students may all have the same one."""
+SleepAfter = Annotated[
+    float,
+    typer.Option(
+        min=0,
+        max=10_000,
+        callback=finite,
+        help="Minutes until a world that nobody uses is saved and ends.",
+    ),
+]
+RoomMemory = Annotated[
+    float,
+    typer.Option(min=100, max=100_000, callback=finite, help="Memory (MB) that one world may use."),
+]
 
 
 def classroom(
@@ -24,12 +35,8 @@ def classroom(
     host: o.Host = "0.0.0.0",  # noqa: S104 - a class is for other machines
     port: o.Port = 8080,
     code: Annotated[str, typer.Option(help="Join code. Default: a random one.")] = "",
-    sleep_after: Annotated[
-        float, typer.Option(min=0, help="Minutes until a world that nobody uses is saved and ends.")
-    ] = 5.0,
-    room_memory: Annotated[
-        float, typer.Option(min=100, help="Memory (MB) that one world may use.")
-    ] = 600.0,
+    sleep_after: SleepAfter = 5.0,
+    room_memory: RoomMemory = 600.0,
     allow_host: o.AllowHost = None,
     own_blocks: OwnBlocks = None,
     open_page: o.OpenPage = True,
@@ -37,6 +44,7 @@ def classroom(
     """Serve a class: students join with a code, and each drives in a world of their own."""
     from ai4u_edu.classroom import ClassStore, LocalRooms, RoomRule, Seats, class_app
     from ai4u_edu.classroom.addresses import class_banner, join_address, teacher_address
+    from ai4u_edu.classroom.gateway import SERVER_LIMITS
     from ai4u_edu.classroom.room_watch import RoomLimits
     from ai4u_edu.classroom.store import teacher_token
     from ai4u_edu.scenes import Scene
@@ -60,6 +68,7 @@ def classroom(
                 open_on_desktop(teacher_address(url, token))
 
         app = class_app(
+            store,
             seats,
             local,
             teacher_token=token,
@@ -67,5 +76,5 @@ def classroom(
             allowed_hosts=hosts_for(host),
             proxy_hosts=allow_host or [],
         )
-        serve(app, host, port, on_ready=announce, per_address=MAX_PER_ADDRESS)
+        serve(app, host, port, announce, **SERVER_LIMITS)
     HAS_SERVED.set()
