@@ -14,12 +14,12 @@ from ai4u_edu.blocks.loading import load_blocks
 from ai4u_edu.recording import Episode, Replay
 from ai4u_edu.recording.file import decode
 from ai4u_edu.scenes import Scene
-from ai4u_edu.server.page_events import outcome
+from ai4u_edu.snapshot.outcome import outcome
 
 CHECK_TIMEOUT_S = 30.0
 """Time in which an episode must be replayed; a longer one is refused."""
 END_TIMEOUT_S = 2.0
-TIME_TOLERANCE_S = 0.25
+TIME_TOLERANCE_S = 0.05
 """Accepted difference between the claimed and the replayed time."""
 MAX_REASON_CHARS = 200
 _EVERY_TICK = 10**9
@@ -65,7 +65,7 @@ def _outcome(replay: Replay) -> str:
     """Return the outcome of a replayed episode for the agent that acts first."""
     found = ""
     for picture in replay.snapshots(every=_EVERY_TICK):  # the last one only
-        found = outcome(picture, picture.agents[0])
+        found = outcome(picture.agents[0], picture.agents, picture.static_scene.success)
     return found
 
 

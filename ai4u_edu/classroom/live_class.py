@@ -11,7 +11,7 @@ from ai4u_edu.base.atomic_write import write_atomically
 from ai4u_edu.classroom.assignments import Assignments
 from ai4u_edu.classroom.attention import AttentionState
 from ai4u_edu.classroom.episode_check import EpisodeCheck
-from ai4u_edu.classroom.live_rooms import LiveRoom, OpenLink, remote_id
+from ai4u_edu.classroom.live_rooms import LiveRoom, OpenLink, remote_id, seat_of_remote
 from ai4u_edu.classroom.progress import Progress
 from ai4u_edu.classroom.race import Races
 from ai4u_edu.classroom.race_runner import RaceRunner
@@ -116,8 +116,7 @@ class LiveClass:
         ]
 
     def _seats_of_id(self, room: str) -> list[SeatRow]:
-        found = self.rooms.get(room)
-        return [] if found is None else self.seats_of(found)
+        return self.seats_of(self.room(room, seat_of_remote(room)))
 
     def is_here(self, seat: int) -> bool:
         """Return True while a page, a notebook or a world of the seat is connected."""

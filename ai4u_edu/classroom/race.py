@@ -82,7 +82,7 @@ class Races:
         for row in rows:
             if row[0] == self._store.setting(DISMISSED):
                 continue
-            self.now = RaceState(*row[:5], is_board_hidden=bool(row[5]))
+            self.now = RaceState(row[0], row[1], row[2], row[3], row[4], bool(row[5]))
             found = self._store.query(
                 "select key, room, outcome, seconds, verdict, reason from race_results "
                 "where race = ?",
