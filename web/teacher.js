@@ -25,6 +25,8 @@ const MIN_WALL_PX = 240;
 const NOBODY = "Nobody is here yet. A card for each room appears as soon as somebody joins.";
 const find = (selector) => document.querySelector(selector);
 let state = null;
+/** Sentence while the class can't be reached. */
+let lost = "";
 
 const realNames = new RealNames();
 const wall = new Wall(find("#wall"), {
@@ -58,7 +60,10 @@ onState("#attention", () => {
 openClassSocket(
   "./teacher/socket",
   { class: show, drawing: (message) => wall.setDrawing(message), poses: (message) => wall.setPoses(message) },
-  (problem) => setText(find("#status"), problem),
+  (problem) => {
+    lost = problem;
+    sayProblem();
+  },
 );
 
 /** Call a function at a click, once there is a state. */
@@ -68,6 +73,7 @@ function onState(selector, onClick) {
 
 function show(message) {
   state = message;
+  sayProblem();
   header.show(state);
   strips.show(state);
   setText(find("#attention"), state.attention.kind ? "End attention" : "Attention…");
@@ -80,6 +86,11 @@ function show(message) {
   const mistakes = state.misconceptions?.length ?? 0;
   setText(find("#mistake-count"), mistakes ? `(${mistakes})` : "");
   find("#wall ul").removeAttribute("aria-busy");
+}
+
+/** Say what is wrong with the connection, or with the class itself, such as a full disk. */
+function sayProblem() {
+  setText(find("#status"), lost || state?.problem || "");
 }
 
 /** Say why the wall is empty, if it is. */

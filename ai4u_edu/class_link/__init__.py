@@ -1,1 +1,17 @@
-"""A room's side of the link to its class: dialogue, outbox and connection."""
+"""A room's side of the link to its class: joining, dialogue, outbox and connection."""
+
+from ai4u_edu.class_link.client import LinkClient
+from ai4u_edu.class_link.errors import NotJoinedError, UnreachableError
+from ai4u_edu.class_link.joining import Seat, join
+from ai4u_edu.class_link.outbox import Outbox
+from ai4u_edu.class_link.seat_file import SeatFile
+
+__all__ = [
+    "LinkClient",
+    "NotJoinedError",
+    "Outbox",
+    "Seat",
+    "SeatFile",
+    "UnreachableError",
+    "join",
+]

@@ -5,16 +5,28 @@ import multiprocessing
 import secrets
 import sys
 import time
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from multiprocessing.connection import Connection
 from multiprocessing.process import BaseProcess
 from pathlib import Path
 
+import httpx
+
 from ai4u_edu.base.errors import shorten
 from ai4u_edu.classroom.errors import RoomError
 from ai4u_edu.classroom.room_host import RoomAddress
-from ai4u_edu.classroom.room_process import HOST, RoomFailed, RoomOrder, RoomReady, run_room
+from ai4u_edu.classroom.room_process import (
+    HOST,
+    RoomFailed,
+    RoomOrder,
+    RoomReady,
+    path_of,
+    run_room,
+)
+from ai4u_edu.classroom.room_watch import RoomLimits, RoomWatch
+from ai4u_edu.server.token_auth import is_same_secret
 
 START_TIMEOUT_S = 60.0
 END_TIMEOUT_S = 5.0
@@ -31,16 +43,22 @@ class _Running:
     connection: Connection
     address: RoomAddress
     since: float
+    watch: RoomWatch
 
 
 @dataclass
 class _Slot:
-    """State of a room: its process, and how often it ended early."""
+    """State of a room: its process, who uses it, and how often it ended early."""
 
     lock: asyncio.Lock = field(default_factory=asyncio.Lock)
     running: _Running | None = None
     backoff_s: float = 0.0
     retry_at: float = 0.0
+    reason: str = ""
+    """Reason for which its last process was ended."""
+    users: int = 0
+    """Sockets of pages and scripts."""
+    used_at: float = 0.0
 
 
 class LocalRooms:
@@ -52,11 +70,19 @@ class LocalRooms:
     Args:
         folder: of the class; each room has a folder below it.
         blocks: Python files with the teacher's blocks, which every room loads.
+        limits: of each process.
     """
 
-    def __init__(self, folder: Path, blocks: Iterable[Path] = ()) -> None:
+    def __init__(
+        self, folder: Path, blocks: Iterable[Path] = (), limits: RoomLimits | None = None
+    ) -> None:
+        self._limits = limits or RoomLimits()
+        self._watching: asyncio.Task[None] | None = None
         self._folder, self._blocks = folder, tuple(each.absolute() for each in blocks)
         self._slots: dict[str, _Slot] = {}
+        self._secrets: dict[str, str] = {}
+        self.class_url = ""
+        """Address of the class, to which rooms open links; set before the first one starts."""
         is_forked = sys.platform == "linux"
         self._context = multiprocessing.get_context("forkserver" if is_forked else "spawn")
         if is_forked:
@@ -69,15 +95,37 @@ class LocalRooms:
             RoomError: it does not start, or ended early several times and waits.
         """
         slot = self._slots.setdefault(room, _Slot())
+        slot.used_at = time.monotonic()
+        if self._watching is None:
+            self._watching = asyncio.create_task(self._watch())
         async with slot.lock:  # two pages that come at once wait for one process
             if slot.running is not None and slot.running.process.is_alive():
                 return slot.running.address
             if slot.running is not None:
                 _note_end(slot, slot.running)
             if time.monotonic() < slot.retry_at:
-                raise RoomError("Your world ended. It starts again in a moment.")
+                raise RoomError(slot.reason or "Your world ended. It starts again in a moment.")
             slot.running = await asyncio.to_thread(self._start, room, scene)
+            slot.reason = ""
             return slot.running.address
+
+    @contextmanager
+    def in_use(self, room: str) -> Iterator[None]:
+        """Keep a room's process running while a socket is open."""
+        slot = self._slots.setdefault(room, _Slot())
+        slot.users += 1
+        try:
+            yield
+        finally:
+            slot.users -= 1
+            slot.used_at = time.monotonic()
+
+    def room_of(self, secret: str) -> str:
+        """Return the room whose secret this is, also while it starts; empty if it is no room's."""
+        for room, own in [*self._secrets.items()]:  # a thread starts rooms
+            if is_same_secret(own, secret):
+                return room
+        return ""
 
     def is_running(self, room: str) -> bool:
         """Return True if the room's process runs."""
@@ -102,10 +150,40 @@ class LocalRooms:
         for each in running:
             _end(each)
 
+    async def _watch(self) -> None:
+        """End processes that nobody uses, and those that break a limit, until the loop ends."""
+        async with httpx.AsyncClient(trust_env=False) as client:
+            while True:
+                await asyncio.sleep(self._limits.check_s)
+                # side by side: one that does not answer keeps no other from its check
+                await asyncio.gather(
+                    *(
+                        self._check(room, slot, slot.running, client)
+                        for room, slot in self._slots.items()
+                        if slot.running is not None and not slot.lock.locked()
+                    )
+                )
+
+    async def _check(
+        self, room: str, slot: _Slot, running: _Running, client: httpx.AsyncClient
+    ) -> None:
+        idle_s = time.monotonic() - slot.used_at
+        if slot.users == 0 and 0 < self._limits.sleep_after_s < idle_s:
+            await self.end(room)
+            return
+        reason = running.watch.broken_limit()
+        if reason:
+            slot.reason = reason
+            running.process.kill()
+        elif slot.users:
+            url = f"http://{HOST}:{running.address.port}{path_of(room)}/healthz"
+            await running.watch.ask(client, url, running.address)
+
     def _start(self, room: str, scene: str) -> _Running:
         ours, theirs = self._context.Pipe()
-        token = secrets.token_urlsafe(24)
-        order = RoomOrder(room, scene, self._folder / "rooms" / room, token, self._blocks)
+        token = self._secrets[room] = secrets.token_urlsafe(24)
+        folder = self._folder / "rooms" / room
+        order = RoomOrder(room, scene, folder, token, self._blocks, self.class_url)
         process = self._context.Process(  # type: ignore[attr-defined]
             target=run_room, args=(order, theirs), name=f"room {room}", daemon=True
         )
@@ -119,7 +197,8 @@ class LocalRooms:
             pass
         if isinstance(answer, RoomReady):
             address = RoomAddress(HOST, answer.port, token)
-            return _Running(process, ours, address, time.monotonic())
+            watch = RoomWatch(process.pid, self._limits)
+            return _Running(process, ours, address, time.monotonic(), watch)
         ours.close()
         process.kill()
         reason = answer.reason if isinstance(answer, RoomFailed) else "its process did not start"

@@ -1,5 +1,6 @@
 """Interface of what runs the rooms of a class: processes here, or another engine."""
 
+from contextlib import AbstractContextManager
 from dataclasses import dataclass
 from typing import Protocol
 
@@ -22,6 +23,12 @@ class RoomHost(Protocol):
         Raises:
             RoomError: it does not start.
         """
+
+    def in_use(self, room: str) -> AbstractContextManager[None]:
+        """Keep a room's server running while a socket of it is open."""
+
+    def room_of(self, secret: str) -> str:
+        """Return the room whose secret this is, also while it starts; empty if it is no room's."""
 
     def is_running(self, room: str) -> bool:
         """Return True if the room's server runs."""

@@ -12,7 +12,9 @@ from starlette.applications import Starlette
 from ai4u_edu.base.atomic_write import make_folder
 from ai4u_edu.base.errors import AI4UError
 from ai4u_edu.blocks.loading import load_blocks
-from ai4u_edu.classroom.scene_file import SceneFile, last_scene
+from ai4u_edu.class_member import ClassLinkSettings
+from ai4u_edu.classroom.room_watch import limit_own_files
+from ai4u_edu.classroom.scene_file import SceneFile, last_scene, last_seed
 from ai4u_edu.room import Room, RoomSettings
 from ai4u_edu.runtime.process_tuning import tuned_process
 from ai4u_edu.server import Rules, serve
@@ -20,6 +22,11 @@ from ai4u_edu.server.app import RoomMount
 
 HOST = "127.0.0.1"
 ROOMS_PATH = "/r/"
+MAX_FRAMES_PER_S = 17.0
+"""Most pictures a second of each page: after each fourth of 60 ticks, with room for one that comes
+a bit early. A class has many rooms and few cores."""
+MIN_FRAMES_PER_S = 15.0
+"""Pictures a second if ticks are late."""
 
 
 @dataclass(frozen=True)
@@ -34,6 +41,8 @@ class RoomOrder:
     """Secret that the class sends with each request; no browser gets it."""
     blocks: tuple[Path, ...] = ()
     """Python files with the teacher's blocks."""
+    class_url: str = ""
+    """Address of the class, to which the room opens its link with the token; empty for none."""
 
 
 @dataclass(frozen=True)
@@ -67,13 +76,19 @@ def run_room(order: RoomOrder, parent: Connection) -> None:
         parent: gets a :class:`RoomReady` or :class:`RoomFailed`.
     """
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C in the class's terminal is for the class
+    limit_own_files()
     make_folder(order.folder, "the room's folder")
     settings = RoomSettings(
         scene=last_scene(order.folder, order.scene),
+        seed=last_seed(order.folder),
         # the class checks both: the name under which a browser has the page is in its requests
         allowed_hosts=("*",),
         rules=Rules(token=order.token),
         saved_scenes=order.folder / "scenes",
+        class_link=ClassLinkSettings(order.class_url, order.token) if order.class_url else None,
+        class_folder=order.folder,
+        frames_per_s=MAX_FRAMES_PER_S,
+        min_frames_per_s=MIN_FRAMES_PER_S,
     )
     try:
         for file in order.blocks:
@@ -84,7 +99,7 @@ def run_room(order: RoomOrder, parent: Connection) -> None:
         return
     app = Starlette(routes=[RoomMount(path_of(order.id), app=room.app)])
     threading.Thread(target=_end_with, args=[parent], name="parent", daemon=True).start()
-    with tuned_process(), room, SceneFile(order.folder, room.editor):
+    with tuned_process(), room, SceneFile(order.folder, room.editor, room.runner):
         serve(app, HOST, 0, on_ready=lambda url: parent.send(RoomReady(_port(url))))
 
 

@@ -9,9 +9,6 @@ import typer
 from ai4u_edu.cli import play_options as o
 from ai4u_edu.cli.options import OwnBlocks, load_own_blocks
 
-MAX_PER_ADDRESS = 1000
-"""Limit of connections from one address: a school's students may all have the same one."""
-
 
 def classroom(
     scene: o.SceneName = "box_chase",
@@ -24,6 +21,12 @@ def classroom(
     host: o.Host = "0.0.0.0",  # noqa: S104 - a class is for other machines
     port: o.Port = 8080,
     code: Annotated[str, typer.Option(help="Join code. Default: a random one.")] = "",
+    sleep_after: Annotated[
+        float, typer.Option(min=0, help="Minutes until a world that nobody uses is saved and ends.")
+    ] = 5.0,
+    room_memory: Annotated[
+        float, typer.Option(min=100, help="Memory (MB) that one world may use.")
+    ] = 600.0,
     allow_host: o.AllowHost = None,
     own_blocks: OwnBlocks = None,
     open_page: o.OpenPage = True,
@@ -31,6 +34,8 @@ def classroom(
     """Serve a class: students join with a code, and each drives in a world of their own."""
     from ai4u_edu.classroom import ClassStore, LocalRooms, RoomRule, Seats, class_app
     from ai4u_edu.classroom.addresses import class_banner, join_address, teacher_address
+    from ai4u_edu.classroom.gateway import SERVER_LIMITS
+    from ai4u_edu.classroom.room_watch import RoomLimits
     from ai4u_edu.classroom.store import teacher_token
     from ai4u_edu.scenes import Scene
     from ai4u_edu.server import hosts_for, open_on_desktop, serve
@@ -38,16 +43,22 @@ def classroom(
 
     load_own_blocks(own_blocks)
     Scene.load(scene)  # a mistake in it is said here, and not in each room
-    with ClassStore(folder) as store, closing(LocalRooms(folder, own_blocks or ())) as local:
+    limits = RoomLimits(sleep_after_s=60 * sleep_after, max_memory_mb=room_memory)
+    with (
+        ClassStore(folder) as store,
+        closing(LocalRooms(folder, own_blocks or (), limits)) as local,
+    ):
         seats = Seats(store, scene, RoomRule.parse(rooms), code)
         token = teacher_token(store)
 
         def announce(url: str) -> None:
+            local.class_url = url
             typer.echo(class_banner(join_address(host, url), seats.code, url, token))
             if open_page:
                 open_on_desktop(teacher_address(url, token))
 
         app = class_app(
+            store,
             seats,
             local,
             teacher_token=token,
@@ -55,5 +66,5 @@ def classroom(
             allowed_hosts=hosts_for(host),
             proxy_hosts=allow_host or [],
         )
-        serve(app, host, port, on_ready=announce, per_address=MAX_PER_ADDRESS)
+        serve(app, host, port, announce, **SERVER_LIMITS)
     HAS_SERVED.set()

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from ai4u_edu.lessons.checking import check, hint, progress, solution
+    from ai4u_edu.lessons.class_membership import join_class, leave_class
     from ai4u_edu.lessons.controls import cards, sliders
     from ai4u_edu.lessons.filming import film
     from ai4u_edu.lessons.plots import bars, plot
@@ -26,6 +27,8 @@ __all__ = [
     "compare",
     "film",
     "hint",
+    "join_class",
+    "leave_class",
     "plot",
     "predict",
     "progress",
@@ -39,6 +42,7 @@ __all__ = [
 
 _HOMES = {
     "checking": ("check", "hint", "progress", "solution"),
+    "class_membership": ("join_class", "leave_class"),
     "controls": ("cards", "sliders"),
     "filming": ("film",),
     "predictions": ("compare", "predict"),

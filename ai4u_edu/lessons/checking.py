@@ -6,6 +6,7 @@ from typing import Any
 
 from ai4u_edu.lessons.answers import answers_to
 from ai4u_edu.lessons.cell_source import definition_line, written
+from ai4u_edu.lessons.class_membership import class_trouble, report_event
 from ai4u_edu.lessons.course import is_ticket
 from ai4u_edu.lessons.diagnoses import COMMON, UNKNOWN, diagnosis_id
 from ai4u_edu.lessons.exercise import Done, Exercise, NotYet, find, unfinished
@@ -86,20 +87,22 @@ def check_as(exercise_id: str, *things: Any, code: str | None = None) -> None:
         put(card("grey", "Stopped.", words), _words("Stopped.", words))
         return
     progress = ProgressFile()
+    diagnosis = diagnosis_id(exercise_id, verdict.hint, exercise.hints) if verdict.hint else ""
     progress.note(
         exercise_id,
         passed=verdict.passed,
         text=verdict.text,
-        diagnosis=diagnosis_id(exercise_id, verdict.hint, exercise.hints) if verdict.hint else "",
+        diagnosis=diagnosis,
         picture=verdict.picture,
         code=written(exercise_id) if code is None else code,
     )
+    report_event(exercise_id, "right" if verdict.passed else "wrong", diagnosis)
     if verdict.passed:
         colour, sign, more = "green", f"{YES} Right.", []
     else:
         colour, sign = "vermillion", "Not yet."
         more = [] if is_ticket(exercise_id) else [f'Stuck? Run `hint("{exercise_id}")`.']
-    lines = [verdict.text, *more, *([progress.trouble] if progress.trouble else [])]
+    lines = [verdict.text, *more, *filter(None, [progress.trouble, class_trouble()])]
     put(card(colour, sign, lines, verdict.picture), _words(sign, lines))
 
 
@@ -110,7 +113,9 @@ def hint(exercise_id: str) -> None:
         SetupError: there is no such exercise.
     """
     exercise = find(exercise_id)
-    pointed = ProgressFile().entries().get(exercise_id, Entry()).diagnosis.rpartition("/")[2]
+    diagnosis = ProgressFile().entries().get(exercise_id, Entry()).diagnosis
+    report_event(exercise_id, "hint", diagnosis)
+    pointed = diagnosis.rpartition("/")[2]
     names = _hints_in_order(exercise, pointed)
     asked = _asked.get((exercise_id, pointed), 0)
     _asked[exercise_id, pointed] = asked + 1

@@ -23,7 +23,6 @@ from ai4u_edu.panel.page import Level, Page
 from ai4u_edu.panel.page_view import PageView
 from ai4u_edu.panel.parts.due import due_parts
 from ai4u_edu.panel.upload import MAX_PART_BYTES
-from ai4u_edu.runtime.frame_budget import TEXTS_PER_S
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.server.bindings import choose_agent
 from ai4u_edu.server.page_receiver import ReceiveLimits, receive_messages
@@ -188,7 +187,7 @@ class _Connection:
     # -- messages to the page --------------------------------------------------------------------
 
     async def _send_parts(self) -> None:
-        period = 1 / TEXTS_PER_S
+        period = 1 / self._context.runner.frame_budget.texts_per_s
         while True:
             self._changed.clear()
             self._view.refresh()

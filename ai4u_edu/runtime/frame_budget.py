@@ -35,6 +35,9 @@ TRAILS_PER_S = 4.0
 """Rate at which the trails behind agents are drawn on each page."""
 TEXTS_PER_S = 8.0
 """Rate at which the texts of the panel are drawn: faster than anybody reads."""
+FRAMES_PER_SENSES, FRAMES_PER_TEXT = 2, 5
+"""Least frames for each drawing of the senses, and for each of a panel's texts; they count where a
+room has fewer frames than usual."""
 
 EARLY_FRACTION = 0.8
 """Fraction of a part's period after which it may be drawn. Frames follow ticks: a part that waited
@@ -46,9 +49,23 @@ class FrameBudget:
 
     The runner's thread calls :meth:`is_snapshot_due` and :meth:`note_snapshot`; the rest is free of
     state, and any thread may call it.
+
+    Args:
+        max_frames_per_s: for few pages, and for snapshots.
+        min_frames_per_s: for many pages, late ticks or slow frames; at most the other one.
     """
 
-    def __init__(self) -> None:
+    def __init__(
+        self,
+        max_frames_per_s: float = MAX_FRAMES_PER_S,
+        min_frames_per_s: float = MIN_FRAMES_PER_S,
+    ) -> None:
+        self._min_period = 1 / max_frames_per_s
+        self._max_period = 1 / min(min_frames_per_s, max_frames_per_s)
+        self.texts_per_s = min(TEXTS_PER_S, max_frames_per_s / FRAMES_PER_TEXT)
+        """Rate at which a panel's texts are sent."""
+        self.senses_per_s = min(SENSES_PER_S, max_frames_per_s / FRAMES_PER_SENSES)
+        """Rate at which sensors, actions and ghosts are drawn."""
         self._snapshot_at = -math.inf
         self._snapshot_s = 0.0
 
@@ -67,12 +84,11 @@ class FrameBudget:
             next_tick_at: when the next tick is to begin (s).
         """
         since = now - self._snapshot_at
-        if since < max(1 / MAX_FRAMES_PER_S, self._snapshot_s / PART_SHARE):
+        if since < max(self._min_period, self._snapshot_s / PART_SHARE):
             return False
         return now + self._snapshot_s <= next_tick_at or since >= MAX_SNAPSHOT_DELAY_S
 
-    @staticmethod
-    def frame_period(*, pages: int, tick_lateness: float, draw_time: float) -> float:
+    def frame_period(self, *, pages: int, tick_lateness: float, draw_time: float) -> float:
         """Return the time (s) from the begin of one frame to that of the next.
 
         Args:
@@ -80,17 +96,17 @@ class FrameBudget:
             tick_lateness: average lateness of ticks (s).
             draw_time: processor time of the last frame (s).
 
-        >>> [round(1 / FrameBudget.frame_period(pages=pages, tick_lateness=0, draw_time=0.002))
+        >>> [round(1 / FrameBudget().frame_period(pages=pages, tick_lateness=0, draw_time=0.002))
         ...  for pages in (1, 9, 18, 100)]
         [75, 75, 40, 30]
         """
         wanted = max(
-            1 / MAX_FRAMES_PER_S,
+            self._min_period,
             pages / MAX_PAGE_FRAMES_PER_S,
             draw_time / DRAW_SHARE,
-            tick_lateness / MAX_TICK_LATENESS_S / MIN_FRAMES_PER_S,
+            tick_lateness / MAX_TICK_LATENESS_S * self._max_period,
         )
-        return min(wanted, 1 / MIN_FRAMES_PER_S)
+        return min(wanted, self._max_period)
 
 
 class PageTurns:

@@ -21,9 +21,10 @@ from ai4u_edu.runtime.frame_budget import FrameBudget
 from ai4u_edu.runtime.pending_answers import PendingAnswers
 from ai4u_edu.runtime.snapshot_publisher import SnapshotPublisher
 from ai4u_edu.runtime.start_wait import StartWait
+from ai4u_edu.runtime.static_scene_cache import StaticSceneCache
 from ai4u_edu.runtime.tick_monitor import Stall, TickMonitor
 from ai4u_edu.runtime.training_progress import TrainingProgress
-from ai4u_edu.snapshot import Snapshot, StaticScene, capture_snapshot, capture_static_scene
+from ai4u_edu.snapshot import Snapshot, capture_snapshot
 
 T = TypeVar("T")
 logger = logging.getLogger(__name__)
@@ -57,6 +58,7 @@ class WorldThread:
         time_scale: how fast the time runs (``math.inf``: unlimited); left out, as the sim says.
         recorder: keeps the episodes; it has to listen to the same sim.
         wait_for_key: True may wait on an episode's first frame; see :class:`StartWait`.
+        frame_budget: limits of how often the world is drawn; left out, the usual ones.
         clock: seconds; to be replaced in tests.
     """
 
@@ -68,6 +70,7 @@ class WorldThread:
         time_scale: float | None = None,
         recorder: Recorder | None = None,
         wait_for_key: bool = False,
+        frame_budget: FrameBudget | None = None,
         clock: Callable[[], float] = time.perf_counter,
     ) -> None:
         self.sim = sim
@@ -75,12 +78,14 @@ class WorldThread:
         self.training: TrainingProgress | None = None
         """Progress of the training whose policy drives in this world; replaced, never changed."""
         self.paused, self.error = False, ""
+        self.is_held = False
+        """True while the world stands still for a teacher; see :meth:`Runner.hold`."""
         self.describe_error: Callable[[BaseException, Sequence[BasicAgent]], str] = sentence_of
         """Returns the sentence on a block's error that pages show; may be replaced."""
         self.time_scale = sim.default_time_scale
         if time_scale is not None:
             self.set_time_scale(time_scale)
-        self.frame_budget = FrameBudget()
+        self.frame_budget = frame_budget or FrameBudget()
         self._clock = clock
         self._wake = threading.Event()
         self._queue = CommandQueue(clock, self._wake)
@@ -93,8 +98,7 @@ class WorldThread:
         self._episode_clock = EpisodeClock()
         sim.reset(seed)
         self._past: Snapshot | None = None
-        self._static_version: tuple[int, str, str] | None = None
-        self._static_scene: StaticScene = capture_static_scene(sim)
+        self._static_scenes = StaticSceneCache(sim)
         self._publisher = SnapshotPublisher(self._picture(), self.frame_budget, clock)
 
     # -- for any thread --------------------------------------------------------------------------
@@ -172,7 +176,7 @@ class WorldThread:
         self.time_scale = time_scale
 
     def advance(self) -> None:
-        """Run the commands that wait, and tick once unless the world is paused or waits for a key.
+        """Run the commands that wait, and tick once unless the world is paused, held or waits.
 
         The world's thread does nothing else; code without such a thread may call it instead.
         """
@@ -180,7 +184,7 @@ class WorldThread:
         self._monitor.begin()
         try:
             self._run_commands()
-            if self.paused or self.error or self._must_wait_for_key():
+            if self.paused or self.error or self.is_held or self._must_wait_for_key():
                 self._rest()
             else:
                 self._tick(whole_decision=self.is_unpaced())
@@ -281,13 +285,14 @@ class WorldThread:
         self._run_commands()
         self._monitor.end()
         self._schedule.due = min(self._schedule.due, self._clock() + self._period)
-        return not (self.paused or self.error or self._stopping)
+        return not (self.paused or self.error or self.is_held or self._stopping)
 
     def _run_commands(self) -> None:
         while (first := self._queue.first) is not None and not self._stopping:
             is_between_decisions = (
                 self.paused
                 or self.error
+                or self.is_held
                 or self.sim.waiting_for_brain
                 or self.sim.between_decisions()
             )
@@ -345,7 +350,8 @@ class WorldThread:
             self.recorder = recorder
         elif self.recorder is not None:
             self.recorder.listen_to(sim)
-        self.error, self._past, self._static_version = "", None, None
+        self.error, self._past = "", None
+        self._static_scenes.invalidate()
         sim.is_seed_locked = before.is_seed_locked
         self._monitor.forget()
         self._schedule.forget()
@@ -366,31 +372,21 @@ class WorldThread:
 
     def _as_past(self, past: Snapshot) -> Snapshot:
         """Return a past snapshot as it is shown; it shares the current static scene if equal."""
-        same = past.static_scene is self._static_scene or past.static_scene == self._static_scene
-        return replace(
-            past,
-            static_scene=self._static_scene if same else past.static_scene,
-            paused=True,
-            time_scale=self.time_scale,
-        )
+        shared = self._static_scenes.shared(past.static_scene)
+        return replace(past, static_scene=shared, paused=True, time_scale=self.time_scale)
 
     def _picture(self) -> Snapshot:
         sim = self.sim
-        if self._static_version != (version := (sim.world.generation, sim.goal, sim.success)):
-            self._static_version = version
-            static_scene = capture_static_scene(sim)
-            if self._static_scene != static_scene:
-                self._static_scene = static_scene
         return capture_snapshot(
             sim,
-            self._static_scene,
+            self._static_scenes.of(sim),
             paused=self.paused,
             time_scale=self.time_scale,
             real_time_factor=self._real_time_factor(),
             error=self.error,
             slow_tick=self._monitor.slow_tick,
             episode_time=self._episode_clock.read(sim),
-            waiting="key" if self._start_wait.update(sim) and not self.error else "",
+            waiting=self._start_wait.reason(sim, is_held=self.is_held, has_error=bool(self.error)),
         )
 
     def _real_time_factor(self) -> float:

@@ -6,7 +6,7 @@ import warnings
 
 from ai4u_edu.base.log_limit import ErrorLog
 from ai4u_edu.editing import SceneEditor
-from ai4u_edu.runtime.frame_budget import MAX_FRAMES_PER_S, SENSES_PER_S, TEXTS_PER_S
+from ai4u_edu.runtime.frame_budget import MAX_FRAMES_PER_S, TEXTS_PER_S
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.snapshot import Snapshot, StaticScene
 from ai4u_edu.viewer.backend.local_server import LocalServer
@@ -70,15 +70,16 @@ class Viewer:
         set_up_lights(server.scene)
         self.player, self.ghosts = ReplayPlayer(runner), Ghosts(server)
         bodies = Bodies(server, self._choose, lambda: viewer_clients.is_motion_reduced)
+        senses_per_s = runner.frame_budget.senses_per_s
         parts: list[tuple[Part, float]] = [
             (viewer_clients, MAX_FRAMES_PER_S),
             (Ground(server), TEXTS_PER_S),
             (bodies, MAX_FRAMES_PER_S),
             (Labels(server, viewer_clients), MAX_FRAMES_PER_S),
-            (self.ghosts, SENSES_PER_S),
-            (Actions(server, bodies), SENSES_PER_S),
-            (Trails(viewer_clients), SENSES_PER_S),
-            (SenseOverlay(viewer_clients), MAX_FRAMES_PER_S),
+            (self.ghosts, senses_per_s),
+            (Actions(server, bodies), senses_per_s),
+            (Trails(viewer_clients), senses_per_s),
+            (SenseOverlay(viewer_clients, senses_per_s), MAX_FRAMES_PER_S),
         ]
         if editor is not None:
             parts.append((PageHandles(viewer_clients, editor), MAX_FRAMES_PER_S))

@@ -4,7 +4,7 @@ import math
 from typing import Any
 
 from ai4u_edu.classroom.names import COLOURS, FIRST, SECOND
-from ai4u_edu.classroom.teacher import qr_code
+from ai4u_edu.classroom.teacher import join_code
 
 CODE = "KVBTM"
 ADDRESS = "http://192.168.4.20:8080/"
@@ -62,7 +62,7 @@ def class_message(count: int, **changes: Any) -> dict[str, Any]:
         "type": "class",
         "code": CODE,
         "address": ADDRESS,
-        "qr": qr_code(f"{ADDRESS}?code={CODE}"),
+        "qr": join_code(ADDRESS, CODE),
         "open": True,
         "attention": {"kind": "", "message": "", "ends_in": 0.0},
         "shown": {"kind": "join", "room": ""},

@@ -12,7 +12,7 @@ from ai4u_edu.runtime.frame_budget import (
 
 
 def rate(*, pages: int = 1, tick_lateness: float = 0.0, draw_time: float = 0.0) -> float:
-    return 1 / FrameBudget.frame_period(
+    return 1 / FrameBudget().frame_period(
         pages=pages, tick_lateness=tick_lateness, draw_time=draw_time
     )
 

@@ -1,9 +1,11 @@
 """The parts "agent" and "curve": readings, action and rewards of an agent's last decision."""
 
 from collections import Counter
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Iterator, Mapping
+from itertools import islice
 from typing import Any
 
+from ai4u_edu.agent.ledger import Entry
 from ai4u_edu.agent.script_lines import script_lines
 from ai4u_edu.base.errors import AI4UError
 from ai4u_edu.blocks import RemoteStatus
@@ -72,12 +74,16 @@ def agent_part(
         "rewards": _rewards(agent.reward_terms, agent.episode_terms),
         "paid": [
             {"decision": entry.step, "terms": _paid(entry.terms), "total": entry.total}
-            for entry in reversed(agent.history)
-            if any(entry.terms.values())
-        ][:MAX_PAID_DECISIONS],
+            for entry in islice(_paid_entries(agent), MAX_PAID_DECISIONS)
+        ],
         "phases": _phases(agent, snapshot),
         "others": _overview(snapshot) if len(snapshot.agents) > 1 else [],
     }
+
+
+def _paid_entries(agent: AgentState) -> Iterator[Entry]:
+    """Yield the decisions with a reward, the latest first."""
+    return (entry for entry in reversed(agent.history) if any(entry.terms.values()))
 
 
 def _tell_apart(sensors: list[dict[str, Any]]) -> None:

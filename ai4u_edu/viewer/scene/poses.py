@@ -46,20 +46,18 @@ def compute_poses(snapshot: Snapshot, layers: Layers) -> Poses:
     depths = np.clip((lowest - positions[:, 2]) / reach, 0.0, 1.0)
     scales = np.where(gone, 0.0, 1 - (1 - MIN_FALLING_SCALE) * depths)
     grounds = np.array([_ground(snapshot, body) for body in bodies])
-    rise = np.maximum(positions[:, 2] - grounds, 0.0)
-    offset = (SHADOW_OFFSET_M + SHADOW_OFFSET_PER_HEIGHT * np.nan_to_num(rise))[
-        :, None
-    ] * SHADOW_DIRECTION
+    is_void = np.isnan(grounds)
+    grounds = np.where(is_void, 0.0, grounds)
+    rise = np.where(is_void, 0.0, np.maximum(positions[:, 2] - grounds, 0.0))
+    offset = (SHADOW_OFFSET_M + SHADOW_OFFSET_PER_HEIGHT * rise)[:, None] * SHADOW_DIRECTION
     zeros = np.zeros(len(bodies))
     return Poses(
         positions=positions + np.array([0, 0, layers.body]),
         wxyzs=np.stack([np.cos(half_headings), zeros, zeros, np.sin(half_headings)], axis=1),
         scales=scales,
         depths=depths,
-        shadow_positions=np.column_stack(
-            [positions[:, :2] + offset, np.nan_to_num(grounds) + layers.shadow]
-        ),
-        shadow_scales=np.where(np.isnan(grounds) | gone, 0.0, 1.0),
+        shadow_positions=np.column_stack([positions[:, :2] + offset, grounds + layers.shadow]),
+        shadow_scales=np.where(is_void | gone, 0.0, 1.0),
     )
 
 

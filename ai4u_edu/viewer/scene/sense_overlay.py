@@ -25,10 +25,11 @@ class SenseOverlay:
 
     Args:
         viewer_clients: the pages.
+        rate: how many times a second each page is drawn, at most.
     """
 
-    def __init__(self, viewer_clients: ViewerClients) -> None:
-        self._viewer_clients = viewer_clients
+    def __init__(self, viewer_clients: ViewerClients, rate: float = SENSES_PER_S) -> None:
+        self._viewer_clients, self._rate = viewer_clients, rate
         self._pages: dict[int, _Page] = {}
 
     def build(self, static_scene: StaticScene) -> None:
@@ -37,7 +38,7 @@ class SenseOverlay:
         self._style = RayStyle(static_scene)
         margin = layers.body + 3 * layers.unit
         self._tops = {body.name: body.height + margin for body in static_scene.bodies}
-        self._turns = PageTurns(SENSES_PER_S)
+        self._turns = PageTurns(self._rate)
         for page in self._pages.values():
             page.build(self._style)
 

@@ -1,0 +1,113 @@
+"""Limits of a room's process, and the checks that end one which breaks them."""
+
+import sys
+import time
+from contextlib import suppress
+from dataclasses import dataclass
+
+import httpx
+import psutil
+
+from ai4u_edu.classroom.room_host import RoomAddress
+
+MB = 2**20
+HEALTH_TIMEOUT_S = 5.0
+BUSY_SHARE = 0.6
+"""Share of a core above which a process gets a lower priority than the others."""
+BUSY_NICENESS, NICENESS = 10, 3
+"""Priorities of a busy process and of the others; the class itself has 0."""
+MAX_FILE_BYTES = 64 * MB
+"""Largest file that a room may write."""
+
+
+@dataclass(frozen=True)
+class RoomLimits:
+    """Limits of one room's process."""
+
+    sleep_after_s: float = 300.0
+    """Time without a page or a script after which the process ends; 0: it never does."""
+    max_memory_mb: float = 600.0
+    """Memory (MB) above which the process is ended, and begins anew."""
+    answer_timeout_s: float = 20.0
+    """Time without an answer after which the process is ended, and begins anew."""
+    check_s: float = 2.0
+    """Interval between two checks."""
+    ask_s: float = 8.0
+    """Interval between two requests for a sign of life, while the room is in use."""
+
+
+class RoomWatch:
+    """Checks of one process.
+
+    Args:
+        pid: of the process.
+        limits: to hold it to.
+    """
+
+    def __init__(self, pid: int, limits: RoomLimits) -> None:
+        self._process, self._limits = psutil.Process(pid), limits
+        self._asked_at = 0.0
+        self._unanswered_since: float | None = None
+        self._is_busy = False
+        with suppress(psutil.Error):
+            self._process.cpu_percent()  # measures from here on
+        self._set_niceness(NICENESS)
+
+    def broken_limit(self) -> str:
+        """Return a sentence about the limit that the process breaks; empty if it breaks none.
+
+        A process that computes much gets a lower priority: the other rooms go first.
+        """
+        try:
+            memory_mb = self._process.memory_info().rss / MB
+            share = self._process.cpu_percent() / 100
+        except psutil.Error:  # it has ended
+            return ""
+        if memory_mb > self._limits.max_memory_mb:
+            return (
+                f"Your world used {memory_mb:.0f} MB of memory, more than the "
+                f"{self._limits.max_memory_mb:.0f} MB that it may. It starts again with its last "
+                "scene; make that smaller."
+            )
+        since = self._unanswered_since
+        if since is not None and time.monotonic() - since > self._limits.answer_timeout_s:
+            return "Your world did not answer any more. It starts again with its last scene."
+        if (share > BUSY_SHARE) != self._is_busy:
+            self._is_busy = not self._is_busy
+            self._set_niceness(BUSY_NICENESS if self._is_busy else NICENESS)
+        return ""
+
+    async def ask(self, client: httpx.AsyncClient, url: str, address: RoomAddress) -> None:
+        """Ask the process for a sign of life, if that is due."""
+        now = time.monotonic()
+        if now - self._asked_at < self._limits.ask_s:
+            return
+        self._asked_at = now
+        if self._unanswered_since is None:
+            self._unanswered_since = now
+        headers = {"Authorization": f"Bearer {address.token}"}
+        with suppress(httpx.HTTPError):
+            await client.get(url, headers=headers, timeout=HEALTH_TIMEOUT_S)
+            self._unanswered_since = None
+
+    def _set_niceness(self, niceness: int) -> None:
+        # lowering it again needs rights that a teacher's account may lack
+        with suppress(psutil.Error, OSError):
+            self._process.nice(niceness if sys.platform != "win32" else _windows_class(niceness))
+
+
+def _windows_class(niceness: int) -> int:
+    below: int = getattr(psutil, "BELOW_NORMAL_PRIORITY_CLASS", niceness)
+    normal: int = getattr(psutil, "NORMAL_PRIORITY_CLASS", niceness)
+    return below if niceness == BUSY_NICENESS else normal
+
+
+def limit_own_files() -> None:
+    """Limit the size of files that this process writes, where the system can do that."""
+    if sys.platform == "win32":
+        return
+    import resource
+
+    _, hard = resource.getrlimit(resource.RLIMIT_FSIZE)
+    limit = MAX_FILE_BYTES if hard == resource.RLIM_INFINITY else min(MAX_FILE_BYTES, hard)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (limit, hard))

@@ -1,0 +1,117 @@
+"""A notebook's link with its class, and the part of it that the shown world uses."""
+
+from collections.abc import Callable
+from pathlib import Path
+from threading import Lock
+
+from ai4u_edu.class_link import LinkClient, Outbox, Seat
+from ai4u_edu.class_link.dialogue import PresentState
+from ai4u_edu.wire.class_link import (
+    Applied,
+    Assignment,
+    Attention,
+    FromClass,
+    People,
+    Race,
+    Result,
+    Welcome,
+)
+
+NO_WORLD = "The notebook shows no world at present."
+_REPLAYED = (Welcome, People, Attention, Race)
+"""Messages of which a world that is shown later gets the latest one. An assignment is none of them:
+it would replace the world that a cell has just shown."""
+
+Receive = Callable[[FromClass], object]
+
+
+class ClassConnection:
+    """Keeps one link with the class, whatever worlds come and go.
+
+    Args:
+        seat: of the notebook.
+        folder: for results that are not delivered yet.
+    """
+
+    def __init__(self, seat: Seat, folder: Path) -> None:
+        self.seat = seat
+        self.client = LinkClient(seat.url, seat.token, "notebook", self._receive, Outbox(folder))
+        self._lock = Lock()
+        self._latest: dict[type, FromClass] = {}
+        self._world: Receive | None = None
+
+    def start(self) -> None:
+        """Connect, in the background."""
+        self.client.start()
+
+    def stop(self) -> None:
+        """Deliver what can be delivered soon, and end the link."""
+        self.client.stop()
+
+    def link_for_world(self, receive: Receive) -> "WorldLink":
+        """Return a link for a world.
+
+        Args:
+            receive: called with the class's messages while the world's link is started.
+        """
+        return WorldLink(self, receive)
+
+    def attach(self, receive: Receive) -> None:
+        """Pass the class's messages on to a world, from the latest ones on."""
+        with self._lock:
+            self._world = receive
+            for message in self._latest.values():
+                receive(message)
+
+    def detach(self, receive: Receive) -> None:
+        """End what :meth:`attach` began."""
+        with self._lock:
+            if self._world == receive:
+                self._world = None
+                self.client.clear()
+
+    def _receive(self, message: FromClass) -> None:
+        with self._lock:
+            if isinstance(message, _REPLAYED):
+                self._latest[type(message)] = message
+            if self._world is not None:
+                self._world(message)
+            elif isinstance(message, Assignment) and message.id:
+                self.client.send(Applied(message.id, NO_WORLD))
+
+
+class WorldLink:
+    """Link of one world over the notebook's connection.
+
+    Args:
+        connection: of the notebook.
+        receive: called with the class's messages, from :meth:`start` to :meth:`stop`.
+    """
+
+    def __init__(self, connection: ClassConnection, receive: Receive) -> None:
+        self._connection, self._receive = connection, receive
+        self._is_started = False
+
+    @property
+    def is_connected(self) -> bool:
+        """True while the class has accepted the link."""
+        return self._is_started and self._connection.client.is_connected
+
+    def start(self) -> None:
+        """Begin to receive and to send."""
+        self._is_started = True
+        self._connection.attach(self._receive)
+
+    def stop(self, timeout_s: float = 2.0) -> None:  # noqa: ARG002 - the connection stays
+        """End receiving and sending; the notebook's connection stays."""
+        self._is_started = False
+        self._connection.detach(self._receive)
+
+    def send(self, message: PresentState) -> None:
+        """Send a present state of the world."""
+        if self._is_started:
+            self._connection.client.send(message)
+
+    def send_result(self, result: Result) -> None:
+        """Deliver a result."""
+        self._connection.client.send_result(result)

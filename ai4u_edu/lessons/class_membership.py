@@ -1,0 +1,102 @@
+"""``join_class`` and ``leave_class``: a notebook as a member of a class.
+
+Without ``join_class`` nothing is sent anywhere, and nothing that could send is loaded.
+"""
+
+import atexit
+import secrets
+from pathlib import Path
+from typing import TYPE_CHECKING, Literal
+
+from ai4u_edu.lessons.notebook_output import card, put
+from ai4u_edu.lessons.progress_file import FOLDER
+
+if TYPE_CHECKING:
+    from ai4u_edu.lessons.class_connection import ClassConnection
+
+SEAT_FILE = "class.json"
+"""File with the notebook's seat, in the folder of the progress."""
+
+_connection: "ClassConnection | None" = None
+
+
+def join_class(url: str, code: str, *, name_choice: int = 1) -> None:
+    """Join a class: the teacher sees the results of your checks and the world that you show.
+
+    After a restart of the kernel, the same call gives the same seat.
+
+    Args:
+        url: address of the class, such as ``"http://192.168.0.10:8080"``.
+        code: the code on the board.
+        name_choice: number of the name to get among those that the class offers, from 1.
+    """
+    global _connection
+    from ai4u_edu.class_link import NotJoinedError, SeatFile
+    from ai4u_edu.lessons.class_connection import ClassConnection
+
+    if _connection is not None:
+        _end(_connection)
+        _connection = None
+    seats = SeatFile(Path.cwd() / FOLDER / SEAT_FILE)
+    try:
+        seat = seats.take(url, code, name_choice)
+    except NotJoinedError as error:
+        text = f"{error} Then run this cell again. Your checks work without a class, too."
+        put(card("vermillion", "Not joined.", [text]), f"Not joined. {text}")
+        return
+    _connection = ClassConnection(seat, seats.outbox_folder(seat))
+    _connection.start()
+    text = (
+        f"You are {seat.name}. Your teacher sees the results of your checks, and the world that "
+        "you show. `leave_class()` ends that."
+    )
+    put(card("blue", "Joined.", [text]), f"Joined. {text}")
+
+
+def leave_class() -> None:
+    """Leave the class: nothing more is sent. Your seat is kept for the next ``join_class``."""
+    global _connection
+    if _connection is None:
+        text = "You are in no class."
+    else:
+        ended, _connection = _connection, None
+        _end(ended)
+        text = "You have left the class. Nothing is sent any more."
+    put(card("grey", "Class.", [text]), text)
+
+
+def report_event(
+    exercise: str, event: Literal["right", "wrong", "hint"], diagnosis: str = ""
+) -> None:
+    """Tell the class of a check or a hint, if there is a class.
+
+    Args:
+        exercise: its id.
+        event: result of the check, or that a hint was read.
+        diagnosis: id of the mistake that was found, such as ``04.2/narrow``.
+    """
+    if _connection is not None:
+        from ai4u_edu.wire.class_link import ExerciseResult
+
+        key = secrets.token_urlsafe(12)
+        _connection.client.send_result(ExerciseResult(key, exercise, event, diagnosis))
+
+
+def class_trouble() -> str:
+    """Return a sentence on why the class can't be told at present; empty if it can."""
+    return "" if _connection is None else _connection.client.problem
+
+
+def current_connection() -> "ClassConnection | None":
+    """Return the connection with the class; None without a class."""
+    return _connection
+
+
+def _end(connection: "ClassConnection") -> None:
+    connection.stop()
+
+
+@atexit.register
+def _leave_at_exit() -> None:
+    if _connection is not None:
+        _end(_connection)

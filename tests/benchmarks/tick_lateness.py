@@ -1,0 +1,58 @@
+"""Blocks file for rooms of a benchmark: writes how late ticks were to a file of each process.
+
+It is loaded with ``--blocks``. The folder stands in ``AI4U_LATENESS_FOLDER``.
+"""
+
+import json
+import os
+import threading
+import time
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from gymnasium.spaces import Box
+
+from ai4u_edu import Sensor
+from ai4u_edu.runtime.world_thread import WorldThread
+
+WRITE_S = 1.0
+KEPT_TICKS = 20_000
+
+
+class NoReading(Sensor):
+    """A reading that is always 0: a blocks file has at least one block."""
+
+    def space(self) -> Box:
+        return Box(0.0, 1.0, (1,))
+
+    def read(self, body: Any, view: Any) -> Any:
+        return np.zeros(1)
+
+
+_late_s: list[float] = []
+_tick = WorldThread._tick
+
+
+def _timed_tick(self: WorldThread, *, whole_decision: bool = False) -> None:
+    _late_s.append(self._clock() - self._schedule.due)
+    _tick(self, whole_decision=whole_decision)
+
+
+def _write(folder: Path) -> None:
+    while True:
+        time.sleep(WRITE_S)
+        path = folder / f"{os.getpid()}.json"
+        beside = path.with_suffix(".partial")
+        beside.write_text(json.dumps(_late_s[-KEPT_TICKS:]))
+        beside.replace(path)
+
+
+def _begin() -> None:
+    folder = os.environ.get("AI4U_LATENESS_FOLDER")
+    if folder:
+        WorldThread._tick = _timed_tick  # type: ignore[method-assign]
+        threading.Thread(target=_write, args=[Path(folder)], daemon=True).start()
+
+
+_begin()

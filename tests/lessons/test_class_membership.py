@@ -1,0 +1,160 @@
+"""A notebook that joins a class: what is sent, and what happens if the class is not there."""
+
+import subprocess
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from ai4u_edu.class_link import Seat, SeatFile
+from ai4u_edu.lessons import check, hint, join_class, leave_class
+from ai4u_edu.lessons.class_connection import NO_WORLD
+from ai4u_edu.lessons.class_membership import current_connection
+from ai4u_edu.lessons.progress_file import FOLDER
+from ai4u_edu.wire.class_link import (
+    Applied,
+    Assignment,
+    Attention,
+    Drawing,
+    ExerciseResult,
+    FromClass,
+    Welcome,
+)
+from tests.class_link.messages import drawing
+from tests.class_link.tiny_class import SECRET, TinyClass
+from tests.lessons.test_checking import go, stay
+from tests.server.rooms import free_port, until
+
+WITHOUT_A_CLASS = """
+import sys
+opened = []
+sys.addaudithook(lambda name, args: name.startswith("socket.") and opened.append(name))
+from ai4u_edu.lessons import check, hint, join_class, leave_class
+check("00.1", lambda percept: {"move": [0, 0, 0, 0]})
+hint("00.1")
+leave_class()
+print(opened, sorted({"websockets", "httpx"} & set(sys.modules)))
+"""
+
+
+@pytest.fixture(autouse=True)
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
+    monkeypatch.chdir(tmp_path)
+    yield tmp_path
+    leave_class()
+
+
+@pytest.fixture
+def there(monkeypatch: pytest.MonkeyPatch) -> Iterator[TinyClass]:
+    """A class; its seat is given without HTTP."""
+    there = TinyClass()
+    there.port = free_port()
+    seat = Seat(SECRET, "Red Fox", "#d55e00", there.url)
+    monkeypatch.setattr(SeatFile, "take", lambda *_: seat)
+    yield there
+    there.stop()
+
+
+def _events(there: TinyClass) -> list[tuple[str, str, str]]:
+    found = there.of(ExerciseResult)
+    return [(e.exercise, e.event, e.diagnosis) for e in found if isinstance(e, ExerciseResult)]
+
+
+def test_without_a_class_no_socket_is_opened(folder: Path) -> None:
+    run = subprocess.run(
+        [sys.executable, "-c", WITHOUT_A_CLASS], capture_output=True, text=True, check=True
+    )
+    assert run.stdout.splitlines()[-2:] == ["You are in no class.", "[] []"]
+    assert not (folder / FOLDER / "class.json").exists()
+    assert not (folder / FOLDER / "outbox").exists()
+
+
+def test_checks_and_hints_are_reported(
+    there: TinyClass, capsys: pytest.CaptureFixture[str]
+) -> None:
+    there.start()
+    join_class(there.url, "BCDFG")
+    assert "Joined. You are Red Fox. Your teacher sees" in capsys.readouterr().out
+    check("00.1", stay)
+    check("00.1", ...)
+    hint("00.1")
+    check("00.1", go)
+    until(lambda: len(there.results) == 4)
+    events = _events(there)
+    assert [each[:2] for each in events] == [
+        ("00.1", "wrong"),
+        ("00.1", "wrong"),
+        ("00.1", "hint"),
+        ("00.1", "right"),
+    ]
+    assert [each[2] for each in events[1:]] == ["any/unfinished", "any/unfinished", ""]
+    assert events[0][2].startswith("00.1/")
+    assert there.hellos[0].kind == "notebook"
+    assert "can't be reached" not in capsys.readouterr().out
+    leave_class()
+    check("00.1", go)
+    assert len(there.results) == 4
+    assert "You have left the class. Nothing is sent any more." in capsys.readouterr().out
+
+
+def test_what_a_class_that_is_away_missed_is_delivered_later_once(
+    there: TinyClass, folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    join_class(there.url, "BCDFG")
+    check("00.1", stay)
+    connection = current_connection()
+    assert connection is not None
+    until(lambda: connection.client.problem)
+    check("00.1", go)
+    told = capsys.readouterr().out
+    assert "Right. Your robot drives forward." in told
+    assert "The class can't be reached (" in told
+    assert "Results are kept and sent later." in told
+    leave_class()  # and so the kernel might have been restarted
+    there.start()
+    join_class(there.url, "BCDFG")
+    until(lambda: len(there.results) == 2)
+    join_class(there.url, "BCDFG")
+    hint("00.1")
+    until(lambda: len(there.results) == 3)
+    assert [each[1] for each in _events(there)] == ["wrong", "right", "hint"]
+
+
+def test_not_joined_is_a_sentence(capsys: pytest.CaptureFixture[str]) -> None:
+    join_class(f"http://127.0.0.1:{free_port()}", "BCDFG")
+    told = capsys.readouterr().out
+    assert told.startswith("Not joined. The class at http://127.0.0.1:")
+    assert "Your checks work without a class, too." in told
+    check("00.1", go)
+    assert "class" not in capsys.readouterr().out
+
+
+def test_a_world_uses_the_link_while_it_is_shown(there: TinyClass) -> None:
+    there.start()
+    join_class(there.url, "BCDFG")
+    connection = current_connection()
+    assert connection is not None
+    until(lambda: connection.client.is_connected)
+    there.send(Assignment("a1", "Maze", "maze", None))
+    there.send(Attention("pause", "Look here", 0.0))
+    until(lambda: there.of(Applied))
+    assert there.of(Applied) == [Applied("a1", NO_WORLD)]
+
+    heard: list[FromClass] = []
+    world = connection.link_for_world(heard.append)
+    world.send(drawing(1))  # not started
+    world.start()
+    assert world.is_connected
+    assert [type(each) for each in heard] == [Welcome, Attention]
+    world.send(drawing(2))
+    until(lambda: there.of(Drawing))
+    there.send(Assignment("a2", "Maze", "maze", None))
+    until(lambda: len(heard) == 3)
+    world.stop()
+    there.drop()
+    until(lambda: len(there.hellos) == 2 and connection.client.is_connected)
+    check("00.1", go)
+    until(lambda: there.results)
+    assert there.of(Drawing) == [drawing(2)]
+    assert len(heard) == 3
