@@ -8,6 +8,7 @@ from starlette.middleware import Middleware
 from starlette.routing import Mount, Route, WebSocketRoute
 
 from ai4u_edu.classroom.class_event import ClassEvents
+from ai4u_edu.classroom.echo import echo
 from ai4u_edu.classroom.join import Join
 from ai4u_edu.classroom.link_endpoint import LinkEndpoint
 from ai4u_edu.classroom.live_class import LiveClass
@@ -79,6 +80,7 @@ def class_app(
             Route("/api/join", join.join, methods=["POST"]),
             Route("/api/move-code", join.move_code, methods=["POST"]),
             Route("/check", page_route("check.html")),
+            WebSocketRoute("/check/socket", echo),
             Route("/privacy", page_route("privacy.html")),
             Route("/web/{file}", web_file),
             WebSocketRoute(LINK_PATH, LinkEndpoint(live)),

@@ -228,7 +228,7 @@ def test_text_is_never_html_and_a_lost_connection_is_told(page: Page, school: Wa
     school.send(**state)
     expect(page.get_by_role("button", name=MARKUP)).to_have_count(1)
     page.get_by_role("tab", name="Misconceptions").click()
-    expect(page.get_by_text(MARKUP).first).to_be_visible()
+    expect(page.locator("#view-mistakes").get_by_text(MARKUP).first).to_be_visible()
     assert page.locator("img").count() == 1  # the QR code
 
     page.context.set_offline(True)

@@ -12,6 +12,7 @@ from starlette.responses import JSONResponse, Response
 from starlette.routing import Route, WebSocketRoute
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
+from ai4u_edu.classroom.echo import echo
 from ai4u_edu.classroom.pages import html_page, web_file
 from ai4u_edu.server import ServerThread
 from tests.browser.wall_data import class_message, drawing_message, poses_message
@@ -51,7 +52,7 @@ class WallServer:
                 Route("/teacher/command", self._command, methods=["POST"]),
                 Route("/api/names", self._names),
                 Route("/api/join", self._command, methods=["POST"]),
-                WebSocketRoute("/check/socket", self._echo),
+                WebSocketRoute("/check/socket", echo),
                 WebSocketRoute("/{page}/socket", self._socket),
                 Route("/web/{file}", web_file),
             ]
@@ -91,12 +92,6 @@ class WallServer:
 
     async def _names(self, _: Request) -> Response:
         return JSONResponse({"names": ["Red Fox", "Calm Owl", "Swift Crab"]})
-
-    async def _echo(self, socket: WebSocket) -> None:
-        await socket.accept()
-        with contextlib.suppress(WebSocketDisconnect):
-            while True:
-                await socket.send_text(await socket.receive_text())
 
     async def _socket(self, socket: WebSocket) -> None:
         self._loop = asyncio.get_running_loop()
