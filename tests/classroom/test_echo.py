@@ -14,9 +14,11 @@ from ai4u_edu.server import ServerThread
 
 @pytest.fixture
 def socket() -> Iterator[ClientConnection]:
-    with ServerThread(Starlette(routes=[WebSocketRoute("/", echo)])) as server:
-        with connect(server.url.replace("http", "ws")) as socket:
-            yield socket
+    with (
+        ServerThread(Starlette(routes=[WebSocketRoute("/", echo)])) as server,
+        connect(server.url.replace("http", "ws")) as socket,
+    ):
+        yield socket
 
 
 def test_texts_come_back_a_number_of_times(socket: ClientConnection) -> None:
