@@ -17,3 +17,11 @@ class NameTakenError(JoinError):
 
 class RoomError(AI4UError):
     """A room can't be entered now."""
+
+
+class StoreError(AI4UError):
+    """The class's file can't be written to; nothing of the change is kept."""
+
+
+class CommandError(AI4UError):
+    """A teacher's command can't be done; the message is for the teacher."""

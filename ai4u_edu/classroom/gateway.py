@@ -5,31 +5,37 @@ from collections.abc import Callable, Collection
 
 from starlette.applications import Starlette
 from starlette.middleware import Middleware
-from starlette.requests import HTTPConnection
-from starlette.responses import PlainTextResponse, RedirectResponse, Response
-from starlette.routing import Mount, Route
-from starlette.types import Receive, Scope, Send
-from starlette.websockets import WebSocket
+from starlette.routing import Mount, Route, WebSocketRoute
 
-from ai4u_edu.classroom.errors import RoomError
-from ai4u_edu.classroom.join import Join, seat_of
-from ai4u_edu.classroom.pages import web_file
+from ai4u_edu.classroom.class_event import ClassEvents
+from ai4u_edu.classroom.join import Join
+from ai4u_edu.classroom.link_endpoint import LinkEndpoint
+from ai4u_edu.classroom.live_class import LiveClass
+from ai4u_edu.classroom.pages import page_route, web_file
+from ai4u_edu.classroom.room_entrance import RoomEntrance
 from ai4u_edu.classroom.room_host import RoomHost
-from ai4u_edu.classroom.room_process import ROOMS_PATH, path_of
-from ai4u_edu.classroom.room_proxy import NOT_ALLOWED, TRY_LATER, RoomProxy
+from ai4u_edu.classroom.room_proxy import RoomProxy
 from ai4u_edu.classroom.seats import Seats
-from ai4u_edu.classroom.teacher import Teacher
+from ai4u_edu.classroom.store import ClassStore
+from ai4u_edu.classroom.teacher import Teacher, join_code
+from ai4u_edu.classroom.teacher_socket import WallSocket
 from ai4u_edu.server.attempts import Attempts
 from ai4u_edu.server.host_origin import LOOPBACK, HostOriginCheck
 from ai4u_edu.server.proxy import AGENT_COOKIE, DARK_COOKIE
-from ai4u_edu.server.token_auth import TokenAuth
-from ai4u_edu.server.token_page import TokenPage, wants_page
+from ai4u_edu.server.token_auth import PageCookie, TokenAuth
+from ai4u_edu.server.token_page import TokenPage
+from ai4u_edu.wire.class_link import MAX_FRAME_BYTES
+from ai4u_edu.wire.class_link import PATH as LINK_PATH
 
-PAGES = re.compile(r"/|/teacher|/r/\w+/(start)?")
+PAGES = re.compile(r"/|/teacher|/projector|/check|/privacy|/r/\w+/(start)?")
 """Paths of pages, to which other sites may lead a person."""
+
+SERVER_LIMITS = {"per_address": 1000, "max_message_bytes": MAX_FRAME_BYTES}
+"""Arguments of :func:`~ai4u_edu.server.serve`: a school's students may all have one address."""
 
 
 def class_app(
+    store: ClassStore,
     seats: Seats,
     rooms: RoomHost,
     *,
@@ -41,6 +47,7 @@ def class_app(
     """Return the ASGI app of a class.
 
     Args:
+        store: of the class.
         seats: of the class.
         rooms: runs the rooms; the caller closes it.
         teacher_token: secret of the teacher's page.
@@ -48,24 +55,40 @@ def class_app(
         allowed_hosts: host names that requests may use; see :mod:`ai4u_edu.server.host_origin`.
         proxy_hosts: host names of a reverse proxy in front; see there.
     """
+    live = LiveClass(store, seats, rooms)
     attempts = Attempts()
-    proxy = RoomProxy([AGENT_COOKIE, DARK_COOKIE])
-    join, teacher = Join(seats), Teacher(seats, rooms, proxy, join_address)
+    proxy = RoomProxy([AGENT_COOKIE, DARK_COOKIE], live.page_opened)
+
+    def join_here(url: str) -> tuple[str, str]:
+        address = join_address(url)
+        return address, join_code(address, seats.code)
+
+    events = ClassEvents(live, join_here)
+    join, teacher = Join(seats, live.tell_people), Teacher(live, events, proxy)
     auth = Middleware(TokenAuth, token=teacher_token, attempts=attempts)
     page_auth = Middleware(
         TokenAuth, token=teacher_token, attempts=attempts, token_page=TokenPage()
     )
+    wall = WallSocket(live, events)
+    projector = WallSocket(live, events, is_projected=True)
 
     return Starlette(
         routes=[
             Route("/", join.page),
             Route("/api/names", join.names),
             Route("/api/join", join.join, methods=["POST"]),
+            Route("/api/move-code", join.move_code, methods=["POST"]),
+            Route("/check", page_route("check.html")),
+            Route("/privacy", page_route("privacy.html")),
             Route("/web/{file}", web_file),
+            WebSocketRoute(LINK_PATH, LinkEndpoint(live)),
             Route("/teacher", teacher.page, middleware=[page_auth]),
             Route("/teacher/state", teacher.state, middleware=[auth]),
             Route("/teacher/command", teacher.command, methods=["POST"], middleware=[auth]),
-            Mount("/r", app=_RoomEntrance(seats, rooms, proxy)),
+            WebSocketRoute("/teacher/socket", wall, middleware=[auth]),
+            Route("/projector", page_route("projector.html"), middleware=[page_auth]),
+            WebSocketRoute("/projector/socket", projector, middleware=[auth]),
+            Mount("/r", app=RoomEntrance(live, proxy, PageCookie(teacher_token))),
         ],
         middleware=[
             Middleware(
@@ -76,63 +99,3 @@ def class_app(
             )
         ],
     )
-
-
-class _RoomEntrance:
-    """ASGI app for everything below ``/r/``: lets a room's own seats in.
-
-    Args:
-        seats: of the class.
-        rooms: runs the rooms.
-        proxy: passes requests on to them.
-    """
-
-    def __init__(self, seats: Seats, rooms: RoomHost, proxy: RoomProxy) -> None:
-        self._seats, self._rooms, self._proxy = seats, rooms, proxy
-
-    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
-        """Pass a request on to its room, or refuse it."""
-        room, slash, _ = scope["path"].removeprefix(ROOMS_PATH).partition("/")
-        seat = seat_of(self._seats, HTTPConnection(scope))
-        if seat is None or seat.room != room:
-            await _refuse(scope, receive, send)
-            return
-        if not slash and scope["type"] == "http":  # the page's addresses are relative
-            await RedirectResponse(f"{path_of(room)}/")(scope, receive, send)
-            return
-        try:
-            address = await self._rooms.enter(room, self._seats.scenes()[room])
-        except RoomError as error:
-            await _say_not_ready(str(error), scope, receive, send)
-            return
-        if scope["type"] == "http":
-            await self._proxy.http(address, scope, receive, send)
-        else:
-            with self._rooms.in_use(room):
-                await self._proxy.websocket(address, seat.number, scope, receive, send)
-
-
-async def _refuse(scope: Scope, receive: Receive, send: Send) -> None:
-    if scope["type"] == "websocket":
-        await _close(scope, receive, send, NOT_ALLOWED, "this is not your world; join the class")
-        return
-    response: Response = PlainTextResponse("this is not your world; join the class at /\n", 403)
-    if scope["method"] == "GET" and wants_page(HTTPConnection(scope)):
-        response = RedirectResponse("/", 303)
-    response.headers["Cache-Control"] = "no-store"
-    await response(scope, receive, send)
-
-
-async def _say_not_ready(text: str, scope: Scope, receive: Receive, send: Send) -> None:
-    if scope["type"] == "websocket":
-        await _close(scope, receive, send, TRY_LATER, text)
-        return
-    headers = {"Retry-After": "2", "Refresh": "2", "Cache-Control": "no-store"}
-    await PlainTextResponse(text + "\n", 503, headers)(scope, receive, send)
-
-
-async def _close(scope: Scope, receive: Receive, send: Send, code: int, reason: str) -> None:
-    socket = WebSocket(scope, receive, send)
-    # a browser tells a script why a socket was closed, but not why a handshake failed
-    await socket.accept(next(iter(scope["subprotocols"]), None))
-    await socket.close(code, reason)

@@ -1,12 +1,15 @@
 """HTTP routes of joining: the page, names to choose from, and the seat's cookie."""
 
 import asyncio
+from collections.abc import Callable
+from typing import Literal
 
 from pydantic import BaseModel, ConfigDict, Field
 from starlette.requests import HTTPConnection, Request
 from starlette.responses import JSONResponse, RedirectResponse, Response
 
-from ai4u_edu.classroom.errors import JoinError, NameTakenError, WrongCodeError
+from ai4u_edu.classroom.errors import JoinError, NameTakenError, StoreError, WrongCodeError
+from ai4u_edu.classroom.move_codes import LIFE_S
 from ai4u_edu.classroom.pages import html_page
 from ai4u_edu.classroom.room_process import path_of
 from ai4u_edu.classroom.seats import Seats
@@ -29,6 +32,8 @@ class JoinRequest(BaseModel):
     code: str = Field(max_length=40)
     name: str = Field(max_length=60)
     request: str = Field(pattern=r"^[A-Za-z0-9-]{16,64}$")
+    kind: Literal["page", "play", "notebook"] = "page"
+    """Program that joins; the last two bring a world of their own."""
 
 
 class Join:
@@ -39,10 +44,11 @@ class Join:
 
     Args:
         seats: of the class.
+        on_change: called when somebody has joined.
     """
 
-    def __init__(self, seats: Seats) -> None:
-        self._seats, self._attempts = seats, Attempts()
+    def __init__(self, seats: Seats, on_change: Callable[[], object] = lambda: None) -> None:
+        self._seats, self._attempts, self._on_change = seats, Attempts(), on_change
 
     async def page(self, request: Request) -> Response:
         """Return the page, or send a browser that has a seat to its room."""
@@ -55,8 +61,19 @@ class Join:
         """Return names to choose from."""
         return JSONResponse({"names": self._seats.offered_names()}, headers=NO_STORE)
 
+    async def move_code(self, request: Request) -> Response:
+        """Return a code with which another device takes this seat, too."""
+        seat = seat_of(self._seats, request)
+        if seat is None:
+            return _problem("You have no place in this class. Join with the code.", 403)
+        code = self._seats.new_move_code(seat.number)
+        return JSONResponse({"code": code, "minutes": LIFE_S // 60}, headers=NO_STORE)
+
     async def join(self, request: Request) -> Response:
-        """Give a browser a seat, as a cookie, and tell it the way to its room."""
+        """Give a browser or program a seat, as a cookie, and tell it the way to its room.
+
+        The room's process starts when its page is opened, so never for a program with a world.
+        """
         wanted = await read_json(request, JoinRequest, MAX_BODY_BYTES)
         address = client_address(request.scope)
         if not await self._attempts.wait(address):
@@ -77,6 +94,9 @@ class Join:
             return _problem(str(error), 409)
         except JoinError as error:
             return _problem(str(error), 403)
+        except StoreError as error:
+            return _problem(f"{error} Tell your teacher.", 503)
+        self._on_change()
         found = {"room": f"{path_of(seat.room)}/", "name": seat.name, "colour": seat.colour}
         answer = JSONResponse(found, headers=NO_STORE)
         answer.set_cookie(

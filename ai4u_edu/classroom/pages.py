@@ -1,5 +1,8 @@
 """The pages of a class that are not a room's: files of ``web/``, with a policy for all of them."""
 
+from collections.abc import Awaitable, Callable
+from functools import lru_cache
+
 from starlette.requests import Request
 from starlette.responses import HTMLResponse, Response
 
@@ -9,7 +12,7 @@ from ai4u_edu.server.web_files import WebFiles, web_folder
 
 async def web_file(request: Request) -> Response:
     """Return a script or a style."""
-    return WebFiles().response(request.path_params["file"], request)
+    return _web_files().response(request.path_params["file"], request)
 
 
 def html_page(name: str) -> HTMLResponse:
@@ -17,3 +20,17 @@ def html_page(name: str) -> HTMLResponse:
     text = (web_folder() / name).read_text(encoding="utf-8")
     headers = {"Content-Security-Policy": STANDALONE_POLICY, "Cache-Control": "no-cache"}
     return HTMLResponse(text, headers=headers)
+
+
+def page_route(name: str) -> Callable[[Request], Awaitable[Response]]:
+    """Return a route's function that answers with a page of ``web/``."""
+
+    async def answer(_: Request) -> Response:
+        return html_page(name)
+
+    return answer
+
+
+@lru_cache(maxsize=1)
+def _web_files() -> WebFiles:
+    return WebFiles()

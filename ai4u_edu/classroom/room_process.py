@@ -12,6 +12,7 @@ from starlette.applications import Starlette
 from ai4u_edu.base.atomic_write import make_folder
 from ai4u_edu.base.errors import AI4UError
 from ai4u_edu.blocks.loading import load_blocks
+from ai4u_edu.class_member import ClassLinkSettings
 from ai4u_edu.classroom.room_watch import limit_own_files
 from ai4u_edu.classroom.scene_file import SceneFile, last_scene, last_seed
 from ai4u_edu.room import Room, RoomSettings
@@ -84,6 +85,8 @@ def run_room(order: RoomOrder, parent: Connection) -> None:
         allowed_hosts=("*",),
         rules=Rules(token=order.token),
         saved_scenes=order.folder / "scenes",
+        class_link=ClassLinkSettings(order.class_url, order.token) if order.class_url else None,
+        class_folder=order.folder,
         frames_per_s=MAX_FRAMES_PER_S,
         min_frames_per_s=MIN_FRAMES_PER_S,
     )

@@ -1,12 +1,13 @@
 """Reverse proxy for the pages of rooms: HTTP by httpx, WebSockets by websockets."""
 
 import asyncio
-from collections.abc import AsyncIterator, Iterable
+from collections.abc import AsyncIterator, Callable, Iterable
 from contextlib import suppress
 from dataclasses import dataclass
 from http.cookies import SimpleCookie
 
 import httpx
+from starlette.datastructures import Headers
 from starlette.requests import Request
 from starlette.responses import PlainTextResponse, Response, StreamingResponse
 from starlette.types import Receive, Scope, Send
@@ -28,7 +29,9 @@ _HOP_BY_HOP = {
     "upgrade",
 }
 """Headers of one connection, which a proxy does not pass on (RFC 9110, 7.6.1)."""
-_OURS = {"authorization", "cookie", "content-length", "origin"}
+_OURS = {"authorization", "cookie", "content-length", "origin", "x-ai4u-role", "x-ai4u-seat"}
+ROLE_HEADER, SEAT_HEADER = "x-ai4u-role", "x-ai4u-seat"
+"""Headers to a room: ``teacher`` or ``student``, and the seat's number; given ones are dropped."""
 _WEBSOCKET = "sec-websocket-"
 NORMAL = 1000
 GOING_AWAY = 1001
@@ -57,9 +60,15 @@ class RoomProxy:
 
     Args:
         page_cookies: names of cookies that rooms read.
+        on_socket: called with a seat's number and 1 or -1, when a socket is opened or closed.
     """
 
-    def __init__(self, page_cookies: Iterable[str]) -> None:
+    def __init__(
+        self,
+        page_cookies: Iterable[str],
+        on_socket: Callable[[int, int], object] = lambda _seat, _change: None,
+    ) -> None:
+        self._on_socket = on_socket
         self._page_cookies = frozenset(page_cookies)
         self._links: dict[int, set[_Link]] = {}
         self._client = httpx.AsyncClient(
@@ -72,13 +81,23 @@ class RoomProxy:
             link.refusal = reason
             link.there.transport.abort()
 
-    async def http(self, room: RoomAddress, scope: Scope, receive: Receive, send: Send) -> None:
-        """Answer a request with the room's answer."""
+    async def http(
+        self, room: RoomAddress, seat: int, scope: Scope, receive: Receive, send: Send
+    ) -> None:
+        """Answer a request with the room's answer.
+
+        Args:
+            room: the room.
+            seat: number of the seat that asks; 0 for the teacher.
+            scope: see ASGI.
+            receive: see ASGI.
+            send: see ASGI.
+        """
         request = Request(scope, receive)
         passed = self._client.build_request(
             request.method,
             f"http://{room.host}:{room.port}{_raw_target(scope)}",
-            headers=self._headers(room, request.headers.items(), request.headers.get("cookie", "")),
+            headers=self._headers(room, seat, request.headers),
             content=request.stream() if request.method not in ("GET", "HEAD") else None,
         )
         response: Response
@@ -101,18 +120,15 @@ class RoomProxy:
     ) -> None:
         """Connect the socket of a seat's browser with the room until one side closes it."""
         page = WebSocket(scope, receive, send)
-        headers = [
-            (name, value)
-            for name, value in page.headers.items()
-            if name != "host" and not name.startswith(_WEBSOCKET)
-        ]
         try:
             there = await connect(
                 # the name under which the browser has the page; where to connect to is said below
                 f"ws://{page.headers['host']}{_raw_target(scope)}",
                 host=room.host,
                 port=room.port,
-                additional_headers=self._headers(room, headers, page.headers.get("cookie", "")),
+                additional_headers=[
+                    each for each in self._headers(room, seat, page.headers) if each[0] != "host"
+                ],
                 subprotocols=[Subprotocol(each) for each in scope["subprotocols"]] or None,
                 user_agent_header=None,
                 compression=None,
@@ -127,32 +143,39 @@ class RoomProxy:
         link = _Link(there)
         links = self._links.setdefault(seat, set())
         links.add(link)
+        self._on_socket(seat, 1)
         upward = asyncio.create_task(_upward(page, there))
         try:
             await _downward(link, page)
         finally:
             links.discard(link)
+            self._on_socket(seat, -1)
             upward.cancel()
             there.transport.abort()  # a close would wait behind frames that nobody reads
             with suppress(asyncio.CancelledError):
                 await upward
 
-    def _headers(
-        self, room: RoomAddress, given: Iterable[tuple[str, str]], cookies: str
-    ) -> list[tuple[str, str]]:
+    def _headers(self, room: RoomAddress, seat: int, given: Headers) -> list[tuple[str, str]]:
         passed = [
             (name, value)
-            for name, value in given
-            if name not in _HOP_BY_HOP and name not in _OURS and not name.startswith("sec-fetch-")
+            for name, value in given.items()
+            if name not in _HOP_BY_HOP
+            and name not in _OURS
+            and not name.startswith(("sec-fetch-", _WEBSOCKET))
         ]
         page_cookies = [
             f"{name}={each.coded_value}"
-            for name, each in SimpleCookie(cookies).items()
+            for name, each in SimpleCookie(given.get("cookie", "")).items()
             if name in self._page_cookies
         ]
         if page_cookies:
             passed.append(("cookie", "; ".join(page_cookies)))
-        return [*passed, ("authorization", f"Bearer {room.token}")]
+        return [
+            *passed,
+            ("authorization", f"Bearer {room.token}"),
+            (ROLE_HEADER, "student" if seat else "teacher"),
+            (SEAT_HEADER, str(seat)),
+        ]
 
 
 def _raw_target(scope: Scope) -> str:

@@ -7,6 +7,7 @@ from enum import Enum
 from threading import Lock
 
 from ai4u_edu.classroom.errors import JoinError, NameTakenError, WrongCodeError
+from ai4u_edu.classroom.move_codes import MoveCodes
 from ai4u_edu.classroom.names import (
     colour_of,
     free_names,
@@ -15,10 +16,12 @@ from ai4u_edu.classroom.names import (
     normalized_code,
 )
 from ai4u_edu.classroom.room_rule import MAX_SEATS, RoomRule
-from ai4u_edu.classroom.store import ClassStore, RoomRow, SeatRow
+from ai4u_edu.classroom.store import ClassStore, RoomRow, SeatRow, TokenRow
 
 OFFERED_NAMES = 3
 ROOM_ID_BYTES = 6
+MAX_DEVICES = 3
+"""Devices that hold a seat at the same time; one more takes the place of the oldest."""
 
 
 class State(Enum):
@@ -43,8 +46,11 @@ class Seats:
     def __init__(self, store: ClassStore, scene: str, rooms: RoomRule, code: str = "") -> None:
         self._store, self._scene, self._rooms = store, scene, rooms
         self._lock = Lock()
-        self._seats = {each.number: each for each in store.seats()}
-        self._scenes = {each.id: each.scene for each in store.rooms()}
+        self._move_codes = MoveCodes()
+        self._seats: dict[int, SeatRow] = {}
+        self._tokens: dict[bytes, TokenRow] = {}
+        self._scenes: dict[str, str] = {}
+        self._read()
         self.code = normalized_code(code) or store.setting("code") or new_code()
         store.set_setting("code", self.code)
         self.is_open = store.setting("open", "yes") == "yes"
@@ -85,22 +91,48 @@ class Seats:
             NameTakenError: somebody else has that name.
             JoinError: the class is full or closed, or the seat is banned.
         """
-        token = secrets.token_urlsafe(24)
+        token, wanted = secrets.token_urlsafe(24), normalized_code(code)
         with self._lock:
-            if not secrets.compare_digest(normalized_code(code).encode(), self.code.encode()):
+            moved = self._move_codes.seat_of(wanted, request)
+            if not moved and not secrets.compare_digest(wanted.encode(), self.code.encode()):
                 raise WrongCodeError("This code is not right. Look at the board again.")
-            own = [each for each in self._seats.values() if _is_of(each, request, held)]
+            replaced = [each for each in self._tokens.values() if _is_of(each, request, held)]
+            own = [self._seats[each.seat] for each in replaced]
+            if moved:
+                own = [self._seats[moved]]
             if any(each.state == State.BANNED.value for each in own):
                 raise JoinError("You may not join this class. Ask your teacher.")
             if any(each.state != State.IN.value for each in own) or not own:
                 self._check_open()
             if own:
-                seat = replace(own[0], token_hash=hash_of(token), state=State.IN.value)
-                self._store.update_seat(seat)
+                seat = self._take_again(own[0], request, token, replaced)
             else:
                 seat = self._new_seat(name, request, token)
-            self._seats[seat.number] = seat
         return seat, token
+
+    def _take_again(
+        self, seat: SeatRow, request: str, token: str, replaced: list[TokenRow]
+    ) -> SeatRow:
+        """Store another device of a seat, in the place of its own token before, and return it."""
+        before = [each for each in self._tokens.values() if each.seat == seat.number]
+        if seat.state != State.IN.value:  # whoever was sent out with it stays out
+            before = []
+        kept = [each for each in before if each not in replaced][-(MAX_DEVICES - 1) :]
+        tokens = [*kept, TokenRow(hash_of(token), seat.number, request)]
+        others = [each for each in replaced if each.seat != seat.number]
+        seat = replace(seat, state=State.IN.value)
+        for each in others:  # a device that moves to another seat leaves its own
+            left = self._seats[each.seat]
+            self._store.update_seat(left, [one for one in self._of(left) if one != each])
+        self._store.update_seat(seat, tokens)
+        gone = {each.hash for each in [*others, *self._of(seat)]}
+        self._tokens = {key: each for key, each in self._tokens.items() if key not in gone}
+        self._tokens |= {each.hash: each for each in tokens}
+        self._seats[seat.number] = seat
+        return seat
+
+    def _of(self, seat: SeatRow) -> list[TokenRow]:
+        return [each for each in self._tokens.values() if each.seat == seat.number]
 
     def _check_open(self) -> None:
         if not self.is_open:
@@ -119,22 +151,27 @@ class Seats:
         if not room:
             room = secrets.token_hex(ROOM_ID_BYTES)
             new_room = RoomRow(room, self._scene)
-        seat = SeatRow(
-            number, name, colour_of(number), room, hash_of(token), request, State.IN.value
-        )
-        self._store.add_seat(seat, new_room)
+        seat = SeatRow(number, name, colour_of(number), room, State.IN.value)
+        device = TokenRow(hash_of(token), number, request)
+        self._store.add_seat(seat, device, new_room)
         if new_room is not None:
             self._scenes[room] = self._scene
+        self._seats[number], self._tokens[device.hash] = seat, device
         return seat
 
     def by_token(self, token: str) -> SeatRow | None:
         """Return the seat whose token this is; None if there is none that may enter."""
-        wanted = hash_of(token)
         with self._lock:
-            for each in self._seats.values():
-                if each.state == State.IN.value and secrets.compare_digest(each.token_hash, wanted):
-                    return each
-        return None
+            # tokens are found by their digest, so the time that it takes tells nothing of them
+            device = self._tokens.get(hash_of(token))
+            seat = None if device is None else self._seats[device.seat]
+        return seat if seat is not None and seat.state == State.IN.value else None
+
+    def new_move_code(self, number: int) -> str:
+        """Return a code with which a seat moves to another device; see :mod:`.move_codes`."""
+        with self._lock:
+            self._known(number)
+            return self._move_codes.new(number, {self.code})
 
     def set_state(self, number: int, state: State) -> None:
         """Store that somebody left, was kicked (and may join again) or banned.
@@ -177,16 +214,32 @@ class Seats:
             self.is_open = is_open
             self._store.set_setting("open", "yes" if is_open else "no")
 
+    def begin_anew(self) -> None:
+        """Forget all seats with their rooms, after the store has, and set a new code.
+
+        The rule of rooms and their scene stay.
+        """
+        with self._lock:
+            self._move_codes.clear()
+            self._read()
+            self.is_open = True
+        self.change_code()
+
+    def _read(self) -> None:
+        self._seats = {each.number: each for each in self._store.seats()}
+        self._tokens = {each.hash: each for each in self._store.tokens()}
+        self._scenes = {each.id: each.scene for each in self._store.rooms()}
+
     def _known(self, number: int) -> SeatRow:
         if number not in self._seats:
             raise JoinError(f"there is no seat {number}")
         return self._seats[number]
 
 
-def _is_of(seat: SeatRow, request: str, held: str) -> bool:
+def _is_of(device: TokenRow, request: str, held: str) -> bool:
     """Return True if a browser with this request id or token had the seat."""
-    is_held = bool(held) and secrets.compare_digest(seat.token_hash, hash_of(held))
-    return seat.request == request or is_held
+    is_held = bool(held) and secrets.compare_digest(device.hash, hash_of(held))
+    return device.request == request or is_held
 
 
 def hash_of(token: str) -> bytes:

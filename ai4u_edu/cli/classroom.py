@@ -9,9 +9,6 @@ import typer
 from ai4u_edu.cli import play_options as o
 from ai4u_edu.cli.options import OwnBlocks, load_own_blocks
 
-MAX_PER_ADDRESS = 1000
-"""Limit of connections from one address: a school's students may all have the same one."""
-
 
 def classroom(
     scene: o.SceneName = "box_chase",
@@ -37,6 +34,7 @@ def classroom(
     """Serve a class: students join with a code, and each drives in a world of their own."""
     from ai4u_edu.classroom import ClassStore, LocalRooms, RoomRule, Seats, class_app
     from ai4u_edu.classroom.addresses import class_banner, join_address, teacher_address
+    from ai4u_edu.classroom.gateway import SERVER_LIMITS
     from ai4u_edu.classroom.room_watch import RoomLimits
     from ai4u_edu.classroom.store import teacher_token
     from ai4u_edu.scenes import Scene
@@ -60,6 +58,7 @@ def classroom(
                 open_on_desktop(teacher_address(url, token))
 
         app = class_app(
+            store,
             seats,
             local,
             teacher_token=token,
@@ -67,5 +66,5 @@ def classroom(
             allowed_hosts=hosts_for(host),
             proxy_hosts=allow_host or [],
         )
-        serve(app, host, port, on_ready=announce, per_address=MAX_PER_ADDRESS)
+        serve(app, host, port, announce, **SERVER_LIMITS)
     HAS_SERVED.set()

@@ -5,6 +5,7 @@ from contextlib import ExitStack
 from typing import Self
 
 from ai4u_edu.agent import ControlRequestor
+from ai4u_edu.class_member import ClassMember
 from ai4u_edu.editing import SceneEditor
 from ai4u_edu.editing.autosave import Autosave, unsaved_scenes
 from ai4u_edu.editing.scene_store import SceneStore
@@ -68,6 +69,15 @@ class Room:
         if ghost is not None and settings.ghost is not None:
             self._viewer.ghosts.race(ghost, settings.ghost.name)
         lock_viser_port(self._viewer.server)
+        self.class_member = None
+        if settings.class_link is not None:
+            self.class_member = ClassMember(
+                self.runner,
+                self.editor,
+                settings.class_link,
+                settings.class_folder,
+                show_ghost=self._viewer.ghosts.race,
+            )
         self.app = room_app(
             self.runner,
             viser_port=self._viewer.port,
@@ -78,6 +88,7 @@ class Room:
             editor=self.editor,
             lessons=_lessons,
             panel=PanelSockets(self.runner, self._viewer, self.editor),
+            class_feed=None if self.class_member is None else self.class_member.view,
         )
         self._ending = ExitStack()
 
@@ -89,6 +100,9 @@ class Room:
         if self._autosave is not None:
             self._ending.callback(self._autosave.stop)
         self._ending.callback(self.runner.stop)
+        if self.class_member is not None:
+            self.class_member.start()
+            self._ending.callback(self.class_member.stop)
         return self
 
     def __exit__(self, *_: object) -> None:

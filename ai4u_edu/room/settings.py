@@ -4,6 +4,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from ai4u_edu.base.limits import DEFAULT_KEPT_EPISODES
+from ai4u_edu.class_member import ClassLinkSettings
 from ai4u_edu.runtime.frame_budget import MAX_FRAMES_PER_S, MIN_FRAMES_PER_S
 from ai4u_edu.server import Rules
 from ai4u_edu.server.host_origin import LOOPBACK
@@ -38,3 +39,8 @@ class RoomSettings:
     """Folder of scenes that were changed and not saved; None neither writes nor offers them."""
     autosave: bool = True
     """False only offers unsaved scenes, and writes none."""
+    class_link: ClassLinkSettings | None = None
+    """Link to the class that the room belongs to; None for none."""
+    class_folder: Path | None = None
+    """Folder, which exists, for what the class must not lose: the last assignment, and results that
+    were not delivered."""

@@ -38,6 +38,23 @@ class Runner(WorldThread):
         """Let a paused world run."""
         return self.submit(lambda: self._set_paused(False))
 
+    def hold(self, is_held: bool) -> "Future[None]":
+        """Let the world stand still, with scripts and clocks, or end that; for a teacher.
+
+        While it is held, all keys are released, commands to run or to tick it do not end that, and
+        ``latest.waiting`` is ``teacher``. Pause, resets and edits are carried out as ever; a world
+        that was paused is paused afterwards.
+
+        Args:
+            is_held: False to end it.
+        """
+
+        def command() -> None:
+            self.is_held = is_held
+            self._release_keys()
+
+        return self.submit(command)
+
     def reset(self, seed: int | None = None) -> "Future[None]":
         """Begin a new episode, and clear an error.
 
@@ -74,18 +91,23 @@ class Runner(WorldThread):
         return self._start_wait.is_waiting
 
     def start_episode(self) -> "Future[None]":
-        """Let a world that waits for a key run; a paused one goes on waiting."""
+        """Let a world that waits for a key run; a paused or held one goes on waiting."""
 
         def command() -> None:
-            if not (self.paused or self.error):
+            if not (self.paused or self.error or self.is_held):
                 self._start_wait.end(self.sim)
 
         return self.submit(command)
 
     def step(self, ticks: int = 1) -> "Future[None]":
-        """Tick a paused world."""
+        """Tick a paused world.
+
+        Raises:
+            NoDecisionError: the world is held; see :meth:`hold`.
+        """
 
         def command() -> None:
+            self._check_not_held()
             for _ in range(ticks):
                 self._tick()
                 if self.error or self._stopping:
@@ -102,10 +124,11 @@ class Runner(WorldThread):
 
         Raises:
             NoDecisionError: the agent took none: it waits for its script. The world has ticked
-                once, unless it waits for that script.
+                once, unless it waits for that script. Or the world is held; see :meth:`hold`.
         """
 
         def command() -> None:
+            self._check_not_held()
             sim = self.sim
             agent = sim.agents[0] if agent_id is None else sim.agent(agent_id)
             before, is_over = (agent.episode, agent.steps), agent.done
@@ -216,8 +239,15 @@ class Runner(WorldThread):
         if not paused:
             self._past = None
         else:
-            for agent in self.sim.agents:
-                agent.keyboard.release()
+            self._release_keys()
+
+    def _release_keys(self) -> None:
+        for agent in self.sim.agents:
+            agent.keyboard.release()
+
+    def _check_not_held(self) -> None:
+        if self.is_held:
+            raise NoDecisionError("the teacher has stopped the world; wait until it goes on")
 
     if not TYPE_CHECKING:  # a type checker is to report the old names
 

@@ -31,6 +31,13 @@ class StartWait:
         )
         return self.is_waiting
 
+    def reason(self, sim: ControlRequestor, *, is_held: bool, has_error: bool) -> str:
+        """Return what a world waits for now; see :attr:`Snapshot.waiting`."""
+        is_for_key = self.update(sim)
+        if is_held:
+            return "teacher"
+        return "key" if is_for_key and not has_error else ""
+
     def begins(self, sim: ControlRequestor) -> bool:
         """Return True if a world waits now and did not before."""
         was_waiting = self.is_waiting

@@ -78,6 +78,8 @@ class WorldThread:
         self.training: TrainingProgress | None = None
         """Progress of the training whose policy drives in this world; replaced, never changed."""
         self.paused, self.error = False, ""
+        self.is_held = False
+        """True while the world stands still for a teacher; see :meth:`Runner.hold`."""
         self.describe_error: Callable[[BaseException, Sequence[BasicAgent]], str] = sentence_of
         """Returns the sentence on a block's error that pages show; may be replaced."""
         self.time_scale = sim.default_time_scale
@@ -174,7 +176,7 @@ class WorldThread:
         self.time_scale = time_scale
 
     def advance(self) -> None:
-        """Run the commands that wait, and tick once unless the world is paused or waits for a key.
+        """Run the commands that wait, and tick once unless the world is paused, held or waits.
 
         The world's thread does nothing else; code without such a thread may call it instead.
         """
@@ -182,7 +184,7 @@ class WorldThread:
         self._monitor.begin()
         try:
             self._run_commands()
-            if self.paused or self.error or self._must_wait_for_key():
+            if self.paused or self.error or self.is_held or self._must_wait_for_key():
                 self._rest()
             else:
                 self._tick(whole_decision=self.is_unpaced())
@@ -283,13 +285,14 @@ class WorldThread:
         self._run_commands()
         self._monitor.end()
         self._schedule.due = min(self._schedule.due, self._clock() + self._period)
-        return not (self.paused or self.error or self._stopping)
+        return not (self.paused or self.error or self.is_held or self._stopping)
 
     def _run_commands(self) -> None:
         while (first := self._queue.first) is not None and not self._stopping:
             is_between_decisions = (
                 self.paused
                 or self.error
+                or self.is_held
                 or self.sim.waiting_for_brain
                 or self.sim.between_decisions()
             )
@@ -383,7 +386,7 @@ class WorldThread:
             error=self.error,
             slow_tick=self._monitor.slow_tick,
             episode_time=self._episode_clock.read(sim),
-            waiting="key" if self._start_wait.update(sim) and not self.error else "",
+            waiting=self._start_wait.reason(sim, is_held=self.is_held, has_error=bool(self.error)),
         )
 
     def _real_time_factor(self) -> float:

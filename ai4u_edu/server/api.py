@@ -105,9 +105,10 @@ class AgentView(_View):
         )
 
 
-Waiting = Literal["", "key"]
+Waiting = Literal["", "key", "teacher"]
 WAITING: Any = Field(
-    description="key: the world waits on its first frame until a person presses a key"
+    description="key: the world waits on its first frame until a person presses a key; "
+    "teacher: a teacher has stopped it"
 )
 
 
@@ -219,7 +220,10 @@ class Health(_View):
 
 
 def _waiting(picture: Snapshot) -> Waiting:
-    return "key" if picture.waiting == "key" else ""
+    match picture.waiting:
+        case "key" | "teacher" as waiting:
+            return waiting
+    return ""
 
 
 def _motion(body: BodyState) -> dict[str, Any]:

@@ -11,6 +11,7 @@ from starlette.types import ASGIApp, Scope
 from ai4u_edu.editing import SceneEditor
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.server.attempts import Attempts, LimitScripts
+from ai4u_edu.server.class_feed import ClassFeed
 from ai4u_edu.server.host_origin import LOOPBACK, HostOriginCheck
 from ai4u_edu.server.input import Inputs
 from ai4u_edu.server.page import Page
@@ -36,6 +37,7 @@ def room_app(
     panel: ASGIApp | None = None,
     editor: SceneEditor | None = None,
     lessons: Callable[[], list[LessonView]] = list,
+    class_feed: ClassFeed | None = None,
 ) -> Starlette:
     """Return the ASGI app of one room; mount it under a path with :class:`RoomMount`.
 
@@ -51,6 +53,7 @@ def room_app(
         editor: lets pages open and share scenes; without it the scene stays as it is, and there is
             no start page.
         lessons: returns the lessons that the start page lists.
+        class_feed: of the class that the room belongs to; pages show it.
     """
     rules = rules or Rules()
     current_title = title if callable(title) else partial(str, title)
@@ -81,7 +84,7 @@ def room_app(
             Route("/api/openapi.json", state.describe, middleware=auth),
             *scenes,
             WebSocketRoute("/", ViserProxy(viser_port, rules.token), middleware=auth),
-            WebSocketRoute("/ws/input", Inputs(runner, current_title), middleware=auth),
+            WebSocketRoute("/ws/input", Inputs(runner, current_title, class_feed), middleware=auth),
             *([WebSocketRoute("/ws/panel", panel, middleware=auth)] if panel is not None else []),
             # scripts send the token in their hello
             WebSocketRoute(

@@ -5,16 +5,11 @@ from concurrent.futures import Future
 
 from ai4u_edu.agent import BasicAgent
 from ai4u_edu.agent.driving_keys import RESTART, active_brain, keys_of
-from ai4u_edu.blocks import Brain, NeuralNetController, ReplayController, ScriptController
+from ai4u_edu.blocks import Brain
 from ai4u_edu.blocks.brains.remote import RemoteBrain
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.server.bindings import keyboard_brain
-
-DRIVERS = {
-    NeuralNetController: "A network",
-    ReplayController: "A recording",
-    ScriptController: "A script",
-}
+from ai4u_edu.snapshot.agent_words import driver_title
 
 
 class HumanOverride:
@@ -121,12 +116,3 @@ class HumanOverride:
 
     def _is_in_world(self) -> bool:
         return any(agent is self._agent for agent in self._runner.sim.agents)
-
-
-def driver_title(brain: Brain) -> str:
-    """Return a brain's title for people, as the beginning of a sentence."""
-    if isinstance(brain, RemoteBrain):
-        return "A script elsewhere"
-    controller = getattr(brain, "controller", brain)
-    titles = (title for kind, title in DRIVERS.items() if isinstance(controller, kind))
-    return next(titles, type(controller).__name__)

@@ -19,6 +19,7 @@ from ai4u_edu.blocks.brains.controllers.keyboard import CENTERED, Stick
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.server import messages, page_events
 from ai4u_edu.server.bindings import choose_agent
+from ai4u_edu.server.class_feed import ClassFeed, PageOfClass
 from ai4u_edu.server.control_lock import ControlLock
 from ai4u_edu.server.human_override import HumanOverride
 from ai4u_edu.server.page_receiver import ReceiveLimits, close_socket, receive_messages
@@ -46,10 +47,16 @@ class Inputs:
     Args:
         runner: runs the world whose agents are driven.
         title: returns the scene's present title.
+        class_feed: of the class that the room belongs to, if it does.
     """
 
-    def __init__(self, runner: Runner, title: Callable[[], str] = str) -> None:
-        self._runner, self._title = runner, title
+    def __init__(
+        self,
+        runner: Runner,
+        title: Callable[[], str] = str,
+        class_feed: ClassFeed | None = None,
+    ) -> None:
+        self._runner, self._title, self._class_feed = runner, title, class_feed
         self._controls: dict[str, _Controls] = {}
         self._numbers = count(1)
 
@@ -68,7 +75,8 @@ class Inputs:
                     return
                 agent = choose_agent(sim, None)
             controls, number = self._controls_of(agent), next(self._numbers)
-            await _Page(socket, self._runner, sim, controls, number, self._title).serve()
+            page = _Page(socket, self._runner, sim, controls, number, self._title)
+            await page.serve(PageOfClass(self._class_feed, socket.headers))
 
     def _controls_of(self, agent: BasicAgent) -> "_Controls":
         """Return an agent's lock and override; those of an agent in an earlier world are replaced.
@@ -111,9 +119,9 @@ class _Page:
         self._held: frozenset[str] = frozenset()
         self._stick = CENTERED
 
-    async def serve(self) -> None:
+    async def serve(self, class_page: PageOfClass) -> None:
         changed = self._lock.add_page(self._number)
-        sending = asyncio.create_task(self._send_events(changed))
+        sending = asyncio.create_task(self._send_events(changed, class_page))
         try:
             await self._receive()
         finally:
@@ -160,6 +168,8 @@ class _Page:
         """
         pressed, is_pushed = held - self._held, any(stick) and not any(self._stick)
         self._held, self._stick = held, stick
+        if self._runner.is_held:
+            return
         restart = self._restart_keys() if held else frozenset[str]()
         # not for the controller: it would draw a new start, it is not asked while the world waits
         # or has an error, and it may be a network
@@ -213,10 +223,12 @@ class _Page:
         if self._socket.application_state is WebSocketState.CONNECTED:
             await self._socket.send_text(text)
 
-    async def _send_events(self, changed: asyncio.Event) -> None:
+    async def _send_events(self, changed: asyncio.Event, class_page: PageOfClass) -> None:
         sent: dict[str, str] = {}
         while self._runner.sim is self._sim:
             changed.clear()
+            if (news := class_page.news()) is not None:
+                await self._send(json.dumps(news))
             for event in (
                 page_events.hello_event(self._agent, self._number, self._override),
                 page_events.lock_event(self._lock),

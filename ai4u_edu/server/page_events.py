@@ -8,7 +8,8 @@ from ai4u_edu.server.bindings import has_stick
 from ai4u_edu.server.control_lock import ControlLock
 from ai4u_edu.server.human_override import HumanOverride
 from ai4u_edu.server.key_labels import key_labels, usable_keys
-from ai4u_edu.snapshot import AgentState, Snapshot
+from ai4u_edu.snapshot import Snapshot
+from ai4u_edu.snapshot.outcome import outcome
 
 Event = dict[str, Any]
 
@@ -47,7 +48,7 @@ def state_event(picture: Snapshot, agent_id: str, title: str = "") -> Event | No
     if agent is None:
         return None
     body = next(body for body in picture.bodies if body.name == agent.body)
-    end = outcome(picture, agent)
+    end = outcome(agent, picture.agents, picture.static_scene.success)
     return {
         "type": "state",
         "paused": picture.paused,
@@ -68,24 +69,6 @@ def state_event(picture: Snapshot, agent_id: str, title: str = "") -> Event | No
         "terms": {name: finite(value) for name, value in agent.episode_terms.items()},
         "held": sorted(agent.held_keys),
     }
-
-
-def outcome(picture: Snapshot, agent: AgentState) -> str:
-    """Return the end of an agent's episode in a word that the page knows; empty before it."""
-    if not (agent.terminated or agent.truncated):
-        return ""
-    others = [other for other in picture.agents if other.id != agent.id]
-    if agent.succeeded:
-        return "won" if others else "goal"
-    if agent.truncated:
-        return "time"
-    if others:
-        beaten = agent.reward < 0 or any(other.succeeded for other in others)
-        return "lost" if beaten else "over"
-    if agent.fell:
-        return "fell"
-    # a scene that names no success has one all the same
-    return "goal" if agent.episode_reward > 0 and not picture.static_scene.success else "over"
 
 
 def error_event(text: str) -> Event:

@@ -19,7 +19,7 @@ from ai4u_edu.server.listener import Listener
 from ai4u_edu.server.requests import RequestProtocol, ServerConfig
 
 MAX_MESSAGE_BYTES = 2**20
-"""Size of a WebSocket message to the server; a larger one is not read and ends the connection.
+"""Usual size of a WebSocket message; a larger one is not read and ends the connection.
 
 The largest one is a part of a file for viser, of 512 KiB.
 """
@@ -36,6 +36,7 @@ def serve(
     on_ready: Callable[[str], object] | None = None,
     *,
     per_address: int = MAX_PER_ADDRESS,
+    max_message_bytes: int = MAX_MESSAGE_BYTES,
 ) -> None:
     """Serve an app in this thread until Ctrl-C or SIGTERM.
 
@@ -45,6 +46,7 @@ def serve(
         port: 0 for a free one.
         on_ready: called with the page's address when the server accepts connections.
         per_address: limit of connections from one address, except from this machine.
+        max_message_bytes: size of a WebSocket message to the server.
 
     Raises:
         PortTakenError: another program listens there.
@@ -52,7 +54,7 @@ def serve(
     """
     listener = listen(host, port)
     raise_descriptor_limit()
-    _Server(app, url_of(host, listener), on_ready, per_address).run([listener])
+    _Server(app, url_of(host, listener), on_ready, per_address, max_message_bytes).run([listener])
 
 
 class ServerThread:
@@ -104,13 +106,14 @@ class _Server(uvicorn.Server):
         url: str,
         on_ready: Callable[[str], object] | None,
         per_address: int,
+        max_message_bytes: int = MAX_MESSAGE_BYTES,
     ) -> None:
         config = ServerConfig(
             app,
             loop="asyncio",
             http=RequestProtocol,
             ws=FramesProtocol,
-            ws_max_size=MAX_MESSAGE_BYTES,
+            ws_max_size=max_message_bytes,
             ws_per_message_deflate=False,
             lifespan="off",
             log_config=None,

@@ -65,6 +65,25 @@ def is_same_secret(secret: str, other: str) -> bool:
     return compare_digest(secret.encode(), other.encode())
 
 
+class PageCookie:
+    """Cookie of a browser that has opened an address with the right token.
+
+    Browsers send a cookie to all ports of a machine: so its name differs for each token. Its value
+    is a digest, since a token may have characters that a cookie can't.
+
+    Args:
+        token: the token.
+    """
+
+    def __init__(self, token: str) -> None:
+        digest = hashlib.sha256(b"ai4u-edu page " + token.encode()).hexdigest()
+        self.name, self.value = f"ai4u-edu-{digest[:8]}", digest[8:]
+
+    def is_in(self, given: HTTPConnection) -> bool:
+        """Return True if a request has the cookie."""
+        return is_same_secret(self.value, given.cookies.get(self.name, ""))
+
+
 class TokenAuth:
     """ASGI middleware around one route that asks for the token.
 
@@ -88,10 +107,7 @@ class TokenAuth:
         self._token = token
         self._attempts = attempts or Attempts()
         self._token_page = token_page
-        # browsers send a cookie to all ports of a machine: so its name differs for each token;
-        # its value is a digest, since a token may have characters that a cookie can't
-        digest = hashlib.sha256(b"ai4u-edu page " + token.encode()).hexdigest()
-        self._cookie, self._value = f"ai4u-edu-{digest[:8]}", digest[8:]
+        self._cookie = PageCookie(token)
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Pass a request on, or answer it with 401 or a socket's close 1008, and the reason."""
@@ -112,7 +128,7 @@ class TokenAuth:
 
     def _has_credentials(self, given: HTTPConnection) -> bool:
         """Return True if a token or cookie is given, right or wrong."""
-        return _has_token(given) or self._cookie in given.cookies
+        return _has_token(given) or self._cookie.name in given.cookies
 
     def _is_in_address(self, given: HTTPConnection) -> bool:
         return is_same_secret(self._token, given.query_params.get("token", ""))
@@ -120,7 +136,7 @@ class TokenAuth:
     def _is_known(self, given: HTTPConnection) -> bool:
         return (
             self._is_in_address(given)
-            or is_same_secret(self._value, given.cookies.get(self._cookie, ""))
+            or self._cookie.is_in(given)
             or is_same_secret(f"Bearer {self._token}", given.headers.get("authorization", ""))
         )
 
@@ -132,8 +148,8 @@ class TokenAuth:
         response = RedirectResponse(f"./{page}?{query}" if query else f"./{page}", 303)
         response.headers["Cache-Control"] = "no-store"
         response.set_cookie(
-            self._cookie,
-            self._value,
+            self._cookie.name,
+            self._cookie.value,
             path=None,  # the page's own, which a proxy may have changed
             secure=given.url.scheme == "https",
             httponly=True,

@@ -1,6 +1,15 @@
 """An agent's name and state in words."""
 
+from ai4u_edu.blocks import Brain, NeuralNetController, ReplayController, ScriptController
+from ai4u_edu.blocks.brains.remote import RemoteBrain
 from ai4u_edu.snapshot.types import AgentState
+
+DRIVERS = {
+    NeuralNetController: "A network",
+    ReplayController: "A recording",
+    ScriptController: "A script",
+}
+"""Titles of drivers, by the class of their controller."""
 
 SCRIPT_PROBLEMS = {
     "waiting": "⌛ waits for its script",
@@ -35,3 +44,12 @@ def ending(agent: AgentState) -> str:
 def script_problem(agent: AgentState) -> str:
     """Return the problem with the script that should drive an agent; empty if there is none."""
     return SCRIPT_PROBLEMS.get(agent.remote.state, "") if agent.remote is not None else ""
+
+
+def driver_title(brain: Brain) -> str:
+    """Return a brain's title for people, as the beginning of a sentence."""
+    if isinstance(brain, RemoteBrain):
+        return "A script elsewhere"
+    controller = getattr(brain, "controller", brain)
+    titles = (title for kind, title in DRIVERS.items() if isinstance(controller, kind))
+    return next(titles, type(controller).__name__)

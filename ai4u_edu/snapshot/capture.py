@@ -54,7 +54,7 @@ def capture_snapshot(
         error: the error that stopped the world.
         slow_tick: a recent tick that took too long.
         episode_time: time (s) of the episode; left out, the world's time.
-        waiting: ``key`` if the world waits for a person to press a key.
+        waiting: see :attr:`Snapshot.waiting`.
     """
     world = sim.world
     return Snapshot(

@@ -159,7 +159,8 @@ class Snapshot:
     episode_time: float = 0.0
     """Time (s) of the episode; it stops at the episode's end, while the world goes on."""
     waiting: str = ""
-    """``key`` while the world waits for a person to press a key; empty otherwise."""
+    """``key`` while the world waits for a person to press a key, ``teacher`` while a teacher holds
+    it; empty otherwise."""
     is_seed_locked: bool = False
     """True if a reset without a seed repeats the present seed."""
     past: str = ""

@@ -119,7 +119,7 @@ def test_who_is_sent_out_is_out_at_once(served: ServedClass) -> None:
 
 def test_a_command_that_can_not_be_done_is_a_sentence(served: ServedClass) -> None:
     answer = served.command("kick", seat=10**6)
-    assert (answer.status_code, answer.json()) == (409, {"problem": "there is no seat 1000000"})
+    assert (answer.status_code, answer.json()) == (400, {"problem": "there is no seat 1000000"})
     assert served.command("explode").status_code == 422
 
 

@@ -1,12 +1,13 @@
 """Seats: joining, coming back, and what a teacher does with them."""
 
+import collections
 from pathlib import Path
 
 import pytest
 
 from ai4u_edu.base.errors import SetupError
 from ai4u_edu.classroom import ClassStore, RoomRule, Seats
-from ai4u_edu.classroom.errors import JoinError, NameTakenError, WrongCodeError
+from ai4u_edu.classroom.errors import JoinError, NameTakenError, StoreError, WrongCodeError
 from ai4u_edu.classroom.names import CODE_LENGTH, CODE_LETTERS, is_name
 from ai4u_edu.classroom.room_rule import MAX_SEATS
 from ai4u_edu.classroom.seats import State
@@ -48,11 +49,12 @@ def test_three_names_are_offered_and_no_other_is_taken(seats: Seats) -> None:
         joined(seats, "a", "Ada Lovelace")
 
 
-def test_a_seat_is_found_by_its_token_and_by_no_other(seats: Seats) -> None:
+def test_a_seat_is_found_by_its_token_and_by_no_other(store: ClassStore, seats: Seats) -> None:
     seat, token = joined(seats, "a")
     assert seats.by_token(token) == seat
     assert seats.by_token(token[:-1] + ("A" if token[-1] != "A" else "B")) is None
-    assert token.encode() not in seat.token_hash
+    (device,) = store.tokens()
+    assert token.encode() not in device.hash
 
 
 def test_a_code_may_be_typed_carelessly_but_not_wrongly(seats: Seats) -> None:
@@ -169,3 +171,58 @@ def test_a_file_that_is_no_database_is_said(tmp_path: Path) -> None:
     (tmp_path / "class.sqlite3").write_text("hello " * 1000)
     with pytest.raises(SetupError, match="couldn't use it"):
         ClassStore(tmp_path)
+
+
+def test_a_move_code_lets_another_device_in_once(seats: Seats) -> None:
+    seat, token = joined(seats, "a")
+    code = seats.new_move_code(seat.number)
+    moved, second = seats.join(code.lower(), "", "b")
+    assert moved == seat
+    assert seats.by_token(token) == seats.by_token(second) == seat
+    again, _ = seats.join(code, "", "b")  # whose answer got lost
+    assert again == seat
+    assert seats.by_token(second) is None
+    with pytest.raises(WrongCodeError):
+        seats.join(code, "", "c")
+    assert len(seats) == 1
+
+
+def test_the_fourth_device_takes_the_place_of_the_oldest(store: ClassStore, seats: Seats) -> None:
+    seat, first = joined(seats, "a")
+    tokens = [
+        seats.join(seats.new_move_code(seat.number), "", request)[1] for request in ("b", "c", "d")
+    ]
+    assert seats.by_token(first) is None
+    assert all(seats.by_token(token) == seat for token in tokens)
+    assert [each.request for each in store.tokens()] == ["b", "c", "d"]
+
+
+def test_a_device_that_moves_to_another_seat_leaves_its_own(seats: Seats) -> None:
+    _, held = joined(seats, "a")
+    other, _ = joined(seats, "b")
+    moved, token = seats.join(seats.new_move_code(other.number), "", "a", held)
+    assert moved == other
+    assert seats.by_token(held) is None
+    assert seats.by_token(token) == other
+
+
+def test_whoever_was_sent_out_comes_back_with_one_device(seats: Seats) -> None:
+    seat, held = joined(seats, "a")
+    _, second = seats.join(seats.new_move_code(seat.number), "", "b")
+    seats.set_state(seat.number, State.KICKED)
+    _, token = seats.join(seats.code, "", "a", held)
+    assert seats.by_token(token) is not None
+    assert seats.by_token(second) is None
+
+
+def test_a_disk_that_is_full_is_said_and_nothing_is_half_there(
+    store: ClassStore, seats: Seats
+) -> None:
+    joined(seats, "a")
+    pages = store.query("pragma page_count")[0][0]
+    store.query(f"pragma max_page_count = {pages}")
+    with pytest.raises(StoreError, match="disk full"):
+        collections.deque(joined(seats, f"{number}") for number in range(MAX_SEATS))
+    assert [each.number for each in store.seats()] == [each.number for each in seats.all()]
+    store.query("pragma max_page_count = 100000")
+    joined(seats, "later")

@@ -28,8 +28,9 @@ from ai4u_edu.blocks import trained_brain
 from ai4u_edu.remote import LostError, RemoteError, connect
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.server.bindings import has_stick
-from ai4u_edu.server.human_override import HumanOverride, driver_title
+from ai4u_edu.server.human_override import HumanOverride
 from ai4u_edu.server.key_labels import usable_keys
+from ai4u_edu.snapshot.agent_words import driver_title
 from tests.builders import small_sim, still
 from tests.server.rooms import Room, free_port, served, until
 

@@ -8,8 +8,8 @@ import pytest
 from ai4u_edu import Scene
 from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.server.key_labels import key_labels, usable_keys
-from ai4u_edu.server.page_events import outcome
-from ai4u_edu.snapshot import Snapshot, capture_snapshot
+from ai4u_edu.snapshot import AgentState, Snapshot, capture_snapshot
+from ai4u_edu.snapshot.outcome import outcome
 from tests.builders import small_sim
 
 
@@ -26,9 +26,13 @@ def picture(scene: str, changes: dict[str, dict[str, Any]]) -> Snapshot:
     return replace(whole, agents=tuple(agents))
 
 
+def end_of(whole: Snapshot, agent: AgentState) -> str:
+    return outcome(agent, whole.agents, whole.static_scene.success)
+
+
 def outcomes(scene: str, **changes: dict[str, Any]) -> dict[str, str]:
     whole = picture(scene, changes)
-    return {agent.id: outcome(whole, agent) for agent in whole.agents}
+    return {agent.id: end_of(whole, agent) for agent in whole.agents}
 
 
 OVER = {"terminated": True}
@@ -49,14 +53,14 @@ OVER = {"terminated": True}
 def test_alone(ended: dict[str, Any], word: str) -> None:
     whole = picture("box_chase", {})
     agent = whole.agents[0]._replace(**ended)
-    assert outcome(replace(whole, agents=(agent,)), agent) == word
+    assert end_of(replace(whole, agents=(agent,)), agent) == word
 
 
 def test_where_no_success_is_named_what_is_paid_at_the_end_is_one() -> None:
     whole = picture("box_chase", {})
     nameless = replace(whole, static_scene=replace(whole.static_scene, success=""))
     agent = whole.agents[0]._replace(terminated=True, episode_reward=3.0)
-    assert outcome(replace(nameless, agents=(agent,)), agent) == "goal"
+    assert end_of(replace(nameless, agents=(agent,)), agent) == "goal"
 
 
 def test_one_wins_and_the_others_lose() -> None:
@@ -91,7 +95,7 @@ def test_a_runner_that_is_caught_did_not_fall() -> None:
     whole = capture_snapshot(sim)
     caught = next(agent for agent in whole.agents if agent.id == "runner_1")
     assert not caught.fell
-    assert outcome(whole, caught) == "lost"
+    assert end_of(whole, caught) == "lost"
 
 
 def test_who_is_taken_away_for_no_reward_did_not_fall_either() -> None:

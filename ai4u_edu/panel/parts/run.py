@@ -5,9 +5,9 @@ from typing import Any
 
 from ai4u_edu.blocks.rewards.reward_func import Stages
 from ai4u_edu.panel.context import PanelContext
-from ai4u_edu.server.page_events import outcome
 from ai4u_edu.snapshot import AgentState, Snapshot
 from ai4u_edu.snapshot.agent_words import ending
+from ai4u_edu.snapshot.outcome import outcome
 
 MAX_STAGES = 12
 """Most stages that are told one by one."""
@@ -39,7 +39,7 @@ def run_part(context: PanelContext, snapshot: Snapshot, agent_id: str) -> dict[s
         "score": agent.episode_reward,
         "stages": [stage for each in agent.stages for stage in _stages(each)],
         "seconds_left": agent.seconds_left,
-        "result": outcome(snapshot, agent),
+        "result": outcome(agent, snapshot.agents, snapshot.static_scene.success),
         "result_text": _result_text(agent),
         "best": None if best is None else best.first.total,
         "status": _status(snapshot),
@@ -72,6 +72,8 @@ def _status(snapshot: Snapshot) -> str:
         return "Stopped"
     if snapshot.past:
         return f"Showing {snapshot.past}"
+    if snapshot.waiting == "teacher":
+        return "Stopped by your teacher"
     if snapshot.paused:
         return "Paused"
     if snapshot.waiting:

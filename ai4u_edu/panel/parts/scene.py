@@ -7,9 +7,8 @@ from ai4u_edu.agent.driving_keys import keys_of
 from ai4u_edu.panel.context import PanelContext
 from ai4u_edu.panel.parts.blocks import changes_json
 from ai4u_edu.panel.parts.colours import hex_colour
-from ai4u_edu.server.human_override import driver_title
 from ai4u_edu.snapshot import Snapshot, StaticScene
-from ai4u_edu.snapshot.agent_words import title
+from ai4u_edu.snapshot.agent_words import driver_title, title
 from ai4u_edu.snapshot.theme import RAY_MISS, UNKNOWN_GROUP, Rgb, body_colour, group_colours
 
 MAX_LEGEND_GROUPS = 12

@@ -1,0 +1,138 @@
+"""State of a class that the pages of one of its worlds show."""
+
+import threading
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+from ai4u_edu.wire.class_link import Attention, People, Person, Race, Welcome
+
+TEACHER = "teacher"
+STUDENT = "student"
+
+
+@dataclass(frozen=True)
+class _Shown:
+    """State of a view; replaced, never changed."""
+
+    name: str = ""
+    colour: str = ""
+    people: tuple[Person, ...] = ()
+    attention: Attention | None = None
+    attention_ends_at: float | None = None
+    race: Race | None = None
+    race_starts_at: float = 0.0
+    own_best: float | None = None
+
+
+class ClassView:
+    """The state of a class as a world knows it. Any thread may write and read it.
+
+    Args:
+        clock: seconds.
+    """
+
+    def __init__(self, clock: Callable[[], float]) -> None:
+        self._clock = clock
+        self._lock = threading.Lock()
+        self._shown: _Shown | None = None
+        self._version = 0
+
+    @property
+    def version(self) -> int:
+        """A number that grows with every change; 0 while the class has told nothing."""
+        return self._version
+
+    def welcome(self, message: Welcome) -> None:
+        """Show whose world it is."""
+        self._change(name=message.name, colour=message.colour)
+
+    def set_people(self, message: People) -> None:
+        """Show who else has this world."""
+        self._change(people=message.people)
+
+    def set_attention(self, message: Attention | None, ends_at: float | None = None) -> None:
+        """Show the teacher's message.
+
+        Args:
+            message: None for its end.
+            ends_at: time of the clock (s) at which it ends by itself.
+        """
+        self._change(attention=message, attention_ends_at=ends_at)
+
+    def set_race(self, race: Race | None, starts_at: float, own_best: float | None) -> None:
+        """Show a race.
+
+        Args:
+            race: None for none.
+            starts_at: time of the clock (s).
+            own_best: shortest time (s) of this world to the goal.
+        """
+        self._change(race=race, race_starts_at=starts_at, own_best=own_best)
+
+    def event(self, role: str, seat: int) -> dict[str, Any] | None:
+        """Return the event for a page; None while the class has told nothing.
+
+        Args:
+            role: ``teacher`` or ``student``.
+            seat: number of the page's seat; 0 if it is not known.
+        """
+        shown = self._shown
+        if shown is None:
+            return None
+        own = next((each for each in shown.people if each.number == seat), None)
+        is_teacher = role == TEACHER
+        return {
+            "type": "class",
+            "name": own.name if own else "" if is_teacher else shown.name,
+            "colour": own.colour if own else "" if is_teacher else shown.colour,
+            "role": TEACHER if is_teacher else STUDENT,
+            "people": [
+                {
+                    "number": each.number,
+                    "name": each.name,
+                    "colour": each.colour,
+                    "is_here": each.is_here,
+                }
+                for each in shown.people
+            ],
+            "attention": {
+                "kind": shown.attention.kind if shown.attention else "",
+                "message": shown.attention.message if shown.attention else "",
+                "ends_in": self._left(shown.attention_ends_at),
+            },
+            "race": self._race(shown),
+        }
+
+    def _race(self, shown: _Shown) -> dict[str, Any] | None:
+        race = shown.race
+        if race is None:
+            return None
+        starts_in = self._left(shown.race_starts_at)
+        is_counting = race.phase == "countdown" and starts_in > 0
+        return {
+            "id": race.id,
+            "phase": race.phase if race.phase == "over" or is_counting else "running",
+            "starts_in": starts_in,
+            "board": [
+                {
+                    "name": row.name,
+                    "colour": row.colour,
+                    "outcome": row.outcome,
+                    "seconds": row.seconds,
+                }
+                for row in race.board
+            ],
+            "own_best": shown.own_best,
+        }
+
+    def _left(self, until: float | None) -> float:
+        return 0.0 if until is None else round(max(0.0, until - self._clock()), 2)
+
+    def _change(self, **fields: Any) -> None:
+        with self._lock:
+            values = {**vars(self._shown or _Shown()), **fields}
+            shown = _Shown(**values)
+            if shown != self._shown:
+                self._shown = shown
+                self._version += 1

@@ -1,0 +1,167 @@
+"""A race of a class in one world."""
+
+import math
+from collections.abc import Callable
+from typing import Any
+
+from ai4u_edu.base.errors import AI4UError, shorten
+from ai4u_edu.class_member.assigned_scenes import AssignedScenes
+from ai4u_edu.class_member.class_view import ClassView
+from ai4u_edu.class_member.episode_watch import EndedEpisode, EpisodeWatch
+from ai4u_edu.class_member.holds import Holds
+from ai4u_edu.class_member.room_state import WINS
+from ai4u_edu.recording import Episode, RecordingError
+from ai4u_edu.recording.file import decode
+from ai4u_edu.recording.scene_export import export_scene, without_brains
+from ai4u_edu.runtime.runner import Runner
+from ai4u_edu.wire.class_link import Applied, Race
+from ai4u_edu.wire.validation import MAX_TEXT_CHARS
+
+ShowGhost = Callable[[Episode | None, str], object]
+"""Shows the ghost of an episode under a name; None for none."""
+PREPARE_TIMEOUT_S = 10.0
+
+
+class RaceRun:
+    """Takes a world to a race's start, holds it there, and says which episodes count.
+
+    One thread calls it.
+
+    Args:
+        runner: runs the world.
+        scenes: opens the race's scene.
+        watch: has the recorded episodes.
+        holds: of the world.
+        view: what pages show.
+        show_ghost: shows the best drive so far.
+        clock: seconds.
+    """
+
+    def __init__(
+        self,
+        runner: Runner,
+        scenes: AssignedScenes,
+        watch: EpisodeWatch,
+        holds: Holds,
+        view: ClassView,
+        show_ghost: ShowGhost,
+        clock: Callable[[], float],
+    ) -> None:
+        self._runner, self._scenes, self._watch, self._holds = runner, scenes, watch, holds
+        self._view, self._show_ghost, self._clock = view, show_ghost, clock
+        self._race: Race | None = None
+        """The race that runs here; None for none."""
+        self._track: list[Any] = []
+        """The scene's parts that determine an episode."""
+        self._starts_at = -math.inf
+        self._is_started = False
+        self._was_locked = False
+        self._best = math.inf
+        self._best_of = ""
+        self._ghost = b""
+
+    def update(self, race: Race, starts_at: float) -> Applied | None:
+        """Follow the class's race.
+
+        Args:
+            race: the message.
+            starts_at: time of the clock (s) at which it starts.
+
+        Returns:
+            An answer if the race can't run here.
+        """
+        answer = None
+        if not race.id or race.phase == "over":
+            self.stop()
+        elif self._race is None or self._race.id != race.id:
+            self.stop()
+            answer = self._prepare(race, starts_at)
+        else:
+            self._race, self._starts_at = race, starts_at
+            self._holds.for_race(starts_at)
+        if self._race is not None:
+            self._show_best_ghost(self._race)
+        if race.id != self._best_of:
+            self._best_of, self._best = race.id, math.inf
+        is_shown = bool(race.id) and answer is None
+        self._view.set_race(race if is_shown else None, starts_at, self._own_best())
+        return answer
+
+    def poll(self) -> None:
+        """Start the race when it is time, and keep its seed."""
+        race = self._race
+        if race is None:
+            return
+        if not self._is_started:
+            if self._clock() < self._starts_at:
+                return
+            self._is_started = True
+            self._holds.refresh()
+            self._runner.start_episode()
+        if self._runner.latest.seed != race.seed:
+            self._runner.submit(lambda: self._restore_seed(race))
+
+    def id_of(self, ended: EndedEpisode, word: str) -> str:
+        """Return the race's id if an episode counts there; empty otherwise."""
+        race, episode = self._race, ended.recorded
+        if race is None or episode is None or not self._is_started or ended.seed != race.seed:
+            return ""
+        is_whole = episode.changed is None and not episode.restarts and not episode.cut
+        if not is_whole or without_brains(episode.scene) != self._track:
+            return ""
+        if word in WINS and ended.seconds < self._best:
+            self._best = ended.seconds
+            self._view.set_race(race, self._starts_at, self._own_best())
+        return race.id
+
+    def stop(self) -> None:
+        """End the race here: other seeds are drawn again, and no ghost is shown."""
+        if self._race is None:
+            return
+        self._race = None
+        self._watch.has_recordings = False
+        self._holds.for_race(-math.inf)
+        self._runner.lock_seed(self._was_locked)
+        self._show_ghost(None, "")
+        self._ghost = b""
+
+    def _prepare(self, race: Race, starts_at: float) -> Applied | None:
+        self._holds.for_race(starts_at)
+        self._was_locked = self._runner.latest.is_seed_locked
+        try:
+            self._scenes.open(race.scene, race.seed)
+            self._track = self._runner.submit(self._lock).result(PREPARE_TIMEOUT_S)
+        except (AI4UError, TimeoutError) as error:
+            self._holds.for_race(-math.inf)
+            return Applied(race.id, shorten(f"the race: {error}", MAX_TEXT_CHARS))
+        self._race, self._starts_at, self._is_started = race, starts_at, False
+        self._watch.has_recordings = True
+        return None
+
+    def _lock(self) -> list[Any]:
+        """Repeat the seed from now on, and return the scene's parts; in the world's thread."""
+        sim = self._runner.sim
+        sim.is_seed_locked = True
+        return without_brains(export_scene(sim))
+
+    def _restore_seed(self, race: Race) -> None:
+        """Go back to the race's seed, unless another scene was opened; in the world's thread."""
+        sim = self._runner.sim
+        is_other = sim.world.seeds.seed != race.seed
+        if self._race is race and is_other and without_brains(export_scene(sim)) == self._track:
+            sim.is_seed_locked = True
+            sim.reset(race.seed)
+
+    def _own_best(self) -> float | None:
+        return None if math.isinf(self._best) else round(self._best, 2)
+
+    def _show_best_ghost(self, race: Race) -> None:
+        best = race.ghosts[0] if race.ghosts else b""
+        if best == self._ghost:
+            return
+        self._ghost = best
+        name = race.board[0].name if race.board else "the best so far"
+        try:
+            self._show_ghost(decode(Episode, best, "ghost") if best else None, name)
+        except RecordingError:
+            return  # recorded by another version, say; the race goes on without it

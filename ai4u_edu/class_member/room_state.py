@@ -1,0 +1,115 @@
+"""State of a room as its class shows it: who drives, how it goes, who is stuck."""
+
+from collections.abc import Callable
+
+from ai4u_edu.agent.cycle import ControlRequestor
+from ai4u_edu.base.errors import shorten
+from ai4u_edu.class_member.episode_watch import driver_of
+from ai4u_edu.snapshot import Snapshot
+from ai4u_edu.snapshot.outcome import outcome
+from ai4u_edu.wire.class_link import State, Status
+from ai4u_edu.wire.validation import MAX_TEXT_CHARS
+
+IDLE_S = 60.0
+"""Time without driving and editing after which a room is idle."""
+WINS = ("goal", "won")
+TEACHER = "teacher"
+"""Value of :attr:`Snapshot.waiting` while a world is held."""
+
+
+class RoomState:
+    """State of a room. One thread calls it.
+
+    Args:
+        clock: seconds.
+    """
+
+    def __init__(self, clock: Callable[[], float]) -> None:
+        self._clock = clock
+        self._active_at = clock()
+        self._seen: object = None
+        self._scene: object = None
+        self.falls = 0
+        self.is_solved = False
+
+    def note_scene(self, scene: object) -> None:
+        """Begin to count anew if another scene was opened.
+
+        Args:
+            scene: identifies the scene that was opened last.
+        """
+        if scene is not self._scene:
+            self._scene = scene
+            self.falls, self.is_solved = 0, False
+
+    def note_end(self, word: str) -> None:
+        """Count an episode that has ended."""
+        self.falls += word == "fell"
+        self.is_solved = self.is_solved or word in WINS
+
+    def read(
+        self, snapshot: Snapshot, sim: ControlRequestor, *, title: str, version: int, begun: int
+    ) -> State:
+        """Return the present state.
+
+        Args:
+            snapshot: the latest one.
+            sim: the world that runs.
+            title: of the scene.
+            version: grows with every edit.
+            begun: episodes of this scene that have begun.
+        """
+        driver = ""
+        if sim.agents and snapshot.agents:
+            driver = driver_of(sim.agents[0], snapshot.agents[0])
+        self._note_activity(snapshot, (version, begun, driver))
+        return State(
+            status=self._status(snapshot),
+            scene=shorten(title, MAX_TEXT_CHARS),
+            driver=shorten(driver, MAX_TEXT_CHARS),
+            seconds=round(snapshot.episode_time, 1),
+            episodes=max(1, begun),
+            falls=self.falls,
+            is_solved=self.is_solved,
+            error=shorten(snapshot.error, MAX_TEXT_CHARS),
+        )
+
+    def _status(self, snapshot: Snapshot) -> Status:
+        if snapshot.error:
+            return "error"
+        if snapshot.waiting == TEACHER:
+            return "paused"
+        if self._clock() - self._active_at >= IDLE_S:
+            return "idle"
+        if snapshot.paused:
+            return "paused"
+        agent = snapshot.agents[0] if snapshot.agents else None
+        success = snapshot.static_scene.success
+        match outcome(agent, snapshot.agents, success) if agent else "":
+            case "goal" | "won":
+                return "solved"
+            case "fell":
+                return "fell"
+            case "":
+                return "waiting" if snapshot.waiting else "driving"
+        return "over"
+
+    def _note_activity(self, snapshot: Snapshot, changed: tuple[int, int, str]) -> None:
+        seen = (*changed, tuple(sorted(key for each in snapshot.agents for key in each.held_keys)))
+        is_active = seen != self._seen or snapshot.waiting == TEACHER
+        self._seen = seen
+        if is_active or _is_driven(snapshot):
+            self._active_at = self._clock()
+
+
+def _is_driven(snapshot: Snapshot) -> bool:
+    """Return True if somebody drives now: a person who holds a key or a stick, or a program."""
+    if snapshot.paused or snapshot.waiting or snapshot.error:
+        return False
+    for agent in snapshot.agents:
+        if agent.terminated or agent.truncated:
+            continue
+        is_moving = any(number for numbers in agent.action.values() for number in numbers)
+        if agent.held_keys or is_moving:
+            return True
+    return False

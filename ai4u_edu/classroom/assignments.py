@@ -1,0 +1,66 @@
+"""Scenes that the teacher has given to rooms."""
+
+import secrets
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+from ai4u_edu.classroom.store import ClassStore
+from ai4u_edu.wire.class_link import Assignment
+
+EVERY_ROOM = ""
+"""Id in the place of a room's for rooms that have no assignment of their own, also later ones."""
+NONE = Assignment("", "", "", None)
+
+
+@dataclass(frozen=True)
+class AssignedScene:
+    """A scene to assign."""
+
+    title: str
+    text: str
+    """Name in the library, or YAML."""
+
+
+class Assignments:
+    """The present assignment of each room, in memory and in the class's file.
+
+    Args:
+        store: of the class.
+    """
+
+    def __init__(self, store: ClassStore) -> None:
+        self._store = store
+        self.read()
+
+    def read(self) -> None:
+        """Read all from the store."""
+        rows = self._store.query("select room, id, title, scene, seed from assignments")
+        self._by_room = {room: Assignment(*rest) for room, *rest in rows}
+
+    def of(self, room: str) -> Assignment:
+        """Return a room's assignment; an empty one if nothing is assigned."""
+        return self._by_room.get(room) or self._by_room.get(EVERY_ROOM, NONE)
+
+    def assign(self, scene: AssignedScene, rooms: Iterable[str] | None, seed: int | None) -> None:
+        """Store an assignment, which replaces others.
+
+        Args:
+            scene: the scene.
+            rooms: ids of the rooms; None for all, also those of students who come later.
+            seed: of the world; None for a random one in each room.
+
+        Raises:
+            StoreError: it can't be stored; then nothing has changed.
+        """
+        assignment = Assignment(secrets.token_hex(8), scene.title, scene.text, seed)
+        places = [EVERY_ROOM] if rooms is None else list(rooms)
+        with self._store.transaction() as database:
+            if rooms is None:
+                database.execute("delete from assignments")
+            database.executemany(
+                "insert or replace into assignments values (?, ?, ?, ?, ?)",
+                [(each, assignment.id, scene.title, scene.text, seed) for each in places],
+            )
+        if rooms is None:
+            self._by_room = {}
+        self._by_room |= dict.fromkeys(places, assignment)

@@ -1,0 +1,171 @@
+"""The class as the teacher's page and the projector page get it."""
+
+import json
+from collections import defaultdict
+from collections.abc import Callable, Mapping
+from functools import lru_cache
+from typing import Any
+
+from ai4u_edu.classroom.course_index import course_index, words_for
+from ai4u_edu.classroom.live_class import LiveClass
+from ai4u_edu.classroom.live_rooms import LiveRoom
+from ai4u_edu.classroom.seats import State
+from ai4u_edu.scenes import Scene
+
+Event = dict[str, Any]
+QrCode = Callable[[str], tuple[str, str]]
+MAX_CACHED = 8
+"""Addresses under which pages are open, for each of which an event is kept."""
+
+
+class ClassEvents:
+    """Events of a class as JSON; each is built once for all pages.
+
+    Belongs to the event loop.
+
+    Args:
+        live: the class.
+        join: returns the address that students open and its QR code, for the page's own.
+    """
+
+    def __init__(self, live: LiveClass, join: QrCode) -> None:
+        self._live, self._join = live, join
+        self._cached: dict[tuple[str, bool], tuple[int, str]] = {}
+
+    def text(self, url: str, *, is_projected: bool) -> str:
+        """Return the present event as JSON.
+
+        Args:
+            url: address of the page.
+            is_projected: True for the page that everybody sees.
+        """
+        key = url, is_projected
+        version, text = self._cached.get(key, (-1, ""))
+        if version != self._live.version:
+            version = self._live.version
+            text = json.dumps(self.event(url, is_projected=is_projected))
+            if len(self._cached) >= MAX_CACHED:
+                self._cached.clear()
+            self._cached[key] = version, text
+        return text
+
+    def event(self, url: str, *, is_projected: bool) -> Event:
+        """Return the present event; see :meth:`text`."""
+        live = self._live
+        address, code = self._join(url)
+        event: Event = {
+            "type": "class",
+            "code": live.seats.code,
+            "address": address,
+            "qr": code,
+            "open": live.seats.is_open,
+            "problem": live.results.problem,
+            "attention": live.attention.as_event(),
+            "shown": live.shown,
+            "race": None,
+            "scenes": _library(),
+            "exercises": [each._asdict() for each in course_index()],
+            "seats": self._seats(),
+            "rooms": self._rooms(),
+        }
+        if is_projected:
+            for room in event["rooms"]:
+                del room["help"], room["why"]
+            return event
+        event["rooms"].sort(key=lambda room: -room["help"])
+        event["progress"] = live.progress.by_seat()
+        event["misconceptions"] = misconceptions(live.progress.mistakes)
+        return event
+
+    def _seats(self) -> list[Event]:
+        return [
+            {
+                "number": each.number,
+                "name": each.name,
+                "colour": each.colour,
+                "room": each.room,
+                "state": each.state,
+                "is_here": self._live.is_here(each.number),
+                "running": self._live.host.is_running(each.room),
+            }
+            for each in self._live.seats.all()
+        ]
+
+    def _rooms(self) -> list[Event]:
+        """Return all rooms that somebody has."""
+        live = self._live
+        found = []
+        remote = {each.seat for each in live.rooms.values() if each.seat and each.state}
+        members: dict[str, list[int]] = defaultdict(list)
+        for seat in live.seats.all():
+            if seat.state == State.IN.value:
+                members[seat.room].append(seat.number)
+        for room, scene in live.seats.scenes().items():
+            state = live.room(room)
+            is_used = state.state is not None or live.host.is_running(room)
+            if members[room] and (is_used or not remote.issuperset(members[room])):
+                found.append(self._room(state, members[room], scene))
+        for state in live.rooms.values():
+            seats = [each.number for each in live.seats_of(state)]
+            if state.seat and seats and (state.link or state.state):
+                found.append(self._room(state, seats, ""))
+        return found
+
+    def _room(self, room: LiveRoom, seats: list[int], scene: str) -> Event:
+        state, score = room.state, room.help()
+        is_remote = room.kind == "remote"
+        is_running = room.link is not None if is_remote else self._live.host.is_running(room.id)
+        status = "away" if is_remote or is_running else "asleep"
+        if room.link is not None:
+            status = state.status if state else "waiting"
+        return {
+            "id": room.id,
+            "seats": seats,
+            "kind": room.kind,
+            "status": status,
+            "is_running": is_running,
+            "scene": state.scene if state else scene,
+            "driver": state.driver if state else "",
+            "seconds": round(state.seconds, 1) if state else 0.0,
+            "episodes": state.episodes if state else 0,
+            "falls": state.falls if state else 0,
+            "is_solved": state.is_solved if state else False,
+            "error": (state.error if state else "") or room.problem,
+            "help": score[0],
+            "why": score[1],
+        }
+
+
+def misconceptions(mistakes: Mapping[tuple[int, str, str], int]) -> list[Event]:
+    """Return the mistakes of a class, the most frequent first, with words for each.
+
+    Args:
+        mistakes: count by seat, diagnosis and exercise.
+    """
+    found: dict[tuple[str, str], dict[int, int]] = defaultdict(dict)
+    for (seat, diagnosis, exercise), count in mistakes.items():
+        found[exercise, diagnosis][seat] = count
+    rows = []
+    for (exercise, diagnosis), seats in found.items():
+        sentence, guide = words_for(exercise, diagnosis)
+        rows.append(
+            {
+                "exercise": exercise,
+                "diagnosis": diagnosis,
+                "count": sum(seats.values()),
+                "seats": sorted(seats),
+                "sentence": sentence,
+                "guide": guide,
+            }
+        )
+    return sorted(rows, key=lambda row: (-len(row["seats"]), -row["count"], row["exercise"]))
+
+
+@lru_cache(maxsize=1)
+def _library() -> list[Event]:
+    """Return the scenes of the library, by title."""
+    found = [
+        {"name": name, "title": Scene.load(name).description.title or name}
+        for name in Scene.names()
+    ]
+    return sorted(found, key=lambda each: each["title"].lower())

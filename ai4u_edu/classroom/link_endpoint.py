@@ -1,0 +1,274 @@
+"""WebSocket of the class for links of rooms and notebooks; see :mod:`ai4u_edu.wire.class_link`."""
+
+import asyncio
+from contextlib import suppress
+
+from starlette.types import Receive, Scope, Send
+from starlette.websockets import WebSocket, WebSocketDisconnect, WebSocketState
+
+from ai4u_edu.classroom.course_index import known_exercises
+from ai4u_edu.classroom.live_class import LiveClass
+from ai4u_edu.classroom.live_rooms import LiveRoom
+from ai4u_edu.classroom.result_writer import Received
+from ai4u_edu.server.attempts import Attempts, Verdict, client_address
+from ai4u_edu.server.rate_limit import RateLimit
+from ai4u_edu.wire.class_link import (
+    SUBPROTOCOL,
+    VERSION,
+    Ack,
+    Applied,
+    Drawing,
+    EpisodeResult,
+    ExerciseResult,
+    FromClass,
+    FromRoom,
+    Hello,
+    Poses,
+    Problem,
+    Result,
+    State,
+    Work,
+    decode_from_room,
+    encode_from_class,
+)
+from ai4u_edu.wire.validation import WireError
+
+HELLO_TIMEOUT_S = 5.0
+MESSAGES_PER_S = 50.0
+"""Rate limit for messages of one link; more are taken later, and none is lost."""
+MAX_MISTAKES = 5
+"""Malformed messages in a row after which a link is ended."""
+MAX_WAITING_ACKS = 1000
+NOT_ALLOWED, TRY_LATER = 1008, 1013
+
+
+class LinkEndpoint:
+    """ASGI app that serves links.
+
+    Args:
+        live: the class.
+    """
+
+    def __init__(self, live: LiveClass) -> None:
+        self._live = live
+        self._attempts = Attempts()
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        """Serve one link until one side ends it."""
+        socket = WebSocket(scope, receive, send)
+        with suppress(WebSocketDisconnect):
+            await socket.accept(SUBPROTOCOL if SUBPROTOCOL in scope["subprotocols"] else None)
+            room = await self._greet(socket)
+            if room is None:
+                return
+            self._live.ensure_ticking()
+            link = Link(socket)
+            sender = asyncio.create_task(link.run())
+            self._live.connect(room, link)
+            try:
+                await self._receive(socket, room, link)
+            finally:
+                self._live.disconnect(room, link)
+                link.stop()
+                with suppress(asyncio.CancelledError, WebSocketDisconnect):
+                    await sender
+
+    async def _greet(self, socket: WebSocket) -> LiveRoom | None:
+        """Return the room that a link's hello names; end the link if it names none."""
+        try:
+            frame = await asyncio.wait_for(_frame(socket), HELLO_TIMEOUT_S)
+            hello = decode_from_room(frame)
+        except TimeoutError:
+            await _refuse(
+                socket, Problem("message", f"expected hello within {HELLO_TIMEOUT_S:g} s")
+            )
+            return None
+        except WireError as error:
+            await _refuse(socket, Problem("message", str(error)))
+            return None
+        if not isinstance(hello, Hello):
+            await _refuse(socket, Problem("message", "expected hello as the first message"))
+            return None
+        if hello.version != VERSION:
+            text = f"expected version {VERSION} of the class's protocol, got {hello.version}; "
+            text += "install the version of ai4u-edu that your teacher has"
+            await _refuse(socket, Problem("version", text))
+            return None
+        found: list[LiveRoom] = []
+
+        def is_right() -> bool:
+            room = self._live.room_of(hello.secret)
+            found.extend([room] if room is not None else [])
+            return bool(found)
+
+        address = client_address(socket.scope)
+        verdict = await self._attempts.check(address, is_right)
+        if verdict is Verdict.TOO_MANY:
+            await socket.close(TRY_LATER, "too many wrong secrets from this address")
+            return None
+        if not found:
+            text = "This place in the class is not yours any more. Join again with the code."
+            await _refuse(socket, Problem("secret", text))
+            return None
+        return found[0]
+
+    async def _receive(self, socket: WebSocket, room: LiveRoom, link: "Link") -> None:
+        limit, mistakes = RateLimit(MESSAGES_PER_S), 0
+        while True:
+            if wait_s := limit.take():
+                await asyncio.sleep(wait_s)
+            try:
+                message = _decoded(await _frame(socket))
+            except WireError as error:
+                mistakes += 1
+                if mistakes >= MAX_MISTAKES:
+                    link.end(f"{MAX_MISTAKES} malformed messages in a row", code="message")
+                    mistakes = 0
+                else:
+                    link.add(Problem("message", str(error)))
+                continue
+            mistakes = 0
+            if room.link is link:  # what a link sends after its end does not count
+                await self._take(room, link, message)
+
+    async def _take(self, room: LiveRoom, link: "Link", message: FromRoom) -> None:
+        match message:
+            case EpisodeResult() | ExerciseResult():
+                self._take_result(room, link, message)
+                return
+            case Drawing():
+                room.note_drawing(message)
+                return
+            case Poses():
+                room.note_poses(message)
+                return
+            case State():
+                room.note_state(message)
+            case Work():
+                room.work = message
+                await asyncio.to_thread(self._live.keep_work, room, message)
+            case Applied():
+                room.problem = message.problem
+        self._live.note_change()
+
+    def _take_result(self, room: LiveRoom, link: "Link", result: Result) -> None:
+        if isinstance(result, ExerciseResult) and result.exercise not in known_exercises():
+            text = f"exercise: no exercise is called {result.exercise[:40]!r}; "
+            link.add(
+                Problem("message", text + "install the version of ai4u-edu that the class has")
+            )
+            link.add(Ack(result.key))  # sent again it would be refused again
+            return
+
+        def done(is_stored: bool) -> None:
+            if is_stored:
+                link.add(Ack(result.key))
+            else:
+                link.close_later()
+
+        seats = tuple(each.number for each in self._live.seats_of(room))
+        self._live.results.add(Received(room.id, seats, result, done))
+
+
+class Link:
+    """Sending side of a link: a state that was not sent yet is replaced by the next one.
+
+    Belongs to the event loop; :meth:`run` is its task.
+
+    Args:
+        socket: of the link, accepted.
+    """
+
+    def __init__(self, socket: WebSocket) -> None:
+        self._socket = socket
+        self._states: dict[type, FromClass] = {}
+        self._replies: list[FromClass] = []
+        self._closing: tuple[int, str] | None = None
+        self._wake = asyncio.Event()
+        self._task: asyncio.Task[None] | None = None
+
+    def send(self, message: FromClass) -> None:
+        """Send a state."""
+        self._states.pop(type(message), None)
+        self._states[type(message)] = message
+        self._wake.set()
+
+    def add(self, message: Ack | Problem) -> None:
+        """Send an answer to a message."""
+        self._replies.append(message)
+        if len(self._replies) > MAX_WAITING_ACKS:  # it does not read
+            self._closing = (NOT_ALLOWED, "expected acknowledgements to be read")
+        self._wake.set()
+
+    def end(self, sentence: str, code: str = "over") -> None:
+        """End the link for good."""
+        self._states.clear()
+        self._replies.append(Problem("message" if code == "message" else "over", sentence))
+        self._closing = (NOT_ALLOWED, _close_reason(sentence))
+        self._wake.set()
+
+    def close_later(self) -> None:
+        """Close the link, which is opened again: the class could not store what it sent."""
+        self._closing = (TRY_LATER, "the class can't save anything now")
+        self._wake.set()
+
+    def stop(self) -> None:
+        """End the task; nobody reads any more."""
+        if self._task is not None:
+            self._task.cancel()
+
+    async def run(self) -> None:
+        """Send messages until the end."""
+        self._task = asyncio.current_task()
+        with suppress(WebSocketDisconnect, RuntimeError):  # the other side has left
+            while True:
+                await self._wake.wait()
+                self._wake.clear()
+                replies, self._replies = self._replies, []
+                for each in replies:
+                    await self._socket.send_bytes(encode_from_class(each))
+                while self._states:
+                    kind = next(iter(self._states))
+                    await self._socket.send_bytes(encode_from_class(self._states.pop(kind)))
+                if self._closing is not None:
+                    await self._socket.close(*self._closing)
+                    return
+
+
+async def _frame(socket: WebSocket) -> bytes:
+    """Return the next binary frame.
+
+    Raises:
+        WebSocketDisconnect: the other side has left.
+        WireError: it is text.
+    """
+    message = await socket.receive()
+    if message["type"] != "websocket.receive":
+        raise WebSocketDisconnect(message.get("code", 1006))
+    data: bytes | None = message.get("bytes")
+    if data is None:
+        raise WireError("expected a binary message, got text")
+    return data
+
+
+def _decoded(frame: bytes) -> FromRoom:
+    """Return a message after the hello.
+
+    Raises:
+        WireError: there is none in the frame, or another hello.
+    """
+    message = decode_from_room(frame)
+    if isinstance(message, Hello):
+        raise WireError("expected hello as the first message only")
+    return message
+
+
+async def _refuse(socket: WebSocket, problem: Problem) -> None:
+    if socket.application_state is WebSocketState.CONNECTED:
+        await socket.send_bytes(encode_from_class(problem))
+        await socket.close(NOT_ALLOWED, _close_reason(problem.text))
+
+
+def _close_reason(text: str) -> str:
+    """Return a text as the reason of a close, which has at most 123 bytes."""
+    return text.encode("ascii", "replace")[:100].decode()

@@ -1,0 +1,176 @@
+"""A class as it is now: rooms, links, who is here, and what the teacher has asked for."""
+
+import asyncio
+import json
+from collections import Counter
+from contextlib import suppress
+from typing import Literal
+
+from ai4u_edu.base.atomic_write import write_atomically
+from ai4u_edu.classroom.assignments import Assignments
+from ai4u_edu.classroom.attention import AttentionState
+from ai4u_edu.classroom.live_rooms import LiveRoom, OpenLink, remote_id
+from ai4u_edu.classroom.progress import Progress
+from ai4u_edu.classroom.result_writer import Received, ResultWriter
+from ai4u_edu.classroom.room_host import RoomHost
+from ai4u_edu.classroom.scene_file import NAME as SCENE_FILE
+from ai4u_edu.classroom.seats import Seats, State
+from ai4u_edu.classroom.store import ClassStore, SeatRow
+from ai4u_edu.wire.class_link import VERSION, ExerciseResult, People, Person, Welcome, Work
+
+TICK_S = 0.5
+"""Interval at which ends of times are looked for."""
+SHOWN = "shown"
+ShownKind = Literal["join", "room", "race", "board"]
+
+
+class LiveClass:
+    """Present state of a class, in memory. Belongs to the event loop.
+
+    Args:
+        store: of the class.
+        seats: of the class.
+        host: runs the rooms of this machine.
+    """
+
+    def __init__(self, store: ClassStore, seats: Seats, host: RoomHost) -> None:
+        self.store, self.seats, self.host = store, seats, host
+        self.version = 0
+        """Counts changes, except drawings and poses, which rooms count."""
+        self.rooms: dict[str, LiveRoom] = {}
+        self.pages: Counter[int] = Counter()
+        """Open sockets of each seat's pages."""
+        self.attention = AttentionState(store)
+        self.assignments = Assignments(store)
+        self.progress = Progress(store)
+        self.results = ResultWriter(store, self.progress, self._note_exercise, self.note_change)
+
+        self.shown = json.loads(store.setting(SHOWN) or '{"kind": "join", "room": ""}')
+        """Content of the projector page."""
+        self._ticking: asyncio.Task[None] | None = None
+
+    def note_change(self) -> None:
+        """Count a change, of which pages are told soon."""
+        self.version += 1
+
+    def ensure_ticking(self) -> None:
+        """Start the task that looks for ends of times, once the event loop runs."""
+        if self._ticking is None:
+            self._ticking = asyncio.create_task(self._tick())
+
+    async def _tick(self) -> None:
+        while True:
+            await asyncio.sleep(TICK_S)
+            if self.attention.is_over():
+                self.attention.end()
+                self.tell_attention()
+            await asyncio.to_thread(self.attention.save_rest)
+
+    def show(self, kind: ShownKind, room: str) -> None:
+        """Store what the projector page shows."""
+        shown = {"kind": kind, "room": room}
+        self.store.set_setting(SHOWN, json.dumps(shown))
+        self.shown = shown
+
+    def room_of(self, secret: str) -> LiveRoom | None:
+        """Return the room of a link, by a room's secret or a seat's token; None for a wrong one."""
+        room = self.host.room_of(secret)
+        if room and room in self.seats.scenes():
+            return self.room(room)
+        seat = self.seats.by_token(secret)
+        return None if seat is None else self.room(remote_id(seat.number), seat.number)
+
+    def room(self, room: str, seat: int = 0) -> LiveRoom:
+        """Return the state of a room, which is made if there is none; with a seat, a remote one."""
+        if room not in self.rooms:
+            self.rooms[room] = LiveRoom(room, "remote" if seat else "local", seat)
+        return self.rooms[room]
+
+    def seats_of(self, room: LiveRoom) -> list[SeatRow]:
+        """Return the seats of a room that may enter it."""
+        return [
+            each
+            for each in self.seats.all()
+            if each.state == State.IN.value
+            and (each.number == room.seat if room.seat else each.room == room.id)
+        ]
+
+    def is_here(self, seat: int) -> bool:
+        """Return True while a page, a notebook or a world of the seat is connected."""
+        remote = self.rooms.get(remote_id(seat))
+        return self.pages[seat] > 0 or (remote is not None and remote.link is not None)
+
+    def connect(self, room: LiveRoom, link: OpenLink) -> None:
+        """Take a room's new link, in the place of one before, and tell it everything."""
+        before, room.link = room.link, link
+        room.links += 1
+        if before is not None:
+            before.end("Another program has taken this place in the class; this one is out.")
+        seats = self.seats_of(room)
+        for each in seats:
+            self.progress.begin(each.number)
+        name, colour = (seats[0].name, seats[0].colour) if len(seats) == 1 else ("", "")
+        link.send(Welcome(VERSION, name, colour))
+        link.send(self.assignments.of(room.id))
+        link.send(self.attention.as_message())
+        self.tell_people()
+
+    def disconnect(self, room: LiveRoom, link: OpenLink) -> None:
+        """Note that a link has ended."""
+        if room.link is link:
+            room.link = None
+            self.tell_people()
+
+    def page_opened(self, seat: int, change: int) -> None:
+        """Note that a socket of a seat's page was opened (1) or closed (-1)."""
+        self.pages[seat] += change
+        self.tell_people()
+
+    def tell_people(self) -> None:
+        """Tell all rooms and pages who has a seat, and who is here."""
+        for room in self.rooms.values():
+            if room.link is not None:
+                room.link.send(self.people_of(room))
+        self.note_change()
+
+    def people_of(self, room: LiveRoom) -> People:
+        """Return the seats of a room, as it gets them."""
+        return People(
+            tuple(
+                Person(each.number, each.name, each.colour, self.is_here(each.number))
+                for each in self.seats_of(room)
+            )
+        )
+
+    def tell_attention(self) -> None:
+        """Tell all rooms and pages of the teacher's request."""
+        for room in self.rooms.values():
+            if room.link is not None:
+                room.link.send(self.attention.as_message())
+        self.note_change()
+
+    def keep_work(self, room: LiveRoom, work: Work) -> None:
+        """Write the scene of a remote room to the class's folder; a thread may do it.
+
+        Rooms of this machine write their own. A scene that can't be written is sent again later.
+        """
+        if room.seat:
+            folder = self.store.folder / "rooms" / room.id
+            with suppress(OSError):
+                folder.mkdir(parents=True, exist_ok=True)
+                write_atomically(folder / SCENE_FILE, work.scene)
+
+    def end_links(self, seat: int, sentence: str) -> None:
+        """End the link that a seat brought along."""
+        room = self.rooms.get(remote_id(seat))
+        if room is not None and room.link is not None:
+            link, room.link = room.link, None
+            link.end(sentence)
+        self.tell_people()
+
+    def _note_exercise(self, received: Received) -> None:
+        result = received.result
+        room = self.rooms.get(received.room)
+        if room is None or not isinstance(result, ExerciseResult) or result.event == "hint":
+            return
+        room.note_check(result.exercise, result.diagnosis)

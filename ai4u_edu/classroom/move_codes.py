@@ -1,0 +1,69 @@
+"""Codes with which a seat moves to another device."""
+
+import time
+from collections.abc import Callable, Collection
+from dataclasses import dataclass
+
+from ai4u_edu.classroom.names import new_code
+
+LIFE_S = 300.0
+
+
+@dataclass
+class _MoveCode:
+    seat: int
+    ends_at: float
+    request: str = ""
+    """Id of the join request that has used it; empty before."""
+
+
+class MoveCodes:
+    """Codes of five letters, each for one seat, one device and five minutes. Not thread-safe.
+
+    Args:
+        clock: returns seconds; to be replaced in tests.
+
+    >>> codes = MoveCodes()
+    >>> code = codes.new(3, ())
+    >>> codes.seat_of(code, "a"), codes.seat_of(code, "a"), codes.seat_of(code, "b")
+    (3, 3, 0)
+    """
+
+    def __init__(self, clock: Callable[[], float] = time.monotonic) -> None:
+        self._clock = clock
+        self._codes: dict[str, _MoveCode] = {}
+
+    def new(self, seat: int, taken: Collection[str]) -> str:
+        """Return a new code of a seat, whose code before is void.
+
+        Args:
+            seat: its number.
+            taken: codes that must not be used, such as the class's.
+        """
+        now = self._clock()
+        self._codes = {
+            code: each
+            for code, each in self._codes.items()
+            if each.ends_at > now and each.seat != seat
+        }
+        while (code := new_code()) in self._codes or code in taken:
+            pass
+        self._codes[code] = _MoveCode(seat, now + LIFE_S)
+        return code
+
+    def seat_of(self, code: str, request: str) -> int:
+        """Use a code, and return its seat; 0 if there is no such code, or another request used it.
+
+        Args:
+            code: normalized.
+            request: id of the join request, which may be repeated because an answer was lost.
+        """
+        found = self._codes.get(code)
+        if found is None or found.ends_at <= self._clock() or found.request not in ("", request):
+            return 0
+        found.request = request
+        return found.seat
+
+    def clear(self) -> None:
+        """Make all codes void."""
+        self._codes.clear()

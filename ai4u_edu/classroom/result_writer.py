@@ -1,0 +1,126 @@
+"""Writes results of rooms and notebooks to the class's file, each once, and then acknowledges."""
+
+import asyncio
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+from ai4u_edu.classroom.course_index import known_diagnosis, words_for
+from ai4u_edu.classroom.errors import StoreError
+from ai4u_edu.classroom.progress import Progress, Staged
+from ai4u_edu.classroom.store import ClassStore
+from ai4u_edu.wire.class_link import EpisodeResult, ExerciseResult, Result
+
+MAX_BATCH = 500
+
+
+@dataclass(frozen=True)
+class Received:
+    """A result that came over a link."""
+
+    room: str
+    seats: tuple[int, ...]
+    """Seats that it counts for."""
+    result: Result
+    done: Callable[[bool], object]
+    """Called when the result is on disk (True), or could not be written (False)."""
+
+
+class ResultWriter:
+    """Stores results in batches: what came while one was written is the next one.
+
+    Belongs to the event loop; a thread writes one batch at a time.
+
+    Args:
+        store: of the class.
+        progress: of the class.
+        on_exercise: called with each new exercise result that is on disk.
+        on_change: called after each batch.
+    """
+
+    def __init__(
+        self,
+        store: ClassStore,
+        progress: Progress,
+        on_exercise: Callable[[Received], object],
+        on_change: Callable[[], object],
+    ) -> None:
+        self._store, self._progress = store, progress
+        self._on_exercise, self._on_change = on_exercise, on_change
+        self._waiting: list[tuple[Received, float]] = []
+        self._task: asyncio.Task[None] | None = None
+        self.problem = ""
+        """Reason for which the last batch could not be written; empty if it could."""
+
+    def add(self, received: Received) -> None:
+        """Store a result soon, and then call its ``done``."""
+        seconds = 0.0
+        if isinstance(received.result, ExerciseResult):
+            seconds = max(
+                (self._progress.seconds_since(each) for each in received.seats), default=0
+            )
+        self._waiting.append((received, seconds))
+        if self._task is None:
+            self._task = asyncio.create_task(self._run())
+
+    async def finish(self) -> None:
+        """Wait until everything that was added is written."""
+        if self._task is not None:
+            await self._task
+
+    async def _run(self) -> None:
+        try:
+            while self._waiting:
+                batch, self._waiting = self._waiting[:MAX_BATCH], self._waiting[MAX_BATCH:]
+                await self._store_batch(batch)
+        finally:
+            self._task = None
+
+    async def _store_batch(self, batch: list[tuple[Received, float]]) -> None:
+        try:
+            staged, new = await asyncio.to_thread(self._write, batch)
+        except StoreError as error:
+            self.problem = str(error)
+            new = []
+        else:
+            self.problem = ""
+            self._progress.apply(staged)
+        for received in new:
+            self._on_exercise(received)
+        for received, _ in batch:
+            received.done(not self.problem)
+        self._on_change()
+
+    def _write(self, batch: list[tuple[Received, float]]) -> tuple[Staged, list[Received]]:
+        """Write a batch; return the changes, and the exercise results that are new."""
+        new: list[Received] = []
+        exercises: list[tuple[int, float, ExerciseResult]] = []
+        with self._store.transaction() as database:
+            for received, seconds in batch:
+                row = (received.result.key, received.room, *_columns(received.result))
+                cursor = database.execute(
+                    "insert or ignore into results values (?, ?, ?, ?, ?)", row
+                )
+                if cursor.rowcount == 0:  # it came before
+                    continue
+                result = received.result
+                if isinstance(result, ExerciseResult):
+                    checked = _checked(result)
+                    new.append(replace(received, result=checked))
+                    exercises += [(seat, seconds, checked) for seat in received.seats]
+            return self._progress.stage(database, exercises), new
+
+
+def _columns(result: Result) -> tuple[str, str, float]:
+    """Return scene, outcome and seconds of an episode; empty ones for an exercise."""
+    if isinstance(result, EpisodeResult):
+        return result.scene, result.outcome, result.seconds
+    return "", "", 0.0
+
+
+def _checked(result: ExerciseResult) -> ExerciseResult:
+    """Return a result with a diagnosis that the course has; none if the answer is right."""
+    if result.event != "wrong":
+        return ExerciseResult(result.key, result.exercise, result.event)
+    diagnosis = known_diagnosis(result.exercise, result.diagnosis)
+    words_for(result.exercise, diagnosis)  # loads the lesson here and not in the event loop
+    return ExerciseResult(result.key, result.exercise, result.event, diagnosis)

@@ -1,0 +1,87 @@
+"""The way into rooms: everything below ``/r/``, for a room's own seats and for the teacher."""
+
+from starlette.requests import HTTPConnection
+from starlette.responses import PlainTextResponse, RedirectResponse, Response
+from starlette.types import Receive, Scope, Send
+from starlette.websockets import WebSocket
+
+from ai4u_edu.classroom.errors import RoomError
+from ai4u_edu.classroom.join import seat_of
+from ai4u_edu.classroom.live_class import LiveClass
+from ai4u_edu.classroom.room_process import ROOMS_PATH, path_of
+from ai4u_edu.classroom.room_proxy import NOT_ALLOWED, TRY_LATER, RoomProxy
+from ai4u_edu.server.token_auth import PageCookie
+from ai4u_edu.server.token_page import wants_page
+
+TEACHER = 0
+"""Number that stands for the teacher in the place of a seat's."""
+
+
+class RoomEntrance:
+    """ASGI app for everything below ``/r/``.
+
+    Args:
+        live: the class.
+        proxy: passes requests on to rooms.
+        teacher: cookie of the teacher's browser.
+    """
+
+    def __init__(self, live: LiveClass, proxy: RoomProxy, teacher: PageCookie) -> None:
+        self._seats, self._rooms, self._proxy = live.seats, live.host, proxy
+        self._teacher = teacher
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        """Pass a request on to its room, or refuse it."""
+        room, slash, _ = scope["path"].removeprefix(ROOMS_PATH).partition("/")
+        visitor = self._visitor(room, HTTPConnection(scope))
+        if visitor is None:
+            await _refuse(scope, receive, send)
+            return
+        if not slash and scope["type"] == "http":  # the page's addresses are relative
+            await RedirectResponse(f"{path_of(room)}/")(scope, receive, send)
+            return
+        try:
+            address = await self._rooms.enter(room, self._seats.scenes()[room])
+        except RoomError as error:
+            await _say_not_ready(str(error), scope, receive, send)
+            return
+        if scope["type"] == "http":
+            await self._proxy.http(address, visitor, scope, receive, send)
+        else:
+            with self._rooms.in_use(room):
+                await self._proxy.websocket(address, visitor, scope, receive, send)
+
+    def _visitor(self, room: str, given: HTTPConnection) -> int | None:
+        """Return the number of a room's seat, or the teacher's; None for anybody else."""
+        seat = seat_of(self._seats, given)
+        if seat is not None and seat.room == room:
+            return seat.number
+        if room in self._seats.scenes() and self._teacher.is_in(given):
+            return TEACHER
+        return None
+
+
+async def _refuse(scope: Scope, receive: Receive, send: Send) -> None:
+    if scope["type"] == "websocket":
+        await _close(scope, receive, send, NOT_ALLOWED, "this is not your world; join the class")
+        return
+    response: Response = PlainTextResponse("this is not your world; join the class at /\n", 403)
+    if scope["method"] == "GET" and wants_page(HTTPConnection(scope)):
+        response = RedirectResponse("/", 303)
+    response.headers["Cache-Control"] = "no-store"
+    await response(scope, receive, send)
+
+
+async def _say_not_ready(text: str, scope: Scope, receive: Receive, send: Send) -> None:
+    if scope["type"] == "websocket":
+        await _close(scope, receive, send, TRY_LATER, text)
+        return
+    headers = {"Retry-After": "2", "Refresh": "2", "Cache-Control": "no-store"}
+    await PlainTextResponse(text + "\n", 503, headers)(scope, receive, send)
+
+
+async def _close(scope: Scope, receive: Receive, send: Send, code: int, reason: str) -> None:
+    socket = WebSocket(scope, receive, send)
+    # a browser tells a script why a socket was closed, but not why a handshake failed
+    await socket.accept(next(iter(scope["subprotocols"]), None))
+    await socket.close(code, reason)

@@ -1,0 +1,131 @@
+"""A raw link to a class, and a teacher's socket: what is sent and received, message by message."""
+
+import json
+from collections.abc import Callable
+from itertools import count
+from typing import Any, Self, TypeVar
+
+import pytest
+from websockets.exceptions import ConnectionClosed
+from websockets.sync.client import ClientConnection, connect
+from websockets.typing import Subprotocol
+
+from ai4u_edu.wire.class_link import (
+    MAX_FRAME_BYTES,
+    PATH,
+    SUBPROTOCOL,
+    VERSION,
+    ExerciseResult,
+    FromClass,
+    FromRoom,
+    Hello,
+    Problem,
+    State,
+    decode_from_class,
+    encode_from_room,
+)
+from tests.classroom.served_class import ServedClass, Student
+
+TIMEOUT_S = 20.0
+M = TypeVar("M")
+_keys = count(1)
+
+
+class RawLink:
+    """A link that says hello with any secret, and then sends what a test gives it."""
+
+    def __init__(
+        self, served: ServedClass, secret: str | Student, *, hello: FromRoom | None = None
+    ) -> None:
+        if isinstance(secret, Student):
+            secret = secret.client.cookies["ai4u_edu_seat"]
+        address = served.url.replace("http", "ws", 1).rstrip("/") + PATH
+        self.socket: ClientConnection = connect(
+            address, subprotocols=[Subprotocol(SUBPROTOCOL)], max_size=MAX_FRAME_BYTES, proxy=None
+        )
+        self.received: list[FromClass] = []
+        self.send(hello or Hello(VERSION, secret, "room"))
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.socket.close()
+
+    def send(self, message: FromRoom) -> None:
+        self.socket.send(encode_from_room(message))
+
+    def next(self, kind: type[M], fits: Callable[[M], bool] = lambda _: True) -> M:
+        """Return the next message of a kind, for which a condition holds."""
+        while True:
+            message = decode_from_class(self.socket.recv(TIMEOUT_S, decode=False))
+            self.received.append(message)
+            if isinstance(message, kind) and fits(message):
+                return message
+
+    def end(self) -> tuple[int, Problem | None]:
+        """Wait for the end; return the close's code, and the last problem."""
+        with pytest.raises(ConnectionClosed) as closed:
+            self.receive_all()
+        assert closed.value.rcvd is not None
+        problems = [each for each in self.received if isinstance(each, Problem)]
+        return closed.value.rcvd.code, problems[-1] if problems else None
+
+    def receive_all(self) -> None:
+        """Receive messages until the link is closed, which raises an error."""
+        while True:
+            frame = self.socket.recv(TIMEOUT_S, decode=False)
+            self.received.append(decode_from_class(frame))
+
+
+class TeacherSocket:
+    """The socket of the teacher's page, or of the projector page."""
+
+    def __init__(self, served: ServedClass, page: str = "teacher") -> None:
+        headers = {"Authorization": f"Bearer {served.token}"}
+        address = served.url.replace("http", "ws", 1) + f"{page}/socket"
+        self.socket = connect(address, additional_headers=headers, proxy=None)
+        self._waiting: list[dict[str, Any]] = []
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.socket.close()
+
+    def next(
+        self, kind: str, fits: Callable[[dict[str, Any]], Any] = lambda _: True
+    ) -> dict[str, Any]:
+        """Return the next event of a kind, for which a condition holds; others wait."""
+        for index, found in enumerate(self._waiting):
+            if found["type"] == kind and fits(found):
+                return self._waiting.pop(index)
+        while True:
+            event: dict[str, Any] = json.loads(self.socket.recv(TIMEOUT_S))
+            if event["type"] == kind and fits(event):
+                return event
+            self._waiting.append(event)
+
+
+def state(**changes: Any) -> State:
+    """Return a state of a room."""
+    plain: dict[str, Any] = {
+        "status": "driving",
+        "scene": "Box chase",
+        "driver": "A person",
+        "seconds": 1.5,
+        "episodes": 1,
+        "falls": 0,
+        "is_solved": False,
+    }
+    return State(**(plain | changes))
+
+
+def key() -> str:
+    """Return another key of a result."""
+    return f"key-{next(_keys):08}"
+
+
+def check(event: str, diagnosis: str = "", exercise: str = "04.2", own: str = "") -> ExerciseResult:
+    """Return the result of a check."""
+    return ExerciseResult(own or key(), exercise, event, diagnosis)  # type: ignore[arg-type]
