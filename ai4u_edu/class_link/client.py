@@ -51,7 +51,7 @@ _OPTIONS: dict[str, Any] = {
 
 
 class LinkClient:
-    """A link that is kept: it reconnects until it is stopped, or the class ends it for good.
+    """A link that is kept: it reconnects until it is stopped, or the class ends it.
 
     Two threads belong to it: one connects and sends, the other one receives and calls ``receive``.
     All methods are thread-safe, and may be called by ``receive``. Only :meth:`stop` waits for the
@@ -92,6 +92,11 @@ class LinkClient:
         return self._dialogue.phase is Phase.LINKED
 
     @property
+    def is_over(self) -> bool:
+        """True after the class has ended the link; :attr:`problem` says why."""
+        return self._dialogue.phase is Phase.OVER
+
+    @property
     def problem(self) -> str:
         """Sentence on why there is no link, or what went wrong last; empty if all is well."""
         return self._dialogue.problem or self.outbox.problem
@@ -112,6 +117,12 @@ class LinkClient:
         own = (self._thread, self._reader)
         if self._thread.is_alive() and current_thread() not in own:
             self._thread.join(timeout_s + 2 * CLOSE_TIMEOUT_S)
+
+    def renew(self) -> None:
+        """Connect again if the class has ended the link, such as for another program's."""
+        with self._changed:
+            self._dialogue.renew(time.monotonic())
+            self._changed.notify_all()
 
     def send(self, message: PresentState) -> None:
         """Send a present state: the latest message of its kind replaces one that was not sent.
@@ -157,11 +168,11 @@ class LinkClient:
             self._dialogue.stop()
 
     def _wait_for_attempt(self) -> bool:
-        """Wait until the next attempt is due; return False when the link is to end."""
+        """Wait until the next attempt is due; return False when the client is stopped."""
         with self._changed:
-            while self._stop_at is None and self._dialogue.phase is not Phase.OVER:
+            while self._stop_at is None:
                 wait_s = self._dialogue.wait_s(time.monotonic())
-                if not wait_s:
+                if wait_s == 0.0:
                     self._dialogue.open()
                     return True
                 self._changed.wait(wait_s)

@@ -53,7 +53,7 @@ class Phase(Enum):
     """The hello was sent, and has no answer yet."""
     LINKED = "linked"
     OVER = "over"
-    """The class has ended the link for good."""
+    """The class has ended the link; it is opened again only if somebody asks for that."""
 
 
 _NEXT: dict[Phase, frozenset[Phase]] = {
@@ -61,7 +61,7 @@ _NEXT: dict[Phase, frozenset[Phase]] = {
     Phase.OPENING: frozenset({Phase.GREETING, Phase.WAITING}),
     Phase.GREETING: frozenset({Phase.LINKED, Phase.WAITING, Phase.OVER}),
     Phase.LINKED: frozenset({Phase.WAITING, Phase.OVER}),
-    Phase.OVER: frozenset(),
+    Phase.OVER: frozenset({Phase.WAITING}),
 }
 
 
@@ -126,6 +126,12 @@ class LinkDialogue:
     def stop(self) -> None:
         """Note that the connection was closed on purpose."""
         if self.phase not in (Phase.WAITING, Phase.OVER):
+            self._enter(Phase.WAITING)
+
+    def renew(self, now: float) -> None:
+        """Try again although the class has ended the link."""
+        if self.phase is Phase.OVER:
+            self.problem, self.retry_at = "", now
             self._enter(Phase.WAITING)
 
     def is_overdue(self, now: float) -> bool:

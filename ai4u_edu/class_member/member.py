@@ -230,7 +230,7 @@ class ClassMember:
             scene=shorten(self._scene_title, MAX_TEXT_CHARS),
             seed=ended.seed,
             outcome=word,  # type: ignore[arg-type]  # it is one of them
-            seconds=round(ended.seconds, 3),
+            seconds=ended.seconds,
             reward=ended.agents[0].episode_reward,
             driver=shorten(ended.driver, MAX_TEXT_CHARS),
             race=race,

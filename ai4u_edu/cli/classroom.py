@@ -7,7 +7,21 @@ from typing import Annotated
 import typer
 
 from ai4u_edu.cli import play_options as o
-from ai4u_edu.cli.options import OwnBlocks, load_own_blocks
+from ai4u_edu.cli.options import OwnBlocks, finite, load_own_blocks
+
+SleepAfter = Annotated[
+    float,
+    typer.Option(
+        min=0,
+        max=10_000,
+        callback=finite,
+        help="Minutes until a world that nobody uses is saved and ends.",
+    ),
+]
+RoomMemory = Annotated[
+    float,
+    typer.Option(min=100, max=100_000, callback=finite, help="Memory (MB) that one world may use."),
+]
 
 
 def classroom(
@@ -21,12 +35,8 @@ def classroom(
     host: o.Host = "0.0.0.0",  # noqa: S104 - a class is for other machines
     port: o.Port = 8080,
     code: Annotated[str, typer.Option(help="Join code. Default: a random one.")] = "",
-    sleep_after: Annotated[
-        float, typer.Option(min=0, help="Minutes until a world that nobody uses is saved and ends.")
-    ] = 5.0,
-    room_memory: Annotated[
-        float, typer.Option(min=100, help="Memory (MB) that one world may use.")
-    ] = 600.0,
+    sleep_after: SleepAfter = 5.0,
+    room_memory: RoomMemory = 600.0,
     allow_host: o.AllowHost = None,
     own_blocks: OwnBlocks = None,
     open_page: o.OpenPage = True,

@@ -1,5 +1,6 @@
 """``ai4u-edu play``: serve a scene in the browser."""
 
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import typer
@@ -10,11 +11,12 @@ from ai4u_edu.cli.options import OwnBlocks, load_own_blocks
 
 if TYPE_CHECKING:
     from ai4u_edu.room import Room, RoomSettings
+    from ai4u_edu.room.my_work import MyWork
 
 
 def play(
     context: typer.Context,
-    scene: o.SceneName = "box_chase",
+    scene: o.SceneOrWork = "box_chase",
     host: o.Host = "127.0.0.1",
     port: o.Port = 8080,
     open_page: o.OpenPage = True,
@@ -45,6 +47,11 @@ def play(
     from ai4u_edu.server import Rules, hosts_for, token_for
 
     load_own_blocks(own_blocks)
+    offers = [*(offer or ()), *([str(record)] if record else ())]
+    if scene.lower().endswith(".zip"):
+        work = _open_my_work(Path(scene))
+        scene, kept_scenes = str(work.scene), kept_scenes or work.scenes
+        offers.append(str(work.episodes))
     token = token_for(host, token)
     settings = RoomSettings(
         scene=scene,
@@ -59,7 +66,7 @@ def play(
         record=record,
         keep=keep,
         ghost=ghost,
-        offers=(*(offer or ()), *([str(record)] if record else ())),
+        offers=tuple(offers),
         saved_scenes=kept_scenes,
         restore=restore,
         unsaved=unsaved_folder() if autosave or restore else None,
@@ -87,6 +94,14 @@ def _serve(
     with tuned_process(), room:
         serve(room.app, host, port, on_ready=announce, per_address=connections)
     HAS_SERVED.set()
+
+
+def _open_my_work(file: Path) -> "MyWork":
+    from ai4u_edu.room.my_work import open_my_work
+
+    work = open_my_work(file)
+    typer.echo(f"Your work is in {work.folder}, and scenes that you save go there.")
+    return work
 
 
 def _is_scene_named(context: typer.Context) -> bool:

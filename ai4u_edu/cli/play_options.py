@@ -13,6 +13,13 @@ SceneName = Annotated[
         help="A scene of the library, a YAML file, or a link to a shared scene, in quotes."
     ),
 ]
+SceneOrWork = Annotated[
+    str,
+    typer.Argument(
+        help="A scene of the library, a YAML file, a link to a shared scene, in quotes, or the ZIP "
+        "file with your work from a class."
+    ),
+]
 Host = Annotated[str, typer.Option(help="Address to listen on.")]
 Port = Annotated[int, typer.Option(help="Port; 0 for any free port.", min=0, max=65535)]
 OpenPage = Annotated[bool, typer.Option("--open/--no-open", help="Open the page in the browser.")]

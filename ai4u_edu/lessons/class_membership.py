@@ -79,6 +79,7 @@ def report_event(
         from ai4u_edu.wire.class_link import ExerciseResult
 
         key = secrets.token_urlsafe(12)
+        _connection.client.renew()  # another notebook of this seat may have taken its place
         _connection.client.send_result(ExerciseResult(key, exercise, event, diagnosis))
 
 

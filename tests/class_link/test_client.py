@@ -104,7 +104,7 @@ def test_a_wrong_secret_is_not_tried_again(there: TinyClass) -> None:
     with linked(there.url, secret="forged", heard=heard) as client:
         until(lambda: client.problem)
         assert client.problem == "This seat is not known. Join again."
-        until(lambda: client._thread.is_alive() is False)
+        assert client.is_over
     assert len(there.hellos) == 1
     assert isinstance(heard[0], Problem)
 
@@ -112,9 +112,14 @@ def test_a_wrong_secret_is_not_tried_again(there: TinyClass) -> None:
 def test_a_class_that_closes_for_good_is_not_asked_again(there: TinyClass) -> None:
     there.refusal = "You may not join this class."
     with linked(there.url) as client:
-        until(lambda: not client._thread.is_alive())
+        until(lambda: client.is_over)
         assert client.problem == "You may not join this class."
-    assert len(there.hellos) == 1
+        assert len(there.hellos) == 1
+        there.refusal = ""
+        client.send_result(result(1))
+        client.renew()
+        until(lambda: not len(client.outbox))
+    assert len(there.hellos) == 2
 
 
 def test_another_server_is_no_class(there: TinyClass) -> None:

@@ -209,6 +209,10 @@ def test_a_permanent_problem_ends_the_link(code: str) -> None:
     assert talk.dialogue.wait_s(talk.now) is None
     with pytest.raises(RuntimeError, match="OPENING"):
         talk.dialogue.open()
+    talk.dialogue.renew(talk.now)
+    assert (talk.dialogue.wait_s(talk.now), talk.dialogue.problem) == (0.0, "")
+    talk.outbox.add(result(1))
+    assert talk.link().sent() == [result(1)]
 
 
 def test_a_close_for_good_ends_the_link_with_its_reason() -> None:

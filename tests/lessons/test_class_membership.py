@@ -19,6 +19,7 @@ from ai4u_edu.wire.class_link import (
     Drawing,
     ExerciseResult,
     FromClass,
+    Problem,
     Welcome,
 )
 from tests.class_link.messages import drawing
@@ -119,6 +120,19 @@ def test_what_a_class_that_is_away_missed_is_delivered_later_once(
     hint("00.1")
     until(lambda: len(there.results) == 3)
     assert [each[1] for each in _events(there)] == ["wrong", "right", "hint"]
+
+
+def test_the_notebook_that_checks_gets_the_seat_back_from_another_one(there: TinyClass) -> None:
+    there.start()
+    join_class(there.url, "BCDFG")
+    connection = current_connection()
+    assert connection is not None
+    until(lambda: connection.client.is_connected)
+    there.send(Problem("over", "Another program has taken this place."))
+    until(lambda: connection.client.is_over)
+    check("00.1", go)
+    until(lambda: there.results)
+    assert len(there.hellos) == 2
 
 
 def test_not_joined_is_a_sentence(capsys: pytest.CaptureFixture[str]) -> None:
