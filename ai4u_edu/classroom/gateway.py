@@ -16,6 +16,7 @@ from ai4u_edu.classroom.pages import page_route, web_file
 from ai4u_edu.classroom.room_entrance import RoomEntrance
 from ai4u_edu.classroom.room_host import RoomHost
 from ai4u_edu.classroom.room_proxy import RoomProxy
+from ai4u_edu.classroom.script_keys import ScriptKeys
 from ai4u_edu.classroom.seats import Seats
 from ai4u_edu.classroom.store import ClassStore
 from ai4u_edu.classroom.teacher import Teacher, join_code
@@ -58,7 +59,8 @@ def class_app(
     """
     live = LiveClass(store, seats, rooms)
     attempts = Attempts()
-    proxy = RoomProxy([AGENT_COOKIE, DARK_COOKIE], live.page_opened)
+    keys = ScriptKeys(store, seats)
+    proxy = RoomProxy([AGENT_COOKIE, DARK_COOKIE], keys.key_of, live.page_opened)
 
     def join_here(url: str) -> tuple[str, str]:
         address = join_address(url)
@@ -90,7 +92,7 @@ def class_app(
             WebSocketRoute("/teacher/socket", wall, middleware=[auth]),
             Route("/projector", page_route("projector.html"), middleware=[page_auth]),
             WebSocketRoute("/projector/socket", projector, middleware=[auth]),
-            Mount("/r", app=RoomEntrance(live, proxy, PageCookie(teacher_token))),
+            Mount("/r", app=RoomEntrance(live, proxy, PageCookie(teacher_token), keys)),
         ],
         middleware=[
             Middleware(
