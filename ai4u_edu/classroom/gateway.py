@@ -9,6 +9,7 @@ from starlette.middleware import Middleware
 from starlette.routing import Mount, Route, WebSocketRoute
 
 from ai4u_edu.classroom.class_event import ClassEvents
+from ai4u_edu.classroom.echo import echo
 from ai4u_edu.classroom.episode_check import EpisodeCheck
 from ai4u_edu.classroom.join import Join
 from ai4u_edu.classroom.link_endpoint import LinkEndpoint
@@ -17,6 +18,7 @@ from ai4u_edu.classroom.pages import page_route, web_file
 from ai4u_edu.classroom.room_entrance import RoomEntrance
 from ai4u_edu.classroom.room_host import RoomHost
 from ai4u_edu.classroom.room_proxy import RoomProxy
+from ai4u_edu.classroom.script_keys import ScriptKeys
 from ai4u_edu.classroom.seats import Seats
 from ai4u_edu.classroom.store import ClassStore
 from ai4u_edu.classroom.teacher import Teacher, join_code
@@ -61,7 +63,8 @@ def class_app(
     """
     live = LiveClass(store, seats, rooms, EpisodeCheck(blocks))
     attempts = Attempts()
-    proxy = RoomProxy([AGENT_COOKIE, DARK_COOKIE], live.page_opened)
+    keys = ScriptKeys(store, seats)
+    proxy = RoomProxy([AGENT_COOKIE, DARK_COOKIE], keys.key_of, live.page_opened)
 
     def join_here(url: str) -> tuple[str, str]:
         address = join_address(url)
@@ -83,6 +86,7 @@ def class_app(
             Route("/api/join", join.join, methods=["POST"]),
             Route("/api/move-code", join.move_code, methods=["POST"]),
             Route("/check", page_route("check.html")),
+            WebSocketRoute("/check/socket", echo),
             Route("/privacy", page_route("privacy.html")),
             Route("/web/{file}", web_file),
             WebSocketRoute(LINK_PATH, LinkEndpoint(live)),
@@ -92,7 +96,7 @@ def class_app(
             WebSocketRoute("/teacher/socket", wall, middleware=[auth]),
             Route("/projector", page_route("projector.html"), middleware=[page_auth]),
             WebSocketRoute("/projector/socket", projector, middleware=[auth]),
-            Mount("/r", app=RoomEntrance(live, proxy, PageCookie(teacher_token))),
+            Mount("/r", app=RoomEntrance(live, proxy, PageCookie(teacher_token), keys)),
         ],
         middleware=[
             Middleware(
