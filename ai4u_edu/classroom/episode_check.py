@@ -31,7 +31,7 @@ class Claim:
 
     episode: bytes
     scene: str
-    """Of the race: a name in the library, or YAML."""
+    """Scene of the race: a name in the library, or YAML."""
     seed: int
     outcome: str
     seconds: float
