@@ -45,9 +45,10 @@ export class ClassBar {
   constructor(onChange) {
     this.#onChange = onChange;
     setAttributes(this.#boardButton, { "aria-controls": this.#board.id });
-    this.#race.append(icon("race", 16), this.#best, this.#boardButton);
+    this.#race.append(icon("race", 16), this.#best, this.#boardButton, this.#board);
+    const news = element("div", { className: "ai4u-class-news" }, this.#message, this.#time);
     const self = element("span", { className: "ai4u-class-self" }, this.#dot, this.#name);
-    this.#bar.append(self, this.#others, this.#message, this.#time, this.#race, this.#actions, this.#board);
+    this.#bar.append(self, this.#others, news, this.#race, this.#actions);
     // the page of a class's own machine; elsewhere there is no such address
     if (location.pathname.includes("/r/")) this.#actions.append(...studentActions());
     new ResizeObserver(() => this.#reserveHeight()).observe(this.#bar);
@@ -170,7 +171,7 @@ function studentActions() {
   const work = element("a", { className: "ai4u-plain", href: "../../api/my-work", download: "", title: "Download my work" });
   work.append(icon("download", 16), element("span", { textContent: "My work" }));
   const move = element("button", { type: "button", className: "ai4u-plain", title: "Go on at another device" });
-  move.append(icon("copy", 16), element("span", { textContent: "Other device" }));
+  move.append(icon("phone", 16), element("span", { textContent: "Other device" }));
   move.addEventListener("click", showMoveCode);
   return [work, move];
 }
