@@ -7,8 +7,12 @@ const code = find("#code");
 const join = find("#join");
 const problem = find("#problem");
 
+/** True if a seat of another device is to be used here, too. */
+let isMoving = false;
+
 const given = new URLSearchParams(location.search).get("code");
 if (given) code.value = given; // else what was typed already stays
+find("#move").addEventListener("click", () => moveHere(!isMoving));
 find("#others").addEventListener("click", showNames);
 find("form").addEventListener("submit", (event) => {
   event.preventDefault();
@@ -16,6 +20,19 @@ find("form").addEventListener("submit", (event) => {
 });
 showNames();
 if (given) join.focus();
+
+/** Ask for the code that another device shows, in place of the class's code and a name. */
+function moveHere(isMove) {
+  isMoving = isMove;
+  find("#code-label").textContent = isMove ? "Code on your other device" : "Code on the board";
+  find("#choice").hidden = isMove;
+  find("#move-note").hidden = !isMove;
+  find("#move").textContent = isMove ? "Join with the code on the board" : "Continue from another device";
+  join.textContent = isMove ? "Continue" : "Join";
+  problem.textContent = "";
+  code.value = isMove ? "" : (given ?? "");
+  code.focus();
+}
 
 async function showNames() {
   try {
@@ -38,11 +55,12 @@ function nameChoice(name, index) {
 async function sendRequest() {
   join.disabled = true;
   problem.textContent = "";
+  const name = isMoving ? "" : (find("#names input:checked")?.value ?? "");
   try {
     const answer = await fetch("./api/join", {
       method: "POST",
       headers: { "Content-Type": "application/json" },
-      body: JSON.stringify({ code: code.value, name: find("#names input:checked")?.value ?? "", request: requestId() }),
+      body: JSON.stringify({ code: code.value, name, request: requestId() }),
     });
     const told = await answer.json();
     if (answer.ok) {

@@ -22,3 +22,13 @@ export function remember(key, value) {
     // storage is blocked or full
   }
 }
+
+/** Forget a value. */
+export function forget(key) {
+  unstored.delete(key);
+  try {
+    localStorage.removeItem(PREFIX + key);
+  } catch {
+    // storage is blocked
+  }
+}

@@ -1,86 +1,101 @@
-/** The teacher's page: how to join, and who is here. */
+/** The teacher's page: the wall of rooms, progress, misconceptions, and commands for the class. */
 
-import { element, keyed, setText } from "./dom.js";
-import { ask, tell } from "./question.js";
+import { showAssign } from "./assign_dialog.js";
+import { showAttention } from "./attention_dialog.js";
+import { commandOrTell } from "./class_command.js";
+import { openClassSocket } from "./class_socket.js";
+import { ClassStrips } from "./class_strips.js";
+import { watchTabs } from "./class_tabs.js";
+import { setText } from "./dom.js";
+import { showEnd } from "./end_dialog.js";
+import { JoinHeader } from "./join_header.js";
+import { Misconceptions } from "./misconceptions.js";
+import { showNames } from "./names_dialog.js";
+import { ProgressTable } from "./progress_table.js";
+import { showRace } from "./race_dialog.js";
+import { RealNames } from "./real_names.js";
+import { showRoom } from "./room_dialog.js";
+import { showProjector } from "./show_dialog.js";
+import { Wall } from "./wall.js";
+import { WallControls } from "./wall_controls.js";
+import { FILTERS } from "./wall_order.js";
 
-const POLL_MS = 1000;
+const BOTTOM_PX = 16;
+const MIN_WALL_PX = 240;
+const NOBODY = "Nobody is here yet. A card for each room appears as soon as somebody joins.";
 const find = (selector) => document.querySelector(selector);
-/** Sentences by a seat's state; "in" needs none. */
-const STATES = { left: "left", kicked: "sent out; may join again", banned: "may not come back" };
-let isOpen = true;
+let state = null;
+/** Sentence while the class can't be reached. */
+let lost = "";
 
-find("#new-code").addEventListener("click", async () => {
-  const text = "Students who are here stay. Whoever comes later needs the new code.";
-  if (await ask({ title: "A new code?", text, yes: "New code" })) await send({ do: "new code" });
+const realNames = new RealNames();
+const wall = new Wall(find("#wall"), {
+  realNames,
+  onOpen: (id) => showRoom(state.rooms.find((room) => room.id === id), state, realNames),
+  heightLeft: () => Math.max(MIN_WALL_PX, innerHeight - (find("#wall").getBoundingClientRect().top + scrollY) - BOTTOM_PX),
 });
-find("#open").addEventListener("click", () => send({ do: isOpen ? "close" : "open" }));
-poll();
+const header = new JoinHeader();
+const strips = new ClassStrips(find("#held"), find("#running-race"));
+const progress = new ProgressTable(find("#view-progress"), realNames);
+const misconceptions = new Misconceptions(find("#view-mistakes"), realNames);
+const controls = new WallControls(find("#wall-controls"), wall);
 
-async function poll() {
-  await refresh();
-  setTimeout(poll, POLL_MS);
+const resized = new ResizeObserver(() => wall.fit());
+for (const above of ["#join-view", "#bar"]) resized.observe(find(above));
+realNames.onchange = () => state && show(state);
+watchTabs(find("[role=tablist]"), (panel) => {
+  find("#wall-controls").hidden = panel.id !== "view-wall";
+  if (state) show(state);
+});
+find("#filters").addEventListener("click", () => state && sayNobody());
+onState("#assign", () => showAssign(state));
+onState("#race", () => showRace(state));
+onState("#show", () => showProjector(state));
+onState("#end", () => showEnd(state, () => realNames.forget()));
+onState("#real-names", () => showNames(realNames));
+onState("#attention", () => {
+  if (!state.attention.kind) return showAttention();
+  return commandOrTell({ do: "attention", kind: "", message: "", seconds: 0 });
+});
+openClassSocket(
+  "./teacher/socket",
+  { class: show, drawing: (message) => wall.setDrawing(message), poses: (message) => wall.setPoses(message) },
+  (problem) => {
+    lost = problem;
+    sayProblem();
+  },
+);
+
+/** Call a function at a click, once there is a state. */
+function onState(selector, onClick) {
+  find(selector).addEventListener("click", () => state && onClick());
 }
 
-async function refresh() {
-  try {
-    const answer = await fetch("./teacher/state", { cache: "no-store" });
-    if (answer.status === 401) location.reload(); // asks for the token
-    show(await answer.json());
-    setText(find("#status"), "");
-  } catch {
-    setText(find("#status"), "The class can't be reached. Is its program still running? This page tries again.");
-  }
+function show(message) {
+  state = message;
+  sayProblem();
+  header.show(state);
+  strips.show(state);
+  setText(find("#attention"), state.attention.kind ? "End attention" : "Attention…");
+  find("#attention").toggleAttribute("data-held", Boolean(state.attention.kind));
+  wall.show(state);
+  controls.update();
+  sayNobody();
+  progress.show(state);
+  misconceptions.show(state);
+  const mistakes = state.misconceptions?.length ?? 0;
+  setText(find("#mistake-count"), mistakes ? `(${mistakes})` : "");
+  find("#wall ul").removeAttribute("aria-busy");
 }
 
-function show(state) {
-  isOpen = state.open;
-  setText(find("#address"), state.address);
-  setText(find("#code"), state.code);
-  if (find("#qr").src !== state.qr) find("#qr").src = state.qr;
-  find("#open").setAttribute("aria-pressed", String(!isOpen));
-  const here = state.seats.filter((seat) => seat.state === "in");
-  setText(find("#count"), here.length ? `(${here.length})` : "");
-  keyed(find("#seats"), state.seats, (seat) => seat.number, seatCard, updateCard);
-  find("#seats").removeAttribute("aria-busy");
+/** Say what is wrong with the connection, or with the class itself, such as a full disk. */
+function sayProblem() {
+  setText(find("#status"), lost || state?.problem || "");
 }
 
-function seatCard(seat) {
-  const kick = element("button", { type: "button", className: "ai4u-plain", textContent: "Send out" });
-  const ban = element("button", { type: "button", className: "ai4u-plain", textContent: "Ban" });
-  kick.addEventListener("click", () => send({ do: "kick", seat: seat.number }));
-  ban.addEventListener("click", async () => {
-    const text = "This seat can't be used again. Its work stays.";
-    if (await ask({ title: `Ban ${seat.name}?`, text, yes: "Ban" })) await send({ do: "ban", seat: seat.number });
-  });
-  const dot = element("span", { className: "ai4u-dot" });
-  dot.style.background = seat.colour;
-  return element(
-    "li",
-    {},
-    dot,
-    element("span", { className: "ai4u-name" }),
-    element("span", { className: "ai4u-facts" }),
-    element("span", { className: "ai4u-actions" }, kick, ban),
-  );
-}
-
-function updateCard(card, seat) {
-  setText(card.querySelector(".ai4u-name"), seat.name);
-  const world = seat.running ? "world is running" : "world sleeps";
-  setText(card.querySelector(".ai4u-facts"), STATES[seat.state] ?? world);
-  card.querySelector(".ai4u-actions").hidden = seat.state !== "in";
-}
-
-async function send(command) {
-  try {
-    const answer = await fetch("./teacher/command", {
-      method: "POST",
-      headers: { "Content-Type": "application/json" },
-      body: JSON.stringify(command),
-    });
-    if (!answer.ok) await tell("That can't be done", (await answer.json()).problem);
-  } catch {
-    await tell("That can't be done", "The class can't be reached. Is its program still running?");
-  }
-  await refresh();
+/** Say why the wall is empty, if it is. */
+function sayNobody() {
+  const none = state.rooms.length ? `No room now: “${FILTERS[wall.filter].text}”.` : NOBODY;
+  find("#nobody").hidden = wall.count(wall.filter) > 0;
+  setText(find("#nobody"), none);
 }

@@ -1,13 +1,16 @@
 """The web app of a class: joining, the way into rooms, and the teacher's page."""
 
 import re
-from collections.abc import Callable, Collection
+from collections.abc import Callable, Collection, Iterable
+from pathlib import Path
 
 from starlette.applications import Starlette
 from starlette.middleware import Middleware
 from starlette.routing import Mount, Route, WebSocketRoute
 
 from ai4u_edu.classroom.class_event import ClassEvents
+from ai4u_edu.classroom.echo import echo
+from ai4u_edu.classroom.episode_check import EpisodeCheck
 from ai4u_edu.classroom.join import Join
 from ai4u_edu.classroom.link_endpoint import LinkEndpoint
 from ai4u_edu.classroom.live_class import LiveClass
@@ -15,6 +18,7 @@ from ai4u_edu.classroom.pages import page_route, web_file
 from ai4u_edu.classroom.room_entrance import RoomEntrance
 from ai4u_edu.classroom.room_host import RoomHost
 from ai4u_edu.classroom.room_proxy import RoomProxy
+from ai4u_edu.classroom.script_keys import ScriptKeys
 from ai4u_edu.classroom.seats import Seats
 from ai4u_edu.classroom.store import ClassStore
 from ai4u_edu.classroom.teacher import Teacher, join_code
@@ -43,6 +47,7 @@ def class_app(
     join_address: Callable[[str], str] = str,
     allowed_hosts: Collection[str] = LOOPBACK,
     proxy_hosts: Collection[str] = (),
+    blocks: Iterable[Path] = (),
 ) -> Starlette:
     """Return the ASGI app of a class.
 
@@ -54,10 +59,12 @@ def class_app(
         join_address: returns the address that students open, for the one that the teacher opened.
         allowed_hosts: host names that requests may use; see :mod:`ai4u_edu.server.host_origin`.
         proxy_hosts: host names of a reverse proxy in front; see there.
+        blocks: Python files with the teacher's blocks.
     """
-    live = LiveClass(store, seats, rooms)
+    live = LiveClass(store, seats, rooms, EpisodeCheck(blocks))
     attempts = Attempts()
-    proxy = RoomProxy([AGENT_COOKIE, DARK_COOKIE], live.page_opened)
+    keys = ScriptKeys(store, seats)
+    proxy = RoomProxy([AGENT_COOKIE, DARK_COOKIE], keys.key_of, live.page_opened)
 
     def join_here(url: str) -> tuple[str, str]:
         address = join_address(url)
@@ -79,6 +86,7 @@ def class_app(
             Route("/api/join", join.join, methods=["POST"]),
             Route("/api/move-code", join.move_code, methods=["POST"]),
             Route("/check", page_route("check.html")),
+            WebSocketRoute("/check/socket", echo),
             Route("/privacy", page_route("privacy.html")),
             Route("/web/{file}", web_file),
             WebSocketRoute(LINK_PATH, LinkEndpoint(live)),
@@ -88,7 +96,7 @@ def class_app(
             WebSocketRoute("/teacher/socket", wall, middleware=[auth]),
             Route("/projector", page_route("projector.html"), middleware=[page_auth]),
             WebSocketRoute("/projector/socket", projector, middleware=[auth]),
-            Mount("/r", app=RoomEntrance(live, proxy, PageCookie(teacher_token))),
+            Mount("/r", app=RoomEntrance(live, proxy, PageCookie(teacher_token), keys)),
         ],
         middleware=[
             Middleware(

@@ -10,9 +10,16 @@ from ai4u_edu.classroom.join import seat_of
 from ai4u_edu.classroom.live_class import LiveClass
 from ai4u_edu.classroom.room_process import ROOMS_PATH, path_of
 from ai4u_edu.classroom.room_proxy import NOT_ALLOWED, TRY_LATER, RoomProxy
+from ai4u_edu.classroom.script_keys import ScriptKeys
 from ai4u_edu.server.token_auth import PageCookie
 from ai4u_edu.server.token_page import wants_page
 
+SCRIPTS_PATH = "ws/remote"
+"""Path of a room's socket for scripts, which have no cookie."""
+NO_KEY = (
+    "expected the key of a seat of this world; take the whole address that its page shows under "
+    "Python, with ?token=... at its end"
+)
 TEACHER = 0
 """Number that stands for the teacher in the place of a seat's."""
 
@@ -24,16 +31,26 @@ class RoomEntrance:
         live: the class.
         proxy: passes requests on to rooms.
         teacher: cookie of the teacher's browser.
+        keys: of students' scripts.
     """
 
-    def __init__(self, live: LiveClass, proxy: RoomProxy, teacher: PageCookie) -> None:
+    def __init__(
+        self, live: LiveClass, proxy: RoomProxy, teacher: PageCookie, keys: ScriptKeys
+    ) -> None:
         self._seats, self._rooms, self._proxy = live.seats, live.host, proxy
-        self._teacher = teacher
+        self._teacher, self._keys = teacher, keys
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Pass a request on to its room, or refuse it."""
-        room, slash, _ = scope["path"].removeprefix(ROOMS_PATH).partition("/")
+        room, slash, rest = scope["path"].removeprefix(ROOMS_PATH).partition("/")
         visitor = self._visitor(room, HTTPConnection(scope))
+        if visitor is None and scope["type"] == "websocket" and rest == SCRIPTS_PATH:
+            given = HTTPConnection(scope).headers.get("authorization", "")
+            visitor = self._keys.seat_of(room, given)
+            if visitor is None:
+                refusal = PlainTextResponse(NO_KEY, 403)
+                await WebSocket(scope, receive, send).send_denial_response(refusal)
+                return
         if visitor is None:
             await _refuse(scope, receive, send)
             return

@@ -17,6 +17,7 @@ from websockets.exceptions import ConnectionClosed, InvalidHandshake
 from websockets.typing import Subprotocol
 
 from ai4u_edu.classroom.room_host import RoomAddress
+from ai4u_edu.server.proxy import SCRIPT_KEY_HEADER
 
 _HOP_BY_HOP = {
     "connection",
@@ -29,9 +30,12 @@ _HOP_BY_HOP = {
     "upgrade",
 }
 """Headers of one connection, which a proxy does not pass on (RFC 9110, 7.6.1)."""
-_OURS = {"authorization", "cookie", "content-length", "origin", "x-ai4u-role", "x-ai4u-seat"}
 ROLE_HEADER, SEAT_HEADER = "x-ai4u-role", "x-ai4u-seat"
 """Headers to a room: ``teacher`` or ``student``, and the seat's number; given ones are dropped."""
+_OURS = {
+    *("authorization", "cookie", "content-length", "origin"),
+    *(ROLE_HEADER, SEAT_HEADER, SCRIPT_KEY_HEADER.lower()),
+}
 _WEBSOCKET = "sec-websocket-"
 NORMAL = 1000
 GOING_AWAY = 1001
@@ -60,15 +64,17 @@ class RoomProxy:
 
     Args:
         page_cookies: names of cookies that rooms read.
+        script_key: returns a seat's key for scripts, which its page shows.
         on_socket: called with a seat's number and 1 or -1, when a socket is opened or closed.
     """
 
     def __init__(
         self,
         page_cookies: Iterable[str],
+        script_key: Callable[[int], str],
         on_socket: Callable[[int, int], object] = lambda _seat, _change: None,
     ) -> None:
-        self._on_socket = on_socket
+        self._script_key, self._on_socket = script_key, on_socket
         self._page_cookies = frozenset(page_cookies)
         self._links: dict[int, set[_Link]] = {}
         self._client = httpx.AsyncClient(
@@ -175,6 +181,7 @@ class RoomProxy:
             ("authorization", f"Bearer {room.token}"),
             (ROLE_HEADER, "student" if seat else "teacher"),
             (SEAT_HEADER, str(seat)),
+            (SCRIPT_KEY_HEADER, self._script_key(seat)),
         ]
 
 

@@ -18,8 +18,12 @@ class Address(NamedTuple):
     is_loopback: bool
 
 
-def address_of(url: str) -> Address:
+def address_of(url: str, token: str = "") -> Address:
     """Return the address of the WebSocket for scripts, made of the page's address.
+
+    Args:
+        url: the page's address.
+        token: the world's; left out, the one in the page's address.
 
     >>> address_of("http://teacher:8080/?token=abc")
     Address(url='ws://teacher:8080/ws/remote', token='abc', is_loopback=False)
@@ -39,6 +43,6 @@ def address_of(url: str) -> Address:
         raise RemoteError(
             f"expected the page's address, such as 'http://127.0.0.1:8080', got {url!r}"
         )
-    token = parse_qs(parts.query).get("token", [""])[0]
+    token = token or parse_qs(parts.query).get("token", [""])[0]
     path = parts.path.rstrip("/").removesuffix("/ws/remote")
     return Address(f"{scheme}://{parts.netloc}{path}/ws/remote", token, host in _LOOPBACK)

@@ -7,7 +7,7 @@ from websockets.asyncio.client import ClientConnection, connect
 from websockets.exceptions import ConnectionClosed, WebSocketException
 
 from ai4u_edu.remote.address import Address
-from ai4u_edu.remote.connection_options import OPTIONS, connection_lost_from
+from ai4u_edu.remote.connection_options import OPTIONS, authorization, connection_lost_from
 from ai4u_edu.remote.steps import Close, ConnectionLostError, Flow, Open, Pause, Receive, Send, Step
 
 T = TypeVar("T")
@@ -55,6 +55,7 @@ class AsyncConnection:
             self._socket = await connect(
                 self._address.url,
                 open_timeout=timeout,
+                additional_headers=authorization(self._address.token),
                 proxy=None if self._address.is_loopback else True,
                 **OPTIONS,
             )

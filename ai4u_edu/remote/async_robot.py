@@ -35,12 +35,12 @@ class AsyncRobot(RobotBase):
         patience: float = 10.0,
         on_missing: OnMissing = "",
     ) -> None:
-        address = address_of(url)
+        address = address_of(url, token)
         self._connection = AsyncConnection(address)
         super().__init__(
             Dialogue(
                 agent,
-                token=token or address.token,
+                token=address.token,
                 mode=mode,
                 keys=keys,
                 session=session,

@@ -27,6 +27,15 @@ OPTIONS: dict[str, Any] = {
 }
 
 
+def authorization(token: str) -> dict[str, str]:
+    """Return the handshake's headers with a world's token: a class's gateway reads it there.
+
+    A header can't hold every token; those of a class are plain.
+    """
+    is_plain = token.isascii() and token.isprintable() and " " not in token
+    return {"Authorization": f"Bearer {token}"} if token and is_plain else {}
+
+
 def connection_lost_from(error: Exception) -> ConnectionLostError:
     """Convert an error of websockets or of the system."""
     if isinstance(error, ConnectionClosed) and error.rcvd is not None:

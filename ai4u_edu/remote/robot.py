@@ -122,13 +122,13 @@ def connect(
         LostError: no world answers.
         RemoteError: an argument is wrong.
     """
-    address = address_of(url)
+    address = address_of(url, token)
     before = _robots.pop((address.url, agent), None)
     if before is not None:
         before.close()
     dialogue = Dialogue(
         agent,
-        token=token or address.token,
+        token=address.token,
         mode=mode,
         keys=keys,
         session=session,

@@ -8,7 +8,7 @@ from websockets.exceptions import ConnectionClosed, WebSocketException
 from websockets.sync.client import ClientConnection, connect
 
 from ai4u_edu.remote.address import Address
-from ai4u_edu.remote.connection_options import OPTIONS, connection_lost_from
+from ai4u_edu.remote.connection_options import OPTIONS, authorization, connection_lost_from
 from ai4u_edu.remote.errors import RemoteError
 from ai4u_edu.remote.steps import Close, ConnectionLostError, Flow, Open, Pause, Receive, Send, Step
 
@@ -75,6 +75,7 @@ class SyncConnection:
             self._socket = connect(
                 self._address.url,
                 open_timeout=timeout,
+                additional_headers=authorization(self._address.token),
                 proxy=None if self._address.is_loopback else True,
                 **OPTIONS,
             )

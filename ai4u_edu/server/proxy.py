@@ -35,6 +35,8 @@ TOO_BIG = 1009
 
 PAGE_HEADER = "X-AI4U-Edu-Page"
 """Header to viser: the address under which a browser has the page."""
+SCRIPT_KEY_HEADER = "X-AI4U-Edu-Script-Key"
+"""Header from a class's gateway: secret for the seat's scripts, in place of the room's token."""
 PAGE_ID_HEADER = "X-AI4U-Edu-Page-Id"
 """Header to viser: the page's random id, which its panel's socket has too; empty without one."""
 PAGE_ID_PARAM = "page"
@@ -64,7 +66,7 @@ class ViserProxy:
 
     Args:
         port: viser's port on 127.0.0.1.
-        token: the room's token, for the address that the page shows.
+        token: the room's token, for the address that the page shows if nobody gives another one.
     """
 
     def __init__(self, port: int, token: str = "") -> None:
@@ -78,7 +80,9 @@ class ViserProxy:
             viser = await connect(
                 self._url,
                 additional_headers={
-                    PAGE_HEADER: with_token(page_address(scope), self._token),
+                    PAGE_HEADER: with_token(
+                        page_address(scope), page.headers.get(SCRIPT_KEY_HEADER, self._token)
+                    ),
                     PAGE_ID_HEADER: page_id(scope),
                     AGENT_HEADER: page_agent(scope),
                     DARK_HEADER: "1" if HTTPConnection(scope).cookies.get(DARK_COOKIE) else "",

@@ -1,6 +1,8 @@
 """Rooms behind a class: who may enter, what goes through, and what is there after a bad day."""
 
+import json
 import os
+import re
 import signal
 from collections.abc import Iterator
 from pathlib import Path
@@ -11,7 +13,10 @@ import pytest
 from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import connect
 
-from tests.classroom.served_class import CODE, ServedClass, served_class
+from ai4u_edu.remote import RemoteError
+from ai4u_edu.remote import connect as connect_script
+from tests.classroom.served_class import CODE, ServedClass, Student, served_class
+from tests.load.clients import CAMERA, VISER
 from tests.server.rooms import Page, until
 
 pytestmark = pytest.mark.slow
@@ -42,7 +47,7 @@ def test_nobody_enters_the_room_of_another(served: ServedClass) -> None:
             assert other.client.get(ada.room + path).status_code == 403
         to_page = other.client.get(ada.room, headers={"Accept": "text/html"})
         assert (to_page.status_code, to_page.headers["Location"]) == (303, "/")
-        for path in ("", "ws/input", "ws/panel", "ws/remote"):
+        for path in ("", "ws/input", "ws/panel"):
             address = (ada.address + path).replace("http", "ws", 1)
             with connect(address, additional_headers=other.cookies, proxy=None) as socket:
                 with pytest.raises(ConnectionClosed) as closed:
@@ -78,6 +83,43 @@ def test_no_secret_reaches_a_browser(served: ServedClass) -> None:
     assert "authorization" not in answer.headers
     (cookie,) = [each for each in ada.client.cookies.jar if each.name == "ai4u_edu_seat"]
     assert cookie.has_nonstandard_attr("HttpOnly")
+
+
+def test_a_script_drives_with_the_address_that_the_page_shows(served: ServedClass) -> None:
+    ada, ben = served.joined(), served.joined()
+    lines = _python_lines(ada)
+    address = re.findall(r"http://[^\s'\"]+", lines)[0]
+    assert address.startswith(ada.address)
+    with connect_script(address) as robot:
+        for _ in range(5):
+            robot.sense()
+            robot.act(move=[1.0, 0.0, 0.0, 0.0])
+    key = address.partition("?token=")[2]
+    assert key not in _python_lines(ben)
+    for wrong in (f"{ben.address}?token={key}", ada.address, f"{ada.address}?token=wrong"):
+        with pytest.raises(RemoteError, match="answer 403 expected the key"):
+            connect_script(wrong)
+    for other in (ben, ada):  # no key for the pages of others, and none for anything else
+        assert other.client.get(f"{ada.room}?token={key}").status_code != 401
+    stranger = httpx.get(f"{ada.address}api/snapshot", headers={"Authorization": f"Bearer {key}"})
+    assert stranger.status_code == 403
+
+
+def _python_lines(student: Student) -> str:
+    """Return the Python code that the page shows, as its panel gets it."""
+    page = "?page=" + "a" * 16
+    path, cookies = student.address.replace("http", "ws", 1), student.cookies
+    viser = connect(
+        path + page, subprotocols=[VISER], additional_headers=cookies, max_size=None, proxy=None
+    )
+    panel = connect(path + "ws/panel" + page, additional_headers=cookies, proxy=None)
+    with viser as drawn, panel as told:
+        drawn.send(CAMERA)
+        told.send(json.dumps({"type": "show", "agent": "0", "tabs": ["agent"]}))
+        while True:
+            part = json.loads(told.recv(20))
+            if part.get("name") == "python" and student.address in str(part["lines"]):
+                return str(part["lines"])
 
 
 def test_the_teachers_page_needs_its_secret(served: ServedClass) -> None:
@@ -120,7 +162,9 @@ def test_who_is_sent_out_is_out_at_once(served: ServedClass) -> None:
 def test_a_command_that_can_not_be_done_is_a_sentence(served: ServedClass) -> None:
     answer = served.command("kick", seat=10**6)
     assert (answer.status_code, answer.json()) == (400, {"problem": "there is no seat 1000000"})
-    assert served.command("explode").status_code == 422
+    answer = served.command("explode")
+    assert answer.status_code == 400
+    assert "explode" in answer.json()["problem"]
 
 
 def test_a_room_that_is_killed_comes_back_and_the_others_notice_nothing(

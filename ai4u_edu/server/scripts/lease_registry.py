@@ -32,13 +32,20 @@ class LeaseRegistry:
         self._leases: dict[str, AgentLease] = {}
         self._queue: LoopQueue | None = None
 
-    async def acquire(self, hello: native.Hello, outbox: Outbox) -> AgentLease:
+    async def acquire(
+        self, hello: native.Hello, outbox: Outbox, *, is_authenticated: bool = False
+    ) -> AgentLease:
         """Lease the agent that a script asks for, or resume the session that it had.
+
+        Args:
+            hello: the script's.
+            outbox: of its connection.
+            is_authenticated: True if the handshake had the room's token.
 
         Raises:
             RefusalError: the script can't have the agent.
         """
-        self._check(hello)
+        self._check(hello, is_authenticated)
         agent = self._agent(hello.agent)
         lease = self._leases.get(agent.id)
         if lease is not None and is_same_secret(lease.secret, hello.secret):
@@ -68,10 +75,11 @@ class LeaseRegistry:
             text = "the session goes on over another connection"
             lease.outbox.close_with_problem("taken_over", text)
 
-    def _check(self, hello: native.Hello) -> None:
+    def _check(self, hello: native.Hello, is_authenticated: bool) -> None:
         if hello.version != native.VERSION:
             raise RefusalError("version", wrong_version(f"version {native.VERSION}", hello.version))
-        if self._rules.token and not is_same_secret(self._rules.token, hello.token):
+        is_known = is_authenticated or is_same_secret(self._rules.token, hello.token)
+        if self._rules.token and not is_known:
             got = "another one" if hello.token else "none"
             raise RefusalError(
                 "bad_token",

@@ -4,6 +4,7 @@ import asyncio
 from collections.abc import Callable
 from contextlib import suppress
 
+from starlette.datastructures import Headers
 from starlette.types import Message, Receive, Scope, Send
 
 from ai4u_edu.runtime.runner import Runner
@@ -16,6 +17,7 @@ from ai4u_edu.server.scripts.outbox import Outbox
 from ai4u_edu.server.scripts.refusal import RefusalError, wrong_version
 from ai4u_edu.server.scripts.session import Session
 from ai4u_edu.server.scripts.settings import Rules
+from ai4u_edu.server.token_auth import is_same_secret
 from ai4u_edu.wire import native
 from ai4u_edu.wire.validation import WireError
 
@@ -42,7 +44,9 @@ class RemoteSockets:
     def __init__(
         self, runner: Runner, title: Callable[[], str], rules: Rules | None = None
     ) -> None:
-        self._leases = LeaseRegistry(runner, title, rules or Rules())
+        rules = rules or Rules()
+        self._leases = LeaseRegistry(runner, title, rules)
+        self._credentials = f"Bearer {rules.token}" if rules.token else ""
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Serve one connection, from its handshake to its close."""
@@ -53,7 +57,14 @@ class RemoteSockets:
         frames: FramesProtocol | None = scope.get("extensions", {}).get(EXTENSION)
         outbox = Outbox(send, frames.write if frames else None)
         sending = asyncio.create_task(outbox.run())
-        connection = _Connection(receive, outbox, self._leases)
+        given = Headers(scope=scope).get("authorization", "")
+        connection = _Connection(
+            receive,
+            outbox,
+            self._leases,
+            # as of a class's gateway, which has asked for the script's own key
+            is_authenticated=bool(self._credentials) and is_same_secret(self._credentials, given),
+        )
         if frames:
             frames.listener = connection.hear_answer
         try:
@@ -76,7 +87,10 @@ class RemoteSockets:
 class _Connection:
     """One script's frames, and its lease once it has one."""
 
-    def __init__(self, receive: Receive, outbox: Outbox, leases: LeaseRegistry) -> None:
+    def __init__(
+        self, receive: Receive, outbox: Outbox, leases: LeaseRegistry, *, is_authenticated: bool
+    ) -> None:
+        self._is_authenticated = is_authenticated
         self._receive = receive
         self._outbox = outbox
         self._leases = leases
@@ -155,7 +169,9 @@ class _Connection:
             return
         self._hello = hello
         try:
-            self.lease = await self._leases.acquire(hello, self._outbox)
+            self.lease = await self._leases.acquire(
+                hello, self._outbox, is_authenticated=self._is_authenticated
+            )
         except RefusalError as refusal:
             self._outbox.close_with_problem(refusal.code, str(refusal))
 

@@ -1,0 +1,350 @@
+"""The teacher's wall in the browser: order, filter, keyboard, and what it sends and doesn't."""
+
+import json
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+from axe_playwright_python.sync_playwright import Axe
+from playwright.sync_api import Browser, Locator, Page, expect
+
+from tests.browser.wall_data import CODE, MARKUP, class_message, name_of, race
+from tests.browser.wall_server import WallServer, wall_server
+from tests.chromium import new_page
+from tests.server.rooms import until
+
+pytestmark = pytest.mark.browser
+
+COUNT = 12
+GRAVE = {"serious", "critical"}
+ABOUT_TESTS = ("Failed to load resource", "WebSocket connection", "Canvas2D: Multiple readback")
+"""Beginnings of messages of the browser about tests."""
+REAL_NAME = "Ada Lovelace-Byron"
+
+
+@pytest.fixture(scope="module")
+def school() -> Iterator[WallServer]:
+    with wall_server(COUNT) as school:
+        yield school
+
+
+@pytest.fixture(scope="module")
+def opened(chromium: Browser, school: WallServer) -> Iterator[Page]:
+    page = new_page(chromium)
+    errors: list[str] = []
+    page.on("pageerror", lambda error: errors.append(str(error)))
+    page.on("console", lambda line: errors.append(line.text))
+    page.goto(f"{school.url}teacher")
+    yield page
+    page.context.close()
+    assert [each for each in errors if not each.startswith(ABOUT_TESTS)] == []
+
+
+@pytest.fixture
+def page(opened: Page, school: WallServer) -> Page:
+    """Return the teacher's page of a class that is as at first."""
+    opened.mouse.move(5, 5)
+    opened.evaluate("document.querySelectorAll('dialog').forEach((each) => each.close())")
+    opened.evaluate("document.activeElement.blur()")
+    opened.get_by_role("tab", name="Wall").click()
+    opened.get_by_role("button", name="All", exact=False).first.click()
+    opened.get_by_label("Sort").select_option("help")
+    school.problem = ""
+    school.commands.clear()
+    school.send(**class_message(COUNT))
+    expect(cards(opened)).to_have_count(COUNT)
+    return opened
+
+
+def cards(page: Page) -> Locator:
+    return page.get_by_role("list", name="Rooms").get_by_role("button")
+
+
+def names(page: Page) -> list[str]:
+    return page.locator(".ai4u-room-name").all_inner_texts()
+
+
+def rooms_with(**changes: Any) -> list[dict[str, Any]]:
+    """Return all rooms without need of help, but the last one changed."""
+    rooms = class_message(COUNT)["rooms"]
+    calm = [room | {"help": 0, "why": "", "status": "driving"} for room in rooms]
+    return [*calm[:-1], calm[-1] | changes]
+
+
+def test_who_needs_help_comes_first_but_not_under_the_pointer(
+    page: Page, school: WallServer
+) -> None:
+    school.send(rooms=rooms_with(help=70, why="fell 8 times", status="fell"))
+    last = name_of(COUNT)
+    expect(page.locator(".ai4u-room-name").first).to_have_text(last)
+    expect(cards(page).first).to_contain_text("fell 8 times")
+    label = f"{last}, fell, solved before, fell 8 times, Box chase"
+    expect(page.get_by_role("button", name=label)).to_be_visible()
+
+    second = names(page)[1]
+    cards(page).nth(1).hover()
+    school.send(rooms=rooms_with())
+    expect(page.get_by_text("fell 8 times")).to_have_count(0)
+    assert names(page)[:2] == [last, second]
+    page.mouse.move(5, 5)
+    school.send(rooms=rooms_with())
+    expect(page.locator(".ai4u-room-name").first).not_to_have_text(last)
+    assert names(page) == sorted(names(page))
+
+    page.get_by_label("Sort").select_option("name")
+    school.send(rooms=rooms_with(help=90, why="fell 9 times"))
+    expect(page.get_by_text("fell 9 times")).to_have_count(1)
+    assert names(page) == sorted(names(page))
+
+
+def test_filters_count_and_keep(page: Page, school: WallServer) -> None:
+    school.send(rooms=rooms_with(status="asleep"))
+    page.get_by_role("button", name="Asleep 1").click()
+    expect(cards(page)).to_have_count(1)
+    page.get_by_role("button", name="Needs help 0").click()
+    expect(cards(page)).to_have_count(0)
+    expect(page.get_by_text("No room now: “Needs help”.")).to_be_visible()
+
+
+def test_a_room_is_reached_and_sent_out_by_keyboard(page: Page, school: WallServer) -> None:
+    page.get_by_label("Size").focus()
+    page.keyboard.press("Tab")
+    expect(cards(page).first).to_be_focused()
+    page.keyboard.press("ArrowRight")
+    page.keyboard.press("ArrowRight")
+    page.keyboard.press("ArrowLeft")
+    expect(cards(page).nth(1)).to_be_focused()
+    name = names(page)[1]
+    page.keyboard.press("Enter")
+    seat = next(seat for seat in school.state["seats"] if seat["name"] == name)
+    dialog = page.get_by_role("dialog", name=name)
+    look_in = dialog.get_by_role("link", name="Look in")
+    expect(look_in).to_have_attribute("href", f"./r/{seat['room']}/")
+    dialog.get_by_role("button", name=f"Send out {name}").press("Enter")
+    expect(dialog).to_have_count(0)
+    assert school.commands == [{"do": "kick", "seat": seat["number"]}]
+    expect(cards(page).nth(1)).to_be_focused()
+
+
+def test_attention_is_begun_shown_and_ended(page: Page, school: WallServer) -> None:
+    page.get_by_role("button", name="Attention…").click()
+    dialog = page.get_by_role("dialog", name="Attention")
+    dialog.get_by_label("Blank all").check()
+    dialog.get_by_role("textbox", name="Message").fill("Eyes to the front")
+    dialog.get_by_label("How long").select_option(label="for 2 minutes")
+    school.problem = "This class has ended."
+    dialog.get_by_role("button", name="Begin").click()
+    expect(dialog.get_by_role("alert")).to_have_text("This class has ended.")
+    school.problem = ""
+    dialog.get_by_role("button", name="Begin").click()
+    expect(dialog).to_have_count(0)
+    wanted = {"kind": "blank", "message": "Eyes to the front", "seconds": 120}
+    assert school.commands[-1] == {"do": "attention", **wanted}
+
+    school.send(attention={"kind": "blank", "message": "Eyes to the front", "ends_in": 100.0})
+    expect(page.locator("#held")).to_contain_text("All screens are blank.“Eyes to the front” Ends")
+    page.get_by_role("button", name="End attention").click()
+    until(lambda: len(school.commands) == 3, 10)
+    assert school.commands[-1] == {"do": "attention", "kind": "", "message": "", "seconds": 0}
+
+
+def test_scenes_are_assigned_to_chosen_rooms_and_raced(page: Page, school: WallServer) -> None:
+    page.get_by_role("button", name="Assign a scene…").click()
+    dialog = page.get_by_role("dialog", name="Assign a scene")
+    dialog.get_by_label("Which scene").select_option(label="Maze")
+    dialog.get_by_label("Some rooms").check()
+    dialog.get_by_role("button", name="Assign").click()
+    expect(dialog.get_by_role("alert")).to_have_text("Choose at least one room.")
+    dialog.get_by_label(name_of(2), exact=True).check()
+    dialog.get_by_role("button", name="Assign").click()
+    expect(dialog).to_have_count(0)
+    wanted = {"rooms": ["room2"], "scene": "maze", "seed": None, "same_seed": True}
+    assert school.commands == [{"do": "assign", **wanted}]
+
+    page.get_by_role("button", name="Race…").click()
+    dialog = page.get_by_role("dialog", name="Race")
+    dialog.get_by_label("My own file").check()
+    file = {"name": "own.yaml", "mimeType": "text/yaml", "buffer": b"title: Mine\nbodies: []\n"}
+    dialog.get_by_label("Scene file (YAML)").set_input_files(file)  # type: ignore[arg-type]
+    dialog.get_by_label("Seed").fill("7")
+    dialog.get_by_role("button", name="Start the countdown").click()
+    expect(dialog).to_have_count(0)
+    scene = {"yaml": "title: Mine\nbodies: []\n"}
+    start = {"scene": scene, "seed": 7, "countdown": 10, "hide_board": False}
+    assert school.commands[-1] == {"do": "race", **start}
+    school.send(race=race(2))
+    page.get_by_role("button", name="End race").click()
+    until(lambda: school.commands[-1] == {"do": "end race"}, 10)
+
+
+def test_real_names_are_shown_and_never_sent(page: Page, school: WallServer) -> None:
+    requests: list[str] = []
+    page.on("request", lambda each: requests.append(f"{each.url} {each.post_data} {each.headers}"))
+    page.get_by_role("button", name="Real names…").click()
+    table = f'name,real name\n"{name_of(1)}","{REAL_NAME}"\n2;Grace Hopper\n'
+    file = {"name": "class.csv", "mimeType": "text/csv", "buffer": table.encode()}
+    dialog = page.get_by_role("dialog", name="Real names")
+    dialog.get_by_label("Table").set_input_files(file)  # type: ignore[arg-type]
+    dialog.get_by_role("button", name="Load").click()
+    expect(page.get_by_role("button", name=f"{name_of(1)}, {REAL_NAME}")).to_be_visible()
+    page.get_by_role("button", name="Grace Hopper").click()
+    page.get_by_role("button", name="Show to all").click()
+    page.get_by_role("tab", name="Progress").click()
+    expect(page.get_by_role("row", name=REAL_NAME)).to_be_visible()
+    until(lambda: school.commands != [], 10)
+    assert requests
+    assert [each for each in requests if "Hopper" in each or "Lovelace" in each] == []
+    assert "Lovelace" not in json.dumps(school.commands)
+
+    page.get_by_role("button", name="Real names…").click()
+    page.get_by_role("button", name="Forget all real names").click()
+    page.get_by_role("button", name="Close").click()
+    expect(page.get_by_text(REAL_NAME)).to_have_count(0)
+    stored = page.evaluate("JSON.stringify({...localStorage})")
+    assert "Lovelace" not in stored
+
+
+def test_everything_is_forgotten_only_after_export_and_code(page: Page, school: WallServer) -> None:
+    page.get_by_role("button", name="End of class…").click()
+    dialog = page.get_by_role("dialog", name="End of class")
+    forget = dialog.get_by_role("button", name="Forget everything")
+    forget.click()
+    expect(dialog.get_by_role("alert")).to_contain_text("Export first")
+    dialog.get_by_label("I have the file").check()
+    dialog.get_by_label("Type the code").fill("wrong")
+    forget.click()
+    expect(dialog.get_by_role("alert")).to_contain_text(CODE)
+    assert school.commands == []
+    dialog.get_by_label("Type the code").fill(CODE.lower())
+    forget.click()
+    expect(dialog).to_have_count(0)
+    assert school.commands == [{"do": "forget"}]
+
+
+def test_text_is_never_html_and_a_lost_connection_is_told(page: Page, school: WallServer) -> None:
+    state = class_message(COUNT)
+    state["seats"][0]["name"] = MARKUP
+    state["misconceptions"][0]["sentence"] = MARKUP
+    state["rooms"][0]["scene"] = MARKUP
+    school.send(**state)
+    expect(page.get_by_role("button", name=MARKUP)).to_have_count(1)
+    page.get_by_role("tab", name="Misconceptions").click()
+    expect(page.locator("#view-mistakes").get_by_text(MARKUP).first).to_be_visible()
+    assert page.locator("img").count() == 1  # the QR code
+
+    page.context.set_offline(True)
+    expect(page.get_by_role("alert").first).to_contain_text("The class can't be reached.")
+    page.context.set_offline(False)
+    school.drop()
+    expect(page.locator("#status")).to_be_empty()
+    expect(cards(page)).to_have_count(0)  # of the hidden tab
+    page.get_by_role("tab", name="Wall").click()
+    expect(cards(page)).to_have_count(COUNT)
+
+
+def test_worlds_are_drawn_where_their_cards_are(page: Page, school: WallServer) -> None:
+    """The canvas has a picture in each card, and moves."""
+    drawn = """() => {
+        const canvas = document.querySelector("#wall canvas");
+        const at = canvas.getBoundingClientRect();
+        const scale = canvas.width / at.width;
+        return [...document.querySelectorAll(".ai4u-room-picture")].map((each) => {
+            const box = each.getBoundingClientRect();
+            const place = [box.left - at.left, box.top - at.top, box.width, box.height];
+            const data = canvas.getContext("2d").getImageData(...place.map((x) => x * scale)).data;
+            let sum = 0;
+            for (let i = 0; i < data.length; i += 1) sum = (31 * sum + data[i]) % 1000003;
+            return data[4 * Math.floor(data.length / 8) + 3] && sum;
+        });
+    }"""
+    until(lambda: 0 not in page.evaluate(drawn), 10)
+    first = page.evaluate(drawn)
+    moving = [room["status"] == "driving" for room in school.state["rooms"]]
+    assert any(moving)
+    until(lambda: sum(a != b for a, b in zip(first, page.evaluate(drawn), strict=True)) >= 3, 10)
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_the_pages_have_no_grave_finding(
+    chromium: Browser, school: WallServer, scheme: Any, tmp_path: Path
+) -> None:
+    school.state = class_message(
+        COUNT,
+        race=race(3),
+        attention={"kind": "pause", "message": "Look", "ends_in": 0.0},
+        shown={"kind": "race", "room": ""},
+    )
+    page = new_page(chromium, color_scheme=scheme)
+    page.goto(f"{school.url}teacher")
+    expect(cards(page)).to_have_count(COUNT)
+    found = {"wall": findings(page)}
+    for tab in ("Progress", "Misconceptions"):
+        page.get_by_role("tab", name=tab).click()
+        found[tab] = findings(page)
+    page.get_by_role("button", name="Assign a scene…").click()
+    found["dialog"] = findings(page)
+    for name in ("projector", "check", "privacy", "join"):
+        page.goto(f"{school.url}{name}")
+        page.wait_for_load_state("networkidle") if name == "check" else None
+        found[name] = findings(page)
+    assert {name: each for name, each in found.items() if each} == {}
+    page.context.close()
+
+
+def findings(page: Page) -> list[str]:
+    """Return axe-core's grave findings in a page."""
+    return [
+        f"{each['id']}: {each['help']}: {[node['html'][:160] for node in each['nodes']]}"
+        for each in Axe().run(page).response["violations"]
+        if each["impact"] in GRAVE
+    ]
+
+
+def test_the_projector_follows_the_teacher(chromium: Browser, school: WallServer) -> None:
+    school.state = class_message(COUNT)
+    page = new_page(chromium)
+    page.goto(f"{school.url}projector")
+    expect(page.locator("#code")).to_have_text(CODE)
+    expect(page.get_by_text(f"{COUNT} students are here")).to_be_visible()
+    school.send(shown={"kind": "room", "room": "room5"})
+    expect(page.locator("#wall li")).to_have_count(1)
+    expect(page.locator("#wall")).to_contain_text(name_of(5))
+    school.send(shown={"kind": "race", "room": ""}, race=race(0, "countdown", 8.0))
+    expect(page.get_by_role("timer")).to_have_text("7")
+    school.send(race=race(9))
+    expect(page.locator("#race li")).to_have_count(9)
+    expect(page.locator("#race li").first).to_contain_text("12.4 s")
+    school.send(race={**race(9), "is_board_hidden": True})
+    expect(page.locator("#race li")).to_have_count(0)
+    school.send(shown={"kind": "board", "room": ""})
+    expect(page.locator("#wall li")).to_have_count(COUNT)
+    expect(page.locator("#wall [data-help]")).to_have_count(0)
+    page.context.close()
+
+
+def test_check_says_yes_and_a_move_code_takes_the_names_away(
+    chromium: Browser, school: WallServer
+) -> None:
+    page = new_page(chromium)
+    page.goto(f"{school.url}check")
+    expect(page.get_by_role("status")).to_have_text("Yes, this device can join.")
+    line = page.get_by_role("listitem").filter(has_text="Keys arrive")
+    expect(line).to_contain_text("Press an arrow key or W now.")
+    page.keyboard.press("KeyW")
+    expect(line).to_contain_text("yes")
+    page.route_web_socket("**/check/socket", lambda socket: socket.close())
+    page.reload()
+    expect(page.get_by_text("A proxy or firewall")).to_be_visible()
+
+    school.commands.clear()
+    page.goto(f"{school.url}join?code={CODE}")
+    expect(page.locator("#code")).to_have_value(CODE)
+    page.get_by_role("button", name="Continue from another device").click()
+    expect(page.get_by_text("Choose your name here")).to_be_hidden()
+    page.get_by_label("Code on your other device").fill("K7QPM")
+    page.keyboard.press("Enter")
+    until(lambda: school.commands != [], 10)
+    assert school.commands[0]["code"] == "K7QPM"
+    assert school.commands[0]["name"] == ""
+    page.context.close()

@@ -1,0 +1,256 @@
+"""Messages of the teacher's socket for a class of any size, as the gateway would send them."""
+
+import math
+from typing import Any
+
+from ai4u_edu.classroom.names import COLOURS, FIRST, SECOND
+from ai4u_edu.classroom.teacher import join_code
+
+CODE = "KVBTM"
+ADDRESS = "http://192.168.4.20:8080/"
+MARKUP = "<img src=x onerror=alert(1)>"
+"""A name that would do harm if a page took it for HTML."""
+EXERCISES = [
+    {"lesson": "02", "title": "Drive", "ids": ["02.1", "02.2", "02.3", "02.exit"]},
+    {"lesson": "03", "title": "Build an agent", "ids": ["03.1", "03.2", "03.3", "03.exit"]},
+    {
+        "lesson": "04",
+        "title": "Sensors: what can it know?",
+        "ids": ["04.1", "04.2", "04.3", "04.4", "04.exit"],
+    },
+]
+SCENES = [
+    {"name": "box_chase", "title": "Box chase"},
+    {"name": "soccer", "title": "Soccer"},
+    {"name": "maze", "title": "Maze"},
+    {"name": "parking", "title": "Parking"},
+]
+STATUSES = ["driving"] * 5 + ["solved", "fell", "driving", "idle", "solved", "waiting", "error"]
+_IDS = [name for lesson in EXERCISES for name in lesson["ids"]]
+_MISTAKES = [
+    (
+        "04.2",
+        "narrow",
+        "Your rays look straight ahead only: a box at the side is never seen.",
+        "Draw the field of view on the board. Ask: where could the box hide?",
+    ),
+    (
+        "04.2",
+        "far",
+        "The rays end before the wall, so an empty answer can mean two things.",
+        "Let them compare the reach with the size of the plate.",
+    ),
+    (
+        "03.2",
+        "sign",
+        "It turns away from the box: the sign of the angle is the other way round.",
+        "Stand up, turn left, and ask for the sign of the angle. Positive is to the left.",
+    ),
+    (
+        "02.3",
+        "units",
+        "The angle is in radians; 90 turns the robot many times around.",
+        "A half turn is about 3.14. Ask for a quarter turn.",
+    ),
+]
+
+
+def class_message(count: int, **changes: Any) -> dict[str, Any]:
+    """Return the state of a class with a number of rooms, a seat in each."""
+    seats = [_seat(number) for number in range(1, count + 1)]
+    message = {
+        "type": "class",
+        "code": CODE,
+        "address": ADDRESS,
+        "qr": join_code(ADDRESS, CODE),
+        "open": True,
+        "attention": {"kind": "", "message": "", "ends_in": 0.0},
+        "shown": {"kind": "join", "room": ""},
+        "race": None,
+        "scenes": SCENES,
+        "exercises": EXERCISES,
+        "seats": seats,
+        "rooms": [_room(number) for number in range(1, count + 1)],
+        "progress": {str(number): _progress(number) for number in range(1, count + 1)},
+        "misconceptions": _misconceptions(count),
+    }
+    return {**message, **changes}
+
+
+def race(count: int, phase: str = "running", starts_in: float = 0.0) -> dict[str, Any]:
+    """Return a race with a number of results."""
+    rows = [
+        {
+            "name": name_of(number),
+            "colour": COLOURS[(number - 1) % len(COLOURS)],
+            "room": room_id(number),
+            "outcome": "goal",
+            "seconds": 12.4 + 1.7 * place,
+        }
+        for place, number in enumerate(range(3, 3 + count))
+    ]
+    return {
+        "id": "race1",
+        "phase": phase,
+        "starts_in": starts_in,
+        "scene": "Box chase",
+        "is_board_hidden": False,
+        "board": rows,
+    }
+
+
+def drawing_message(number: int) -> dict[str, Any]:
+    """Return the drawing of a room: a plate with walls, boxes or a ball, and a robot or two."""
+    kind = _scene(number)["name"]
+    half = (8.0, 6.0)
+    ground = [_polygon("#c9d6c3" if kind == "soccer" else "#d9dde1", -8, -6, 8, 6)]
+    bodies = [_wall(0, 6.1, 8.3, 0.25), _wall(0, -6.1, 8.3, 0.25)]
+    bodies += [_wall(8.1, 0, 0.25, 6), _wall(-8.1, 0, 0.25, 6)]
+    if kind == "soccer":
+        ground += [_disc("#eef3ec", 0, 0, 1.6), _polygon("#eef3ec", -0.06, -6, 0.06, 6)]
+        bodies += [_disc_body("ball", "#f5f5f5", 0.35), _robot("#0072b2"), _robot("#e69f00")]
+    elif kind == "maze":
+        ground.append(_polygon("#9bd3a0", 5.2, 3.4, 7.6, 5.6))
+        bodies += [_wall(-3, 1.5, 0.25, 4), _wall(1, -2, 0.25, 4), _wall(4.5, 1, 0.25, 3)]
+        bodies += [_disc_body("target", "#2e8b57", 0.4), _robot("#0072b2")]
+    else:
+        bodies += [_disc_body("target", "#c0392b", 0.5), _robot("#0072b2")]
+    left, top = half
+    return {
+        "type": "drawing",
+        "room": room_id(number),
+        "number": 1,
+        "bounds": [-left - 0.4, -top - 0.4, left + 0.4, top + 0.4],
+        "ground": ground,
+        "bodies": bodies,
+    }
+
+
+def poses_message(count: int, time_s: float) -> dict[str, Any]:
+    """Return the poses of all rooms at a time: those that drive go round."""
+    return {
+        "type": "poses",
+        "rooms": {room_id(number): _poses(number, time_s) for number in range(1, count + 1)},
+    }
+
+
+def name_of(number: int) -> str:
+    """Return the name of a seat."""
+    return f"{FIRST[(7 * number) % len(FIRST)]} {SECOND[(11 * number) % len(SECOND)]}"
+
+
+def room_id(number: int) -> str:
+    """Return the id of a seat's room."""
+    return f"room{number}"
+
+
+def _poses(number: int, time_s: float) -> dict[str, Any]:
+    bodies = drawing_message(number)["bodies"]
+    driven = time_s if _status(number) == "driving" else 0.0
+    values: list[float] = []
+    for index, body in enumerate(bodies):
+        if body["name"].startswith("wall"):
+            values += [*body["at"], 0.0, 1.0]
+            continue
+        turn = 0.5 * driven + 1.7 * number + 2.1 * index
+        reach = 2.2 + (number % 3) * 0.9
+        x, y = reach * math.cos(turn) * 1.3, reach * math.sin(turn)
+        values += [x, y, turn + math.pi / 2, 1.0]
+    return {"drawing": 1, "values": [round(each, 3) for each in values]}
+
+
+def _seat(number: int) -> dict[str, Any]:
+    return {
+        "number": number,
+        "name": name_of(number),
+        "colour": COLOURS[(number - 1) % len(COLOURS)],
+        "state": "in",
+        "room": room_id(number),
+        "is_here": True,
+    }
+
+
+def _status(number: int) -> str:
+    return "asleep" if number % 17 == 0 else STATUSES[(5 * number) % len(STATUSES)]
+
+
+def _scene(number: int) -> dict[str, str]:
+    return SCENES[0 if number % 5 else (number // 5) % 3]
+
+
+def _room(number: int) -> dict[str, Any]:
+    status = _status(number)
+    needs, why = {
+        "fell": (30 + 8 * (number % 5), f"fell {3 + number % 5} times"),
+        "error": (90, "its world has an error"),
+        "idle": (32, "nobody has driven for 3 minutes"),
+    }.get(status, (8 * (number % 4), ""))
+    return {
+        "id": room_id(number),
+        "seats": [number],
+        "status": status,
+        "scene": _scene(number)["title"],
+        "driver": "" if status in ("idle", "asleep") else "A person",
+        "seconds": 4.0 * number,
+        "episodes": number % 9,
+        "falls": number % 7,
+        "is_solved": status == "solved" or number % 6 == 0,
+        "error": "NameError: name 'angel' is not defined (line 4)" if status == "error" else "",
+        "is_running": status != "asleep",
+        "kind": "local",
+        "help": needs,
+        "why": why,
+    }
+
+
+def _progress(number: int) -> dict[str, Any]:
+    solved = 3 + (5 * number) % (len(_IDS) - 4)
+    found: dict[str, Any] = {
+        each: {"state": "solved", "tries": 1 + (index + number) % 4, "minutes": 2.5 + number % 5}
+        for index, each in enumerate(_IDS[:solved])
+    }
+    found[_IDS[solved]] = {
+        "state": "hint" if number % 3 == 0 else "tried",
+        "tries": 2 + number % 5,
+        "minutes": 6.0,
+    }
+    return found
+
+
+def _misconceptions(count: int) -> list[dict[str, Any]]:
+    found = []
+    for step, (exercise, diagnosis, sentence, guide) in enumerate(_MISTAKES, 3):
+        seats = list(range(1, count + 1, step))
+        found.append(
+            {
+                "exercise": exercise,
+                "diagnosis": f"{exercise}/{diagnosis}",
+                "count": len(seats) + step,
+                "seats": seats,
+                "sentence": sentence,
+                "guide": guide,
+            }
+        )
+    return found
+
+
+def _wall(x: float, y: float, half_x: float, half_y: float) -> dict[str, Any]:
+    shape = _polygon("#5b6770", -half_x, -half_y, half_x, half_y)
+    return {"name": f"wall{x},{y}", "is_agent": False, "shapes": [shape], "at": [x, y]}
+
+
+def _disc_body(name: str, colour: str, radius: float) -> dict[str, Any]:
+    return {"name": name, "is_agent": False, "shapes": [_disc(colour, 0, 0, radius)]}
+
+
+def _robot(colour: str) -> dict[str, Any]:
+    return {"name": "robot", "is_agent": True, "shapes": [_disc(colour, 0, 0, 0.6)]}
+
+
+def _disc(colour: str, x: float, y: float, radius: float) -> dict[str, Any]:
+    return {"colour": colour, "radius": radius, "points": [x, y]}
+
+
+def _polygon(colour: str, left: float, bottom: float, right: float, top: float) -> dict[str, Any]:
+    points = [left, bottom, right, bottom, right, top, left, top]
+    return {"colour": colour, "radius": 0.0, "points": points}

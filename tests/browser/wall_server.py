@@ -1,0 +1,119 @@
+"""A class without rooms: the pages of the teacher, with messages that a test sends."""
+
+import asyncio
+import contextlib
+import json
+from collections.abc import Iterator
+from typing import Any
+
+from starlette.applications import Starlette
+from starlette.requests import Request
+from starlette.responses import JSONResponse, Response
+from starlette.routing import Route, WebSocketRoute
+from starlette.websockets import WebSocket, WebSocketDisconnect
+
+from ai4u_edu.classroom.echo import echo
+from ai4u_edu.classroom.pages import html_page, web_file
+from ai4u_edu.server import ServerThread
+from tests.browser.wall_data import class_message, drawing_message, poses_message
+
+POSES_PER_S = 4
+
+
+class WallServer:
+    """Serves the pages at ``url``, and tells what they sent in ``commands``."""
+
+    def __init__(self, count: int) -> None:
+        """
+        Args:
+            count: number of rooms.
+        """
+        self.url = ""
+        self.commands: list[dict[str, Any]] = []
+        self.paths: list[str] = []
+        """Paths with query of all requests."""
+        self.bodies: list[bytes] = []
+        self.problem = ""
+        """Answer to commands with this sentence, if there is one."""
+        self.count = count
+        self.state = class_message(count)
+        """Message that a page gets when it connects, and after :meth:`send`."""
+        self.moves = True
+        """Poses go on with time."""
+        self._sockets: set[WebSocket] = set()
+        self._loop: asyncio.AbstractEventLoop | None = None
+
+    def app(self) -> Starlette:
+        """Return the pages, the sockets and the commands."""
+        names = ("teacher", "projector", "check", "privacy", "join")
+        return Starlette(
+            routes=[
+                *(Route(f"/{each}", self._page) for each in names),
+                Route("/teacher/command", self._command, methods=["POST"]),
+                Route("/api/names", self._names),
+                Route("/api/join", self._command, methods=["POST"]),
+                WebSocketRoute("/check/socket", echo),
+                WebSocketRoute("/{page}/socket", self._socket),
+                Route("/web/{file}", web_file),
+            ]
+        )
+
+    def send(self, **changes: Any) -> None:
+        """Change the class's state, and send it to all pages."""
+        self.state = {**self.state, **changes}
+        self.push(self.state)
+
+    def push(self, message: dict[str, Any]) -> None:
+        """Send a message to all pages."""
+        assert self._loop is not None
+        asyncio.run_coroutine_threadsafe(self._broadcast(message), self._loop).result(10)
+
+    def drop(self) -> None:
+        """Close all sockets."""
+        assert self._loop is not None
+        for socket in list(self._sockets):
+            asyncio.run_coroutine_threadsafe(socket.close(1001), self._loop).result(10)
+
+    async def _broadcast(self, message: dict[str, Any]) -> None:
+        for socket in list(self._sockets):
+            await socket.send_text(json.dumps(message))
+
+    async def _page(self, request: Request) -> Response:
+        self.paths.append(str(request.url))
+        return html_page(f"{request.url.path.strip('/')}.html")
+
+    async def _command(self, request: Request) -> Response:
+        body = await request.body()
+        self.bodies.append(body)
+        self.commands.append(json.loads(body))
+        if self.problem:
+            return JSONResponse({"problem": self.problem}, 400)
+        return JSONResponse({"room": "/privacy"})
+
+    async def _names(self, _: Request) -> Response:
+        return JSONResponse({"names": ["Red Fox", "Calm Owl", "Swift Crab"]})
+
+    async def _socket(self, socket: WebSocket) -> None:
+        self._loop = asyncio.get_running_loop()
+        await socket.accept()
+        with contextlib.suppress(WebSocketDisconnect, RuntimeError):
+            await socket.send_text(json.dumps(self.state))
+            for number in range(1, self.count + 1):
+                await socket.send_text(json.dumps(drawing_message(number)))
+            self._sockets.add(socket)
+            step = 0
+            while socket in self._sockets:
+                await socket.send_text(json.dumps(poses_message(self.count, step / POSES_PER_S)))
+                step += self.moves
+                with contextlib.suppress(TimeoutError):
+                    await asyncio.wait_for(socket.receive_text(), 1 / POSES_PER_S)
+        self._sockets.discard(socket)
+
+
+@contextlib.contextmanager
+def wall_server(count: int) -> Iterator[WallServer]:
+    """Serve a class with a number of rooms."""
+    served = WallServer(count)
+    with ServerThread(served.app()) as server:
+        served.url = server.url
+        yield served

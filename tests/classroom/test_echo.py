@@ -1,0 +1,37 @@
+"""The echo of the page that checks a device, and its limits."""
+
+from collections.abc import Iterator
+
+import pytest
+from starlette.applications import Starlette
+from starlette.routing import WebSocketRoute
+from websockets.exceptions import ConnectionClosed
+from websockets.sync.client import connect
+from websockets.sync.connection import Connection
+
+from ai4u_edu.classroom.echo import MAX_ECHO_CHARS, MAX_ECHOES, echo
+from ai4u_edu.server import ServerThread
+
+
+@pytest.fixture
+def socket() -> Iterator[Connection]:
+    with (
+        ServerThread(Starlette(routes=[WebSocketRoute("/", echo)])) as server,
+        connect(server.url.replace("http", "ws")) as socket,
+    ):
+        yield socket
+
+
+def test_texts_come_back_a_number_of_times(socket: Connection) -> None:
+    for number in range(MAX_ECHOES):
+        socket.send(f"echo {number}")
+        assert socket.recv(10) == f"echo {number}"
+    with pytest.raises(ConnectionClosed):
+        socket.recv(10)
+
+
+@pytest.mark.parametrize("message", ["x" * (MAX_ECHO_CHARS + 1), b"bytes"])
+def test_anything_else_ends_it(socket: Connection, message: str | bytes) -> None:
+    socket.send(message)
+    with pytest.raises(ConnectionClosed):
+        socket.recv(10)

@@ -1,0 +1,36 @@
+/** The dialog that gives a scene to one, some or all rooms. */
+
+import { command } from "./class_command.js";
+import { element } from "./dom.js";
+import { choice, choices, chosenIn, showForm } from "./form_dialog.js";
+import { roomName } from "./room_words.js";
+import { sceneChoice, seedField } from "./scene_choice.js";
+
+/**
+ * Ask for a scene and rooms, and assign it.
+ * @param room id of the room that is chosen at first; "" for all
+ */
+export function showAssign(state, room = "") {
+  const scene = sceneChoice(state);
+  const to = choices("For", "rooms", { all: "Everybody", some: "Some rooms" }, room ? "some" : "all");
+  const boxes = state.rooms.map((each) => element("input", { type: "checkbox", value: each.id, checked: each.id === room }));
+  const list = element(
+    "div",
+    { className: "ai4u-checklist", role: "group", "aria-label": "Rooms" },
+    ...state.rooms.map((each, index) => choice(roomName(each, state), boxes[index])),
+  );
+  const same = element("input", { type: "checkbox", checked: true });
+  const seed = seedField("The same number gives the same start, also next week.");
+  const update = () => (list.hidden = chosenIn(to) !== "some");
+  to.addEventListener("change", update);
+  update();
+
+  const text = "What students have built stays among their saved scenes.";
+  const content = [...scene.nodes, to, list, choice("The same start for all", same), seed.node];
+  return showForm({ title: "Assign a scene", text, content, yes: "Assign" }, async () => {
+    const some = boxes.filter((box) => box.checked).map((box) => box.value);
+    const rooms = chosenIn(to) === "all" ? "all" : some;
+    if (rooms.length === 0) throw new Error("Choose at least one room.");
+    await command({ do: "assign", rooms, scene: await scene.value(), seed: seed.value(), same_seed: same.checked });
+  });
+}

@@ -1,0 +1,34 @@
+/** The dialog with which a teacher gets everybody's attention. */
+
+import { command } from "./class_command.js";
+import { element } from "./dom.js";
+import { choices, chosenIn, field, select, showForm } from "./form_dialog.js";
+
+/** Longest message; as MAX_MESSAGE_CHARS of the class link. */
+const MAX_MESSAGE_CHARS = 200;
+const KINDS = {
+  pause: "Pause all: worlds stand still",
+  blank: "Blank all: screens show only your message",
+};
+const TIMES = [
+  ["0", "until I end it"],
+  ["30", "for 30 seconds"],
+  ["60", "for 1 minute"],
+  ["120", "for 2 minutes"],
+  ["300", "for 5 minutes"],
+  ["600", "for 10 minutes"],
+];
+
+/** Words for what holds now, by its kind. */
+export const HELD = { pause: "All worlds are paused", blank: "All screens are blank" };
+
+export function showAttention() {
+  const kind = choices("What happens", "kind", KINDS, "pause");
+  const message = element("input", { maxLength: MAX_MESSAGE_CHARS, autocomplete: "off", value: "Please look at the board." });
+  const time = select(TIMES, "0");
+  const content = [kind, field("Message", message), field("How long", time)];
+  const text = "It holds for everybody, also for who reloads the page or joins later. Your own page stays as it is.";
+  return showForm({ title: "Attention", text, content, yes: "Begin" }, () =>
+    command({ do: "attention", kind: chosenIn(kind), message: message.value.trim(), seconds: Number(time.value) }),
+  );
+}

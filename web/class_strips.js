@@ -1,0 +1,90 @@
+/** Strips below the toolbar that say what holds for the whole class now: attention, and a race. */
+
+import { HELD } from "./attention_dialog.js";
+import { commandOrTell } from "./class_command.js";
+import { element, setText } from "./dom.js";
+import { clock } from "./room_words.js";
+
+const TICK_MS = 250;
+const MAX_PLACES = 3;
+
+/** A number of seconds that counts down here between two messages. */
+export class Countdown {
+  #end = 0;
+
+  set(seconds) {
+    this.#end = seconds > 0 ? performance.now() + 1000 * seconds : 0;
+  }
+
+  /** Seconds left; 0 if there is no end, or it has come. */
+  get left() {
+    return this.#end ? Math.max(0, (this.#end - performance.now()) / 1000) : 0;
+  }
+}
+
+export class ClassStrips {
+  #held;
+  #race;
+  #state = null;
+  #ends = new Countdown();
+  #starts = new Countdown();
+
+  constructor(held, race) {
+    this.#held = held;
+    this.#race = race;
+    setInterval(() => this.#update(), TICK_MS);
+  }
+
+  show(state) {
+    this.#state = state;
+    this.#ends.set(state.attention.ends_in);
+    this.#starts.set(state.race?.starts_in ?? 0);
+    this.#held.hidden = !state.attention.kind;
+    this.#race.hidden = !state.race;
+    if (state.attention.kind) build(this.#held); // the toolbar has the button that ends it
+    if (state.race) {
+      const { is_board_hidden: isHidden } = state.race;
+      build(this.#race, [isHidden ? "Show the board" : "Hide the board", { do: "board", hide: !isHidden }], ["End race", { do: "end race" }]);
+    }
+    this.#update();
+  }
+
+  #update() {
+    if (!this.#state) return;
+    const { attention, race } = this.#state;
+    if (attention.kind) {
+      const end = this.#ends.left ? ` Ends in ${clock(this.#ends.left)}.` : "";
+      say(this.#held, `${HELD[attention.kind]}.`, (attention.message && `“${attention.message}”`) + end);
+    }
+    if (race) say(this.#race, raceWords(race, this.#starts.left), race.board.slice(0, MAX_PLACES).map(place).join("   "));
+  }
+}
+
+function raceWords({ phase, scene }, left) {
+  if (phase === "countdown" && left) return `Race “${scene}”: starts in ${clock(left)}.`;
+  return phase === "over" ? `Race “${scene}” is over.` : `Race “${scene}” is on.`;
+}
+
+function place({ name, seconds }, index) {
+  return `${index + 1}. ${name} ${seconds.toFixed(1)} s`;
+}
+
+/** Build a strip of words and buttons, unless it has these already: a button keeps its focus. */
+function build(strip, ...buttons) {
+  const told = buttons.map(([text]) => text).join();
+  if (strip.dataset.told === told) return;
+  strip.dataset.told = told;
+  strip.replaceChildren(
+    element("p", {}, element("strong"), element("span")),
+    ...buttons.map(([text, command]) => {
+      const button = element("button", { type: "button", className: "ai4u-button", textContent: text });
+      button.addEventListener("click", () => commandOrTell(command));
+      return button;
+    }),
+  );
+}
+
+function say(strip, first, rest) {
+  setText(strip.querySelector("strong"), first);
+  setText(strip.querySelector("span"), rest);
+}

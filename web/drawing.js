@@ -1,0 +1,133 @@
+/** The drawing of one room on the wall: its ground and bodies, with poses interpolated between two messages. */
+
+/** Time between two poses of a room; the class sends 4 a second. */
+const STEP_MS = 250;
+/** Part of the drawing's size that a body moves in a step only if it was put there. */
+const JUMP = 0.2;
+/** Colors of an agent's arrow and edge, which stand out from any ground. */
+const MARK = "#fff";
+const EDGE = "#1b2530";
+const VALUES_PER_BODY = 4; // x, y (m), heading (rad), visibility
+
+export class Drawing {
+  #bounds;
+  #ground;
+  #bodies;
+  #jump;
+  #from = null;
+  #to = null;
+  #since = -STEP_MS;
+
+  /** @param message of the type "drawing" */
+  constructor({ number, bounds, ground, bodies }) {
+    this.number = number;
+    this.#bounds = bounds;
+    const [left, bottom, right, top] = bounds;
+    this.#jump = JUMP * Math.hypot(right - left, top - bottom);
+    this.#ground = ground.map(painted);
+    this.#bodies = bodies.map((body) => ({
+      isAgent: body.is_agent,
+      shapes: body.shapes.map(painted),
+      reach: Math.max(0, ...body.shapes.map(reachOf)),
+    }));
+  }
+
+  /** Take poses: four numbers for each body. Without `glides`, they are shown at once. */
+  setPoses(values, now, glides) {
+    this.#from = this.#to && glides ? this.#posesAt(now) : values;
+    this.#to = values;
+    this.#since = now;
+  }
+
+  /** Return true while bodies are between two poses. */
+  isMoving(now) {
+    return this.#from !== this.#to && now < this.#since + STEP_MS;
+  }
+
+  /**
+   * Draw into a box of a canvas, as large as fits.
+   * @param {{x: number, y: number, width: number, height: number}} box in the canvas's pixels
+   */
+  draw(context, box, now) {
+    const [left, bottom, right, top] = this.#bounds;
+    const scale = Math.min(box.width / (right - left || 1), box.height / (top - bottom || 1));
+    const x = box.x + box.width / 2 - (scale * (left + right)) / 2;
+    const y = box.y + box.height / 2 + (scale * (bottom + top)) / 2;
+    const place = [scale, x, y];
+    context.save();
+    context.beginPath();
+    context.rect(box.x, box.y, box.width, box.height);
+    context.clip();
+    context.setTransform(scale, 0, 0, -scale, x, y); // y points up in the world
+    for (const shape of this.#ground) fill(context, shape);
+    const poses = this.#posesAt(now) ?? [];
+    this.#bodies.forEach((body, index) => {
+      const [bodyX = 0, bodyY = 0, heading = 0, isVisible = 0] = poses.slice(index * VALUES_PER_BODY);
+      if (isVisible) drawBody(context, body, place, [bodyX, bodyY, heading]);
+    });
+    context.restore();
+  }
+
+  #posesAt(now) {
+    const share = Math.max(0, Math.min(1, (now - this.#since) / STEP_MS)); // a frame's time may lie before it
+    if (share >= 1 || this.#from === this.#to || this.#from?.length !== this.#to?.length) return this.#to;
+    const shown = this.#to.slice();
+    for (let at = 0; at + 2 < shown.length; at += VALUES_PER_BODY) {
+      const way = [0, 1, 2].map((each) => this.#to[at + each] - this.#from[at + each]);
+      if (Math.hypot(way[0], way[1]) > this.#jump) continue;
+      way[2] -= 2 * Math.PI * Math.round(way[2] / (2 * Math.PI)); // the shorter way round
+      for (const each of [0, 1, 2]) shown[at + each] = this.#from[at + each] + share * way[each];
+    }
+    return shown;
+  }
+}
+
+function drawBody(context, body, [scale, x, y], [bodyX, bodyY, heading]) {
+  const cos = scale * Math.cos(heading);
+  const sin = scale * Math.sin(heading);
+  context.setTransform(cos, -sin, -sin, -cos, x + scale * bodyX, y - scale * bodyY);
+  if (body.isAgent) outline(context, body.shapes, EDGE, 3 / scale);
+  for (const shape of body.shapes) fill(context, shape);
+  if (!body.isAgent) return;
+  const size = body.reach;
+  context.beginPath(); // an arrow that says where it looks
+  context.moveTo(0.75 * size, 0);
+  context.lineTo(-0.3 * size, 0.5 * size);
+  context.lineTo(-0.05 * size, 0);
+  context.lineTo(-0.3 * size, -0.5 * size);
+  context.closePath();
+  context.fillStyle = MARK;
+  context.strokeStyle = EDGE;
+  context.lineWidth = 1 / scale;
+  context.fill();
+  context.stroke();
+}
+
+function outline(context, shapes, colour, width) {
+  context.strokeStyle = colour;
+  context.lineWidth = width;
+  context.lineJoin = "round";
+  for (const { path } of shapes) context.stroke(path);
+}
+
+function fill(context, { colour, path }) {
+  context.fillStyle = colour;
+  context.fill(path);
+}
+
+function painted({ colour, radius, points }) {
+  const path = new Path2D();
+  if (radius > 0) path.arc(points[0], points[1], radius, 0, 2 * Math.PI);
+  else {
+    for (let at = 0; at + 1 < points.length; at += 2) path.lineTo(points[at], points[at + 1]);
+    path.closePath();
+  }
+  return { colour, path };
+}
+
+/** Return the distance of a shape's farthest point from the body's centre. */
+function reachOf({ radius, points }) {
+  let reach = 0;
+  for (let at = 0; at + 1 < points.length; at += 2) reach = Math.max(reach, Math.hypot(points[at], points[at + 1]));
+  return reach + radius;
+}

@@ -1,0 +1,90 @@
+/** A modal dialog with a form, which stays open and says why if what it asks for can't be done. */
+
+import { element } from "./dom.js";
+
+let count = 0;
+
+/**
+ * Show a form until it is sent or closed.
+ *
+ * @param {{title: string, text?: string, content: Node[], yes?: string, no?: string, isDanger?: boolean}} form
+ *   without `yes`, it has only a button that closes it
+ * @param {() => Promise<void>} send called when the form is sent; its error's message is shown
+ * @returns {Promise<boolean>} true if it was sent
+ */
+export function showForm({ title, text = "", content, yes = "", no = "Cancel", isDanger = false }, send = async () => {}) {
+  count += 1;
+  const heading = element("h2", { id: `ai4u-form-${count}`, textContent: title });
+  const problem = element("p", { className: "ai4u-problem", role: "alert" });
+  const accept = yes && element("button", { className: "ai4u-button", textContent: yes });
+  if (accept && isDanger) accept.dataset.kind = "danger";
+  const cancel = element("button", { type: "button", className: "ai4u-plain", textContent: no });
+  const form = element(
+    "form",
+    { method: "dialog" },
+    heading,
+    text && element("p", { textContent: text }),
+    ...content,
+    problem,
+    element("div", { className: "ai4u-answers" }, cancel, accept || null),
+  );
+  const dialog = element("dialog", { className: "ai4u-question ai4u-form" }, form);
+  dialog.setAttribute("aria-labelledby", heading.id);
+  cancel.addEventListener("click", () => dialog.close());
+  form.addEventListener("submit", async (event) => {
+    event.preventDefault();
+    accept.disabled = true;
+    problem.textContent = "";
+    try {
+      await send();
+      dialog.close("sent");
+    } catch (error) {
+      problem.textContent = error.message;
+    }
+    accept.disabled = false;
+  });
+  document.body.append(dialog);
+  dialog.showModal();
+  dialog.scrollTop = 0;
+  return new Promise((resolve) =>
+    dialog.addEventListener("close", () => {
+      dialog.remove();
+      resolve(dialog.returnValue === "sent");
+    }),
+  );
+}
+
+/** Close the dialog that an element is in. */
+export function closeDialogOf(target) {
+  target.closest("dialog")?.close();
+}
+
+/** Return a control with its label above it. */
+export function field(label, control, hint = "") {
+  const words = element("span", { className: "ai4u-label", textContent: label });
+  return element("label", { className: "ai4u-field" }, words, control, hint && element("small", { textContent: hint }));
+}
+
+/** Return a checkbox or radio button with its label beside it. */
+export function choice(label, input, ...rest) {
+  return element("label", { className: "ai4u-choice" }, input, element("span", { textContent: label }), ...rest);
+}
+
+/** Return a group of radio buttons: {value: label}. */
+export function choices(legend, name, options, chosen) {
+  const inputs = Object.entries(options).map(([value, label]) =>
+    choice(label, element("input", { type: "radio", name, value, checked: value === chosen })),
+  );
+  return element("fieldset", {}, element("legend", { textContent: legend }), ...inputs);
+}
+
+/** Return a list to choose from: [value, label] pairs. */
+export function select(options, chosen) {
+  const items = options.map(([value, label]) => element("option", { value, textContent: label, selected: value === chosen }));
+  return element("select", {}, ...items);
+}
+
+/** Return the value of the chosen radio button in a group. */
+export function chosenIn(group) {
+  return group.querySelector("input:checked")?.value ?? "";
+}

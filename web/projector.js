@@ -1,0 +1,79 @@
+/** The projector page: what the teacher shows to all. */
+
+import { openClassSocket } from "./class_socket.js";
+import { Countdown } from "./class_strips.js";
+import { element, keyed, setText } from "./dom.js";
+import { clock, counted } from "./room_words.js";
+import { Wall } from "./wall.js";
+
+const TICK_MS = 100;
+const MARGIN_PX = 16;
+const MAX_PLACES = 12;
+/** Words for how a drive of a race ended, if it did not reach the goal. */
+const OUTCOMES = { lost: "lost", fell: "fell", time: "out of time", over: "ended" };
+const find = (selector) => document.querySelector(selector);
+const starts = new Countdown();
+let state = null;
+
+const wall = new Wall(find("#wall"), { heightLeft: () => innerHeight - find("#wall").getBoundingClientRect().top - scrollY - MARGIN_PX });
+wall.look({ by: "name" }); // nobody's need of help is shown to all
+openClassSocket(
+  "./projector/socket",
+  { class: show, drawing: (message) => wall.setDrawing(message), poses: (message) => wall.setPoses(message) },
+  (problem) => setText(find("#status"), problem),
+);
+new ResizeObserver(() => wall.fit()).observe(find("#attention"));
+setInterval(() => state?.race && showCountdown(state.race), TICK_MS);
+
+function show(message) {
+  state = message;
+  const { kind, room } = state.shown;
+  find("#join").hidden = kind !== "join";
+  find("#race").hidden = kind !== "race";
+  find("#rooms").hidden = kind !== "room" && kind !== "board";
+  setText(find("#attention"), state.attention.message);
+  showJoin();
+  showRace();
+  const shown = kind === "room" ? state.rooms.filter((each) => each.id === room) : state.rooms;
+  // without what is between a student and the teacher
+  wall.show({ ...state, rooms: shown.map((each) => ({ ...each, help: 0, why: "" })), progress: {} });
+}
+
+function showJoin() {
+  setText(find("#address"), state.address.replace(/^http:\/\//, "").replace(/\/$/, ""));
+  setText(find("#code"), state.code);
+  if (find("#qr").src !== state.qr) find("#qr").src = state.qr;
+  const count = state.seats.filter((seat) => seat.state === "in").length;
+  const here = count ? `${counted(count, "student")} ${count === 1 ? "is" : "are"} here` : "Nobody is here yet";
+  setText(find("#here"), state.open ? here : `${here}. Nobody else may join now.`);
+}
+
+function showRace() {
+  const { race } = state;
+  setText(find("#race h1"), race ? `Race: ${race.scene}` : "No race now");
+  const isHidden = Boolean(race?.is_board_hidden);
+  const text = isHidden ? "The board is hidden. Drive your own best!" : race && race.board.length === 0 && race.phase === "running" ? "Nobody has arrived yet." : "";
+  setText(find("#hidden-board"), text);
+  starts.set(race?.starts_in ?? 0);
+  showCountdown(race);
+  const rows = isHidden || !race ? [] : race.board.slice(0, MAX_PLACES).map((row, index) => ({ ...row, place: index + 1 }));
+  find("#race ol").dataset.columns = rows.length > MAX_PLACES / 2 ? "2" : "1";
+  keyed(find("#race ol"), rows, (row) => row.room || row.name, raceRow, updateRow);
+}
+
+function showCountdown(race) {
+  const isCounting = race?.phase === "countdown" && starts.left > 0;
+  setText(find("#starts"), isCounting ? (starts.left > 60 ? clock(starts.left) : String(Math.ceil(starts.left))) : "");
+}
+
+function raceRow(row) {
+  const dot = element("span", { className: "ai4u-dot" });
+  dot.style.background = row.colour;
+  return element("li", {}, element("span", { className: "ai4u-place" }), dot, element("span", { className: "ai4u-name" }), element("span", { className: "ai4u-time" }));
+}
+
+function updateRow(item, row) {
+  setText(item.querySelector(".ai4u-place"), String(row.place));
+  setText(item.querySelector(".ai4u-name"), row.name);
+  setText(item.querySelector(".ai4u-time"), OUTCOMES[row.outcome] ?? `${row.seconds.toFixed(1)} s`);
+}

@@ -1,0 +1,99 @@
+/** The dialog of one room: how it goes, and what the teacher can do about it. */
+
+import { showAssign } from "./assign_dialog.js";
+import { command, commandOrTell } from "./class_command.js";
+import { element } from "./dom.js";
+import { closeDialogOf, field, showForm } from "./form_dialog.js";
+import { ask } from "./question.js";
+import { clock, counted, roomName, seatsOf, statusOf } from "./room_words.js";
+
+const MAX_NAME_CHARS = 60;
+
+export function showRoom(room, state, realNames) {
+  const seats = seatsOf(room, state);
+  const isLocal = room.kind !== "remote";
+  const act = (text, wanted) =>
+    action(text, async (button) => {
+      closeDialogOf(button);
+      await commandOrTell(wanted);
+    });
+  const assign = action("Assign a scene…", (button) => {
+    closeDialogOf(button);
+    showAssign(state, room.id);
+  });
+  const lookIn = element("a", { className: "ai4u-button", href: `./r/${encodeURIComponent(room.id)}/`, target: "_blank", textContent: "Look in" });
+  const actions = element(
+    "div",
+    { className: "ai4u-actions" },
+    isLocal && lookIn,
+    act("Show to all", { do: "show", kind: "room", room: room.id }),
+    assign,
+    isLocal && room.is_running && act("Put to sleep", { do: "sleep", room: room.id }),
+  );
+  const content = [
+    facts(room),
+    room.error && element("pre", { className: "ai4u-error", tabIndex: 0, "aria-label": "Error", textContent: room.error }),
+    actions,
+    element("ul", { className: "ai4u-people" }, ...seats.map((seat) => person(seat, realNames))),
+  ];
+  return showForm({ title: roomName(room, state), content: content.filter(Boolean), no: "Close" });
+}
+
+function facts(room) {
+  const { text } = statusOf(room);
+  const first = [text, room.status === "driving" && clock(room.seconds), room.why].filter(Boolean).join(" · ");
+  const counts = `${counted(room.episodes, "drive")}, ${counted(room.falls, "fall")}${room.is_solved ? ", solved" : ", not solved yet"}`;
+  return element(
+    "dl",
+    { className: "ai4u-facts-list" },
+    ...pair("Now", first),
+    ...pair("Scene", room.scene),
+    ...pair("Driven by", room.driver || "nobody"),
+    ...pair("So far", counts),
+  );
+}
+
+function pair(name, value) {
+  return [element("dt", { textContent: name }), element("dd", { textContent: value })];
+}
+
+function person(seat, realNames) {
+  const dot = element("span", { className: "ai4u-dot" });
+  dot.style.background = seat.colour;
+  const rename = action("Rename…", (button) => {
+    closeDialogOf(button);
+    showRename(seat);
+  });
+  const kick = action("Send out", async (button) => {
+    closeDialogOf(button);
+    await commandOrTell({ do: "kick", seat: seat.number });
+  });
+  const ban = action("Ban…", async (button) => {
+    closeDialogOf(button);
+    const text = "This seat can’t be used again. Its work stays.";
+    if (await ask({ title: `Ban ${seat.name}?`, text, yes: "Ban" })) await commandOrTell({ do: "ban", seat: seat.number });
+  });
+  for (const [each, verb] of [[rename, "Rename"], [kick, "Send out"], [ban, "Ban"]]) each.setAttribute("aria-label", `${verb} ${seat.name}`);
+  const real = realNames.of(seat);
+  return element(
+    "li",
+    {},
+    dot,
+    element("span", { className: "ai4u-name", textContent: seat.name }),
+    element("span", { className: "ai4u-facts", textContent: [real, seat.is_here ? "" : "page closed"].filter(Boolean).join(" · ") }),
+    element("span", { className: "ai4u-actions" }, rename, kick, ban),
+  );
+}
+
+function showRename(seat) {
+  const name = element("input", { value: seat.name, maxLength: MAX_NAME_CHARS, autocomplete: "off", required: true });
+  return showForm({ title: `Rename ${seat.name}`, content: [field("New name", name)], yes: "Rename" }, () =>
+    command({ do: "rename", seat: seat.number, name: name.value.trim() }),
+  );
+}
+
+function action(text, onClick) {
+  const made = element("button", { type: "button", className: "ai4u-plain", textContent: text });
+  made.addEventListener("click", () => onClick(made));
+  return made;
+}

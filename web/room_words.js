@@ -1,0 +1,49 @@
+/** Words for rooms: of their people, their status, and what they need. */
+
+/** From this need of help (0 to 100, see help_score.py) on, a card is marked. */
+const MIN_HELP = 30;
+
+/** Words and a sign by status; a sign differs in shape, not only in color. */
+export const STATUSES = {
+  waiting: { text: "not begun", sign: "○" },
+  driving: { text: "driving", sign: "▶" },
+  solved: { text: "solved", sign: "✓" },
+  fell: { text: "fell", sign: "↓" },
+  over: { text: "ended", sign: "■" },
+  idle: { text: "idle", sign: "–" },
+  paused: { text: "paused", sign: "Ⅱ" },
+  error: { text: "error", sign: "!" },
+  asleep: { text: "asleep", sign: "☾" },
+  away: { text: "not connected", sign: "×" },
+};
+
+export function statusOf(room) {
+  return STATUSES[room.status] ?? { text: room.status, sign: "" };
+}
+
+export function needsHelp(room) {
+  return (room.help ?? 0) >= MIN_HELP;
+}
+
+/** Return the seats of a room that are in the class. */
+export function seatsOf(room, state) {
+  return state.seats.filter((seat) => room.seats.includes(seat.number) && seat.state === "in");
+}
+
+/** Return the names of a room's seats, such as "Red Fox and Calm Owl". */
+export function roomName(room, state) {
+  const names = seatsOf(room, state).map((seat) => seat.name);
+  if (names.length === 0) return "Empty room";
+  return names.length > 2 ? `${names[0]} and ${names.length - 1} others` : names.join(" and ");
+}
+
+/** Return a time such as 1:05. */
+export function clock(seconds) {
+  const whole = Math.max(0, Math.ceil(seconds));
+  return `${Math.floor(whole / 60)}:${String(whole % 60).padStart(2, "0")}`;
+}
+
+/** Return a count with its noun: "1 fall", "6 falls". */
+export function counted(count, noun) {
+  return `${count} ${noun}${count === 1 ? "" : "s"}`;
+}

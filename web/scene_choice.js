@@ -1,0 +1,47 @@
+/** Where a scene for the class comes from: the library, a student's room, or a file of the teacher. */
+
+import { choices, chosenIn, field, select } from "./form_dialog.js";
+import { element } from "./dom.js";
+import { roomName } from "./room_words.js";
+
+/** Largest scene file; as MAX_SCENE_CHARS of the class link. */
+const MAX_SCENE_CHARS = 200_000;
+
+/** Return {nodes, value}: elements for a form, and a function that resolves to the command's `scene`. */
+export function sceneChoice(state) {
+  const scenes = state.scenes.map(({ name, title }) => [name, title]);
+  const rooms = state.rooms.map((room) => [room.id, `${roomName(room, state)}: ${room.scene}`]);
+  const sources = { library: "From the library", room: "A student’s present scene", file: "My own file" };
+  if (rooms.length === 0) delete sources.room;
+  const source = choices("Scene", "scene-source", sources, "library");
+  const inLibrary = select(scenes);
+  const ofRoom = select(rooms);
+  const file = element("input", { type: "file", accept: ".yaml,.yml" });
+  const fields = {
+    library: field("Which scene", inLibrary),
+    room: field("Whose", ofRoom),
+    file: field("Scene file (YAML)", file),
+  };
+  const update = () => {
+    for (const [name, each] of Object.entries(fields)) each.hidden = name !== chosenIn(source);
+  };
+  source.addEventListener("change", update);
+  update();
+
+  async function value() {
+    const from = chosenIn(source);
+    if (from === "library") return inLibrary.value;
+    if (from === "room") return { room: ofRoom.value };
+    if (!file.files[0]) throw new Error("Choose a scene file first.");
+    const yaml = await file.files[0].text();
+    if (yaml.length > MAX_SCENE_CHARS) throw new Error(`This file has ${yaml.length} characters; a scene has at most ${MAX_SCENE_CHARS}.`);
+    return { yaml };
+  }
+  return { nodes: [source, ...Object.values(fields)], value };
+}
+
+/** Return {node, value}: a field for a seed, and a function that returns it, or null if it is left empty. */
+export function seedField(hint) {
+  const input = element("input", { type: "number", min: 0, max: 2 ** 32 - 1, step: 1 });
+  return { node: field("Seed (optional)", input, hint), value: () => (input.value === "" ? null : Number(input.value)) };
+}
