@@ -69,6 +69,7 @@ export class Banners {
    * @param page.name the agent's name, if this page can't drive it
    * @param page.isNew true until the person has pressed a key: then the goal is shown
    * @param page.result of the episode that a person has just won: see results.js; else null
+   * @param page.held the text for a world that a teacher holds; empty for none
    * @param page.howToStart what the person does to start, such as "press a key"; empty if this page can't
    */
   draw(state, page) {
@@ -88,10 +89,11 @@ export class Banners {
     if (this.#connectionError) return { kind: "error", text: this.#connectionError, buttons: ["Reload"] };
     if (state?.error) return { kind: "error", text: state.error, buttons: ["Reset"] };
     if (this.#requestError) return { kind: "error", text: this.#requestError };
+    if (page.held) return { kind: "paused", text: page.held };
     if (state?.past) return { kind: "paused", text: `Past: ${state.past}`, buttons: ["Back to live"] };
     if (state?.outcome) return outcomeBanner(state, page);
     if (state?.paused) return { kind: "paused", text: "Paused", buttons: ["Resume"] };
-    if (state?.waiting) return startBanner(state, page);
+    if (state?.waiting === "key") return startBanner(state, page);
     if (state?.goal && page.isNew && !page.name) return { kind: "task", text: state.goal };
     return null;
   }

@@ -24,10 +24,11 @@ export class DriverStatus {
   /**
    * @param {string} shown.howToDrive what the person has to do to take over, such as "press a key"
    * @param {boolean} shown.isWaiting true while the world waits for a key
+   * @param {boolean} shown.isHeld true while a teacher holds the world
    * @param {boolean} shown.isReached false while the keyboard goes elsewhere, such as into a text field
    */
-  draw({ connected, hello, control, howToDrive, isWaiting, isReached }) {
-    const [kind, text] = status({ connected, hello, control, howToDrive, isWaiting, isReached });
+  draw({ connected, hello, control, howToDrive, isWaiting, isHeld, isReached }) {
+    const [kind, text] = status({ connected, hello, control, howToDrive, isWaiting, isHeld, isReached });
     this.#dot.dataset.kind = kind;
     setText(this.#text, text);
     setText(this.#hint, kind === "auto" ? ` – ${howToDrive} to take over` : "");
@@ -46,8 +47,9 @@ export function capitalized(text) {
   return text.charAt(0).toUpperCase() + text.slice(1);
 }
 
-function status({ connected, hello, control, howToDrive, isWaiting, isReached }) {
+function status({ connected, hello, control, howToDrive, isWaiting, isHeld, isReached }) {
   if (!connected) return ["lost", "Connecting …"];
+  if (isHeld) return ["none", "The world stands still"];
   if (Object.keys(hello.keys).length === 0) return ["none", `${hello.others || hello.brain} drives`];
   const isMine = control.driver === hello.you;
   if (hello.others) return ["auto", `${hello.others} drives`];

@@ -2,6 +2,7 @@
 
 import "./panel_shortcuts.js"; // the first one: its listener comes before the one that drives
 import { Banners } from "./banners.js";
+import { ClassBar } from "./class_bar.js";
 import { element } from "./dom.js";
 import { dpadActions } from "./dpad.js";
 import { DriverStatus } from "./driver_status.js";
@@ -20,6 +21,8 @@ import { playTone } from "./tone.js";
 
 /** Code of the key for a new start, unless the agent or the person uses it for something else. */
 const NEW_START_CODE = "KeyN";
+/** What a world waits for while a teacher holds it. */
+const HELD = "teacher";
 
 const query = new URLSearchParams(location.search);
 const agent = query.get("agent");
@@ -39,7 +42,7 @@ addEventListener("focus", setAgentCookie);
 const socket = new JsonSocket("ws/input" + (agent === null ? "" : `?agent=${encodeURIComponent(agent)}`));
 const keymap = new KeyMap();
 const keys = new HeldKeys(() => {
-  socket.send({ type: "keys", held: keys.held, stick: keys.stick });
+  if (!isHeld()) socket.send({ type: "keys", held: keys.held, stick: keys.stick });
   draw();
 });
 const row = element("div", { className: "ai4u-row" });
@@ -53,6 +56,8 @@ const letGo = () => {
   socket.send({ type: "let_go" });
 };
 const driverStatus = new DriverStatus(row, take, letGo);
+/** The bar of a class; null where there is none. */
+let classBar = null;
 /** The panel; null where the server has none. */
 let panel = null;
 const gamepads = new Gamepads(keys);
@@ -98,8 +103,12 @@ socket.onmessage = (message) => {
       control = message;
       break;
     case "state":
-      if (message.paused && !state?.paused) keys.releaseAll();
+      if ((message.paused && !state?.paused) || (message.waiting === HELD && !isHeld())) keys.releaseAll();
       state = message;
+      break;
+    case "class":
+      classBar ??= new ClassBar(draw);
+      classBar.show(message);
       break;
     case "error":
       banners.showRequestError(message.text);
@@ -121,10 +130,10 @@ function arrange() {
 function draw() {
   const isMine = control.driver === hello.you;
   const { held } = keys;
-  keycaps.draw(isMine || held.length ? held : (state?.held ?? []));
-  const isWaiting = Boolean(state?.waiting);
+  keycaps.draw(!isHeld() && (isMine || held.length) ? held : (state?.held ?? []));
+  const isWaiting = state?.waiting === "key";
   const isReached = dock.hasAttribute("data-touch") || keysReachPage();
-  const status = { connected, hello, control, howToDrive: howToDrive(), isWaiting, isReached };
+  const status = { connected, hello, control, howToDrive: howToDrive(), isWaiting, isHeld: isHeld(), isReached };
   driverStatus.draw(status);
   panel?.drawDriver(status);
   help.setGoal(state?.goal || "This scene has none: look around.");
@@ -135,12 +144,18 @@ function draw() {
     isNew: !hasActed,
     result: results.of(connected ? state : null, isDriven),
     howToStart: canDrive() ? howToDrive() : "",
+    held: isHeld() ? (classBar?.heldText ?? "Your teacher has stopped this world") : "",
   });
+}
+
+/** Return true while a teacher holds the world, or a race counts down. */
+function isHeld() {
+  return state?.waiting === HELD;
 }
 
 /** Return true if this page's keys drive its agent, or would if pressed. */
 function canDrive() {
-  return Object.keys(hello.keys).length > 0 && (control.driver === null || control.driver === hello.you);
+  return !isHeld() && Object.keys(hello.keys).length > 0 && (control.driver === null || control.driver === hello.you);
 }
 
 /** Return what a person does to start driving, in words. */

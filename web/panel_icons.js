@@ -55,6 +55,7 @@ const PATHS = {
   undo: "M8 5L4 9l4 4M4 9h10a5 5 0 0 1 0 10H9",
   redo: "M16 5l4 4-4 4M20 9H10a5 5 0 0 0 0 10h5",
   save: "M5 4h11l3 3v13H5zM8 4v5h7V4M8 20v-6h8v6",
+  phone: "M7 3h10v18H7zM10.5 18h3",
   download: "M12 4v11M7 10l5 5 5-5M5 20h14",
   open: "M3 19V6h6l2 2h8v3M3 19l3-8h16l-3 8z",
   scenes: "M4 4h7v7H4zM13 4h7v7h-7zM4 13h7v7H4zM13 13h7v7h-7z",

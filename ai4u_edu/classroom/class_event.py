@@ -1,6 +1,8 @@
 """The class as the teacher's page and the projector page get it."""
 
 import json
+import re
+import time
 from collections import defaultdict
 from collections.abc import Callable, Mapping
 from functools import lru_cache
@@ -11,9 +13,12 @@ from ai4u_edu.classroom.live_class import LiveClass
 from ai4u_edu.classroom.live_rooms import LiveRoom
 from ai4u_edu.classroom.seats import State
 from ai4u_edu.scenes import Scene
+from ai4u_edu.scenes.scene import LIBRARY
 
+_TITLE = re.compile(r"^title: *(.+?) *$", re.MULTILINE)
 Event = dict[str, Any]
 QrCode = Callable[[str], tuple[str, str]]
+MAX_AGE_S = 0.5
 MAX_CACHED = 8
 """Addresses under which pages are open, for each of which an event is kept."""
 
@@ -30,7 +35,7 @@ class ClassEvents:
 
     def __init__(self, live: LiveClass, join: QrCode) -> None:
         self._live, self._join = live, join
-        self._cached: dict[tuple[str, bool], tuple[int, str]] = {}
+        self._cached: dict[tuple[str, bool], tuple[int, float, str]] = {}
 
     def text(self, url: str, *, is_projected: bool) -> str:
         """Return the present event as JSON.
@@ -40,13 +45,14 @@ class ClassEvents:
             is_projected: True for the page that everybody sees.
         """
         key = url, is_projected
-        version, text = self._cached.get(key, (-1, ""))
-        if version != self._live.version:
-            version = self._live.version
+        version, built_at, text = self._cached.get(key, (-1, 0.0, ""))
+        now = time.monotonic()
+        # seconds that are left are in it, so it can't be kept for long
+        if version != self._live.version or now - built_at > MAX_AGE_S:
             text = json.dumps(self.event(url, is_projected=is_projected))
             if len(self._cached) >= MAX_CACHED:
                 self._cached.clear()
-            self._cached[key] = version, text
+            self._cached[key] = self._live.version, now, text
         return text
 
     def event(self, url: str, *, is_projected: bool) -> Event:
@@ -62,7 +68,7 @@ class ClassEvents:
             "problem": live.results.problem,
             "attention": live.attention.as_event(),
             "shown": live.shown,
-            "race": None,
+            "race": live.race.event(is_projected=is_projected),
             "scenes": _library(),
             "exercises": [each._asdict() for each in course_index()],
             "seats": self._seats(),
@@ -163,9 +169,13 @@ def misconceptions(mistakes: Mapping[tuple[int, str, str], int]) -> list[Event]:
 
 @lru_cache(maxsize=1)
 def _library() -> list[Event]:
-    """Return the scenes of the library, by title."""
-    found = [
-        {"name": name, "title": Scene.load(name).description.title or name}
-        for name in Scene.names()
-    ]
+    """Return the scenes of the library, by title.
+
+    To load them all would take a second, in which no room is served.
+    """
+    found = []
+    for name in Scene.names():
+        text = (LIBRARY / f"{name}.yaml").read_text(encoding="utf-8")
+        title = _TITLE.search(text)
+        found.append({"name": name, "title": title[1] if title else name})
     return sorted(found, key=lambda each: each["title"].lower())

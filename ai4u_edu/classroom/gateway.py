@@ -1,7 +1,8 @@
 """The web app of a class: joining, the way into rooms, and the teacher's page."""
 
 import re
-from collections.abc import Callable, Collection
+from collections.abc import Callable, Collection, Iterable
+from pathlib import Path
 
 from starlette.applications import Starlette
 from starlette.middleware import Middleware
@@ -9,6 +10,7 @@ from starlette.routing import Mount, Route, WebSocketRoute
 
 from ai4u_edu.classroom.class_event import ClassEvents
 from ai4u_edu.classroom.echo import echo
+from ai4u_edu.classroom.episode_check import EpisodeCheck
 from ai4u_edu.classroom.join import Join
 from ai4u_edu.classroom.link_endpoint import LinkEndpoint
 from ai4u_edu.classroom.live_class import LiveClass
@@ -45,6 +47,7 @@ def class_app(
     join_address: Callable[[str], str] = str,
     allowed_hosts: Collection[str] = LOOPBACK,
     proxy_hosts: Collection[str] = (),
+    blocks: Iterable[Path] = (),
 ) -> Starlette:
     """Return the ASGI app of a class.
 
@@ -56,8 +59,9 @@ def class_app(
         join_address: returns the address that students open, for the one that the teacher opened.
         allowed_hosts: host names that requests may use; see :mod:`ai4u_edu.server.host_origin`.
         proxy_hosts: host names of a reverse proxy in front; see there.
+        blocks: Python files with the teacher's blocks.
     """
-    live = LiveClass(store, seats, rooms)
+    live = LiveClass(store, seats, rooms, EpisodeCheck(blocks))
     attempts = Attempts()
     keys = ScriptKeys(store, seats)
     proxy = RoomProxy([AGENT_COOKIE, DARK_COOKIE], keys.key_of, live.page_opened)

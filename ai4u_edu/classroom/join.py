@@ -9,13 +9,14 @@ from starlette.requests import HTTPConnection, Request
 from starlette.responses import JSONResponse, RedirectResponse, Response
 
 from ai4u_edu.class_link.joining import SEAT_COOKIE
+from ai4u_edu.classroom.code_limit import CodeLimit
 from ai4u_edu.classroom.errors import JoinError, NameTakenError, StoreError, WrongCodeError
 from ai4u_edu.classroom.move_codes import LIFE_S
 from ai4u_edu.classroom.pages import html_page
 from ai4u_edu.classroom.room_process import path_of
 from ai4u_edu.classroom.seats import Seats
 from ai4u_edu.classroom.store import SeatRow
-from ai4u_edu.server.attempts import Attempts, client_address
+from ai4u_edu.server.attempts import client_address
 from ai4u_edu.server.json_body import read_json
 
 COOKIE_LIFE_S = 200 * 24 * 3600
@@ -38,16 +39,13 @@ class JoinRequest(BaseModel):
 class Join:
     """Routes for whoever has no seat yet.
 
-    A school is one address, and one student may mistype for all: so right codes are never delayed
-    by wrong ones of others, beyond a second.
-
     Args:
         seats: of the class.
         on_change: called when somebody has joined.
     """
 
     def __init__(self, seats: Seats, on_change: Callable[[], object] = lambda: None) -> None:
-        self._seats, self._attempts, self._on_change = seats, Attempts(), on_change
+        self._seats, self._limit, self._on_change = seats, CodeLimit(), on_change
 
     async def page(self, request: Request) -> Response:
         """Return the page, or send a browser that has a seat to its room."""
@@ -75,9 +73,8 @@ class Join:
         """
         wanted = await read_json(request, JoinRequest, MAX_BODY_BYTES)
         address = client_address(request.scope)
-        if not await self._attempts.wait(address):
-            seconds = self._attempts.retry_after(address) or 1
-            return _problem(f"Too many wrong codes. Try again in {seconds} s.", 429)
+        if not await self._limit.wait_for_turn(address):
+            return _problem("Too many wrong codes come from your network. Try again.", 429)
         try:
             seat, token = await asyncio.to_thread(
                 self._seats.join,
@@ -87,7 +84,7 @@ class Join:
                 request.cookies.get(SEAT_COOKIE, ""),
             )
         except WrongCodeError as error:
-            self._attempts.add_wrong(address)
+            self._limit.add_wrong(address)
             return _problem(str(error), 403)
         except NameTakenError as error:
             return _problem(str(error), 409)

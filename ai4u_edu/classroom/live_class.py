@@ -3,20 +3,32 @@
 import asyncio
 import json
 from collections import Counter
+from collections.abc import Callable
 from contextlib import suppress
 from typing import Literal
 
 from ai4u_edu.base.atomic_write import write_atomically
 from ai4u_edu.classroom.assignments import Assignments
 from ai4u_edu.classroom.attention import AttentionState
-from ai4u_edu.classroom.live_rooms import LiveRoom, OpenLink, remote_id
+from ai4u_edu.classroom.episode_check import EpisodeCheck
+from ai4u_edu.classroom.live_rooms import LiveRoom, OpenLink, remote_id, seat_of_remote
 from ai4u_edu.classroom.progress import Progress
+from ai4u_edu.classroom.race import Races
+from ai4u_edu.classroom.race_runner import RaceRunner
 from ai4u_edu.classroom.result_writer import Received, ResultWriter
 from ai4u_edu.classroom.room_host import RoomHost
 from ai4u_edu.classroom.scene_file import NAME as SCENE_FILE
 from ai4u_edu.classroom.seats import Seats, State
 from ai4u_edu.classroom.store import ClassStore, SeatRow
-from ai4u_edu.wire.class_link import VERSION, ExerciseResult, People, Person, Welcome, Work
+from ai4u_edu.wire.class_link import (
+    VERSION,
+    ExerciseResult,
+    FromClass,
+    People,
+    Person,
+    Welcome,
+    Work,
+)
 
 TICK_S = 0.5
 """Interval at which ends of times are looked for."""
@@ -31,9 +43,12 @@ class LiveClass:
         store: of the class.
         seats: of the class.
         host: runs the rooms of this machine.
+        check: of the results of races.
     """
 
-    def __init__(self, store: ClassStore, seats: Seats, host: RoomHost) -> None:
+    def __init__(
+        self, store: ClassStore, seats: Seats, host: RoomHost, check: EpisodeCheck
+    ) -> None:
         self.store, self.seats, self.host = store, seats, host
         self.version = 0
         """Counts changes, except drawings and poses, which rooms count."""
@@ -43,7 +58,11 @@ class LiveClass:
         self.attention = AttentionState(store)
         self.assignments = Assignments(store)
         self.progress = Progress(store)
-        self.results = ResultWriter(store, self.progress, self._note_exercise, self.note_change)
+        self.races = Races(store)
+        self.race = RaceRunner(self.races, check, self._seats_of_id, self._tell_race)
+        self.results = ResultWriter(
+            store, self.progress, self.races, self._note_exercise, self._note_results
+        )
 
         self.shown = json.loads(store.setting(SHOWN) or '{"kind": "join", "room": ""}')
         """Content of the projector page."""
@@ -64,6 +83,7 @@ class LiveClass:
             if self.attention.is_over():
                 self.attention.end()
                 self.tell_attention()
+            self.race.tick()
             await asyncio.to_thread(self.attention.save_rest)
 
     def show(self, kind: ShownKind, room: str) -> None:
@@ -95,6 +115,9 @@ class LiveClass:
             and (each.number == room.seat if room.seat else each.room == room.id)
         ]
 
+    def _seats_of_id(self, room: str) -> list[SeatRow]:
+        return self.seats_of(self.room(room, seat_of_remote(room)))
+
     def is_here(self, seat: int) -> bool:
         """Return True while a page, a notebook or a world of the seat is connected."""
         remote = self.rooms.get(remote_id(seat))
@@ -113,6 +136,7 @@ class LiveClass:
         link.send(Welcome(VERSION, name, colour))
         link.send(self.assignments.of(room.id))
         link.send(self.attention.as_message())
+        link.send(self.race.message())
         self.tell_people()
 
     def disconnect(self, room: LiveRoom, link: OpenLink) -> None:
@@ -128,10 +152,7 @@ class LiveClass:
 
     def tell_people(self) -> None:
         """Tell all rooms and pages who has a seat, and who is here."""
-        for room in self.rooms.values():
-            if room.link is not None:
-                room.link.send(self.people_of(room))
-        self.note_change()
+        self._send(self.people_of)
 
     def people_of(self, room: LiveRoom) -> People:
         """Return the seats of a room, as it gets them."""
@@ -144,9 +165,20 @@ class LiveClass:
 
     def tell_attention(self) -> None:
         """Tell all rooms and pages of the teacher's request."""
+        self._send(lambda _: self.attention.as_message())
+
+    def tell_assignments(self) -> None:
+        """Tell all rooms their scenes."""
+        self._send(lambda room: self.assignments.of(room.id))
+
+    def _tell_race(self) -> None:
+        message = self.race.message()
+        self._send(lambda _: message)
+
+    def _send(self, message: Callable[[LiveRoom], FromClass]) -> None:
         for room in self.rooms.values():
             if room.link is not None:
-                room.link.send(self.attention.as_message())
+                room.link.send(message(room))
         self.note_change()
 
     def keep_work(self, room: LiveRoom, work: Work) -> None:
@@ -167,6 +199,10 @@ class LiveClass:
             link, room.link = room.link, None
             link.end(sentence)
         self.tell_people()
+
+    def _note_results(self) -> None:
+        self.race.note_results()
+        self.note_change()
 
     def _note_exercise(self, received: Received) -> None:
         result = received.result

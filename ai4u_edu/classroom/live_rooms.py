@@ -118,5 +118,14 @@ def remote_id(seat: int) -> str:
     return f"{REMOTE_PREFIX}{seat}"
 
 
+def seat_of_remote(room: str) -> int:
+    """Return the seat of a remote room; 0 for another room.
+
+    >>> seat_of_remote("seat-7"), seat_of_remote("a1b2c3")
+    (7, 0)
+    """
+    return int(room.removeprefix(REMOTE_PREFIX)) if room.startswith(REMOTE_PREFIX) else 0
+
+
 def _shape(shape: Shape) -> dict[str, object]:
     return {"colour": shape.colour, "radius": shape.radius, "points": shape.points}

@@ -187,8 +187,12 @@ class LocalRooms:
         process = self._context.Process(  # type: ignore[attr-defined]
             target=run_room, args=(order, theirs), name=f"room {room}", daemon=True
         )
-        process.start()
-        theirs.close()
+        try:
+            process.start()
+        except (OSError, EOFError) as error:
+            raise RoomError(f"Your world can't be started: {error}. Tell your teacher.") from None
+        finally:
+            theirs.close()
         answer: object = None
         try:
             if ours.poll(START_TIMEOUT_S):

@@ -3,10 +3,12 @@
 import asyncio
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 from ai4u_edu.classroom.course_index import known_diagnosis, words_for
 from ai4u_edu.classroom.errors import StoreError
 from ai4u_edu.classroom.progress import Progress, Staged
+from ai4u_edu.classroom.race import RaceResult, Races
 from ai4u_edu.classroom.store import ClassStore
 from ai4u_edu.wire.class_link import EpisodeResult, ExerciseResult, Result
 
@@ -25,6 +27,15 @@ class Received:
     """Called when the result is on disk (True), or could not be written (False)."""
 
 
+class _Written(NamedTuple):
+    """Changes of a batch that is on disk."""
+
+    progress: Staged
+    race: list[RaceResult]
+    exercises: list[Received]
+    """Exercise results that are new."""
+
+
 class ResultWriter:
     """Stores results in batches: what came while one was written is the next one.
 
@@ -33,6 +44,7 @@ class ResultWriter:
     Args:
         store: of the class.
         progress: of the class.
+        races: of the class.
         on_exercise: called with each new exercise result that is on disk.
         on_change: called after each batch.
     """
@@ -41,10 +53,11 @@ class ResultWriter:
         self,
         store: ClassStore,
         progress: Progress,
+        races: Races,
         on_exercise: Callable[[Received], object],
         on_change: Callable[[], object],
     ) -> None:
-        self._store, self._progress = store, progress
+        self._store, self._progress, self._races = store, progress, races
         self._on_exercise, self._on_change = on_exercise, on_change
         self._waiting: list[tuple[Received, float]] = []
         self._task: asyncio.Task[None] | None = None
@@ -77,23 +90,25 @@ class ResultWriter:
 
     async def _store_batch(self, batch: list[tuple[Received, float]]) -> None:
         try:
-            staged, new = await asyncio.to_thread(self._write, batch)
+            staged, raced, new = await asyncio.to_thread(self._write, batch)
         except StoreError as error:
             self.problem = str(error)
             new = []
         else:
             self.problem = ""
             self._progress.apply(staged)
+            self._races.results |= {each.key: each for each in raced}
         for received in new:
             self._on_exercise(received)
         for received, _ in batch:
             received.done(not self.problem)
         self._on_change()
 
-    def _write(self, batch: list[tuple[Received, float]]) -> tuple[Staged, list[Received]]:
-        """Write a batch; return the changes, and the exercise results that are new."""
+    def _write(self, batch: list[tuple[Received, float]]) -> _Written:
+        """Write a batch, and return the changes."""
         new: list[Received] = []
         exercises: list[tuple[int, float, ExerciseResult]] = []
+        raced: list[tuple[str, EpisodeResult]] = []
         with self._store.transaction() as database:
             for received, seconds in batch:
                 row = (received.result.key, received.room, *_columns(received.result))
@@ -107,7 +122,10 @@ class ResultWriter:
                     checked = _checked(result)
                     new.append(replace(received, result=checked))
                     exercises += [(seat, seconds, checked) for seat in received.seats]
-            return self._progress.stage(database, exercises), new
+                elif self._races.takes(received.room, result):
+                    raced.append((received.room, result))
+            staged = self._progress.stage(database, exercises)
+            return _Written(staged, self._races.stage(database, raced), new)
 
 
 def _columns(result: Result) -> tuple[str, str, float]:

@@ -204,15 +204,16 @@ class Seats:
     def change_code(self) -> str:
         """Set a new code, and return it; seats stay."""
         with self._lock:
-            self.code = new_code()
-            self._store.set_setting("code", self.code)
-            return self.code
+            code = new_code()
+            self._store.set_setting("code", code)  # first: a full disk leaves the old one
+            self.code = code
+            return code
 
     def set_open(self, is_open: bool) -> None:
         """Let others join, or nobody else."""
         with self._lock:
-            self.is_open = is_open
             self._store.set_setting("open", "yes" if is_open else "no")
+            self.is_open = is_open
 
     def begin_anew(self) -> None:
         """Forget all seats with their rooms, after the store has, and set a new code.

@@ -2,35 +2,41 @@
 
 import asyncio
 import io
+import secrets
 from functools import lru_cache
-from typing import Literal
 from urllib.parse import quote
 
 import segno
-from pydantic import BaseModel, ConfigDict
+from starlette.exceptions import HTTPException
 from starlette.requests import Request
 from starlette.responses import JSONResponse, Response
 
+from ai4u_edu.base.seeding import MAX_SEED
 from ai4u_edu.classroom.class_event import ClassEvents
-from ai4u_edu.classroom.errors import JoinError, StoreError
+from ai4u_edu.classroom.commands import (
+    AnyCommand,
+    Assign,
+    Attend,
+    Command,
+    HideBoard,
+    PlainCommand,
+    SeatCommand,
+    Show,
+    Sleep,
+    StartRace,
+)
+from ai4u_edu.classroom.errors import CommandError, JoinError, StoreError
 from ai4u_edu.classroom.live_class import LiveClass
 from ai4u_edu.classroom.pages import html_page
 from ai4u_edu.classroom.room_proxy import RoomProxy
+from ai4u_edu.classroom.scene_source import find_scene
 from ai4u_edu.classroom.seats import State
 from ai4u_edu.server.json_body import read_json
+from ai4u_edu.wire.class_link import MAX_SCENE_CHARS
 
-MAX_BODY_BYTES = 2000
+MAX_BODY_BYTES = 4 * MAX_SCENE_CHARS + 4000
+UNPROCESSABLE = 422
 NO_STORE = {"Cache-Control": "no-store"}
-
-
-class Command(BaseModel):
-    """Body of a command: ``seat`` for those that are about one."""
-
-    model_config = ConfigDict(extra="forbid")
-
-    do: Literal["kick", "ban", "rename", "new code", "open", "close"]
-    seat: int = 0
-    name: str = ""
 
 
 class Teacher:
@@ -58,29 +64,85 @@ class Teacher:
 
     async def command(self, request: Request) -> Response:
         """Do what the teacher wants; answer with a sentence if it can't be done."""
-        wanted = await read_json(request, Command, MAX_BODY_BYTES)
         try:
-            await asyncio.to_thread(self._do, wanted)
-        except (JoinError, StoreError) as error:
+            wanted = await read_json(request, Command, MAX_BODY_BYTES)
+            await self._do(wanted.root)
+        except HTTPException as error:
+            status = 400 if error.status_code == UNPROCESSABLE else error.status_code
+            return JSONResponse({"problem": error.detail}, status, NO_STORE)
+        except (JoinError, CommandError, StoreError) as error:
             return JSONResponse({"problem": str(error)}, 400, NO_STORE)
-        if wanted.do in ("kick", "ban"):
-            self._proxy.end(wanted.seat, "your teacher has sent you out; reload to join again")
-            self._live.end_links(wanted.seat, "Your teacher has sent you out. Join again.")
         self._live.tell_people()
         return JSONResponse({}, headers=NO_STORE)
 
-    def _do(self, wanted: Command) -> None:
+    async def _do(self, wanted: AnyCommand) -> None:
+        live = self._live
+        match wanted:
+            case SeatCommand():
+                await self._do_seat(wanted)
+            case PlainCommand():
+                await self._do_plain(wanted)
+            case Assign():
+                await self._assign(wanted)
+            case Attend(kind=kind, message=message, seconds=seconds):
+                await asyncio.to_thread(live.attention.set, kind, message.strip(), seconds)
+                live.tell_attention()
+            case StartRace():
+                scene = await asyncio.to_thread(find_scene, live, wanted.scene)
+                live.races.start(scene, wanted.seed, wanted.countdown, wanted.hide_board)
+                live.race.tell()
+            case HideBoard(hide=hide):
+                live.races.change(hide=hide)
+                live.race.tell()
+            case Show(kind=kind, room=room):
+                if kind == "room":
+                    self._check_room(room)
+                live.show(kind, room if kind == "room" else "")
+            case Sleep(room=room):
+                self._check_room(room)
+                await live.host.end(room)
+
+    async def _do_seat(self, wanted: SeatCommand) -> None:
         match wanted.do:
-            case "kick":
-                self._seats.set_state(wanted.seat, State.KICKED)
-            case "ban":
-                self._seats.set_state(wanted.seat, State.BANNED)
             case "rename":
-                self._seats.rename(wanted.seat, wanted.name)
+                await asyncio.to_thread(self._seats.rename, wanted.seat, wanted.name)
+                return
+            case "kick":
+                await asyncio.to_thread(self._seats.set_state, wanted.seat, State.KICKED)
+            case "ban":
+                await asyncio.to_thread(self._seats.set_state, wanted.seat, State.BANNED)
+        self._proxy.end(wanted.seat, "your teacher has sent you out; reload to join again")
+        self._live.end_links(wanted.seat, "Your teacher has sent you out. Join again.")
+
+    async def _do_plain(self, wanted: PlainCommand) -> None:
+        races = self._live.races
+        match wanted.do:
             case "new code":
-                self._seats.change_code()
+                await asyncio.to_thread(self._seats.change_code)
             case "open" | "close":
-                self._seats.set_open(wanted.do == "open")
+                await asyncio.to_thread(self._seats.set_open, wanted.do == "open")
+            case "end race":
+                if races.now is not None and races.now.phase != "over":
+                    races.change(phase="over")
+                else:
+                    races.dismiss()
+                self._live.race.tell()
+
+    async def _assign(self, wanted: Assign) -> None:
+        live = self._live
+        scene = await asyncio.to_thread(find_scene, live, wanted.scene)
+        seed = wanted.seed
+        if seed is None and wanted.same_seed:
+            seed = secrets.randbelow(MAX_SEED + 1)
+        rooms = None if wanted.rooms == "all" else wanted.rooms
+        for each in rooms or ():
+            self._check_room(each)
+        await asyncio.to_thread(live.assignments.assign, scene, rooms, seed)
+        live.tell_assignments()
+
+    def _check_room(self, room: str) -> None:
+        if room not in self._live.rooms and room not in self._seats.scenes():
+            raise CommandError(f"room: there is no room {room[:40]!r}")
 
 
 def join_code(address: str, code: str) -> str:

@@ -75,6 +75,7 @@ def classroom(
             join_address=lambda url: join_address(host, url),
             allowed_hosts=hosts_for(host),
             proxy_hosts=allow_host or [],
+            blocks=own_blocks or (),
         )
         serve(app, host, port, announce, **SERVER_LIMITS)
     HAS_SERVED.set()

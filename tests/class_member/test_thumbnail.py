@@ -86,7 +86,10 @@ def test_only_what_changed_is_sent() -> None:
     thumbnail, first = Thumbnail(), capture_snapshot(sim)
     assert [type(each) for each in thumbnail.changes(first)] == [Drawing, Poses]
     assert thumbnail.changes(first) == []
-    assert thumbnail.changes(run(sim, 5)) == []  # nothing moves
+    resting = run(sim, 5)
+    assert thumbnail.changes(resting) == []
+    trembling = tuple(body._replace(x=body.x + 1e-5, vx=1e-3) for body in resting.bodies)
+    assert thumbnail.changes(replace(resting, bodies=trembling)) == []
     sim.world["robot"].move_to(1, 2)
     (poses,) = thumbnail.changes(run(sim, 1))
     assert isinstance(poses, Poses)

@@ -1,0 +1,93 @@
+"""The teacher's commands, as the page sends them."""
+
+from typing import Annotated, Literal
+
+from pydantic import BaseModel, ConfigDict, Field, RootModel
+
+from ai4u_edu.base.seeding import MAX_SEED
+from ai4u_edu.classroom.attention import MAX_SECONDS
+from ai4u_edu.classroom.scene_source import SceneSource
+from ai4u_edu.wire.class_link import MAX_MESSAGE_CHARS
+
+MAX_COUNTDOWN_S = 60.0
+RoomId = Annotated[str, Field(max_length=40)]
+Seed = Annotated[int, Field(ge=0, le=MAX_SEED)]
+Seconds = Annotated[float, Field(ge=0, le=MAX_SECONDS, allow_inf_nan=False)]
+
+
+class _Command(BaseModel):
+    model_config = ConfigDict(extra="forbid")
+
+
+class SeatCommand(_Command):
+    """Send a seat out, ban it, or give it another name."""
+
+    do: Literal["kick", "ban", "rename"]
+    seat: int
+    name: str = Field(default="", max_length=60)
+
+
+class PlainCommand(_Command):
+    """A command without arguments."""
+
+    do: Literal["new code", "open", "close", "end race", "forget"]
+
+
+class Assign(_Command):
+    """Give rooms a scene."""
+
+    do: Literal["assign"]
+    rooms: list[RoomId] | Literal["all"]
+    scene: SceneSource
+    seed: Seed | None = None
+    """Seed of all these worlds."""
+    same_seed: bool = False
+    """True without a seed: a random one, the same for all."""
+
+
+class Attend(_Command):
+    """Ask for attention; without kind and message, end it."""
+
+    do: Literal["attention"]
+    kind: Literal["", "pause", "blank"]
+    message: str = Field(default="", max_length=MAX_MESSAGE_CHARS)
+    seconds: Seconds = 0.0
+
+
+class StartRace(_Command):
+    """Start a race."""
+
+    do: Literal["race"]
+    scene: SceneSource
+    seed: Seed | None = None
+    countdown: float = Field(default=5.0, ge=0, le=MAX_COUNTDOWN_S, allow_inf_nan=False)
+    hide_board: bool = False
+
+
+class HideBoard(_Command):
+    """Hide the board of the race from students, or show it."""
+
+    do: Literal["board"]
+    hide: bool
+
+
+class Show(_Command):
+    """Choose what the projector page shows."""
+
+    do: Literal["show"]
+    kind: Literal["join", "room", "race", "board"]
+    room: RoomId = ""
+
+
+class Sleep(_Command):
+    """End the process of a room; it starts again when its page is opened."""
+
+    do: Literal["sleep"]
+    room: RoomId
+
+
+AnyCommand = SeatCommand | PlainCommand | Assign | Attend | StartRace | HideBoard | Show | Sleep
+
+
+class Command(RootModel[Annotated[AnyCommand, Field(discriminator="do")]]):
+    """Body of a command."""

@@ -1,0 +1,219 @@
+"""A student's page in a class: who is here, the teacher's message, the blank screen, a race."""
+
+import re
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
+from typing import Any
+
+import pytest
+from playwright.sync_api import Browser, BrowserContext, Page, expect
+from starlette.applications import Starlette
+from starlette.requests import Request
+from starlette.responses import JSONResponse, Response
+from starlette.routing import Route
+from starlette.types import ASGIApp, Receive, Scope, Send
+
+from ai4u_edu import WASDRBMoveController
+from ai4u_edu.class_member import ClassMember
+from ai4u_edu.server.app import RoomMount
+from ai4u_edu.server.class_feed import ROLE_HEADER, SEAT_HEADER
+from ai4u_edu.wire.class_link import Attention, FromClass, People, Person, Race, RaceRow, Welcome
+from tests.browser.served_viser import PLAIN, centre, connected, driver_status
+from tests.builders import small_sim
+from tests.chromium import new_page
+from tests.class_member.fake_link import FakeLink
+from tests.server.rooms import Room, SharedServer, served, until
+
+pytestmark = pytest.mark.browser
+
+FOX = Person(1, "Red Fox", "#d55e00", True)
+OWL = Person(2, "<b>Blue</b> Owl", "#0072b2", True)
+HARE = Person(3, "Green Hare", "#009e73", False)
+END = Attention("", "", 0.0)
+
+
+class AsSeat:
+    """Adds the headers with which a class passes requests on."""
+
+    def __init__(self, app: ASGIApp) -> None:
+        self._app = app
+        self.role = "student"
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        own = [(ROLE_HEADER, self.role), (SEAT_HEADER, "1")]
+        headers = [*scope["headers"], *((name.encode(), text.encode()) for name, text in own)]
+        await self._app({**scope, "headers": headers}, receive, send)
+
+
+@dataclass
+class RoomOfClass:
+    """A room in a class whose messages a test sends."""
+
+    room: Room
+    member: ClassMember
+    entrance: AsSeat
+    chromium: Browser
+    asked: list[str] = field(default_factory=list)
+    contexts: list[BrowserContext] = field(default_factory=list)
+
+    def tell(self, *messages: FromClass) -> None:
+        assert isinstance(self.member.link, FakeLink)
+        for message in messages:
+            self.member.link.receive(message)
+
+    def page(self, **options: Any) -> Page:
+        page = new_page(self.chromium, reduced_motion="reduce", **options)
+        self.contexts.append(page.context)
+        page.on("request", lambda request: self.asked.append(request.url))
+        PLAIN.serve(page, f"{self.room.url}r/a1/")
+        page.goto(f"{self.room.url}r/a1/")
+        connected(page)
+        return page
+
+    @property
+    def x(self) -> float:
+        return self.room.runner.latest.bodies[0].x
+
+
+@pytest.fixture
+def school(chromium: Browser, shared_server: SharedServer) -> Iterator[RoomOfClass]:
+    found: list[ClassMember] = []
+    entrances: list[AsSeat] = []
+
+    async def move_code(_: Request) -> Response:
+        return JSONResponse({"code": "K7QPM", "minutes": 5})
+
+    def wrap(app: ASGIApp) -> ASGIApp:
+        routes = [RoomMount("/r/a1", app=app), Route("/api/move-code", move_code, methods=["POST"])]
+        entrances.append(AsSeat(Starlette(routes=routes)))
+        return entrances[0]
+
+    class Feed:
+        """The member is made after the app."""
+
+        @property
+        def version(self) -> int:
+            return found[0].view.version if found else 0
+
+        def event(self, role: str, seat: int) -> dict[str, Any] | None:
+            return found[0].view.event(role, seat)
+
+    sim = small_sim(controller=WASDRBMoveController())
+    with served(sim, wrap=wrap, server=shared_server, class_feed=Feed()) as room:
+        found.append(ClassMember(room.runner, None, FakeLink, title="A room"))
+        found[0].start()
+        school = RoomOfClass(room, found[0], entrances[0], chromium)
+        yield school
+        for context in school.contexts:
+            context.close()
+        found[0].stop()
+
+
+def until_on(page: Page, condition: Callable[[], object]) -> None:
+    """Wait for a condition while a page's events are handled."""
+    for _ in range(200):
+        if condition():
+            return
+        page.wait_for_timeout(25)
+    raise AssertionError("it did not happen in time")
+
+
+def test_a_bar_says_who_is_here_and_what_the_teacher_says(school: RoomOfClass) -> None:
+    page = school.page()
+    bar = page.get_by_role("region", name="Class")
+    expect(bar).to_have_count(0)
+    assert not any("/api/" in url for url in school.asked)
+    school.tell(Welcome(1, "", ""), People((FOX, OWL, HARE)))
+    expect(bar.locator("strong")).to_have_text("Red Fox")
+    expect(bar.get_by_role("listitem")).to_have_text(["<b>Blue</b> Owl", "Green Hare(not here)"])
+    assert bar.locator("b").count() == 0
+    school.tell(Attention("", "Five <i>minutes</i> left", 300.0))
+    expect(bar.get_by_role("status")).to_have_text("Five <i>minutes</i> left")
+    expect(bar.get_by_role("timer")).to_have_text(re.compile(r"[45]:\d\d"))
+    expect(bar.get_by_role("link", name="My work")).to_have_attribute("href", "../../api/my-work")
+    bar.get_by_role("button", name="Other device").click()
+    expect(page.get_by_role("dialog")).to_contain_text("K7QPM")
+    expect(page.get_by_role("dialog")).to_contain_text("5 minutes")
+
+
+def test_a_blank_screen_keeps_focus_and_keys_whatever_is_pressed(school: RoomOfClass) -> None:
+    page = school.page()
+    school.tell(Welcome(1, "", ""), People((FOX,)))
+    page.keyboard.down("KeyW")
+    until(lambda: school.x > 0.1)
+    school.tell(Attention("blank", "Listen <u>now</u>", 600.0))
+    blank = page.get_by_role("alertdialog", name="Look at your teacher")
+    expect(blank).to_be_visible()
+    expect(blank).to_contain_text("Listen <u>now</u>")
+    until(lambda: school.room.runner.latest.waiting == "teacher")
+    x = school.x
+    page.keyboard.up("KeyW")
+    for key in ("Escape", "Escape", "Escape", "Tab", "Enter", "KeyW", "KeyR", "KeyN"):
+        page.keyboard.press(key)
+    expect(blank).to_be_visible()
+    assert page.evaluate("document.activeElement.closest('dialog') !== null")
+    page.reload()
+    connected(page)
+    expect(blank).to_be_visible()
+    page.keyboard.press("KeyW")
+    assert school.x == x
+    school.tell(END)
+    expect(blank).to_have_count(0)
+    page.keyboard.down("KeyW")
+    until(lambda: school.x > x)
+    page.keyboard.up("KeyW")
+
+
+def test_the_teachers_own_page_is_not_blanked(school: RoomOfClass) -> None:
+    school.entrance.role = "teacher"
+    school.tell(Welcome(1, "", ""), People((FOX,)), Attention("blank", "Listen", 0.0))
+    page = school.page()
+    bar = page.get_by_role("region", name="Class")
+    expect(bar).to_contain_text("Teacher")
+    expect(page.locator(".ai4u-banner")).to_contain_text("You have stopped all worlds")
+    expect(page.get_by_role("alertdialog")).to_have_count(0)
+    expect(bar.get_by_role("link", name="My work")).to_have_count(0)
+
+
+def test_a_pause_has_a_banner_and_leaves_what_stands_on_the_page_readable(
+    school: RoomOfClass,
+) -> None:
+    page = school.page(width=390, height=844)
+    school.tell(Welcome(1, "", ""), People((FOX, OWL, HARE)))
+    school.tell(Attention("pause", "Hands off, all of you: look at the board in front", 600.0))
+    banner = page.locator(".ai4u-banner")
+    expect(banner).to_contain_text("Hands off")
+    expect(driver_status(page)).to_have_text("The world stands still")
+    for name in ("My work", "Other device"):
+        expect(page.get_by_text(name, exact=True)).to_have_count(1)
+    boxes = [page.locator(each).bounding_box() for each in (".ai4u-class-bar", ".ai4u-banner")]
+    bar, below = (box for box in boxes if box is not None)
+    assert bar["x"] + bar["width"] <= 390
+    assert bar["y"] + bar["height"] <= below["y"]
+    assert page.evaluate("document.documentElement.scrollWidth") <= 390
+    page.keyboard.down("KeyW")
+    until_on(page, lambda: school.room.runner.latest.waiting == "teacher")
+    expect(page.locator(".ai4u-keycap[data-held]")).to_have_count(0)
+    page.keyboard.up("KeyW")
+
+
+def test_a_race_counts_down_and_shows_the_own_best_first(school: RoomOfClass) -> None:
+    page = school.page()
+    board = (RaceRow("<b>Blue</b> Owl", "#0072b2", "goal", 3.21, "x"),)
+    view = school.member.view
+    school.tell(Welcome(1, "", ""), People((FOX,)))
+    race = Race("r1", "countdown", 2.0, "maze", 1, ())
+    view.set_race(race, view._clock() + 2.0, None)
+    expect(page.locator(".ai4u-countdown")).to_have_text(re.compile("[12]"))
+    expect(page.locator(".ai4u-countdown")).to_have_text("Go!")
+    expect(page.locator(".ai4u-countdown")).to_be_hidden()
+    race = Race("r1", "running", 0.0, "maze", 1, board)
+    view.set_race(race, view._clock(), 4.5)
+    bar = page.get_by_role("region", name="Class")
+    expect(bar).to_contain_text("your best: 4.50 s")
+    bar.get_by_role("button", name="Board").click()
+    expect(bar.locator("ol li")).to_have_text(["<b>Blue</b> Owl3.21 s"])
+    left, _ = centre(bar.locator("ol"))
+    assert 0 < left < 1280
+    view.set_race(None, 0.0, None)
+    expect(bar.get_by_role("button", name="Board")).to_have_count(0)

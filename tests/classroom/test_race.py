@@ -1,0 +1,168 @@
+"""A race in a real class: results are replayed, a forged one is refused, and ghosts go round."""
+
+import math
+from collections.abc import Iterator
+from typing import Any, Literal
+
+import pytest
+
+from ai4u_edu import LocalBrain, Scene
+from ai4u_edu.classroom.episode_check import Claim, find_fault
+from ai4u_edu.recording import Episode, Recorder
+from ai4u_edu.recording.file import decode, encode
+from ai4u_edu.wire.class_link import Ack, EpisodeResult, Race
+from tests.classroom.link_client import RawLink, TeacherSocket, key
+from tests.classroom.served_class import ServedClass, served_class
+
+pytestmark = pytest.mark.slow
+SEED = 11
+
+
+def driven(speed: float, seed: int = SEED, reward: float | None = None) -> Episode:
+    """Return the recorded episode of a robot that drives to the box."""
+    scene = Scene.load("box_chase")
+    sim = scene.build()
+    robot, box = sim.agents[0], sim.world["box"]
+
+    def steer(_percept: Any) -> dict[str, list[float]]:
+        (x, y), (a, b) = robot.body.position, box.position
+        turn = math.remainder(robot.body.heading - math.atan2(b - y, a - x), math.tau)
+        return {"move": [speed, max(-1.0, min(1.0, turn)), 0, 0]}
+
+    robot.use_brain(LocalBrain(controller=steer))
+    recorder = Recorder(sim)
+    sim.reset(seed=seed)
+    while not robot.done:
+        sim.step()
+    recorder.finish()
+    episode = recorder.episodes[-1]
+    assert episode.success
+    return episode
+
+
+def result(
+    race: str, episode: Episode, *, seconds: float | None = None, seed: int = SEED
+) -> EpisodeResult:
+    outcome: Literal["goal"] = "goal"
+    took = episode.seconds if seconds is None else seconds
+    return EpisodeResult(
+        key(), "Box chase", seed, outcome, took, 1.0, "A person", race, encode(episode)
+    )
+
+
+@pytest.fixture(scope="module")
+def fast() -> Episode:
+    return driven(1.0)
+
+
+@pytest.fixture(scope="module")
+def slow() -> Episode:
+    return driven(0.4)
+
+
+@pytest.fixture(scope="module")
+def served(tmp_path_factory: pytest.TempPathFactory) -> Iterator[ServedClass]:
+    with served_class(tmp_path_factory.mktemp("class")) as served:
+        yield served
+
+
+def claim(recorded: Episode, **changes: Any) -> Claim:
+    plain: dict[str, Any] = {
+        "episode": encode(recorded),
+        "scene": "box_chase",
+        "seed": SEED,
+        "outcome": "goal",
+        "seconds": recorded.seconds,
+    }
+    return Claim(**(plain | changes))
+
+
+def test_an_episode_that_replays_to_its_claim_is_right(fast: Episode) -> None:
+    assert find_fault(claim(fast)) == ""
+
+
+@pytest.mark.parametrize(
+    ("changes", "fault"),
+    [
+        ({"seconds": 0.5}, "expected 0.50 s, got"),
+        ({"seed": 12}, "expected seed 12, got 11"),
+        ({"outcome": "won"}, "got 'goal' in the replay"),
+        ({"scene": "maze"}, "another scene"),
+        ({"episode": b""}, "expected a recorded episode"),
+        ({"episode": b"ai4u-edu episode 1\nxx"}, "damaged"),
+    ],
+)
+def test_a_claim_that_is_wrong_is_told(fast: Episode, changes: dict[str, Any], fault: str) -> None:
+    assert fault in find_fault(claim(fast, **changes))
+
+
+def test_an_episode_that_is_not_whole_is_refused(fast: Episode) -> None:
+    plain = encode(fast)
+    data = bytearray(plain)
+    episode = decode(Episode, bytes(data), "it")
+    episode.agents[0].worlds[3] += 1  # a checksum of another world
+    assert "other places" in find_fault(claim(fast, episode=encode(episode)))
+
+
+def test_another_success_does_not_help(fast: Episode) -> None:
+    """The scene within an episode may name another reward as its success; the race's counts."""
+    text = Scene.load("box_chase").source.replace("success: touch", "success: fall")
+    assert find_fault(claim(fast, scene=text, outcome="goal")) != ""
+
+
+def test_a_race_from_start_to_end(served: ServedClass, fast: Episode, slow: Episode) -> None:
+    ada, ben = served.joined(name="Red Fox"), served.joined(name="Blue Otter")
+    with RawLink(served, ada) as one, RawLink(served, ben) as two, TeacherSocket(served) as wall:
+        body = {"scene": "box_chase", "seed": SEED, "countdown": 0.2}
+        assert served.command("race", **body).status_code == 200
+        race = one.next(Race, lambda message: message.id != "")
+        assert (race.phase, race.scene, race.seed) == ("countdown", "box_chase", SEED)
+        assert 0 < race.starts_in_s <= 0.2
+        assert one.next(Race).phase == two.next(Race, lambda m: m.phase == "running").phase
+
+        sent = result(race.id, slow)
+        one.send(sent)
+        assert one.next(Ack).key == sent.key
+        two.send(result(race.id, fast))
+        forged = result(race.id, fast, seconds=0.5)
+        two.send(forged)
+        told = wall.next("class", lambda e: e["race"] and len(e["race"]["board"]) == 3)
+        board = told["race"]["board"]
+        assert [each["name"] for each in board] == ["Blue Otter", "Red Fox", "Blue Otter"]
+        assert [each["outcome"] for each in board] == ["goal", "goal", "refused"]
+        assert "0.50 s" in board[2]["why"]
+
+        news = one.next(Race, lambda message: len(message.ghosts) == 2)
+        assert [each.name for each in news.board] == ["Blue Otter", "Red Fox"]
+        assert news.board[0].seconds == pytest.approx(fast.seconds)
+        assert decode(Episode, news.ghosts[0], "ghost").seconds == fast.seconds
+
+        assert served.command("board", hide=True).status_code == 200
+        assert one.next(Race, lambda message: message.board == ()).phase == "running"
+        with TeacherSocket(served, "projector") as projector:
+            assert projector.next("class")["race"]["board"] == []
+        assert served.command("end race").status_code == 200
+        assert one.next(Race, lambda message: message.phase == "over").id == race.id
+        assert served.command("end race").status_code == 200
+        assert one.next(Race, lambda message: message.id == "").phase == "over"
+        late = result(race.id, fast)
+        two.send(late)
+        two.next(Ack, lambda message: message.key == late.key)
+
+
+@pytest.mark.parametrize(
+    ("body", "problem"),
+    [
+        ({"scene": "nowhere"}, "expected a scene of the library"),
+        ({"scene": {"yaml": "bodies: 3"}}, "scene: "),
+        ({"scene": {"room": "../.."}}, "there is no room"),
+        ({"scene": "maze", "seed": -1}, "seed"),
+        ({"scene": "maze", "countdown": 1e9}, "countdown"),
+    ],
+)
+def test_a_race_that_can_not_be_is_a_sentence(
+    served: ServedClass, body: dict[str, Any], problem: str
+) -> None:
+    answer = served.command("race", **body)
+    assert answer.status_code == 400
+    assert problem in answer.json()["problem"]

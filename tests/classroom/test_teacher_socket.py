@@ -1,0 +1,176 @@
+"""The teacher's commands and pages in a real class: assignments, attention, looking in."""
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import httpx
+import pytest
+from websockets.exceptions import ConnectionClosed
+from websockets.sync.client import connect
+
+from ai4u_edu import Scene
+from ai4u_edu.wire.class_link import Applied, Assignment, Attention, Hello, Work
+from tests.classroom.link_client import RawLink, TeacherSocket, state
+from tests.classroom.served_class import ServedClass, served_class
+from tests.server.rooms import Page
+
+pytestmark = pytest.mark.slow
+OWN = Scene.load("box_chase").source.replace("title: Box chase", "title: <b>Mine</b>")
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return tmp_path_factory.mktemp("class")
+
+
+@pytest.fixture(scope="module")
+def served(folder: Path) -> Iterator[ServedClass]:
+    with served_class(folder) as served:
+        yield served
+
+
+def id_of(served: ServedClass) -> str:
+    return f"seat-{max(each['number'] for each in served.state()['seats'])}"
+
+
+def test_pages_of_the_teacher_need_the_secret(served: ServedClass) -> None:
+    for path in ("teacher/socket", "projector/socket"):
+        address = served.url.replace("http", "ws", 1) + path
+        with connect(address, proxy=None) as socket, pytest.raises(ConnectionClosed):
+            socket.recv(10)
+    assert httpx.get(served.url + "projector").status_code == 401
+
+
+def test_the_first_event_has_everything(served: ServedClass) -> None:
+    served.joined(name="Red Fox")
+    with TeacherSocket(served) as wall:
+        event = wall.next("class")
+    assert event["qr"].startswith("data:image/svg+xml,")
+    assert event["address"] == served.url
+    titles = {each["name"]: each["title"] for each in event["scenes"]}
+    assert titles == {name: Scene.load(name).description.title for name in Scene.names()}
+    lesson = next(each for each in event["exercises"] if each["lesson"] == "04")
+    assert "04.2" in lesson["ids"]
+    assert event["shown"] == {"kind": "join", "room": ""}
+    assert event["attention"] == {"kind": "", "message": "", "ends_in": 0}
+    (seat,) = [each for each in event["seats"] if each["name"] == "Red Fox"]
+    (room,) = [each for each in event["rooms"] if seat["number"] in each["seats"]]
+    assert (room["status"], room["is_running"], room["kind"]) == ("asleep", False, "local")
+
+
+def test_everybody_sees_no_progress_and_nobody_who_needs_help(served: ServedClass) -> None:
+    with TeacherSocket(served, "projector") as projector:
+        event = projector.next("class")
+    assert not {"progress", "misconceptions"} & event.keys()
+    assert all("help" not in each and "why" not in each for each in event["rooms"])
+
+
+def test_scenes_are_assigned_to_one_or_all(served: ServedClass) -> None:
+    ada, ben = served.joined(), served.joined()
+    with RawLink(served, ada) as one:
+        name = id_of(served).replace("seat-", "")
+        first = f"seat-{int(name) - 1}"
+        with RawLink(served, ben) as two:
+            body: dict[str, Any] = {"rooms": [first], "scene": "maze", "seed": 7}
+            assert served.command("assign", **body).status_code == 200
+            given = one.next(Assignment, lambda message: message.id != "")
+            assert (given.title, given.scene, given.seed) == ("Maze", "maze", 7)
+            one.send(Applied(given.id, "it did <i>not</i> work"))
+            one.send(Work("Mine", OWN))
+            one.send(state())
+            with TeacherSocket(served) as wall:
+                wall.next("class", lambda e: any("not</i>" in r["error"] for r in e["rooms"]))
+            source = {"room": first}
+            answer = served.command("assign", rooms="all", scene=source, same_seed=True)
+            assert answer.status_code == 200, answer.text
+            given = two.next(Assignment, lambda message: message.id != "")
+            assert (given.title, given.scene) == ("<b>Mine</b>", OWN)
+            assert given.seed is not None
+            assert one.next(Assignment, lambda message: message.id == given.id) == given
+    with RawLink(served, served.joined()) as late:
+        assert late.next(Assignment).id == given.id
+
+
+def test_attention_holds_for_whoever_connects_and_ends_by_itself(served: ServedClass) -> None:
+    assert served.command("attention", kind="blank", message="Look <here>").status_code == 200
+    with RawLink(served, served.joined()) as link, TeacherSocket(served) as wall:
+        assert link.next(Attention) == Attention("blank", "Look <here>", 0)
+        assert wall.next("class")["attention"]["kind"] == "blank"
+        assert served.command("attention", kind="pause", message="", seconds=0.3).status_code == 200
+        assert 0 < link.next(Attention).ends_in_s <= 0.3
+        assert link.next(Attention) == Attention("", "", 0)
+        wall.next("class", lambda e: e["attention"]["kind"] == "")
+
+
+@pytest.mark.parametrize(
+    ("do", "body", "problem"),
+    [
+        ("assign", {"rooms": ["nowhere"], "scene": "maze"}, "no room 'nowhere'"),
+        ("assign", {"rooms": "all", "scene": "../x"}, "scene of the library"),
+        ("assign", {"rooms": "all", "scene": {"yaml": "<script>"}}, "scene: "),
+        ("assign", {"rooms": "some", "scene": "maze"}, "rooms"),
+        ("attention", {"kind": "loud"}, "kind"),
+        ("attention", {"kind": "", "message": "x" * 201}, "200"),
+        ("attention", {"kind": "pause", "seconds": -1}, "seconds"),
+        ("show", {"kind": "room", "room": "nowhere"}, "no room"),
+        ("sleep", {"room": "../.."}, "no room"),
+        ("rename", {"seat": 1, "name": "<b>"}, "name of the lists"),
+        ("kick", {"seat": "x"}, "seat"),
+    ],
+)
+def test_a_command_that_is_wrong_is_a_sentence(
+    served: ServedClass, do: str, body: dict[str, Any], problem: str
+) -> None:
+    answer = served.command(do, **body)
+    assert answer.status_code == 400
+    assert problem in answer.json()["problem"]
+    assert "Traceback" not in answer.text
+
+
+def test_the_teacher_looks_in_and_a_student_does_not(served: ServedClass) -> None:
+    ada, ben = served.joined(), served.joined()
+    teacher = served.student()
+    teacher.client.get("teacher", params={"token": served.token}, follow_redirects=True)
+    assert teacher.client.get(ada.room + "api/snapshot").status_code == 200
+    assert teacher.client.get("/r/ffffffffffff/api/snapshot").status_code == 403
+    forged = {"x-ai4u-role": "teacher", "x-ai4u-seat": "0"}
+    assert ben.client.get(ada.room + "api/snapshot", headers=forged).status_code == 403
+    number = max(each["number"] for each in served.state()["seats"])
+    with Page(ben.address + "ws/input", additional_headers=ben.cookies) as page:
+        page.receive("hello")
+        with TeacherSocket(served) as wall:
+            wall.next("class", lambda e: _is_here(e, number))
+            served.command("show", kind="room", room=ben.room.split("/")[2])
+            seen = wall.next("class", lambda e: e["shown"]["kind"] == "room")
+            assert seen["shown"]["room"] == ben.room.split("/")[2]
+    with TeacherSocket(served) as wall:
+        wall.next("class", lambda e: not _is_here(e, number))
+
+
+def test_a_room_that_sleeps_is_shown_so(served: ServedClass) -> None:
+    ada = served.joined()
+    assert ada.get("healthz").status_code == 200
+    room = ada.room.split("/")[2]
+    with TeacherSocket(served) as wall:
+        wall.next("class", lambda e: _room(e, room)["is_running"])
+        assert served.command("sleep", room=room).status_code == 200
+        wall.next("class", lambda e: _room(e, room)["status"] == "asleep")
+
+
+def test_a_rooms_link_needs_its_own_secret(served: ServedClass) -> None:
+    ada = served.joined()
+    ada.get("healthz")
+    with RawLink(served, "", hello=Hello(1, ada.room.split("/")[2], "room")) as link:
+        _, problem = link.end()
+        assert problem is not None
+        assert problem.code == "secret"
+
+
+def _is_here(event: dict[str, Any], number: int) -> bool:
+    return any(each["is_here"] for each in event["seats"] if each["number"] == number)
+
+
+def _room(event: dict[str, Any], room: str) -> dict[str, Any]:
+    found: dict[str, Any] = next(each for each in event["rooms"] if each["id"] == room)
+    return found

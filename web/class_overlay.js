@@ -1,0 +1,77 @@
+/** What a class lays over the world: the teacher's blank screen, and a race's countdown. */
+
+import { element, setText } from "./dom.js";
+
+/** How long "Go!" is shown (ms). */
+const GO_MS = 900;
+
+/** Return a time in milliseconds as a countdown, such as "1:05". */
+export function clockText(ms) {
+  const seconds = Math.ceil(ms / 1000);
+  return `${Math.floor(seconds / 60)}:${String(seconds % 60).padStart(2, "0")}`;
+}
+
+/** A screen that hides the page, and keeps focus and keys, until the teacher ends it. */
+export class BlankScreen {
+  #message = element("p", { className: "ai4u-blank-message", id: "ai4u-blank-message" });
+  #time = element("p", { className: "ai4u-blank-time", role: "timer" });
+  #dialog = element("dialog", { className: "ai4u-blank", role: "alertdialog", tabIndex: -1 });
+  #isWanted = false;
+
+  constructor() {
+    const title = element("h1", { id: "ai4u-blank-title", textContent: "Look at your teacher" });
+    this.#dialog.append(title, this.#message, this.#time);
+    this.#dialog.setAttribute("aria-labelledby", title.id);
+    this.#dialog.setAttribute("aria-describedby", this.#message.id);
+    this.#dialog.addEventListener("cancel", (event) => event.preventDefault());
+    this.#dialog.addEventListener("keydown", (event) => event.stopPropagation());
+    // a browser lets a second Escape through
+    this.#dialog.addEventListener("close", () => this.#isWanted && this.#open());
+    document.body.append(this.#dialog);
+  }
+
+  /** @param {{message: string, left: string} | null} blank the message and the time left; null ends it */
+  draw(blank) {
+    this.#isWanted = blank !== null;
+    if (blank === null) {
+      if (this.#dialog.open) this.#dialog.close();
+      return;
+    }
+    setText(this.#message, blank.message);
+    setText(this.#time, blank.left);
+    if (!this.#dialog.open) this.#open();
+  }
+
+  #open() {
+    // a dialog that is opened later would lie above it
+    for (const other of document.querySelectorAll("dialog:modal")) other.close();
+    this.#dialog.showModal();
+    this.#dialog.focus();
+  }
+}
+
+/** The seconds before a race, large above the world. */
+export class RaceCountdown {
+  #number = element("div", { className: "ai4u-countdown", ariaHidden: "true", hidden: true });
+  #words = element("div", { className: "ai4u-hidden-text", role: "status" });
+  #wasCounting = false;
+
+  constructor() {
+    document.body.append(this.#number, this.#words);
+  }
+
+  get isShown() {
+    return !this.#number.hidden;
+  }
+
+  /** @param {number} ms time to the start; negative after it */
+  draw(ms) {
+    const isCounting = ms > 0;
+    const isGo = !isCounting && ms > -GO_MS && (this.#wasCounting || this.isShown);
+    if (isCounting && !this.#wasCounting) setText(this.#words, `A race starts in ${Math.ceil(ms / 1000)} seconds`);
+    if (isGo) setText(this.#words, "Go!");
+    this.#wasCounting = isCounting;
+    this.#number.hidden = !(isCounting || isGo);
+    setText(this.#number, isCounting ? String(Math.ceil(ms / 1000)) : "Go!");
+  }
+}
