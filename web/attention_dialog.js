@@ -9,6 +9,7 @@ const MAX_MESSAGE_CHARS = 200;
 const KINDS = {
   pause: "Pause all: worlds stand still",
   blank: "Blank all: screens show only your message",
+  message: "Message only: worlds go on",
 };
 const TIMES = [
   ["0", "until I end it"],
@@ -20,7 +21,14 @@ const TIMES = [
 ];
 
 /** Words for what holds now, by its kind. */
-export const HELD = { pause: "All worlds are paused", blank: "All screens are blank" };
+export const HELD = { pause: "All worlds are paused", blank: "All screens are blank", "": "All see your message" };
+/** The command that ends it. */
+export const END_ATTENTION = { do: "attention", kind: "", message: "", seconds: 0 };
+
+/** Return true while worlds are paused, screens are blank, or a message is shown. */
+export function isHeld({ kind, message }) {
+  return Boolean(kind || message);
+}
 
 export function showAttention() {
   const kind = choices("What happens", "kind", KINDS, "pause");
@@ -28,7 +36,10 @@ export function showAttention() {
   const time = select(TIMES, "0");
   const content = [kind, field("Message", message), field("How long", time)];
   const text = "It holds for everybody, also for who reloads the page or joins later. Your own page stays as it is.";
-  return showForm({ title: "Attention", text, content, yes: "Begin" }, () =>
-    command({ do: "attention", kind: chosenIn(kind), message: message.value.trim(), seconds: Number(time.value) }),
-  );
+  return showForm({ title: "Attention", text, content, yes: "Begin" }, () => {
+    const chosen = chosenIn(kind) === "message" ? "" : chosenIn(kind);
+    const words = message.value.trim();
+    if (!chosen && !words) throw new Error("Write a message first.");
+    return command({ do: "attention", kind: chosen, message: words, seconds: Number(time.value) });
+  });
 }

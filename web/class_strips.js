@@ -1,6 +1,6 @@
 /** Strips below the toolbar that say what holds for the whole class now: attention, and a race. */
 
-import { HELD } from "./attention_dialog.js";
+import { HELD, isHeld } from "./attention_dialog.js";
 import { commandOrTell } from "./class_command.js";
 import { element, setText } from "./dom.js";
 import { clock } from "./room_words.js";
@@ -39,9 +39,9 @@ export class ClassStrips {
     this.#state = state;
     this.#ends.set(state.attention.ends_in);
     this.#starts.set(state.race?.starts_in ?? 0);
-    this.#held.hidden = !state.attention.kind;
+    this.#held.hidden = !isHeld(state.attention);
     this.#race.hidden = !state.race;
-    if (state.attention.kind) build(this.#held); // the toolbar has the button that ends it
+    if (isHeld(state.attention)) build(this.#held); // the toolbar has the button that ends it
     if (state.race) {
       const { is_board_hidden: isHidden } = state.race;
       build(this.#race, [isHidden ? "Show the board" : "Hide the board", { do: "board", hide: !isHidden }], ["End race", { do: "end race" }]);
@@ -52,7 +52,7 @@ export class ClassStrips {
   #update() {
     if (!this.#state) return;
     const { attention, race } = this.#state;
-    if (attention.kind) {
+    if (isHeld(attention)) {
       const end = this.#ends.left ? ` Ends in ${clock(this.#ends.left)}.` : "";
       say(this.#held, `${HELD[attention.kind]}.`, (attention.message && `“${attention.message}”`) + end);
     }

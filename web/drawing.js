@@ -4,9 +4,10 @@
 const STEP_MS = 250;
 /** Part of the drawing's size that a body moves in a step only if it was put there. */
 const JUMP = 0.2;
-/** Colors of an agent's arrow and edge, which stand out from any ground. */
-const MARK = "#fff";
+/** Color of an agent's edge, which stands out from the ground. */
 const EDGE = "#1b2530";
+/** Part of a box that a drawing fills. */
+const FILLED = 0.97;
 const VALUES_PER_BODY = 4; // x, y (m), heading (rad), visibility
 
 export class Drawing {
@@ -28,7 +29,6 @@ export class Drawing {
     this.#bodies = bodies.map((body) => ({
       isAgent: body.is_agent,
       shapes: body.shapes.map(painted),
-      reach: Math.max(0, ...body.shapes.map(reachOf)),
     }));
   }
 
@@ -50,7 +50,7 @@ export class Drawing {
    */
   draw(context, box, now) {
     const [left, bottom, right, top] = this.#bounds;
-    const scale = Math.min(box.width / (right - left || 1), box.height / (top - bottom || 1));
+    const scale = FILLED * Math.min(box.width / (right - left || 1), box.height / (top - bottom || 1));
     const x = box.x + box.width / 2 - (scale * (left + right)) / 2;
     const y = box.y + box.height / 2 + (scale * (bottom + top)) / 2;
     const place = [scale, x, y];
@@ -88,19 +88,6 @@ function drawBody(context, body, [scale, x, y], [bodyX, bodyY, heading]) {
   context.setTransform(cos, -sin, -sin, -cos, x + scale * bodyX, y - scale * bodyY);
   if (body.isAgent) outline(context, body.shapes, EDGE, 3 / scale);
   for (const shape of body.shapes) fill(context, shape);
-  if (!body.isAgent) return;
-  const size = body.reach;
-  context.beginPath(); // an arrow that says where it looks
-  context.moveTo(0.75 * size, 0);
-  context.lineTo(-0.3 * size, 0.5 * size);
-  context.lineTo(-0.05 * size, 0);
-  context.lineTo(-0.3 * size, -0.5 * size);
-  context.closePath();
-  context.fillStyle = MARK;
-  context.strokeStyle = EDGE;
-  context.lineWidth = 1 / scale;
-  context.fill();
-  context.stroke();
 }
 
 function outline(context, shapes, colour, width) {
@@ -123,11 +110,4 @@ function painted({ colour, radius, points }) {
     path.closePath();
   }
   return { colour, path };
-}
-
-/** Return the distance of a shape's farthest point from the body's centre. */
-function reachOf({ radius, points }) {
-  let reach = 0;
-  for (let at = 0; at + 1 < points.length; at += 2) reach = Math.max(reach, Math.hypot(points[at], points[at + 1]));
-  return reach + radius;
 }

@@ -3,11 +3,9 @@
 import { showAssign } from "./assign_dialog.js";
 import { command, commandOrTell } from "./class_command.js";
 import { element } from "./dom.js";
-import { closeDialogOf, field, showForm } from "./form_dialog.js";
-import { ask } from "./question.js";
+import { choices, chosenIn, closeDialogOf, showForm } from "./form_dialog.js";
+import { ask, tell } from "./question.js";
 import { clock, counted, roomName, seatsOf, statusOf } from "./room_words.js";
-
-const MAX_NAME_CHARS = 60;
 
 export function showRoom(room, state, realNames) {
   const seats = seatsOf(room, state);
@@ -85,11 +83,18 @@ function person(seat, realNames) {
   );
 }
 
-function showRename(seat) {
-  const name = element("input", { value: seat.name, maxLength: MAX_NAME_CHARS, autocomplete: "off", required: true });
-  return showForm({ title: `Rename ${seat.name}`, content: [field("New name", name)], yes: "Rename" }, () =>
-    command({ do: "rename", seat: seat.number, name: name.value.trim() }),
-  );
+/** Names are those of the list only: so nobody's real name gets to the class. */
+async function showRename(seat) {
+  try {
+    const { names } = await (await fetch("./api/names", { cache: "no-store" })).json();
+    const group = choices("New name", "new-name", Object.fromEntries(names.map((name) => [name, name])), names[0]);
+    const text = "Names come from a list. For a real name, use “Real names…”: it stays in this browser.";
+    await showForm({ title: `Rename ${seat.name}`, text, content: [group], yes: "Rename" }, () =>
+      command({ do: "rename", seat: seat.number, name: chosenIn(group) }),
+    );
+  } catch {
+    await tell("That can't be done", "The class can't be reached. Is its program still running?");
+  }
 }
 
 function action(text, onClick) {

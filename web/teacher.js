@@ -1,7 +1,7 @@
 /** The teacher's page: the wall of rooms, progress, misconceptions, and commands for the class. */
 
 import { showAssign } from "./assign_dialog.js";
-import { showAttention } from "./attention_dialog.js";
+import { END_ATTENTION, isHeld, showAttention } from "./attention_dialog.js";
 import { commandOrTell } from "./class_command.js";
 import { openClassSocket } from "./class_socket.js";
 import { ClassStrips } from "./class_strips.js";
@@ -54,8 +54,7 @@ onState("#show", () => showProjector(state));
 onState("#end", () => showEnd(state, () => realNames.forget()));
 onState("#real-names", () => showNames(realNames));
 onState("#attention", () => {
-  if (!state.attention.kind) return showAttention();
-  return commandOrTell({ do: "attention", kind: "", message: "", seconds: 0 });
+  return isHeld(state.attention) ? commandOrTell(END_ATTENTION) : showAttention();
 });
 openClassSocket(
   "./teacher/socket",
@@ -76,8 +75,8 @@ function show(message) {
   sayProblem();
   header.show(state);
   strips.show(state);
-  setText(find("#attention"), state.attention.kind ? "End attention" : "Attention…");
-  find("#attention").toggleAttribute("data-held", Boolean(state.attention.kind));
+  setText(find("#attention"), isHeld(state.attention) ? "End attention" : "Attention…");
+  find("#attention").toggleAttribute("data-held", isHeld(state.attention));
   wall.show(state);
   controls.update();
   sayNobody();

@@ -26,6 +26,7 @@ export class WallCanvas {
   #frame = 0;
   #top = 0;
   #ratio = 1;
+  #background = "";
   #still = matchMedia("(prefers-reduced-motion: reduce)");
 
   /**
@@ -39,6 +40,7 @@ export class WallCanvas {
     new ResizeObserver(() => this.layOut()).observe(wall);
     addEventListener("scroll", () => this.#request(), { passive: true, capture: true });
     addEventListener("resize", () => this.layOut());
+    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.layOut());
   }
 
   /** Show these rooms: picture areas by room. */
@@ -105,7 +107,8 @@ export class WallCanvas {
         continue;
       }
       if (!isInView(box, above, this.#ratio, this.#top)) continue; // it stays dirty until it is
-      this.#context.clearRect(box.x, box.y, box.width, box.height);
+      this.#context.fillStyle = this.#background;
+      this.#context.fillRect(box.x, box.y, box.width, box.height);
       const drawing = this.#drawings.get(room);
       drawing?.draw(this.#context, box, now);
       if (!drawing?.isMoving(now)) this.#dirty.delete(room);
@@ -123,6 +126,7 @@ export class WallCanvas {
     this.#canvas.style.height = `${Math.round(height)}px`;
     this.#canvas.width = pixels(wall.width);
     this.#canvas.height = pixels(Math.round(height));
+    this.#background = getComputedStyle(this.#canvas).color;
     this.#boxes.clear();
     for (const [room, area] of this.#areas) {
       const rect = area.getBoundingClientRect();

@@ -123,8 +123,16 @@ def test_a_room_is_reached_and_sent_out_by_keyboard(page: Page, school: WallServ
     expect(look_in).to_have_attribute("href", f"./r/{seat['room']}/")
     dialog.get_by_role("button", name=f"Send out {name}").press("Enter")
     expect(dialog).to_have_count(0)
-    assert school.commands == [{"do": "kick", "seat": seat["number"]}]
+    kick = {"do": "kick", "seat": seat["number"]}
+    assert school.commands == [kick]
     expect(cards(page).nth(1)).to_be_focused()
+
+    page.keyboard.press("Enter")
+    dialog.get_by_role("button", name=f"Rename {name}").press("Enter")
+    page.get_by_label("Calm Owl").check()
+    page.get_by_role("button", name="Rename", exact=True).click()
+    expect(page.get_by_role("dialog")).to_have_count(0)
+    assert school.commands == [kick, {**kick, "do": "rename", "name": "Calm Owl"}]
 
 
 def test_attention_is_begun_shown_and_ended(page: Page, school: WallServer) -> None:

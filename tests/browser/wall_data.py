@@ -1,12 +1,23 @@
 """Messages of the teacher's socket for a class of any size, as the gateway would send them."""
 
+import json
 import math
+from functools import cache
 from typing import Any
 
+from ai4u_edu.class_member.thumbnail import drawing_of, poses_of
+from ai4u_edu.classroom.live_rooms import LiveRoom
 from ai4u_edu.classroom.names import COLOURS, FIRST, SECOND
 from ai4u_edu.classroom.teacher import join_code
+from ai4u_edu.scenes import Scene
+from ai4u_edu.snapshot import capture_snapshot
+from ai4u_edu.wire.class_link import Drawing, Poses
 
 CODE = "KVBTM"
+MAX_SEEDS = 8
+"""Different starts of a scene."""
+CIRCLE_M = 0.5
+"""Radius in which robots drive."""
 ADDRESS = "http://192.168.4.20:8080/"
 MARKUP = "<img src=x onerror=alert(1)>"
 """A name that would do harm if a page took it for HTML."""
@@ -100,30 +111,12 @@ def race(count: int, phase: str = "running", starts_in: float = 0.0) -> dict[str
 
 
 def drawing_message(number: int) -> dict[str, Any]:
-    """Return the drawing of a room: a plate with walls, boxes or a ball, and a robot or two."""
-    kind = _scene(number)["name"]
-    half = (8.0, 6.0)
-    ground = [_polygon("#c9d6c3" if kind == "soccer" else "#d9dde1", -8, -6, 8, 6)]
-    bodies = [_wall(0, 6.1, 8.3, 0.25), _wall(0, -6.1, 8.3, 0.25)]
-    bodies += [_wall(8.1, 0, 0.25, 6), _wall(-8.1, 0, 0.25, 6)]
-    if kind == "soccer":
-        ground += [_disc("#eef3ec", 0, 0, 1.6), _polygon("#eef3ec", -0.06, -6, 0.06, 6)]
-        bodies += [_disc_body("ball", "#f5f5f5", 0.35), _robot("#0072b2"), _robot("#e69f00")]
-    elif kind == "maze":
-        ground.append(_polygon("#9bd3a0", 5.2, 3.4, 7.6, 5.6))
-        bodies += [_wall(-3, 1.5, 0.25, 4), _wall(1, -2, 0.25, 4), _wall(4.5, 1, 0.25, 3)]
-        bodies += [_disc_body("target", "#2e8b57", 0.4), _robot("#0072b2")]
-    else:
-        bodies += [_disc_body("target", "#c0392b", 0.5), _robot("#0072b2")]
-    left, top = half
-    return {
-        "type": "drawing",
-        "room": room_id(number),
-        "number": 1,
-        "bounds": [-left - 0.4, -top - 0.4, left + 0.4, top + 0.4],
-        "ground": ground,
-        "bodies": bodies,
-    }
+    """Return the drawing of a room."""
+    drawing, _ = _world(_scene(number)["name"], number % MAX_SEEDS)
+    live = LiveRoom(room_id(number), "local")
+    live.note_drawing(drawing)
+    message: dict[str, Any] = json.loads(live.drawing_json)
+    return message
 
 
 def poses_message(count: int, time_s: float) -> dict[str, Any]:
@@ -144,19 +137,26 @@ def room_id(number: int) -> str:
     return f"room{number}"
 
 
+@cache
+def _world(scene: str, seed: int) -> tuple[Drawing, Poses]:
+    sim = Scene.load(scene).build()
+    sim.reset(seed=seed)
+    snapshot = capture_snapshot(sim)
+    drawing = drawing_of(snapshot.static_scene, 1)
+    return drawing, poses_of(snapshot, drawing)
+
+
 def _poses(number: int, time_s: float) -> dict[str, Any]:
-    bodies = drawing_message(number)["bodies"]
-    driven = time_s if _status(number) == "driving" else 0.0
-    values: list[float] = []
-    for index, body in enumerate(bodies):
-        if body["name"].startswith("wall"):
-            values += [*body["at"], 0.0, 1.0]
-            continue
-        turn = 0.5 * driven + 1.7 * number + 2.1 * index
-        reach = 2.2 + (number % 3) * 0.9
-        x, y = reach * math.cos(turn) * 1.3, reach * math.sin(turn)
-        values += [x, y, turn + math.pi / 2, 1.0]
-    return {"drawing": 1, "values": [round(each, 3) for each in values]}
+    drawing, poses = _world(_scene(number)["name"], number % MAX_SEEDS)
+    values = list(poses.values)
+    turn = time_s if _status(number) == "driving" else 0.0
+    for index, body in enumerate(drawing.bodies):
+        if body.is_agent:  # in a small circle
+            x, y, heading, _ = values[4 * index : 4 * index + 4]
+            x += CIRCLE_M * (math.sin(heading + turn) - math.sin(heading))
+            y -= CIRCLE_M * (math.cos(heading + turn) - math.cos(heading))
+            values[4 * index : 4 * index + 3] = [x, y, heading + turn]
+    return {"drawing": 1, "values": values}
 
 
 def _seat(number: int) -> dict[str, Any]:
@@ -232,25 +232,3 @@ def _misconceptions(count: int) -> list[dict[str, Any]]:
             }
         )
     return found
-
-
-def _wall(x: float, y: float, half_x: float, half_y: float) -> dict[str, Any]:
-    shape = _polygon("#5b6770", -half_x, -half_y, half_x, half_y)
-    return {"name": f"wall{x},{y}", "is_agent": False, "shapes": [shape], "at": [x, y]}
-
-
-def _disc_body(name: str, colour: str, radius: float) -> dict[str, Any]:
-    return {"name": name, "is_agent": False, "shapes": [_disc(colour, 0, 0, radius)]}
-
-
-def _robot(colour: str) -> dict[str, Any]:
-    return {"name": "robot", "is_agent": True, "shapes": [_disc(colour, 0, 0, 0.6)]}
-
-
-def _disc(colour: str, x: float, y: float, radius: float) -> dict[str, Any]:
-    return {"colour": colour, "radius": radius, "points": [x, y]}
-
-
-def _polygon(colour: str, left: float, bottom: float, right: float, top: float) -> dict[str, Any]:
-    points = [left, bottom, right, bottom, right, top, left, top]
-    return {"colour": colour, "radius": 0.0, "points": points}
