@@ -14,6 +14,7 @@ from ai4u_edu.classroom.episode_check import EpisodeCheck
 from ai4u_edu.classroom.join import Join
 from ai4u_edu.classroom.link_endpoint import LinkEndpoint
 from ai4u_edu.classroom.live_class import LiveClass
+from ai4u_edu.classroom.my_work import my_work_route
 from ai4u_edu.classroom.pages import page_route, web_file
 from ai4u_edu.classroom.room_entrance import RoomEntrance
 from ai4u_edu.classroom.room_host import RoomHost
@@ -85,6 +86,7 @@ def class_app(
             Route("/api/names", join.names),
             Route("/api/join", join.join, methods=["POST"]),
             Route("/api/move-code", join.move_code, methods=["POST"]),
+            Route("/api/my-work", my_work_route(live)),
             Route("/check", page_route("check.html")),
             WebSocketRoute("/check/socket", echo),
             Route("/privacy", page_route("privacy.html")),
@@ -92,6 +94,7 @@ def class_app(
             WebSocketRoute(LINK_PATH, LinkEndpoint(live)),
             Route("/teacher", teacher.page, middleware=[page_auth]),
             Route("/teacher/state", teacher.state, middleware=[auth]),
+            Route("/teacher/export", teacher.export, middleware=[auth]),
             Route("/teacher/command", teacher.command, methods=["POST"], middleware=[auth]),
             WebSocketRoute("/teacher/socket", wall, middleware=[auth]),
             Route("/projector", page_route("projector.html"), middleware=[page_auth]),

@@ -33,6 +33,7 @@ from ai4u_edu.wire.class_link import (
 TICK_S = 0.5
 """Interval at which ends of times are looked for."""
 SHOWN = "shown"
+NOTHING_SHOWN = '{"kind": "join", "room": ""}'
 ShownKind = Literal["join", "room", "race", "board"]
 
 
@@ -59,12 +60,12 @@ class LiveClass:
         self.assignments = Assignments(store)
         self.progress = Progress(store)
         self.races = Races(store)
-        self.race = RaceRunner(self.races, check, self._seats_of_id, self._tell_race)
+        self.race = RaceRunner(self.races, check, self.seats_of_id, self._tell_race)
         self.results = ResultWriter(
             store, self.progress, self.races, self._note_exercise, self._note_results
         )
 
-        self.shown = json.loads(store.setting(SHOWN) or '{"kind": "join", "room": ""}')
+        self.shown = json.loads(store.setting(SHOWN, NOTHING_SHOWN))
         """Content of the projector page."""
         self._ticking: asyncio.Task[None] | None = None
 
@@ -115,7 +116,8 @@ class LiveClass:
             and (each.number == room.seat if room.seat else each.room == room.id)
         ]
 
-    def _seats_of_id(self, room: str) -> list[SeatRow]:
+    def seats_of_id(self, room: str) -> list[SeatRow]:
+        """Return the seats of a room that may enter it; see :meth:`seats_of`."""
         return self.seats_of(self.room(room, seat_of_remote(room)))
 
     def is_here(self, seat: int) -> bool:
@@ -198,6 +200,23 @@ class LiveClass:
         if room is not None and room.link is not None:
             link, room.link = room.link, None
             link.end(sentence)
+        self.tell_people()
+
+    def end_all_links(self, sentence: str) -> None:
+        """End all links."""
+        for room in self.rooms.values():
+            link, room.link = room.link, None
+            if link is not None:
+                link.end(sentence)
+
+    def begin_anew(self) -> None:
+        """Forget all states, after everything was deleted."""
+        self.rooms.clear()
+        self.attention.read()
+        self.assignments.read()
+        self.progress.read()
+        self.races.read()
+        self.shown = json.loads(NOTHING_SHOWN)
         self.tell_people()
 
     def _note_results(self) -> None:

@@ -216,11 +216,15 @@ class Seats:
             self.is_open = is_open
 
     def begin_anew(self) -> None:
-        """Forget all seats with their rooms, after the store has, and set a new code.
+        """Delete the class's file with all seats and rooms, begin another one, set a new code.
 
         The rule of rooms and their scene stay.
+
+        Raises:
+            StoreError: it can't be deleted.
         """
         with self._lock:
+            self._store.begin_anew()
             self._move_codes.clear()
             self._read()
             self.is_open = True

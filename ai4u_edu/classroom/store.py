@@ -18,6 +18,8 @@ from ai4u_edu.base.errors import SetupError
 from ai4u_edu.classroom.errors import StoreError
 
 FILE = "class.sqlite3"
+TEACHER_SETTING = "teacher_token"
+"""Name of the setting with the secret of the teacher's page."""
 VERSION = 2
 """Version of the tables; a file with another one is not opened."""
 _TABLES = """
@@ -268,8 +270,8 @@ def _opened(path: Path) -> sqlite3.Connection:
 
 def teacher_token(store: ClassStore) -> str:
     """Return the secret of the teacher's page, which is made once for each class."""
-    token = store.setting("teacher_token")
+    token = store.setting(TEACHER_SETTING)
     if not token:
         token = token_urlsafe(24)
-        store.set_setting("teacher_token", token)
+        store.set_setting(TEACHER_SETTING, token)
     return token

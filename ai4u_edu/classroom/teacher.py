@@ -26,11 +26,13 @@ from ai4u_edu.classroom.commands import (
     StartRace,
 )
 from ai4u_edu.classroom.errors import CommandError, JoinError, StoreError
+from ai4u_edu.classroom.forget import forget
 from ai4u_edu.classroom.live_class import LiveClass
 from ai4u_edu.classroom.pages import html_page
 from ai4u_edu.classroom.room_proxy import RoomProxy
 from ai4u_edu.classroom.scene_source import find_scene
 from ai4u_edu.classroom.seats import State
+from ai4u_edu.classroom.work_zip import class_zip, zip_response
 from ai4u_edu.server.json_body import read_json
 from ai4u_edu.wire.class_link import MAX_SCENE_CHARS
 
@@ -61,6 +63,10 @@ class Teacher:
         url = str(request.url.replace(path="/", query=""))
         text = self._events.text(url, is_projected=False)
         return Response(text, media_type="application/json", headers=NO_STORE)
+
+    async def export(self, _: Request) -> Response:
+        """Return a ZIP file with the work of the class."""
+        return zip_response(await asyncio.to_thread(class_zip, self._live), "class.zip")
 
     async def command(self, request: Request) -> Response:
         """Do what the teacher wants; answer with a sentence if it can't be done."""
@@ -121,6 +127,8 @@ class Teacher:
                 await asyncio.to_thread(self._seats.change_code)
             case "open" | "close":
                 await asyncio.to_thread(self._seats.set_open, wanted.do == "open")
+            case "forget":
+                await forget(self._live, self._proxy)
             case "end race":
                 if races.now is not None and races.now.phase != "over":
                     races.change(phase="over")

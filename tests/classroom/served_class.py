@@ -27,6 +27,7 @@ class ServedClass:
     """Address of the class on this machine, with a slash at the end."""
     token: str
     """Secret of the teacher's page."""
+    folder: Path
     told: list[str] = field(default_factory=list)
     clients: list[httpx.Client] = field(default_factory=list)
     """Clients of the students, which are closed at the end."""
@@ -54,6 +55,12 @@ class ServedClass:
         """Send a teacher's command."""
         body = {"do": do, **rest}
         return httpx.post(f"{self.url}teacher/command", json=body, headers=self._auth())
+
+    def export(self) -> bytes:
+        """Return the ZIP file with the work of the class."""
+        answer = httpx.get(f"{self.url}teacher/export", headers=self._auth(), timeout=30)
+        assert answer.status_code == 200, answer.text
+        return answer.content
 
     def _auth(self) -> dict[str, str]:
         return {"Authorization": f"Bearer {self.token}"}
@@ -114,7 +121,7 @@ def served_class(folder: Path, *options: str) -> Iterator[ServedClass]:
         listener.start()
         parts = urlsplit(address)
         token = parse_qs(parts.query)["token"][0]
-        served = ServedClass(process, f"http://{parts.netloc}/", token, told)
+        served = ServedClass(process, f"http://{parts.netloc}/", token, folder, told)
         try:
             yield served
         finally:

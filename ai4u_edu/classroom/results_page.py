@@ -1,0 +1,94 @@
+"""Results of a class as one HTML page that needs nothing else; all texts are escaped."""
+
+import html
+from collections.abc import Iterable, Iterator
+
+from ai4u_edu.classroom.class_event import misconceptions
+from ai4u_edu.classroom.course_index import course_index
+from ai4u_edu.classroom.live_class import LiveClass
+from ai4u_edu.classroom.race import WINNING
+
+POLICY = "default-src 'none'; style-src 'unsafe-inline'"
+STYLE = """body{font:15px/1.4 system-ui,sans-serif;margin:1em;color:#1b2530}
+table{border-collapse:collapse;margin:.7em 0}td,th{border:1px solid #c9ced4;padding:.15em .5em;
+text-align:left;vertical-align:top}.solved{background:#cdeee2}.hint,.tried{background:#fbdfcc}"""
+WORDS = {"solved": "solved", "tried": "not yet", "hint": "not yet, with hints"}
+
+
+def results_page(live: LiveClass) -> str:
+    """Return the page: progress, mistakes, races."""
+    parts = [
+        f"<h1>Results of the class</h1><p>{len(live.seats)} seats.</p>",
+        "<h2>Exercises</h2>",
+        _progress(live),
+        "<h2>Mistakes</h2>",
+        _table(
+            ("exercise", "seats", "times", "hint that students got", "what to say"),
+            (
+                (
+                    each["exercise"],
+                    len(each["seats"]),
+                    each["count"],
+                    each["sentence"],
+                    each["guide"],
+                )
+                for each in misconceptions(live.progress.mistakes)
+            ),
+        ),
+        *_races(live),
+    ]
+    return (
+        '<!doctype html><html lang="en"><head><meta charset="utf-8">'
+        "<title>AI4U Edu: results of the class</title>"
+        f'<meta http-equiv="Content-Security-Policy" content="{POLICY}">'
+        f"<style>{STYLE}</style></head><body>" + "\n".join(parts) + "</body></html>\n"
+    )
+
+
+def _progress(live: LiveClass) -> str:
+    """Return the table of seats and exercises that somebody has begun."""
+    entries = live.progress.entries
+    begun = {exercise for _, exercise in entries}
+    exercises = [each for one in course_index() for each in one.ids if each in begun]
+    head = "".join(f"<th>{html.escape(each)}</th>" for each in exercises)
+    rows = []
+    for seat in live.seats.all():
+        cells = []
+        for each in exercises:
+            entry = entries.get((seat.number, each))
+            if entry is None:
+                cells.append("<td></td>")
+                continue
+            text = f"{WORDS[entry.state]}, checks: {entry.tries}, minutes: {entry.seconds / 60:.1f}"
+            cells.append(f'<td class="{entry.state}">{html.escape(text)}</td>')
+        rows.append(f"<tr><th>{html.escape(seat.name)}</th>{''.join(cells)}</tr>")
+    return f"<table><tr><th></th>{head}</tr>{''.join(rows)}</table>"
+
+
+def _races(live: LiveClass) -> Iterator[str]:
+    """Yield a table for each race: the best result of each room."""
+    for race, title in live.store.query("select id, title from races order by rowid"):
+        rows = live.store.query(
+            "select room, outcome, min(seconds) from race_results where race = ? "
+            "and verdict = 'right' group by room order by min(seconds)",
+            [race],
+        )
+        yield f"<h2>Race: {html.escape(title)}</h2>"
+        found = [
+            (place, _names(live, room), f"{seconds:.2f} s")
+            for place, (room, outcome, seconds) in enumerate(rows, 1)
+            if outcome in WINNING
+        ]
+        yield _table(("place", "who", "time"), found)
+
+
+def _names(live: LiveClass, room: str) -> str:
+    return " & ".join(each.name for each in live.seats_of_id(room)) or room
+
+
+def _table(heads: Iterable[object], rows: Iterable[Iterable[object]]) -> str:
+    head = "".join(f"<th>{html.escape(str(each))}</th>" for each in heads)
+    body = "".join(
+        f"<tr>{''.join(f'<td>{html.escape(str(each))}</td>' for each in row)}</tr>" for row in rows
+    )
+    return f"<table><tr>{head}</tr>{body}</table>"

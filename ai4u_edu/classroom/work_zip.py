@@ -1,0 +1,162 @@
+"""ZIP files with the work of a class: all of it for the teacher, or one seat's own."""
+
+import csv
+import io
+import json
+import re
+import tempfile
+import zipfile
+from collections.abc import AsyncIterator, Iterator
+from dataclasses import asdict
+from typing import IO
+
+from starlette.concurrency import run_in_threadpool
+from starlette.responses import StreamingResponse
+
+from ai4u_edu.base.errors import AI4UError
+from ai4u_edu.classroom.live_class import LiveClass
+from ai4u_edu.classroom.live_rooms import remote_id
+from ai4u_edu.classroom.progress import Entry
+from ai4u_edu.classroom.race import FOLDER as RACES
+from ai4u_edu.classroom.results_page import results_page
+from ai4u_edu.classroom.scene_file import NAME as SCENE_FILE
+from ai4u_edu.classroom.store import SeatRow
+from ai4u_edu.lessons import progress_file
+from ai4u_edu.scenes import Scene
+
+CHUNK_BYTES = 2**18
+HEADER = ("seat", "name", "exercise", "state", "checks", "hints", "minutes")
+SCENES = "scenes"
+Files = Iterator[tuple[str, bytes]]
+
+
+def class_zip(live: LiveClass) -> IO[bytes]:
+    """Return a temporary file with the work of a class; a thread may do it."""
+    return _zipped(_class_files(live))
+
+
+def seat_zip(live: LiveClass, seat: SeatRow) -> IO[bytes]:
+    """Return a temporary file with a seat's work, as ``ai4u-edu play`` opens it."""
+    return _zipped(_seat_files(live, seat))
+
+
+def zip_response(file: IO[bytes], name: str) -> StreamingResponse:
+    """Return a response with a file, which is closed at the end."""
+
+    async def parts() -> AsyncIterator[bytes]:
+        with file:
+            while part := await run_in_threadpool(file.read, CHUNK_BYTES):
+                yield part
+
+    headers = {"Content-Disposition": f'attachment; filename="{name}"', "Cache-Control": "no-store"}
+    return StreamingResponse(parts(), media_type="application/zip", headers=headers)
+
+
+def _zipped(files: Files) -> IO[bytes]:
+    # without a name, so nothing is left of it whatever happens
+    file = tempfile.TemporaryFile()  # noqa: SIM115 - the caller closes it
+    with zipfile.ZipFile(file, "w", zipfile.ZIP_DEFLATED) as archive:
+        for name, data in files:
+            archive.writestr(name, data)
+    file.seek(0)
+    return file
+
+
+def _class_files(live: LiveClass) -> Files:
+    yield "results.html", results_page(live).encode()
+    yield "progress.csv", _table(live).encode()
+    remote = [remote_id(each.number) for each in live.seats.all()]
+    for each in [*live.seats.scenes(), *remote]:
+        name = _room_name(live, each)
+        for file, data in _room_files(live, each):
+            yield f"rooms/{name}/{file}", data
+    races = live.store.query("select id, title from races order by rowid")
+    for number, (race, title) in enumerate(races, 1):
+        rows = live.store.query(
+            "select key, room, seconds from race_results where race = ? and verdict = 'right' "
+            "order by seconds",
+            [race],
+        )
+        for key, each, seconds in rows:
+            path = live.store.folder / RACES / race / f"{key}.episode"
+            if path.is_file():
+                place = f"races/{number} {_file_name(title)}"
+                yield f"{place}/{seconds:.2f} s {_room_name(live, each)}.episode", path.read_bytes()
+
+
+def _seat_files(live: LiveClass, seat: SeatRow) -> Files:
+    rooms = [seat.room, remote_id(seat.number)]
+    found = [dict(_room_files(live, each)) for each in rooms]
+    folder = live.store.folder / "rooms"
+    paths = [folder / each / SCENE_FILE for each in rooms]
+    # the scene that was changed last is the present one
+    paths = sorted(
+        (each for each in paths if each.is_file()), key=lambda path: path.stat().st_mtime
+    )
+    files = found[1] | found[0]
+    if paths:
+        files[SCENE_FILE] = paths[-1].read_bytes()
+    else:
+        files[SCENE_FILE] = _first_scene(live, seat.room).encode()
+    yield from files.items()
+    rows = live.store.query(
+        "select key, race, seconds from race_results where verdict = 'right' and room in (?, ?)",
+        rooms,
+    )
+    for key, race, seconds in rows:
+        path = live.store.folder / RACES / race / f"{key}.episode"
+        if path.is_file():
+            yield f"episodes/race {seconds:.2f} s {key}.episode", path.read_bytes()
+    exercises = {
+        exercise: asdict(progress_file.Entry(entry.state == "solved", tries=entry.tries))
+        for (number, exercise), entry in live.progress.entries.items()
+        if number == seat.number
+    }
+    progress = {"version": progress_file.VERSION, "exercises": exercises}
+    yield progress_file.FILE, json.dumps(progress, indent=1).encode()
+
+
+def _room_files(live: LiveClass, room: str) -> Files:
+    """Yield the scene of a room, and the scenes that were saved there."""
+    folder = live.store.folder / "rooms" / room
+    for path in [folder / SCENE_FILE, *sorted((folder / SCENES).glob("*.yaml"))]:
+        if path.is_file():
+            yield path.relative_to(folder).as_posix(), path.read_bytes()
+
+
+def _first_scene(live: LiveClass, room: str) -> str:
+    """Return the scene of a room in which nothing was changed."""
+    try:
+        return Scene.load(live.seats.scenes()[room]).source
+    except AI4UError:  # the teacher's file is not there any more
+        return ""
+
+
+def _room_name(live: LiveClass, room: str) -> str:
+    """Return a name of a room's folder: its seats, and its id."""
+    names = " & ".join(each.name for each in live.seats_of_id(room))
+    return _file_name(f"{names} {room}".strip())
+
+
+def _file_name(text: str) -> str:
+    """Return a text as a part of a path.
+
+    >>> _file_name("../<b>Tag")
+    'bTag'
+    """
+    return re.sub(r"[^\w &-]", "", text)[:80].strip() or "scene"
+
+
+def _table(live: LiveClass) -> str:
+    """Return one line of CSV for each seat and exercise."""
+    out = io.StringIO()
+    writer = csv.writer(out, lineterminator="\n")
+    writer.writerow(HEADER)
+    names = {each.number: each.name for each in live.seats.all()}
+    for (seat, exercise), entry in sorted(live.progress.entries.items()):
+        writer.writerow([seat, names.get(seat, ""), exercise, *_cells(entry)])
+    return out.getvalue()
+
+
+def _cells(entry: Entry) -> tuple[object, ...]:
+    return entry.state, entry.tries, entry.hints, round(entry.seconds / 60, 1)

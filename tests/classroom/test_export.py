@@ -1,0 +1,105 @@
+"""Export of a class, a student's own work, and what is left after "forget": nothing."""
+
+import csv
+import io
+import zipfile
+from pathlib import Path
+
+import pytest
+
+from ai4u_edu import Scene
+from ai4u_edu.lessons.progress_file import read_entries
+from ai4u_edu.recording import Episode
+from ai4u_edu.recording.file import decode
+from ai4u_edu.room.my_work import open_my_work
+from ai4u_edu.wire.class_link import Ack, Race, Work
+from tests.classroom.link_client import RawLink, TeacherSocket, check, state
+from tests.classroom.served_class import CODE, ServedClass, Student, served_class
+from tests.classroom.test_race import SEED, driven, result
+from tests.server.rooms import until
+
+pytestmark = pytest.mark.slow
+TITLE = "<script>alert(1)</script>"
+
+
+def zip_of(content: bytes) -> dict[str, bytes]:
+    with zipfile.ZipFile(io.BytesIO(content)) as archive:
+        return {name: archive.read(name) for name in archive.namelist()}
+
+
+def work(served: ServedClass, ada: Student) -> None:
+    """Do something of everything that a class keeps."""
+    scene = Scene.load("box_chase").source.replace("title: Box chase", f"title: {TITLE}")
+    with RawLink(served, ada) as link, TeacherSocket(served) as wall:
+        link.send(state())
+        link.send(Work(TITLE, scene))
+        link.send(check("wrong", "04.2/narrow"))
+        link.next(Ack)
+        answer = served.command("race", scene={"room": "seat-1"}, seed=SEED, countdown=0)
+        assert answer.status_code == 200, answer.text
+        race = link.next(Race, lambda message: message.id != "")
+        link.send(result(race.id, driven(1.0)))
+        link.next(Ack)
+        wall.next("class", lambda e: e["race"] and e["race"]["board"])
+    assert ada.client.post(ada.room + "api/scene", json={"name": "maze"}).status_code == 200
+
+
+def test_everything_is_in_the_export_and_nothing_after_forget(tmp_path: Path) -> None:
+    folder = tmp_path / "class"
+    with served_class(folder) as served:
+        ada, ben = served.joined(name="Red Fox"), served.joined(name="Blue Otter")
+        work(served, ada)
+        room = ada.room.split("/")[2]
+        until((folder / "rooms" / room / "scene.yaml").exists)
+
+        files = zip_of(served.export())
+        page = files["results.html"].decode()
+        assert "Red Fox" in page
+        assert "<script" not in page
+        assert "&lt;script&gt;" in page
+        rows = list(csv.DictReader(io.StringIO(files["progress.csv"].decode())))
+        assert (rows[0]["name"], rows[0]["exercise"], rows[0]["checks"]) == ("Red Fox", "04.2", "1")
+        assert TITLE in files["rooms/Red Fox seat-1/scene.yaml"].decode()
+        assert "title: Maze" in files[f"rooms/Red Fox {room}/scene.yaml"].decode()
+        (name,) = [each for each in files if each.endswith(".episode")]
+        assert ".." not in name
+        assert decode(Episode, files[name], name).seed == SEED
+
+        own = zip_of(ada.client.get("api/my-work").content)
+        assert "title: Maze" in own["scene.yaml"].decode()  # changed last
+        assert read_entries(own["progress.json"].decode())["04.2"].tries == 1
+        other = ben.client.get("api/my-work")
+        (tmp_path / "my-work.zip").write_bytes(other.content)
+        unpacked = open_my_work(tmp_path / "my-work.zip")
+        assert "title: Box chase" in unpacked.scene.read_text()
+        assert zip_of(other.content).keys() == {"scene.yaml", "progress.json"}
+        assert served.student().client.get("api/my-work").status_code == 403
+
+        secrets = [*ada.client.cookies.values(), *ben.client.cookies.values()]
+        with RawLink(served, ada) as link:
+            assert served.command("forget").status_code == 200
+            code, problem = link.end()
+            assert (code, problem and problem.code) == (1008, "over")
+        assert ada.client.get("api/my-work").status_code == 403
+        assert ada.get("api/snapshot").status_code == 403
+        told = served.state()
+        assert (told["seats"], told["rooms"], told["progress"], told["race"]) == ([], [], {}, None)
+        assert told["code"] != CODE
+        words = [*secrets, "Red Fox", "Blue Otter", "127.0.0.1", room, "narrow", TITLE, CODE]
+        assert found_in(folder, words) == []
+        assert [each.name for each in folder.iterdir() if each.is_dir()] == []
+
+        late = served.joined(code=told["code"], name="Red Fox")
+        assert late.get("healthz").status_code == 200
+    with served_class(folder) as served:
+        assert len(served.state()["seats"]) == 1  # it goes on where it was, with the same secret
+
+
+def found_in(folder: Path, words: list[str]) -> list[str]:
+    """Return where a word is in the name or content of a file."""
+    return [
+        f"{word} in {path}"
+        for path in folder.rglob("*")
+        for word in words
+        if word in path.name or (path.is_file() and word.encode() in path.read_bytes())
+    ]
