@@ -136,6 +136,9 @@ def test_the_teacher_looks_in_and_a_student_does_not(served: ServedClass) -> Non
     assert teacher.client.get("/r/ffffffffffff/api/snapshot").status_code == 403
     forged = {"x-ai4u-role": "teacher", "x-ai4u-seat": "0"}
     assert ben.client.get(ada.room + "api/snapshot", headers=forged).status_code == 403
+    for student, role in ((teacher, "teacher"), (ada, "student")):
+        with Page(ada.address + "ws/input", additional_headers=student.cookies | forged) as page:
+            assert page.receive("class")["role"] == role
     number = max(each["number"] for each in served.state()["seats"])
     with Page(ben.address + "ws/input", additional_headers=ben.cookies) as page:
         page.receive("hello")
