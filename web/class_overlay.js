@@ -24,8 +24,11 @@ export class BlankScreen {
     this.#dialog.setAttribute("aria-labelledby", title.id);
     this.#dialog.setAttribute("aria-describedby", this.#message.id);
     this.#dialog.addEventListener("cancel", (event) => event.preventDefault());
-    this.#dialog.addEventListener("keydown", (event) => event.stopPropagation());
-    // a browser lets a second Escape through
+    this.#dialog.addEventListener("keydown", (event) => {
+      event.stopPropagation();
+      if (event.key === "Tab" || event.key === "Escape") event.preventDefault(); // nothing else can have the focus
+    });
+    // a browser may let a second Escape through
     this.#dialog.addEventListener("close", () => this.#isWanted && this.#open());
     document.body.append(this.#dialog);
   }

@@ -7,6 +7,8 @@ import { clock } from "./room_words.js";
 
 const TICK_MS = 250;
 const MAX_PLACES = 3;
+/** Outcomes of a drive that reached the goal. */
+const WINS = ["goal", "won"];
 
 /** A number of seconds that counts down here between two messages. */
 export class Countdown {
@@ -56,7 +58,7 @@ export class ClassStrips {
       const end = this.#ends.left ? ` Ends in ${clock(this.#ends.left)}.` : "";
       say(this.#held, `${HELD[attention.kind]}.`, (attention.message && `“${attention.message}”`) + end);
     }
-    if (race) say(this.#race, raceWords(race, this.#starts.left), race.board.slice(0, MAX_PLACES).map(place).join("   "));
+    if (race) say(this.#race, raceWords(race, this.#starts.left), boardWords(race.board));
   }
 }
 
@@ -65,8 +67,14 @@ function raceWords({ phase, scene }, left) {
   return phase === "over" ? `Race “${scene}” is over.` : `Race “${scene}” is on.`;
 }
 
-function place({ name, seconds }, index) {
-  return `${index + 1}. ${name} ${seconds.toFixed(1)} s`;
+/** Return the best places, and whose results were refused, with the reason. */
+function boardWords(board) {
+  const best = board.filter(({ outcome }) => WINS.includes(outcome)).slice(0, MAX_PLACES);
+  const refused = board.filter(({ outcome }) => outcome === "refused");
+  return [
+    ...best.map(({ name, seconds }, index) => `${index + 1}. ${name} ${seconds.toFixed(1)} s`),
+    ...refused.map(({ name, why }) => `Refused: ${name} (${why})`),
+  ].join("   ");
 }
 
 /** Build a strip of words and buttons, unless it has these already: a button keeps its focus. */

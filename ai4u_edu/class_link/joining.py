@@ -2,7 +2,7 @@
 
 import re
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Literal
 from urllib.parse import urlsplit
 from uuid import uuid4
 
@@ -17,6 +17,7 @@ TIMEOUT_S = 10.0
 MAX_NAME_ROUNDS = 5
 """Limit of lists of names to ask for; a whole class may choose from the same few at once."""
 MAX_SENTENCE_CHARS = 300
+ProgramKind = Literal["play", "notebook"]
 _ROOM_PATH = re.compile(r"/r/\w+/?$")
 
 
@@ -61,7 +62,14 @@ def class_address(url: str) -> str:
     return f"{parts.scheme}://{parts.netloc}{path.rstrip('/')}/"
 
 
-def join(url: str, code: str, name_choice: int = 1, request: str = "", held: str = "") -> Seat:
+def join(
+    url: str,
+    code: str,
+    name_choice: int = 1,
+    request: str = "",
+    held: str = "",
+    kind: ProgramKind = "play",
+) -> Seat:
     """Join a class, and return the seat.
 
     Args:
@@ -72,6 +80,7 @@ def join(url: str, code: str, name_choice: int = 1, request: str = "", held: str
         request: random id of this attempt, of 16 to 64 letters, digits and hyphens; repeated with
             the same id, the class gives the same seat. Left out, a new one.
         held: token of the seat that this program had; the class gives that seat again if it can.
+        kind: program that joins.
 
     Raises:
         UnreachableError: nobody answers there.
@@ -80,13 +89,15 @@ def join(url: str, code: str, name_choice: int = 1, request: str = "", held: str
     address = class_address(url)
     if name_choice < 1:
         raise NotJoinedError(f"name choice: expected a number from 1 on, got {name_choice}")
+    if not code.strip():
+        raise NotJoinedError("expected the code on the board, such as BCDFG, got none")
     request = request or str(uuid4())
     with _client(address, held) as client:
         for _ in range(MAX_NAME_ROUNDS):
             names = _names(client)
             first = (name_choice - 1) % len(names)
             for name in names[first:] + names[:first]:
-                body = {"code": code, "name": name, "request": request}
+                body = {"code": code, "name": name, "request": request, "kind": kind}
                 answer = _ask(client, "POST", "api/join", json=body)
                 if answer.status_code == 409:
                     continue

@@ -9,11 +9,10 @@ from typing import Any
 
 from ai4u_edu.base.atomic_write import write_atomically
 from ai4u_edu.class_link.errors import UnreachableError
-from ai4u_edu.class_link.joining import Seat, class_address, is_seat_valid, join
+from ai4u_edu.class_link.joining import ProgramKind, Seat, class_address, is_seat_valid, join
 
 MAX_SEATS = 20
 """Limit of the classes whose seat is kept; the oldest one is forgotten."""
-OUTBOX_FOLDER = "outbox"
 
 
 class SeatFile:
@@ -28,7 +27,7 @@ class SeatFile:
     def __init__(self, path: Path) -> None:
         self.path = path
 
-    def take(self, url: str, code: str, name_choice: int = 1) -> Seat:
+    def take(self, url: str, code: str, name_choice: int = 1, kind: ProgramKind = "play") -> Seat:
         """Return the seat that is kept, if the class still knows it; else join.
 
         If the class can't be reached, the kept seat is returned, too.
@@ -44,14 +43,15 @@ class SeatFile:
                     return kept
             except UnreachableError:
                 return kept
-        seat = join(url, code, name_choice, held=kept.token if kept else "")
+        held = kept.token if kept else ""
+        seat = join(url, code, name_choice, held=held, kind=kind)
         self._keep(seat)
         return seat
 
-    def outbox_folder(self, seat: Seat) -> Path:
-        """Return the folder for a seat's results; another seat's don't get into it."""
+    def folder(self, seat: Seat) -> Path:
+        """Return the folder for a seat's files; those of another seat don't get into it."""
         digest = hashlib.sha256(f"{seat.url} {seat.token}".encode()).hexdigest()
-        return self.path.parent / OUTBOX_FOLDER / digest[:16]
+        return self.path.parent / f"class-{digest[:16]}"
 
     def seats(self) -> dict[str, Seat]:
         """Return the seats by address; none if the file is damaged."""

@@ -8,6 +8,7 @@ from pydantic import BaseModel, ConfigDict, Field
 from starlette.requests import HTTPConnection, Request
 from starlette.responses import JSONResponse, RedirectResponse, Response
 
+from ai4u_edu.class_link.joining import SEAT_COOKIE
 from ai4u_edu.classroom.code_limit import CodeLimit
 from ai4u_edu.classroom.errors import JoinError, NameTakenError, StoreError, WrongCodeError
 from ai4u_edu.classroom.move_codes import LIFE_S
@@ -18,8 +19,6 @@ from ai4u_edu.classroom.store import SeatRow
 from ai4u_edu.server.attempts import client_address
 from ai4u_edu.server.json_body import read_json
 
-SEAT_COOKIE = "ai4u_edu_seat"
-"""Cookie with a seat's token; scripts in the page can't read it."""
 COOKIE_LIFE_S = 200 * 24 * 3600
 MAX_BODY_BYTES = 2000
 NO_STORE = {"Cache-Control": "no-store"}

@@ -1,6 +1,5 @@
 """Reverse proxy for the pages of rooms: HTTP by httpx, WebSockets by websockets."""
 
-import asyncio
 from collections.abc import AsyncIterator, Callable, Iterable
 from contextlib import suppress
 from dataclasses import dataclass
@@ -11,13 +10,14 @@ from starlette.datastructures import Headers
 from starlette.requests import Request
 from starlette.responses import PlainTextResponse, Response, StreamingResponse
 from starlette.types import Receive, Scope, Send
-from starlette.websockets import WebSocket, WebSocketDisconnect
+from starlette.websockets import WebSocket
 from websockets.asyncio.client import ClientConnection, connect
 from websockets.exceptions import ConnectionClosed, InvalidHandshake
 from websockets.typing import Subprotocol
 
 from ai4u_edu.classroom.room_host import RoomAddress
 from ai4u_edu.server.proxy import SCRIPT_KEY_HEADER
+from ai4u_edu.server.socket_pump import pump_sockets, sendable_code
 
 _HOP_BY_HOP = {
     "connection",
@@ -38,13 +38,10 @@ _OURS = {
 }
 _WEBSOCKET = "sec-websocket-"
 NORMAL = 1000
-GOING_AWAY = 1001
 NOT_ALLOWED = 1008
 """Code of a close: this seat may not enter."""
 TRY_LATER = 1013
 """Code of a close: the room does not answer; try again later."""
-_STANDARD_CODES = (NORMAL, GOING_AWAY, 1003, NOT_ALLOWED, 1009, TRY_LATER)
-_PRIVATE_CODES = range(3000, 5000)
 
 
 @dataclass(eq=False)
@@ -54,6 +51,10 @@ class _Link:
     there: ClientConnection
     refusal: str = ""
     """Reason for which the class ended it."""
+
+    def close_for_refusal(self) -> tuple[int, str] | None:
+        """Return the close's code and reason if the class ended it."""
+        return (NOT_ALLOWED, self.refusal) if self.refusal else None
 
 
 class RoomProxy:
@@ -150,16 +151,11 @@ class RoomProxy:
         links = self._links.setdefault(seat, set())
         links.add(link)
         self._on_socket(seat, 1)
-        upward = asyncio.create_task(_upward(page, there))
         try:
-            await _downward(link, page)
+            await pump_sockets(page, there, _upward(page, there), link.close_for_refusal)
         finally:
             links.discard(link)
             self._on_socket(seat, -1)
-            upward.cancel()
-            there.transport.abort()  # a close would wait behind frames that nobody reads
-            with suppress(asyncio.CancelledError):
-                await upward
 
     def _headers(self, room: RoomAddress, seat: int, given: Headers) -> list[tuple[str, str]]:
         passed = [
@@ -200,32 +196,9 @@ async def _body_of(answer: httpx.Response) -> AsyncIterator[bytes]:
         await answer.aclose()
 
 
-async def _downward(link: _Link, page: WebSocket) -> None:
-    there = link.there
-    with suppress(WebSocketDisconnect):
-        await page.accept(there.subprotocol)
-        with suppress(ConnectionClosed):
-            async for message in there:
-                if isinstance(message, str):
-                    await page.send_text(message)
-                else:
-                    await page.send_bytes(message)
-        if link.refusal:
-            await page.close(NOT_ALLOWED, link.refusal)
-        else:
-            await page.close(_passed_code(there.close_code, GOING_AWAY), there.close_reason)
-
-
 async def _upward(page: WebSocket, there: ClientConnection) -> None:
     with suppress(ConnectionClosed):
         while (message := await page.receive())["type"] == "websocket.receive":
             text = message.get("text")
             await there.send(message["bytes"] if text is None else text)
-        await there.close(_passed_code(message.get("code"), NORMAL), message.get("reason") or "")
-
-
-def _passed_code(code: int | None, other: int) -> int:
-    """Return a close's code if it may be sent, else another one."""
-    if code is not None and (code in _STANDARD_CODES or code in _PRIVATE_CODES):
-        return code
-    return other
+        await there.close(sendable_code(message.get("code"), NORMAL), message.get("reason") or "")

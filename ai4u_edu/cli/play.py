@@ -1,5 +1,6 @@
 """``ai4u-edu play``: serve a scene in the browser."""
 
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -11,7 +12,6 @@ from ai4u_edu.cli.options import OwnBlocks, load_own_blocks
 
 if TYPE_CHECKING:
     from ai4u_edu.room import Room, RoomSettings
-    from ai4u_edu.room.my_work import MyWork
 
 
 def play(
@@ -40,6 +40,9 @@ def play(
     kept_scenes: o.SavedScenes = None,
     restore: o.Restore = False,
     autosave: o.AutosaveFlag = True,
+    class_url: o.ClassUrl = "",
+    code: o.ClassCode = "",
+    name_choice: o.NameChoice = 1,
 ) -> None:
     """Serve a scene in the browser; drive with W, A, S, D."""
     from ai4u_edu.editing.autosave import unsaved_folder
@@ -47,11 +50,6 @@ def play(
     from ai4u_edu.server import Rules, hosts_for, token_for
 
     load_own_blocks(own_blocks)
-    offers = [*(offer or ()), *([str(record)] if record else ())]
-    if scene.lower().endswith(".zip"):
-        work = _open_my_work(Path(scene))
-        scene, kept_scenes = str(work.scene), kept_scenes or work.scenes
-        offers.append(str(work.episodes))
     token = token_for(host, token)
     settings = RoomSettings(
         scene=scene,
@@ -66,12 +64,13 @@ def play(
         record=record,
         keep=keep,
         ghost=ghost,
-        offers=tuple(offers),
+        offers=(*(offer or ()), *([str(record)] if record else ())),
         saved_scenes=kept_scenes,
         restore=restore,
         unsaved=unsaved_folder() if autosave or restore else None,
         autosave=autosave,
     )
+    settings = _with_class(_with_work(settings), class_url, code, name_choice)
     _serve(settings, host, port, open_page, connections)
 
 
@@ -96,12 +95,41 @@ def _serve(
     HAS_SERVED.set()
 
 
-def _open_my_work(file: Path) -> "MyWork":
+def _with_work(settings: "RoomSettings") -> "RoomSettings":
+    """Open a ZIP file with a student's work, if that is the scene."""
+    if not settings.scene.lower().endswith(".zip"):
+        return settings
     from ai4u_edu.room.my_work import open_my_work
 
-    work = open_my_work(file)
+    work = open_my_work(Path(settings.scene))
     typer.echo(f"Your work is in {work.folder}, and scenes that you save go there.")
-    return work
+    return replace(
+        settings,
+        scene=str(work.scene),
+        saved_scenes=settings.saved_scenes or work.scenes,
+        offers=(*settings.offers, str(work.episodes)),
+    )
+
+
+def _with_class(settings: "RoomSettings", url: str, code: str, name_choice: int) -> "RoomSettings":
+    """Join a class, if there is an address."""
+    if not url:
+        if code:
+            raise typer.BadParameter("expected --class with the address of the class, too")
+        return settings
+    from ai4u_edu.base.atomic_write import make_folder
+    from ai4u_edu.class_link import SeatFile
+    from ai4u_edu.class_member import ClassLinkSettings
+    from ai4u_edu.editing.autosave import unsaved_folder
+
+    seats = SeatFile(unsaved_folder().with_name("classes") / "seats.json")
+    seat = seats.take(url, code, name_choice)
+    folder = seats.folder(seat)
+    make_folder(folder, "the seat in the class")
+    typer.echo(f"Joined the class as {seat.name}.")
+    return replace(
+        settings, class_link=ClassLinkSettings(seat.url, seat.token), class_folder=folder
+    )
 
 
 def _is_scene_named(context: typer.Context) -> bool:

@@ -145,6 +145,23 @@ Restore = Annotated[
         "one with that number.",
     ),
 ]
+ClassUrl = Annotated[
+    str,
+    typer.Option(
+        "--class",
+        help="Address of a class to join: the teacher sees this world. Default: none.",
+        show_default=False,
+    ),
+]
+ClassCode = Annotated[
+    str, typer.Option("--code", help="Code of the class, as on the board.", show_default=False)
+]
+NameChoice = Annotated[
+    int,
+    typer.Option(
+        help="Number of the name to get among those that the class offers.", min=1, max=100
+    ),
+]
 AutosaveFlag = Annotated[
     bool,
     typer.Option(

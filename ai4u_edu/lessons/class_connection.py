@@ -1,8 +1,11 @@
 """A notebook's link with its class, and the part of it that the shown world uses."""
 
 from collections.abc import Callable
+from contextlib import suppress
 from pathlib import Path
 from threading import Lock
+
+from msgspec.structs import replace
 
 from ai4u_edu.class_link import LinkClient, Outbox, Seat
 from ai4u_edu.class_link.dialogue import PresentState
@@ -14,9 +17,12 @@ from ai4u_edu.wire.class_link import (
     People,
     Race,
     Result,
+    State,
     Welcome,
 )
 
+OUTBOX = "outbox"
+"""Folder of results that are not delivered yet, in the seat's folder."""
 NO_WORLD = "The notebook shows no world at present."
 _REPLAYED = (Welcome, People, Attention, Race)
 """Messages of which a world that is shown later gets the latest one. An assignment is none of them:
@@ -30,18 +36,24 @@ class ClassConnection:
 
     Args:
         seat: of the notebook.
-        folder: for results that are not delivered yet.
+        folder: of the seat's files; made if needed.
     """
 
     def __init__(self, seat: Seat, folder: Path) -> None:
-        self.seat = seat
-        self.client = LinkClient(seat.url, seat.token, "notebook", self._receive, Outbox(folder))
+        self.seat, self.folder = seat, folder
+        self.client = LinkClient(
+            seat.url, seat.token, "notebook", self._receive, Outbox(folder / OUTBOX)
+        )
+        self._assignment = ""
+        """Id of the latest assignment; the class sends it again after each reconnect."""
         self._lock = Lock()
         self._latest: dict[type, FromClass] = {}
         self._world: Receive | None = None
 
     def start(self) -> None:
         """Connect, in the background."""
+        with suppress(OSError):  # the outbox says so
+            self.folder.mkdir(parents=True, exist_ok=True)
         self.client.start()
 
     def stop(self) -> None:
@@ -63,20 +75,31 @@ class ClassConnection:
             for message in self._latest.values():
                 receive(message)
 
-    def detach(self, receive: Receive) -> None:
-        """End what :meth:`attach` began."""
+    def detach(self, receive: Receive, last: State | None) -> None:
+        """End what :meth:`attach` began.
+
+        Args:
+            receive: as it was given.
+            last: latest state of the world, if there was one.
+        """
         with self._lock:
             if self._world == receive:
                 self._world = None
                 self.client.clear()
+                if last is not None:  # else the teacher's page would show it as driving on
+                    self.client.send(replace(last, status="over", error=""))
 
     def _receive(self, message: FromClass) -> None:
         with self._lock:
             if isinstance(message, _REPLAYED):
                 self._latest[type(message)] = message
+            if isinstance(message, Assignment):
+                if message.id == self._assignment:
+                    return
+                self._assignment = message.id
             if self._world is not None:
                 self._world(message)
-            elif isinstance(message, Assignment) and message.id:
+            elif isinstance(message, Assignment):
                 self.client.send(Applied(message.id, NO_WORLD))
 
 
@@ -91,6 +114,7 @@ class WorldLink:
     def __init__(self, connection: ClassConnection, receive: Receive) -> None:
         self._connection, self._receive = connection, receive
         self._is_started = False
+        self._last: State | None = None
 
     @property
     def is_connected(self) -> bool:
@@ -105,11 +129,12 @@ class WorldLink:
     def stop(self, timeout_s: float = 2.0) -> None:  # noqa: ARG002 - the connection stays
         """End receiving and sending; the notebook's connection stays."""
         self._is_started = False
-        self._connection.detach(self._receive)
+        self._connection.detach(self._receive, self._last)
 
     def send(self, message: PresentState) -> None:
         """Send a present state of the world."""
         if self._is_started:
+            self._last = message if isinstance(message, State) else self._last
             self._connection.client.send(message)
 
     def send_result(self, result: Result) -> None:

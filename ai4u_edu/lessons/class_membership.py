@@ -6,6 +6,7 @@ Without ``join_class`` nothing is sent anywhere, and nothing that could send is 
 import atexit
 import secrets
 from pathlib import Path
+from threading import RLock
 from typing import TYPE_CHECKING, Literal
 
 from ai4u_edu.lessons.notebook_output import card, put
@@ -13,11 +14,16 @@ from ai4u_edu.lessons.progress_file import FOLDER
 
 if TYPE_CHECKING:
     from ai4u_edu.lessons.class_connection import ClassConnection
+    from ai4u_edu.lessons.live import Live
 
 SEAT_FILE = "class.json"
 """File with the notebook's seat, in the folder of the progress."""
 
 _connection: "ClassConnection | None" = None
+_world: "Live | None" = None
+"""The world that is shown."""
+_lock = RLock()
+"""Guards both; a world ends in a thread of its own when its page is gone."""
 
 
 def join_class(url: str, code: str, *, name_choice: int = 1) -> None:
@@ -30,22 +36,18 @@ def join_class(url: str, code: str, *, name_choice: int = 1) -> None:
         code: the code on the board.
         name_choice: number of the name to get among those that the class offers, from 1.
     """
-    global _connection
     from ai4u_edu.class_link import NotJoinedError, SeatFile
     from ai4u_edu.lessons.class_connection import ClassConnection
 
-    if _connection is not None:
-        _end(_connection)
-        _connection = None
+    _connect(None)
     seats = SeatFile(Path.cwd() / FOLDER / SEAT_FILE)
     try:
-        seat = seats.take(url, code, name_choice)
+        seat = seats.take(url, code, name_choice, "notebook")
     except NotJoinedError as error:
         text = f"{error} Then run this cell again. Your checks work without a class, too."
         put(card("vermillion", "Not joined.", [text]), f"Not joined. {text}")
         return
-    _connection = ClassConnection(seat, seats.outbox_folder(seat))
-    _connection.start()
+    _connect(ClassConnection(seat, seats.folder(seat)))
     text = (
         f"You are {seat.name}. Your teacher sees the results of your checks, and the world that "
         "you show. `leave_class()` ends that."
@@ -55,13 +57,11 @@ def join_class(url: str, code: str, *, name_choice: int = 1) -> None:
 
 def leave_class() -> None:
     """Leave the class: nothing more is sent. Your seat is kept for the next ``join_class``."""
-    global _connection
-    if _connection is None:
+    is_member = _connection is not None
+    _connect(None)
+    text = "You have left the class. Nothing is sent any more."
+    if not is_member:
         text = "You are in no class."
-    else:
-        ended, _connection = _connection, None
-        _end(ended)
-        text = "You have left the class. Nothing is sent any more."
     put(card("grey", "Class.", [text]), text)
 
 
@@ -93,11 +93,32 @@ def current_connection() -> "ClassConnection | None":
     return _connection
 
 
-def _end(connection: "ClassConnection") -> None:
-    connection.stop()
+def set_world(world: "Live | None") -> None:
+    """Note which world is shown; in a class it appears on the teacher's page."""
+    global _world
+    with _lock:
+        if _world is not None:
+            _world.leave_class()
+        _world = world
+        if world is not None and _connection is not None:
+            world.join_class(_connection)
+
+
+def _connect(connection: "ClassConnection | None") -> None:
+    """End the connection, and begin another one."""
+    global _connection
+    with _lock:
+        if _world is not None:
+            _world.leave_class()
+        if _connection is not None:
+            _connection.stop()
+        _connection = connection
+        if connection is not None:
+            connection.start()
+            if _world is not None:
+                _world.join_class(connection)
 
 
 @atexit.register
 def _leave_at_exit() -> None:
-    if _connection is not None:
-        _end(_connection)
+    _connect(None)

@@ -8,9 +8,11 @@ from contextlib import suppress
 from itertools import count
 from pathlib import Path
 from secrets import token_urlsafe
+from typing import TYPE_CHECKING
 
 from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.base.errors import AI4UError
+from ai4u_edu.lessons.class_feed import NotebookFeed
 from ai4u_edu.lessons.notebook_output import card, image, in_notebook, replace
 from ai4u_edu.lessons.page_watch import PageWatch
 from ai4u_edu.lessons.pictures import PICTURE_SIZE_PX, animation, picture
@@ -18,6 +20,10 @@ from ai4u_edu.lessons.stall_watch import StallWatch
 from ai4u_edu.recording import Episode, Recorder
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.scenes import Scene
+
+if TYPE_CHECKING:
+    from ai4u_edu.class_member import ClassMember
+    from ai4u_edu.lessons.class_connection import ClassConnection
 
 TOKEN = token_urlsafe(24)
 """Token of all pages of this process. Many may share one notebook server under any host name, so
@@ -58,7 +64,9 @@ class Live:
         self.recorder = recorder
         self.runner = Runner(sim, seed=seed, recorder=recorder, wait_for_key=True)
         self._stall_watch = StallWatch(self.runner)
-        editor = None if scene is None else SceneEditor(self.runner, scene)
+        self._class_member: ClassMember | None = None
+        self._class_feed = NotebookFeed()
+        self._editor = editor = None if scene is None else SceneEditor(self.runner, scene)
         self._viewer = Viewer(self.runner, title=title, editor=editor)
         lock_viser_port(self._viewer.server)
         room = room_app(
@@ -68,6 +76,7 @@ class Live:
             allowed_hosts=("*",),  # the token is asked for; a proxy passes any name on
             rules=Rules(token=TOKEN, lockstep=True),  # the world is whose notebook it is
             panel=PanelSockets(self.runner, self._viewer, editor),
+            class_feed=self._class_feed,
         )
         self._server = ServerThread(room)
         self.url = with_token(self._server.url, TOKEN)
@@ -106,10 +115,33 @@ class Live:
         self._page_watch = PageWatch(lambda: len(self._viewer.viewer_clients), lambda: end(self))
         self._page_watch.start()
 
+    def join_class(self, connection: "ClassConnection") -> None:
+        """Show the world on the teacher's page, and let the teacher stop it and open scenes."""
+        from ai4u_edu.class_member import ClassMember
+
+        self._class_member = member = ClassMember(
+            self.runner,
+            self._editor,
+            connection.link_for_world,
+            connection.folder,
+            title=self.title,
+            show_ghost=self._viewer.ghosts.race,
+        )
+        self._class_feed.follow(member.view)
+        member.start()
+
+    def leave_class(self) -> None:
+        """End what :meth:`join_class` began."""
+        member, self._class_member = self._class_member, None
+        if member is not None:
+            member.stop()
+            self._class_feed.follow(None)
+
     def close(self) -> None:
         """End the world silently."""
         if self.running:
             self.running = False
+            self.leave_class()
             if self._page_watch is not None:
                 self._page_watch.stop()
             self._server.stop()

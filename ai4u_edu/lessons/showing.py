@@ -8,6 +8,7 @@ from ai4u_edu.agent import BasicAgent
 from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.base.errors import SetupError
 from ai4u_edu.blocks import LocalBrain
+from ai4u_edu.lessons.class_membership import set_world
 from ai4u_edu.lessons.live import Live
 from ai4u_edu.lessons.notebook_output import after_each_cell, in_notebook, put
 from ai4u_edu.lessons.rollouts import brain_for
@@ -49,6 +50,7 @@ def show(
     else:
         recorder = Recorder(sim, scene=description)
     _current = live = Live(sim, recorder, title, seed, scene)
+    set_world(live)
     live.end_without_page(_end)
     put(live.page(height), f"{title} runs at {live.url}", live.handle)
     if in_notebook():
@@ -62,6 +64,7 @@ def stop() -> None:
     global _current
     if _current is not None:
         ended, _current = _current, None
+        set_world(None)
         ended.stop()
 
 
@@ -70,6 +73,7 @@ def _end(live: Live) -> None:
     global _current
     if _current is live:
         _current = None
+        set_world(None)
     live.stop()
 
 

@@ -9,7 +9,7 @@ from contextlib import suppress
 from starlette.datastructures import Headers
 from starlette.requests import HTTPConnection
 from starlette.types import Receive, Scope, Send
-from starlette.websockets import WebSocket, WebSocketDisconnect
+from starlette.websockets import WebSocket
 from websockets.asyncio.client import ClientConnection, connect
 from websockets.exceptions import ConnectionClosed, InvalidHandshake
 from websockets.typing import Subprotocol
@@ -17,6 +17,7 @@ from websockets.typing import Subprotocol
 from ai4u_edu.base.log_limit import log_limited
 from ai4u_edu.server import page_messages
 from ai4u_edu.server.rate_limit import RateLimit
+from ai4u_edu.server.socket_pump import pump_sockets
 from ai4u_edu.server.token_auth import with_token
 from ai4u_edu.server.viser_lockdown import PROXY_SECRET, PROXY_SECRET_HEADER
 
@@ -55,14 +56,8 @@ _PAGE_ID = re.compile(r"[A-Za-z0-9-]{8,64}")
 _logger = logging.getLogger(__name__)
 
 
-_PASSED_CODES = (1000, 1001, 1002, 1003, 1009)  # of a close; others may not be sent
-
-
 class ViserProxy:
     """ASGI app that connects each page to viser.
-
-    Each direction waits until the other side has taken a frame, so a slow page gets backpressure
-    and no frames queue up here.
 
     Args:
         port: viser's port on 127.0.0.1.
@@ -98,14 +93,7 @@ class ViserProxy:
         except (OSError, InvalidHandshake):
             await page.close(1013, "the viewer does not answer; reload the page in a moment")
             return
-        upward = asyncio.create_task(_upward(page, viser))
-        try:
-            await _downward(viser, page)
-        finally:
-            upward.cancel()
-            viser.transport.abort()  # a close would wait behind frames that nobody reads
-            with suppress(asyncio.CancelledError):
-                await upward
+        await pump_sockets(page, viser, _upward(page, viser))
 
 
 def page_address(scope: Scope) -> str:
@@ -157,16 +145,6 @@ def _as_header(text: str) -> str:
 def _subprotocols(offered: Iterable[str]) -> list[Subprotocol]:
     found = [Subprotocol(name) for name in offered if _SUBPROTOCOL.fullmatch(name)]
     return found[:MAX_SUBPROTOCOLS]
-
-
-async def _downward(viser: ClientConnection, page: WebSocket) -> None:
-    with suppress(WebSocketDisconnect):
-        await page.accept(viser.subprotocol)
-        with suppress(ConnectionClosed):
-            while True:
-                await page.send_bytes(await viser.recv(decode=False))
-        code = viser.close_code or 1001
-        await page.close(code if code in _PASSED_CODES else 1001, viser.close_reason)
 
 
 async def _upward(page: WebSocket, viser: ClientConnection) -> None:

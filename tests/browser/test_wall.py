@@ -181,7 +181,10 @@ def test_scenes_are_assigned_to_chosen_rooms_and_raced(page: Page, school: WallS
     scene = {"yaml": "title: Mine\nbodies: []\n"}
     start = {"scene": scene, "seed": 7, "countdown": 10, "hide_board": False}
     assert school.commands[-1] == {"do": "race", **start}
-    school.send(race=race(2))
+    refused = {**race(1)["board"][0], "outcome": "refused", "why": "another seed"}
+    school.send(race={**race(2), "board": [*race(2)["board"], refused]})
+    strip = page.locator("#running-race")
+    expect(strip).to_contain_text(f"1. {name_of(3)} 12.4 s   2. {name_of(4)} 14.1 s   Refused")
     page.get_by_role("button", name="End race").click()
     until(lambda: school.commands[-1] == {"do": "end race"}, 10)
 

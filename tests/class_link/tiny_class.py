@@ -17,6 +17,7 @@ from ai4u_edu.wire.class_link import (
     FromRoom,
     Hello,
     Problem,
+    State,
     Welcome,
     decode_from_room,
     encode_from_class,
@@ -56,6 +57,10 @@ class TinyClass:
     def results(self) -> list[str]:
         """Keys of the results, each time that they came."""
         return [each.key for each in self.got if isinstance(each, EpisodeResult | ExerciseResult)]
+
+    @property
+    def states(self) -> list[State]:
+        return [each for each in self.got if isinstance(each, State)]
 
     def of(self, kind: type) -> list[FromRoom]:
         return [each for each in self.got if isinstance(each, kind)]

@@ -62,7 +62,7 @@ def test_a_seat_file_gives_the_same_seat_and_tells_nothing_else(
     assert not is_seat_valid(seat)
     back = file.take(there.url, CODE)
     assert (back.name, back.token != seat.token) == (seat.name, True)
-    assert file.outbox_folder(back) != file.outbox_folder(seat)
+    assert file.folder(back) != file.folder(seat)
 
     file.path.write_text('{"seats": [{"url": 3}]}', encoding="utf-8")
     assert file.take(there.url, CODE).token

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from ai4u_edu.class_link import Seat, SeatFile
-from ai4u_edu.lessons import check, hint, join_class, leave_class
+from ai4u_edu.lessons import check, hint, join_class, leave_class, show, stop
 from ai4u_edu.lessons.class_connection import NO_WORLD
 from ai4u_edu.lessons.class_membership import current_connection
 from ai4u_edu.lessons.progress_file import FOLDER
@@ -19,8 +19,11 @@ from ai4u_edu.wire.class_link import (
     Drawing,
     ExerciseResult,
     FromClass,
+    Poses,
     Problem,
+    State,
     Welcome,
+    Work,
 )
 from tests.class_link.messages import drawing
 from tests.class_link.tiny_class import SECRET, TinyClass
@@ -144,6 +147,34 @@ def test_not_joined_is_a_sentence(capsys: pytest.CaptureFixture[str]) -> None:
     assert "class" not in capsys.readouterr().out
 
 
+def test_the_shown_world_appears_and_the_teacher_can_stop_it(there: TinyClass) -> None:
+    there.start()
+    live = show("box_chase", brain=lambda percept: {"move": [1, 0, 0, 0]})
+    try:
+        assert not live.runner.is_held
+        join_class(there.url, "BCDFG")
+        until(lambda: there.of(Poses) and there.of(State) and there.of(Work))
+        there.send(Attention("pause", "Look here", 0.0))
+        until(lambda: live.runner.is_held)
+        leave_class()
+        until(lambda: not live.runner.is_held)
+        count = len(there.got)
+        join_class(there.url, "BCDFG")
+        until(lambda: there.of(Drawing)[1:])
+        stop()
+        until(lambda: there.states[-1].status == "over")
+        ended = len(there.of(State))
+        check("00.1", go)
+        until(lambda: there.results)
+        assert len(there.of(State)) == ended
+        assert count < len(there.got)
+        again = show("donut")
+        until(lambda: any("onut" in each.scene for each in there.states))
+        assert again.running
+    finally:
+        stop()
+
+
 def test_a_world_uses_the_link_while_it_is_shown(there: TinyClass) -> None:
     there.start()
     join_class(there.url, "BCDFG")
@@ -163,8 +194,10 @@ def test_a_world_uses_the_link_while_it_is_shown(there: TinyClass) -> None:
     assert [type(each) for each in heard] == [Welcome, Attention]
     world.send(drawing(2))
     until(lambda: there.of(Drawing))
+    there.send(Assignment("a1", "Maze", "maze", None))  # as after a reconnect
     there.send(Assignment("a2", "Maze", "maze", None))
     until(lambda: len(heard) == 3)
+    assert heard[2] == Assignment("a2", "Maze", "maze", None)
     world.stop()
     there.drop()
     until(lambda: len(there.hellos) == 2 and connection.client.is_connected)

@@ -1,0 +1,191 @@
+"""Students' own machines in a real class: a notebook and ``play --class``."""
+
+import subprocess
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import pytest
+from typer.testing import CliRunner
+
+from ai4u_edu.cli.main import app
+from tests.classroom.link_client import TeacherSocket
+from tests.classroom.served_class import CODE, ServedClass, served_class
+from tests.playing import played
+from tests.server.rooms import free_port, until
+
+pytestmark = pytest.mark.slow
+
+NOTEBOOK = """
+import sys
+from ai4u_edu.lessons import check, hint, join_class, leave_class, show, stop
+def stay(percept): return {"move": [0, 0, 0, 0]}
+def go(percept): return {"move": [1, 0, 0, 0]}
+for line in sys.stdin:
+    exec(line)
+    print("-- ran", flush=True)
+"""
+
+
+class Kernel:
+    """A notebook's kernel, in so far as it runs lines."""
+
+    def __init__(self, process: "subprocess.Popen[str]") -> None:
+        self.process = process
+
+    def run(self, line: str) -> str:
+        """Run a line; return its output."""
+        assert self.process.stdin is not None
+        assert self.process.stdout is not None
+        self.process.stdin.write(line + "\n")
+        self.process.stdin.flush()
+        told = []
+        for each in self.process.stdout:
+            if each == "-- ran\n":
+                break
+            told.append(each)
+        return "".join(told)
+
+
+@contextmanager
+def kernel(folder: Path) -> Iterator[Kernel]:
+    folder.mkdir(exist_ok=True)
+    command = [sys.executable, "-c", NOTEBOOK]
+    pipe = subprocess.PIPE
+    with subprocess.Popen(command, stdin=pipe, stdout=pipe, text=True, cwd=folder) as process:
+        try:
+            yield Kernel(process)
+        finally:
+            process.kill()
+
+
+@pytest.fixture(scope="module")
+def there(tmp_path_factory: pytest.TempPathFactory) -> Iterator[ServedClass]:
+    with served_class(tmp_path_factory.mktemp("class")) as there:
+        yield there
+
+
+def progress(teacher: TeacherSocket, fits: Any) -> dict[str, Any]:
+    """Return the progress of the only seat that has any, as soon as it fits."""
+    event = teacher.next("class", lambda e: any(map(fits, e["progress"].values())))
+    found: dict[str, Any] = next(filter(fits, event["progress"].values()))
+    return found
+
+
+def name_in(told: str) -> str:
+    return told.partition("You are ")[2].partition(".")[0]
+
+
+def test_a_notebook_reports_its_checks_and_shows_its_world(
+    there: ServedClass, tmp_path: Path
+) -> None:
+    with kernel(tmp_path / "lessons") as notebook, TeacherSocket(there) as teacher:
+        name = name_in(notebook.run(f"join_class({there.url!r}, {CODE!r})"))
+        notebook.run('check("00.1", stay)')
+        tried = progress(teacher, lambda p: p.get("00.1", {}).get("state") == "tried")
+        assert tried["00.1"]["tries"] == 1
+        notebook.run('hint("00.1")')
+        progress(teacher, lambda p: p["00.1"]["state"] == "hint")
+        notebook.run('check("00.1", go)')
+        solved = progress(teacher, lambda p: p["00.1"]["state"] == "solved")
+        assert solved["00.1"]["tries"] == 2
+
+        notebook.run('show("box_chase")')
+        shown = teacher.next(
+            "class",
+            lambda e: any(r["scene"] == "Box chase" and r["kind"] == "remote" for r in e["rooms"]),
+        )
+        room = next(each for each in shown["rooms"] if each["scene"] == "Box chase")
+        seat = next(each for each in shown["seats"] if each["name"] == name)
+        assert room["seats"] == [seat["number"]]
+        drawing = teacher.next("drawing", lambda e: e["room"] == room["id"])
+        assert {each["name"] for each in drawing["bodies"]} == {"robot", "box"}
+
+    with kernel(tmp_path / "lessons") as restarted:
+        assert name_in(restarted.run(f"join_class({there.url!r}, 'forgotten')")) == name
+
+
+def test_results_survive_a_class_that_is_killed_and_a_kernel_that_is_killed(
+    tmp_path: Path,
+) -> None:
+    port = str(free_port())
+    lessons, folder = tmp_path / "lessons", tmp_path / "class"
+    with served_class(folder, "--port", port) as there:
+        with kernel(lessons) as notebook:
+            notebook.run(f"join_class({there.url!r}, {CODE!r})")
+            notebook.run('check("00.1", stay)')
+            with TeacherSocket(there) as teacher:
+                progress(teacher, lambda p: p["00.1"]["tries"] == 1)
+            there.process.kill()
+            there.process.wait()
+            notebook.run('check("00.1", stay)')
+            told = notebook.run('check("00.1", stay)')
+            assert "Results are kept and sent later." in told
+        # the kernel is killed, too, and the next one delivers what it left
+        with served_class(folder, "--port", port) as again, kernel(lessons) as notebook:
+            assert again.url == there.url
+            notebook.run(f"join_class({again.url!r}, {CODE!r})")
+            with TeacherSocket(again) as teacher:
+                progress(teacher, lambda p: p["00.1"]["tries"] == 3)
+                notebook.run('check("00.1", go)')
+                solved = progress(teacher, lambda p: p["00.1"]["state"] == "solved")
+            assert solved["00.1"]["tries"] == 4
+
+
+def test_a_world_on_another_machine_joins_and_keeps_its_seat(
+    there: ServedClass, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    for name in ("XDG_STATE_HOME", "LOCALAPPDATA", "HOME"):
+        monkeypatch.setenv(name, str(tmp_path))
+    command = ("box_chase", "--class", there.url)
+    # after a restart, the code is not needed any more
+    first = play_and_be_seen(there, *command, "--code", CODE)
+    assert play_and_be_seen(there, *command) == first
+
+
+def play_and_be_seen(there: ServedClass, *command: str) -> str:
+    """Play until the wall shows the world; return the name of the seat."""
+    with played(*command) as room, TeacherSocket(there) as teacher:
+        name = "".join(room.told).partition("Joined the class as ")[2].partition(".\n")[0]
+        (number,) = (each["number"] for each in there.state()["seats"] if each["name"] == name)
+
+        def is_shown(event: dict[str, Any]) -> bool:
+            return any(
+                (each["seats"], each["kind"], each["scene"]) == ([number], "remote", "Box chase")
+                for each in event["rooms"]
+            )
+
+        event = teacher.next("class", is_shown)
+        (mine,) = (each["id"] for each in event["rooms"] if each["seats"] == [number])
+        teacher.next("drawing", lambda each: each["room"] == mine)
+        there.command("attention", kind="pause", message="Look here", seconds=0)
+        until(lambda: room.snapshot()["waiting"] == "teacher")
+        there.command("attention", kind="", message="", seconds=0)
+        until(lambda: room.snapshot()["waiting"] != "teacher")
+        return name
+
+
+def test_a_wrong_code_ends_play_with_a_sentence(
+    there: ServedClass, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    for name in ("XDG_STATE_HOME", "LOCALAPPDATA", "HOME"):
+        monkeypatch.setenv(name, str(tmp_path))
+
+    command = [sys.executable, "-m", "ai4u_edu", "play", "--no-open", "--class", there.url]
+    ended = subprocess.run(
+        [*command, "--code", "WRONG"], capture_output=True, text=True, check=False
+    )
+    told = "error: This code is not right. Look at the board again.\n"
+    assert (ended.returncode, ended.stderr) == (1, told)
+
+    def refused(*options: str) -> str:
+        answer = CliRunner().invoke(app, ["play", "--no-open", *options])
+        assert answer.exit_code != 0
+        return f"{answer.exception} {answer.output}"
+
+    assert "expected the code on the board" in refused("--class", there.url)
+    nowhere = f"http://127.0.0.1:{free_port()}"
+    assert "can't be reached" in refused("--class", nowhere, "--code", CODE)
+    assert "expected --class" in refused("--code", CODE)
