@@ -177,7 +177,7 @@ def a_race_has_a_board(day: Day) -> None:
     assert (row["name"], row["outcome"]) == (name, "fell")
     expect(day.teacher.get_by_text(name).first).to_be_visible()
     day.teacher.get_by_role("button", name="End race").click()
-    until(lambda: not day.school.state()["race"], 10)
+    until(lambda: day.school.state()["race"]["phase"] == "over", 10)
 
 
 def the_export_opens(day: Day) -> None:
