@@ -190,6 +190,7 @@ class LinkClient:
         port = address.port or (443 if is_safe else 80)
         raw = socket.create_connection((address.hostname or "", port), OPEN_TIMEOUT_S)
         try:
+            raw.settimeout(None)  # a link may be silent; pings tell whether it is alive
             _set_send_timeout(raw)
             connection = connect(self._url.replace("http", "ws", 1), sock=raw, **_OPTIONS)
         except BaseException:
