@@ -188,7 +188,8 @@ async function showMoveCode() {
     return;
   }
   const { code, minutes } = answer;
-  const text = `Open ${location.host} there and type this code. It is yours alone, and works for ${minutes} minutes.`;
+  const home = new URL("../../", document.baseURI);
+  const text = `Open ${home.host}${home.pathname.replace(/\/$/, "")} there and type this code. It is yours alone, and works for ${minutes} minutes.`;
   const content = [element("p", { className: "ai4u-move-code", textContent: code })];
   await ask({ title: "Go on at another device", text, yes: "Close", no: "", content });
 }

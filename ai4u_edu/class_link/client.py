@@ -28,8 +28,8 @@ from ai4u_edu.wire.class_link import (
 )
 
 OPEN_TIMEOUT_S = 5.0
-SEND_TIMEOUT_S = 10
-"""Timeout of sending; a connection that takes nothing for so long counts as lost."""
+SEND_TIMEOUT_S = 5
+"""Timeout of sending; a connection that takes nothing for twice as long counts as lost."""
 CLOSE_TIMEOUT_S = 0.5
 
 _logger = logging.getLogger("ai4u_edu.class_link")
@@ -190,6 +190,7 @@ class LinkClient:
         port = address.port or (443 if is_safe else 80)
         raw = socket.create_connection((address.hostname or "", port), OPEN_TIMEOUT_S)
         try:
+            raw.settimeout(None)  # a link may be silent; pings tell whether it is alive
             _set_send_timeout(raw)
             connection = connect(self._url.replace("http", "ws", 1), sock=raw, **_OPTIONS)
         except BaseException:

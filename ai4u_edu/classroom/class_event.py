@@ -11,7 +11,6 @@ from typing import Any
 from ai4u_edu.classroom.course_index import course_index, words_for
 from ai4u_edu.classroom.live_class import LiveClass
 from ai4u_edu.classroom.live_rooms import LiveRoom
-from ai4u_edu.classroom.seats import State
 from ai4u_edu.scenes import Scene
 from ai4u_edu.scenes.scene import LIBRARY
 
@@ -102,17 +101,15 @@ class ClassEvents:
         live = self._live
         found = []
         remote = {each.seat for each in live.rooms.values() if each.seat and each.state}
-        members: dict[str, list[int]] = defaultdict(list)
-        for seat in live.seats.all():
-            if seat.state == State.IN.value:
-                members[seat.room].append(seat.number)
+        members = {room: [each.number for each in seats] for room, seats in live.members().items()}
         for room, scene in live.seats.scenes().items():
             state = live.room(room)
             is_used = state.state is not None or live.host.is_running(room)
-            if members[room] and (is_used or not remote.issuperset(members[room])):
-                found.append(self._room(state, members[room], scene))
+            own = members.get(room, [])
+            if own and (is_used or not remote.issuperset(own)):
+                found.append(self._room(state, own, scene))
         for state in live.rooms.values():
-            seats = [each.number for each in live.seats_of(state)]
+            seats = members.get(state.id, [])
             if state.seat and seats and (state.link or state.state):
                 found.append(self._room(state, seats, ""))
         return found

@@ -30,6 +30,7 @@ async def forget(live: LiveClass, proxy: RoomProxy) -> None:
         proxy.end(seat.number, "the class is over")
     await asyncio.gather(*(live.host.end(each) for each in rooms))
     await live.results.finish()
+    live.attention.end()  # so that no message of the teacher is saved again
     await asyncio.to_thread(_delete, live)
     live.begin_anew()
 

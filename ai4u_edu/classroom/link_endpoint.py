@@ -36,6 +36,11 @@ from ai4u_edu.wire.validation import WireError
 HELLO_TIMEOUT_S = 5.0
 MESSAGES_PER_S = 50.0
 """Rate limit for messages of one link; more are taken later, and none is lost."""
+BYTES_PER_S = 2 * 2**20
+"""Rate at which large messages of one link are taken."""
+LARGE_BYTES = 2**14
+MAX_STATE_BYTES = 2**18
+"""Size of a drawing, poses or a state: what is shown on the wall."""
 MAX_MISTAKES = 5
 """Malformed messages in a row after which a link is ended."""
 MAX_WAITING_ACKS = 1000
@@ -118,7 +123,10 @@ class LinkEndpoint:
             if wait_s := limit.take():
                 await asyncio.sleep(wait_s)
             try:
-                message = _decoded(await _frame(socket))
+                frame = await _frame(socket)
+                if len(frame) > LARGE_BYTES:
+                    await asyncio.sleep(len(frame) / BYTES_PER_S)
+                message = _decoded(frame)
             except WireError as error:
                 mistakes += 1
                 if mistakes >= MAX_MISTAKES:
@@ -255,11 +263,13 @@ def _decoded(frame: bytes) -> FromRoom:
     """Return a message after the hello.
 
     Raises:
-        WireError: there is none in the frame, or another hello.
+        WireError: there is none in the frame, or another hello, or it is too large.
     """
     message = decode_from_room(frame)
     if isinstance(message, Hello):
         raise WireError("expected hello as the first message only")
+    if len(frame) > MAX_STATE_BYTES and isinstance(message, Drawing | Poses | State):
+        raise WireError(f"expected at most {MAX_STATE_BYTES} bytes, got {len(frame)}")
     return message
 
 

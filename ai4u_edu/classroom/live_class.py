@@ -2,16 +2,18 @@
 
 import asyncio
 import json
-from collections import Counter
+import logging
+from collections import Counter, defaultdict
 from collections.abc import Callable
 from contextlib import suppress
 from typing import Literal
 
 from ai4u_edu.base.atomic_write import write_atomically
+from ai4u_edu.base.log_limit import log_limited
 from ai4u_edu.classroom.assignments import Assignments
 from ai4u_edu.classroom.attention import AttentionState
 from ai4u_edu.classroom.episode_check import EpisodeCheck
-from ai4u_edu.classroom.live_rooms import LiveRoom, OpenLink, remote_id, seat_of_remote
+from ai4u_edu.classroom.live_rooms import LiveRoom, OpenLink, remote_id
 from ai4u_edu.classroom.progress import Progress
 from ai4u_edu.classroom.race import Races
 from ai4u_edu.classroom.race_runner import RaceRunner
@@ -30,6 +32,7 @@ from ai4u_edu.wire.class_link import (
     Work,
 )
 
+_logger = logging.getLogger(__name__)
 TICK_S = 0.5
 """Interval at which ends of times are looked for."""
 SHOWN = "shown"
@@ -81,11 +84,14 @@ class LiveClass:
     async def _tick(self) -> None:
         while True:
             await asyncio.sleep(TICK_S)
-            if self.attention.is_over():
-                self.attention.end()
-                self.tell_attention()
-            self.race.tick()
-            await asyncio.to_thread(self.attention.save_rest)
+            try:
+                if self.attention.is_over():
+                    self.attention.end()
+                    self.tell_attention()
+                self.race.tick()
+                await asyncio.to_thread(self.attention.save_rest)
+            except Exception as error:  # a full disk, say: the next tick tries again
+                log_limited(_logger, logging.ERROR, "tick", "a class's clock failed: %r", error)
 
     def show(self, kind: ShownKind, room: str) -> None:
         """Store what the projector page shows."""
@@ -109,16 +115,20 @@ class LiveClass:
 
     def seats_of(self, room: LiveRoom) -> list[SeatRow]:
         """Return the seats of a room that may enter it."""
-        return [
-            each
-            for each in self.seats.all()
-            if each.state == State.IN.value
-            and (each.number == room.seat if room.seat else each.room == room.id)
-        ]
+        return self.members().get(room.id, [])
+
+    def members(self) -> dict[str, list[SeatRow]]:
+        """Return the seats of all rooms, also of those that seats bring along, by the room's id."""
+        found: dict[str, list[SeatRow]] = defaultdict(list)
+        for each in self.seats.all():
+            if each.state == State.IN.value:
+                found[each.room].append(each)
+                found[remote_id(each.number)].append(each)
+        return found
 
     def seats_of_id(self, room: str) -> list[SeatRow]:
         """Return the seats of a room that may enter it; see :meth:`seats_of`."""
-        return self.seats_of(self.room(room, seat_of_remote(room)))
+        return self.members().get(room, [])
 
     def is_here(self, seat: int) -> bool:
         """Return True while a page, a notebook or a world of the seat is connected."""
@@ -127,8 +137,7 @@ class LiveClass:
 
     def connect(self, room: LiveRoom, link: OpenLink) -> None:
         """Take a room's new link, in the place of one before, and tell it everything."""
-        before, room.link = room.link, link
-        room.links += 1
+        before, room.link, room.people = room.link, link, None
         if before is not None:
             before.end("Another program has taken this place in the class; this one is out.")
         seats = self.seats_of(room)
@@ -154,16 +163,20 @@ class LiveClass:
 
     def tell_people(self) -> None:
         """Tell all rooms and pages who has a seat, and who is here."""
-        self._send(self.people_of)
-
-    def people_of(self, room: LiveRoom) -> People:
-        """Return the seats of a room, as it gets them."""
-        return People(
-            tuple(
-                Person(each.number, each.name, each.colour, self.is_here(each.number))
-                for each in self.seats_of(room)
+        members = self.members()
+        for room in self.rooms.values():
+            if room.link is None:
+                continue
+            people = People(
+                tuple(
+                    Person(each.number, each.name, each.colour, self.is_here(each.number))
+                    for each in members.get(room.id, ())
+                )
             )
-        )
+            if people != room.people:
+                room.people = people
+                room.link.send(people)
+        self.note_change()
 
     def tell_attention(self) -> None:
         """Tell all rooms and pages of the teacher's request."""

@@ -2,11 +2,11 @@
 
 import json
 import time
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Literal, Protocol
 
 from ai4u_edu.classroom.help_score import Signals, help_score
-from ai4u_edu.wire.class_link import Drawing, FromClass, Poses, Shape, State, Work
+from ai4u_edu.wire.class_link import Drawing, FromClass, People, Poses, Shape, State, Work
 
 REMOTE_PREFIX = "seat-"
 POSE_DIGITS = 3
@@ -45,8 +45,8 @@ class LiveRoom:
     """Exercise and diagnosis of the last wrong check, which came so often in a row."""
     problem: str = ""
     """Reason for which the room could not open its assignment."""
-    links: int = field(default=0, repr=False)
-    """Links that it has had."""
+    people: People | None = None
+    """Seats that the link was told of."""
 
     def note_state(self, state: State) -> None:
         """Take a new state."""
@@ -116,15 +116,6 @@ def remote_id(seat: int) -> str:
     'seat-7'
     """
     return f"{REMOTE_PREFIX}{seat}"
-
-
-def seat_of_remote(room: str) -> int:
-    """Return the seat of a remote room; 0 for another room.
-
-    >>> seat_of_remote("seat-7"), seat_of_remote("a1b2c3")
-    (7, 0)
-    """
-    return int(room.removeprefix(REMOTE_PREFIX)) if room.startswith(REMOTE_PREFIX) else 0
 
 
 def _shape(shape: Shape) -> dict[str, object]:

@@ -9,7 +9,6 @@ from starlette.websockets import WebSocket, WebSocketDisconnect
 
 from ai4u_edu.classroom.class_event import ClassEvents
 from ai4u_edu.classroom.live_class import LiveClass
-from ai4u_edu.classroom.live_rooms import LiveRoom
 
 POLL_S = 0.25
 """Interval at which changes are sent; poses are sent as often."""
@@ -68,7 +67,10 @@ class WallSocket:
                 await asyncio.sleep(POLL_S)
 
     async def _send_drawings(self, socket: WebSocket, sent: _Sent) -> None:
-        rooms = [each for each in self._live.rooms.values() if self._is_seen(each)]
+        members = self._live.members()
+        rooms = [
+            each for each in self._live.rooms.values() if each.drawing_json and each.id in members
+        ]
         for room in rooms:
             if room.drawing_json is not sent.drawings.get(room.id):
                 sent.drawings[room.id] = room.drawing_json
@@ -80,6 +82,3 @@ class WallSocket:
             # the parts are JSON already; ids are hexadecimal, or seat-N
             poses = ",".join(f'"{each.id}":{each.poses_json}' for each in moved)
             await socket.send_text(f'{{"type":"poses","rooms":{{{poses}}}}}')
-
-    def _is_seen(self, room: LiveRoom) -> bool:
-        return bool(room.drawing_json) and bool(self._live.seats_of(room))

@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 
 from ai4u_edu.class_link import LinkClient, Outbox
+from ai4u_edu.class_link import client as client_module
 from ai4u_edu.wire.class_link import Attention, FromClass, Problem, State, Welcome
 from tests.class_link.messages import drawing, poses, result, state
 from tests.class_link.tiny_class import SECRET, TinyClass
@@ -67,6 +68,17 @@ def test_connections_that_break_lose_no_result_and_states_come_again(there: Tiny
         until(lambda: not len(client.outbox))
         until(lambda: len(there.of(State)) == len(there.hellos))
     assert set(there.results) == {result(number).key for number in range(6)}
+
+
+def test_a_link_on_which_nothing_is_said_stays(
+    there: TinyClass, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(client_module, "OPEN_TIMEOUT_S", 0.1)
+    with linked(there.url) as client:
+        until(lambda: client.is_connected)
+        time.sleep(0.3)
+        assert client.is_connected
+    assert len(there.hellos) == 1
 
 
 def test_a_class_that_begins_later_gets_what_was_sent_before(tmp_path: Path) -> None:

@@ -18,6 +18,7 @@ from ai4u_edu.wire.class_link import (
     People,
     Poses,
     Problem,
+    Shape,
     Welcome,
     encode_from_room,
 )
@@ -115,6 +116,15 @@ def test_a_message_that_is_too_large_ends_the_link(served: ServedClass) -> None:
             link.socket.send(b"\xc4" * (MAX_FRAME_BYTES + 1))
         with pytest.raises(ConnectionClosed):
             link.receive_all()
+
+
+def test_a_drawing_that_is_too_large_for_the_wall_is_refused(served: ServedClass) -> None:
+    shape = Shape("#ffffff", 0.0, (0.5,) * 1000)
+    with RawLink(served, served.joined()) as link:
+        link.send(Drawing(1, (0, 0, 1, 1), (shape,) * 40, ()))
+        assert "bytes" in link.next(Problem).text
+        link.send(check("right"))
+        link.next(Ack)
 
 
 def test_a_result_is_acknowledged_each_time_and_counts_once(served: ServedClass) -> None:

@@ -7,10 +7,15 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
+import httpx
 import pytest
 from typer.testing import CliRunner
 
+from ai4u_edu.class_link import SeatFile
+from ai4u_edu.class_link.joining import SEAT_COOKIE
 from ai4u_edu.cli.main import app
+from ai4u_edu.room.my_work import open_my_work
+from ai4u_edu.scenes import Scene
 from tests.classroom.link_client import TeacherSocket
 from tests.classroom.served_class import CODE, ServedClass, served_class
 from tests.playing import played
@@ -143,6 +148,14 @@ def test_a_world_on_another_machine_joins_and_keeps_its_seat(
     # after a restart, the code is not needed any more
     first = play_and_be_seen(there, *command, "--code", CODE)
     assert play_and_be_seen(there, *command) == first
+
+    (seat,) = SeatFile(tmp_path / "ai4u-edu/classes/seats.json").seats().values()
+    cookies = {SEAT_COOKIE: seat.token}
+    answer = httpx.get(f"{there.url}api/my-work", cookies=cookies)
+    assert answer.status_code == 200
+    (tmp_path / "my-work.zip").write_bytes(answer.content)
+    work = open_my_work(tmp_path / "my-work.zip")
+    assert Scene.load(work.scene).description.title == "Box chase"
 
 
 def play_and_be_seen(there: ServedClass, *command: str) -> str:
