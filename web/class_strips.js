@@ -45,8 +45,8 @@ export class ClassStrips {
     this.#race.hidden = !state.race;
     if (isHeld(state.attention)) build(this.#held); // the toolbar has the button that ends it
     if (state.race) {
-      const { is_board_hidden: isHidden } = state.race;
-      build(this.#race, [isHidden ? "Show the board" : "Hide the board", { do: "board", hide: !isHidden }], ["End race", { do: "end race" }]);
+      const { is_board_hidden: isHidden, phase } = state.race;
+      build(this.#race, [isHidden ? "Show the board" : "Hide the board", { do: "board", hide: !isHidden }], [phase === "over" ? "Close the race" : "End race", { do: "end race" }]);
     }
     this.#update();
   }

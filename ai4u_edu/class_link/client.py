@@ -28,8 +28,8 @@ from ai4u_edu.wire.class_link import (
 )
 
 OPEN_TIMEOUT_S = 5.0
-SEND_TIMEOUT_S = 10
-"""Timeout of sending; a connection that takes nothing for so long counts as lost."""
+SEND_TIMEOUT_S = 5
+"""Timeout of sending; a connection that takes nothing for twice as long counts as lost."""
 CLOSE_TIMEOUT_S = 0.5
 
 _logger = logging.getLogger("ai4u_edu.class_link")

@@ -8,6 +8,7 @@ from websockets.sync.server import Server, ServerConnection, serve
 from websockets.typing import Subprotocol
 
 from ai4u_edu.wire.class_link import (
+    MAX_FRAME_BYTES,
     SUBPROTOCOL,
     VERSION,
     Ack,
@@ -67,7 +68,11 @@ class TinyClass:
 
     def start(self) -> None:
         self._server = serve(
-            self._talk, "127.0.0.1", self.port, subprotocols=[Subprotocol(SUBPROTOCOL)]
+            self._talk,
+            "127.0.0.1",
+            self.port,
+            subprotocols=[Subprotocol(SUBPROTOCOL)],
+            max_size=MAX_FRAME_BYTES,
         )
         self.port = self._server.socket.getsockname()[1]
         self._thread = threading.Thread(target=self._server.serve_forever)
