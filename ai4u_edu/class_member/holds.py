@@ -8,7 +8,9 @@ from ai4u_edu.runtime.runner import Runner
 
 
 class Holds:
-    """Holds a world while the teacher wants attention, or a race counts down. Thread-safe.
+    """Holds a world while the teacher wants attention, a race counts down, or nobody is there.
+
+    Thread-safe.
 
     Args:
         runner: runs the world.
@@ -19,13 +21,14 @@ class Holds:
         self._runner, self._clock = runner, clock
         self._lock = threading.Lock()
         self._attention_until = self._race_until = -math.inf
+        self._absent_from = math.inf
         self._is_held = False
 
     @property
-    def next_end(self) -> float:
-        """Time of the clock (s) at which a hold ends by itself next; infinite if none does."""
+    def next_change(self) -> float:
+        """Time of the clock (s) at which a hold begins or ends by itself; infinite if none does."""
         now = self._clock()
-        ends = (self._attention_until, self._race_until)
+        ends = (self._attention_until, self._race_until, self._absent_from)
         return min((each for each in ends if each > now), default=math.inf)
 
     def for_attention(self, until: float) -> None:
@@ -38,15 +41,26 @@ class Holds:
         self._race_until = until
         self.refresh()
 
+    def for_absence(self, since: float) -> None:
+        """Hold the world from that time of the clock (s) on, since nobody is there.
+
+        Args:
+            since: infinite if somebody is.
+        """
+        self._absent_from = since
+        self.refresh()
+
     def end(self) -> None:
         """End all holds."""
         self._attention_until = self._race_until = -math.inf
+        self._absent_from = math.inf
         self.refresh()
 
     def refresh(self) -> None:
         """Hold the world or let it go, as is due now."""
         with self._lock:
-            is_held = self._clock() < max(self._attention_until, self._race_until)
+            now = self._clock()
+            is_held = now < max(self._attention_until, self._race_until) or now >= self._absent_from
             if is_held != self._is_held:
                 self._is_held = is_held
                 self._runner.hold(is_held)

@@ -51,6 +51,8 @@ MIN_RESULT_INTERVAL_S = 0.5
 """Shortest time between two results outside of races: a network may end many episodes a second."""
 MAX_UNLINKED_HOLD_S = 600.0
 """Time without a link after which the teacher's hold ends: the class is over."""
+REST_AFTER_S = 10.0
+"""Time without a page and without a script after which a world stands still."""
 NO_ATTENTION = Attention("", "", 0.0)
 OUTBOX = "outbox"
 """Folder of undelivered results, in the room's folder."""
@@ -144,6 +146,8 @@ class ClassMember:
                 self.view.welcome(message)
             case People():
                 self.view.set_people(message)
+                rests_at = math.inf if message.is_visited else self._clock() + REST_AFTER_S
+                self._holds.for_absence(rests_at)
             case Attention():
                 with self._attention_lock:
                     self._pay_attention(message)
@@ -172,8 +176,8 @@ class ClassMember:
             self._wake.clear()
             with self._error_log.caught():
                 self._poll()
-            until_hold_ends = self._holds.next_end - self._clock()
-            self._wake.wait(max(0.0, min(POLL_S, until_hold_ends)))
+            until_change = self._holds.next_change - self._clock()
+            self._wake.wait(max(0.0, min(POLL_S, until_change)))
 
     def _poll(self) -> None:
         self._handle_messages()
@@ -185,10 +189,12 @@ class ClassMember:
         self._room_state.note_scene(self._watch.scene)
         self._report_episodes()
         self._report_state()
-        if self.link.is_connected:
-            for message in self._thumbnail.changes(self._runner.latest):
-                self.link.send(message)
-            self._report_work()
+        if not self.link.is_connected:
+            self._holds.for_absence(math.inf)  # nobody would tell who comes back
+            return
+        for message in self._thumbnail.changes(self._runner.latest):
+            self.link.send(message)
+        self._report_work()
 
     def _scene(self) -> object:
         return self._runner.sim if self._editor is None else self._editor.opened

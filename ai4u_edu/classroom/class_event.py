@@ -119,7 +119,7 @@ class ClassEvents:
         is_remote = room.kind == "remote"
         is_running = room.link is not None if is_remote else self._live.host.is_running(room.id)
         status = "away" if is_remote or is_running else "asleep"
-        if room.link is not None:
+        if room.link is not None and (is_remote or self._live.host.is_used(room.id)):
             status = state.status if state else "waiting"
         return {
             "id": room.id,

@@ -171,7 +171,8 @@ class LiveClass:
                 tuple(
                     Person(each.number, each.name, each.colour, self.is_here(each.number))
                     for each in members.get(room.id, ())
-                )
+                ),
+                is_visited=bool(room.seat) or self.host.is_used(room.id),
             )
             if people != room.people:
                 room.people = people

@@ -127,6 +127,10 @@ class LocalRooms:
                 return room
         return ""
 
+    def is_used(self, room: str) -> bool:
+        """Return True while a socket of the room is open."""
+        return self._slots.get(room, _Slot()).users > 0
+
     def is_running(self, room: str) -> bool:
         """Return True if the room's process runs."""
         running = self._slots.get(room, _Slot()).running

@@ -2,7 +2,9 @@
 
 import secrets
 from collections.abc import Collection
+from functools import cache
 from importlib.resources import files
+from itertools import product
 
 CODE_LETTERS = "BCDFGHJKMNPRSTVWXZ"
 """Letters of a code: without those that look like others, and without vowels, which make words."""
@@ -18,8 +20,24 @@ COLOURS = (
     "#8a6d3b",
 )
 """Colours that people with colour blindness can tell apart, given out in turn."""
-_WORDS = files("ai4u_edu.classroom") / "words" / "en.txt"
-FIRST, SECOND = (line.split() for line in _WORDS.read_text(encoding="utf-8").splitlines())
+DEFAULT_LANGUAGE = "en"
+_FOLDER = files("ai4u_edu.classroom") / "words"
+LANGUAGES = tuple(
+    sorted(each.name.removesuffix(".txt") for each in _FOLDER.iterdir() if ".txt" in each.name)
+)
+"""Languages of names."""
+
+
+@cache
+def words_of(language: str) -> tuple[list[str], list[str]]:
+    """Return the first and the second words of names; each first one goes with each second one.
+
+    >>> [len(words) > 30 for words in words_of("pt")]
+    [True, True]
+    """
+    text = (_FOLDER / f"{language}.txt").read_text(encoding="utf-8")
+    first, second = (line.split() for line in text.splitlines())
+    return first, second
 
 
 def new_code() -> str:
@@ -37,20 +55,20 @@ def normalized_code(text: str) -> str:
 
 
 def is_name(text: str) -> bool:
-    """Return True for a name of the lists.
+    """Return True for a name of the lists, in any language.
 
-    >>> is_name("Blue Otter"), is_name("Ada Lovelace")
-    (True, False)
+    >>> is_name("Blue Otter"), is_name("Lobo Feliz"), is_name("Ada Lovelace")
+    (True, True, False)
     """
     first, _, second = text.partition(" ")
-    return first in FIRST and second in SECOND
+    words = map(words_of, LANGUAGES)
+    return any(first in firsts and second in seconds for firsts, seconds in words)
 
 
-def free_names(taken: Collection[str], count: int) -> list[str]:
+def free_names(taken: Collection[str], count: int, language: str = DEFAULT_LANGUAGE) -> list[str]:
     """Return different random names that nobody has."""
-    free = [
-        name for first in FIRST for second in SECOND if (name := f"{first} {second}") not in taken
-    ]
+    names = (f"{first} {second}" for first, second in product(*words_of(language)))
+    free = [name for name in names if name not in taken]
     return secrets.SystemRandom().sample(free, min(count, len(free)))
 
 

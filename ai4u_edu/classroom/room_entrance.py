@@ -37,6 +37,7 @@ class RoomEntrance:
     def __init__(
         self, live: LiveClass, proxy: RoomProxy, teacher: PageCookie, keys: ScriptKeys
     ) -> None:
+        self._live = live
         self._seats, self._rooms, self._proxy = live.seats, live.host, proxy
         self._teacher, self._keys = teacher, keys
 
@@ -65,8 +66,11 @@ class RoomEntrance:
         if scope["type"] == "http":
             await self._proxy.http(address, visitor, scope, receive, send)
         else:
-            with self._rooms.in_use(room):
-                await self._proxy.websocket(address, visitor, scope, receive, send)
+            try:
+                with self._rooms.in_use(room):
+                    await self._proxy.websocket(address, visitor, scope, receive, send)
+            finally:
+                self._live.tell_people()  # the room may rest now
 
     def _visitor(self, room: str, given: HTTPConnection) -> int | None:
         """Return the number of a room's seat, or the teacher's; None for anybody else."""

@@ -30,6 +30,9 @@ class RoomHost(Protocol):
     def room_of(self, secret: str) -> str:
         """Return the room whose secret this is, also while it starts; empty if it is no room's."""
 
+    def is_used(self, room: str) -> bool:
+        """Return True while a socket of the room is open."""
+
     def is_running(self, room: str) -> bool:
         """Return True if the room's server runs."""
 

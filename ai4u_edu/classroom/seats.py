@@ -6,9 +6,12 @@ from dataclasses import replace
 from enum import Enum
 from threading import Lock
 
+from ai4u_edu.base.errors import SetupError
 from ai4u_edu.classroom.errors import JoinError, NameTakenError, WrongCodeError
 from ai4u_edu.classroom.move_codes import MoveCodes
 from ai4u_edu.classroom.names import (
+    DEFAULT_LANGUAGE,
+    LANGUAGES,
     colour_of,
     free_names,
     is_name,
@@ -41,10 +44,25 @@ class Seats:
         scene: of new rooms.
         rooms: rule for the rooms of new seats.
         code: join code; left out, the stored one or a new one.
+        language: of the names that are offered.
+
+    Raises:
+        SetupError: there are no names in that language.
     """
 
-    def __init__(self, store: ClassStore, scene: str, rooms: RoomRule, code: str = "") -> None:
+    def __init__(
+        self,
+        store: ClassStore,
+        scene: str,
+        rooms: RoomRule,
+        code: str = "",
+        language: str = DEFAULT_LANGUAGE,
+    ) -> None:
+        if language not in LANGUAGES:
+            known = ", ".join(LANGUAGES)
+            raise SetupError(f"--language: expected one of {known}, got {language!r}")
         self._store, self._scene, self._rooms = store, scene, rooms
+        self._language = language
         self._lock = Lock()
         self._move_codes = MoveCodes()
         self._seats: dict[int, SeatRow] = {}
@@ -72,7 +90,9 @@ class Seats:
     def offered_names(self) -> list[str]:
         """Return names to choose from."""
         with self._lock:
-            return free_names({each.name for each in self._seats.values()}, OFFERED_NAMES)
+            return free_names(
+                {each.name for each in self._seats.values()}, OFFERED_NAMES, self._language
+            )
 
     def join(self, code: str, name: str, request: str, held: str = "") -> tuple[SeatRow, str]:
         """Give somebody a seat, and return it with its secret token.

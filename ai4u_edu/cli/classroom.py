@@ -35,6 +35,9 @@ def classroom(
     host: o.Host = "0.0.0.0",  # noqa: S104 - a class is for other machines
     port: o.Port = 8080,
     code: Annotated[str, typer.Option(help="Join code. Default: a random one.")] = "",
+    language: Annotated[
+        str, typer.Option(help="Language of students' names: en, de, es, fr, ko or pt.")
+    ] = "en",
     sleep_after: SleepAfter = 5.0,
     room_memory: RoomMemory = 600.0,
     allow_host: o.AllowHost = None,
@@ -58,7 +61,7 @@ def classroom(
         ClassStore(folder) as store,
         closing(LocalRooms(folder, own_blocks or (), limits)) as local,
     ):
-        seats = Seats(store, scene, RoomRule.parse(rooms), code)
+        seats = Seats(store, scene, RoomRule.parse(rooms), code, language)
         token = teacher_token(store)
 
         def announce(url: str) -> None:

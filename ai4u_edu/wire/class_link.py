@@ -201,6 +201,8 @@ class People(TaggedMessage, frozen=True):
     """All seats of the room."""
 
     people: Annotated[tuple[Person, ...], LIST]
+    is_visited: bool = True
+    """False while no page and no script is connected: a room of the class's machine may rest."""
 
 
 class Assignment(TaggedMessage, frozen=True):

@@ -7,7 +7,7 @@ from typing import Any
 
 from ai4u_edu.class_member.thumbnail import drawing_of, poses_of
 from ai4u_edu.classroom.live_rooms import LiveRoom
-from ai4u_edu.classroom.names import COLOURS, FIRST, SECOND
+from ai4u_edu.classroom.names import COLOURS, words_of
 from ai4u_edu.classroom.teacher import join_code
 from ai4u_edu.scenes import Scene
 from ai4u_edu.snapshot import capture_snapshot
@@ -129,7 +129,8 @@ def poses_message(count: int, time_s: float) -> dict[str, Any]:
 
 def name_of(number: int) -> str:
     """Return the name of a seat."""
-    return f"{FIRST[(7 * number) % len(FIRST)]} {SECOND[(11 * number) % len(SECOND)]}"
+    first, second = words_of("en")
+    return f"{first[(7 * number) % len(first)]} {second[(11 * number) % len(second)]}"
 
 
 def room_id(number: int) -> str:

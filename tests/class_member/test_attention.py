@@ -1,7 +1,7 @@
 """The teacher's pause: it holds the world whatever happens, and ends when it should."""
 
 from ai4u_edu import Scene
-from ai4u_edu.class_member.member import MAX_UNLINKED_HOLD_S
+from ai4u_edu.class_member.member import MAX_UNLINKED_HOLD_S, REST_AFTER_S
 from ai4u_edu.wire.class_link import Attention, People, Person, Problem, Welcome
 from tests.class_member.fake_link import Joined, joined
 from tests.server.rooms import until
@@ -67,6 +67,23 @@ def test_it_holds_without_a_link_and_ends_at_its_time() -> None:
         until(lambda: not is_held(room))
         until(lambda: attention(room) == {"kind": "", "message": "", "ends_in": 0.0})
         assert room.member.view.version > version
+
+
+def test_a_world_that_nobody_visits_rests_until_somebody_comes() -> None:
+    with joined() as room:
+        room.tell(People((BEN,), is_visited=False))
+        tick = room.runner.latest.tick
+        until(lambda: room.runner.latest.tick > tick)  # a page that is reloaded stops nothing
+        room.clock.now += REST_AFTER_S
+        until(lambda: is_held(room))
+        assert stands_still(room)
+        room.tell(People((ADA,)))
+        until(lambda: not is_held(room))
+        room.tell(People((BEN,), is_visited=False))
+        room.clock.now += REST_AFTER_S
+        until(lambda: is_held(room))
+        room.link.is_connected = False  # nobody would tell it who comes
+        until(lambda: not is_held(room))
 
 
 def test_a_class_that_never_comes_back_does_not_hold_a_world_for_ever() -> None:

@@ -8,7 +8,7 @@ import pytest
 from ai4u_edu.base.errors import SetupError
 from ai4u_edu.classroom import ClassStore, RoomRule, Seats
 from ai4u_edu.classroom.errors import JoinError, NameTakenError, StoreError, WrongCodeError
-from ai4u_edu.classroom.names import CODE_LENGTH, CODE_LETTERS, is_name
+from ai4u_edu.classroom.names import CODE_LENGTH, CODE_LETTERS, LANGUAGES, is_name, words_of
 from ai4u_edu.classroom.room_rule import MAX_SEATS
 from ai4u_edu.classroom.seats import State
 from ai4u_edu.classroom.store import SeatRow
@@ -226,3 +226,18 @@ def test_a_disk_that_is_full_is_said_and_nothing_is_half_there(
     assert [each.number for each in store.seats()] == [each.number for each in seats.all()]
     store.query("pragma max_page_count = 100000")
     joined(seats, "later")
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_names_come_in_the_classs_language(store: ClassStore, language: str) -> None:
+    seats = Seats(store, "box_chase", RoomRule(), language=language)
+    first, second = words_of(language)
+    assert len({*first}) * len({*second}) > 1000
+    for name in seats.offered_names():
+        assert name.split(" ")[0] in first
+        assert seats.join(seats.code, name, f"language {name}")[0].name == name
+
+
+def test_a_language_without_names_is_said(store: ClassStore) -> None:
+    with pytest.raises(SetupError, match="expected one of de, en, es, fr, ko, pt, got 'xx'"):
+        Seats(store, "box_chase", RoomRule(), language="xx")
