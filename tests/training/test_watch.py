@@ -74,33 +74,23 @@ def only_turn(model: Any) -> None:
     weights.bias.data[:] = weights.bias.new_tensor([0.0, 1.0, 0.0, 0.0])
 
 
-def test_the_latest_policy_drives_and_then_the_best_on_another_port(tmp_path: Path) -> None:
+def test_the_progress_is_told_and_the_latest_policy_drives_then_the_best(tmp_path: Path) -> None:
     run = copied_training(tmp_path).run
+    checks = run.checks()
     with (
         socket.create_server(("127.0.0.1", 0)) as taken,
         page_of(watch := watching(run, port := taken.getsockname()[1])) as address,
     ):
         assert f":{port}/" not in address
 
+        def progress() -> Any:
+            return get(address, "api/training")["training"]
+
         def is_turning() -> bool:
             agent = get(address, "api/snapshot")["agents"][0]
             return bool(agent["action"].get("move") == [0.0, 1.0, 0.0, 0.0])
 
-        assert get(address, "api/snapshot")["agents"][0]["brain"] == "LocalBrain(ScriptController)"
-        assert not is_turning()
-        only_turn(watch.model)
-        watch.write_weights()
-        until(is_turning)
-        watch.finish()  # the model that was kept does something else
-        until(lambda: not is_turning())
-
-
-def test_the_progress_can_be_read_and_episodes_go_on(tmp_path: Path) -> None:
-    run = copied_training(tmp_path).run
-    watch = watching(run)
-    checks = run.checks()
-    with page_of(watch) as address:
-        told = get(address, "api/training")["training"]
+        told = progress()
         assert told["decisions"] == watch.model.num_timesteps > 0
         assert told["total"] == TOTAL
         assert not told["is_over"]
@@ -108,12 +98,17 @@ def test_the_progress_can_be_read_and_episodes_go_on(tmp_path: Path) -> None:
         assert [each["reward"] for each in told["curve"]] == [each.reward for each in checks]
         first = get(address, "api/snapshot")["episode"]  # of 20 decisions
         until(lambda: get(address, "api/snapshot")["episode"] > first + 1)
+        assert get(address, "api/snapshot")["agents"][0]["brain"] == "LocalBrain(ScriptController)"
+        assert not is_turning()
         run.note([*checks, checks[-1].model_copy(update={"success": 1.0})])
+        only_turn(watch.model)
         watch.write_weights()
-        until(lambda: len(get(address, "api/training")["training"]["curve"]) == len(checks) + 1)
-        assert get(address, "api/training")["training"]["curve"][-1]["success"] == 1.0
-        watch.finish()
-        until(lambda: get(address, "api/training")["training"]["is_over"])
+        until(is_turning)
+        until(lambda: len(progress()["curve"]) == len(checks) + 1)
+        assert progress()["curve"][-1]["success"] == 1.0
+        watch.finish()  # the model that was kept does something else
+        until(lambda: not is_turning())
+        until(lambda: progress()["is_over"])
 
 
 def test_it_needs_a_training() -> None:
