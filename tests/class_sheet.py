@@ -1,12 +1,13 @@
 """Takes the pictures of a class for the docs: ``python -m tests.class_sheet``.
 
 With ``--all DIR``, it takes them of all sizes and color schemes instead, to look at. The messages
-are made up; worlds, pages and browser are real.
+are made up, except those of the student's page; worlds, pages and browser are real.
 """
 
 import argparse
 import contextlib
 import io
+import tempfile
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Literal
@@ -17,9 +18,14 @@ from playwright.sync_api import Browser
 from tests.browser.wall_data import race
 from tests.browser.wall_server import wall_server
 from tests.chromium import browser
+from tests.classroom.served_class import CODE, served_class
 
 PICTURES = Path(__file__).parents[1] / "docs" / "pictures"
 SETTLE_MS = 1500
+BAR = "class_bar"
+"""Name of the picture of a student's page."""
+Scheme = Literal["light", "dark"]
+SCHEMES: tuple[Scheme, ...] = ("light", "dark")
 COLORS = 256
 """Colors of a picture's palette; it is a third as large then, and looks the same."""
 
@@ -84,9 +90,34 @@ def main() -> None:
                 continue
             pictures = [take(chromium, shot, "light"), take(chromium, shot, "dark")]
             _save(_side_by_side(pictures), folder / f"{shot.name}.png")
+        if options.only in BAR:
+            pictures = [take_bar(chromium, each) for each in SCHEMES[: 2 if options.all else 1]]
+            _save(_side_by_side(pictures), folder / f"{BAR}.png")
 
 
-def take(chromium: Browser, shot: Shot, scheme: Literal["light", "dark"]) -> Image.Image:
+def take_bar(chromium: Browser, scheme: Scheme) -> Image.Image:
+    """Return a picture of a student's page with the bar of the class, which is a real one here."""
+    with (
+        tempfile.TemporaryDirectory() as folder,
+        served_class(Path(folder), "--rooms", "pairs") as school,
+        contextlib.ExitStack() as stack,
+    ):
+        pages = []
+        for _ in range(2):
+            viewport: Any = {"width": 1100, "height": 640}
+            context = chromium.new_context(viewport=viewport, color_scheme=scheme)
+            pages.append(stack.enter_context(contextlib.closing(context)).new_page())
+            pages[-1].goto(f"{school.url}?code={CODE}")
+            pages[-1].get_by_role("button", name="Join", exact=True).click()
+            pages[-1].wait_for_url("**/r/*/*")
+        pages[0].wait_for_timeout(4 * SETTLE_MS)
+        pages[0].keyboard.press("KeyW")
+        school.command("attention", kind="", message="Five minutes left", seconds=300)
+        pages[0].wait_for_timeout(2 * SETTLE_MS)
+        return Image.open(io.BytesIO(pages[0].screenshot())).convert("RGB")
+
+
+def take(chromium: Browser, shot: Shot, scheme: Scheme) -> Image.Image:
     """Return a picture."""
     width, height = shot.size
     viewport: Any = {"width": width, "height": height}

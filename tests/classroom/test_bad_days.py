@@ -64,6 +64,30 @@ def test_two_tabs_of_one_seat_share_the_world_and_one_drives(served: ServedClass
             until(lambda: second.receive("seat")["driver"] == number)
 
 
+def test_a_pair_shares_a_world_and_sees_each_other(tmp_path: Path) -> None:
+    with served_class(tmp_path, "--rooms", "pairs") as served:
+        ada, ben, eve = served.joined(), served.joined(), served.joined()
+        assert ada.room == ben.room != eve.room
+        names = {each["name"] for each in served.state()["seats"][:2]}
+        with (
+            Page(ada.address + "ws/input", additional_headers=ada.cookies) as first,
+            Page(ben.address + "ws/input", additional_headers=ben.cookies) as second,
+        ):
+            for page in (first, second):
+                page.receive("hello")
+            until(lambda: all(each["is_here"] for each in people(first)), 20)
+            assert {each["name"] for each in first.last["class"]["people"]} == names
+            number = first.last["hello"]["you"]
+            with first.holding("KeyW"):
+                until(lambda: second.receive("seat")["driver"] == number)
+
+
+def people(page: Page) -> list[dict[str, object]]:
+    event = page.receive("class")
+    found: list[dict[str, object]] = event["people"]
+    return found
+
+
 def test_who_loses_the_cookie_gets_another_seat_and_the_work_stays(served: ServedClass) -> None:
     ada = served.joined()
     before = ada.room

@@ -23,47 +23,52 @@ from tests.server.rooms import free_port, until
 
 pytestmark = pytest.mark.slow
 
-NOTEBOOK = """
-import sys
+BEGIN = """
 from ai4u_edu.lessons import check, hint, join_class, leave_class, show, stop
 def stay(percept): return {"move": [0, 0, 0, 0]}
 def go(percept): return {"move": [1, 0, 0, 0]}
-for line in sys.stdin:
-    exec(line)
-    print("-- ran", flush=True)
 """
 
 
 class Kernel:
-    """A notebook's kernel, in so far as it runs lines."""
+    """A Jupyter kernel, as a notebook has it.
 
-    def __init__(self, process: "subprocess.Popen[str]") -> None:
-        self.process = process
+    Args:
+        folder: of the notebook.
+    """
 
-    def run(self, line: str) -> str:
-        """Run a line; return its output."""
-        assert self.process.stdin is not None
-        assert self.process.stdout is not None
-        self.process.stdin.write(line + "\n")
-        self.process.stdin.flush()
-        told = []
-        for each in self.process.stdout:
-            if each == "-- ran\n":
-                break
-            told.append(each)
+    def __init__(self, folder: Path) -> None:
+        from jupyter_client.manager import start_new_kernel
+
+        folder.mkdir(exist_ok=True)
+        self.manager, self._client = start_new_kernel(kernel_name="python3", cwd=str(folder))
+        self.run(BEGIN)
+
+    def run(self, cell: str) -> str:
+        """Run a cell; return the text of its output."""
+        told: list[str] = []
+
+        def note(message: dict[str, Any]) -> None:
+            content = message["content"]
+            told.append(content.get("text") or content.get("data", {}).get("text/plain", ""))
+
+        reply = self._client.execute_interactive(cell, output_hook=note, timeout=60)
+        assert reply["content"]["status"] == "ok", reply["content"]
         return "".join(told)
+
+    def kill(self) -> None:
+        """End the kernel as a crash does."""
+        self._client.stop_channels()
+        self.manager.shutdown_kernel(now=True)
 
 
 @contextmanager
 def kernel(folder: Path) -> Iterator[Kernel]:
-    folder.mkdir(exist_ok=True)
-    command = [sys.executable, "-c", NOTEBOOK]
-    pipe = subprocess.PIPE
-    with subprocess.Popen(command, stdin=pipe, stdout=pipe, text=True, cwd=folder) as process:
-        try:
-            yield Kernel(process)
-        finally:
-            process.kill()
+    notebook = Kernel(folder)
+    try:
+        yield notebook
+    finally:
+        notebook.kill()
 
 
 @pytest.fixture(scope="module")
