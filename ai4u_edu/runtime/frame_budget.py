@@ -35,7 +35,7 @@ TRAILS_PER_S = 4.0
 """Rate at which the trails behind agents are drawn on each page."""
 TEXTS_PER_S = 8.0
 """Rate at which the texts of the panel are drawn: faster than anybody reads."""
-FRAMES_PER_SENSES, FRAMES_PER_TEXT = 2, 5
+FRAMES_PER_SENSES, FRAMES_PER_TEXT = 2, 6
 """Least frames for each drawing of the senses, and for each of a panel's texts; they count where a
 room has fewer frames than usual."""
 

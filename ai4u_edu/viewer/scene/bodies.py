@@ -26,6 +26,7 @@ from ai4u_edu.viewer.scene.mesh_drawer import MeshDrawer
 from ai4u_edu.viewer.scene.poses import Poses, compute_poses
 from ai4u_edu.viewer.scene.pulse import Pulse
 from ai4u_edu.viewer.scene.subtree import Subtree
+from ai4u_edu.world import CircleShape
 
 BLACK: Rgb = (0, 0, 0)
 MAX_SHADOW_BLUR_M = 0.16
@@ -122,6 +123,9 @@ class _BodyGroup:
     ) -> None:
         self._members = np.array(members)
         self._looks: tuple[Array, Array, Array] | None = None
+        self._is_round = all(
+            isinstance(static_scene.bodies[index].shape, CircleShape) for index in members
+        )
         self._placed: tuple[npt.NDArray[Any], ...] = (np.empty(0),) * 3
         self._frame = scene.add_frame(name, show_axes=False) if is_node else None
         drawer = MeshDrawer(scene, name)
@@ -200,7 +204,9 @@ class _BodyGroup:
         if shadow_moved:
             self._shadow.position = shadow_positions[0]
         if turned:
-            self._frame.wxyz = self._shadow.wxyz = wxyzs[0]
+            self._frame.wxyz = wxyzs[0]
+            if not self._is_round:  # a round shadow looks the same
+                self._shadow.wxyz = wxyzs[0]
 
     def _colours(self, depths: npt.NDArray[np.float64]) -> npt.NDArray[np.uint8]:
         """Return the members' colours; a falling body fades to the colour of the void."""

@@ -37,33 +37,39 @@ class Poses(NamedTuple):
 
 
 def compute_poses(snapshot: Snapshot, layers: Layers) -> Poses:
-    """Return the drawn poses of all bodies of a snapshot."""
+    """Return the drawn poses of all bodies of a snapshot.
+
+    It runs in every frame, mostly for few bodies: so it makes few calls of numpy.
+    """
     bodies, static_scene = snapshot.bodies, snapshot.static_scene
-    numbers = np.array([(b.x, b.y, b.z, b.heading, b.fallen) for b in bodies]).reshape(-1, 5)
-    positions, half_headings, gone = numbers[:, :3], numbers[:, 3] / 2, numbers[:, 4] > 0
+    grounds = [_ground(snapshot, body) for body in bodies]
+    numbers = np.array(
+        [(b.x, b.y, b.z, b.heading, g or 0.0) for b, g in zip(bodies, grounds, strict=True)]
+    ).reshape(-1, 5)
+    heights, half_headings, ground_heights = numbers[:, 2], numbers[:, 3] / 2, numbers[:, 4]
+    is_gone = np.array([body.fallen for body in bodies], dtype=bool)
+    is_void = np.array([ground is None for ground in grounds], dtype=bool)
     lowest = lowest_floor(static_scene)
     reach = max(lowest - static_scene.settings.fall_threshold, 0.1)
-    depths = np.clip((lowest - positions[:, 2]) / reach, 0.0, 1.0)
-    scales = np.where(gone, 0.0, 1 - (1 - MIN_FALLING_SCALE) * depths)
-    grounds = np.array([_ground(snapshot, body) for body in bodies])
-    is_void = np.isnan(grounds)
-    grounds = np.where(is_void, 0.0, grounds)
-    rise = np.where(is_void, 0.0, np.maximum(positions[:, 2] - grounds, 0.0))
-    offset = (SHADOW_OFFSET_M + SHADOW_OFFSET_PER_HEIGHT * rise)[:, None] * SHADOW_DIRECTION
-    zeros = np.zeros(len(bodies))
-    return Poses(
-        positions=positions + np.array([0, 0, layers.body]),
-        wxyzs=np.stack([np.cos(half_headings), zeros, zeros, np.sin(half_headings)], axis=1),
-        scales=scales,
-        depths=depths,
-        shadow_positions=np.column_stack([positions[:, :2] + offset, grounds + layers.shadow]),
-        shadow_scales=np.where(is_void | gone, 0.0, 1.0),
-    )
+    depths = np.minimum(np.maximum((lowest - heights) / reach, 0.0), 1.0)
+    scales = 1 - (1 - MIN_FALLING_SCALE) * depths
+    scales[is_gone] = 0.0
+    rise = np.maximum(heights - ground_heights, 0.0)
+    rise[is_void] = 0.0
+    positions = numbers[:, :3] + (0.0, 0.0, layers.body)
+    wxyzs = np.zeros((len(bodies), 4))
+    wxyzs[:, 0], wxyzs[:, 3] = np.cos(half_headings), np.sin(half_headings)
+    shadow_positions = np.empty((len(bodies), 3))
+    offset = SHADOW_OFFSET_M + SHADOW_OFFSET_PER_HEIGHT * rise
+    shadow_positions[:, :2] = numbers[:, :2] + offset[:, None] * SHADOW_DIRECTION
+    shadow_positions[:, 2] = ground_heights + layers.shadow
+    shadow_scales = np.ones(len(bodies))
+    shadow_scales[is_void | is_gone] = 0.0
+    return Poses(positions, wxyzs, scales, depths, shadow_positions, shadow_scales)
 
 
-def _ground(snapshot: Snapshot, body: BodyState) -> float:
-    """Return the height of the ground under a body; NaN over the void."""
+def _ground(snapshot: Snapshot, body: BodyState) -> float | None:
+    """Return the height of the ground under a body; None over the void."""
     if body.on_ground:
         return body.z
-    under = floor_under(snapshot.static_scene, body.x, body.y, body.z)
-    return np.nan if under is None else under
+    return floor_under(snapshot.static_scene, body.x, body.y, body.z)
