@@ -6,31 +6,22 @@ sent the right token before, as a class's own has, is not delayed with the right
 """
 
 import asyncio
-import math
 import time
 from collections import OrderedDict
 from collections.abc import Awaitable, Callable
 from enum import Enum, auto
-from typing import TypeVar
 
 from starlette.responses import PlainTextResponse
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from ai4u_edu.server.connections import address_of
+from ai4u_edu.server.wrong_counts import WrongCounts, remember
 
-MAX_WRONG = 60
-"""Wrong tokens in a row that an address may send without a delay."""
-FORGOTTEN_PER_S = 1.0
-"""Rate at which an address's wrong tokens are forgotten."""
 DELAY_S = 1.0
 """Delay of each token after too many wrong ones."""
 MAX_WAITING = 20
 """Delayed tokens of one address at a time; further ones are refused unchecked."""
-MAX_ADDRESSES = 1000
-"""Addresses that are remembered, the most recent ones."""
 TOO_MANY = "too many wrong tokens from this address; try again in {seconds} s"
-
-Value = TypeVar("Value")
 
 
 class Verdict(Enum):
@@ -54,8 +45,8 @@ class Attempts:
         clock: Callable[[], float] = time.monotonic,
         sleep: Callable[[float], Awaitable[None]] = asyncio.sleep,
     ) -> None:
-        self._clock, self._sleep = clock, sleep
-        self._wrong: OrderedDict[str, tuple[float, float]] = OrderedDict()  # how many, and when
+        self._sleep = sleep
+        self._wrong = WrongCounts(clock)
         self._known: OrderedDict[str, None] = OrderedDict()
         self._waiting: dict[str, int] = {}
 
@@ -72,7 +63,7 @@ class Attempts:
         elif not await self.wait(address):
             return Verdict.TOO_MANY
         elif is_right():
-            _remember(self._known, address, None)
+            remember(self._known, address, None)
             return Verdict.RIGHT
         was_over = self.retry_after(address) > 0
         self.add_wrong(address)
@@ -98,21 +89,15 @@ class Attempts:
 
     def add_wrong(self, address: str) -> None:
         """Count a wrong token."""
-        count = min(self._count(address) + 1, MAX_WRONG + 10)  # the count must not grow without end
-        _remember(self._wrong, address, (count, self._clock()))
+        self._wrong.add(address)
 
     def retry_after(self, address: str) -> int:
         """Return the seconds until an address is not delayed any more; 0 if it is not now."""
-        over = self._count(address) - MAX_WRONG + 1
-        return max(0, math.ceil(over / FORGOTTEN_PER_S))
+        return self._wrong.seconds_over(address)
 
     def is_known(self, address: str) -> bool:
         """Return True if an address has sent the right token."""
         return address in self._known
-
-    def _count(self, address: str) -> float:
-        count, when = self._wrong.get(address, (0.0, 0.0))
-        return max(0.0, count - (self._clock() - when) * FORGOTTEN_PER_S)
 
 
 class LimitScripts:
@@ -153,10 +138,3 @@ def too_many(seconds: int) -> PlainTextResponse:
     text = TOO_MANY.format(seconds=seconds)
     headers = {"Retry-After": str(seconds), "Cache-Control": "no-store"}
     return PlainTextResponse(f"token: {text}\n", 429, headers)
-
-
-def _remember(kept: OrderedDict[str, Value], address: str, value: Value) -> None:
-    kept[address] = value
-    kept.move_to_end(address)
-    if len(kept) > MAX_ADDRESSES:
-        kept.popitem(last=False)

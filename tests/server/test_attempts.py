@@ -7,14 +7,13 @@ import httpx
 import pytest
 from websockets.exceptions import InvalidStatus
 
-from ai4u_edu.server import Rules, attempts
+from ai4u_edu.server import Rules, attempts, wrong_counts
 from ai4u_edu.server.attempts import (
-    MAX_ADDRESSES,
     MAX_WAITING,
-    MAX_WRONG,
     Attempts,
     Verdict,
 )
+from ai4u_edu.server.wrong_counts import MAX_ADDRESSES, MAX_WRONG
 from ai4u_edu.wire import native
 from tests.server.rooms import Page, Room, served
 
@@ -107,7 +106,7 @@ def test_memory_is_bounded(tries: Attempts) -> None:
 
 @pytest.fixture
 def room(monkeypatch: pytest.MonkeyPatch) -> Iterator[Room]:
-    monkeypatch.setattr(attempts, "MAX_WRONG", 3)
+    monkeypatch.setattr(wrong_counts, "MAX_WRONG", 3)
     monkeypatch.setattr(attempts, "FORGOTTEN_PER_S", 0.001)
     monkeypatch.setattr(attempts, "DELAY_S", 0.01)
     with served(rules=Rules(token=TOKEN)) as room:
