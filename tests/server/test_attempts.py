@@ -107,7 +107,7 @@ def test_memory_is_bounded(tries: Attempts) -> None:
 @pytest.fixture
 def room(monkeypatch: pytest.MonkeyPatch) -> Iterator[Room]:
     monkeypatch.setattr(wrong_counts, "MAX_WRONG", 3)
-    monkeypatch.setattr(attempts, "FORGOTTEN_PER_S", 0.001)
+    monkeypatch.setattr(wrong_counts, "FORGOTTEN_PER_S", 0.001)
     monkeypatch.setattr(attempts, "DELAY_S", 0.01)
     with served(rules=Rules(token=TOKEN)) as room:
         yield room
