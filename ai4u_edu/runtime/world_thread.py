@@ -36,8 +36,8 @@ ANSWER_POLL_S = 0.015
 """Poll interval for brains whose answer is late, while a world waits for answers."""
 HOLD_POLL_S = 0.001
 """Poll interval for brains that hold the world without announcing an answer."""
-REST_POLL_S = 0.1
-"""Time between two snapshots while the world is paused."""
+REST_POLL_S, HELD_POLL_S = 0.1, 0.5
+"""Time between two snapshots while the world is paused, and while it is held."""
 STOP_S = 1.0
 """Time that the thread has to end; a block that does not return may keep it from that."""
 
@@ -243,7 +243,7 @@ class WorldThread:
     def _rest(self) -> None:
         self._schedule.rest()
         self._monitor.end()
-        self._wake.wait(REST_POLL_S)
+        self._wake.wait(HELD_POLL_S if self.is_held else REST_POLL_S)
         self._monitor.begin()
         for agent in self.sim.agents:
             self._attempt(agent.brain.idle)

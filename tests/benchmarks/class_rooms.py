@@ -68,11 +68,13 @@ def _measure(
     time.sleep(seconds)
     took = time.monotonic() - began
     after = _times([gateway, *children])
+    (folder / tick_lateness.REQUEST).touch()
     here.send("end")
     frames, own = _receive(here)
     used = {pid: (after[pid] - before[pid]) / took for pid in after}
     shares = sorted(used[each.pid] for each in children if used.get(each.pid, 0) > 0.0005)
     memory = [each.memory_full_info().pss / 2**20 for each in [gateway, *children]]
+    time.sleep(4)  # for the files
     late = [
         value
         for file in folder.glob("*.json")

@@ -1,6 +1,7 @@
-"""Blocks file for rooms of a benchmark: writes how late ticks were to a file of each process.
+"""Blocks file for rooms of a benchmark: writes how late ticks were, when it is asked to.
 
-It is loaded with ``--blocks``. The folder stands in ``AI4U_LATENESS_FOLDER``.
+It is loaded with ``--blocks``. The folder stands in ``AI4U_LATENESS_FOLDER``. Once it has a file
+:data:`REQUEST`, each process writes one of its own: to write all the time would make ticks late.
 """
 
 import json
@@ -16,8 +17,8 @@ from gymnasium.spaces import Box
 from ai4u_edu import Sensor
 from ai4u_edu.runtime.world_thread import WorldThread
 
-WRITE_S = 1.0
-KEPT_TICKS = 20_000
+POLL_S = 0.5
+REQUEST = "write"
 
 
 class NoReading(Sensor):
@@ -40,12 +41,12 @@ def _timed_tick(self: WorldThread, *, whole_decision: bool = False) -> None:
 
 
 def _write(folder: Path) -> None:
-    while True:
-        time.sleep(WRITE_S)
-        path = folder / f"{os.getpid()}.json"
-        beside = path.with_suffix(".partial")
-        beside.write_text(json.dumps(_late_s[-KEPT_TICKS:]))
-        beside.replace(path)
+    while not (folder / REQUEST).exists():
+        time.sleep(POLL_S)
+    path = folder / f"{os.getpid()}.json"
+    beside = path.with_suffix(".partial")
+    beside.write_text(json.dumps(list(_late_s)))
+    beside.replace(path)
 
 
 def _begin() -> None:
