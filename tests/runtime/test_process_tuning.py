@@ -6,7 +6,7 @@ import sys
 import pytest
 
 from ai4u_edu.cli import main as cli
-from ai4u_edu.runtime.process_tuning import tuned_process
+from ai4u_edu.runtime.process_tuning import NEW_OBJECTS_BEFORE_GC, tuned_process
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.viewer import Viewer
 from tests.builders import small_sim
@@ -20,7 +20,7 @@ def test_a_tuned_process_is_as_it_was_afterwards() -> None:
     before = settings()
     with tuned_process():
         assert sys.getswitchinterval() < 0.001
-        assert gc.get_threshold()[0] > 10_000
+        assert gc.get_threshold() == (NEW_OBJECTS_BEFORE_GC, 1, 1)
         assert gc.get_freeze_count() > 10_000
     assert settings() == before
 
