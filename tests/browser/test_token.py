@@ -5,7 +5,7 @@ from collections.abc import Iterator
 import pytest
 from playwright.sync_api import Browser, Page, expect
 
-from ai4u_edu.server import Rules, attempts
+from ai4u_edu.server import Rules, wrong_counts
 from tests.chromium import new_page
 from tests.server.rooms import Room, served
 
@@ -55,8 +55,8 @@ def test_a_wrong_token_in_the_address_does_not_stay_there(room: Room, page: Page
 
 
 def test_attempts_are_limited(room: Room, page: Page, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(attempts, "MAX_WRONG", 2)
-    monkeypatch.setattr(attempts, "FORGOTTEN_PER_S", 0.001)
+    monkeypatch.setattr(wrong_counts, "MAX_WRONG", 2)
+    monkeypatch.setattr(wrong_counts, "FORGOTTEN_PER_S", 0.001)
     page.goto(room.url)
     for _ in range(2):
         enter(page, "guess")
