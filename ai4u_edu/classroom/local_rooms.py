@@ -188,7 +188,7 @@ class LocalRooms:
         token = self._secrets[room] = secrets.token_urlsafe(24)
         folder = self._folder / "rooms" / room
         order = RoomOrder(room, scene, folder, token, self._blocks, self.class_url)
-        process = self._context.Process(  # type: ignore[attr-defined]
+        process = self._context.Process(  # type: ignore[attr-defined]  # all contexts have it
             target=run_room, args=(order, theirs), name=f"room {room}", daemon=True
         )
         try:

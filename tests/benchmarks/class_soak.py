@@ -18,11 +18,12 @@ import time
 from contextlib import AsyncExitStack, closing, suppress
 from multiprocessing.connection import Connection
 from pathlib import Path
+from typing import Any
 
 import httpx
 import numpy as np
 import psutil
-from websockets.asyncio.client import connect
+from websockets.asyncio.client import ClientConnection, connect
 from websockets.exceptions import ConnectionClosed, InvalidHandshake
 
 from tests.classroom.served_class import CODE, ServedClass, served_class
@@ -132,12 +133,14 @@ class _Visitors:
 
     async def _visit(self, path: str, headers: dict[str, str], seconds: float) -> None:
         """Drive, and leave without a goodbye."""
-        options = {"additional_headers": headers, "max_size": None, "proxy": None}
+        options: dict[str, Any] = {"additional_headers": headers, "max_size": None, "proxy": None}
         async with AsyncExitStack() as stack:
             sockets = []
             for name in ("", "ws/panel", "ws/input"):
-                extra = {"subprotocols": [VISER], "compression": None} if not name else {}
-                socket = await connect(path + name, **options, **extra)  # type: ignore[arg-type]
+                extra: dict[str, Any] = (
+                    {"subprotocols": [VISER], "compression": None} if not name else {}
+                )
+                socket = await connect(path + name, **options, **extra)
                 stack.callback(socket.transport.abort)
                 sockets.append(socket)
             page, panel, keys = sockets
@@ -149,12 +152,12 @@ class _Visitors:
                 for each in reading:
                     each.cancel()
 
-    async def _drive(self, keys: object, seconds: float) -> None:
+    async def _drive(self, keys: ClientConnection, seconds: float) -> None:
         end, is_over = time.monotonic() + seconds, False
 
         async def listen() -> None:
             nonlocal is_over
-            async for text in keys:  # type: ignore[attr-defined]
+            async for text in keys:
                 event = json.loads(text)
                 if event["type"] == "state":
                     is_over = event["terminated"] or event["truncated"]
@@ -164,18 +167,18 @@ class _Visitors:
             while time.monotonic() < end:
                 held = ["KeyR"] if is_over else ["KeyW"]
                 message = json.dumps({"type": "keys", "held": held})
-                await keys.send(message)  # type: ignore[attr-defined]
+                await keys.send(message)
                 await asyncio.sleep(HOLD_S)
                 if is_over:
-                    await keys.send('{"type": "keys", "held": []}')  # type: ignore[attr-defined]
+                    await keys.send('{"type": "keys", "held": []}')
                     await asyncio.sleep(HOLD_S)
         finally:
             listening.cancel()
 
 
-async def _read(socket: object) -> None:
+async def _read(socket: ClientConnection) -> None:
     with suppress(ConnectionClosed):
-        async for _ in socket:  # type: ignore[attr-defined]
+        async for _ in socket:
             pass
 
 

@@ -52,7 +52,7 @@ def _write(folder: Path) -> None:
 def _begin() -> None:
     folder = os.environ.get("AI4U_LATENESS_FOLDER")
     if folder:
-        WorldThread._tick = _timed_tick  # type: ignore[method-assign]
+        WorldThread._tick = _timed_tick  # type: ignore[method-assign]  # to measure
         threading.Thread(target=_write, args=[Path(folder)], daemon=True).start()
 
 

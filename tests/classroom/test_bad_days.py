@@ -14,7 +14,7 @@ import httpx
 import psutil
 import pytest
 
-from tests.classroom.served_class import CODE, ServedClass, served_class
+from tests.classroom.served_class import CODE, ServedClass, Student, served_class
 from tests.server.rooms import Page, until
 
 pytestmark = pytest.mark.slow
@@ -25,6 +25,11 @@ MARKUP = "<img src=x onerror=alert(1)>"
 def served(tmp_path_factory: pytest.TempPathFactory) -> Iterator[ServedClass]:
     with served_class(tmp_path_factory.mktemp("class")) as served:
         yield served
+
+
+@pytest.fixture(scope="module")
+def pair(served: ServedClass) -> tuple[Student, Student]:
+    return served.joined(), served.joined()
 
 
 def test_a_new_code_keeps_who_is_there_and_the_old_one_is_refused(tmp_path: Path) -> None:
@@ -111,8 +116,10 @@ def test_who_loses_the_cookie_gets_another_seat_and_the_work_stays(served: Serve
         "web/%2e%2e/pyproject.toml",
     ],
 )
-def test_no_path_leads_out_of_ones_own_room(served: ServedClass, path: str) -> None:
-    ada, ben = _pair(served)
+def test_no_path_leads_out_of_ones_own_room(
+    served: ServedClass, pair: tuple[Student, Student], path: str
+) -> None:
+    ada, ben = pair
     target = "/" + path.format(room=ada.room.split("/")[2], other=ben.room.split("/")[2])
     request = f"GET {target} HTTP/1.1\r\nHost: {httpx.URL(served.url).netloc.decode()}\r\n"
     request += f"Cookie: {ada.cookies['Cookie']}\r\nConnection: close\r\n\r\n"
@@ -123,13 +130,6 @@ def test_no_path_leads_out_of_ones_own_room(served: ServedClass, path: str) -> N
     status = int(answer.split()[1])
     assert status in (303, 307, 400, 403, 404), answer[:200]
     assert b"SQLite" not in answer
-
-
-_pairs: dict[int, tuple[object, object]] = {}
-
-
-def _pair(served: ServedClass):  # type: ignore[no-untyped-def]
-    return _pairs.setdefault(id(served), (served.joined(), served.joined()))
 
 
 def test_a_name_with_markup_is_refused_as_text(served: ServedClass) -> None:
