@@ -204,7 +204,7 @@ class LocalRooms:
         except EOFError:  # it has ended
             pass
         if isinstance(answer, RoomReady):
-            address = RoomAddress(HOST, answer.port, token)
+            address = RoomAddress(HOST, answer.port, token, answer.viser_port)
             watch = RoomWatch(process.pid, self._limits)
             return _Running(process, ours, address, time.monotonic(), watch)
         ours.close()

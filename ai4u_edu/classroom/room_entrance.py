@@ -66,9 +66,11 @@ class RoomEntrance:
         if scope["type"] == "http":
             await self._proxy.http(address, visitor, scope, receive, send)
         else:
+            inner = {**scope, "root_path": path_of(room)}
+            serve = self._proxy.websocket if rest else self._proxy.viser
             try:
                 with self._rooms.in_use(room):
-                    await self._proxy.websocket(address, visitor, scope, receive, send)
+                    await serve(address, visitor, inner, receive, send)
             finally:
                 self._live.tell_people()  # the room may rest now
 

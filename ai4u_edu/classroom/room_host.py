@@ -12,6 +12,10 @@ class RoomAddress:
     host: str
     port: int
     token: str
+    """Secret of the server, and of viser."""
+    viser_port: int | None = None
+    """Port of the room's viser, if it is on this machine: pages' sockets need not pass through the
+    room's server then."""
 
 
 class RoomHost(Protocol):

@@ -4,6 +4,7 @@ import os
 import signal
 import threading
 from dataclasses import dataclass
+from functools import partial
 from multiprocessing.connection import Connection
 from pathlib import Path
 
@@ -22,9 +23,9 @@ from ai4u_edu.server.app import RoomMount
 
 HOST = "127.0.0.1"
 ROOMS_PATH = "/r/"
-MAX_FRAMES_PER_S = 17.0
-"""Most pictures a second of each page: after each fourth of 60 ticks, with room for one that comes
-a bit early. A class has many rooms and few cores."""
+MAX_FRAMES_PER_S = 15.5
+"""Most pictures a second of each page: mostly after each fourth of 60 ticks. A class has many rooms
+and few cores."""
 MIN_FRAMES_PER_S = 15.0
 """Pictures a second if ticks are late."""
 
@@ -47,9 +48,10 @@ class RoomOrder:
 
 @dataclass(frozen=True)
 class RoomReady:
-    """Answer of a process that serves its room."""
+    """Answer of a process that serves its room: the ports of its server and of its viser."""
 
     port: int
+    viser_port: int
 
 
 @dataclass(frozen=True)
@@ -87,6 +89,7 @@ def run_room(order: RoomOrder, parent: Connection) -> None:
         saved_scenes=order.folder / "scenes",
         class_link=ClassLinkSettings(order.class_url, order.token) if order.class_url else None,
         class_folder=order.folder,
+        viser_secret=order.token,
         frames_per_s=MAX_FRAMES_PER_S,
         min_frames_per_s=MIN_FRAMES_PER_S,
     )
@@ -99,8 +102,9 @@ def run_room(order: RoomOrder, parent: Connection) -> None:
         return
     app = Starlette(routes=[RoomMount(path_of(order.id), app=room.app)])
     threading.Thread(target=_end_with, args=[parent], name="parent", daemon=True).start()
+    ports = partial(RoomReady, viser_port=room.viser_port)
     with tuned_process(), room, SceneFile(order.folder, room.editor, room.runner):
-        serve(app, HOST, 0, on_ready=lambda url: parent.send(RoomReady(_port(url))))
+        serve(app, HOST, 0, on_ready=lambda url: parent.send(ports(_port(url))))
 
 
 def _end_with(parent: Connection) -> None:

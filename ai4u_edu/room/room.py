@@ -68,7 +68,7 @@ class Room:
         self._viewer = Viewer(self.runner, title=self.title, editor=self.editor)
         if ghost is not None and settings.ghost is not None:
             self._viewer.ghosts.race(ghost, settings.ghost.name)
-        lock_viser_port(self._viewer.server)
+        lock_viser_port(self._viewer.server, settings.viser_secret)
         self.class_member = None
         if settings.class_link is not None:
             self.class_member = ClassMember(
@@ -81,6 +81,7 @@ class Room:
         self.app = room_app(
             self.runner,
             viser_port=self._viewer.port,
+            viser_secret=settings.viser_secret,
             title=lambda: self.editor.title,
             allowed_hosts=settings.allowed_hosts,
             proxy_hosts=settings.proxy_hosts,
@@ -91,6 +92,11 @@ class Room:
             class_feed=None if self.class_member is None else self.class_member.view,
         )
         self._ending = ExitStack()
+
+    @property
+    def viser_port(self) -> int:
+        """Port on 127.0.0.1 at which the room's viser listens."""
+        return self._viewer.port
 
     def __enter__(self) -> Self:
         self.runner.start()

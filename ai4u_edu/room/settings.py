@@ -8,6 +8,7 @@ from ai4u_edu.class_member import ClassLinkSettings
 from ai4u_edu.runtime.frame_budget import MAX_FRAMES_PER_S, MIN_FRAMES_PER_S
 from ai4u_edu.server import Rules
 from ai4u_edu.server.host_origin import LOOPBACK
+from ai4u_edu.server.viser_lockdown import PROXY_SECRET
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -28,6 +29,8 @@ class RoomSettings:
     allowed_hosts: tuple[str, ...] = LOOPBACK
     proxy_hosts: tuple[str, ...] = ()
     rules: Rules = field(default_factory=Rules)
+    viser_secret: str = PROXY_SECRET
+    """Secret of the room's viser; only a proxy may know it."""
     drivers: tuple[str, ...] = ()
     record: Path | None = None
     keep: int = DEFAULT_KEPT_EPISODES

@@ -23,6 +23,7 @@ from ai4u_edu.server.start_page import LessonView, StartPage
 from ai4u_edu.server.state_routes import StateRoutes
 from ai4u_edu.server.token_auth import TokenAuth
 from ai4u_edu.server.token_page import PUBLIC_FILES, TokenPage
+from ai4u_edu.server.viser_lockdown import PROXY_SECRET
 from ai4u_edu.wire.native import PROBLEMS
 
 
@@ -30,6 +31,7 @@ def room_app(
     runner: Runner,
     *,
     viser_port: int,
+    viser_secret: str = PROXY_SECRET,
     title: str | Callable[[], str],
     allowed_hosts: Collection[str] = LOOPBACK,
     proxy_hosts: Collection[str] = (),
@@ -44,6 +46,7 @@ def room_app(
     Args:
         runner: runs the world; the caller starts it.
         viser_port: where the room's viser listens, on 127.0.0.1.
+        viser_secret: viser's, if it has one of its own.
         title: the page's title and the scene's name in the API; a function if it may change.
         allowed_hosts: host names that requests may use; see :mod:`ai4u_edu.server.host_origin`.
         proxy_hosts: host names of a reverse proxy in front; see there.
@@ -83,7 +86,7 @@ def room_app(
             Route("/api/past/{file}", past.file, middleware=auth),
             Route("/api/openapi.json", state.describe, middleware=auth),
             *scenes,
-            WebSocketRoute("/", ViserProxy(viser_port, rules.token), middleware=auth),
+            WebSocketRoute("/", ViserProxy(viser_port, rules.token, viser_secret), middleware=auth),
             WebSocketRoute("/ws/input", Inputs(runner, current_title, class_feed), middleware=auth),
             *([WebSocketRoute("/ws/panel", panel, middleware=auth)] if panel is not None else []),
             # scripts send the token in their hello

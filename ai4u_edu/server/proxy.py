@@ -62,38 +62,52 @@ class ViserProxy:
     Args:
         port: viser's port on 127.0.0.1.
         token: the room's token, for the address that the page shows if nobody gives another one.
+        secret: viser's, as given to :func:`~ai4u_edu.server.viser_lockdown.lock_viser_port`.
     """
 
-    def __init__(self, port: int, token: str = "") -> None:
-        self._url = f"ws://127.0.0.1:{port}"
-        self._token = token
+    def __init__(self, port: int, token: str = "", secret: str = PROXY_SECRET) -> None:
+        self._port, self._token, self._secret = port, token, secret
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Serve one page's connection until one side closes it."""
         page = WebSocket(scope, receive, send)
         try:
-            viser = await connect(
-                self._url,
-                additional_headers={
-                    PAGE_HEADER: with_token(
-                        page_address(scope), page.headers.get(SCRIPT_KEY_HEADER, self._token)
-                    ),
-                    PAGE_ID_HEADER: page_id(scope),
-                    AGENT_HEADER: page_agent(scope),
-                    DARK_HEADER: "1" if HTTPConnection(scope).cookies.get(DARK_COOKIE) else "",
-                    PROXY_SECRET_HEADER: PROXY_SECRET,
-                },
-                subprotocols=_subprotocols(scope["subprotocols"]) or None,
-                compression=None,  # viser compresses by itself
-                max_size=None,
-                max_queue=1,  # frames for a slow page wait in viser, where newer ones replace them
-                ping_interval=None,  # the other connection has pings
-                proxy=None,
-            )
+            token = page.headers.get(SCRIPT_KEY_HEADER, self._token)
+            viser = await connect_viser(scope, self._port, self._secret, token)
         except (OSError, InvalidHandshake):
             await page.close(1013, "the viewer does not answer; reload the page in a moment")
             return
-        await pump_sockets(page, viser, _upward(page, viser))
+        await pump_sockets(page, viser, pass_up(page, viser))
+
+
+async def connect_viser(scope: Scope, port: int, secret: str, token: str) -> ClientConnection:
+    """Connect with viser in the name of a page.
+
+    Args:
+        scope: of the page's socket.
+        port: viser's on 127.0.0.1.
+        secret: viser's.
+        token: secret in the address that the page shows to scripts.
+
+    Raises:
+        OSError, InvalidHandshake: viser does not answer.
+    """
+    return await connect(
+        f"ws://127.0.0.1:{port}",
+        additional_headers={
+            PAGE_HEADER: with_token(page_address(scope), token),
+            PAGE_ID_HEADER: page_id(scope),
+            AGENT_HEADER: page_agent(scope),
+            DARK_HEADER: "1" if HTTPConnection(scope).cookies.get(DARK_COOKIE) else "",
+            PROXY_SECRET_HEADER: secret,
+        },
+        subprotocols=_subprotocols(scope["subprotocols"]) or None,
+        compression=None,  # viser compresses by itself
+        max_size=None,
+        max_queue=1,  # frames for a slow page wait in viser, where newer ones replace them
+        ping_interval=None,  # the other connection has pings
+        proxy=None,
+    )
 
 
 def page_address(scope: Scope) -> str:
@@ -147,7 +161,7 @@ def _subprotocols(offered: Iterable[str]) -> list[Subprotocol]:
     return found[:MAX_SUBPROTOCOLS]
 
 
-async def _upward(page: WebSocket, viser: ClientConnection) -> None:
+async def pass_up(page: WebSocket, viser: ClientConnection) -> None:
     """Pass a page's messages on to viser, except those that a page may not send."""
     rate, code, reason = RateLimit(MAX_MESSAGES_PER_S), 1000, ""
     with suppress(ConnectionClosed):

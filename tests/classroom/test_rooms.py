@@ -5,16 +5,18 @@ import os
 import re
 import signal
 from collections.abc import Iterator
+from contextlib import suppress
 from pathlib import Path
 
 import httpx
 import psutil
 import pytest
 from websockets.exceptions import ConnectionClosed
-from websockets.sync.client import connect
+from websockets.sync.client import ClientConnection, connect
 
 from ai4u_edu.remote import RemoteError
 from ai4u_edu.remote import connect as connect_script
+from ai4u_edu.server.proxy import MAX_UPWARD_BYTES
 from tests.classroom.served_class import CODE, ServedClass, Student, served_class
 from tests.load.clients import CAMERA, VISER
 from tests.server.rooms import Page, until
@@ -75,6 +77,22 @@ def test_the_room_can_not_be_entered_beside_the_class(served: ServedClass) -> No
         assert answer.status_code != 200
 
 
+@pytest.mark.parametrize(
+    ("frame", "code"), [(b"\xc1", 1003), ("text", 1003), (b"\x00" * 2 * MAX_UPWARD_BYTES, 1009)]
+)
+def test_what_is_no_message_to_the_picture_is_refused_before_viser(
+    served: ServedClass, frame: bytes | str, code: int
+) -> None:
+    ada = served.joined()
+    with _picture(ada) as picture:
+        picture.recv(20)
+        picture.send(frame)
+        with suppress(ConnectionClosed):
+            while True:
+                picture.recv(20)
+        assert picture.close_code == code
+
+
 def test_no_secret_reaches_a_browser(served: ServedClass) -> None:
     ada = served.joined()
     answer = ada.client.get(ada.room)
@@ -105,15 +123,23 @@ def test_a_script_drives_with_the_address_that_the_page_shows(served: ServedClas
     assert stranger.status_code == 403
 
 
+def _picture(student: Student, query: str = "") -> ClientConnection:
+    """Open the socket of a page's picture."""
+    return connect(
+        student.address.replace("http", "ws", 1) + query,
+        subprotocols=[VISER],
+        additional_headers=student.cookies,
+        max_size=None,
+        proxy=None,
+    )
+
+
 def _python_lines(student: Student) -> str:
     """Return the Python code that the page shows, as its panel gets it."""
     page = "?page=" + "a" * 16
     path, cookies = student.address.replace("http", "ws", 1), student.cookies
-    viser = connect(
-        path + page, subprotocols=[VISER], additional_headers=cookies, max_size=None, proxy=None
-    )
     panel = connect(path + "ws/panel" + page, additional_headers=cookies, proxy=None)
-    with viser as drawn, panel as told:
+    with _picture(student, page) as drawn, panel as told:
         drawn.send(CAMERA)
         told.send(json.dumps({"type": "show", "agent": "0", "tabs": ["agent"]}))
         while True:
