@@ -66,12 +66,16 @@ class FrameBudget:
         """Rate at which a panel's texts are sent."""
         self.senses_per_s = min(SENSES_PER_S, max_frames_per_s / FRAMES_PER_SENSES)
         """Rate at which sensors, actions and ghosts are drawn."""
-        self._snapshot_at = -math.inf
+        self._snapshot_at = self._due_at = -math.inf
         self._snapshot_s = 0.0
 
     def note_snapshot(self, began: float, ended: float) -> None:
-        """Note when a snapshot was made (s), from which the next one follows."""
+        """Note when a snapshot was made (s), from which the next one follows.
+
+        One that came late does not move the later ones, so that the rate is kept.
+        """
         self._snapshot_at, self._snapshot_s = began, ended - began
+        self._due_at = max(self._due_at + self._min_period, began)
 
     def is_snapshot_due(self, now: float, next_tick_at: float) -> bool:
         """Return True if there is to be a snapshot after this tick.
@@ -84,7 +88,7 @@ class FrameBudget:
             next_tick_at: when the next tick is to begin (s).
         """
         since = now - self._snapshot_at
-        if since < max(self._min_period, self._snapshot_s / PART_SHARE):
+        if now < self._due_at or since < self._snapshot_s / PART_SHARE:
             return False
         return now + self._snapshot_s <= next_tick_at or since >= MAX_SNAPSHOT_DELAY_S
 

@@ -113,9 +113,12 @@ class Viewer:
         self.server.stop()
 
     def _run(self) -> None:
-        seen = self.runner.latest
+        seen, due = self.runner.latest, time.monotonic()
         while not self._stopping.is_set():
             seen = self.runner.wait(seen, PAGE_POLL_S)
+            if (rest := due - time.monotonic()) > 0:
+                self._stopping.wait(rest)
+                seen = self.runner.latest
             began, processor_began = time.monotonic(), time.thread_time()
             with self._error_log.caught():
                 self.viewer_clients.refresh()
@@ -128,7 +131,9 @@ class Viewer:
                     tick_lateness=self.runner.lateness,
                     draw_time=time.thread_time() - processor_began,
                 )
-            self._stopping.wait(max(began + period - time.monotonic(), MIN_PAUSE_S))
+            due = max(due + period, began)  # a late frame does not move the later ones
+            if time.monotonic() >= due:
+                self._stopping.wait(MIN_PAUSE_S)
 
     def _choose(self, client_id: int, body: str) -> None:
         """Show the agent with that body on one page."""

@@ -101,8 +101,9 @@ class Broadcaster:
             self._pages.pop(client_id, None)
             cursors.pop(client_id, None)
             if not self._pages and self._sending is not None:
-                self._sending.cancel()
-                self._sending = None
+                ended, self._sending = self._sending, None
+                ended.cancel()
+                await asyncio.wait([ended])  # the loop may be closed when this has returned
 
     async def _send(self) -> None:
         buffer = self._buffer
@@ -112,11 +113,14 @@ class Broadcaster:
                 is_done = self._send_new()
             except Exception as error:
                 _log_failure("sending", "some pages were not told what is new: %a", error)
-            with suppress(TimeoutError):
-                await asyncio.wait_for(buffer.flush_event.wait(), SEND_PERIOD_S)
-            buffer.flush_event.clear()
+            sent_at = time.monotonic()
             if is_done:
                 await buffer.message_event.wait()
+            rest = sent_at + SEND_PERIOD_S - time.monotonic()
+            if rest > 0:  # not after a usual pause: a timer would wake this thread once more
+                with suppress(TimeoutError):
+                    await asyncio.wait_for(buffer.flush_event.wait(), rest)
+            buffer.flush_event.clear()
             buffer.message_event.clear()
 
     def _send_new(self) -> bool:

@@ -45,6 +45,7 @@ class Rays:
         self._scene = scene
         self._subtree = Subtree(scene, "rays")
         self._style, self._count = style, 0
+        self._groups: list[str] = []
 
     def build(self, style: RayStyle) -> None:
         """Rebuild the rays at the next drawing, in the style of another static scene."""
@@ -72,12 +73,14 @@ class Rays:
         lines[..., :2] = rotate(lines[..., :2].reshape(-1, 2), -heading).reshape(-1, 2, 2)
         lines = lines.astype(np.float32)
         self._subtree.place(eye + np.array([0.0, 0.0, style.layers.body]), heading)
-        indices = np.array([style.index_of_group.get(group, 0) for group in groups])
-        has_hit = np.array([group != "" for group in groups])
         self.lines.points = lines
-        self.lines.colors = style.line_colours[indices][:, None].repeat(2, axis=1)
         self.dots.batched_positions = ray_dots(lines, style.dot_radius)
-        self.dots.batched_scales = has_hit.astype(np.float32)
+        if groups == self._groups:
+            return
+        self._groups = groups
+        indices = np.array([style.index_of_group.get(group, 0) for group in groups])
+        self.lines.colors = style.line_colours[indices][:, None].repeat(2, axis=1)
+        self.dots.batched_scales = np.array([group != "" for group in groups], dtype=np.float32)
         # meshes, because the page recompiles a point cloud's shader at every change of colour
         self.dots.batched_colors = style.dot_colours[indices]
 
@@ -88,7 +91,7 @@ class Rays:
                 self.lines = drawer.moving_lines("lines", count)
                 dot = cap(circle(self._style.dot_radius, corners=12))
                 self.dots = drawer.batch("dots", dot, count * [RAY_MISS])
-        self._count = count
+        self._count, self._groups = count, []
 
 
 def ray_lines(picture: RayPicture) -> Array:
