@@ -6,8 +6,8 @@ from ai4u_edu.panel.messages.base import Show
 from ai4u_edu.viewer.scene.view import Mode
 from ai4u_edu.viewer.viewer_client import PagePanel, ViewerClient, ViewerClients
 
-MIN_CURVE_S = 0.5
-"""Shortest time (s) between two curves of rewards, which are longer than all else."""
+TEXTS_PER_CURVE = 4
+"""How often the other texts are sent for each curve of rewards, which is longer than all else."""
 MAX_SENSOR_CHOICES = 200
 """Most sensors that a page has switched on or off and that are remembered."""
 
@@ -39,7 +39,7 @@ class PageView:
         """Trails that were switched on or off, by agent."""
         self._is_dark: bool | None = None
         self._is_motion_reduced = False
-        self._curve: tuple[str, float] = ("", 0.0)
+        self._curve: tuple[str, int] = ("", 0)
         self.sensors: dict[tuple[str, str], bool] = {}
         """Sensors that were switched on or off, by agent and key."""
 
@@ -88,12 +88,11 @@ class PageView:
         )
         self._apply(self._choose_shown)
 
-    def is_curve_due(self, now: float) -> bool:
-        """Return True if it is time to send the agent's curve of rewards again."""
-        agent, sent_at = self._curve
-        is_due = agent != self.agent or now - sent_at >= MIN_CURVE_S
-        if is_due:
-            self._curve = self.agent, now
+    def is_curve_due(self) -> bool:
+        """Return True if the agent's curve of rewards is to be sent with the other texts now."""
+        agent, left = self._curve
+        is_due = agent != self.agent or left <= 0
+        self._curve = self.agent, TEXTS_PER_CURVE - 1 if is_due else left - 1
         return is_due
 
     def choose_camera(self, mode: Mode) -> None:

@@ -2,6 +2,8 @@
 
 import asyncio
 import json
+import math
+import time
 from collections.abc import Callable
 from concurrent.futures import Future
 from contextlib import suppress
@@ -29,6 +31,8 @@ MAX_MESSAGES_PER_S = 200
 """Rate limit of one page; it sends ten a second, and one for each change of the keys."""
 POLL_S = 0.2
 """Period at which the state is compared with what the page knows."""
+HELLO_S = 1.0
+"""The same for the keys, which change if the scene is edited; a new driver is told at once."""
 MAX_PENDING_COMMANDS = 4
 """Commands of one page that may wait for the runner."""
 MAX_ERROR_CHARS = 2000
@@ -225,17 +229,21 @@ class _Page:
 
     async def _send_events(self, changed: asyncio.Event, class_page: PageOfClass) -> None:
         sent: dict[str, str] = {}
+        hello_at, known = -math.inf, None
         while self._runner.sim is self._sim:
+            driver = self._override.brain, self._override.current_driver
+            now, is_changed = time.monotonic(), changed.is_set() or driver != known
             changed.clear()
             if (news := class_page.news()) is not None:
                 await self._send(json.dumps(news))
-            for event in (
-                page_events.hello_event(self._agent, self._number, self._override),
-                page_events.lock_event(self._lock),
-                page_events.state_event(self._runner.latest, self._agent.id, self._title()),
-            ):
-                if event is None:
-                    continue
+            events = [page_events.lock_event(self._lock)]
+            if is_changed or now >= hello_at:
+                hello_at, known = now + HELLO_S, driver
+                events.insert(0, page_events.hello_event(self._agent, self._number, self._override))
+            state = page_events.state_event(self._runner.latest, self._agent.id, self._title())
+            if state is not None:
+                events.append(state)
+            for event in events:
                 text = json.dumps(event)
                 if sent.get(event["type"]) != text:
                     sent[event["type"]] = text

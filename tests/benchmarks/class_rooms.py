@@ -30,6 +30,8 @@ from tests.classroom.served_class import CODE, ServedClass, served_class
 from tests.load.clients import CAMERA, VISER, is_picture
 
 HOLD_S = 0.1
+REST_S = 15.0
+"""Time after which a room that nobody looks at stands still, with some room."""
 TIMEOUT_S = 120.0
 
 
@@ -59,7 +61,7 @@ def _measure(
     starts = sorted(_receive(here))
     print(f"load average {os.getloadavg()[0]:.1f}; {rooms} rooms, pages: {has_pages}")
     print(f"join to first tick: median {np.median(starts):.1f} s, last {starts[-1]:.1f} s")
-    time.sleep(3)
+    time.sleep(3 if has_pages else REST_S)
     gateway = psutil.Process(served.process.pid)
     children = gateway.children(recursive=True)
     before = _times([gateway, *children])

@@ -1,6 +1,5 @@
 """The parts of the panel that a page needs now, as JSON."""
 
-import time
 from collections.abc import Iterator
 from contextlib import suppress
 
@@ -63,7 +62,7 @@ def _agent_parts(context: PanelContext, view: PageView) -> Parts:
         "agent",
         cache.of_snapshot(snapshot, key, lambda: agent_part(context, snapshot, agent, shown)),
     )
-    if view.is_curve_due(time.monotonic()):
+    if view.is_curve_due():
         yield "curve", cache.of_snapshot(snapshot, ("curve", agent.id), lambda: curve_part(agent))
     address = view.address
     yield (
