@@ -7,7 +7,7 @@ from ai4u_edu.viewer.scene.view import Mode
 from ai4u_edu.viewer.viewer_client import PagePanel, ViewerClient, ViewerClients
 
 TEXTS_PER_CURVE = 4
-"""How often the other texts are sent for each curve of rewards, which is longer than all else."""
+"""Times that the other texts are sent for each curve of rewards, which is longer than all else."""
 MAX_SENSOR_CHOICES = 200
 """Most sensors that a page has switched on or off and that are remembered."""
 
