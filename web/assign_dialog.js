@@ -1,4 +1,4 @@
-/** The dialog that gives a scene to one, some or all rooms. */
+/** The dialog that gives a scene or a lesson to one, some or all rooms. */
 
 import { command } from "./class_command.js";
 import { element } from "./dom.js";
@@ -7,11 +7,11 @@ import { roomName } from "./room_words.js";
 import { sceneChoice, seedField } from "./scene_choice.js";
 
 /**
- * Ask for a scene and rooms, and assign it.
+ * Ask for a scene or a lesson and for rooms, and assign it.
  * @param room id of the room that is chosen at first; "" for all
  */
 export function showAssign(state, room = "") {
-  const scene = sceneChoice(state);
+  const scene = sceneChoice(state, { withLessons: true });
   const to = choices("For", "rooms", { all: "Everybody", some: "Some rooms" }, room ? "some" : "all");
   const boxes = state.rooms.map((each) => element("input", { type: "checkbox", value: each.id, checked: each.id === room }));
   const list = element(
@@ -27,7 +27,7 @@ export function showAssign(state, room = "") {
 
   const text = "What students have built stays among their saved scenes.";
   const content = [...scene.nodes, to, list, choice("The same start for all", same), seed.node];
-  return showForm({ title: "Assign a scene", text, content, yes: "Assign" }, async () => {
+  return showForm({ title: "Assign a scene or a lesson", text, content, yes: "Assign" }, async () => {
     const some = boxes.filter((box) => box.checked).map((box) => box.value);
     const rooms = chosenIn(to) === "all" ? "all" : some;
     if (rooms.length === 0) throw new Error("Choose at least one room.");

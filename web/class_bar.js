@@ -20,6 +20,7 @@ export class ClassBar {
   #root = document.documentElement;
   #dot = element("span", { className: "ai4u-class-dot", ariaHidden: "true" });
   #name = element("strong");
+  #lesson = element("span", { className: "ai4u-class-lesson" });
   #others = element("ul", { className: "ai4u-class-others", ariaLabel: "Also in this world" });
   #message = element("p", { className: "ai4u-class-message", role: "status" });
   #time = element("span", { className: "ai4u-class-time", role: "timer" });
@@ -47,7 +48,7 @@ export class ClassBar {
     setAttributes(this.#boardButton, { "aria-controls": this.#board.id });
     this.#race.append(icon("race", 16), this.#best, this.#boardButton, this.#board);
     const news = element("div", { className: "ai4u-class-news" }, this.#message, this.#time);
-    const self = element("span", { className: "ai4u-class-self" }, this.#dot, this.#name);
+    const self = element("span", { className: "ai4u-class-self" }, this.#dot, this.#name, this.#lesson);
     this.#bar.append(self, this.#others, news, this.#race, this.#actions);
     // the page of a class's own machine; elsewhere there is no such address
     if (location.pathname.includes("/r/")) this.#actions.append(...studentActions());
@@ -72,6 +73,7 @@ export class ClassBar {
     if (!this.#bar.isConnected) document.body.prepend(this.#bar);
     this.#drawPeople(event);
     this.#drawRace(race);
+    setText(this.#lesson, event.lesson ? `Lesson ${event.lesson}` : "");
     setText(this.#message, attention.kind ? "" : attention.message);
     this.#actions.hidden = event.role === "teacher";
     this.#tick();

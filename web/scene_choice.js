@@ -7,18 +7,26 @@ import { roomName } from "./room_words.js";
 /** Largest scene file; as MAX_SCENE_CHARS of the class link. */
 const MAX_SCENE_CHARS = 200_000;
 
-/** Return {nodes, value}: elements for a form, and a function that resolves to the command's `scene`. */
-export function sceneChoice(state) {
+/**
+ * Return {nodes, value}: elements for a form, and a function that resolves to the command's `scene`.
+ *
+ * @param withLessons true if a lesson of the course may be chosen too
+ */
+export function sceneChoice(state, { withLessons = false } = {}) {
   const scenes = state.scenes.map(({ name, title }) => [name, title]);
   const rooms = state.rooms.map((room) => [room.id, `${roomName(room, state)}: ${room.scene}`]);
-  const sources = { library: "From the library", room: "A student’s present scene", file: "My own file" };
+  const lessons = withLessons ? state.lessons.map(({ number, title }) => [number, `${number} ${title}`]) : [];
+  const sources = { library: "From the library", lesson: "A lesson", room: "A student’s present scene", file: "My own file" };
+  if (!withLessons) delete sources.lesson;
   if (rooms.length === 0) delete sources.room;
   const source = choices("Scene", "scene-source", sources, "library");
   const inLibrary = select(scenes);
+  const ofLesson = select(lessons);
   const ofRoom = select(rooms);
   const file = element("input", { type: "file", accept: ".yaml,.yml" });
   const fields = {
     library: field("Which scene", inLibrary),
+    lesson: field("Which lesson", ofLesson, "Worlds open the scene that it begins with. Notebooks show its title and keep their world."),
     room: field("Whose", ofRoom),
     file: field("Scene file (YAML)", file),
   };
@@ -31,6 +39,7 @@ export function sceneChoice(state) {
   async function value() {
     const from = chosenIn(source);
     if (from === "library") return inLibrary.value;
+    if (from === "lesson") return { lesson: ofLesson.value };
     if (from === "room") return { room: ofRoom.value };
     if (!file.files[0]) throw new Error("Choose a scene file first.");
     const yaml = await file.files[0].text();

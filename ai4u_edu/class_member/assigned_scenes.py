@@ -63,7 +63,8 @@ class AssignedScenes:
         if assignment.id == self._last:
             return Applied(assignment.id)
         try:
-            self.open(assignment.scene, assignment.seed)
+            if assignment.scene:
+                self.open(assignment.scene, assignment.seed)
         except AI4UError as error:
             return Applied(assignment.id, shorten(str(error), MAX_TEXT_CHARS))
         self._last = assignment.id

@@ -23,6 +23,7 @@ class _Shown:
     race: Race | None = None
     race_starts_at: float = 0.0
     own_best: float | None = None
+    lesson: str = ""
 
 
 class ClassView:
@@ -50,6 +51,10 @@ class ClassView:
     def set_people(self, message: People) -> None:
         """Show who else has this world."""
         self._change(people=message.people)
+
+    def set_lesson(self, lesson: str) -> None:
+        """Show the lesson that the class is at; empty for none."""
+        self._change(lesson=lesson)
 
     def set_attention(self, message: Attention | None, ends_at: float | None = None) -> None:
         """Show the teacher's message.
@@ -102,6 +107,7 @@ class ClassView:
                 "ends_in": self._left(shown.attention_ends_at),
             },
             "race": self._race(shown),
+            "lesson": shown.lesson,
         }
 
     def _race(self, shown: _Shown) -> dict[str, Any] | None:

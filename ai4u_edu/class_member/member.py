@@ -156,6 +156,8 @@ class ClassMember:
                 self._holds.for_race(starts_at)  # at once, whatever the other thread does
                 self._inbox.append((message, starts_at))
             case Race() | Assignment():
+                if isinstance(message, Assignment):
+                    self.view.set_lesson(message.lesson)
                 self._inbox.append((message, self._clock()))
             case Problem(code="over"):
                 with self._attention_lock:

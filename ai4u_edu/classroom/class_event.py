@@ -8,7 +8,7 @@ from collections.abc import Callable, Mapping
 from functools import lru_cache
 from typing import Any
 
-from ai4u_edu.classroom.course_index import course_index, words_for
+from ai4u_edu.classroom.course_index import course_index, course_lessons, words_for
 from ai4u_edu.classroom.live_class import LiveClass
 from ai4u_edu.classroom.live_rooms import LiveRoom
 from ai4u_edu.scenes import Scene
@@ -70,6 +70,7 @@ class ClassEvents:
             "race": live.race.event(is_projected=is_projected),
             "scenes": _library(),
             "exercises": [each._asdict() for each in course_index()],
+            "lessons": [{"number": each.number, "title": each.title} for each in course_lessons()],
             "seats": self._seats(),
             "rooms": self._rooms(),
         }

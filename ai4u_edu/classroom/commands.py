@@ -6,7 +6,7 @@ from pydantic import BaseModel, ConfigDict, Field, RootModel
 
 from ai4u_edu.base.seeding import MAX_SEED
 from ai4u_edu.classroom.attention import MAX_SECONDS
-from ai4u_edu.classroom.scene_source import SceneSource
+from ai4u_edu.classroom.scene_source import LessonOrScene, SceneSource
 from ai4u_edu.wire.class_link import MAX_MESSAGE_CHARS
 
 MAX_COUNTDOWN_S = 60.0
@@ -34,11 +34,11 @@ class PlainCommand(_Command):
 
 
 class Assign(_Command):
-    """Give rooms a scene."""
+    """Give rooms a scene, or a lesson."""
 
     do: Literal["assign"]
     rooms: list[RoomId] | Literal["all"]
-    scene: SceneSource
+    scene: LessonOrScene
     seed: Seed | None = None
     """Seed of all these worlds."""
     same_seed: bool = False

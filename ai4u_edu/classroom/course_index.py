@@ -5,12 +5,22 @@ from functools import lru_cache
 from typing import NamedTuple
 
 from ai4u_edu.base.errors import AI4UError
-from ai4u_edu.lessons.course import course_folder, lessons
+from ai4u_edu.lessons.course import Lesson, course_folder, lessons
 from ai4u_edu.lessons.diagnoses import COMMON, COMMON_ID, UNKNOWN
 from ai4u_edu.lessons.exercise import find
 
+_SHOWN_SCENE = re.compile(r'^(?:\w+ = )?show\("(\w+)"', re.MULTILINE)
 GUIDE = "README.md"
 """The teacher's guide, in the course's folder."""
+
+
+class LessonWorld(NamedTuple):
+    """A lesson, and the world that it begins with."""
+
+    number: str
+    title: str
+    scene: str
+    """Name in the library; empty if the lesson shows a world of its own, or none."""
 
 
 class LessonExercises(NamedTuple):
@@ -29,6 +39,20 @@ def course_index() -> list[LessonExercises]:
         for one in lessons()
         if one.exercises
     ]
+
+
+@lru_cache(maxsize=1)
+def course_lessons() -> list[LessonWorld]:
+    """Return all lessons, in order."""
+    return [
+        LessonWorld(one.number, one.title.removeprefix(one.number).strip(), _first_scene(one))
+        for one in lessons()
+    ]
+
+
+def _first_scene(lesson: Lesson) -> str:
+    found = (_SHOWN_SCENE.search(cell.source) for cell in lesson.cells)
+    return next((each[1] for each in found if each), "")
 
 
 @lru_cache(maxsize=1)

@@ -4,6 +4,7 @@ from pydantic import BaseModel, ConfigDict, Field
 
 from ai4u_edu.base.errors import SceneError, shorten
 from ai4u_edu.classroom.assignments import AssignedScene
+from ai4u_edu.classroom.course_index import course_lessons
 from ai4u_edu.classroom.errors import CommandError
 from ai4u_edu.classroom.live_class import LiveClass
 from ai4u_edu.classroom.scene_file import NAME as SCENE_FILE
@@ -31,15 +32,28 @@ class SceneText(BaseModel):
     yaml: str = Field(max_length=MAX_SCENE_CHARS)
 
 
+class SceneOfLesson(BaseModel):
+    """The scene that a lesson begins with."""
+
+    model_config = ConfigDict(extra="forbid")
+
+    lesson: str = Field(max_length=2)
+
+
 SceneSource = str | SceneOfRoom | SceneText
+LessonOrScene = SceneOfLesson | SceneSource
 
 
-def find_scene(live: LiveClass, source: SceneSource) -> AssignedScene:
+def find_scene(live: LiveClass, source: LessonOrScene) -> AssignedScene:
     """Return a scene that rooms can open; a thread may do it.
+
+    That of a lesson is empty if the lesson shows no scene of the library.
 
     Raises:
         CommandError: there is none, or something in it is wrong.
     """
+    if isinstance(source, SceneOfLesson):
+        return _scene_of_lesson(source.lesson)
     if isinstance(source, str):
         if source not in Scene.names():
             raise CommandError(f"scene: expected a scene of the library, got {source[:40]!r}")
@@ -53,6 +67,14 @@ def find_scene(live: LiveClass, source: SceneSource) -> AssignedScene:
     title = scene.description.title or scene.description.name
     # a text without a line break would be taken for a name
     return AssignedScene(title, text if "\n" in text else f"{text}\n")
+
+
+def _scene_of_lesson(number: str) -> AssignedScene:
+    for each in course_lessons():
+        if each.number == number:
+            return AssignedScene(each.title, each.scene, f"{number} {each.title}")
+    last = course_lessons()[-1].number
+    raise CommandError(f"lesson: expected a number from 00 to {last}, got {number!r}")
 
 
 def text_of_room(live: LiveClass, room: str) -> str:

@@ -20,7 +20,7 @@ from ai4u_edu.classroom.errors import StoreError
 FILE = "class.sqlite3"
 TEACHER_SETTING = "teacher_token"
 """Name of the setting with the secret of the teacher's page."""
-VERSION = 2
+VERSION = 3
 """Version of the tables; a file with another one is not opened."""
 _TABLES = """
 create table settings (name text primary key, value text not null) strict;
@@ -65,7 +65,8 @@ create table assignments (
     id text not null,
     title text not null,
     scene text not null,
-    seed integer
+    seed integer,
+    lesson text not null
 ) strict;
 create table races (
     id text primary key,

@@ -25,8 +25,8 @@ OUTBOX = "outbox"
 """Folder of results that are not delivered yet, in the seat's folder."""
 NO_WORLD = "The notebook shows no world at present."
 _REPLAYED = (Welcome, People, Attention, Race)
-"""Messages of which a world that is shown later gets the latest one. An assignment is none of them:
-it would replace the world that a cell has just shown."""
+"""Messages of which a world that is shown later gets the latest one. Of assignments it gets only a
+lesson's: a scene would replace the world that a cell has just shown."""
 
 Receive = Callable[[FromClass], object]
 
@@ -91,16 +91,25 @@ class ClassConnection:
 
     def _receive(self, message: FromClass) -> None:
         with self._lock:
+            if isinstance(message, Assignment):
+                self._assign(message)
+                return
             if isinstance(message, _REPLAYED):
                 self._latest[type(message)] = message
-            if isinstance(message, Assignment):
-                if message.id == self._assignment:
-                    return
-                self._assignment = message.id
             if self._world is not None:
                 self._world(message)
-            elif isinstance(message, Assignment):
-                self.client.send(Applied(message.id, NO_WORLD))
+
+    def _assign(self, message: Assignment) -> None:
+        if message.id == self._assignment:
+            return
+        self._assignment = message.id
+        self._latest.pop(Assignment, None)
+        if message.lesson:  # the lesson's notebook shows its worlds by itself
+            message = self._latest[Assignment] = replace(message, scene="", seed=None)
+        if self._world is not None:
+            self._world(message)
+        else:
+            self.client.send(Applied(message.id, "" if message.lesson else NO_WORLD))
 
 
 class WorldLink:

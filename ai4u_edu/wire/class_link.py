@@ -215,8 +215,10 @@ class Assignment(TaggedMessage, frozen=True):
     """Empty if nothing is assigned."""
     title: Text
     scene: _Scene
-    """Name in the library, or YAML, which contains a line break."""
+    """Name in the library, or YAML, which contains a line break; empty if the world is to stay."""
     seed: _Seed | None
+    lesson: Text = ""
+    """Lesson for which it is assigned, such as "04 Sensors"; empty for none."""
 
 
 class Attention(TaggedMessage, frozen=True):

@@ -17,7 +17,16 @@ from ai4u_edu import WASDRBMoveController
 from ai4u_edu.class_member import ClassMember
 from ai4u_edu.server.app import RoomMount
 from ai4u_edu.server.class_feed import ROLE_HEADER, SEAT_HEADER
-from ai4u_edu.wire.class_link import Attention, FromClass, People, Person, Race, RaceRow, Welcome
+from ai4u_edu.wire.class_link import (
+    Assignment,
+    Attention,
+    FromClass,
+    People,
+    Person,
+    Race,
+    RaceRow,
+    Welcome,
+)
 from tests.browser.served_viser import PLAIN, centre, connected, driver_status
 from tests.builders import small_sim
 from tests.chromium import new_page
@@ -127,6 +136,8 @@ def test_a_bar_says_who_is_here_and_what_the_teacher_says(school: RoomOfClass) -
     expect(bar.locator("strong")).to_have_text("Red Fox")
     expect(bar.get_by_role("listitem")).to_have_text(["<b>Blue</b> Owl", "Green Hare(not here)"])
     assert bar.locator("b").count() == 0
+    school.tell(Assignment("a1", "Two wires", "", None, "05 Two wires"))
+    expect(bar).to_contain_text("Lesson 05 Two wires")
     school.tell(Attention("", "Five <i>minutes</i> left", 300.0))
     expect(bar.get_by_role("status")).to_have_text("Five <i>minutes</i> left")
     expect(bar.get_by_role("timer")).to_have_text(re.compile(r"[45]:\d\d"))

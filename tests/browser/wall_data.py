@@ -80,6 +80,7 @@ def class_message(count: int, **changes: Any) -> dict[str, Any]:
         "race": None,
         "scenes": SCENES,
         "exercises": EXERCISES,
+        "lessons": [{"number": each["lesson"], "title": each["title"]} for each in EXERCISES],
         "seats": seats,
         "rooms": [_room(number) for number in range(1, count + 1)],
         "progress": {str(number): _progress(number) for number in range(1, count + 1)},

@@ -48,6 +48,21 @@ def test_a_scene_is_opened_with_its_seed_and_only_once(tmp_path: Path) -> None:
         assert room.editor.version == version
 
 
+def test_a_lesson_is_told_on_the_page_and_may_leave_the_world_as_it_is() -> None:
+    with joined() as room:
+        before = room.editor.state.description.name
+        room.tell(Assignment("b1", "Two wires", "", None, "05 Two wires"))
+        assert applied(room, "b1") == ""
+        assert room.editor.state.description.name == before
+        until(lambda: (room.member.view.event("student", 0) or {})["lesson"] == "05 Two wires")
+        room.tell(Assignment("b2", "Maze", "maze", 7, "08 The maze"))
+        assert applied(room, "b2") == ""
+        assert room.editor.state.description.name == "maze"
+        room.tell(Assignment("b3", "Tag", "tag", None))
+        assert applied(room, "b3") == ""
+        until(lambda: (room.member.view.event("student", 0) or {})["lesson"] == "")
+
+
 def test_yaml_is_opened_too(tmp_path: Path) -> None:
     with joined(folder=tmp_path) as room:
         room.tell(Assignment("", "", "", None), Assignment("b", "Ours", YAML, None))

@@ -1,6 +1,7 @@
 """Attention, assignments and races after the class was started again."""
 
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -37,11 +38,12 @@ def test_attention_has_its_remaining_seconds_by_whatever_clock(store: ClassStore
 def test_rooms_keep_their_assignments(store: ClassStore) -> None:
     assignments = Assignments(store)
     assert assignments.of("a") == NONE
-    assignments.assign(MAZE, None, 3)
+    assignments.assign(replace(MAZE, lesson="08 The maze"), None, 3)
     assignments.assign(AssignedScene("Tag", "tag"), ["a"], None)
     again = Assignments(store)
     assert [again.of(room).scene for room in ("a", "b")] == ["tag", "maze"]
     assert again.of("a") == assignments.of("a")
+    assert again.of("b").lesson == "08 The maze"
     again.assign(MAZE, None, None)
     assert Assignments(store).of("a").scene == "maze"
 

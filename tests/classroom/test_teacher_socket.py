@@ -52,6 +52,7 @@ def test_the_first_event_has_everything(served: ServedClass) -> None:
     assert titles == {name: Scene.load(name).description.title for name in Scene.names()}
     lesson = next(each for each in event["exercises"] if each["lesson"] == "04")
     assert "04.2" in lesson["ids"]
+    assert {"number": "04", "title": "Sensors: what can it know?"} in event["lessons"]
     assert event["shown"] == {"kind": "join", "room": ""}
     assert event["attention"] == {"kind": "", "message": "", "ends_in": 0}
     (seat,) = [each for each in event["seats"] if each["name"] == "Red Fox"]
@@ -92,6 +93,23 @@ def test_scenes_are_assigned_to_one_or_all(served: ServedClass) -> None:
         assert late.next(Assignment).id == given.id
 
 
+@pytest.mark.parametrize(
+    ("number", "title", "scene"),
+    [
+        ("04", "04 Sensors: what can it know?", "sample_scene"),
+        ("05", "05 A vehicle with two wires", ""),
+    ],
+)
+def test_a_lesson_is_assigned_with_the_scene_that_it_begins_with(
+    served: ServedClass, number: str, title: str, scene: str
+) -> None:
+    with RawLink(served, served.joined()) as link:
+        answer = served.command("assign", rooms="all", scene={"lesson": number})
+        assert answer.status_code == 200, answer.text
+        given = link.next(Assignment, lambda message: message.lesson == title)
+        assert given.scene == scene
+
+
 def test_attention_holds_for_whoever_connects_and_ends_by_itself(served: ServedClass) -> None:
     assert served.command("attention", kind="blank", message="Look <here>").status_code == 200
     with RawLink(served, served.joined()) as link, TeacherSocket(served) as wall:
@@ -108,6 +126,7 @@ def test_attention_holds_for_whoever_connects_and_ends_by_itself(served: ServedC
     [
         ("assign", {"rooms": ["nowhere"], "scene": "maze"}, "no room 'nowhere'"),
         ("assign", {"rooms": "all", "scene": "../x"}, "scene of the library"),
+        ("assign", {"rooms": "all", "scene": {"lesson": "99"}}, "expected a number from 00 to 20"),
         ("assign", {"rooms": "all", "scene": {"yaml": "<script>"}}, "scene: "),
         ("assign", {"rooms": "some", "scene": "maze"}, "rooms"),
         ("attention", {"kind": "loud"}, "kind"),

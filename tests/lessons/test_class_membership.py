@@ -198,10 +198,17 @@ def test_a_world_uses_the_link_while_it_is_shown(there: TinyClass) -> None:
     there.send(Assignment("a2", "Maze", "maze", None))
     until(lambda: len(heard) == 3)
     assert heard[2] == Assignment("a2", "Maze", "maze", None)
+    there.send(Assignment("a3", "Drive", "sample_scene", 3, "02 Drive"))
+    until(lambda: len(heard) == 4)
+    drive = Assignment("a3", "Drive", "", None, "02 Drive")
+    assert heard[3] == drive, "a lesson's notebook shows its worlds by itself"
     world.stop()
     there.drop()
     until(lambda: len(there.hellos) == 2 and connection.client.is_connected)
     check("00.1", go)
     until(lambda: there.results)
     assert there.of(Drawing) == [drawing(2)]
-    assert len(heard) == 3
+    assert len(heard) == 4
+    later: list[FromClass] = []
+    connection.link_for_world(later.append).start()
+    assert drive in later
