@@ -175,8 +175,8 @@ def test_scenes_are_assigned_to_chosen_rooms_and_raced(page: Page, school: WallS
     dialog.get_by_label("Which lesson").select_option(label="03 Build an agent")
     dialog.get_by_role("button", name="Assign").click()
     expect(dialog).to_have_count(0)
-    wanted = {"rooms": "all", "scene": {"lesson": "03"}, "seed": None, "same_seed": True}
-    assert school.commands[-1] == {"do": "assign", **wanted}
+    lesson = {"rooms": "all", "scene": {"lesson": "03"}, "seed": None, "same_seed": True}
+    assert school.commands[-1] == {"do": "assign", **lesson}
 
     page.get_by_role("button", name="Race…").click()
     dialog = page.get_by_role("dialog", name="Race")
