@@ -2,12 +2,14 @@
 
 import subprocess
 import sys
+import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
 import httpx
+import psutil
 import pytest
 from typer.testing import CliRunner
 
@@ -115,6 +117,27 @@ def test_a_notebook_reports_its_checks_and_shows_its_world(
 
     with kernel(tmp_path / "lessons") as restarted:
         assert name_in(restarted.run(f"join_class({there.url!r}, 'forgotten')")) == name
+
+
+@pytest.mark.nightly
+@pytest.mark.skipif(sys.platform == "win32", reason="no SIGSTOP")
+def test_a_network_that_is_gone_for_a_minute_loses_no_result(tmp_path: Path) -> None:
+    """The class answers nothing for a minute, and no connection is closed: as without Wi-Fi."""
+    with served_class(tmp_path / "class") as there, kernel(tmp_path / "lessons") as notebook:
+        notebook.run(f"join_class({there.url!r}, {CODE!r})")
+        notebook.run('check("00.1", stay)')
+        with TeacherSocket(there) as teacher:
+            progress(teacher, lambda p: p["00.1"]["tries"] == 1)
+        process = psutil.Process(there.process.pid)
+        process.suspend()
+        told = [notebook.run('check("00.1", stay)')]
+        time.sleep(60)
+        told.append(notebook.run('check("00.1", go)'))
+        process.resume()
+        assert "Results are kept and sent later." in "".join(told)
+        with TeacherSocket(there) as teacher:
+            solved = progress(teacher, lambda p: p["00.1"]["state"] == "solved")
+        assert solved["00.1"]["tries"] == 3
 
 
 def test_results_survive_a_class_that_is_killed_and_a_kernel_that_is_killed(
