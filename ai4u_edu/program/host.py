@@ -1,7 +1,7 @@
 """Entry of the page's worker: functions that take and return JSON texts.
 
-The page has the files of this package in a folder ``ai4u_edu/program`` on ``sys.path``, and no other
-file of ai4u_edu, not even its ``__init__.py``.
+The page has the files of this package in a folder ``ai4u_edu/program`` on ``sys.path``, and no
+other file of ai4u_edu, not even its ``__init__.py``.
 
 ====== ============================================= ===============================================
 call   takes                                         returns
