@@ -5,7 +5,7 @@
  * storage: what a worker could keep or connect with is removed before the program is loaded.
  *
  * The page sends {id, method: "start", parts}, then {id, method, text} with a method of
- * ai4u_edu/program/host.py; each is answered with {id, text}.
+ * ai4u_edu/program/host.py; each is answered with {id, text}. Before, {line} says which line is about to run.
  */
 
 import createPyodideModule from "./vendor/pyodide/pyodide.asm.mjs?v=f7cdc8ec";
@@ -75,6 +75,7 @@ async function start({ wasm, library, program }) {
   python.runPython(`import sys; sys.path.insert(0, "${PROGRAM_PATH}")`);
   const host = python.pyimport("ai4u_edu.program.host");
   const { load, begin, decide } = host;
+  host.watch((line) => send({ line }));
   for (const name of ["js", "pyodide_js"]) python.unregisterJsModule(name);
   python.runPython(`import sys; [sys.modules.pop(name, None) for name in ("js", "pyodide_js")]`);
   removeConnections();
