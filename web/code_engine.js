@@ -2,6 +2,8 @@
 
 /** Time that a program has for one call; the program package's own limit is shorter, and names the line. */
 const CALL_TIMEOUT_MS = 2000;
+/** Time in which a call begins, also on a machine that is very busy. */
+const BEGIN_TIMEOUT_MS = 10_000;
 /** Time until the spare worker is started, which would slow down a program's first decisions. */
 const SPARE_DELAY_MS = 3000;
 const WASM = "./vendor/pyodide/pyodide.asm.wasm?v=cc36e3ca";
@@ -119,12 +121,16 @@ class Runtime {
   #waiting = new Map();
   /** The line of the program that ran last, as far as it was reported. */
   #line = 0;
+  /** Called when the worker begins with a call. */
+  #onbegun = () => {};
   /** True if the worker can't be called any more. */
   isStuck = false;
 
   constructor() {
-    this.#worker.onmessage = ({ data: { id, text, line } }) => {
+    this.#worker.onmessage = ({ data: { id, text, line, isBegun } }) => {
       if (line) this.#line = line;
+      if (isBegun) this.#onbegun();
+      if (line || isBegun) return;
       const answer = this.#waiting.get(id);
       this.#waiting.delete(id);
       answer?.(text);
@@ -138,7 +144,11 @@ class Runtime {
     this.#line = 0;
     let timer;
     const late = new Promise((resolve) => {
-      timer = setTimeout(resolve, CALL_TIMEOUT_MS, "");
+      timer = setTimeout(resolve, BEGIN_TIMEOUT_MS, "");
+      this.#onbegun = () => {
+        clearTimeout(timer);
+        timer = setTimeout(resolve, CALL_TIMEOUT_MS, "");
+      };
     });
     const answer = await Promise.race([this.#ask({ method, text }), late]);
     clearTimeout(timer);
