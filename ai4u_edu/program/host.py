@@ -71,7 +71,11 @@ def load(text: str) -> str:
     }
     try:
         _program = Program.load(
-            said["source"], entry=said.get("entry", ""), outputs=outputs or None, output=output
+            said["source"],
+            entry=said.get("entry", ""),
+            outputs=outputs or None,
+            output=output,
+            report_line=_report_line,
         )
     except ProgramError as error:
         return _failed(error, output.take())
