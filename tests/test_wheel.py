@@ -63,6 +63,8 @@ def test_the_wheel_holds_the_page_and_the_scenes_and_no_tests(wheel: Path) -> No
     with zipfile.ZipFile(wheel) as packed:
         names = packed.namelist()
     assert any(name.startswith("ai4u_edu/web/") for name in names)
+    assert "ai4u_edu/web/vendor/pyodide/pyodide.asm.wasm.gz" in names
+    assert "ai4u_edu/web/vendor/pyodide/LICENSE" in names
     assert "ai4u_edu/scenes/library/box_chase.yaml" in names
     assert "ai4u_edu/lessons/course/02_drive.py" in names
     assert "ai4u_edu/py.typed" in names

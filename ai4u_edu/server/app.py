@@ -16,6 +16,7 @@ from ai4u_edu.server.host_origin import LOOPBACK, HostOriginCheck
 from ai4u_edu.server.input import Inputs
 from ai4u_edu.server.page import Page
 from ai4u_edu.server.past import Past
+from ai4u_edu.server.program_zip import program_zip
 from ai4u_edu.server.proxy import ViserProxy
 from ai4u_edu.server.scene_routes import SceneRoutes
 from ai4u_edu.server.scripts import RemoteSockets, Rules
@@ -23,6 +24,7 @@ from ai4u_edu.server.start_page import LessonView, StartPage
 from ai4u_edu.server.state_routes import StateRoutes
 from ai4u_edu.server.token_auth import TokenAuth
 from ai4u_edu.server.token_page import PUBLIC_FILES, TokenPage
+from ai4u_edu.server.vendor_files import VendorFiles
 from ai4u_edu.server.viser_lockdown import PROXY_SECRET
 from ai4u_edu.wire.native import PROBLEMS
 
@@ -79,6 +81,8 @@ def room_app(
             Route("/", page.index, middleware=page_auth),
             *[Route(f"/web/{name}", page.public_file(name)) for name in PUBLIC_FILES],
             Route("/web/{file}", page.file, middleware=auth),
+            Route("/web/vendor/{file:path}", VendorFiles().file, middleware=auth),
+            Route("/program.zip", program_zip, middleware=auth),
             Route("/healthz", state.health, middleware=auth),
             Route("/api/snapshot", state.snapshot, middleware=auth),
             Route("/api/training", state.training, middleware=auth),

@@ -15,6 +15,9 @@ _MEDIA_TYPES = {".css": "text/css", ".js": "text/javascript", ".svg": "image/svg
 _STATIC_IMPORT = re.compile(r'^(?:import|\} from) (?:.*from )?"\./(\w+\.js)";', re.MULTILINE)
 ALWAYS_ASK = {"Cache-Control": "no-cache"}
 """Headers of what a browser may keep, but asks for each time."""
+_POLICIES = {"code_worker.js": "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'"}
+"""Content security policies of workers. The one that runs a student's program connects to nobody:
+the page hands it what it needs."""
 
 
 class WebFiles:
@@ -39,6 +42,8 @@ class WebFiles:
             if path.name == name and path.suffix in _MEDIA_TYPES and path.is_file():
                 content, etag = _read(path, path.stat().st_mtime_ns)
                 headers = {**ALWAYS_ASK, "ETag": etag}
+                if name in _POLICIES:
+                    headers["Content-Security-Policy"] = _POLICIES[name]
                 if request.headers.get("if-none-match") == etag:
                     return Response(status_code=304, headers=headers)
                 return Response(content, headers=headers, media_type=_MEDIA_TYPES[path.suffix])

@@ -4,7 +4,7 @@ import asyncio
 from collections.abc import Callable
 from contextlib import suppress
 
-from starlette.datastructures import Headers
+from starlette.requests import HTTPConnection
 from starlette.types import Message, Receive, Scope, Send
 
 from ai4u_edu.runtime.runner import Runner
@@ -17,7 +17,7 @@ from ai4u_edu.server.scripts.outbox import Outbox
 from ai4u_edu.server.scripts.refusal import RefusalError, wrong_version
 from ai4u_edu.server.scripts.session import Session
 from ai4u_edu.server.scripts.settings import Rules
-from ai4u_edu.server.token_auth import is_same_secret
+from ai4u_edu.server.token_auth import PageCookie, is_same_secret
 from ai4u_edu.wire import native
 from ai4u_edu.wire.validation import WireError
 
@@ -47,6 +47,7 @@ class RemoteSockets:
         rules = rules or Rules()
         self._leases = LeaseRegistry(runner, title, rules)
         self._credentials = f"Bearer {rules.token}" if rules.token else ""
+        self._cookie = PageCookie(rules.token)
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Serve one connection, from its handshake to its close."""
@@ -57,13 +58,11 @@ class RemoteSockets:
         frames: FramesProtocol | None = scope.get("extensions", {}).get(EXTENSION)
         outbox = Outbox(send, frames.write if frames else None)
         sending = asyncio.create_task(outbox.run())
-        given = Headers(scope=scope).get("authorization", "")
         connection = _Connection(
             receive,
             outbox,
             self._leases,
-            # as of a class's gateway, which has asked for the script's own key
-            is_authenticated=bool(self._credentials) and is_same_secret(self._credentials, given),
+            is_authenticated=self._is_authenticated(HTTPConnection(scope)),
         )
         if frames:
             frames.listener = connection.hear_answer
@@ -82,6 +81,13 @@ class RemoteSockets:
             sending.cancel()
             with suppress(asyncio.CancelledError, OSError, TimeoutError):
                 await sending
+
+    def _is_authenticated(self, given: HTTPConnection) -> bool:
+        """Return True for a class's gateway, which has asked for the script's key, or a page."""
+        sent = given.headers.get("authorization", "")
+        return bool(self._credentials) and (
+            is_same_secret(self._credentials, sent) or self._cookie.is_in(given)
+        )
 
 
 class _Connection:

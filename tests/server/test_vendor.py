@@ -1,0 +1,120 @@
+"""Libraries of others that pages load, and the package for a student's program."""
+
+import gzip
+import io
+import re
+import zipfile
+from collections.abc import Iterator
+from pathlib import Path
+
+import httpx
+import pytest
+from websockets.sync.client import connect
+
+from ai4u_edu.server import Rules
+from ai4u_edu.server.web_files import web_folder
+from ai4u_edu.wire import native
+from tests.server.rooms import Room, raw_answer, served
+
+VENDOR = web_folder() / "vendor"
+TOKEN = "open sesame"
+KINDS = {
+    "msgpack.js": "text/javascript",
+    "pyodide/pyodide.mjs": "text/javascript",
+    "pyodide/pyodide.asm.mjs": "text/javascript",
+    "pyodide/pyodide.asm.wasm": "application/wasm",
+    "pyodide/python_stdlib.zip": "application/zip",
+}
+PACKED = sorted(set(KINDS) - {"pyodide/python_stdlib.zip"})
+
+
+@pytest.fixture(scope="module")
+def room() -> Iterator[Room]:
+    with served() as room:
+        yield room
+
+
+def content_of(name: str) -> bytes:
+    path = VENDOR / name
+    return path.read_bytes() if path.exists() else gzip.decompress(Path(f"{path}.gz").read_bytes())
+
+
+@pytest.mark.parametrize("name", KINDS)
+@pytest.mark.parametrize("encoding", ["gzip, br", "br;q=0.5", ""])
+def test_a_file_is_the_same_packed_or_not(room: Room, name: str, encoding: str) -> None:
+    answer = httpx.get(f"{room.url}web/vendor/{name}", headers={"Accept-Encoding": encoding})
+    assert answer.content == content_of(name)
+    assert answer.headers["Content-Type"].partition(";")[0] == KINDS[name]
+    is_packed = "gzip" in encoding and name in PACKED
+    assert (answer.headers.get("Content-Encoding") == "gzip") == is_packed
+
+
+def test_a_browser_keeps_for_good_what_has_a_version(room: Room) -> None:
+    url = f"{room.url}web/vendor/msgpack.js"
+    first = httpx.get(url)
+    assert first.headers["Cache-Control"] == "no-cache"
+    again = httpx.get(url, headers={"If-None-Match": first.headers["ETag"]})
+    assert (again.status_code, again.content) == (304, b"")
+    assert "immutable" in httpx.get(f"{url}?v=1").headers["Cache-Control"]
+
+
+@pytest.mark.parametrize(
+    "name",
+    [
+        "",
+        "README.md",
+        "pyodide",
+        "pyodide/",
+        "pyodide/LICENSE",
+        "pyodide/pyodide.asm.wasm.gz",
+        "pyodide//pyodide.mjs",
+        "pyodide/../msgpack.js",
+        "../main.js",
+        "%2e%2e/main.js",
+        "..%2fmain.js",
+        "..%2f..%2fpyproject.toml",
+        "MSGPACK.js",
+        "msgpack.js%00",
+        "/etc/passwd",
+    ],
+)
+def test_nothing_else_has_a_name(room: Room, name: str) -> None:
+    assert raw_answer(f"{room.url}web/vendor/{name}", "Host: localhost")[0] in (400, 404)
+
+
+def test_the_program_package_has_a_package_of_its_own_around_it(room: Room) -> None:
+    answer = httpx.get(f"{room.url}program.zip")
+    assert answer.headers["Content-Type"] == "application/zip"
+    with zipfile.ZipFile(io.BytesIO(answer.content)) as archive:
+        assert archive.testzip() is None
+        names = archive.namelist()
+        assert b"msgspec" not in archive.read("ai4u_edu/__init__.py")
+    assert all(re.fullmatch(r"ai4u_edu/(program/)?\w+\.py", name) for name in names)
+    again = httpx.get(f"{room.url}program.zip", headers={"If-None-Match": answer.headers["ETag"]})
+    assert (again.status_code, again.content) == (304, b"")
+
+
+def test_a_room_with_a_token_asks_for_it_first() -> None:
+    with served(rules=Rules(token=TOKEN)) as room, httpx.Client(base_url=room.url) as browser:
+        paths = ["web/vendor/msgpack.js", "web/vendor/pyodide/pyodide.mjs", "program.zip"]
+        assert [browser.get(path).status_code for path in paths] == [401] * 3
+        browser.get(f"?token={TOKEN}")
+        assert [browser.get(path).status_code for path in paths] == [200] * 3
+
+
+def test_the_page_that_has_the_token_may_drive_an_agent() -> None:
+    hello = native.encode(native.Hello(native.VERSION, "", "", "realtime", (), "", "s" * 16))
+    with served(rules=Rules(token=TOKEN)) as room:
+        with httpx.Client(base_url=room.url) as browser:
+            browser.get(f"?token={TOKEN}")
+            cookie = "; ".join(f"{name}={value}" for name, value in browser.cookies.items())
+        for headers, expected in (({}, native.Problem), ({"Cookie": cookie}, native.Welcome)):
+            with connect(
+                f"{room.url.replace('http', 'ws')}ws/remote",
+                subprotocols=[native.SUBPROTOCOL],  # type: ignore[list-item]  # a NewType of str
+                additional_headers=headers,
+                proxy=None,
+            ) as socket:
+                socket.send(hello)
+                heard = native.decode(socket.recv(5, decode=False), native.MAX_WORLD_FRAME_BYTES)
+                assert isinstance(heard, expected)
