@@ -23,10 +23,10 @@ export class CodeConsole {
     this.#show();
   }
 
-  /** Add what a decision printed. */
+  /** Add what a decision printed; 0 is before the first one. */
   add(number, text) {
     const lines = text.replace(/\n$/, "").split("\n").slice(-MAX_LINES);
-    this.#waiting.push(...lines.map((line, index) => ({ number: index ? "" : number, line: line.slice(0, MAX_LINE_CHARS) })));
+    this.#waiting.push(...lines.map((line, index) => ({ number: index ? "" : number || "", line: line.slice(0, MAX_LINE_CHARS) })));
     if (this.#waiting.length === lines.length) requestAnimationFrame(() => this.#flush());
   }
 

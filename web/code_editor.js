@@ -24,7 +24,7 @@ import {
   syntaxHighlighting,
   tagHighlighter,
   tags,
-} from "./vendor/codemirror.js";
+} from "./vendor/codemirror.js?v=b595b00f";
 
 /** Classes of what is written, which panel_code.css gives the panel's colors. */
 const COLORS = tagHighlighter([
@@ -79,8 +79,7 @@ export class CodeEditor {
       ran,
     ];
     this.#view = new EditorView({ parent, extensions });
-    // a key that the editor has used, such as Escape for its list of names, ends nothing else
-    this.#view.contentDOM.addEventListener("keydown", (event) => event.defaultPrevented && event.stopPropagation());
+    this.#keepEscape();
   }
 
   get text() {
@@ -123,6 +122,14 @@ export class CodeEditor {
   insert(text) {
     this.#view.dispatch(this.#view.state.replaceSelection(text));
     this.#view.focus();
+  }
+
+  /** Let Escape close the list of names and nothing else; without one, the panel ends the editing with it. */
+  #keepEscape() {
+    const { dom } = this.#view;
+    let hasList = false;
+    dom.addEventListener("keydown", () => (hasList = dom.querySelector(".cm-tooltip-autocomplete") !== null), { capture: true });
+    dom.addEventListener("keydown", (event) => event.key === "Escape" && hasList && event.stopPropagation());
   }
 
   /** Return where lines begin, in order, each once; numbers that no line has are left out. */

@@ -7,9 +7,9 @@ const STOPPED = Symbol("stopped");
 
 /** A sentence about a program that can't go on, with the line or null. */
 class ProgramMistake extends Error {
-  constructor({ text, line = null, kind = "" }) {
+  constructor({ text, line = 0, kind = "" }) {
     super(text);
-    Object.assign(this, { line, kind });
+    Object.assign(this, { line: line || null, kind }); // 0 is no line
   }
 }
 
@@ -116,8 +116,8 @@ export class CodeRun extends EventTarget {
     if (isOver(percept)) percept = await this.#beginAgain(agent, mode, ticket);
     if (!goesOn) {
       this.decisions = 0;
-      checked(await this.#until(engine.load(source, programFacts(this.#client.welcome)), ticket));
-      checked(await this.#until(engine.begin(), ticket));
+      this.#checked(await this.#until(engine.load(source, programFacts(this.#client.welcome)), ticket));
+      this.#checked(await this.#until(engine.begin(), ticket));
     }
     this.#source = source;
     return percept;
@@ -149,9 +149,8 @@ export class CodeRun extends EventTarget {
     const engine = await this.#engine;
     const number = percept.step + 1;
     const answer = await this.#until(engine.decide(percept.values, number), ticket);
-    if (answer.printed) this.#emit("printed", { number, text: answer.printed });
-    this.#emit("decision", { number, lines: answer.lines ?? [], variables: answer.variables ?? {}, values: answer.values ?? {} });
-    checked(answer);
+    this.#emit("decision", { lines: answer.lines ?? [], variables: answer.variables ?? {} });
+    this.#checked(answer, number);
     await this.#until(this.#client.act(answer.values), ticket);
     const next = await this.#until(this.#client.sense(), ticket);
     this.decisions += 1;
@@ -160,8 +159,14 @@ export class CodeRun extends EventTarget {
       this.#end({ reason: "over", percept: next });
       throw STOPPED;
     }
-    if (next.episode !== percept.episode) checked(await this.#until(engine.begin(), ticket));
+    if (next.episode !== percept.episode) this.#checked(await this.#until(engine.begin(), ticket));
     return next;
+  }
+
+  /** Tell what an answer of the engine printed; throw if it tells of a mistake. */
+  #checked(answer, number = 0) {
+    if (answer.printed) this.#emit("printed", { number, text: answer.printed });
+    if (!answer.ok) throw new ProgramMistake(answer);
   }
 
   #until(promise, ticket) {
@@ -212,18 +217,11 @@ async function valid(promise, isStale) {
   return value;
 }
 
-/** Return an answer of the engine, unless it tells of a mistake. */
-function checked(answer) {
-  if (!answer.ok) throw new ProgramMistake(answer);
-  return answer;
-}
-
 function isOver({ terminated, truncated }) {
   return terminated || truncated;
 }
 
-/** Return what a program has to know of its agent. */
+/** Return what CodeEngine.load takes, from the world's welcome. */
 function programFacts({ readings, outputs }) {
-  const bounds = [...outputs].map(({ name, low, high }) => [name, [[...low], [...high]]]);
-  return { readings: [...readings].map(({ key }) => key), outputs: Object.fromEntries(bounds) };
+  return { readings, outputs: Object.fromEntries(outputs.map(({ name, low, high }) => [name, [low, high]])) };
 }

@@ -18,7 +18,7 @@ export function runWords({ phase, decisions, success, isPerson, python, end }) {
   if (phase === "stepping") return line("on", "The world waits for the next step", `decision ${decisions}`);
   if (end !== null) return endWords(end, decisions, success);
   if (python === "loading") return line("off", `Loading Python, once (${PYTHON_MB} MB) …`);
-  return python === "ready" ? line("off", "Ready") : line("bad", `Python could not be loaded: ${python}`);
+  return python === "ready" ? line("off", "Ready") : line("bad", python);
 }
 
 function endWords({ reason, percept, line: number }, decisions, success) {

@@ -43,6 +43,8 @@ export function startPanel(driving, dock) {
 export class Panel extends EventTarget {
   /** What this page looks at. */
   shown;
+  /** True while a program of this page has the agent. */
+  hasProgram = false;
   /** The person drives with it: {agent, take(), letGo()} of the page. */
   driving;
   #parts = new Map();
@@ -140,6 +142,12 @@ export class Panel extends EventTarget {
 
   focusWorld() {
     focusWorld();
+  }
+
+  /** Name this page's own program, which the server knows as a script like any other. */
+  named(hello) {
+    const rename = (driver) => (driver && this.hasProgram ? "Your program" : driver);
+    return { ...hello, others: rename(hello.others), instead: rename(hello.instead) };
   }
 
   /** Show who drives: the arguments of DriverStatus.draw. */

@@ -96,7 +96,10 @@ export class CodeTab {
   }
 
   #listen() {
-    this.#run.addEventListener("change", () => this.#drawSoon());
+    this.#run.addEventListener("change", () => {
+      this.#panel.hasProgram = this.#run.isOn && this.#run.phase !== "loading";
+      this.#drawSoon();
+    });
     this.#run.addEventListener("printed", ({ detail }) => this.#console.add(detail.number, detail.text));
     this.#run.addEventListener("decision", ({ detail }) => {
       this.#latest = detail;
@@ -188,7 +191,7 @@ export class CodeTab {
 
   #onEnd(end) {
     this.#end = end;
-    setText(this.#mistakeText, end.text);
+    setText(this.#mistakeText, end.line === null ? end.text : `Line ${end.line}: ${end.text}`);
     if (end.line !== null) {
       this.#mistake.append(this.#goTo);
       this.#editor.markMistake(end.line);

@@ -40,7 +40,7 @@ export class RemoteClient {
   }
   welcome = {
     success: "touch",
-    readings: [{ key: "box" }, { key: "rays" }],
+    readings: [{ key: "box", dtype: "<f4" }, { key: "rays", dtype: "<f4" }],
     outputs: [{ name: "move", low: [-1, -1], high: [1, 1] }],
   };
   sense() {
