@@ -38,10 +38,19 @@ const COLORS = tagHighlighter([
 const PERCEPT_KEY = /\bpercept\[\s*["'][^"']*$/;
 const ACTION_NAME = /\breturn\s*\{\s*(?:.*,\s*)?["'][^"']*$/;
 
+/** How much further than its first row a line's other rows are indented (characters). */
+const HANG_CHARS = 2;
+
 const setMistake = StateEffect.define();
 const setRan = StateEffect.define();
 const mistakes = lineMarks(setMistake, Decoration.line({ class: "ai4u-code-mistake-line" }));
 const ran = lineMarks(setRan, Decoration.line({ class: "ai4u-code-ran-line" }));
+
+const hanging = StateField.define({
+  create: ({ doc }) => hangingIndents(doc),
+  update: (marks, { docChanged, state }) => (docChanged ? hangingIndents(state.doc) : marks),
+  provide: (field) => EditorView.decorations.from(field),
+});
 
 export class CodeEditor {
   /** Called with the text after each change by the person. */
@@ -77,6 +86,7 @@ export class CodeEditor {
       EditorView.updateListener.of((update) => this.#onUpdate(update)),
       mistakes,
       ran,
+      hanging,
     ];
     this.#view = new EditorView({ parent, extensions });
     this.#keepEscape();
@@ -166,4 +176,15 @@ function lineMarks(effect, mark) {
     },
     provide: (field) => EditorView.decorations.from(field),
   });
+}
+
+/** Return marks by which the rows of a long line stay to the right of its beginning. */
+function hangingIndents(doc) {
+  const marks = [];
+  for (let number = 1; number <= doc.lines; number += 1) {
+    const { from, text } = doc.line(number);
+    const chars = text.search(/\S|$/) + HANG_CHARS;
+    marks.push(Decoration.line({ attributes: { style: `--hang: ${chars}ch` } }).range(from));
+  }
+  return Decoration.set(marks);
 }

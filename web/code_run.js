@@ -20,8 +20,8 @@ class ProgramMistake extends Error {
 export class CodeRun extends EventTarget {
   /** "off", "loading" (Python), "joining" (the world gives the agent), "running", or "stepping". */
   phase = "off";
-  /** Decisions of this run. */
-  decisions = 0;
+  /** Number of the latest decision in its episode; 0 before the first one of a run. */
+  decision = 0;
   /** Name of the reward's term that is paid at the goal; empty if there is none. */
   success = "";
   #parts;
@@ -82,7 +82,7 @@ export class CodeRun extends EventTarget {
       const client = this.#client;
       this.#pending = await this.#decide(percept, ticket);
       // else the world would go on without an answer
-      this.#timer = setInterval(() => client.wait?.(), WAIT_MS);
+      this.#timer = setInterval(() => client.wait().catch(() => {}), WAIT_MS); // the next step tells of an error
     });
   }
 
@@ -115,7 +115,7 @@ export class CodeRun extends EventTarget {
     let percept = await this.#join(agent, mode, ticket);
     if (isOver(percept)) percept = await this.#beginAgain(agent, mode, ticket);
     if (!goesOn) {
-      this.decisions = 0;
+      this.decision = 0;
       this.#checked(await this.#until(engine.load(source, programFacts(this.#client.welcome)), ticket));
       this.#checked(await this.#until(engine.begin(), ticket));
     }
@@ -149,12 +149,11 @@ export class CodeRun extends EventTarget {
     const engine = await this.#engine;
     const number = percept.step + 1;
     const answer = await this.#until(engine.decide(percept.values, number), ticket);
+    this.decision = number;
     this.#emit("decision", { lines: answer.lines ?? [], variables: answer.variables ?? {} });
     this.#checked(answer, number);
     await this.#until(this.#client.act(answer.values), ticket);
     const next = await this.#until(this.#client.sense(), ticket);
-    this.decisions += 1;
-    this.#emit("change");
     if (isOver(next)) {
       this.#end({ reason: "over", percept: next });
       throw STOPPED;

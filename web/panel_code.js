@@ -236,9 +236,9 @@ export class CodeTab {
   }
 
   #drawState() {
-    const { phase, decisions, success, isOn } = this.#run;
+    const { phase, decision, success, isOn } = this.#run;
     const isPerson = Boolean(this.#panel.driver?.hello?.instead);
-    const { kind, text, count } = runWords({ phase, decisions, success, isPerson, python: this.#python, end: this.#end });
+    const { kind, text, count } = runWords({ phase, decision, success, isPerson, python: this.#python, end: this.#end });
     setText(this.#state, text);
     setText(this.#count, count);
     setAttributes(this.#stateRow, { "data-kind": kind });

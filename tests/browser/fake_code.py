@@ -49,7 +49,7 @@ export class RemoteClient {
   }
   async act(values) { fake.calls.push(["act", values]); }
   async reset() { fake.calls.push(["reset"]); }
-  wait() { fake.waits += 1; }
+  async wait() { fake.waits += 1; }
   close() { fake.closed += 1; }
 }
 """

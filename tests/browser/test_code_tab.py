@@ -113,7 +113,7 @@ def test_run_senses_decides_and_acts_until_the_episode_is_over(tab: CodePage) ->
     expect(tab.page.get_by_role("log")).to_have_text("1decision 1")
     expect(tab.page.locator(".ai4u-code-variables")).to_have_text("near0.94")
     tab.sense(1, terminated=True, terms={"touch": 100})
-    expect(tab.state).to_contain_text("Goal reached after 1 decision")
+    expect(tab.state).to_contain_text("Goal reached at decision 1")
     assert tab.page.evaluate("fake.closed") == 1
     expect(tab.page.get_by_role("button", name="Stop")).to_be_disabled()
 
@@ -124,7 +124,7 @@ def test_ctrl_enter_runs_and_stop_gives_the_agent_back(tab: CodePage) -> None:
     tab.page.keyboard.press("ControlOrMeta+Enter")
     expect(tab.state).to_contain_text("Runs")
     tab.press("Stop")
-    expect(tab.state).to_contain_text("Stopped after 0 decisions; the robot is yours")
+    expect(tab.state).to_contain_text("Stopped at decision 1; the robot is yours")
     assert tab.page.evaluate("fake.closed") == 1
     tab.sense(1)
     tab.press("Run")
@@ -173,7 +173,7 @@ def test_step_makes_one_decision_and_the_world_waits(tab: CodePage) -> None:
     tab.sense(0)
     tab.sense(1)
     tab.press("Step")
-    expect(tab.state).to_contain_text("The world waits for the next step")
+    expect(tab.state).to_contain_text("Waits for the next step")
     expect(tab.state).to_contain_text("decision 1")
     assert tab.calls("connect") == [[{"agent": "0", "mode": "lockstep"}]]
     tab.page.wait_for_function("fake.waits > 0")
