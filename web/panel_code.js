@@ -61,7 +61,8 @@ export class CodeTab {
     const buttons = element("div", { className: "ai4u-code-buttons" }, this.#start, this.#step, this.#stop);
     const sections = [this.#console.element, this.#variables.element, this.#names.element, this.#tools()];
     root.classList.add("ai4u-code");
-    root.append(buttons, this.#stateRow, frame, this.#mistake, help, ...sections);
+    const head = element("div", { className: "ai4u-code-head" }, buttons, this.#stateRow);
+    root.append(head, frame, this.#mistake, help, ...sections);
     this.#listen();
     this.#drawState();
     this.#warm();
